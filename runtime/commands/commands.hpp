@@ -1,0 +1,7 @@
+#pragma once
+
+namespace samara {
+
+// Each is one command of the program samara: argv[0] is the command's name. Returns the exit status.
+
+}  // namespace samara

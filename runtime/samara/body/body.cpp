@@ -1,0 +1,32 @@
+#include "samara/body/body.hpp"
+
+#include <Eigen/Eigenvalues>
+
+namespace samara {
+
+Matrix3d principal_axes(const VolumeMoments& moments) {
+    const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(moments.second_moments);
+    Matrix3d axes = solver.eigenvectors();
+    if (axes.determinant() < 0.0) axes.col(2) = -axes.col(2);
+    return axes;
+}
+
+Matrix3d uniform_inertia(const VolumeMoments& moments, double density) {
+    return density * (moments.second_moments.trace() * Matrix3d::Identity() - moments.second_moments);
+}
+
+Matrix6d about_point(const Matrix6d& tensor, const Vector3d& old_point, const Vector3d& new_point) {
+    // With v at the new point, the velocity at the old one is v + omega x (old - new).
+    Matrix6d shift = Matrix6d::Identity();
+    shift.block<3, 3>(3, 0) = -skew(old_point - new_point);
+    return shift.transpose() * tensor * shift;
+}
+
+Matrix6d in_rotated_axes(const Matrix6d& tensor, const Matrix3d& rotation) {
+    Matrix6d turn = Matrix6d::Zero();
+    turn.block<3, 3>(0, 0) = rotation;
+    turn.block<3, 3>(3, 3) = rotation;
+    return turn * tensor * turn.transpose();
+}
+
+}  // namespace samara

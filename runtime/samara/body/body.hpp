@@ -1,0 +1,75 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "samara/base/linear_algebra.hpp"
+#include "samara/body/load_tables.hpp"
+#include "samara/body/surface.hpp"
+
+namespace samara {
+
+/// Integrals over the body's volume, from its surface alone: they know nothing of density.
+struct VolumeMoments {
+    double volume = 0.0;  ///< m^3
+    Vector3d centroid =
+        Vector3d::Zero();  ///< m, shape axes: the reference point of everything in a body file
+    Matrix3d second_moments =
+        Matrix3d::Zero();       ///< integral of x x^T dV about the centroid (m^5), shape axes
+    double surface_area = 0.0;  ///< m^2
+};
+
+/// The unit vectors of the body's principal axes as columns, from the shortest to the longest extent,
+/// right-handed, shape axes: the eigenvectors of the second moments.
+Matrix3d principal_axes(const VolumeMoments& moments);
+
+/// The inertia tensor (kg m^2) about the centroid of the body filled with the uniform density (kg/m^3), shape
+/// axes.
+Matrix3d uniform_inertia(const VolumeMoments& moments, double density);
+
+/// The rotations and reflections about the centroid that map the surface onto itself, in shape axes.
+struct Symmetry {
+    enum class Kind {
+        finite,     ///< `elements` lists the whole group
+        axial,      ///< every rotation about `axis`, beside `elements`
+        spherical,  ///< every rotation
+    };
+    Kind kind = Kind::finite;
+    Vector3d axis = Vector3d::UnitZ();                        ///< unit vector; of meaning where kind is axial
+    std::vector<Matrix3d> elements = {Matrix3d::Identity()};  ///< orthogonal matrices, the identity first
+    Matrix3d axes =
+        Matrix3d::Identity();  ///< columns: a right-handed frame aligned with the mirrors and rotation axes,
+                               ///< the shape axes themselves where these are so aligned
+    double tolerance = 0.0;    ///< the distance over the body's size within which the images were accepted
+};
+
+/// The fluid's inertia: l and p of the fluid are K_fluid (omega, v), order omega then v, in shape axes, about
+/// the centroid of the volume, for a fluid of density 1 kg/m^3. Blocks: m^5, m^4, m^3.
+struct KirchhoffTensor {
+    Matrix6d matrix = Matrix6d::Zero();
+    double error_estimate = 0.0;  ///< relative tensor error (docs/theory, measures)
+    double asymmetry = 0.0;       ///< relative asymmetry before it was symmetrised
+    int triangles = 0;            ///< of the finest surface used
+    std::string method;           ///< in words: the boundary elements that were used
+};
+
+/// The same tensor about the point `point` (m) instead of the one it is about: K' = X^T K X with v = v' +
+/// omega x (old - new).
+Matrix6d about_point(const Matrix6d& tensor, const Vector3d& old_point, const Vector3d& new_point);
+
+/// The same tensor in axes turned by `rotation`: a vector a of the old axes is rotation * a in the new ones.
+Matrix6d in_rotated_axes(const Matrix6d& tensor, const Matrix3d& rotation);
+
+/// All that a body file holds. Each stage adds a part: mesh the first four, kirchhoff and convert one each.
+struct Body {
+    std::string name;
+    std::string source;  ///< how the surface was made, one line: the shape file's name and hash, the options
+    Surface surface;
+    VolumeMoments moments;
+    Symmetry symmetry;
+    std::optional<KirchhoffTensor> kirchhoff;
+    std::optional<LoadTables> tables;
+};
+
+}  // namespace samara

@@ -1,0 +1,320 @@
+#include "samara/body/body_file.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "samara/base/content_hash.hpp"
+#include "samara/base/error.hpp"
+#include "samara/base/version.hpp"
+#include "samara/files/hdf5_file.hpp"
+
+namespace samara {
+namespace {
+
+constexpr std::int64_t format_version = 1;
+constexpr const char* suffix = ".body.h5";
+
+std::vector<std::int32_t> flattened_indices(const std::vector<std::array<std::int32_t, 3>>& triples) {
+    std::vector<std::int32_t> values;
+    for (const auto& triple : triples) values.insert(values.end(), triple.begin(), triple.end());
+    return values;
+}
+
+std::vector<Vector3d> as_vectors(const std::vector<double>& values) {
+    std::vector<Vector3d> vectors(values.size() / 3);
+    for (std::size_t i = 0; i < vectors.size(); ++i) vectors[i] = Vector3d(values.data() + 3 * i);
+    return vectors;
+}
+
+Vector3d as_vector(const std::vector<double>& values) {
+    return from_row_major<Vector3d>(values);
+}
+
+void require_finite(const Hdf5Reader& file, const std::string& name, const std::vector<double>& values) {
+    for (const double value : values) {
+        if (!std::isfinite(value)) {
+            throw Error(fmt::format("{}: {} holds a value that is not finite; make the file again",
+                                    file.path().string(), name));
+        }
+    }
+}
+
+std::vector<double> finite_doubles(const Hdf5Reader& file, const std::string& name,
+                                   const std::vector<hsize_t>& dimensions) {
+    std::vector<double> values = file.doubles(name, dimensions);
+    require_finite(file, name, values);
+    return values;
+}
+
+std::vector<std::array<std::int32_t, 3>> read_triples(const Hdf5Reader& file, const std::string& name,
+                                                      std::size_t vertex_count) {
+    const std::vector<std::int32_t> values = file.integers(name, {0, 3});
+    std::vector<std::array<std::int32_t, 3>> triples(values.size() / 3);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (values[i] < 0 || static_cast<std::size_t>(values[i]) >= vertex_count) {
+            throw Error(fmt::format("{}: {} row {} points at vertex {} of {}; make the file again",
+                                    file.path().string(), name, i / 3, values[i], vertex_count));
+        }
+        triples[i / 3][i % 3] = values[i];
+    }
+    return triples;
+}
+
+Symmetry::Kind symmetry_kind(const Hdf5Reader& file) {
+    const std::string kind = file.text_attribute("/symmetry", "kind");
+    if (kind == "finite") return Symmetry::Kind::finite;
+    if (kind == "axial") return Symmetry::Kind::axial;
+    if (kind == "spherical") return Symmetry::Kind::spherical;
+    throw Error(fmt::format("{}: the symmetry kind '{}' is unknown; make the file again",
+                            file.path().string(), kind));
+}
+
+const char* name_of(Symmetry::Kind kind) {
+    switch (kind) {
+        case Symmetry::Kind::axial:
+            return "axial";
+        case Symmetry::Kind::spherical:
+            return "spherical";
+        default:
+            return "finite";
+    }
+}
+
+void write_symmetry(Hdf5Writer& file, const Symmetry& symmetry) {
+    std::vector<double> elements;
+    for (const Matrix3d& element : symmetry.elements) {
+        const std::vector<double> values = row_major(element);
+        elements.insert(elements.end(), values.begin(), values.end());
+    }
+    file.write("/symmetry/elements", elements, {symmetry.elements.size(), 3, 3}, "1",
+               "orthogonal matrices that map the surface onto itself about the centroid, the identity first");
+    file.write("/symmetry/axis", row_major(symmetry.axis), {3}, "1",
+               "axis of revolution, where kind is axial");
+    file.write("/symmetry/axes", row_major(symmetry.axes), {3, 3}, "1",
+               "columns: frame aligned with the symmetry");
+    file.attribute("/symmetry", "kind", std::string_view(name_of(symmetry.kind)));
+    file.attribute("/symmetry", "tolerance", symmetry.tolerance);
+}
+
+Symmetry read_symmetry(const Hdf5Reader& file) {
+    Symmetry symmetry;
+    symmetry.kind = symmetry_kind(file);
+    const std::vector<double> values = finite_doubles(file, "/symmetry/elements", {0, 3, 3});
+    symmetry.elements.clear();
+    for (std::size_t i = 0; i < values.size(); i += 9) {
+        symmetry.elements.push_back(
+            Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(&values[i]));
+    }
+    symmetry.axis = as_vector(finite_doubles(file, "/symmetry/axis", {3}));
+    symmetry.axes = from_row_major<Matrix3d>(finite_doubles(file, "/symmetry/axes", {3, 3}));
+    symmetry.tolerance = file.number_attribute("/symmetry", "tolerance");
+    return symmetry;
+}
+
+void write_kirchhoff(Hdf5Writer& file, const KirchhoffTensor& kirchhoff) {
+    file.write("/kirchhoff/added_mass", row_major(kirchhoff.matrix), {6, 6}, "m^5, m^4, m^3",
+               "order (omega, v), about the centroid of the volume, shape axes, fluid density 1 kg/m^3");
+    file.attribute("/kirchhoff", "error_estimate", kirchhoff.error_estimate);
+    file.attribute("/kirchhoff", "asymmetry", kirchhoff.asymmetry);
+    file.attribute("/kirchhoff", "triangles", std::int64_t{kirchhoff.triangles});
+    file.attribute("/kirchhoff", "method", std::string_view(kirchhoff.method));
+}
+
+KirchhoffTensor read_kirchhoff(const Hdf5Reader& file) {
+    KirchhoffTensor kirchhoff;
+    kirchhoff.matrix = from_row_major<Matrix6d>(finite_doubles(file, "/kirchhoff/added_mass", {6, 6}));
+    kirchhoff.error_estimate = file.number_attribute("/kirchhoff", "error_estimate");
+    kirchhoff.asymmetry = file.number_attribute("/kirchhoff", "asymmetry");
+    kirchhoff.triangles = static_cast<int>(file.integer_attribute("/kirchhoff", "triangles"));
+    kirchhoff.method = file.text_attribute("/kirchhoff", "method");
+    return kirchhoff;
+}
+
+struct TableColumn {
+    const char* name;
+    int components;
+    const char* meaning;
+};
+
+constexpr TableColumn table_columns[] = {
+    {"force", 3, "F / (rho U^2 A / 2), body axes"},
+    {"moment", 3, "M / (rho U^2 A L / 2) about the centroid of the volume, body axes"},
+    {"turbulent_kinetic_energy", 1, "k / U^2, mean over the shell from 0.05 L to 0.25 L"},
+    {"dissipation_rate", 1, "epsilon L / U^3, mean over the shell from 0.05 L to 0.25 L"},
+};
+
+double& component(LoadEntry& entry, std::size_t column, int index) {
+    switch (column) {
+        case 0:
+            return entry.force[index];
+        case 1:
+            return entry.moment[index];
+        case 2:
+            return entry.turbulent_kinetic_energy;
+        default:
+            return entry.dissipation_rate;
+    }
+}
+
+void write_entries(Hdf5Writer& file, const LoadTables& tables, std::vector<LoadEntry> entries,
+                   const char* name_end) {
+    const auto size = static_cast<hsize_t>(tables.map_size());
+    for (std::size_t column = 0; column < std::size(table_columns); ++column) {
+        const auto& [name, components, meaning] = table_columns[column];
+        std::vector<double> values;
+        for (LoadEntry& entry : entries) {
+            for (int i = 0; i < components; ++i) values.push_back(component(entry, column, i));
+        }
+        std::vector<hsize_t> dimensions = {tables.reynolds_numbers.size(), size, size};
+        if (components > 1) dimensions.push_back(static_cast<hsize_t>(components));
+        file.write(fmt::format("/tables/{}{}", name, name_end), values, dimensions, "1",
+                   *name_end == '\0' ? meaning : "standard error of the table of the same name");
+    }
+}
+
+std::vector<LoadEntry> read_entries(const Hdf5Reader& file, const LoadTables& tables, const char* name_end) {
+    const auto size = static_cast<hsize_t>(tables.map_size());
+    std::vector<LoadEntry> entries(tables.reynolds_numbers.size() * size * size);
+    for (std::size_t column = 0; column < std::size(table_columns); ++column) {
+        const auto& [name, components, meaning] = table_columns[column];
+        std::vector<hsize_t> dimensions = {tables.reynolds_numbers.size(), size, size};
+        if (components > 1) dimensions.push_back(static_cast<hsize_t>(components));
+        const std::vector<double> values =
+            finite_doubles(file, fmt::format("/tables/{}{}", name, name_end), dimensions);
+        std::size_t next = 0;
+        for (LoadEntry& entry : entries) {
+            for (int i = 0; i < components; ++i) component(entry, column, i) = values[next++];
+        }
+    }
+    return entries;
+}
+
+void write_tables(Hdf5Writer& file, const LoadTables& tables) {
+    file.write("/tables/reynolds_number", tables.reynolds_numbers, {tables.reynolds_numbers.size()}, "1",
+               "U L / nu, ascending");
+    file.write("/tables/axes", row_major(tables.axes), {3, 3}, "1",
+               "columns: the octahedral map's axes in body axes");
+    write_entries(file, tables, tables.entries, "");
+    write_entries(file, tables, tables.errors, "_error");
+    file.write_text("/tables/provenance", tables.provenance, "JSON: how each case was solved");
+    file.attribute("/tables", "reference_length", tables.reference_length);
+    file.attribute("/tables", "subdivisions", std::int64_t{tables.subdivisions});
+    file.attribute("/tables", "quality", std::string_view(tables.quality));
+}
+
+LoadTables read_tables(const Hdf5Reader& file) {
+    LoadTables tables;
+    tables.reference_length = file.number_attribute("/tables", "reference_length");
+    tables.subdivisions = static_cast<int>(file.integer_attribute("/tables", "subdivisions"));
+    tables.quality = file.text_attribute("/tables", "quality");
+    tables.axes = from_row_major<Matrix3d>(finite_doubles(file, "/tables/axes", {3, 3}));
+    tables.reynolds_numbers = finite_doubles(file, "/tables/reynolds_number", {0});
+    const auto fault = [&](const char* what) {
+        return Error(fmt::format("{}: /tables {}; bake the body again", file.path().string(), what));
+    };
+    if (tables.subdivisions < 1 || tables.subdivisions > 1024) throw fault("has a map of no sane size");
+    if (!(tables.reference_length > 0.0)) throw fault("has no positive reference length");
+    if (tables.reynolds_numbers.empty() || tables.reynolds_numbers.front() <= 0.0) {
+        throw fault("holds no positive Reynolds number");
+    }
+    for (std::size_t i = 1; i < tables.reynolds_numbers.size(); ++i) {
+        if (tables.reynolds_numbers[i] <= tables.reynolds_numbers[i - 1]) {
+            throw fault("has Reynolds numbers that do not ascend");
+        }
+    }
+    tables.entries = read_entries(file, tables, "");
+    tables.errors = read_entries(file, tables, "_error");
+    tables.provenance = file.text("/tables/provenance");
+    return tables;
+}
+
+}  // namespace
+
+Body read_body_file(const std::filesystem::path& path) {
+    const Hdf5Reader file(path);
+    if (!file.has("/surface") || !file.has("/moments")) {
+        throw Error(fmt::format("{}: is an HDF5 file, but not a body file; make one with 'samara mesh'",
+                                path.string()));
+    }
+    if (const auto found = file.integer_attribute("/", "format_version"); found > format_version) {
+        throw Error(
+            fmt::format("{}: was written by a newer version of samara (format {}, this one reads {}); update",
+                        path.string(), found, format_version));
+    }
+    Body body;
+    body.name = file.text_attribute("/", "name");
+    body.source = file.text_attribute("/surface", "source");
+    body.surface.vertices = as_vectors(finite_doubles(file, "/surface/vertices", {0, 3}));
+    body.surface.corners = read_triples(file, "/surface/corners", body.surface.vertices.size());
+    if (file.has("/surface/edge_nodes")) {
+        body.surface.edge_nodes = read_triples(file, "/surface/edge_nodes", body.surface.vertices.size());
+        if (body.surface.edge_nodes.size() != body.surface.corners.size()) {
+            throw Error(fmt::format(
+                "{}: /surface/edge_nodes and corners differ in length; make the file again", path.string()));
+        }
+    }
+    body.moments.volume = file.number_attribute("/moments", "volume");
+    body.moments.surface_area = file.number_attribute("/moments", "surface_area");
+    body.moments.centroid = as_vector(finite_doubles(file, "/moments/centroid", {3}));
+    body.moments.second_moments =
+        from_row_major<Matrix3d>(finite_doubles(file, "/moments/second_moments", {3, 3}));
+    if (!(body.moments.volume > 0.0) || !std::isfinite(body.moments.volume)) {
+        throw Error(fmt::format("{}: the volume is not positive; make the file again", path.string()));
+    }
+    body.symmetry = read_symmetry(file);
+    if (file.has("/kirchhoff")) body.kirchhoff = read_kirchhoff(file);
+    if (file.has("/tables")) body.tables = read_tables(file);
+    return body;
+}
+
+void write_body_file(const std::filesystem::path& path, const Body& body) {
+    write_hdf5(path, [&](Hdf5Writer& file) {
+        file.attribute("/", "format_version", format_version);
+        file.attribute("/", "samara_version", std::string_view(version));
+        file.attribute("/", "name", std::string_view(body.name));
+        const Surface& surface = body.surface;
+        file.write("/surface/vertices", flattened(surface.vertices), {surface.vertices.size(), 3}, "m",
+                   "shape axes");
+        file.write("/surface/corners", flattened_indices(surface.corners), {surface.corners.size(), 3}, "1",
+                   "triangles: three rows of vertices, counter-clockwise from outside");
+        if (surface.order() == 2) {
+            file.write("/surface/edge_nodes", flattened_indices(surface.edge_nodes),
+                       {surface.edge_nodes.size(), 3}, "1",
+                       "middle nodes of the edges 0-1, 1-2, 2-0 of each triangle");
+        }
+        file.attribute("/surface", "source", std::string_view(body.source));
+        file.attribute("/moments", "volume", body.moments.volume);
+        file.attribute("/moments", "surface_area", body.moments.surface_area);
+        file.write("/moments/centroid", row_major(body.moments.centroid), {3}, "m",
+                   "of the volume, shape axes");
+        file.write("/moments/second_moments", row_major(body.moments.second_moments), {3, 3}, "m^5",
+                   "integral of x x^T over the volume about the centroid, shape axes");
+        write_symmetry(file, body.symmetry);
+        if (body.kirchhoff) write_kirchhoff(file, *body.kirchhoff);
+        if (body.tables) write_tables(file, *body.tables);
+    });
+}
+
+std::string surface_hash(const Surface& surface) {
+    std::string bytes;
+    const auto append = [&](const void* data, std::size_t size) {
+        bytes.append(static_cast<const char*>(data), size);
+    };
+    for (const Vector3d& vertex : surface.vertices) append(vertex.data(), 3 * sizeof(double));
+    for (const auto& triangle : surface.corners) append(triangle.data(), sizeof triangle);
+    for (const auto& nodes : surface.edge_nodes) append(nodes.data(), sizeof nodes);
+    return content_hash(bytes);
+}
+
+std::string body_name_of(const std::filesystem::path& file) {
+    const std::string name = file.filename().string();
+    if (is_body_file_name(file)) return name.substr(0, name.size() - std::string_view(suffix).size());
+    return file.stem().string();
+}
+
+bool is_body_file_name(const std::filesystem::path& file) {
+    return file.filename().string().ends_with(suffix);
+}
+
+}  // namespace samara

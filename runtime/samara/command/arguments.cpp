@@ -1,0 +1,120 @@
+#include "samara/command/arguments.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "samara/base/error.hpp"
+#include "samara/base/version.hpp"
+
+namespace samara {
+
+struct Arguments::Parser {
+    CLI::App app;
+    std::string program;
+    bool json = false;
+};
+
+namespace {
+
+std::string one_line(std::string text) {
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())) != 0) text.pop_back();
+    return text;
+}
+
+int fail(const std::string& program, const std::string& text) {
+    std::fflush(stdout);
+    fmt::print(stderr, "{}: {}\n", program, one_line(text));
+    return 1;
+}
+
+}  // namespace
+
+Arguments::Arguments(std::string program, std::string description) : parser_(std::make_unique<Parser>()) {
+    parser_->app.description(std::move(description));
+    parser_->app.name(program);
+    parser_->program = std::move(program);
+    parser_->app.get_formatter()->column_width(34);
+    parser_->app.set_version_flag("--version", std::string("samara ") + version);
+    parser_->app.add_flag("--json", parser_->json, "print the result as one JSON object");
+}
+
+Arguments::~Arguments() = default;
+
+void Arguments::positional(const std::string& name, std::string& value, const std::string& help) {
+    parser_->app.add_option(name, value, help)->required();
+}
+
+void Arguments::flag(const std::string& name, bool& value, const std::string& help) {
+    parser_->app.add_flag(name, value, help);
+}
+
+void Arguments::option(const std::string& name, std::string& value, const std::string& help) {
+    auto* option = parser_->app.add_option(name, value, help);
+    if (!value.empty()) option->capture_default_str();
+}
+
+void Arguments::required_option(const std::string& name, std::string& value, const std::string& help) {
+    parser_->app.add_option(name, value, help)->required();
+}
+
+void Arguments::option(const std::string& name, double& value, const std::string& help, double lowest,
+                       double highest) {
+    parser_->app.add_option(name, value, help)->check(CLI::Range(lowest, highest))->capture_default_str();
+}
+
+void Arguments::option(const std::string& name, int& value, const std::string& help, int lowest,
+                       int highest) {
+    parser_->app.add_option(name, value, help)->check(CLI::Range(lowest, highest))->capture_default_str();
+}
+
+void Arguments::option(const std::string& name, std::uint64_t& value, const std::string& help) {
+    parser_->app.add_option(name, value, help)->capture_default_str();
+}
+
+void Arguments::choice(const std::string& name, std::string& value, const std::vector<std::string>& words,
+                       const std::string& help) {
+    parser_->app.add_option(name, value, help)->check(CLI::IsMember(words))->capture_default_str();
+}
+
+void Arguments::footer(const std::string& text) {
+    parser_->app.footer(text);
+}
+
+bool Arguments::given(const std::string& name) const {
+    return parser_->app.count(name) > 0;
+}
+
+bool Arguments::json() const {
+    return parser_->json;
+}
+
+int run_program(int argc, const char* const* argv, Arguments& arguments,
+                const std::function<nlohmann::json()>& body) {
+    Arguments::Parser& parser = *arguments.parser_;
+    try {
+        parser.app.parse(argc, argv);
+        const nlohmann::json result = body();
+        if (parser.json) fmt::print("{}\n", result.dump());
+        if (std::fflush(stdout) != 0) return fail(parser.program, "standard output cannot be written");
+        return 0;
+    } catch (const CLI::Success& asked_for_help) {
+        return parser.app.exit(asked_for_help);
+    } catch (const CLI::ParseError& fault) {
+        return fail(parser.program,
+                    fmt::format("{}; see '{} --help'", one_line(fault.what()), parser.program));
+    } catch (const std::bad_alloc&) {
+        return fail(parser.program, "out of memory; use fewer triangles or bodies");
+    } catch (const std::exception& fault) {
+        return fail(parser.program, fault.what());
+    }
+}
+
+}  // namespace samara

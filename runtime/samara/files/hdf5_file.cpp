@@ -1,0 +1,282 @@
+#include "samara/files/hdf5_file.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "samara/base/error.hpp"
+#include "samara/files/replace_file.hpp"
+
+namespace samara {
+namespace {
+
+constexpr hsize_t largest_chunk = 1U << 16U;  // elements
+
+H5::FileAccPropList latest_format() {
+    H5::Exception::dontPrint();
+    H5::FileAccPropList access;
+    access.setLibverBounds(H5F_LIBVER_LATEST, H5F_LIBVER_LATEST);
+    return access;
+}
+
+H5::H5File create(const std::filesystem::path& file) {
+    return {file.string(), H5F_ACC_TRUNC, H5::FileCreatPropList::DEFAULT, latest_format()};
+}
+
+H5::H5File open_for_reading(const std::filesystem::path& file) {
+    if (!std::filesystem::exists(file)) {
+        throw Error(fmt::format("{}: there is no such file", file.string()));
+    }
+    try {
+        return {file.string(), H5F_ACC_RDONLY, H5::FileCreatPropList::DEFAULT, latest_format()};
+    } catch (const H5::Exception&) {
+        throw Error(fmt::format("{}: is not an HDF5 file, or was cut short; make it again", file.string()));
+    }
+}
+
+H5::StrType string_of(std::size_t length) {
+    H5::StrType type(H5::PredType::C_S1, std::max<std::size_t>(length, 1));
+    type.setCset(H5T_CSET_UTF8);
+    type.setStrpad(H5T_STR_NULLPAD);
+    return type;
+}
+
+void write_text_attribute(H5::H5Object& object, const std::string& name, std::string_view text) {
+    const H5::StrType type = string_of(text.size());
+    const std::string padded = text.empty() ? std::string(1, '\0') : std::string(text);
+    object.createAttribute(name, type, H5::DataSpace(H5S_SCALAR)).write(type, padded.data());
+}
+
+}  // namespace
+
+Hdf5Writer::Hdf5Writer(const std::filesystem::path& file) : file_(create(file)) {}
+
+H5::Group Hdf5Writer::group(const std::string& name) {
+    H5::Group current = file_.openGroup("/");
+    for (std::size_t begin = 1; begin < name.size();) {
+        const std::size_t end = std::min(name.find('/', begin), name.size());
+        const std::string child = name.substr(begin, end - begin);
+        current = current.nameExists(child) ? current.openGroup(child) : current.createGroup(child);
+        begin = end + 1;
+    }
+    return current;
+}
+
+H5::DataSet Hdf5Writer::dataset(const std::string& name, const H5::DataType& type,
+                                const std::vector<hsize_t>& dimensions, std::string_view units,
+                                std::string_view meaning) {
+    const std::size_t slash = name.rfind('/');
+    H5::Group parent = group(name.substr(0, slash));
+    H5::DSetCreatPropList creation;
+    H5Pset_obj_track_times(creation.getId(), 0);
+    const bool empty = std::find(dimensions.begin(), dimensions.end(), 0U) != dimensions.end();
+    if (!empty) {
+        std::vector<hsize_t> chunk = dimensions;
+        hsize_t inner = 1;
+        for (std::size_t i = 1; i < chunk.size(); ++i) inner *= chunk[i];
+        chunk.front() = std::clamp<hsize_t>(largest_chunk / inner, 1, dimensions.front());
+        creation.setChunk(static_cast<int>(chunk.size()), chunk.data());
+        creation.setFletcher32();
+    }
+    const H5::DataSpace space(static_cast<int>(dimensions.size()), dimensions.data());
+    H5::DataSet result = parent.createDataSet(name.substr(slash + 1), type, space, creation);
+    write_text_attribute(result, "units", units);
+    write_text_attribute(result, "description", meaning);
+    return result;
+}
+
+void Hdf5Writer::write(const std::string& name, const std::vector<double>& values,
+                       const std::vector<hsize_t>& dimensions, std::string_view units,
+                       std::string_view meaning) {
+    H5::DataSet target = dataset(name, H5::PredType::IEEE_F64LE, dimensions, units, meaning);
+    if (!values.empty()) target.write(values.data(), H5::PredType::NATIVE_DOUBLE);
+}
+
+void Hdf5Writer::write(const std::string& name, const std::vector<std::int32_t>& values,
+                       const std::vector<hsize_t>& dimensions, std::string_view units,
+                       std::string_view meaning) {
+    H5::DataSet target = dataset(name, H5::PredType::STD_I32LE, dimensions, units, meaning);
+    if (!values.empty()) target.write(values.data(), H5::PredType::NATIVE_INT32);
+}
+
+void Hdf5Writer::write_text(const std::string& name, std::string_view text, std::string_view meaning) {
+    H5::DataSet target = dataset(name, H5::PredType::STD_U8LE, {text.size()}, "1", meaning);
+    if (!text.empty()) target.write(text.data(), H5::PredType::NATIVE_UINT8);
+}
+
+void Hdf5Writer::attribute(const std::string& object, const std::string& name, std::string_view text) {
+    H5::Group owner = group(object);
+    write_text_attribute(owner, name, text);
+}
+
+void Hdf5Writer::attribute(const std::string& object, const std::string& name, double value) {
+    group(object)
+        .createAttribute(name, H5::PredType::IEEE_F64LE, H5::DataSpace(H5S_SCALAR))
+        .write(H5::PredType::NATIVE_DOUBLE, &value);
+}
+
+void Hdf5Writer::attribute(const std::string& object, const std::string& name, std::int64_t value) {
+    group(object)
+        .createAttribute(name, H5::PredType::STD_I64LE, H5::DataSpace(H5S_SCALAR))
+        .write(H5::PredType::NATIVE_INT64, &value);
+}
+
+Hdf5Reader::Hdf5Reader(const std::filesystem::path& file) : path_(file), file_(open_for_reading(file)) {}
+
+bool Hdf5Reader::has(const std::string& name) const {
+    for (std::size_t end = name.find('/', 1);; end = name.find('/', end + 1)) {
+        if (!file_.nameExists(name.substr(0, end))) return false;
+        if (end == std::string::npos) return true;
+    }
+}
+
+H5::DataSet Hdf5Reader::open(const std::string& name, const std::vector<hsize_t>& dimensions) const {
+    const auto fault = [&](std::string_view what) {
+        return Error(fmt::format("{}: {} {}; the file is of another kind or was changed: make it again",
+                                 path_.string(), name, what));
+    };
+    try {
+        H5::DataSet dataset = file_.openDataSet(name);
+        const H5::DataSpace space = dataset.getSpace();
+        std::vector<hsize_t> found(static_cast<std::size_t>(space.getSimpleExtentNdims()));
+        space.getSimpleExtentDims(found.data());
+        const bool fits = found.size() == dimensions.size() &&
+                          std::equal(found.begin(), found.end(), dimensions.begin(),
+                                     [](hsize_t is, hsize_t wanted) { return wanted == 0 || is == wanted; });
+        if (!fits) throw fault(fmt::format("has the shape {}, not {} (0: any)", found, dimensions));
+        return dataset;
+    } catch (const H5::Exception&) {
+        throw fault("is missing");
+    }
+}
+
+namespace {
+
+template <typename Value>
+std::vector<Value> read_all(const H5::DataSet& dataset, const H5::PredType& type, H5T_class_t kind,
+                            const std::filesystem::path& path, const std::string& name) {
+    try {
+        if (dataset.getTypeClass() != kind) {
+            throw Error(
+                fmt::format("{}: {} holds values of another type; make the file again", path.string(), name));
+        }
+        std::vector<Value> values(static_cast<std::size_t>(dataset.getSpace().getSimpleExtentNpoints()));
+        if (!values.empty()) dataset.read(values.data(), type);
+        return values;
+    } catch (const H5::Exception&) {
+        throw Error(
+            fmt::format("{}: {} is damaged (its checksum is wrong or it was cut short); make the file again",
+                        path.string(), name));
+    }
+}
+
+}  // namespace
+
+std::vector<double> Hdf5Reader::doubles(const std::string& name,
+                                        const std::vector<hsize_t>& dimensions) const {
+    return read_all<double>(open(name, dimensions), H5::PredType::NATIVE_DOUBLE, H5T_FLOAT, path_, name);
+}
+
+std::vector<std::int32_t> Hdf5Reader::integers(const std::string& name,
+                                               const std::vector<hsize_t>& dimensions) const {
+    return read_all<std::int32_t>(open(name, dimensions), H5::PredType::NATIVE_INT32, H5T_INTEGER, path_,
+                                  name);
+}
+
+std::string Hdf5Reader::text(const std::string& name) const {
+    const std::vector<char> bytes =
+        read_all<char>(open(name, {0}), H5::PredType::NATIVE_UINT8, H5T_INTEGER, path_, name);
+    return {bytes.begin(), bytes.end()};
+}
+
+std::vector<hsize_t> Hdf5Reader::shape(const std::string& name) const {
+    try {
+        const H5::DataSpace space = file_.openDataSet(name).getSpace();
+        std::vector<hsize_t> dimensions(static_cast<std::size_t>(space.getSimpleExtentNdims()));
+        space.getSimpleExtentDims(dimensions.data());
+        return dimensions;
+    } catch (const H5::Exception&) {
+        throw Error(fmt::format("{}: {} is missing; make the file again", path_.string(), name));
+    }
+}
+
+std::vector<std::string> Hdf5Reader::children(const std::string& group) const {
+    try {
+        const H5::Group parent = file_.openGroup(group);
+        std::vector<std::string> names;
+        for (hsize_t i = 0; i < parent.getNumObjs(); ++i) names.push_back(parent.getObjnameByIdx(i));
+        std::sort(names.begin(), names.end());
+        return names;
+    } catch (const H5::Exception&) {
+        throw Error(fmt::format("{}: {} is missing; make the file again", path_.string(), group));
+    }
+}
+
+H5::Attribute Hdf5Reader::open_attribute(const std::string& object, const std::string& name) const {
+    try {
+        return file_.openGroup(object).openAttribute(name);
+    } catch (const H5::Exception&) {
+        throw Error(fmt::format("{}: the attribute {} of {} is missing; make the file again", path_.string(),
+                                name, object));
+    }
+}
+
+std::string Hdf5Reader::text_attribute(const std::string& object, const std::string& name) const {
+    const H5::Attribute attribute = open_attribute(object, name);
+    try {
+        std::string text(attribute.getStorageSize(), '\0');
+        attribute.read(string_of(text.size()), text.data());
+        text.resize(std::min(text.size(), text.find('\0')));
+        return text;
+    } catch (const H5::Exception&) {
+        throw Error(fmt::format("{}: the attribute {} of {} is no text; make the file again", path_.string(),
+                                name, object));
+    }
+}
+
+double Hdf5Reader::number_attribute(const std::string& object, const std::string& name) const {
+    const H5::Attribute attribute = open_attribute(object, name);
+    try {
+        double value = 0.0;
+        attribute.read(H5::PredType::NATIVE_DOUBLE, &value);
+        return value;
+    } catch (const H5::Exception&) {
+        throw Error(fmt::format("{}: the attribute {} of {} is no number; make the file again",
+                                path_.string(), name, object));
+    }
+}
+
+std::int64_t Hdf5Reader::integer_attribute(const std::string& object, const std::string& name) const {
+    const H5::Attribute attribute = open_attribute(object, name);
+    try {
+        std::int64_t value = 0;
+        attribute.read(H5::PredType::NATIVE_INT64, &value);
+        return value;
+    } catch (const H5::Exception&) {
+        throw Error(fmt::format("{}: the attribute {} of {} is no integer; make the file again",
+                                path_.string(), name, object));
+    }
+}
+
+void write_hdf5(const std::filesystem::path& file, const std::function<void(Hdf5Writer&)>& fill) {
+    replace_file(file, [&](const std::filesystem::path& temporary) {
+        try {
+            Hdf5Writer writer(temporary);
+            fill(writer);
+        } catch (const H5::Exception& failure) {
+            throw Error(
+                fmt::format("{}: cannot be written ({}); is the folder writable and the disk not full?",
+                            file.string(), failure.getDetailMsg()));
+        }
+    });
+}
+
+std::vector<double> flattened(const std::vector<Vector3d>& vectors) {
+    std::vector<double> values;
+    values.reserve(3 * vectors.size());
+    for (const Vector3d& vector : vectors) values.insert(values.end(), vector.data(), vector.data() + 3);
+    return values;
+}
+
+}  // namespace samara

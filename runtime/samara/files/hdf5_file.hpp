@@ -1,0 +1,105 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <H5Cpp.h>
+
+#include "samara/base/linear_algebra.hpp"
+
+namespace samara {
+
+/// Writes one HDF5 file: library version "latest", fletcher32 on every dataset, no times, so that equal
+/// content gives equal bytes and a flipped bit is found on reading. Groups on the way to a dataset are made.
+/// Names are absolute paths.
+class Hdf5Writer {
+  public:
+    explicit Hdf5Writer(const std::filesystem::path& file);
+
+    /// Row-major values of the shape `dimensions`; `units` becomes the dataset's attribute of that name ("1"
+    /// where the values have none), `meaning` its attribute "description".
+    void write(const std::string& name, const std::vector<double>& values,
+               const std::vector<hsize_t>& dimensions, std::string_view units, std::string_view meaning);
+    void write(const std::string& name, const std::vector<std::int32_t>& values,
+               const std::vector<hsize_t>& dimensions, std::string_view units, std::string_view meaning);
+    /// A text as a dataset of bytes (no limit on its length).
+    void write_text(const std::string& name, std::string_view text, std::string_view meaning);
+
+    void attribute(const std::string& object, const std::string& name, std::string_view text);
+    void attribute(const std::string& object, const std::string& name, double value);
+    void attribute(const std::string& object, const std::string& name, std::int64_t value);
+
+  private:
+    H5::Group group(const std::string& name);
+    H5::DataSet dataset(const std::string& name, const H5::DataType& type,
+                        const std::vector<hsize_t>& dimensions, std::string_view units,
+                        std::string_view meaning);
+
+    H5::H5File file_;
+};
+
+/// Reads one HDF5 file whole: every call checks shape and type, and throws Error with the file's name, the
+/// place in it and the remedy where they do not fit.
+class Hdf5Reader {
+  public:
+    explicit Hdf5Reader(const std::filesystem::path& file);
+
+    [[nodiscard]] bool has(const std::string& name) const;
+    /// The dataset's values, row-major. `dimensions`: what its shape must be; 0 stands for any length.
+    [[nodiscard]] std::vector<double> doubles(const std::string& name,
+                                              const std::vector<hsize_t>& dimensions) const;
+    [[nodiscard]] std::vector<std::int32_t> integers(const std::string& name,
+                                                     const std::vector<hsize_t>& dimensions) const;
+    [[nodiscard]] std::string text(const std::string& name) const;
+    [[nodiscard]] std::vector<hsize_t> shape(const std::string& name) const;
+    /// The names of the groups and datasets in a group, sorted.
+    [[nodiscard]] std::vector<std::string> children(const std::string& group) const;
+
+    [[nodiscard]] std::string text_attribute(const std::string& object, const std::string& name) const;
+    [[nodiscard]] double number_attribute(const std::string& object, const std::string& name) const;
+    [[nodiscard]] std::int64_t integer_attribute(const std::string& object, const std::string& name) const;
+
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+  private:
+    [[nodiscard]] H5::DataSet open(const std::string& name, const std::vector<hsize_t>& dimensions) const;
+    [[nodiscard]] H5::Attribute open_attribute(const std::string& object, const std::string& name) const;
+
+    std::filesystem::path path_;
+    H5::H5File file_;
+};
+
+/// Writes an HDF5 file through replace_file: `fill` writes its content. HDF5's own failures become Error.
+void write_hdf5(const std::filesystem::path& file, const std::function<void(Hdf5Writer&)>& fill);
+
+/// Row-major values of a matrix or vector, for Hdf5Writer.
+template <typename Derived>
+std::vector<double> row_major(const Eigen::MatrixBase<Derived>& matrix) {
+    std::vector<double> values;
+    values.reserve(static_cast<std::size_t>(matrix.size()));
+    for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
+        for (Eigen::Index column = 0; column < matrix.cols(); ++column) values.push_back(matrix(row, column));
+    }
+    return values;
+}
+
+/// The inverse of row_major for a matrix of fixed size.
+template <typename Matrix>
+Matrix from_row_major(const std::vector<double>& values) {
+    Matrix matrix;
+    std::size_t next = 0;
+    for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
+        for (Eigen::Index column = 0; column < matrix.cols(); ++column)
+            matrix(row, column) = values.at(next++);
+    }
+    return matrix;
+}
+
+/// The vectors one after another: the values of a dataset of shape (n, 3).
+std::vector<double> flattened(const std::vector<Vector3d>& vectors);
+
+}  // namespace samara

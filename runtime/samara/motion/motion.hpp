@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "samara/base/linear_algebra.hpp"
+#include "samara/body/surface.hpp"
+
+namespace samara {
+
+/// The place and motion of one copy of a body at one frame.
+struct Pose {
+    Vector3d position = Vector3d::Zero();               ///< of the centre of mass (m, world)
+    Quaterniond orientation = Quaterniond::Identity();  ///< body to world
+    Vector3d velocity = Vector3d::Zero();               ///< of the centre of mass (m/s, world)
+    Vector3d angular_velocity = Vector3d::Zero();       ///< rad/s, world axes
+};
+
+/// One body of the scene with all its copies, runs and frames.
+struct BodyMotion {
+    std::string name;
+    Vector3d center_of_mass =
+        Vector3d::Zero();  ///< m, shape axes: subtract R times this to place the shape's origin
+    Vector3d shortest_axis =
+        Vector3d::UnitZ();  ///< principal axis of the shortest extent, shape axes: of the inclination
+    std::string body_hash;  ///< content hash of the body file that was flown
+    std::string models;     ///< in words: the loads, turbulence and defaults that were used
+    Surface surface;        ///< shape axes, so that a motion file can be shown by itself
+    int copies = 1;
+    std::vector<Pose> poses;  ///< index ((run * frames) + frame) * copies + copy
+};
+
+/// What `samara simulate` writes: frames at even times.
+struct Motion {
+    std::vector<double> times;  ///< s
+    int runs = 1;
+    double frame_rate = 60.0;  ///< frames per second
+    Vector3d gravity = Vector3d(0.0, 0.0, -9.81);
+    std::uint64_t seed = 1;
+    std::string scene_text;  ///< the scene file as it was read
+    std::vector<BodyMotion> bodies;
+
+    [[nodiscard]] int frames() const { return static_cast<int>(times.size()); }
+    [[nodiscard]] const Pose& pose(const BodyMotion& body, int run, int frame, int copy) const {
+        const auto row = static_cast<std::size_t>(run) * times.size() + static_cast<std::size_t>(frame);
+        return body.poses[row * static_cast<std::size_t>(body.copies) + static_cast<std::size_t>(copy)];
+    }
+};
+
+/// The place of the shape file's origin (m, world) at a pose of the centre of mass.
+inline Vector3d shape_origin(const Pose& pose, const Vector3d& center_of_mass) {
+    return pose.position - pose.orientation * center_of_mass;
+}
+
+}  // namespace samara
