@@ -24,6 +24,7 @@ constexpr Command commands[] = {
     {"mesh", "shape file -> checked surface, volume moments, symmetry", nullptr},
     {"bake", "OpenFOAM cases around a body -> load and turbulence tables", nullptr},
     {"convert", "solved cases -> tables in the body file", nullptr},
+    {"export", "motion -> .glb for animation tools, .csv", samara::export_command},
 };
 
 void print_help() {
