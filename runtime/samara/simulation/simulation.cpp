@@ -163,13 +163,69 @@ BodyMotion empty_motion(const SceneBody& scene_body, const ImmersedBody& immerse
     return motion;
 }
 
+/// One body of the scene: flies all its copies in all runs.
+class BodyFlights {
+  public:
+    BodyFlights(const Scene& scene, const SceneBody& scene_body, const ImmersedBody& body,
+                const std::function<bool(double done)>& progress, SimulationReport& report)
+        : scene_(scene), scene_body_(scene_body), body_(body), progress_(progress), report_(report) {}
+
+    /// Fills the poses of `motion`, and returns the highest Reynolds number met.
+    double fly(const std::vector<double>& times, int runs, BodyMotion& motion) {
+        const std::size_t frames = times.size();
+        const auto copies = static_cast<std::size_t>(motion.copies);
+        motion.poses.resize(static_cast<std::size_t>(runs) * frames * copies);
+        double highest_reynolds_number = 0.0;
+        for (std::size_t run = 0; run < static_cast<std::size_t>(runs); ++run) {
+            for (std::size_t copy = 0; copy < copies; ++copy) {
+                const Noise noise(scene_.seed, scene_body_.name, static_cast<std::uint32_t>(run),
+                                  static_cast<std::uint32_t>(copy));
+                Flight flight(scene_, scene_body_, body_, noise);
+                fly_one(flight, times, &motion.poses[run * frames * copies + copy], copies);
+                highest_reynolds_number = std::max(highest_reynolds_number, flight.highest_reynolds_number());
+            }
+        }
+        return highest_reynolds_number;
+    }
+
+  private:
+    /// One flight; its pose at frame f goes to poses[f * stride].
+    void fly_one(Flight& flight, const std::vector<double>& times, Pose* poses, std::size_t stride) {
+        std::uint64_t told = 0;
+        for (std::size_t frame = 0; frame < times.size(); ++frame) {
+            Pose& pose = poses[frame * stride];
+            pose = flight.at(times[frame]);
+            if (frame > 0) keep_sign_continuous(pose.orientation, poses[(frame - 1) * stride].orientation);
+            if (flight.steps() - told < steps_between_progress) continue;
+            told = flight.steps();
+            if (!progress_(static_cast<double>(report_.steps + told)))
+                throw Error("interrupted: nothing was written");
+        }
+        report_.steps += flight.steps();
+        report_.implicit_steps += flight.implicit_steps();
+        report_.most_substeps = std::max(report_.most_substeps, flight.most_substeps());
+    }
+
+    const Scene& scene_;
+    const SceneBody& scene_body_;
+    const ImmersedBody& body_;
+    const std::function<bool(double)>& progress_;
+    SimulationReport& report_;
+};
+
+/// Steps that the whole scene takes.
+double total_steps(const Scene& scene, int runs) {
+    double copies = 0.0;
+    for (const SceneBody& body : scene.bodies) copies += body.count;
+    return copies * runs * scene.duration / scene.step;
+}
+
 }  // namespace
 
 SimulationResult simulate(const Scene& scene, const std::vector<CastBody>& cast, int runs,
                           const std::function<bool(double, double)>& progress) {
     SimulationResult result;
     Motion& motion = result.motion;
-    SimulationReport& report = result.report;
     motion.times = frame_times(scene);
     motion.runs = runs;
     motion.frame_rate = scene.frame_rate;
@@ -178,50 +234,19 @@ SimulationResult simulate(const Scene& scene, const std::vector<CastBody>& cast,
     motion.scene_text = scene.text;
 
     std::vector<ImmersedBody> bodies;
-    double total = 0.0;
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         bodies.push_back(make_immersed_body(cast[i].body, scene.bodies[i], scene.fluid));
-        total += static_cast<double>(runs) * scene.bodies[i].count;
     }
-    total *= scene.duration / scene.step;
-
+    const double total = total_steps(scene, runs);
+    const std::function<bool(double)> tell = [&](double done) { return progress(done, total); };
     const auto start = std::chrono::steady_clock::now();
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-        const SceneBody& scene_body = scene.bodies[i];
-        BodyMotion body_motion = empty_motion(scene_body, bodies[i], cast[i]);
-        const auto frames = motion.times.size();
-        const auto copies = static_cast<std::size_t>(scene_body.count);
-        body_motion.poses.resize(static_cast<std::size_t>(runs) * frames * copies);
-        double highest_reynolds_number = 0.0;
-        for (std::size_t run = 0; run < static_cast<std::size_t>(runs); ++run) {
-            for (std::size_t copy = 0; copy < copies; ++copy) {
-                const Noise noise(scene.seed, scene_body.name, static_cast<std::uint32_t>(run),
-                                  static_cast<std::uint32_t>(copy));
-                Flight flight(scene, scene_body, bodies[i], noise);
-                std::uint64_t reported = 0;
-                for (std::size_t frame = 0; frame < frames; ++frame) {
-                    Pose pose = flight.at(motion.times[frame]);
-                    if (frame > 0) {
-                        const std::size_t previous = (run * frames + frame - 1) * copies + copy;
-                        keep_sign_continuous(pose.orientation, body_motion.poses[previous].orientation);
-                    }
-                    body_motion.poses[(run * frames + frame) * copies + copy] = pose;
-                    if (flight.steps() - reported < steps_between_progress) continue;
-                    reported = flight.steps();
-                    if (!progress(static_cast<double>(report.steps + reported), total)) {
-                        throw Error("interrupted: nothing was written");
-                    }
-                }
-                report.steps += flight.steps();
-                report.implicit_steps += flight.implicit_steps();
-                report.most_substeps = std::max(report.most_substeps, flight.most_substeps());
-                highest_reynolds_number = std::max(highest_reynolds_number, flight.highest_reynolds_number());
-            }
-        }
-        report.highest_reynolds_number.push_back(highest_reynolds_number);
-        motion.bodies.push_back(std::move(body_motion));
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        motion.bodies.push_back(empty_motion(scene.bodies[i], bodies[i], cast[i]));
+        BodyFlights flights(scene, scene.bodies[i], bodies[i], tell, result.report);
+        result.report.highest_reynolds_number.push_back(
+            flights.fly(motion.times, runs, motion.bodies.back()));
     }
-    report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    result.report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;
 }
 
