@@ -4,4 +4,10 @@ namespace samara {
 
 // Each is one command of the program samara: argv[0] is the command's name. Returns the exit status.
 
+/// samara kirchhoff: the added mass of a body or shape.
+int kirchhoff_command(int argc, const char* const* argv);
+
+/// samara info: what a file holds.
+int info_command(int argc, const char* const* argv);
+
 }  // namespace samara
