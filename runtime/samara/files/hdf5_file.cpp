@@ -134,9 +134,13 @@ void Hdf5Writer::attribute(const std::string& object, const std::string& name, s
 Hdf5Reader::Hdf5Reader(const std::filesystem::path& file) : path_(file), file_(open_for_reading(file)) {}
 
 bool Hdf5Reader::has(const std::string& name) const {
-    for (std::size_t end = name.find('/', 1);; end = name.find('/', end + 1)) {
-        if (!file_.nameExists(name.substr(0, end))) return false;
-        if (end == std::string::npos) return true;
+    try {
+        for (std::size_t end = name.find('/', 1);; end = name.find('/', end + 1)) {
+            if (!file_.nameExists(name.substr(0, end))) return false;
+            if (end == std::string::npos) return true;
+        }
+    } catch (const H5::Exception&) {
+        throw Error(fmt::format("{}: is damaged at {}; make the file again", path_.string(), name));
     }
 }
 
