@@ -167,7 +167,11 @@ FoamField<Value> read_field(const std::filesystem::path& file, const std::string
         const std::string_view key = scanner.word();
         // A field over the cells alone (::Internal) names its values "value".
         if (key == "internalField" || key == "value") return read_internal_field<Value>(scanner, header);
-        skip_entry(scanner);
+        if (key.starts_with('#')) {
+            scanner.word();  // the file that a directive names
+        } else {
+            skip_entry(scanner);
+        }
     }
     throw scanner.fault("has no internalField");
 }
