@@ -25,6 +25,7 @@ constexpr Command commands[] = {
     {"bake", "OpenFOAM cases around a body -> load and turbulence tables", nullptr},
     {"convert", "solved cases -> tables in the body file", nullptr},
     {"export", "motion -> .glb for animation tools, .csv", samara::export_command},
+    {"plot", "motion -> picture: silhouettes along the path, time series", samara::plot_command},
 };
 
 void print_help() {
