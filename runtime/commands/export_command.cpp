@@ -71,9 +71,10 @@ int export_command(int argc, const char* const* argv) {
     return run_program(argc, argv, arguments, [&] {
         nlohmann::json result = export_motion(input, output, run, arguments.given("--run"));
         if (!arguments.json()) {
-            const std::string what = result["format"] == "csv"
-                                         ? fmt::format("{} rows", result["rows"].get<std::size_t>())
-                                         : fmt::format("{} moving nodes", result["nodes"].get<int>());
+            const bool is_table = result["format"] == "csv";
+            const auto count = result[is_table ? "rows" : "nodes"].get<std::size_t>();
+            const std::string what =
+                fmt::format("{} {}{}", count, is_table ? "row" : "node", count == 1 ? "" : "s");
             fmt::print("{}: {}, {} frames, {} bytes\n", output, what, result["frames"].get<int>(),
                        result["bytes"].get<std::uintmax_t>());
         }
