@@ -189,9 +189,11 @@ Surface simplified_surface(const Surface& surface, std::size_t triangles) {
         highest = highest.cwiseMax(vertex);
     }
     const double extent = (highest - lowest).maxCoeff();
-    for (double cells = 128.0; cells > 2.0; cells /= 1.25) {
+    double cells = 128.0;
+    while (cells > 2.0) {
         Surface merged = merged_over_grid(flat, extent / cells);
         if (merged.triangle_count() <= triangles && merged.triangle_count() > 0) return merged;
+        cells /= 1.25;
     }
     return flat;
 }

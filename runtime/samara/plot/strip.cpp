@@ -36,6 +36,7 @@ std::vector<Vector3d> hull_points(const BodyMotion& body) {
         outermost.insert(best);
     }
     std::vector<Vector3d> points;
+    points.reserve(outermost.size());
     for (const std::size_t v : outermost) points.push_back(body.surface.vertices[v] - body.center_of_mass);
     return points;
 }
@@ -51,7 +52,8 @@ Reach reach_of(const std::vector<Vector3d>& hull, const Pose& pose) {
     for (const Vector3d& point : hull) {
         const Vector3d place = pose.position + rotation * point;
         for (std::size_t i = 0; i < reach.size(); ++i) {
-            const double angle = std::numbers::pi * static_cast<double>(i / 2) / axes_of_separation;
+            const std::size_t axis = i / 2;
+            const double angle = std::numbers::pi * static_cast<double>(axis) / axes_of_separation;
             const double along = views[i % 2].project(place).dot(Vector2d(std::cos(angle), std::sin(angle)));
             reach[i][0] = std::min(reach[i][0], along);
             reach[i][1] = std::max(reach[i][1], along);
