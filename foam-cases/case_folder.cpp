@@ -22,8 +22,12 @@ namespace fs = std::filesystem;
 using CaseFiles = std::map<fs::path, std::string>;  // content by the path inside a case
 
 // What the mesh depends on beside the parameters of the mesh.
-constexpr const char* mesh_files[] = {"Allrun", "constant/triSurface/body.stl", "system/blockMeshDict",
-                                      "system/snappyHexMeshDict", "system/topoSetDict"};
+constexpr const char* mesh_files[] = {"Allrun",
+                                      "constant/triSurface/body.stl",
+                                      "system/blockMeshDict",
+                                      "system/snappyHexMeshDict",
+                                      "system/surfaceFeatureExtractDict",
+                                      "system/topoSetDict"};
 
 CaseFiles read_template(const fs::path& folder) {
     CaseFiles files;
@@ -148,7 +152,7 @@ void write_case_folder(const fs::path& folder, const Body& body, const BakePlan&
                        const fs::path& templates) {
     const CaseFiles template_files = read_template(templates / "body-flow");
     fs::create_directories(folder);
-    write_body_file(folder / "body.body.h5", body);
+    write_body_file(folder / case_body_name, body);
     remove_unplanned_cases(folder, plan);
 
     nlohmann::json json = plan_json(plan);
