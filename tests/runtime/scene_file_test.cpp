@@ -64,7 +64,8 @@ TEST_F(SceneFile, EveryKeyIsRead) {
         "[fluid]\ndensity = 2.0\nviscosity = 0.5\ncurrent = [1, 2, 3]\n"
         "[[body]]\nname = \"a\"\nshape = \"ball.stl\"\nscale = 0.5\nmass = 3\ncenter_of_mass = [0.1, 0, 0]\n"
         "inertia = [1, 2, 2.5]\nposition = [1, 1, 1]\norientation = [0, 2, 0, 0]\nvelocity = [1, 0, 0]\n"
-        "angular_velocity = [0, 1, 0]\nstart = 0.5\ncount = 3\nspread = { position = [1, 2, 3], angle = 0.5 }\n"
+        "angular_velocity = [0, 1, 0]\nstart = 0.5\ncount = 3\nspread = { position = [1, 2, 3], angle = 0.5 "
+        "}\n"
         "loads = \"coefficients\"\ndrag_coefficient = 1.3\nlift_coefficient = 0.2\nreference_area = 0.1\n"
         "normal = [0, 0, 2]\ncenter_of_pressure = [0, 0, 0.1]\nturbulence = \"constant\"\n"
         "turbulent_kinetic_energy = 0.1\ndissipation_rate = 0.2\nlangevin = \"body-velocity\"\n");
@@ -80,15 +81,18 @@ TEST_F(SceneFile, EveryKeyIsRead) {
 }
 
 TEST_F(SceneFile, AnUnknownKeyIsNamedWithItsLine) {
-    EXPECT_THAT(refusal(with_body("density = 1\ncolour = 3\n")), HasSubstr("scene.toml:7: unknown key 'colour'"));
-    EXPECT_THAT(refusal("[scene]\nduration = 1\ngravty = 3\n"), HasSubstr("scene.toml:3: unknown key 'gravty'"));
+    EXPECT_THAT(refusal(with_body("density = 1\ncolour = 3\n")),
+                HasSubstr("scene.toml:7: unknown key 'colour'"));
+    EXPECT_THAT(refusal("[scene]\nduration = 1\ngravty = 3\n"),
+                HasSubstr("scene.toml:3: unknown key 'gravty'"));
     EXPECT_THAT(refusal(with_body("density = 1\n[extra]\n")), HasSubstr("unknown key 'extra'"));
 }
 
 TEST_F(SceneFile, AValueOutOfRangeIsRefusedWithItsLine) {
     EXPECT_THAT(refusal(with_body("density = -1")), HasSubstr("scene.toml:6: density"));
     EXPECT_THAT(refusal(with_body("density = nan")), HasSubstr("scene.toml:6: density"));
-    EXPECT_THAT(refusal(with_body("density = 1\nposition = [0, inf, 0]")), HasSubstr("scene.toml:7: position"));
+    EXPECT_THAT(refusal(with_body("density = 1\nposition = [0, inf, 0]")),
+                HasSubstr("scene.toml:7: position"));
     EXPECT_THAT(refusal(with_body("density = 1\norientation = [0, 0, 0, 0]")), HasSubstr("not zero"));
     EXPECT_THAT(refusal("[scene]\nduration = 0\n"), HasSubstr("scene.toml:2: duration"));
     EXPECT_THAT(refusal(with_body("density = 1\ncount = 0")), HasSubstr("count"));
@@ -106,11 +110,15 @@ TEST_F(SceneFile, AMissingFileOrKeyIsNamed) {
 TEST_F(SceneFile, ContradictionsAreRefused) {
     EXPECT_THAT(refusal(with_body("density = 1\nmass = 1")), HasSubstr("one of the two"));
     EXPECT_THAT(refusal(with_body("density = 1\ninertia = [1, 1, 1]")), HasSubstr("mass instead of density"));
-    EXPECT_THAT(refusal(with_body("density = 1\ndrag_coefficient = 1")), HasSubstr("loads = \"coefficients\""));
-    EXPECT_THAT(refusal(with_body("density = 1\nturbulence = \"constant\"")), HasSubstr("turbulent_kinetic_energy"));
-    EXPECT_THAT(refusal(with_body("density = 1\n[[body]]\nname = \"ball\"\nshape = \"ball.stl\"\ndensity = 1\n")),
-                HasSubstr("taken by another body"));
-    EXPECT_THAT(refusal("[scene]\nduration = 1\n[fluid]\npreset = \"air\"\ndensity = 1\n"), HasSubstr("preset"));
+    EXPECT_THAT(refusal(with_body("density = 1\ndrag_coefficient = 1")),
+                HasSubstr("loads = \"coefficients\""));
+    EXPECT_THAT(refusal(with_body("density = 1\nturbulence = \"constant\"")),
+                HasSubstr("turbulent_kinetic_energy"));
+    EXPECT_THAT(
+        refusal(with_body("density = 1\n[[body]]\nname = \"ball\"\nshape = \"ball.stl\"\ndensity = 1\n")),
+        HasSubstr("taken by another body"));
+    EXPECT_THAT(refusal("[scene]\nduration = 1\n[fluid]\npreset = \"air\"\ndensity = 1\n"),
+                HasSubstr("preset"));
 }
 
 TEST_F(SceneFile, BrokenTomlIsNamedWithItsLine) {

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "samara/body/surface.hpp"
+
+namespace samara {
+
+/// The point (m) of the triangle with corner coordinates (1 - u - v, u, v): on the flat triangle for order 1,
+/// on the quadratic one for order 2.
+Vector3d point_of_triangle(const Surface& surface, std::size_t triangle, double u, double v);
+
+/// Flat triangles that follow the curved ones: each is cut into subdivisions^2, with three vertices of its
+/// own. A surface of order 1 is returned as it is.
+Surface flattened(const Surface& surface, int subdivisions);
+
+/// The surface of order 1 as one of order 2, with nodes halfway along its straight edges. Of a surface of
+/// order 2, its corners.
+Surface with_straight_edge_nodes(const Surface& surface);
+
+/// The flat surface of the corners alone, unused vertices left out.
+Surface without_edge_nodes(const Surface& surface);
+
+/// The first triangle whose curved face turns over somewhere (its normal leans more than a right angle from
+/// that of its corners), or -1 where there is none: such a surface of order 2 is too coarse for its
+/// curvature.
+std::int32_t first_overturned_triangle(const Surface& surface);
+
+}  // namespace samara

@@ -1,0 +1,91 @@
+#include "meshes/gmsh_session.hpp"
+
+#include <cstdio>
+#include <string_view>
+#include <vector>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <gmsh.h>
+#include <unistd.h>
+
+#include "samara/base/error.hpp"
+
+namespace samara {
+namespace {
+
+constexpr std::string_view error_prefix = "Error: ";
+
+// The first error is the cause; the later ones follow from it.
+std::string first_logged_error() {
+    std::vector<std::string> log;
+    gmsh::logger::get(log);
+    for (const std::string& line : log) {
+        if (line.starts_with(error_prefix)) return line.substr(error_prefix.size());
+    }
+    return {};
+}
+
+std::string one_line(std::string text) {
+    for (char& character : text) {
+        if (character == '\n' || character == '\r') character = ' ';
+    }
+    return text;
+}
+
+[[noreturn]] void fail(const std::string& label, const std::string& what, const std::string& thrown) {
+    const std::string logged = first_logged_error();
+    const std::string reason = logged.empty() ? thrown : logged;
+    throw Error(fmt::format("{}: {}{}{}", label, what, reason.empty() ? "" : ": ", one_line(reason)));
+}
+
+}  // namespace
+
+GmshSession::GmshSession() {
+    // OpenCASCADE and Printf in .geo files write on standard output, which belongs to the program's own
+    // result.
+    std::fflush(stdout);
+    standard_output_ = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3);
+    const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (nowhere >= 0) {
+        ::dup2(nowhere, STDOUT_FILENO);
+        ::close(nowhere);
+    }
+    constexpr bool read_user_options = false;
+    gmsh::initialize(0, nullptr, read_user_options);
+    gmsh::option::setNumber("General.Terminal", 0);
+    gmsh::logger::start();
+}
+
+GmshSession::~GmshSession() {
+    gmsh::finalize();
+    std::fflush(stdout);
+    if (standard_output_ >= 0) {
+        ::dup2(standard_output_, STDOUT_FILENO);
+        ::close(standard_output_);
+    }
+}
+
+void GmshSession::run(const std::string& label, const std::string& what, const std::function<void()>& calls) {
+    try {
+        calls();
+    } catch (const Error&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& fault) {
+        fail(label, what, fault.what());
+    } catch (const std::string& fault) {
+        fail(label, what, fault);
+    } catch (const char* fault) {
+        fail(label, what, fault);
+    } catch (...) {
+        fail(label, what, {});
+    }
+}
+
+std::string gmsh_version() {
+    return GMSH_API_VERSION;
+}
+
+}  // namespace samara

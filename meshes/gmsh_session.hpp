@@ -1,0 +1,28 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace samara {
+
+/// gmsh, started when this is made and ended with it: silent, with its default options and an empty model.
+/// gmsh is one for the process, so only one session may live at a time.
+class GmshSession {
+  public:
+    GmshSession();
+    ~GmshSession();
+    GmshSession(const GmshSession&) = delete;
+    GmshSession& operator=(const GmshSession&) = delete;
+
+    /// Runs calls of gmsh. What gmsh throws becomes an Error "LABEL: WHAT: <gmsh's own reason>"; an Error of
+    /// `calls` itself passes on.
+    static void run(const std::string& label, const std::string& what, const std::function<void()>& calls);
+
+  private:
+    int standard_output_;  // a copy of the descriptor that gmsh may not write on
+};
+
+/// gmsh's version, "4.8.4".
+std::string gmsh_version();
+
+}  // namespace samara

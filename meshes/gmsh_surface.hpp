@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "samara/body/surface.hpp"
+
+namespace samara {
+
+/// The surface elements of the model in the current GmshSession: of the surfaces with the given tags, or of
+/// all where none are given. Quadrangles are cut in two. Throws Error, named with `label`, for other elements
+/// than triangles of order 1 or 2 and quadrangles of order 1.
+Surface surface_of_model(const std::string& label, const std::vector<int>& surface_tags = {});
+
+}  // namespace samara

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "meshes/triangle_tree.hpp"
+#include "samara/body/surface.hpp"
+
+namespace samara {
+
+/// Compares a surface with its images under rotations and reflections about a point: the shapes, not the
+/// triangulations. The points of the image that are compared are the vertices and the centroids of the
+/// triangles, at most a few thousand.
+class ImageTest {
+  public:
+    /// `tolerance`: over the body's size, its greatest distance from the centre; raised, up to 0.03, where
+    /// the triangles are so coarse that flat ones leave a curved surface further than that.
+    ImageTest(const Surface& surface, const Vector3d& centre, double tolerance);
+
+    /// Whether each point of the image lies within `slack` times the tolerance of the surface.
+    [[nodiscard]] bool is_symmetry(const Matrix3d& element, double slack = 1.0) const;
+
+    /// The mean distance of the first points of the image from the surface, over the body's size.
+    [[nodiscard]] double mean_distance(const Matrix3d& element, std::size_t points) const;
+
+    /// The distance over the body's size within which an image counts as the same.
+    [[nodiscard]] double tolerance() const { return tolerance_; }
+
+    /// Points of the surface, relative to the centre (m), in no special order.
+    [[nodiscard]] const std::vector<Vector3d>& points() const { return points_; }
+
+  private:
+    double size_ = 0.0;
+    double tolerance_;
+    std::vector<Vector3d> points_;
+    TriangleTree tree_;
+};
+
+}  // namespace samara

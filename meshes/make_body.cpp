@@ -1,0 +1,83 @@
+#include "meshes/make_body.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "meshes/curved_surface.hpp"
+#include "meshes/gmsh_session.hpp"
+#include "meshes/remesh.hpp"
+#include "meshes/shape_reader.hpp"
+#include "meshes/surface_check.hpp"
+#include "meshes/surface_edges.hpp"
+#include "meshes/symmetry.hpp"
+#include "meshes/volume_moments.hpp"
+#include "samara/base/content_hash.hpp"
+#include "samara/base/error.hpp"
+#include "samara/body/body_file.hpp"
+
+namespace samara {
+namespace {
+
+void require_sane(const MeshOptions& options, const std::string& label) {
+    const auto require = [&](bool sane, const char* what) {
+        if (!sane) throw Error(fmt::format("{}: {}", label, what));
+    };
+    require(std::isfinite(options.scale) && options.scale > 0.0, "the scale must be positive");
+    require(options.order == 1 || options.order == 2, "the order must be 1 or 2");
+    require(options.sizing != MeshOptions::Sizing::triangles || options.triangles >= 4,
+            "the number of triangles must be at least 4");
+    require(
+        options.sizing != MeshOptions::Sizing::size || (std::isfinite(options.size) && options.size > 0.0),
+        "the size of triangles must be positive");
+}
+
+Surface in_order(const Surface& surface, int order) {
+    if (surface.order() == order) return surface;
+    return order == 2 ? with_straight_edge_nodes(surface) : without_edge_nodes(surface);
+}
+
+Surface surface_of_triangles(const std::filesystem::path& shape, const MeshOptions& options) {
+    const std::string label = shape.string();
+    Surface surface = welded(read_triangles(shape), label);
+    if (options.flip) {
+        for (std::size_t t = 0; t < surface.triangle_count(); ++t) turn_round(surface, t);
+    }
+    // Before scaling: errors name places as the file has them.
+    require_sound_surface(surface, label);
+    for (Vector3d& vertex : surface.vertices) vertex *= options.scale;
+    if (options.sizing == MeshOptions::Sizing::keep) return in_order(surface, options.order);
+    return remesh(surface, options, label);
+}
+
+std::string source_line(const std::filesystem::path& shape, const MeshOptions& options, bool is_geometry) {
+    std::string sizes = "kept triangles";
+    if (options.sizing == MeshOptions::Sizing::triangles)
+        sizes = fmt::format("{} triangles", options.triangles);
+    if (options.sizing == MeshOptions::Sizing::size) sizes = fmt::format("size {} m", options.size);
+    std::string line = fmt::format("{} (xxh128 {}), {}, order {}, scale {}{}", shape.filename().string(),
+                                   file_content_hash(shape), sizes, options.order, options.scale,
+                                   options.flip ? ", flipped" : "");
+    if (is_geometry || options.sizing != MeshOptions::Sizing::keep) line += ", gmsh " + gmsh_version();
+    return line;
+}
+
+}  // namespace
+
+Body make_body(const std::filesystem::path& shape, const MeshOptions& options) {
+    const bool is_geometry = shape_kind(shape) == ShapeKind::geometry;
+    require_sane(options, shape.string());
+    if (is_geometry && options.flip) {
+        throw Error(
+            fmt::format("{}: geometry is turned outwards by itself; leave --flip out", shape.string()));
+    }
+    Body body;
+    body.name = body_name_of(shape);
+    body.source = source_line(shape, options, is_geometry);
+    body.surface = is_geometry ? mesh_geometry(shape, options) : surface_of_triangles(shape, options);
+    body.moments = volume_moments(body.surface);
+    body.symmetry = find_symmetry(body.surface, body.moments);
+    return body;
+}
+
+}  // namespace samara

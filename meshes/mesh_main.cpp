@@ -1,0 +1,119 @@
+// samara-mesh: a shape file -> a body file with its checked surface, volume moments and symmetry.
+
+#include <chrono>
+#include <string>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "meshes/make_body.hpp"
+#include "meshes/symmetry.hpp"
+#include "samara/base/error.hpp"
+#include "samara/body/body_file.hpp"
+#include "samara/command/arguments.hpp"
+
+namespace {
+
+using samara::Body;
+using samara::MeshOptions;
+
+const char* name_of(samara::Symmetry::Kind kind) {
+    switch (kind) {
+        case samara::Symmetry::Kind::axial:
+            return "axial";
+        case samara::Symmetry::Kind::spherical:
+            return "spherical";
+        default:
+            return "finite";
+    }
+}
+
+nlohmann::json rows(const samara::Matrix3d& matrix) {
+    nlohmann::json result = nlohmann::json::array();
+    for (int row = 0; row < 3; ++row) result.push_back({matrix(row, 0), matrix(row, 1), matrix(row, 2)});
+    return result;
+}
+
+nlohmann::json summary(const Body& body, const std::string& output, double seconds) {
+    const samara::VolumeMoments& moments = body.moments;
+    return {{"body", output},
+            {"triangles", body.surface.triangle_count()},
+            {"vertices", body.surface.vertices.size()},
+            {"order", body.surface.order()},
+            {"volume", moments.volume},
+            {"centroid", {moments.centroid.x(), moments.centroid.y(), moments.centroid.z()}},
+            {"surface_area", moments.surface_area},
+            {"second_moments", rows(moments.second_moments)},
+            {"symmetry",
+             {{"kind", name_of(body.symmetry.kind)},
+              {"elements", body.symmetry.elements.size()},
+              {"tolerance", body.symmetry.tolerance}}},
+            {"seconds", seconds}};
+}
+
+void print_for_people(const Body& body, const std::string& output, double seconds) {
+    Eigen::AlignedBox3d box;
+    for (const samara::Vector3d& vertex : body.surface.vertices) box.extend(vertex);
+    const samara::Vector3d size = box.sizes();
+    const samara::VolumeMoments& moments = body.moments;
+    fmt::print("{}: {} triangles of order {}, {} vertices, in {:.2f} s\n", output,
+               body.surface.triangle_count(), body.surface.order(), body.surface.vertices.size(), seconds);
+    fmt::print("  extent    {:.5g} x {:.5g} x {:.5g} m\n", size.x(), size.y(), size.z());
+    fmt::print("  volume    {:.6g} m^3 (of this surface)\n", moments.volume);
+    fmt::print("  area      {:.6g} m^2\n", moments.surface_area);
+    fmt::print("  centroid  ({:.5g}, {:.5g}, {:.5g}) m\n", moments.centroid.x(), moments.centroid.y(),
+               moments.centroid.z());
+    fmt::print("  symmetry  {} (within {:.2g} of the size)\n", samara::describe(body.symmetry),
+               body.symmetry.tolerance);
+}
+
+MeshOptions::Sizing sizing_of(const samara::Arguments& arguments, bool keep) {
+    const bool by_size = arguments.given("--size");
+    if (static_cast<int>(arguments.given("--triangles")) + static_cast<int>(by_size) +
+            static_cast<int>(keep) >
+        1) {
+        throw samara::Error("--triangles, --size and --keep exclude each other; give one of them");
+    }
+    if (keep) return MeshOptions::Sizing::keep;
+    return by_size ? MeshOptions::Sizing::size : MeshOptions::Sizing::triangles;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    std::string shape;
+    std::string output;
+    bool keep = false;
+    MeshOptions options;
+    samara::Arguments arguments("samara mesh",
+                                "Makes a body file of a shape: its checked surface, volume, symmetry.");
+    arguments.positional("SHAPE", shape,
+                         "geometry (.geo .step .stp .brep) or triangles (.stl .obj .msh .body.h5)");
+    arguments.required_option("-o,--output", output, "the body file to write, NAME.body.h5");
+    arguments.option("--triangles", options.triangles, "about this many triangles", 4, 10'000'000);
+    arguments.option("--size", options.size,
+                     "sides of this length (m) where the body is flat; smaller elsewhere", 1e-12, 1e12);
+    arguments.flag("--keep", keep,
+                   "the triangles as the file has them; for geometry the sizes that the file sets");
+    arguments.option("--order", options.order, "1: flat triangles, 2: curved ones with nodes on the edges", 1,
+                     2);
+    arguments.option("--scale", options.scale,
+                     "metres for one unit of the file (STEP states its unit: left at 1)", 1e-12, 1e12);
+    arguments.flag("--flip", options.flip, "turn every triangle round: for a surface that is inside out");
+    arguments.footer(
+        "The surface must be closed. Triangles are smaller where the body curves and near its edges.\n"
+        "Example: samara mesh meshes/ellipsoid.geo -o ellipsoid.body.h5 --triangles 1280 --order 2");
+    return samara::run_program(argc, argv, arguments, [&] {
+        const auto start = std::chrono::steady_clock::now();
+        options.sizing = sizing_of(arguments, keep);
+        if (!samara::is_body_file_name(output)) {
+            throw samara::Error(fmt::format("{}: the name of a body file ends in .body.h5", output));
+        }
+        const Body body = samara::make_body(shape, options);
+        samara::write_body_file(output, body);
+        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+        if (!arguments.json()) print_for_people(body, output, elapsed.count());
+        return summary(body, output, elapsed.count());
+    });
+}

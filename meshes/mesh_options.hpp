@@ -1,0 +1,20 @@
+#pragma once
+
+namespace samara {
+
+/// How a shape becomes a surface: the options of `samara mesh`.
+struct MeshOptions {
+    enum class Sizing {
+        triangles,  ///< about `triangles` triangles
+        size,       ///< triangles with sides of about `size` where the body is flat, smaller where it curves
+        keep,       ///< the file's own triangles; for geometry gmsh's mesh with the sizes that the file sets
+    };
+    Sizing sizing = Sizing::triangles;
+    int triangles = 1280;
+    double size = 0.0;   ///< m, after scaling
+    int order = 1;       ///< 2: curved triangles with nodes in the middle of their edges
+    double scale = 1.0;  ///< metres for one unit of the file
+    bool flip = false;   ///< turn every face of a file of triangles round
+};
+
+}  // namespace samara

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <filesystem>
+
+#include "samara/body/surface.hpp"
+
+namespace samara {
+
+/// The triangles of an STL file, text or binary, each with three vertices of its own; the normals in the file
+/// are not used. Throws Error, which names the line or the byte count, where the file is cut short or is no
+/// STL file.
+Surface read_stl_file(const std::filesystem::path& file);
+
+}  // namespace samara
