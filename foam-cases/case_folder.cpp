@@ -61,10 +61,10 @@ std::string mesh_hash(const CaseFiles& files) {
     return hash_of(inputs);
 }
 
-void write_bytes(const fs::path& path, const std::string& bytes) {
+void write_plan(const fs::path& path, const nlohmann::json& json) {
     replace_file(path, [&](const fs::path& temporary) {
         std::ofstream file(temporary, std::ios::binary);
-        file << bytes;
+        file << json.dump(2) << '\n';
         if (!file.flush()) throw Error(fmt::format("{}: cannot be written", path.string()));
     });
 }
@@ -79,7 +79,10 @@ void write_files(const fs::path& folder, const CaseFiles& files) {
         const fs::path path = folder / name;
         if (holds(path, bytes)) continue;
         fs::create_directories(path.parent_path());
-        write_bytes(path, bytes);
+        // Not synced one by one: a file that a crash cut short differs, and is written again.
+        std::ofstream file(path, std::ios::binary);
+        file << bytes;
+        if (!file.flush()) throw Error(fmt::format("{}: cannot be written", path.string()));
         if (bytes.starts_with("#!")) {
             fs::permissions(path, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
                             fs::perm_options::add);
@@ -169,7 +172,7 @@ void write_case_folder(const fs::path& folder, const Body& body, const BakePlan&
         link_to_mesh(folder / entry.name, "polyMesh");
         link_to_mesh(folder / entry.name, "triSurface");
     }
-    write_bytes(folder / "plan.json", json.dump(2) + "\n");
+    write_plan(folder / "plan.json", json);
 }
 
 }  // namespace samara

@@ -69,8 +69,9 @@ TEST_F(CaseFolder, HoldsAPlainCaseForEachDirectionOnOneMesh) {
         const fs::path one = folder_ / entry.name;
         EXPECT_TRUE(fs::exists(one / "system/controlDict"));
         EXPECT_NE(fs::status(one / "Allrun").permissions() & fs::perms::owner_exec, fs::perms::none);
-        EXPECT_EQ(fs::weakly_canonical(one / "constant/polyMesh"),
-                  fs::weakly_canonical(folder_ / "mesh/constant/polyMesh"));
+        const fs::path link = one / "constant/polyMesh";
+        EXPECT_EQ((link.parent_path() / fs::read_symlink(link)).lexically_normal(),
+                  folder_ / "mesh/constant/polyMesh");
         const std::string parameters = read_bytes(one / "parameters");
         std::istringstream numbers(entry_of(parameters, "flowVelocity").substr(1));
         Vector3d flow;
