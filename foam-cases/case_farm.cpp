@@ -93,7 +93,7 @@ void solve_cases(const fs::path& folder, const BakePlan& plan, int jobs, const f
     const auto status =
         run_guarded({"snakemake", "--snakefile", (templates / "Snakefile").string(), "--directory",
                      folder.string(), "--cores", fmt::format("{}", jobs), "--keep-going", "--nolock",
-                     "--rerun-incomplete", "--rerun-triggers", "mtime", "--quiet", "all"},
+                     "--ignore-incomplete", "--rerun-triggers", "mtime", "--quiet", "all"},
                     folder / "log.snakemake", fs::current_path(), tick);
     if (!status) {
         throw Error(

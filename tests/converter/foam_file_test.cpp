@@ -186,6 +186,20 @@ TEST_F(FoamFile, BinaryThatIsCutShortIsRefused) {
                 HasSubstr("the file ends 16 bytes too early"));
 }
 
+TEST_F(FoamFile, IsRefusedWhereverItIsCutShort) {
+    const std::string ascii = header("volScalarField") +
+                              "dimensions [0 2 -2 0 0 0 0];\ninternalField nonuniform List<scalar> 2(0.5 4);";
+    const std::string binary = header("volScalarField", "binary", "    arch \"LSB;label=32;scalar=64\";\n") +
+                               "internalField nonuniform List<scalar> 2(" + raw<double>({4.0, 5.0}) + ");";
+    for (const std::string& whole : {ascii, binary}) {
+        EXPECT_EQ(read_scalar_field(folder_.file("k", whole)).values.size(), 2U);
+        for (std::size_t length = 0; length < whole.size(); ++length) {
+            const std::filesystem::path file = folder_.file("k", whole.substr(0, length));
+            EXPECT_THROW(read_scalar_field(file), Error) << "after " << length << " bytes";
+        }
+    }
+}
+
 TEST_F(FoamFile, ZonesAreFoundByName) {
     const auto file =
         folder_.file("cellZones", header("regIOobject") +

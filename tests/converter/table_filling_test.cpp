@@ -141,7 +141,7 @@ TEST(FilledMap, OfABodyOfRevolutionIsExactAtTheAxisAndBroadside) {
         const FilledMap map = fill_map(symmetry, n, solve(symmetry, n, law));
         for (const auto& [row, column] : {std::pair{3, 6}, {3, 0}, {3, 3}, {6, 3}, {0, 3}, {0, 0}}) {
             const LoadEntry exact = law(octahedral_node(n, row, column));
-            const auto node = static_cast<std::size_t>(row * (2 * n + 1) + column);
+            const auto node = static_cast<std::size_t>(row) * (2 * n + 1) + static_cast<std::size_t>(column);
             EXPECT_LT(test::difference(map.entries[node], exact), 1e-14);
         }
     }

@@ -28,7 +28,7 @@ class TemporaryFolder {
 
     /// Writes a file in the folder, with the folders on its way, and returns its path.
     [[nodiscard]] std::filesystem::path file(const std::filesystem::path& name, std::string_view text) const {
-        const std::filesystem::path path = path_ / name;
+        std::filesystem::path path = path_ / name;
         std::filesystem::create_directories(path.parent_path());
         std::ofstream(path, std::ios::binary) << text;
         return path;
