@@ -20,7 +20,7 @@ namespace {
 // A closed surface's solid angles sum up to 4e-15; a missing or flipped triangle shows as 1e-2 and more.
 constexpr double most_closure_fault = 1e-6;
 // Below this share of its scale a block is within what two surfaces of one body differ by.
-constexpr double zero_block = 1e-2;
+constexpr double zero_block = 1e-3;
 // An estimate above this says only that the coarse surface is too coarse, for the body's thickness say.
 constexpr double most_useful_estimate = 0.5;
 // An edge that turns by more than this is held to be one of the body. The potential there goes as the
