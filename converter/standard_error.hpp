@@ -4,6 +4,7 @@
 
 namespace samara {
 
+/// The arithmetic mean; 0 for an empty series.
 double mean(const std::vector<double>& series);
 
 /// The standard error of the mean of a correlated series, by batch means: the series is cut into about
