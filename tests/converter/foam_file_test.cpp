@@ -40,7 +40,7 @@ class FoamFile : public testing::Test {
     }
     std::string fault_in(const std::string& body) {
         const std::filesystem::path file = scalar(body);
-        const std::string message = test::message_of<Error>([&] { read_scalar_field(file); });
+        std::string message = test::message_of<Error>([&] { read_scalar_field(file); });
         EXPECT_EQ(message.find(file.string() + ":"), 0U) << message;
         EXPECT_EQ(message.find('\n'), std::string::npos);
         return message;
