@@ -7,6 +7,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
+#if defined(__SANITIZE_ADDRESS__)
+#include <sanitizer/lsan_interface.h>
+#endif
 
 #include "samara/base/content_hash.hpp"
 #include "samara/files/hdf5_file.hpp"
@@ -132,7 +135,16 @@ TEST(BodyFile, ForeignHdf5IsRefused) {
     EXPECT_THAT(fault_of(folder / "a.body.h5"), HasSubstr("not a body file"));
 }
 
+/// While it lives, leaks are not counted: HDF5 1.10 loses memory of its own when it meets damaged metadata,
+/// as a plain C program that opens, reads and closes such files shows.
+struct LeaksOfDamagedFiles {
+#if defined(__SANITIZE_ADDRESS__)
+    __lsan::ScopedDisabler disabler;
+#endif
+};
+
 TEST(BodyFile, FlippedByteNeverGivesAnotherBodyInSilence) {
+    [[maybe_unused]] const LeaksOfDamagedFiles leaks;
     const test::TemporaryFolder folder;
     const Body body = test::full_body();
     const std::filesystem::path file = folder / "a.body.h5";
