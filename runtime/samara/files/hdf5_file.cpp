@@ -21,7 +21,20 @@ H5::FileAccPropList latest_format() {
 }
 
 H5::H5File create(const std::filesystem::path& file) {
-    return {file.string(), H5F_ACC_TRUNC, H5::FileCreatPropList::DEFAULT, latest_format()};
+    H5::FileCreatPropList creation;
+    H5Pset_obj_track_times(creation.getId(), 0);  // of the root group
+    return {file.string(), H5F_ACC_TRUNC, creation, latest_format()};
+}
+
+/// Groups note the time they were made, too, unless told not to; the C++ interface cannot tell them.
+H5::Group create_group(const H5::Group& parent, const std::string& name) {
+    const H5::PropList creation(H5P_GROUP_CREATE);
+    H5Pset_obj_track_times(creation.getId(), 0);
+    const hid_t made = H5Gcreate2(parent.getId(), name.c_str(), H5P_DEFAULT, creation.getId(), H5P_DEFAULT);
+    if (made < 0) throw H5::GroupIException("create_group", name);
+    H5::Group group(made);
+    H5Idec_ref(made);  // Group counts itself
+    return group;
 }
 
 H5::H5File open_for_reading(const std::filesystem::path& file) {
@@ -57,7 +70,7 @@ H5::Group Hdf5Writer::group(const std::string& name) {
     for (std::size_t begin = 1; begin < name.size();) {
         const std::size_t end = std::min(name.find('/', begin), name.size());
         const std::string child = name.substr(begin, end - begin);
-        current = current.nameExists(child) ? current.openGroup(child) : current.createGroup(child);
+        current = current.nameExists(child) ? current.openGroup(child) : create_group(current, child);
         begin = end + 1;
     }
     return current;
