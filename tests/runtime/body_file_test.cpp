@@ -1,6 +1,7 @@
 #include "samara/body/body_file.hpp"
 
-#include <fstream>
+#include <cmath>
+#include <cstdlib>
 #include <random>
 #include <string>
 
@@ -132,8 +133,9 @@ TEST(BodyFile, ForeignHdf5IsRefused) {
     EXPECT_THAT(fault_of(folder / "a.body.h5"), HasSubstr("not a body file"));
 }
 
-TEST(BodyFile, FlippedByteNeverGivesAnotherBodyInSilence) {
-    const test::TemporaryFolder folder;
+/// Reads 400 copies of a body file with one bit flipped in each. Returns whether every one was refused by
+/// name or gave the same body (what is not read may be flipped), and most were refused.
+bool every_flip_is_seen(const test::TemporaryFolder& folder) {
     const Body body = test::full_body();
     const std::filesystem::path file = folder / "a.body.h5";
     write_body_file(file, body);
@@ -147,13 +149,21 @@ TEST(BodyFile, FlippedByteNeverGivesAnotherBodyInSilence) {
         flipped[place] = static_cast<char>(flipped[place] ^ static_cast<char>(1U << (generator() % 8)));
         replace_file_with(file, flipped);
         try {
-            expect_equal(read_body_file(file), body);  // what is not read may be flipped
+            expect_equal(read_body_file(file), body);
         } catch (const Error& fault) {
             EXPECT_THAT(fault.what(), HasSubstr("a.body.h5"));
             ++refused;
         }
     }
     EXPECT_GT(refused, trials / 2);
+    return !testing::Test::HasFailure();
+}
+
+TEST(BodyFile, FlippedBitNeverGivesAnotherBodyInSilence) {
+    // In a process of its own: HDF5 1.10 loses memory when it meets damaged metadata, as a plain C program
+    // that opens and closes such files shows.
+    const test::TemporaryFolder folder;
+    EXPECT_EXIT(std::_Exit(every_flip_is_seen(folder) ? 0 : 1), testing::ExitedWithCode(0), "");
 }
 
 TEST(BodyFile, NewerFormatAsksForAnUpdate) {
