@@ -12,7 +12,7 @@ namespace samara {
 namespace {
 
 constexpr std::size_t most_points = 4000;
-constexpr double loosest_tolerance = 0.03;
+constexpr double loosest_tolerance = 0.05;
 constexpr int subdivisions_of_curved_triangles = 4;
 
 // How far flat triangles may lie within the curved surface that they stand for (m): the arc over a triangle's

@@ -12,7 +12,7 @@ namespace samara {
 /// triangles, at most a few thousand.
 class ImageTest {
   public:
-    /// `tolerance`: over the body's size, its greatest distance from the centre; raised, up to 0.03, where
+    /// `tolerance`: over the body's size, its greatest distance from the centre; raised, up to 0.05, where
     /// the triangles are so coarse that flat ones leave a curved surface further than that.
     ImageTest(const Surface& surface, const Vector3d& centre, double tolerance);
 

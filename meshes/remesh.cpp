@@ -66,14 +66,17 @@ std::vector<int> outer_surfaces(const std::string& label) {
     return tags;
 }
 
-// A mesh of the current model, welded and turned outwards.
+Surface oriented(const Surface& surface, const std::string& label) {
+    Surface result = welded(surface, label);
+    orient_outwards(result);
+    return result;
+}
+
+// A mesh of the geometry, welded and turned outwards.
 Surface generate(const std::string& label, const std::vector<int>& tags, int order) {
     gmsh::model::mesh::clear();
     gmsh::model::mesh::generate(2);
-    if (order == 2) gmsh::model::mesh::setOrder(2);
-    Surface surface = welded(surface_of_model(label, tags), label);
-    orient_outwards(surface);
-    return surface;
+    return oriented(order == 2 ? curved_surface_of_model(label, tags) : surface_of_model(label, tags), label);
 }
 
 // What the sizes are measured on: fine enough to see curvature, coarse enough to be quick.
@@ -106,7 +109,8 @@ double count_error(const Surface& surface, double wanted) {
 
 // The size for which the mesher makes about `wanted` triangles.
 double size_for_count(const MeshSizeField& field, int wanted, const Mesher& mesher) {
-    double size = std::sqrt(field.triangle_count(1.0) / wanted);
+    // gmsh makes about a sixth more triangles than equilateral ones would be.
+    double size = std::sqrt(1.17 * field.triangle_count(1.0) / wanted);
     double best_size = size;
     double best_error = std::numeric_limits<double>::infinity();
     for (int attempt = 0; attempt < most_attempts && best_error > good_count; ++attempt) {
@@ -151,11 +155,24 @@ void add_discrete_surface(const Surface& surface) {
     gmsh::model::mesh::addElementsByType(1, triangle_type, {}, corners);
 }
 
+// The surface with edge nodes on the triangles that it was made of.
+Surface with_nodes_on(const Surface& original, const Surface& surface) {
+    const TriangleTree tree(original.vertices, original.corners);
+    Surface result = with_straight_edge_nodes(surface);
+    for (const auto& nodes : result.edge_nodes) {
+        for (const std::int32_t node : nodes) {
+            Vector3d& vertex = result.vertices[static_cast<std::size_t>(node)];
+            vertex = tree.nearest(vertex).point;
+        }
+    }
+    return result;
+}
+
 void require_same_volume(const Surface& before, const Surface& after, const std::string& label) {
     const VolumeMoments old_moments = volume_moments(before);
     const VolumeMoments new_moments = volume_moments(after);
     // Coarse chords lose some of a curved body; more than this is a part that went missing.
-    constexpr double most_lost = 0.1;
+    constexpr double most_lost = 0.2;
     if (std::abs(new_moments.volume - old_moments.volume) > most_lost * old_moments.volume) {
         throw Error(fmt::format(
             "{}: remeshing changed the volume from {:.4g} to {:.4g}; use more triangles, or --keep", label,
@@ -202,16 +219,22 @@ Surface remesh(const Surface& surface, const MeshOptions& options, const std::st
                                             std::numbers::pi);
         gmsh::model::mesh::createGeometry();
         forget_sizes_of_file();
-        const auto mesher = [&](int order) { return generate(label, {}, order); };
+        const auto mesher = [&](int) {
+            gmsh::model::mesh::generate(2);
+            return oriented(surface_of_model(label), label);
+        };
         result = mesh_model(flat, options, options.size, mesher);
     });
     try {
         require_sound_surface(result, label);
     } catch (const Error& fault) {
-        throw Error(fmt::format("{}; that is after remeshing: use more triangles, or --keep", fault.what()));
+        // The remedies for a file's own faults do not help here.
+        const std::string fault_text = fault.what();
+        throw Error(fmt::format("{} after remeshing; use more triangles, or --keep",
+                                fault_text.substr(0, fault_text.rfind("; "))));
     }
     require_same_volume(flat, result, label);
-    return result;
+    return options.order == 2 ? with_nodes_on(flat, result) : result;
 }
 
 }  // namespace samara

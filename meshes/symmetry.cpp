@@ -199,7 +199,8 @@ Symmetry finite_symmetry(const ImageTest& test, const PrincipalDirections& princ
     for (const Matrix3d& element : signed_permutations()) group.add(element);
     group.add(-Matrix3d::Identity());
     if (principal.free_axis == 3) {
-        add_polyhedral_operations(group, directions);
+        // The cube's group is a part of no larger finite one.
+        if (group.elements().size() < 48) add_polyhedral_operations(group, directions);
     } else {
         for (int i = 0; i < 3; ++i) {
             const Vector3d direction = principal.directions.col(i);
