@@ -4,4 +4,16 @@ namespace samara {
 
 // Each is one command of the program samara: argv[0] is the command's name. Returns the exit status.
 
+/// samara kirchhoff: the added mass of a body or shape.
+int kirchhoff_command(int argc, const char* const* argv);
+
+/// samara simulate: a scene's motion.
+int simulate_command(int argc, const char* const* argv);
+
+/// samara export: a motion for other tools.
+int export_command(int argc, const char* const* argv);
+
+/// samara info: what a file holds.
+int info_command(int argc, const char* const* argv);
+
 }  // namespace samara

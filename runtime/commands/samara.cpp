@@ -22,8 +22,13 @@ struct Command {
 
 constexpr Command commands[] = {
     {"mesh", "shape file -> checked surface, volume moments, symmetry", nullptr},
+    {"kirchhoff", "body or shape -> added mass (Kirchhoff tensor) in an unbounded fluid",
+     samara::kirchhoff_command},
     {"bake", "OpenFOAM cases around a body -> load and turbulence tables", nullptr},
     {"convert", "solved cases -> tables in the body file", nullptr},
+    {"simulate", "scene -> motion of its bodies", samara::simulate_command},
+    {"export", "motion -> .glb for animation tools, .csv", samara::export_command},
+    {"info", "what a file holds, its units and its provenance", samara::info_command},
 };
 
 void print_help() {

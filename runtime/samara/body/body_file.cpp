@@ -7,6 +7,7 @@
 #include "samara/base/content_hash.hpp"
 #include "samara/base/error.hpp"
 #include "samara/base/version.hpp"
+#include "samara/body/surface_file.hpp"
 #include "samara/files/hdf5_file.hpp"
 
 namespace samara {
@@ -15,50 +16,8 @@ namespace {
 constexpr std::int64_t format_version = 1;
 constexpr const char* suffix = ".body.h5";
 
-std::vector<std::int32_t> flattened_indices(const std::vector<std::array<std::int32_t, 3>>& triples) {
-    std::vector<std::int32_t> values;
-    for (const auto& triple : triples) values.insert(values.end(), triple.begin(), triple.end());
-    return values;
-}
-
-std::vector<Vector3d> as_vectors(const std::vector<double>& values) {
-    std::vector<Vector3d> vectors(values.size() / 3);
-    for (std::size_t i = 0; i < vectors.size(); ++i) vectors[i] = Vector3d(values.data() + 3 * i);
-    return vectors;
-}
-
 Vector3d as_vector(const std::vector<double>& values) {
     return from_row_major<Vector3d>(values);
-}
-
-void require_finite(const Hdf5Reader& file, const std::string& name, const std::vector<double>& values) {
-    for (const double value : values) {
-        if (!std::isfinite(value)) {
-            throw Error(fmt::format("{}: {} holds a value that is not finite; make the file again",
-                                    file.path().string(), name));
-        }
-    }
-}
-
-std::vector<double> finite_doubles(const Hdf5Reader& file, const std::string& name,
-                                   const std::vector<hsize_t>& dimensions) {
-    std::vector<double> values = file.doubles(name, dimensions);
-    require_finite(file, name, values);
-    return values;
-}
-
-std::vector<std::array<std::int32_t, 3>> read_triples(const Hdf5Reader& file, const std::string& name,
-                                                      std::size_t vertex_count) {
-    const std::vector<std::int32_t> values = file.integers(name, {0, 3});
-    std::vector<std::array<std::int32_t, 3>> triples(values.size() / 3);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        if (values[i] < 0 || static_cast<std::size_t>(values[i]) >= vertex_count) {
-            throw Error(fmt::format("{}: {} row {} points at vertex {} of {}; make the file again",
-                                    file.path().string(), name, i / 3, values[i], vertex_count));
-        }
-        triples[i / 3][i % 3] = values[i];
-    }
-    return triples;
 }
 
 Symmetry::Kind symmetry_kind(const Hdf5Reader& file) {
@@ -100,14 +59,14 @@ void write_symmetry(Hdf5Writer& file, const Symmetry& symmetry) {
 Symmetry read_symmetry(const Hdf5Reader& file) {
     Symmetry symmetry;
     symmetry.kind = symmetry_kind(file);
-    const std::vector<double> values = finite_doubles(file, "/symmetry/elements", {0, 3, 3});
+    const std::vector<double> values = file.finite_doubles("/symmetry/elements", {0, 3, 3});
     symmetry.elements.clear();
     for (std::size_t i = 0; i < values.size(); i += 9) {
         symmetry.elements.push_back(
             Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(&values[i]));
     }
-    symmetry.axis = as_vector(finite_doubles(file, "/symmetry/axis", {3}));
-    symmetry.axes = from_row_major<Matrix3d>(finite_doubles(file, "/symmetry/axes", {3, 3}));
+    symmetry.axis = as_vector(file.finite_doubles("/symmetry/axis", {3}));
+    symmetry.axes = from_row_major<Matrix3d>(file.finite_doubles("/symmetry/axes", {3, 3}));
     symmetry.tolerance = file.number_attribute("/symmetry", "tolerance");
     return symmetry;
 }
@@ -123,7 +82,7 @@ void write_kirchhoff(Hdf5Writer& file, const KirchhoffTensor& kirchhoff) {
 
 KirchhoffTensor read_kirchhoff(const Hdf5Reader& file) {
     KirchhoffTensor kirchhoff;
-    kirchhoff.matrix = from_row_major<Matrix6d>(finite_doubles(file, "/kirchhoff/added_mass", {6, 6}));
+    kirchhoff.matrix = from_row_major<Matrix6d>(file.finite_doubles("/kirchhoff/added_mass", {6, 6}));
     kirchhoff.error_estimate = file.number_attribute("/kirchhoff", "error_estimate");
     kirchhoff.asymmetry = file.number_attribute("/kirchhoff", "asymmetry");
     kirchhoff.triangles = static_cast<int>(file.integer_attribute("/kirchhoff", "triangles"));
@@ -181,7 +140,7 @@ std::vector<LoadEntry> read_entries(const Hdf5Reader& file, const LoadTables& ta
         std::vector<hsize_t> dimensions = {tables.reynolds_numbers.size(), size, size};
         if (components > 1) dimensions.push_back(static_cast<hsize_t>(components));
         const std::vector<double> values =
-            finite_doubles(file, fmt::format("/tables/{}{}", name, name_end), dimensions);
+            file.finite_doubles(fmt::format("/tables/{}{}", name, name_end), dimensions);
         std::size_t next = 0;
         for (LoadEntry& entry : entries) {
             for (int i = 0; i < components; ++i) component(entry, column, i) = values[next++];
@@ -208,8 +167,8 @@ LoadTables read_tables(const Hdf5Reader& file) {
     tables.reference_length = file.number_attribute("/tables", "reference_length");
     tables.subdivisions = static_cast<int>(file.integer_attribute("/tables", "subdivisions"));
     tables.quality = file.text_attribute("/tables", "quality");
-    tables.axes = from_row_major<Matrix3d>(finite_doubles(file, "/tables/axes", {3, 3}));
-    tables.reynolds_numbers = finite_doubles(file, "/tables/reynolds_number", {0});
+    tables.axes = from_row_major<Matrix3d>(file.finite_doubles("/tables/axes", {3, 3}));
+    tables.reynolds_numbers = file.finite_doubles("/tables/reynolds_number", {0});
     const auto fault = [&](const char* what) {
         return Error(fmt::format("{}: /tables {}; bake the body again", file.path().string(), what));
     };
@@ -245,20 +204,12 @@ Body read_body_file(const std::filesystem::path& path) {
     Body body;
     body.name = file.text_attribute("/", "name");
     body.source = file.text_attribute("/surface", "source");
-    body.surface.vertices = as_vectors(finite_doubles(file, "/surface/vertices", {0, 3}));
-    body.surface.corners = read_triples(file, "/surface/corners", body.surface.vertices.size());
-    if (file.has("/surface/edge_nodes")) {
-        body.surface.edge_nodes = read_triples(file, "/surface/edge_nodes", body.surface.vertices.size());
-        if (body.surface.edge_nodes.size() != body.surface.corners.size()) {
-            throw Error(fmt::format(
-                "{}: /surface/edge_nodes and corners differ in length; make the file again", path.string()));
-        }
-    }
+    body.surface = read_surface(file, "/surface");
     body.moments.volume = file.number_attribute("/moments", "volume");
     body.moments.surface_area = file.number_attribute("/moments", "surface_area");
-    body.moments.centroid = as_vector(finite_doubles(file, "/moments/centroid", {3}));
+    body.moments.centroid = as_vector(file.finite_doubles("/moments/centroid", {3}));
     body.moments.second_moments =
-        from_row_major<Matrix3d>(finite_doubles(file, "/moments/second_moments", {3, 3}));
+        from_row_major<Matrix3d>(file.finite_doubles("/moments/second_moments", {3, 3}));
     if (!(body.moments.volume > 0.0) || !std::isfinite(body.moments.volume)) {
         throw Error(fmt::format("{}: the volume is not positive; make the file again", path.string()));
     }
@@ -273,16 +224,7 @@ void write_body_file(const std::filesystem::path& path, const Body& body) {
         file.attribute("/", "format_version", format_version);
         file.attribute("/", "samara_version", std::string_view(version));
         file.attribute("/", "name", std::string_view(body.name));
-        const Surface& surface = body.surface;
-        file.write("/surface/vertices", flattened(surface.vertices), {surface.vertices.size(), 3}, "m",
-                   "shape axes");
-        file.write("/surface/corners", flattened_indices(surface.corners), {surface.corners.size(), 3}, "1",
-                   "triangles: three rows of vertices, counter-clockwise from outside");
-        if (surface.order() == 2) {
-            file.write("/surface/edge_nodes", flattened_indices(surface.edge_nodes),
-                       {surface.edge_nodes.size(), 3}, "1",
-                       "middle nodes of the edges 0-1, 1-2, 2-0 of each triangle");
-        }
+        write_surface(file, "/surface", body.surface);
         file.attribute("/surface", "source", std::string_view(body.source));
         file.attribute("/moments", "volume", body.moments.volume);
         file.attribute("/moments", "surface_area", body.moments.surface_area);

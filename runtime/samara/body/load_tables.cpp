@@ -15,19 +15,13 @@ void add_weighted(LoadEntry& sum, const LoadEntry& entry, double weight) noexcep
     sum.dissipation_rate += weight * entry.dissipation_rate;
 }
 
-/// The cell that holds a coordinate counted in node spacings, and the place within it from 0 to 1.
-struct Cell {
+struct ReynoldsCell {
     int index;
     double fraction;
 };
 
-Cell cell_of(double coordinate, int cells) noexcept {
-    const int index = std::clamp(static_cast<int>(coordinate), 0, cells - 1);
-    return {index, std::clamp(coordinate - index, 0.0, 1.0)};
-}
-
 /// The place of a Reynolds number between the table's, in log Re, held at both ends.
-Cell reynolds_cell(const std::vector<double>& reynolds_numbers, double reynolds_number) noexcept {
+ReynoldsCell reynolds_cell(const std::vector<double>& reynolds_numbers, double reynolds_number) noexcept {
     const auto count = static_cast<int>(reynolds_numbers.size());
     if (count == 1 || !(reynolds_number > reynolds_numbers.front())) return {0, 0.0};
     if (reynolds_number >= reynolds_numbers.back()) return {count - 2, 1.0};
@@ -40,25 +34,21 @@ Cell reynolds_cell(const std::vector<double>& reynolds_numbers, double reynolds_
 }  // namespace
 
 LoadEntry look_up(const LoadTables& tables, const Vector3d& direction, double reynolds_number) noexcept {
-    const Eigen::Vector2d place = octahedral_coordinates(tables.axes.transpose() * direction);
-    const int cells = 2 * tables.subdivisions;
-    const Cell column = cell_of((place.x() + 1.0) * tables.subdivisions, cells);
-    const Cell row = cell_of((place.y() + 1.0) * tables.subdivisions, cells);
-    const Cell reynolds = reynolds_cell(tables.reynolds_numbers, reynolds_number);
+    const OctahedralCell cell = octahedral_cell(tables.subdivisions, tables.axes.transpose() * direction);
+    const ReynoldsCell reynolds = reynolds_cell(tables.reynolds_numbers, reynolds_number);
 
     LoadEntry result;
     for (int corner = 0; corner < 8; ++corner) {
         const int up = corner & 1;
         const int right = (corner >> 1) & 1;
         const int later = (corner >> 2) & 1;
-        const double weight = (up != 0 ? row.fraction : 1.0 - row.fraction) *
-                              (right != 0 ? column.fraction : 1.0 - column.fraction) *
+        const double weight = (up != 0 ? cell.row_fraction : 1.0 - cell.row_fraction) *
+                              (right != 0 ? cell.column_fraction : 1.0 - cell.column_fraction) *
                               (later != 0 ? reynolds.fraction : 1.0 - reynolds.fraction);
         if (weight == 0.0) continue;  // also keeps a table with one Reynolds number inside its bounds
-        add_weighted(
-            result,
-            tables.entries[tables.index(reynolds.index + later, row.index + up, column.index + right)],
-            weight);
+        add_weighted(result,
+                     tables.entries[tables.index(reynolds.index + later, cell.row + up, cell.column + right)],
+                     weight);
     }
     return result;
 }

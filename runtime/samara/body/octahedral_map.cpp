@@ -1,5 +1,6 @@
 #include "samara/body/octahedral_map.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace samara {
@@ -40,6 +41,15 @@ Vector3d octahedral_node(int subdivisions, int row, int column) noexcept {
         y = folded_y;
     }
     return Vector3d(x, y, z).normalized();
+}
+
+OctahedralCell octahedral_cell(int subdivisions, const Vector3d& direction) noexcept {
+    const Eigen::Vector2d place =
+        (octahedral_coordinates(direction).array() + 1.0).matrix() * static_cast<double>(subdivisions);
+    const int last = 2 * subdivisions - 1;
+    const int column = std::clamp(static_cast<int>(place.x()), 0, last);
+    const int row = std::clamp(static_cast<int>(place.y()), 0, last);
+    return {row, column, std::clamp(place.y() - row, 0.0, 1.0), std::clamp(place.x() - column, 0.0, 1.0)};
 }
 
 }  // namespace samara

@@ -20,4 +20,14 @@ Vector3d octahedral_direction(const Eigen::Vector2d& coordinates) noexcept;
 /// direction, exactly.
 Vector3d octahedral_node(int subdivisions, int row, int column) noexcept;
 
+/// The cell of the map that holds a direction: the node of its least row and column, and the place in it from
+/// 0 to 1.
+struct OctahedralCell {
+    int row;
+    int column;
+    double row_fraction;
+    double column_fraction;
+};
+OctahedralCell octahedral_cell(int subdivisions, const Vector3d& direction) noexcept;
+
 }  // namespace samara

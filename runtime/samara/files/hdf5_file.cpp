@@ -1,6 +1,7 @@
 #include "samara/files/hdf5_file.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -73,9 +74,11 @@ H5::DataSet Hdf5Writer::dataset(const std::string& name, const H5::DataType& typ
     const bool empty = std::find(dimensions.begin(), dimensions.end(), 0U) != dimensions.end();
     if (!empty) {
         std::vector<hsize_t> chunk = dimensions;
-        hsize_t inner = 1;
-        for (std::size_t i = 1; i < chunk.size(); ++i) inner *= chunk[i];
-        chunk.front() = std::clamp<hsize_t>(largest_chunk / inner, 1, dimensions.front());
+        hsize_t left = largest_chunk;
+        for (std::size_t i = chunk.size(); i-- > 0;) {
+            chunk[i] = std::clamp<hsize_t>(left, 1, dimensions[i]);
+            left /= chunk[i];
+        }
         creation.setChunk(static_cast<int>(chunk.size()), chunk.data());
         creation.setFletcher32();
     }
@@ -122,12 +125,22 @@ void Hdf5Writer::attribute(const std::string& object, const std::string& name, s
         .write(H5::PredType::NATIVE_INT64, &value);
 }
 
+void Hdf5Writer::attribute(const std::string& object, const std::string& name, std::uint64_t value) {
+    group(object)
+        .createAttribute(name, H5::PredType::STD_U64LE, H5::DataSpace(H5S_SCALAR))
+        .write(H5::PredType::NATIVE_UINT64, &value);
+}
+
 Hdf5Reader::Hdf5Reader(const std::filesystem::path& file) : path_(file), file_(open_for_reading(file)) {}
 
 bool Hdf5Reader::has(const std::string& name) const {
-    for (std::size_t end = name.find('/', 1);; end = name.find('/', end + 1)) {
-        if (!file_.nameExists(name.substr(0, end))) return false;
-        if (end == std::string::npos) return true;
+    try {
+        for (std::size_t end = name.find('/', 1);; end = name.find('/', end + 1)) {
+            if (!file_.nameExists(name.substr(0, end))) return false;
+            if (end == std::string::npos) return true;
+        }
+    } catch (const H5::Exception&) {
+        throw Error(fmt::format("{}: is damaged at {}; make the file again", path_.string(), name));
     }
 }
 
@@ -176,6 +189,16 @@ std::vector<Value> read_all(const H5::DataSet& dataset, const H5::PredType& type
 std::vector<double> Hdf5Reader::doubles(const std::string& name,
                                         const std::vector<hsize_t>& dimensions) const {
     return read_all<double>(open(name, dimensions), H5::PredType::NATIVE_DOUBLE, H5T_FLOAT, path_, name);
+}
+
+std::vector<double> Hdf5Reader::finite_doubles(const std::string& name,
+                                               const std::vector<hsize_t>& dimensions) const {
+    std::vector<double> values = doubles(name, dimensions);
+    if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); })) {
+        throw Error(fmt::format("{}: {} holds a value that is not finite; make the file again",
+                                path_.string(), name));
+    }
+    return values;
 }
 
 std::vector<std::int32_t> Hdf5Reader::integers(const std::string& name,
@@ -247,16 +270,33 @@ double Hdf5Reader::number_attribute(const std::string& object, const std::string
     }
 }
 
-std::int64_t Hdf5Reader::integer_attribute(const std::string& object, const std::string& name) const {
-    const H5::Attribute attribute = open_attribute(object, name);
+namespace {
+
+template <typename Integer>
+Integer read_integer(const H5::Attribute& attribute, const H5::PredType& type,
+                     const std::filesystem::path& path, const std::string& object, const std::string& name) {
     try {
-        std::int64_t value = 0;
-        attribute.read(H5::PredType::NATIVE_INT64, &value);
-        return value;
-    } catch (const H5::Exception&) {
-        throw Error(fmt::format("{}: the attribute {} of {} is no integer; make the file again",
-                                path_.string(), name, object));
+        if (attribute.getTypeClass() == H5T_INTEGER) {
+            Integer value = 0;
+            attribute.read(type, &value);
+            return value;
+        }
+    } catch (const H5::Exception&) {  // the same fault for the user
     }
+    throw Error(fmt::format("{}: the attribute {} of {} is no integer; make the file again", path.string(),
+                            name, object));
+}
+
+}  // namespace
+
+std::int64_t Hdf5Reader::integer_attribute(const std::string& object, const std::string& name) const {
+    return read_integer<std::int64_t>(open_attribute(object, name), H5::PredType::NATIVE_INT64, path_, object,
+                                      name);
+}
+
+std::uint64_t Hdf5Reader::unsigned_attribute(const std::string& object, const std::string& name) const {
+    return read_integer<std::uint64_t>(open_attribute(object, name), H5::PredType::NATIVE_UINT64, path_,
+                                       object, name);
 }
 
 void write_hdf5(const std::filesystem::path& file, const std::function<void(Hdf5Writer&)>& fill) {
@@ -277,6 +317,12 @@ std::vector<double> flattened(const std::vector<Vector3d>& vectors) {
     values.reserve(3 * vectors.size());
     for (const Vector3d& vector : vectors) values.insert(values.end(), vector.data(), vector.data() + 3);
     return values;
+}
+
+std::vector<Vector3d> unflattened(const std::vector<double>& values) {
+    std::vector<Vector3d> vectors(values.size() / 3);
+    for (std::size_t i = 0; i < vectors.size(); ++i) vectors[i] = Vector3d(values.data() + 3 * i);
+    return vectors;
 }
 
 }  // namespace samara

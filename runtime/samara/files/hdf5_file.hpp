@@ -32,6 +32,7 @@ class Hdf5Writer {
     void attribute(const std::string& object, const std::string& name, std::string_view text);
     void attribute(const std::string& object, const std::string& name, double value);
     void attribute(const std::string& object, const std::string& name, std::int64_t value);
+    void attribute(const std::string& object, const std::string& name, std::uint64_t value);
 
   private:
     H5::Group group(const std::string& name);
@@ -52,6 +53,9 @@ class Hdf5Reader {
     /// The dataset's values, row-major. `dimensions`: what its shape must be; 0 stands for any length.
     [[nodiscard]] std::vector<double> doubles(const std::string& name,
                                               const std::vector<hsize_t>& dimensions) const;
+    /// doubles(), where a value that is not finite is an Error.
+    [[nodiscard]] std::vector<double> finite_doubles(const std::string& name,
+                                                     const std::vector<hsize_t>& dimensions) const;
     [[nodiscard]] std::vector<std::int32_t> integers(const std::string& name,
                                                      const std::vector<hsize_t>& dimensions) const;
     [[nodiscard]] std::string text(const std::string& name) const;
@@ -62,6 +66,7 @@ class Hdf5Reader {
     [[nodiscard]] std::string text_attribute(const std::string& object, const std::string& name) const;
     [[nodiscard]] double number_attribute(const std::string& object, const std::string& name) const;
     [[nodiscard]] std::int64_t integer_attribute(const std::string& object, const std::string& name) const;
+    [[nodiscard]] std::uint64_t unsigned_attribute(const std::string& object, const std::string& name) const;
 
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
@@ -101,5 +106,8 @@ Matrix from_row_major(const std::vector<double>& values) {
 
 /// The vectors one after another: the values of a dataset of shape (n, 3).
 std::vector<double> flattened(const std::vector<Vector3d>& vectors);
+
+/// The inverse of flattened.
+std::vector<Vector3d> unflattened(const std::vector<double>& values);
 
 }  // namespace samara

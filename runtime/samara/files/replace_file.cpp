@@ -29,11 +29,12 @@ void sync_to_disk(const std::filesystem::path& path, const std::filesystem::path
 void replace_file(const std::filesystem::path& target,
                   const std::function<void(const std::filesystem::path&)>& write) {
     const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
-    if (!std::filesystem::is_directory(folder)) {
+    std::error_code unknown;  // what cannot be looked at fails to be written, with its reason
+    if (!std::filesystem::exists(folder, unknown) && !unknown) {
         throw Error(fmt::format("{}: the folder {} does not exist; create it first", target.string(),
                                 folder.string()));
     }
-    if (std::filesystem::is_directory(target)) {
+    if (std::filesystem::is_directory(target, unknown)) {
         throw Error(fmt::format("{}: is a folder; give the name of a file", target.string()));
     }
     const std::filesystem::path temporary =

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+#include "converter/case_reduction.hpp"
+#include "samara/body/body.hpp"
+
+namespace samara {
+
+/// What comes of a folder of solved cases.
+struct Conversion {
+    Body body;                      ///< body.body.h5 of the folder with its tables filled
+    std::vector<SolvedCase> cases;  ///< in the plan's order, case axes, as they stand in the tables: without
+                                    ///< what the symmetry forbids, errors widened by it
+};
+
+/// Reads a folder of cases that `samara bake` made and solved (docs/file-formats), reduces every case and
+/// fills the tables over all directions by the body's symmetry. The tables' errors hold the tail of the
+/// iterations and what the symmetry forbids; of the errors of mesh, closure and interpolation they know
+/// nothing. `progress` is told how many cases of how many are done. Throws Error where the folder is no such
+/// folder, is of another body than its body file, misses a direction, or has a case that is not solved (the
+/// message names the first) or diverged.
+Conversion convert_folder(const std::filesystem::path& folder,
+                          const std::function<void(std::size_t done, std::size_t total)>& progress = {});
+
+/// The body of convert_folder.
+Body convert_cases(const std::filesystem::path& folder);
+
+}  // namespace samara

@@ -1,0 +1,147 @@
+#include <cmath>
+#include <filesystem>
+#include <string>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "converter/convert.hpp"
+#include "samara/base/error.hpp"
+#include "samara/body/body_file.hpp"
+#include "samara/command/arguments.hpp"
+#include "samara/command/progress.hpp"
+
+namespace samara {
+namespace {
+
+/// What people look at first in one solved case. Coefficients on A = pi L^2 / 4, the moment's also on L.
+struct Summary {
+    double drag;
+    double drag_error;
+    double lift;
+    double lift_error;
+    double moment;
+    double moment_error;
+};
+
+/// The standard error of a vector's component along `unit`, its components' errors taken as independent.
+double error_along(const Vector3d& error, const Vector3d& unit) {
+    return error.cwiseProduct(unit).norm();
+}
+
+/// The standard error of a vector's length; at zero length that of its largest component.
+double error_of_length(const Vector3d& error, const Vector3d& value) {
+    return value.norm() > 0.0 ? error_along(error, value.normalized()) : error.maxCoeff();
+}
+
+Summary summary_of(const DirectionSample& sample) {
+    const Vector3d& direction = sample.direction;
+    const double drag = -sample.entry.force.dot(direction);
+    const Vector3d lift = sample.entry.force + drag * direction;
+    return {drag,
+            error_along(sample.error.force, direction),
+            lift.norm(),
+            error_of_length(sample.error.force, lift),
+            sample.entry.moment.norm(),
+            error_of_length(sample.error.moment, sample.entry.moment)};
+}
+
+nlohmann::json as_json(const Vector3d& vector) {
+    return {vector.x(), vector.y(), vector.z()};
+}
+
+nlohmann::json as_json(const SolvedCase& solved) {
+    const auto& [direction, entry, error] = solved.sample;
+    const Summary summary = summary_of(solved.sample);
+    return {{"name", solved.name},
+            {"direction", as_json(direction)},
+            {"reynolds_number", solved.reynolds_number},
+            {"drag_coefficient", summary.drag},
+            {"drag_coefficient_error", summary.drag_error},
+            {"force", as_json(entry.force)},
+            {"force_error", as_json(error.force)},
+            {"moment", as_json(entry.moment)},
+            {"moment_error", as_json(error.moment)},
+            {"turbulent_kinetic_energy", entry.turbulent_kinetic_energy},
+            {"turbulent_kinetic_energy_error", error.turbulent_kinetic_energy},
+            {"dissipation_rate", entry.dissipation_rate},
+            {"dissipation_rate_error", error.dissipation_rate}};
+}
+
+nlohmann::json as_json(const Conversion& conversion, const std::string& output) {
+    const LoadTables& tables = *conversion.body.tables;
+    nlohmann::json axes = nlohmann::json::array();
+    for (int row = 0; row < 3; ++row) axes.push_back(as_json(Vector3d(tables.axes.row(row))));
+    nlohmann::json cases = nlohmann::json::array();
+    for (const SolvedCase& solved : conversion.cases) cases.push_back(as_json(solved));
+    return {{"body", conversion.body.name},
+            {"output", output},
+            {"quality", tables.quality},
+            {"reference_length", tables.reference_length},
+            {"subdivisions", tables.subdivisions},
+            {"axes", axes},
+            {"reynolds_numbers", tables.reynolds_numbers},
+            {"nodes", tables.entries.size()},
+            {"cases", cases}};
+}
+
+/// "0.4231 +- 0.002", with as many digits as the error deserves.
+std::string with_error(double value, double error) {
+    const double smallest = error > 0.0 ? error : 1e-3 * std::abs(value);
+    const int decimals =
+        smallest > 0.0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(smallest))), 0, 9) : 3;
+    return fmt::format("{:.{}f} +- {:.{}f}", value, decimals, error, decimals);
+}
+
+void print_cases(const Conversion& conversion) {
+    const LoadTables& tables = *conversion.body.tables;
+    fmt::print("{}: L = {:.6g} m, quality {}, {} solved cases -> {} table nodes\n\n", conversion.body.name,
+               tables.reference_length, tables.quality, conversion.cases.size(), tables.entries.size());
+    const auto row = [](const auto&... cells) {
+        fmt::print("{:<26} {:>9} {:>20} {:>20} {:>20} {:>24} {:>24}\n", cells...);
+    };
+    row("direction (table axes)", "Re", "drag", "lift", "moment", "k/U^2", "epsilon L/U^3");
+    for (const SolvedCase& solved : conversion.cases) {
+        const auto& [direction, entry, error] = solved.sample;
+        const Summary summary = summary_of(solved.sample);
+        row(fmt::format("({:.4f}, {:.4f}, {:.4f})", direction.x(), direction.y(), direction.z()),
+            fmt::format("{:.5g}", solved.reynolds_number), with_error(summary.drag, summary.drag_error),
+            with_error(summary.lift, summary.lift_error), with_error(summary.moment, summary.moment_error),
+            with_error(entry.turbulent_kinetic_energy, error.turbulent_kinetic_energy),
+            with_error(entry.dissipation_rate, error.dissipation_rate));
+    }
+    fmt::print(
+        "\nErrors are standard errors of the iterations and of the symmetry; not of mesh and closure.\n");
+}
+
+int run(int argc, const char* const* argv) {
+    std::string cases;
+    std::string output;
+    Arguments arguments("samara-convert",
+                        "Turns solved OpenFOAM cases into the load and turbulence tables of a body file");
+    arguments.positional("CASES", cases, "the folder NAME.cases that 'samara bake' made");
+    arguments.required_option("-o,--output", output, "the body file to write, NAME.body.h5");
+    arguments.footer(
+        "Reads plan.json, body.body.h5 and every solved case, and writes the body with /tables: force and\n"
+        "moment coefficients, k/U^2 and epsilon L/U^3 over all directions, each with its standard error.\n"
+        "Example: samara convert rubber.cases -o rubber.body.h5");
+    return run_program(argc, argv, arguments, [&] {
+        if (!is_body_file_name(output)) {
+            throw Error(fmt::format("{}: the output is a body file; name it NAME.body.h5", output));
+        }
+        Progress progress("converting", "cases");
+        const Conversion conversion = convert_folder(cases, [&](std::size_t done, std::size_t total) {
+            progress.update(static_cast<double>(done), static_cast<double>(total));
+        });
+        write_body_file(output, conversion.body);
+        if (!arguments.json()) print_cases(conversion);
+        return as_json(conversion, output);
+    });
+}
+
+}  // namespace
+}  // namespace samara
+
+int main(int argc, char** argv) {
+    return samara::run(argc, argv);
+}

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "samara/body/body.hpp"
+
+namespace samara {
+
+/// The loads found in one direction, all in map axes (the columns of symmetry.axes).
+struct DirectionSample {
+    Vector3d direction;  ///< unit vector: the body's velocity relative to the fluid
+    LoadEntry entry;
+    LoadEntryError error;
+};
+
+/// The entry in axes turned or mirrored by the orthogonal matrix: a force F becomes R F; a moment, which is
+/// an axial vector, det(R) R M.
+LoadEntry transformed(const LoadEntry& entry, const Matrix3d& rotation);
+
+/// The standard errors of `transformed`, the components' errors taken as independent:
+/// s_i^2 = sum over j of R_ij^2 s_j^2.
+LoadEntryError transformed_error(const LoadEntryError& error, const Matrix3d& rotation);
+
+/// Takes from the samples of one Reynolds number what the body's symmetry forbids: the part of force and
+/// moment that changes under an element that leaves the direction as it is. What was taken away is a sample
+/// of the solution's error, since the true mean is zero: its root mean square per forbidden component is
+/// added (in quadrature) to the error of every component of that force or moment. Where the symmetry forbids
+/// nothing, the root mean square over all samples is added instead.
+void keep_symmetric_part(const Symmetry& symmetry, std::vector<DirectionSample>& samples);
+
+}  // namespace samara

@@ -1,0 +1,144 @@
+#include "foam-cases/bake.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+#include "foam-cases/body_preparation.hpp"
+#include "foam-cases/case_farm.hpp"
+#include "foam-cases/case_folder.hpp"
+#include "foam-cases/folder_lock.hpp"
+#include "foam-cases/terminal_speed.hpp"
+#include "samara/base/error.hpp"
+#include "samara/body/body_file.hpp"
+#include "samara/command/progress.hpp"
+
+namespace samara {
+namespace {
+
+namespace fs = std::filesystem;
+using Planned = std::function<void(const BakePreparation&)>;
+
+// A folder that is gone, with all in it, when this is.
+class TemporaryFolder {
+  public:
+    TemporaryFolder() {
+        std::string name = (fs::temp_directory_path() / "samara-bake-XXXXXX").string();
+        if (::mkdtemp(name.data()) == nullptr) {
+            throw Error(fmt::format("{}: no folder can be made there; set TMPDIR",
+                                    fs::temp_directory_path().string()));
+        }
+        path_ = name;
+    }
+    ~TemporaryFolder() {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    [[nodiscard]] const fs::path& path() const { return path_; }
+
+  private:
+    fs::path path_;
+};
+
+// Seconds since the last call.
+class Stopwatch {
+  public:
+    double lap() {
+        const auto now = std::chrono::steady_clock::now();
+        const std::chrono::duration<double> passed = now - last_;
+        last_ = now;
+        return passed.count();
+    }
+
+  private:
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+double mass_of(const MassSpecification& mass, const Body& body) {
+    if (mass.mass) return *mass.mass;
+    if (mass.density) return *mass.density * body.moments.volume;
+    throw Error(fmt::format("{}: has neither a density nor a mass; give one", body.name));
+}
+
+BakePreparation plan_of(const BakeRequest& request, const Body& body) {
+    BakePreparation preparation;
+    if (!request.tables) return preparation;
+    preparation.terminal_speed =
+        terminal_speed(body, request.fluid, mass_of(request.mass, body), request.gravity);
+    const double reynolds_number = terminal_reynolds_number(body, request.fluid, preparation.terminal_speed);
+    preparation.plan = plan_bake(body, request.quality, reynolds_number);
+    return preparation;
+}
+
+Body named_body(const BakeRequest& request, const fs::path& folder) {
+    Body body = prepare_body(request.shape, request.scale, folder);
+    body.tables.reset();
+    if (!request.name.empty()) body.name = request.name;
+    return body;
+}
+
+}  // namespace
+
+fs::path case_folder_of(const fs::path& output) {
+    return output.parent_path() / (body_name_of(output) + ".cases");
+}
+
+BakePreparation prepare_bake(const BakeRequest& request) {
+    const TemporaryFolder folder;
+    return plan_of(request, named_body(request, folder.path()));
+}
+
+namespace {
+
+// The body with its Kirchhoff tensor; `folder` receives what is made on the way.
+Body body_before_tables(const BakeRequest& request, const fs::path& folder, const Planned& planned,
+                        BakeResult& result) {
+    Stopwatch watch;
+    Body body = named_body(request, folder);
+    result.preparation = plan_of(request, body);
+    planned(result.preparation);
+    result.mesh_seconds = watch.lap();
+    add_kirchhoff_tensor(body, folder);
+    result.kirchhoff_seconds = watch.lap();
+    return body;
+}
+
+void bake_tables(const BakeRequest& request, int jobs, const Planned& planned, BakeResult& result) {
+    const fs::path folder = case_folder_of(request.output);
+    const fs::path templates = foam_cases_folder();
+    require_solvers();
+    const FolderLock lock(folder);
+    const Body body = body_before_tables(request, folder, planned, result);
+
+    Stopwatch watch;
+    const BakePlan& plan = *result.preparation.plan;
+    write_case_folder(folder, body, plan, templates);
+    result.reused = count_solved(folder, plan);
+    solve_cases(folder, plan, jobs, templates);
+    result.case_seconds = watch.lap();
+    Progress progress("converting", "cases");
+    result.conversion = convert_folder(folder, [&](std::size_t done, std::size_t total) {
+        progress.update(static_cast<double>(done), static_cast<double>(total));
+    });
+    write_body_file(request.output, result.conversion->body);
+    result.conversion_seconds = watch.lap();
+}
+
+}  // namespace
+
+BakeResult bake_body(const BakeRequest& request, int jobs, const Planned& planned) {
+    BakeResult result;
+    if (request.tables) {
+        bake_tables(request, jobs, planned, result);
+    } else {
+        const TemporaryFolder folder;
+        write_body_file(request.output, body_before_tables(request, folder.path(), planned, result));
+    }
+    return result;
+}
+
+}  // namespace samara

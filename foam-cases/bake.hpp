@@ -1,0 +1,59 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "converter/convert.hpp"
+#include "foam-cases/bake_plan.hpp"
+#include "samara/scene/scene.hpp"
+
+namespace samara {
+
+/// One body to bake and the conditions it is baked for.
+struct BakeRequest {
+    std::string name;             ///< of the body; empty: that of the shape
+    std::filesystem::path shape;  ///< a shape file or a body file
+    double scale = 1.0;           ///< metres for one unit of the shape file
+    std::filesystem::path output;
+    Fluid fluid;
+    MassSpecification mass;  ///< its density or its mass is given
+    double gravity = 9.81;   ///< m/s^2
+    BakeQuality quality;
+    bool tables = true;  ///< false: mesh and Kirchhoff tensor alone
+};
+
+/// What is known before anything is solved.
+struct BakePreparation {
+    double terminal_speed = 0.0;  ///< m/s, an estimate (terminal_speed.hpp)
+    std::optional<BakePlan> plan;
+};
+
+struct BakeResult {
+    BakePreparation preparation;
+    std::optional<Conversion> conversion;
+    std::size_t reused = 0;     ///< cases that an earlier bake had solved
+    double mesh_seconds = 0.0;  ///< wall clock, as the next three
+    double kirchhoff_seconds = 0.0;
+    double case_seconds = 0.0;  ///< of the cases, their mesh included
+    double conversion_seconds = 0.0;
+};
+
+/// The folder of cases of an output file: NAME.cases beside NAME.body.h5.
+std::filesystem::path case_folder_of(const std::filesystem::path& output);
+
+/// Meshes the body in a temporary folder and plans its cases; writes nothing else. Throws Error.
+BakePreparation prepare_bake(const BakeRequest& request);
+
+/// Meshes the body, computes its Kirchhoff tensor, solves its cases in case_folder_of(output), `jobs` at
+/// once, and writes the body file with its tables. What an earlier call solved on the same inputs is reused.
+/// `planned` is told of the plan before anything long begins. Throws Error.
+BakeResult bake_body(const BakeRequest& request, int jobs,
+                     const std::function<void(const BakePreparation&)>& planned);
+
+/// The largest Reynolds number at which the flow around a blunt body is still free of turbulence, so that the
+/// k-epsilon model does not hold: some 300 for a sphere's wake (Johnson & Patel, J. Fluid Mech. 378, 1999).
+inline constexpr double laminar_reynolds_number = 300.0;
+
+}  // namespace samara

@@ -1,0 +1,160 @@
+#include "foam-cases/bake_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "samara/body/body_file.hpp"
+
+namespace samara {
+namespace {
+
+double reynolds_number_of(const BakePlan& plan) {
+    return plan.cases.front().reynolds_number;
+}
+
+nlohmann::json as_json(const Vector3d& vector) {
+    return {vector.x(), vector.y(), vector.z()};
+}
+
+nlohmann::json provenance_of(const SolvedCase& solved) {
+    return nlohmann::json::parse(solved.provenance, nullptr, false);
+}
+
+double number_in(const nlohmann::json& object, const char* name) {
+    return object.is_object() && object.contains(name) && object[name].is_number()
+               ? object[name].get<double>()
+               : 0.0;
+}
+
+double drag_coefficient(const SolvedCase& solved) {
+    return -solved.sample.entry.force.dot(solved.sample.direction);
+}
+
+nlohmann::json as_json(const SolvedCase& solved) {
+    return {
+        {"name", solved.name},
+        {"direction", as_json(solved.sample.direction)},
+        {"reynolds_number", solved.reynolds_number},
+        {"drag_coefficient", drag_coefficient(solved)},
+        {"drag_coefficient_error", solved.sample.error.force.cwiseProduct(solved.sample.direction).norm()},
+        {"force", as_json(solved.sample.entry.force)},
+        {"moment", as_json(solved.sample.entry.moment)},
+        {"turbulent_kinetic_energy", solved.sample.entry.turbulent_kinetic_energy},
+        {"dissipation_rate", solved.sample.entry.dissipation_rate},
+        {"cpu_seconds", number_in(provenance_of(solved), "cpu_seconds")}};
+}
+
+nlohmann::json base_json(const BakeRequest& request, const BakePreparation& preparation) {
+    nlohmann::json json = {{"body", request.output.string()}};
+    if (!preparation.plan) return json;
+    const BakePlan& plan = *preparation.plan;
+    json["cases_folder"] = case_folder_of(request.output).string();
+    json["quality"] = plan.quality.name;
+    json["terminal_speed"] = preparation.terminal_speed;
+    json["reynolds_numbers"] = {reynolds_number_of(plan)};
+    json["reference_length"] = plan.reference_length;
+    json["subdivisions"] = plan.subdivisions;
+    return json;
+}
+
+nlohmann::json mesh_json(const SolvedCase& solved) {
+    const nlohmann::json provenance = provenance_of(solved);
+    return provenance.is_object() ? provenance.value("mesh", nlohmann::json()) : nlohmann::json();
+}
+
+}  // namespace
+
+nlohmann::json as_json(const BakeRequest& request, const BakePreparation& preparation) {
+    nlohmann::json json = base_json(request, preparation);
+    json["dry_run"] = true;
+    json["cases"] = nlohmann::json::array();
+    if (!preparation.plan) return json;
+    for (const BakeCase& entry : preparation.plan->cases) {
+        json["cases"].push_back({{"name", entry.name},
+                                 {"direction", as_json(entry.direction)},
+                                 {"reynolds_number", entry.reynolds_number}});
+    }
+    json["estimated_cells"] = std::round(preparation.plan->cells);
+    json["estimated_cpu_seconds"] = std::round(preparation.plan->cpu_seconds);
+    return json;
+}
+
+nlohmann::json as_json(const BakeRequest& request, const BakeResult& result) {
+    nlohmann::json json = base_json(request, result.preparation);
+    json["cases"] = nlohmann::json::array();
+    json["seconds"] = {{"mesh", result.mesh_seconds},
+                       {"kirchhoff", result.kirchhoff_seconds},
+                       {"cases", result.case_seconds},
+                       {"convert", result.conversion_seconds}};
+    if (!result.conversion) return json;
+    for (const SolvedCase& solved : result.conversion->cases) json["cases"].push_back(as_json(solved));
+    const LoadTables& tables = *result.conversion->body.tables;
+    json["tables"] = {{"map_size", tables.map_size()},
+                      {"subdivisions", tables.subdivisions},
+                      {"reynolds_numbers", tables.reynolds_numbers},
+                      {"reference_length", tables.reference_length},
+                      {"entries", tables.entries.size()}};
+    json["mesh"] = mesh_json(result.conversion->cases.front());
+    json["reused_cases"] = result.reused;
+    return json;
+}
+
+void print_preparation(const BakeRequest& request, const BakePreparation& preparation, int jobs) {
+    if (!preparation.plan) {
+        fmt::print("{}: mesh and Kirchhoff tensor alone; the scene asks for no tables\n",
+                   request.output.string());
+        return;
+    }
+    const BakePlan& plan = *preparation.plan;
+    fmt::print("{}: {} cases at Reynolds number {:.0f} (terminal speed about {:.3g} m/s, L = {:.4g} m)\n",
+               request.output.string(), plan.cases.size(), reynolds_number_of(plan),
+               preparation.terminal_speed, plan.reference_length);
+    for (const BakeCase& entry : plan.cases) {
+        fmt::print("  {}  moving along ({:7.4f} {:7.4f} {:7.4f})\n", entry.name, entry.direction.x(),
+                   entry.direction.y(), entry.direction.z());
+    }
+    const double at_once = std::min<double>(jobs, static_cast<double>(plan.cases.size()));
+    fmt::print("about {:.0f} cells each, {:.0f} CPU seconds in all, {:.0f} s with {} jobs\n", plan.cells,
+               plan.cpu_seconds, plan.cpu_seconds / at_once, jobs);
+}
+
+void print_result(const BakeRequest& request, const BakeResult& result) {
+    if (!result.conversion) {
+        fmt::print("{}: mesh and Kirchhoff tensor; the scene asks for no tables\n", request.output.string());
+        return;
+    }
+    const BakePlan& plan = *result.preparation.plan;
+    const auto& cases = result.conversion->cases;
+    fmt::print("{}: quality {}, {} cases at Reynolds number {:.0f}", request.output.string(),
+               plan.quality.name, cases.size(), reynolds_number_of(plan));
+    if (result.reused > 0) fmt::print(", {} of them solved before", result.reused);
+    fmt::print("\n{:<14} {:>26} {:>8} {:>10} {:>12} {:>7}\n", "case", "moving along", "drag", "k/U^2",
+               "epsilon L/U^3", "CPU s");
+    for (const SolvedCase& solved : cases) {
+        const Vector3d& direction = solved.sample.direction;
+        fmt::print("{:<14} ({:7.4f} {:7.4f} {:7.4f}) {:8.3f} {:10.5f} {:13.5f} {:7.1f}\n", solved.name,
+                   direction.x(), direction.y(), direction.z(), drag_coefficient(solved),
+                   solved.sample.entry.turbulent_kinetic_energy, solved.sample.entry.dissipation_rate,
+                   number_in(provenance_of(solved), "cpu_seconds"));
+    }
+    fmt::print(
+        "mesh {:.1f} s, Kirchhoff tensor {:.1f} s, cases {:.1f} s, tables {:.1f} s; the cases are in {}\n",
+        result.mesh_seconds, result.kirchhoff_seconds, result.case_seconds, result.conversion_seconds,
+        case_folder_of(request.output).string());
+}
+
+void warn_of_laminar_flow(const BakePreparation& preparation) {
+    if (!preparation.plan || reynolds_number_of(*preparation.plan) >= laminar_reynolds_number) return;
+    fmt::print(
+        stderr,
+        "samara-bake: warning: at Reynolds number {:.3g} the flow is laminar (below {:.0f}), but the cases "
+        "use a turbulence model: take their drag and turbulence with care\n",
+        reynolds_number_of(*preparation.plan), laminar_reynolds_number);
+}
+
+}  // namespace samara

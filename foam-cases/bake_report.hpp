@@ -1,0 +1,20 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "foam-cases/bake.hpp"
+
+namespace samara {
+
+/// What samara-bake prints as JSON of one body with --dry-run, and after baking it.
+nlohmann::json as_json(const BakeRequest& request, const BakePreparation& preparation);
+nlohmann::json as_json(const BakeRequest& request, const BakeResult& result);
+
+/// The same for people, on standard output.
+void print_preparation(const BakeRequest& request, const BakePreparation& preparation, int jobs);
+void print_result(const BakeRequest& request, const BakeResult& result);
+
+/// One line on standard error where the Reynolds number is below laminar_reynolds_number.
+void warn_of_laminar_flow(const BakePreparation& preparation);
+
+}  // namespace samara

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+
+#include "samara/body/body.hpp"
+
+namespace samara {
+
+/// The body of a shape file, meshed by the program samara-mesh with its defaults, or of a body file, read as
+/// it is. `scale`: metres for one unit of the shape file; a body file takes none but 1. `folder` receives
+/// what is made on the way (shape.body.h5, log.mesh). Throws Error.
+Body prepare_body(const std::filesystem::path& shape, double scale, const std::filesystem::path& folder);
+
+/// Gives the body its Kirchhoff tensor where it has none: the one of FOLDER/body.body.h5 where that is of the
+/// same surface, else by the command `samara kirchhoff`. Throws Error.
+void add_kirchhoff_tensor(Body& body, const std::filesystem::path& folder);
+
+}  // namespace samara

@@ -1,0 +1,171 @@
+#include "foam-cases/case_folder.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "foam-cases/case_parameters.hpp"
+#include "foam-cases/case_surface.hpp"
+#include "samara/base/content_hash.hpp"
+#include "samara/base/error.hpp"
+#include "samara/body/body_file.hpp"
+#include "samara/files/replace_file.hpp"
+
+namespace samara {
+namespace {
+
+namespace fs = std::filesystem;
+using CaseFiles = std::map<fs::path, std::string>;  // content by the path inside a case
+
+// What the mesh depends on beside the parameters of the mesh.
+constexpr const char* mesh_files[] = {"Allrun", "constant/triSurface/body.stl", "system/blockMeshDict",
+                                      "system/snappyHexMeshDict", "system/topoSetDict"};
+
+CaseFiles read_template(const fs::path& folder) {
+    CaseFiles files;
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+        if (entry.is_regular_file()) {
+            files[fs::relative(entry.path(), folder)] = read_bytes(entry.path());
+        }
+    }
+    if (!files.contains("parameters") || !files.contains("Allrun")) {
+        throw Error(fmt::format("{}: is no case template: it needs the files parameters and Allrun",
+                                folder.string()));
+    }
+    return files;
+}
+
+std::string hash_of(const CaseFiles& files) {
+    std::string bytes;
+    for (const auto& [path, content] : files) {
+        bytes += fmt::format("{}\n{}\n", path.generic_string(), content.size());
+        bytes += content;
+    }
+    return content_hash(bytes);
+}
+
+std::string mesh_hash(const CaseFiles& files) {
+    CaseFiles inputs;
+    for (const char* name : mesh_files) {
+        if (const auto found = files.find(name); found != files.end()) inputs.insert(*found);
+    }
+    inputs["parameters"] = mesh_parameters_of(files.at("parameters"));
+    return hash_of(inputs);
+}
+
+void write_bytes(const fs::path& path, const std::string& bytes) {
+    replace_file(path, [&](const fs::path& temporary) {
+        std::ofstream file(temporary, std::ios::binary);
+        file << bytes;
+        if (!file.flush()) throw Error(fmt::format("{}: cannot be written", path.string()));
+    });
+}
+
+bool holds(const fs::path& path, const std::string& bytes) {
+    std::error_code unknown;
+    return fs::file_size(path, unknown) == bytes.size() && !unknown && read_bytes(path) == bytes;
+}
+
+void write_files(const fs::path& folder, const CaseFiles& files) {
+    for (const auto& [name, bytes] : files) {
+        const fs::path path = folder / name;
+        if (holds(path, bytes)) continue;
+        fs::create_directories(path.parent_path());
+        write_bytes(path, bytes);
+        if (bytes.starts_with("#!")) {
+            fs::permissions(path, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
+                            fs::perm_options::add);
+        }
+    }
+}
+
+void link_to_mesh(const fs::path& folder, const char* name) {
+    const fs::path link = folder / "constant" / name;
+    const fs::path target = fs::path("../../mesh/constant") / name;
+    std::error_code none;
+    if (fs::is_symlink(link) && fs::read_symlink(link, none) == target) return;
+    fs::remove_all(link);
+    fs::create_directory_symlink(target, link);
+}
+
+// Removes a record of success that belongs to other inputs, or that cannot be read.
+void discard_stale(const fs::path& record, const std::string& hash) {
+    if (!fs::exists(record)) return;
+    const auto json = nlohmann::json::parse(read_bytes(record), nullptr, false);
+    if (!json.is_object() || json.value("inputs_hash", "") != hash) fs::remove(record);
+}
+
+void remove_unplanned_cases(const fs::path& folder, const BakePlan& plan) {
+    std::vector<fs::path> unplanned;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        const std::string name = entry.path().filename().string();
+        bool planned = !name.starts_with("direction_");
+        for (const BakeCase& one : plan.cases) planned = planned || one.name == name;
+        if (!planned) unplanned.push_back(entry.path());
+    }
+    for (const fs::path& path : unplanned) fs::remove_all(path);
+}
+
+std::string write_mesh_case(const fs::path& folder, const CaseFiles& template_files, const Body& body,
+                            const BakePlan& plan) {
+    CaseFiles files = template_files;
+    files["parameters"] = case_parameters(files.at("parameters"), plan, plan.cases.front());
+    files["constant/triSurface/body.stl"] = case_surface_stl(body, plan);
+    const std::string hash = mesh_hash(files);
+    // A mesh that was removed since is made again.
+    const std::string needed = fs::exists(folder / "constant/polyMesh/cellZones") ? hash : "";
+    discard_stale(folder / "mesh.json", needed);
+    write_files(folder, files);
+    return hash;
+}
+
+}  // namespace
+
+fs::path foam_cases_folder() {
+    const char* chosen = std::getenv("SAMARA_FOAM_CASES");
+    if (chosen != nullptr && *chosen != '\0') {
+        if (fs::exists(fs::path(chosen) / "Snakefile")) return chosen;
+        throw Error(
+            fmt::format("SAMARA_FOAM_CASES names {}, which holds no Snakefile; unset it or name samara's "
+                        "folder foam-cases",
+                        chosen));
+    }
+    std::error_code unknown;
+    const fs::path program = fs::read_symlink("/proc/self/exe", unknown);
+    const fs::path installed = program.parent_path().parent_path() / "share/samara/foam-cases";
+    if (!unknown && fs::exists(installed / "Snakefile")) return installed;
+    const fs::path source = SAMARA_FOAM_CASES_SOURCE;
+    if (fs::exists(source / "Snakefile")) return source;
+    throw Error(fmt::format("{}: the case templates are not installed there; install samara again",
+                            installed.string()));
+}
+
+void write_case_folder(const fs::path& folder, const Body& body, const BakePlan& plan,
+                       const fs::path& templates) {
+    const CaseFiles template_files = read_template(templates / "body-flow");
+    fs::create_directories(folder);
+    write_body_file(folder / "body.body.h5", body);
+    remove_unplanned_cases(folder, plan);
+
+    nlohmann::json json = plan_json(plan);
+    const std::string of_mesh = write_mesh_case(folder / "mesh", template_files, body, plan);
+    json["mesh"]["inputs_hash"] = of_mesh;
+    for (std::size_t i = 0; i < plan.cases.size(); ++i) {
+        const BakeCase& entry = plan.cases[i];
+        CaseFiles files = template_files;
+        files["parameters"] = case_parameters(files.at("parameters"), plan, entry);
+        const std::string hash = content_hash(of_mesh + hash_of(files));
+        json["cases"][i]["inputs_hash"] = hash;
+        discard_stale(folder / entry.name / "provenance.json", hash);
+        write_files(folder / entry.name, files);
+        link_to_mesh(folder / entry.name, "polyMesh");
+        link_to_mesh(folder / entry.name, "triSurface");
+    }
+    write_bytes(folder / "plan.json", json.dump(2) + "\n");
+}
+
+}  // namespace samara

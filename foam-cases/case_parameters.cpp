@@ -1,0 +1,104 @@
+#include "foam-cases/case_parameters.hpp"
+
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "samara/base/error.hpp"
+
+namespace samara {
+namespace {
+
+using Entries = std::vector<std::pair<std::string, std::string>>;
+
+constexpr const char* mesh_entries[] = {"boxHalfWidth", "backgroundCells", "surfaceLevel",
+                                        "layers",       "pointInFluid",    "refinementShells"};
+
+// C_mu of the k-epsilon model (Launder & Spalding 1974).
+constexpr double c_mu = 0.09;
+
+std::string foam_vector(const Vector3d& vector) {
+    // Adding zero turns a negative zero into zero.
+    return fmt::format("({} {} {})", vector.x() + 0.0, vector.y() + 0.0, vector.z() + 0.0);
+}
+
+struct ValueRange {
+    std::size_t begin;
+    std::size_t end;
+};
+
+ValueRange find_value(const std::string& text, const std::string& name) {
+    std::size_t line = 0;
+    while (line < text.size()) {
+        const std::string_view rest = std::string_view(text).substr(line);
+        if (rest.starts_with(name) && rest.size() > name.size() && rest[name.size()] == ' ') {
+            const std::size_t begin = text.find_first_not_of(' ', line + name.size());
+            const std::size_t end = text.find(';', begin);
+            if (end != std::string::npos) return {begin, end};
+        }
+        const std::size_t next = text.find('\n', line);
+        if (next == std::string::npos) break;
+        line = next + 1;
+    }
+    throw Error(fmt::format("the case template's file parameters has no entry '{}'; restore it", name));
+}
+
+Entries flow_entries(const BakeCase& entry) {
+    const double viscosity = 1.0 / entry.reynolds_number;
+    const double k = 1.5 * inflow_intensity * inflow_intensity;
+    const double eddy_viscosity = inflow_viscosity_ratio * viscosity;
+    return {{"direction", foam_vector(entry.direction)},
+            {"flowVelocity", foam_vector(-entry.direction)},
+            {"reynoldsNumber", fmt::format("{}", entry.reynolds_number)},
+            {"viscosity", fmt::format("{}", viscosity)},
+            {"inflowK", fmt::format("{:.6g}", k)},
+            {"inflowEpsilon", fmt::format("{:.6g}", c_mu * k * k / eddy_viscosity)},
+            {"inflowNut", fmt::format("{:.6g}", eddy_viscosity)}};
+}
+
+Entries mesh_and_iteration_entries(const BakeQuality& quality) {
+    const FlowMesh& mesh = quality.mesh;
+    const double corner = mesh.box_half_width;
+    std::string shells;
+    for (const auto& [distance, level] : mesh.refinement_shells) {
+        shells += fmt::format("{}({} {})", shells.empty() ? "" : " ", distance, level);
+    }
+    return {{"boxHalfWidth", fmt::format("{}", mesh.box_half_width)},
+            {"backgroundCells", fmt::format("{}", mesh.background_cells)},
+            {"surfaceLevel", fmt::format("{}", mesh.surface_level)},
+            {"layers", fmt::format("{}", mesh.layers)},
+            {"pointInFluid",
+             fmt::format("({:.3f} {:.3f} {:.3f})", corner - 0.783, corner - 0.681, corner - 0.577)},
+            {"refinementShells", "(" + shells + ")"},
+            {"iterations", fmt::format("{}", quality.iterations)},
+            {"averagingStart", fmt::format("{}", quality.iterations - quality.averaged_iterations + 1)}};
+}
+
+void replace_values(std::string& text, const Entries& entries) {
+    for (const auto& [name, value] : entries) {
+        const auto [begin, end] = find_value(text, name);
+        text.replace(begin, end - begin, value);
+    }
+}
+
+}  // namespace
+
+std::string case_parameters(const std::string& template_text, const BakePlan& plan, const BakeCase& entry) {
+    std::string text = template_text;
+    replace_values(text, flow_entries(entry));
+    replace_values(text, mesh_and_iteration_entries(plan.quality));
+    return text;
+}
+
+std::string mesh_parameters_of(const std::string& parameters) {
+    std::string text;
+    for (const char* name : mesh_entries) {
+        const auto [begin, end] = find_value(parameters, name);
+        text += fmt::format("{} {};\n", name, parameters.substr(begin, end - begin));
+    }
+    return text;
+}
+
+}  // namespace samara

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace samara {
+
+/// Runs a program with the given words, and all that it starts, in a process group that never outlives this
+/// program: if this program ends in any way, even by SIGKILL, the whole group is killed. Its output goes to
+/// the file `output`, its working folder is `folder`. `tick` is called ten times a second meanwhile.
+///
+/// Returns the exit status (128 + the signal where one ended it), or nothing where the user interrupted this
+/// program (SIGINT, SIGTERM): then the group has been killed. Throws Error where it cannot be started.
+std::optional<int> run_guarded(const std::vector<std::string>& words, const std::filesystem::path& output,
+                               const std::filesystem::path& folder, const std::function<void()>& tick);
+
+}  // namespace samara

@@ -1,0 +1,207 @@
+#include "commands/body_report.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "commands/provenance_summary.hpp"
+
+namespace samara {
+namespace {
+
+template <typename... Values>
+void print_row(const char* name, fmt::format_string<Values...> format, Values&&... values) {
+    fmt::print("  {:<22}{}\n", name, fmt::format(format, std::forward<Values>(values)...));
+}
+
+std::string in_words(const Vector3d& vector) {
+    return fmt::format("({:.6g}, {:.6g}, {:.6g})", vector.x(), vector.y(), vector.z());
+}
+
+nlohmann::json as_json(const Vector3d& vector) {
+    return {vector.x(), vector.y(), vector.z()};
+}
+
+/// The lengths of the surface along the columns of `axes` (m).
+Vector3d extents_along(const Surface& surface, const Matrix3d& axes) {
+    const double infinity = std::numeric_limits<double>::infinity();
+    Vector3d lowest = Vector3d::Constant(infinity);
+    Vector3d highest = -lowest;
+    for (const Vector3d& vertex : surface.vertices) {
+        const Vector3d place = axes.transpose() * vertex;
+        lowest = lowest.cwiseMin(place);
+        highest = highest.cwiseMax(place);
+    }
+    return highest - lowest;
+}
+
+std::string in_words(const Symmetry& symmetry) {
+    const std::string group =
+        fmt::format("{} element{}", symmetry.elements.size(),
+                    symmetry.elements.size() == 1 ? " (none beside the identity)" : "s");
+    switch (symmetry.kind) {
+        case Symmetry::Kind::spherical:
+            return "every rotation";
+        case Symmetry::Kind::axial:
+            return fmt::format("every rotation about {}, and {}", in_words(symmetry.axis), group);
+        default:
+            return group;
+    }
+}
+
+const char* kind_name(Symmetry::Kind kind) {
+    switch (kind) {
+        case Symmetry::Kind::spherical:
+            return "spherical";
+        case Symmetry::Kind::axial:
+            return "axial";
+        default:
+            return "finite";
+    }
+}
+
+/// One quantity of the tables: the largest value, and the range of its standard errors.
+struct TableRange {
+    const char* name;
+    const char* scale;
+    double largest;
+    double least_error;
+    double most_error;
+};
+
+template <typename Value>
+TableRange range_of(const char* name, const char* scale, const LoadTables& tables, const Value& value) {
+    TableRange range{name, scale, 0.0, std::numeric_limits<double>::infinity(), 0.0};
+    for (const LoadEntry& entry : tables.entries) range.largest = std::max(range.largest, value(entry));
+    for (const LoadEntryError& error : tables.errors) {
+        range.least_error = std::min(range.least_error, value(error));
+        range.most_error = std::max(range.most_error, value(error));
+    }
+    return range;
+}
+
+std::vector<TableRange> ranges_of(const LoadTables& tables) {
+    return {
+        range_of("force", "rho U^2 A / 2", tables, [](const LoadEntry& e) { return e.force.norm(); }),
+        range_of("moment", "rho U^2 A L / 2", tables, [](const LoadEntry& e) { return e.moment.norm(); }),
+        range_of("turbulent_kinetic_energy", "U^2", tables,
+                 [](const LoadEntry& e) { return e.turbulent_kinetic_energy; }),
+        range_of("dissipation_rate", "U^3 / L", tables,
+                 [](const LoadEntry& e) { return e.dissipation_rate; }),
+    };
+}
+
+/// Nodes of the octahedral map that are different directions: an octahedron cut into n has 4 n^2 + 2.
+int direction_count(const LoadTables& tables) {
+    return 4 * tables.subdivisions * tables.subdivisions + 2;
+}
+
+void print_kirchhoff(const KirchhoffTensor& kirchhoff) {
+    fmt::print("Kirchhoff tensor (fluid of 1 kg/m^3, about the centroid, shape axes)\n");
+    print_row("added inertia", "{} kg m^2", in_words(Vector3d(kirchhoff.matrix.diagonal().head<3>())));
+    print_row("added mass", "{} kg", in_words(Vector3d(kirchhoff.matrix.diagonal().tail<3>())));
+    print_row("error estimate", "{:.2g} %, asymmetry {:.2g} %", 100.0 * kirchhoff.error_estimate,
+              100.0 * kirchhoff.asymmetry);
+    print_row("method", "{}, {} triangles", kirchhoff.method, kirchhoff.triangles);
+}
+
+void print_tables(const LoadTables& tables) {
+    fmt::print("Tables\n");
+    print_row("quality", "{}", tables.quality);
+    print_row("reference length L", "{:.6g} m", tables.reference_length);
+    std::string reynolds_numbers;
+    for (const double number : tables.reynolds_numbers) reynolds_numbers += fmt::format("{:.6g} ", number);
+    print_row("Reynolds numbers", "{}", reynolds_numbers);
+    print_row("directions", "{} (octahedron cut into {})", direction_count(tables), tables.subdivisions);
+    for (const TableRange& range : ranges_of(tables)) {
+        print_row(range.name, "up to {:.3g} ({}), standard error {:.2g} to {:.2g}", range.largest,
+                  range.scale, range.least_error, range.most_error);
+    }
+    const ProvenanceSummary provenance = summarise_provenance(tables.provenance);
+    print_row("cases", "{}", provenance.cases);
+    for (const auto& [key, value] : provenance.keys) print_row(("  " + key).c_str(), "{}", value);
+}
+
+nlohmann::json tables_as_json(const LoadTables& tables) {
+    nlohmann::json result = {
+        {"quality", tables.quality},
+        {"reference_length", tables.reference_length},
+        {"reynolds_numbers", tables.reynolds_numbers},
+        {"subdivisions", tables.subdivisions},
+        {"directions", direction_count(tables)},
+    };
+    for (const TableRange& range : ranges_of(tables)) {
+        result["ranges"][range.name] = {{"largest", range.largest},
+                                        {"least_error", range.least_error},
+                                        {"most_error", range.most_error},
+                                        {"unit", range.scale}};
+    }
+    result["provenance"] = nlohmann::json::parse(tables.provenance, nullptr, false);
+    if (result["provenance"].is_discarded()) result["provenance"] = nullptr;
+    result["cases"] = summarise_provenance(tables.provenance).cases;
+    return result;
+}
+
+}  // namespace
+
+void print_body(const Body& body) {
+    const VolumeMoments& moments = body.moments;
+    fmt::print("Body {} (metres, shape axes)\n", body.name);
+    print_row("source", "{}", body.source);
+    print_row("surface", "{} triangles of order {}, {} vertices", body.surface.triangle_count(),
+              body.surface.order(), body.surface.vertices.size());
+    print_row("volume", "{:.6g} m^3", moments.volume);
+    print_row("centroid", "{} m", in_words(moments.centroid));
+    print_row("surface area", "{:.6g} m^2", moments.surface_area);
+    print_row("principal extents", "{} m", in_words(extents_along(body.surface, principal_axes(moments))));
+    print_row("symmetry", "{}", in_words(body.symmetry));
+    if (body.kirchhoff) {
+        print_kirchhoff(*body.kirchhoff);
+    } else {
+        fmt::print("No Kirchhoff tensor: 'samara kirchhoff' adds it\n");
+    }
+    if (body.tables) {
+        print_tables(*body.tables);
+    } else {
+        fmt::print("No tables: 'samara bake' adds them\n");
+    }
+}
+
+nlohmann::json body_as_json(const Body& body) {
+    const VolumeMoments& moments = body.moments;
+    nlohmann::json result = {
+        {"kind", "body"},
+        {"name", body.name},
+        {"source", body.source},
+        {"triangles", body.surface.triangle_count()},
+        {"order", body.surface.order()},
+        {"volume", moments.volume},
+        {"centroid", as_json(moments.centroid)},
+        {"surface_area", moments.surface_area},
+        {"principal_extents", as_json(extents_along(body.surface, principal_axes(moments)))},
+        {"symmetry", {{"kind", kind_name(body.symmetry.kind)}, {"elements", body.symmetry.elements.size()}}},
+        {"kirchhoff", nullptr},
+        {"tables", nullptr},
+    };
+    if (body.symmetry.kind == Symmetry::Kind::axial) result["symmetry"]["axis"] = as_json(body.symmetry.axis);
+    if (body.kirchhoff) {
+        nlohmann::json rows;
+        for (int row = 0; row < 6; ++row) {
+            const Vector6d values = body.kirchhoff->matrix.row(row);
+            rows.push_back(std::vector<double>(values.begin(), values.end()));
+        }
+        result["kirchhoff"] = {{"added_mass", rows},
+                               {"error_estimate", body.kirchhoff->error_estimate},
+                               {"asymmetry", body.kirchhoff->asymmetry},
+                               {"triangles", body.kirchhoff->triangles},
+                               {"method", body.kirchhoff->method}};
+    }
+    if (body.tables) result["tables"] = tables_as_json(*body.tables);
+    return result;
+}
+
+}  // namespace samara

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "samara/body/body.hpp"
+
+namespace samara {
+
+/// What a body holds, for people, on standard output.
+void print_body(const Body& body);
+
+/// The same as JSON: SI units, relative errors as fractions.
+nlohmann::json body_as_json(const Body& body);
+
+}  // namespace samara

@@ -1,0 +1,54 @@
+// samara info: what a file holds, its units and its provenance.
+
+#include <string>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "commands/body_report.hpp"
+#include "commands/commands.hpp"
+#include "samara/base/error.hpp"
+#include "samara/body/body_file.hpp"
+#include "samara/command/arguments.hpp"
+#include "samara/files/hdf5_file.hpp"
+
+namespace samara {
+namespace {
+
+nlohmann::json report_body(const std::string& path, bool json) {
+    const Body body = read_body_file(path);
+    if (!json) print_body(body);
+    return body_as_json(body);
+}
+
+/// A kind of file, known by a group that it alone has.
+struct FileKind {
+    const char* group;
+    nlohmann::json (*report)(const std::string& path, bool json);
+};
+
+constexpr FileKind file_kinds[] = {
+    {"/surface", report_body},
+};
+
+nlohmann::json report(const std::string& path, bool json) {
+    for (const FileKind& kind : file_kinds) {
+        if (Hdf5Reader(path).has(kind.group)) return kind.report(path, json);
+    }
+    throw Error(
+        fmt::format("{}: is an HDF5 file that samara did not make; 'samara info' reads body files", path));
+}
+
+}  // namespace
+
+int info_command(int argc, const char* const* argv) {
+    std::string file;
+    Arguments arguments("samara info", "What a body file holds, its units and its provenance.");
+    arguments.positional("FILE", file, "body file (.body.h5)");
+    arguments.footer(
+        "JSON: kind, name, source, triangles, order, volume (m^3), centroid (m), surface_area (m^2),\n"
+        "principal_extents (m, shortest first), symmetry, kirchhoff and tables (null where there are none).");
+    return run_program(argc, argv, arguments, [&] { return report(file, arguments.json()); });
+}
+
+}  // namespace samara

@@ -1,0 +1,160 @@
+// samara kirchhoff: the added mass of a body or shape.
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "commands/commands.hpp"
+#include "samara/base/error.hpp"
+#include "samara/body/body_file.hpp"
+#include "samara/command/arguments.hpp"
+#include "samara/command/load_body.hpp"
+#include "samara/command/progress.hpp"
+#include "samara/kirchhoff/kirchhoff_solver.hpp"
+
+namespace samara {
+namespace {
+
+struct Request {
+    std::string file;
+    std::string output;
+    int triangles = 0;
+    int threads = 0;
+    std::string about;
+};
+
+/// "x,y,z" as a vector.
+Vector3d parse_point(const std::string& text) {
+    Vector3d point;
+    int end = 0;
+    const int found = std::sscanf(text.c_str(), "%lf,%lf,%lf%n", &point.x(), &point.y(), &point.z(), &end);
+    if (found != 3 || static_cast<std::size_t>(end) != text.size() || !point.allFinite()) {
+        throw Error(fmt::format("--about: '{}' is no point; give x,y,z in metres, such as 0,0,-0.01", text));
+    }
+    return point;
+}
+
+void print_matrix(const Matrix6d& matrix) {
+    constexpr const char* columns[] = {"omega_x", "omega_y", "omega_z", "v_x", "v_y", "v_z"};
+    constexpr const char* rows[] = {"l_x", "l_y", "l_z", "p_x", "p_y", "p_z"};
+    fmt::print("     ");
+    for (const char* column : columns) fmt::print("{:>13}", column);
+    fmt::print("\n");
+    for (int row = 0; row < 6; ++row) {
+        fmt::print("  {}", rows[row]);
+        for (int column = 0; column < 6; ++column) fmt::print("{:>13.5g}", matrix(row, column));
+        fmt::print("\n");
+    }
+}
+
+std::string in_words(const Vector3d& point) {
+    return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", point.x(), point.y(), point.z());
+}
+
+nlohmann::json as_json(const Vector3d& vector) {
+    return {vector.x(), vector.y(), vector.z()};
+}
+
+nlohmann::json as_json(const Matrix6d& matrix) {
+    nlohmann::json rows;
+    for (int row = 0; row < 6; ++row) {
+        nlohmann::json values;
+        for (int column = 0; column < 6; ++column) values.push_back(matrix(row, column));
+        rows.push_back(values);
+    }
+    return rows;
+}
+
+KirchhoffTensor solve(const Body& body, const Request& request) {
+    Progress progress("Kirchhoff tensor", "percent");
+    try {
+        return kirchhoff_tensor(body.surface, body.moments, {request.threads, [&](double share) {
+                                                                 progress.update(100.0 * share, 100.0);
+                                                             }});
+    } catch (const Error& fault) {
+        throw Error(fmt::format("{}: {}", request.file, fault.what()));
+    }
+}
+
+void print_text(const Body& body, const Matrix6d& matrix, const std::optional<Vector3d>& about,
+                double seconds) {
+    const KirchhoffTensor& kirchhoff = *body.kirchhoff;
+    fmt::print("{}: added mass (Kirchhoff tensor) for a fluid of density 1 kg/m^3\n\n", body.name);
+    print_matrix(matrix);
+    fmt::print("\n  {:<16}kg m^2 (l of omega), kg m (l of v, p of omega), kg (p of v)\n", "units");
+    fmt::print("  {:<16}l, p: angular and linear momentum; omega, v: angular velocity, velocity\n", "order");
+    fmt::print("  {:<16}of the shape file\n", "axes");
+    fmt::print("  {:<16}{}{}\n", "reference point", in_words(about.value_or(body.moments.centroid)),
+               about ? "" : ", the centroid of the volume");
+    fmt::print("  {:<16}{:.6g} m^3, centroid {}\n", "volume", body.moments.volume,
+               in_words(body.moments.centroid));
+    fmt::print("  {:<16}{:.2g} % (estimate), asymmetry {:.2g} %\n", "error", 100.0 * kirchhoff.error_estimate,
+               100.0 * kirchhoff.asymmetry);
+    fmt::print("  {:<16}{}, {} triangles, {:.3g} s\n", "method", kirchhoff.method, kirchhoff.triangles,
+               seconds);
+}
+
+nlohmann::json run(const Request& request, bool json) {
+    std::optional<Vector3d> about;
+    if (!request.about.empty()) about = parse_point(request.about);
+    if (!request.output.empty() && !is_body_file_name(request.output)) {
+        throw Error(fmt::format("{}: the name of a body file must end in .body.h5", request.output));
+    }
+    Body body = load_body(request.file, 1.0, request.triangles);
+    const auto start = std::chrono::steady_clock::now();
+    body.kirchhoff = solve(body, request);
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    if (!request.output.empty()) write_body_file(request.output, body);
+
+    const Vector3d& centroid = body.moments.centroid;
+    const Matrix6d matrix =
+        about ? about_point(body.kirchhoff->matrix, centroid, *about) : body.kirchhoff->matrix;
+    if (!json) print_text(body, matrix, about, seconds.count());
+    nlohmann::json result = {
+        {"added_mass", as_json(matrix)},
+        {"reference_point", as_json(about.value_or(centroid))},
+        {"volume", body.moments.volume},
+        {"centroid", as_json(centroid)},
+        {"triangles", body.kirchhoff->triangles},
+        {"error_estimate", body.kirchhoff->error_estimate},
+        {"asymmetry", body.kirchhoff->asymmetry},
+        {"method", body.kirchhoff->method},
+        {"seconds", seconds.count()},
+    };
+    if (!request.output.empty()) result["output"] = request.output;
+    return result;
+}
+
+}  // namespace
+
+int kirchhoff_command(int argc, const char* const* argv) {
+    Request request;
+    Arguments arguments(
+        "samara kirchhoff",
+        "The added mass of a rigid body in an unbounded ideal fluid: its 6x6 Kirchhoff tensor.");
+    arguments.positional("FILE", request.file, "body file (.body.h5), or any shape (.geo .stl .obj .step)");
+    arguments.option("-o,--output", request.output, "write the body file with the tensor in it");
+    arguments.option("--triangles", request.triangles,
+                     "mesh the shape with about this many; 0: samara mesh's choice", 0,
+                     static_cast<int>(most_panels));
+    arguments.option("--threads", request.threads, "0: all cores; the result does not depend on it", 0, 1024);
+    arguments.option("--about", request.about,
+                     "x,y,z: reference point in metres, shape axes; else the centroid of the volume");
+    arguments.footer(
+        "The tensor is for a fluid of 1 kg/m^3 (multiply by the density), in the axes of the shape file, "
+        "order\n"
+        "angular velocity then velocity. A body file keeps it about the centroid, whatever --about is.\n"
+        "JSON: added_mass (6x6; kg m^2, kg m, kg), reference_point and centroid (m), volume (m^3), "
+        "triangles,\n"
+        "error_estimate and asymmetry (relative), method, seconds (of the solve, without meshing), "
+        "output.\n\n"
+        "Example: samara kirchhoff rubber.stl -o rubber.body.h5");
+    return run_program(argc, argv, arguments, [&] { return run(request, arguments.json()); });
+}
+
+}  // namespace samara

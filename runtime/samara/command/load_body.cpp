@@ -1,0 +1,126 @@
+#include "samara/command/load_body.hpp"
+
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "samara/base/error.hpp"
+#include "samara/body/body_file.hpp"
+#include "samara/command/subprocess.hpp"
+
+namespace samara {
+namespace {
+
+/// A new folder for passing files, removed with all it holds at the end.
+class TemporaryFolder {
+  public:
+    TemporaryFolder() {
+        std::string pattern = (std::filesystem::temp_directory_path() / "samara-XXXXXX").string();
+        if (::mkdtemp(pattern.data()) == nullptr) {
+            throw Error(fmt::format("{}: no temporary folder can be made there: {}",
+                                    std::filesystem::temp_directory_path().string(), std::strerror(errno)));
+        }
+        path_ = pattern;
+    }
+    ~TemporaryFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+};
+
+/// While it lives, Ctrl-C ends the program that is waited for, not this one, which then cleans up. A handler
+/// rather than SIG_IGN, since the other program would inherit that.
+class InterruptsForTheOther {
+  public:
+    InterruptsForTheOther() {
+        struct sigaction action = {};
+        action.sa_handler = [](int) {};
+        ::sigaction(SIGINT, &action, &old_);
+    }
+    ~InterruptsForTheOther() { ::sigaction(SIGINT, &old_, nullptr); }
+    InterruptsForTheOther(const InterruptsForTheOther&) = delete;
+    InterruptsForTheOther& operator=(const InterruptsForTheOther&) = delete;
+
+  private:
+    struct sigaction old_ = {};
+};
+
+bool is_hdf5(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    char start[8] = {};
+    stream.read(start, sizeof start);
+    return stream && std::memcmp(start, "\x89HDF\r\n\x1a\n", sizeof start) == 0;
+}
+
+/// The last line that the program wrote, without its name.
+std::string last_line(const std::filesystem::path& log) {
+    std::ifstream stream(log);
+    std::string last;
+    for (std::string line; std::getline(stream, line);) {
+        if (!line.empty()) last = line;
+    }
+    constexpr const char* prefix = "samara-mesh: ";
+    return last.starts_with(prefix) ? last.substr(std::strlen(prefix)) : last;
+}
+
+Body meshed(const std::filesystem::path& shape, double scale, int triangles) {
+    const auto program = find_program("samara-mesh");
+    if (!program) {
+        throw Error(
+            fmt::format("{}: is a shape, and samara-mesh, which meshes shapes, is not installed; give "
+                        "a .body.h5 file or build the baking tools (SAMARA_BAKING=ON)",
+                        shape.string()));
+    }
+    const TemporaryFolder folder;
+    const std::filesystem::path output = folder.path() / (body_name_of(shape) + ".body.h5");
+    const std::filesystem::path log = folder.path() / "log";
+    std::vector<std::string> words = {program->string(), std::filesystem::absolute(shape).string(), "-o",
+                                      output.string()};
+    if (triangles > 0) words.insert(words.end(), {"--triangles", std::to_string(triangles)});
+    if (scale != 1.0) words.insert(words.end(), {"--scale", fmt::format("{}", scale)});
+    const InterruptsForTheOther guard;
+    const int status = run_subprocess(words, log);
+    if (status == 128 + SIGINT) throw Error(fmt::format("{}: meshing was interrupted", shape.string()));
+    if (status != 0) {
+        const std::string reason = last_line(log);
+        throw Error(reason.empty() ? fmt::format("{}: cannot be meshed (samara-mesh ended with status {})",
+                                                 shape.string(), status)
+                                   : reason);
+    }
+    return read_body_file(output);
+}
+
+}  // namespace
+
+Body load_body(const std::filesystem::path& body_or_shape, double scale, int triangles) {
+    const std::string name = body_or_shape.string();
+    if (!std::filesystem::exists(body_or_shape)) throw Error(fmt::format("{}: there is no such file", name));
+    if (!std::filesystem::is_regular_file(body_or_shape)) {
+        throw Error(fmt::format("{}: is no file; give a body or shape file", name));
+    }
+    if (!is_body_file_name(body_or_shape) && !is_hdf5(body_or_shape)) {
+        return meshed(body_or_shape, scale, triangles);
+    }
+    if (triangles > 0) {
+        throw Error(fmt::format("{}: holds a mesh already; --triangles needs the shape file", name));
+    }
+    if (scale != 1.0) {
+        throw Error(fmt::format("{}: is in metres already; a scale needs the shape file", name));
+    }
+    return read_body_file(body_or_shape);
+}
+
+}  // namespace samara

@@ -1,0 +1,142 @@
+#include "samara/dynamics/immersed_body.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <fmt/format.h>
+
+#include "samara/base/error.hpp"
+#include "samara/body/octahedral_map.hpp"
+
+namespace samara {
+namespace {
+
+struct Mass {
+    double mass;
+    Vector3d center;
+    Matrix3d inertia;
+};
+
+Mass mass_of(const Body& body, const MassSpecification& specification, const std::string& name) {
+    const VolumeMoments& moments = body.moments;
+    const double mass = specification.mass.value_or(specification.density.value_or(0.0) * moments.volume);
+    Mass result{mass, specification.center_of_mass.value_or(moments.centroid),
+                uniform_inertia(moments, mass / moments.volume)};
+    if (specification.inertia) result.inertia = *specification.inertia;
+    const Vector3d principal = Eigen::SelfAdjointEigenSolver<Matrix3d>(result.inertia).eigenvalues();
+    const bool sane = principal.x() > 0.0 && principal.z() <= (principal.x() + principal.y()) * (1.0 + 1e-9);
+    if (!sane) {
+        throw Error(fmt::format(
+            "body '{}': no body has the principal moments of inertia {:.4g}, {:.4g}, {:.4g}: each must "
+            "be positive and at most the sum of the others",
+            name, principal.x(), principal.y(), principal.z()));
+    }
+    return result;
+}
+
+/// Blocks about the centre of mass: diag(I, m 1).
+Matrix6d body_inertia(const Mass& mass) {
+    Matrix6d inertia = Matrix6d::Zero();
+    inertia.topLeftCorner<3, 3>() = mass.inertia;
+    inertia.bottomRightCorner<3, 3>() = mass.mass * Matrix3d::Identity();
+    return inertia;
+}
+
+double turning_scale(const Matrix6d& inertia, const Matrix3d& added_mass) {
+    const Vector3d masses = Eigen::SelfAdjointEigenSolver<Matrix3d>(added_mass).eigenvalues();
+    const Matrix3d rotational = inertia.topLeftCorner<3, 3>();
+    const double smallest = Eigen::SelfAdjointEigenSolver<Matrix3d>(rotational).eigenvalues().x();
+    return std::sqrt((masses.z() - masses.x()) / smallest);
+}
+
+void require_tables(const Body& body, const SceneBody& scene_body) {
+    const bool needed = scene_body.loads == Loads::table || scene_body.turbulence == Turbulence::table;
+    if (!needed || body.tables) return;
+    throw Error(fmt::format(
+        "body '{0}': {1} = \"table\", but {2} holds no tables; make them with 'samara bake SCENE -o "
+        "DIR' and simulate with --bodies DIR, or set {1} otherwise",
+        scene_body.name, scene_body.loads == Loads::table ? "loads" : "turbulence",
+        scene_body.shape.string()));
+}
+
+}  // namespace
+
+ProjectedAreaMap::ProjectedAreaMap(const Surface& surface) {
+    constexpr int size = 2 * subdivisions + 1;
+    areas_.reserve(static_cast<std::size_t>(size * size));
+    for (int row = 0; row < size; ++row) {
+        for (int column = 0; column < size; ++column) {
+            areas_.push_back(samara::projected_area(surface, octahedral_node(subdivisions, row, column)));
+        }
+    }
+}
+
+double ProjectedAreaMap::at(const Vector3d& direction) const noexcept {
+    constexpr int size = 2 * subdivisions + 1;
+    const OctahedralCell cell = octahedral_cell(subdivisions, direction);
+    const auto area = [&](int row, int column) {
+        return areas_[static_cast<std::size_t>((cell.row + row) * size + cell.column + column)];
+    };
+    return (1.0 - cell.row_fraction) *
+               ((1.0 - cell.column_fraction) * area(0, 0) + cell.column_fraction * area(0, 1)) +
+           cell.row_fraction *
+               ((1.0 - cell.column_fraction) * area(1, 0) + cell.column_fraction * area(1, 1));
+}
+
+ImmersedBody make_immersed_body(const Body& body, const SceneBody& scene_body, const Fluid& fluid) {
+    if (!body.kirchhoff) {
+        throw Error(fmt::format("body '{}': {} holds no Kirchhoff tensor; add it with 'samara kirchhoff'",
+                                scene_body.name, scene_body.shape.string()));
+    }
+    require_tables(body, scene_body);
+    const Mass mass = mass_of(body, scene_body.mass, scene_body.name);
+
+    ImmersedBody result;
+    result.name = scene_body.name;
+    result.mass = mass.mass;
+    result.volume = body.moments.volume;
+    result.fluid_density = fluid.density;
+    result.viscosity = fluid.viscosity;
+    result.center_of_mass = mass.center;
+    result.center_of_buoyancy = body.moments.centroid - mass.center;
+    result.to_centroid.block<3, 3>(3, 0) = -skew(result.center_of_buoyancy);
+    const Matrix6d fluid_inertia = fluid.density * body.kirchhoff->matrix;
+    result.added_mass = fluid_inertia.bottomRightCorner<3, 3>();
+    result.inertia = body_inertia(mass) + result.to_centroid.transpose() * fluid_inertia * result.to_centroid;
+    if (Eigen::LLT<Matrix6d>(result.inertia).info() != Eigen::Success) {
+        throw Error(fmt::format(
+            "body '{}': its inertia with the fluid's is not positive definite; compute the Kirchhoff "
+            "tensor with more triangles",
+            scene_body.name));
+    }
+    result.turning_scale = turning_scale(result.inertia, result.added_mass);
+    result.length = reference_length(body.moments.surface_area);
+    result.reference_area = std::numbers::pi * result.length * result.length / 4.0;
+
+    result.loads = scene_body.loads;
+    result.coefficients = scene_body.coefficients;
+    if (!result.coefficients.normal) result.coefficients.normal = principal_axes(body.moments).col(0);
+    switch (scene_body.loads) {
+        case Loads::none:
+            break;
+        case Loads::coefficients:
+            result.dynamic = rotational_drag_alone(body);
+            if (!scene_body.coefficients.reference_area)
+                result.projected_area = ProjectedAreaMap(body.surface);
+            break;
+        case Loads::table:
+            result.dynamic = default_dynamic_coefficients(body);
+            break;
+    }
+    result.turbulence = scene_body.turbulence;
+    result.turbulent_kinetic_energy = scene_body.turbulent_kinetic_energy;
+    result.dissipation_rate = scene_body.dissipation_rate;
+    result.langevin = scene_body.langevin;
+    if (result.loads == Loads::table || result.turbulence == Turbulence::table) result.tables = body.tables;
+    return result;
+}
+
+}  // namespace samara

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+
+#include "samara/motion/motion.hpp"
+
+namespace samara {
+
+/// Called now and then with the work done and the whole work, in rows or frames.
+using ExportProgress = std::function<void(double done, double total)>;
+
+/// Writes a motion as a table of comma-separated values (RFC 4180, UTF-8, lines ended by "\n"): a row of
+/// column names, then one row for each run, body, copy and frame, the last one running fastest:
+///
+///   run,body,copy,time,position_{x,y,z},orientation_{w,x,y,z},velocity_{x,y,z},angular_velocity_{x,y,z}
+///
+/// Runs and copies count from 0; time is in s. Position (m) is that of the shape file's origin, and velocity
+/// (m/s) is the velocity of that point, v + omega x (origin - centre of mass): the derivative of the
+/// position. Orientation is the unit quaternion from shape to world axes, with continuous signs, and angular
+/// velocity (rad/s) is in world axes. Numbers are the shortest text that reads back as the same double.
+/// Returns the number of rows below the names. Writes run `run` alone where one is given, which must be in
+/// the motion. Throws Error where the file cannot be written.
+std::size_t write_csv(const std::filesystem::path& file, const Motion& motion,
+                      const std::optional<int>& run = std::nullopt, const ExportProgress& progress = {});
+
+}  // namespace samara

@@ -1,0 +1,239 @@
+#include "samara/export/gltf_file.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <limits>
+
+#include <fmt/format.h>
+#include <tiny_gltf.h>
+
+#include "samara/base/error.hpp"
+#include "samara/base/version.hpp"
+#include "samara/export/shaded_mesh.hpp"
+#include "samara/export/shape_pose.hpp"
+#include "samara/files/replace_file.hpp"
+
+namespace samara {
+namespace {
+
+/// A vector of the world (z up) in glTF's axes (y up).
+Vector3d y_up(const Vector3d& vector) {
+    return {vector.x(), vector.z(), -vector.y()};
+}
+
+/// The components of a rotation between z-up axes, for glTF's axes and order (x, y, z, w).
+Eigen::Vector4d y_up(const Quaterniond& rotation) {
+    Eigen::Vector4d components;
+    components << y_up(Vector3d(rotation.vec())), rotation.w();
+    return components;
+}
+
+/// Fills the buffer of a glTF model, one accessor after another.
+class Builder {
+  public:
+    Builder() {
+        model_.asset.version = "2.0";
+        model_.asset.generator = std::string("samara ") + version;
+        model_.buffers.emplace_back();
+    }
+
+    tinygltf::Model& model() { return model_; }
+
+    /// A view of the buffer that the accessors added next share; `target` as in glTF, 0 for animations.
+    void begin_view(int target) {
+        tinygltf::BufferView view;
+        view.buffer = 0;
+        view.byteOffset = bytes().size();
+        view.target = target;
+        model_.bufferViews.push_back(view);
+    }
+
+    /// Values of `components` floats each, with their bounds; returns the accessor's index.
+    int add_floats(const std::vector<float>& values, std::size_t components, int type) {
+        tinygltf::Accessor accessor = next_accessor(values.size() / components, type);
+        accessor.componentType = TINYGLTF_COMPONENT_TYPE_FLOAT;
+        accessor.minValues.assign(components, std::numeric_limits<double>::infinity());
+        accessor.maxValues.assign(components, -std::numeric_limits<double>::infinity());
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            double& lowest = accessor.minValues[i % components];
+            double& highest = accessor.maxValues[i % components];
+            lowest = std::min(lowest, static_cast<double>(values[i]));
+            highest = std::max(highest, static_cast<double>(values[i]));
+        }
+        return add(accessor, values.data(), values.size() * sizeof(float));
+    }
+
+    int add_indices(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+        tinygltf::Accessor accessor = next_accessor(3 * triangles.size(), TINYGLTF_TYPE_SCALAR);
+        accessor.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+        return add(accessor, triangles.data(), triangles.size() * sizeof triangles[0]);
+    }
+
+  private:
+    std::vector<unsigned char>& bytes() { return model_.buffers[0].data; }
+
+    tinygltf::Accessor next_accessor(std::size_t count, int type) {
+        tinygltf::Accessor accessor;
+        accessor.bufferView = static_cast<int>(model_.bufferViews.size()) - 1;
+        accessor.byteOffset = model_.bufferViews.back().byteLength;
+        accessor.count = count;
+        accessor.type = type;
+        return accessor;
+    }
+
+    int add(const tinygltf::Accessor& accessor, const void* data, std::size_t size) {
+        const auto* first = static_cast<const unsigned char*>(data);
+        bytes().insert(bytes().end(), first, first + size);
+        model_.bufferViews.back().byteLength += size;
+        model_.accessors.push_back(accessor);
+        return static_cast<int>(model_.accessors.size()) - 1;
+    }
+
+    tinygltf::Model model_;
+};
+
+void append(std::vector<float>& values, const auto& vector) {
+    for (const double value : vector) values.push_back(static_cast<float>(value));
+}
+
+std::vector<float> y_up_floats(const std::vector<Vector3d>& vectors) {
+    std::vector<float> values;
+    values.reserve(3 * vectors.size());
+    for (const Vector3d& vector : vectors) append(values, y_up(vector));
+    return values;
+}
+
+int add_mesh(Builder& builder, const BodyMotion& body, const std::filesystem::path& file) {
+    const ShadedMesh shaded = shaded_mesh(body.surface);
+    if (shaded.triangles.empty()) {
+        throw Error(fmt::format("{}: the surface of {} has no area to show", file.string(), body.name));
+    }
+    tinygltf::Primitive primitive;
+    primitive.mode = TINYGLTF_MODE_TRIANGLES;
+    primitive.material = 0;
+    builder.begin_view(TINYGLTF_TARGET_ARRAY_BUFFER);
+    primitive.attributes["POSITION"] =
+        builder.add_floats(y_up_floats(shaded.positions), 3, TINYGLTF_TYPE_VEC3);
+    builder.begin_view(TINYGLTF_TARGET_ARRAY_BUFFER);
+    primitive.attributes["NORMAL"] = builder.add_floats(y_up_floats(shaded.normals), 3, TINYGLTF_TYPE_VEC3);
+    builder.begin_view(TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
+    primitive.indices = builder.add_indices(shaded.triangles);
+    tinygltf::Mesh mesh;
+    mesh.name = body.name;
+    mesh.primitives.push_back(primitive);
+    builder.model().meshes.push_back(mesh);
+    return static_cast<int>(builder.model().meshes.size()) - 1;
+}
+
+/// Returns the node's index.
+int add_node(tinygltf::Model& model, const std::string& name, int mesh, const ShapePose& start) {
+    tinygltf::Node node;
+    node.name = name;
+    node.mesh = mesh;
+    const Vector3d translation = y_up(start.position);
+    const Eigen::Vector4d rotation = y_up(start.orientation);
+    node.translation.assign(translation.begin(), translation.end());
+    node.rotation.assign(rotation.begin(), rotation.end());
+    model.nodes.push_back(node);
+    const int index = static_cast<int>(model.nodes.size()) - 1;
+    model.scenes[0].nodes.push_back(index);
+    return index;
+}
+
+void add_channel(tinygltf::Animation& animation, int node, const char* path, int times, int keys) {
+    tinygltf::AnimationSampler sampler;
+    sampler.input = times;
+    sampler.output = keys;
+    sampler.interpolation = "LINEAR";
+    tinygltf::AnimationChannel channel;
+    channel.sampler = static_cast<int>(animation.samplers.size());
+    channel.target_node = node;
+    channel.target_path = path;
+    animation.samplers.push_back(sampler);
+    animation.channels.push_back(channel);
+}
+
+int add_times(Builder& builder, const Motion& motion, const std::filesystem::path& file) {
+    std::vector<float> times;
+    append(times, motion.times);
+    if (times.front() < 0.0F) {
+        throw Error(fmt::format("{}: glTF has no times before 0, but the motion starts at {} s",
+                                file.string(), motion.times.front()));
+    }
+    if (std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) != times.end()) {
+        throw Error(
+            fmt::format("{}: the frames are too close in time for glTF's floats; use a lower frame "
+                        "rate or a shorter motion",
+                        file.string()));
+    }
+    builder.begin_view(0);
+    return builder.add_floats(times, 1, TINYGLTF_TYPE_SCALAR);
+}
+
+/// The bodies of one run as nodes, with their keys where `animation` is given.
+void add_body(Builder& builder, const Motion& motion, const BodyMotion& body, int run, int times,
+              tinygltf::Animation* animation, const std::filesystem::path& file) {
+    const int mesh = add_mesh(builder, body, file);
+    if (animation != nullptr) builder.begin_view(0);
+    for (int copy = 0; copy < body.copies; ++copy) {
+        const std::vector<ShapePose> poses = shape_poses(motion, body, run, copy);
+        const int node = add_node(builder.model(), copy_name(body, copy), mesh, poses.front());
+        if (animation == nullptr) continue;
+        std::vector<float> translations;
+        std::vector<float> rotations;
+        for (const ShapePose& pose : poses) {
+            append(translations, y_up(pose.position));
+            append(rotations, y_up(pose.orientation));
+        }
+        add_channel(*animation, node, "translation", times,
+                    builder.add_floats(translations, 3, TINYGLTF_TYPE_VEC3));
+        add_channel(*animation, node, "rotation", times,
+                    builder.add_floats(rotations, 4, TINYGLTF_TYPE_VEC4));
+    }
+}
+
+tinygltf::Material matte_material() {
+    tinygltf::Material material;
+    material.name = "body";
+    material.pbrMetallicRoughness.baseColorFactor = {0.8, 0.8, 0.8, 1.0};
+    material.pbrMetallicRoughness.metallicFactor = 0.0;
+    material.pbrMetallicRoughness.roughnessFactor = 0.6;
+    return material;
+}
+
+}  // namespace
+
+void write_glb(const std::filesystem::path& file, const Motion& motion, int run) {
+    Builder builder;
+    tinygltf::Model& model = builder.model();
+    model.scenes.emplace_back();
+    model.defaultScene = 0;
+    model.materials.push_back(matte_material());
+    tinygltf::Animation animation;
+    animation.name = "motion";
+    const bool moves = motion.times.size() > 1;
+    const int times = moves ? add_times(builder, motion, file) : -1;
+    for (const BodyMotion& body : motion.bodies) {
+        add_body(builder, motion, body, run, times, moves ? &animation : nullptr, file);
+    }
+    if (moves) model.animations.push_back(animation);
+    if (model.buffers[0].data.size() > std::numeric_limits<std::uint32_t>::max() / 2) {
+        throw Error(
+            fmt::format("{}: would exceed the 2 GB that animation tools read; use a lower frame rate "
+                        "or fewer copies",
+                        file.string()));
+    }
+    replace_file(file, [&](const std::filesystem::path& temporary) {
+        std::ofstream stream(temporary, std::ios::binary);
+        tinygltf::TinyGLTF writer;
+        const bool written = writer.WriteGltfSceneToStream(&model, stream, false, true);
+        stream.close();
+        if (!written || !stream) {
+            throw Error(fmt::format("{}: cannot be written: {}", file.string(), std::strerror(errno)));
+        }
+    });
+}
+
+}  // namespace samara

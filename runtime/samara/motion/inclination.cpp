@@ -1,0 +1,83 @@
+#include "samara/motion/inclination.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace samara {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180.0;
+
+/// The place of the extremum of the parabola through the points at i - 1, i and i + 1; time i where the three
+/// lie on a line.
+double parabola_vertex(const std::vector<double>& times, const std::vector<double>& values, std::size_t i) {
+    const double before = times[i] - times[i - 1];
+    const double after = times[i + 1] - times[i];
+    const double slope_before = (values[i] - values[i - 1]) / before;
+    const double slope_after = (values[i + 1] - values[i]) / after;
+    const double curvature = (slope_after - slope_before) / (before + after);
+    if (curvature == 0.0) return times[i];
+    const double slope = (slope_before * after + slope_after * before) / (before + after);
+    return times[i] + std::clamp(-0.5 * slope / curvature, -before, after);
+}
+
+}  // namespace
+
+Vector3d down_direction(const Vector3d& gravity) {
+    const double strength = gravity.norm();
+    return strength > 0.0 ? Vector3d(gravity / strength) : Vector3d(0.0, 0.0, -1.0);
+}
+
+double inclination(const Motion& motion, const BodyMotion& body, const Pose& pose) {
+    const Vector3d axis = pose.orientation * body.shortest_axis;
+    const Vector3d down = down_direction(motion.gravity);
+    return std::atan2(axis.cross(down).norm(), std::abs(axis.dot(down)));
+}
+
+std::vector<double> inclination_series(const Motion& motion, const BodyMotion& body, int run, int copy) {
+    std::vector<double> series(motion.times.size());
+    for (int frame = 0; frame < motion.frames(); ++frame) {
+        series[static_cast<std::size_t>(frame)] =
+            inclination(motion, body, motion.pose(body, run, frame, copy));
+    }
+    return series;
+}
+
+double percentile(std::vector<double> values, double percent) {
+    std::sort(values.begin(), values.end());
+    const double place = percent / 100.0 * static_cast<double>(values.size() - 1);
+    const auto below = static_cast<std::size_t>(place);
+    const std::size_t above = std::min(below + 1, values.size() - 1);
+    return std::lerp(values[below], values[above], place - static_cast<double>(below));
+}
+
+double required_prominence(const std::vector<double>& inclinations) {
+    return std::max(degree, 0.1 * (percentile(inclinations, 95.0) - percentile(inclinations, 5.0)));
+}
+
+std::vector<double> inclination_minima(const std::vector<double>& times,
+                                       const std::vector<double>& inclinations, double prominence) {
+    std::vector<double> squared_cosines(inclinations.size());
+    std::transform(inclinations.begin(), inclinations.end(), squared_cosines.begin(),
+                   [](double angle) { return std::cos(angle) * std::cos(angle); });
+    std::vector<double> minima;
+    std::size_t lowest = 0;
+    std::size_t highest = 0;
+    bool falling = false;
+    for (std::size_t i = 1; i < inclinations.size(); ++i) {
+        if (inclinations[i] > inclinations[highest]) highest = i;
+        if (inclinations[i] < inclinations[lowest]) lowest = i;
+        if (!falling && inclinations[i] < inclinations[highest] - prominence) {
+            falling = true;
+            lowest = i;
+        } else if (falling && inclinations[i] > inclinations[lowest] + prominence) {
+            minima.push_back(parabola_vertex(times, squared_cosines, lowest));
+            falling = false;
+            highest = i;
+        }
+    }
+    return minima;
+}
+
+}  // namespace samara

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <optional>
+
+#include "samara/motion/motion.hpp"
+
+namespace samara {
+
+/// How a body falls, judged on one copy in one run (see measure()).
+enum class Regime {
+    steady,      ///< keeps its inclination
+    fluttering,  ///< swings from side to side without turning over
+    tumbling,    ///< turns over and over in one sense
+    chaotic,     ///< mixes swings and turns, or turns in changing senses
+};
+
+/// The regime in words, as above.
+const char* name_of(Regime regime);
+
+/// A stretch of the motion (s).
+struct TimeWindow {
+    double begin = 0.0;
+    double end = 0.0;
+};
+
+/// The figures of one copy in one run over a window of time.
+struct Measures {
+    TimeWindow window;
+    Vector3d mean_velocity = Vector3d::Zero();  ///< m/s, world: way of the centre of mass over the duration
+    double descent_speed = 0.0;                 ///< m/s: mean_velocity along gravity (along -z without it)
+    double mean_inclination = 0.0;              ///< rad, mean over the frames
+    double inclination_amplitude = 0.0;         ///< rad: 95th percentile of the inclination
+    std::optional<double> frequency;  ///< Hz: 1 / (2 x mean time between minima of inclination); nothing
+                                      ///< where the window shows fewer than two minima
+    int swings = 0;                   ///< minima of the inclination in the window
+    int turnovers = 0;                ///< half turns of the shortest axis, from one end up to the other
+    double rms_angular_speed = 0.0;   ///< rad/s
+    Regime regime = Regime::steady;
+};
+
+/// The body's fall: from the last frame before it moves to the first frame at which it rests again. A body
+/// that waits for its start or lies on the ground is not falling; it moves where its speed or angular speed
+/// exceeds 1e-6 of their largest values. The whole recording where it never moves.
+TimeWindow fall_of(const Motion& motion, const BodyMotion& body, int run, int copy);
+
+/// The window that is measured where none is given: the last two thirds of fall_of().
+TimeWindow default_window(const Motion& motion, const BodyMotion& body, int run, int copy);
+
+/// Measures one copy in one run over the frames in the window (default_window() where none is given); a
+/// window between two frames takes the frame nearest to its middle. Throws Error where the window is empty or
+/// outside the recording.
+///
+/// The regime follows from three counts: *turnovers*, where the shortest axis passes from more than 10
+/// degrees above the horizontal to more than 10 degrees below or back; *swings*, maxima of the inclination
+/// between two minima (inclination.hpp) without a turnover; and *reversals*, turnovers in the sense opposed
+/// to the one before, by the axis' angular velocity while it passes. With s = turnovers / (turnovers +
+/// swings):
+///  - tumbling where s >= 0.9 and at most a tenth of the turnovers are reversals;
+///  - otherwise steady where the 5th and 95th percentile of the inclination differ by less than 5 degrees and
+///    nothing turns over;
+///  - otherwise fluttering where s <= 0.1;
+///  - otherwise chaotic.
+/// A window too short for a whole swing is judged by the same rule on what it shows. Without gravity the
+/// inclination is from the world's vertical, and so are the regime and the descent speed.
+/// Frames must be close enough to see the body turn: less than a quarter of a turn from one to the next.
+Measures measure(const Motion& motion, const BodyMotion& body, int run = 0, int copy = 0,
+                 const std::optional<TimeWindow>& window = std::nullopt);
+
+/// What all copies and runs of a body do together, each in its own default window.
+struct BodyMeasures {
+    Vector3d mean_velocity = Vector3d::Zero();  ///< m/s, mean over copies and runs
+    double descent_speed = 0.0;                 ///< m/s, mean over copies and runs
+    double descent_speed_deviation = 0.0;       ///< m/s, standard deviation between them; 0 for a single one
+    double inclination_amplitude = 0.0;         ///< rad, mean over copies and runs
+    std::optional<double> frequency;            ///< Hz, mean over those that have one
+    double rms_angular_speed = 0.0;             ///< rad/s, root of the mean square
+    Regime regime = Regime::steady;             ///< the commonest; the first in the enumeration of equals
+    double regime_share = 1.0;                  ///< of the copies and runs that fall like that
+};
+
+/// measure() over all runs and copies of a body.
+BodyMeasures measure_all(const Motion& motion, const BodyMotion& body);
+
+}  // namespace samara

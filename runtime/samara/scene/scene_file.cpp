@@ -1,0 +1,256 @@
+#include "samara/scene/scene_file.hpp"
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "samara/base/content_hash.hpp"
+#include "samara/base/error.hpp"
+#include "samara/scene/toml_table.hpp"
+
+namespace samara {
+namespace {
+
+template <typename Choice>
+using Words = std::map<std::string, Choice, std::less<>>;
+
+template <typename Choice>
+Choice choice(TomlTable& table, std::string_view key, const Words<Choice>& words, Choice standard) {
+    const auto text = table.text(key);
+    if (!text) return standard;
+    const auto found = words.find(*text);
+    if (found != words.end()) return found->second;
+    std::vector<std::string> names;
+    for (const auto& [name, value] : words) names.push_back('"' + name + '"');
+    throw table.fault(key, fmt::format("must be one of {}", fmt::join(names, ", ")));
+}
+
+/// Copies a value that the file gives; leaves the default where it does not.
+template <typename Value>
+void assign(Value& target, const std::optional<Value>& given) {
+    if (given) target = *given;
+}
+
+Fluid read_fluid(TomlTable& table) {
+    const auto preset = table.text("preset");
+    const auto density = table.number("density", positive_number);
+    const auto viscosity = table.number("viscosity", positive_number);
+    if (preset && (density || viscosity)) {
+        throw table.fault("preset", "stands beside density or viscosity; give the preset or both of these");
+    }
+    if (density.has_value() != viscosity.has_value()) {
+        throw table.fault(density ? "density" : "viscosity",
+                          "stands alone; give density and viscosity, or a preset");
+    }
+    Fluid fluid = *fluid_preset("water");
+    if (preset) {
+        const auto known = fluid_preset(*preset);
+        if (!known) throw table.fault("preset", R"(must be "water" or "air")");
+        fluid = *known;
+    }
+    assign(fluid.density, density);
+    assign(fluid.viscosity, viscosity);
+    assign(fluid.current, table.vector("current"));
+    table.finish();
+    return fluid;
+}
+
+/// Three moments of inertia about the axes, or the whole symmetric matrix as three rows.
+std::optional<Matrix3d> read_inertia(TomlTable& table) {
+    const toml::node* node = table.node("inertia");
+    if (node == nullptr) return std::nullopt;
+    const toml::array* rows = node->as_array();
+    if (rows != nullptr && rows->size() == 3 && rows->is_homogeneous(toml::node_type::array)) {
+        Matrix3d inertia;
+        for (std::size_t row = 0; row < 3; ++row) {
+            const toml::array& values = *rows->get(row)->as_array();
+            if (values.size() != 3) throw table.fault("inertia", "must be three rows of three numbers");
+            for (std::size_t column = 0; column < 3; ++column) {
+                const auto value = values.get(column)->value<double>();
+                if (!value || !std::isfinite(*value))
+                    throw table.fault("inertia", "must hold finite numbers");
+                inertia(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)) = *value;
+            }
+        }
+        if ((inertia - inertia.transpose()).norm() > 1e-9 * inertia.norm()) {
+            throw table.fault("inertia", "must be symmetric");
+        }
+        return inertia;
+    }
+    const auto moments = table.vector("inertia");
+    return Matrix3d(moments->asDiagonal());
+}
+
+MassSpecification read_mass(TomlTable& table) {
+    MassSpecification mass;
+    mass.density = table.number("density", positive_number);
+    mass.mass = table.number("mass", positive_number);
+    mass.center_of_mass = table.vector("center_of_mass");
+    mass.inertia = read_inertia(table);
+    if (mass.density.has_value() == mass.mass.has_value()) {
+        throw table.fault(
+            mass.density ? "mass" : "density",
+            mass.density ? "stands beside density; give one of the two" : "is missing; give it, or mass");
+    }
+    if (mass.density && (mass.center_of_mass || mass.inertia)) {
+        throw table.fault(mass.inertia ? "inertia" : "center_of_mass",
+                          "contradicts a uniform density; give mass instead of density");
+    }
+    return mass;
+}
+
+CoefficientLoads read_coefficients(TomlTable& table, Loads loads) {
+    CoefficientLoads coefficients;
+    for (const char* key :
+         {"drag_coefficient", "lift_coefficient", "reference_area", "normal", "center_of_pressure"}) {
+        if (table.node(key) != nullptr && loads != Loads::coefficients) {
+            throw table.fault(key, R"(is for loads = "coefficients" alone; remove it or change loads)");
+        }
+    }
+    assign(coefficients.drag_coefficient, table.number("drag_coefficient", non_negative_number));
+    assign(coefficients.lift_coefficient, table.number("lift_coefficient", any_number));
+    coefficients.reference_area = table.number("reference_area", positive_number);
+    coefficients.normal = table.vector("normal");
+    if (coefficients.normal) {
+        if (coefficients.normal->norm() == 0.0) throw table.fault("normal", "must not be the zero vector");
+        coefficients.normal->normalize();
+    }
+    assign(coefficients.center_of_pressure, table.vector("center_of_pressure"));
+    return coefficients;
+}
+
+void read_turbulence(TomlTable& table, SceneBody& body) {
+    body.turbulence = body.loads == Loads::table ? Turbulence::table : Turbulence::none;
+    body.turbulence = choice<Turbulence>(
+        table, "turbulence",
+        {{"none", Turbulence::none}, {"constant", Turbulence::constant}, {"table", Turbulence::table}},
+        body.turbulence);
+    body.langevin = choice<Langevin>(
+        table, "langevin", {{"seen-fluid", Langevin::seen_fluid}, {"body-velocity", Langevin::body_velocity}},
+        body.langevin);
+    const auto energy = table.number("turbulent_kinetic_energy", non_negative_number);
+    const auto dissipation = table.number("dissipation_rate", non_negative_number);
+    const bool constant = body.turbulence == Turbulence::constant;
+    if (constant != energy.has_value() || constant != dissipation.has_value()) {
+        throw table.fault("turbulence",
+                          constant ? "is constant: give turbulent_kinetic_energy and dissipation_rate"
+                                   : R"(must be "constant" where its values are given)");
+    }
+    assign(body.turbulent_kinetic_energy, energy);
+    assign(body.dissipation_rate, dissipation);
+    if (constant && (*energy > 0.0) != (*dissipation > 0.0)) {
+        throw table.fault("dissipation_rate",
+                          "and turbulent_kinetic_energy must be both zero or both above zero");
+    }
+}
+
+void read_start(TomlTable& table, SceneBody& body) {
+    assign(body.position, table.vector("position"));
+    if (const auto values = table.numbers("orientation", 4)) {
+        const Quaterniond quaternion((*values)[0], (*values)[1], (*values)[2], (*values)[3]);
+        if (quaternion.norm() < 1e-6)
+            throw table.fault("orientation", "must be a quaternion (w, x, y, z) that is not zero");
+        body.orientation = quaternion.normalized();
+    }
+    assign(body.velocity, table.vector("velocity"));
+    assign(body.angular_velocity, table.vector("angular_velocity"));
+    assign(body.start, table.number("start", non_negative_number));
+    if (const auto count = table.integer("count", 1, 10'000'000)) body.count = static_cast<int>(*count);
+    if (auto spread = table.table("spread")) {
+        assign(body.spread_position, spread->vector("position"));
+        assign(body.spread_angle,
+               spread->number("angle", {0.0, std::numbers::pi, false, "must lie between 0 and pi"}));
+        spread->finish();
+    }
+}
+
+bool is_plain_name(const std::string& name) {
+    constexpr std::string_view allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
+    return !name.empty() && name.size() <= 64 && name.find_first_not_of(allowed) == std::string::npos;
+}
+
+SceneBody read_body(TomlTable& table, const std::filesystem::path& folder) {
+    SceneBody body;
+    const auto name = table.text("name");
+    if (!name) throw table.fault("name", "is missing; give the body a name");
+    if (!is_plain_name(*name))
+        throw table.fault("name", "may hold letters, digits, '-' and '_' alone, 64 at most");
+    body.name = *name;
+    const auto shape = table.text("shape");
+    if (!shape) throw table.fault("shape", "is missing; give a shape file or a .body.h5");
+    body.shape =
+        std::filesystem::path(*shape).is_absolute() ? std::filesystem::path(*shape) : folder / *shape;
+    if (!std::filesystem::is_regular_file(body.shape)) {
+        throw table.fault("shape", fmt::format("names {}, but there is no such file", body.shape.string()));
+    }
+    assign(body.scale, table.number("scale", positive_number));
+    body.mass = read_mass(table);
+    read_start(table, body);
+    body.loads = choice<Loads>(
+        table, "loads",
+        {{"none", Loads::none}, {"coefficients", Loads::coefficients}, {"table", Loads::table}}, body.loads);
+    body.coefficients = read_coefficients(table, body.loads);
+    read_turbulence(table, body);
+    table.finish();
+    return body;
+}
+
+void read_settings(TomlTable& table, Scene& scene) {
+    const auto duration = table.number("duration", positive_number);
+    if (!duration) throw table.fault("duration", "is missing; give the seconds to simulate");
+    scene.duration = *duration;
+    assign(scene.step, table.number("step", positive_number));
+    assign(scene.frame_rate, table.number("frame_rate", positive_number));
+    if (const auto seed = table.integer("seed", 0, std::numeric_limits<std::int64_t>::max())) {
+        scene.seed = static_cast<std::uint64_t>(*seed);
+    }
+    assign(scene.gravity, table.vector("gravity"));
+    if (scene.duration * scene.frame_rate > 1e8 || scene.duration / scene.step > 1e10) {
+        throw table.fault("duration", "makes more than 1e8 frames or 1e10 steps; is a unit wrong?");
+    }
+    table.finish();
+}
+
+}  // namespace
+
+std::optional<Fluid> fluid_preset(const std::string& name) {
+    if (name == "water") return Fluid{.density = 998.2, .viscosity = 1.002e-3};
+    if (name == "air") return Fluid{.density = 1.204, .viscosity = 1.825e-5};
+    return std::nullopt;
+}
+
+Scene read_scene_file(const std::filesystem::path& file) {
+    Scene scene;
+    scene.file = file;
+    scene.text = read_bytes(file);
+    toml::table document;
+    try {
+        document = toml::parse(scene.text, file.string());
+    } catch (const toml::parse_error& fault) {
+        throw Error(fmt::format("{}:{}: {}", file.string(), fault.source().begin.line, fault.description()));
+    }
+    TomlTable top(document, file.string(), "the scene");
+    auto settings = top.table("scene");
+    if (!settings) throw top.fault("[scene]", "is missing; it holds at least the duration");
+    read_settings(*settings, scene);
+    if (auto fluid = top.table("fluid")) scene.fluid = read_fluid(*fluid);
+    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+    std::set<std::string> names;
+    for (TomlTable& table : top.tables("body")) {
+        scene.bodies.push_back(read_body(table, folder));
+        if (!names.insert(scene.bodies.back().name).second) {
+            throw table.fault("name", fmt::format("'{}' is taken by another body", scene.bodies.back().name));
+        }
+    }
+    top.finish();
+    if (scene.bodies.empty())
+        throw Error(fmt::format("{}: there is no [[body]] in the scene", file.string()));
+    return scene;
+}
+
+}  // namespace samara

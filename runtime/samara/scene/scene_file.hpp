@@ -1,0 +1,14 @@
+#pragma once
+
+#include <filesystem>
+
+#include "samara/scene/scene.hpp"
+
+namespace samara {
+
+/// Reads a scene file (TOML; every key in docs/scene-file). Paths in it are taken from the scene file's
+/// folder. Throws Error naming file, line and remedy: for an unknown key, a wrong type, a value out of range,
+/// a missing required key, a shape file that is not there.
+Scene read_scene_file(const std::filesystem::path& file);
+
+}  // namespace samara

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <toml++/toml.h>
+
+#include "samara/base/error.hpp"
+#include "samara/base/linear_algebra.hpp"
+
+namespace samara {
+
+/// Bounds of a number, with the words for a message: "must be above 0".
+struct NumberRange {
+    double lowest;
+    double highest;
+    bool lowest_excluded = false;
+    std::string_view words;
+};
+
+inline constexpr NumberRange any_number = {-1e300, 1e300, false, "must be a finite number"};
+inline constexpr NumberRange positive_number = {0.0, 1e300, true, "must be a finite number above 0"};
+inline constexpr NumberRange non_negative_number = {0.0, 1e300, false, "must be a finite number, 0 or above"};
+
+/// Reads the keys of one TOML table and remembers which were asked for, so that an unknown key can be named.
+/// Every fault throws Error with the file and the line.
+class TomlTable {
+  public:
+    /// `where`: the table's name for messages, as in "[fluid]".
+    TomlTable(const toml::table& table, std::string file, std::string where);
+
+    std::optional<double> number(std::string_view key, const NumberRange& range);
+    std::optional<std::int64_t> integer(std::string_view key, std::int64_t lowest, std::int64_t highest);
+    std::optional<std::string> text(std::string_view key);
+    /// `length` finite numbers.
+    std::optional<std::vector<double>> numbers(std::string_view key, std::size_t length);
+    std::optional<Vector3d> vector(std::string_view key);
+    std::optional<TomlTable> table(std::string_view key);
+    /// The tables of an array of tables, [[key]].
+    std::vector<TomlTable> tables(std::string_view key);
+    const toml::node* node(std::string_view key);
+
+    /// Throws where the table holds a key that was never asked for, naming the keys that there are.
+    void finish() const;
+
+    [[nodiscard]] Error fault(std::string_view key, std::string_view what) const;
+
+  private:
+    double finite_number(std::string_view key, const toml::node& node, const NumberRange& range) const;
+
+    const toml::table* table_;
+    std::string file_;
+    std::string where_;
+    std::set<std::string, std::less<>> known_;
+};
+
+}  // namespace samara

@@ -1,0 +1,265 @@
+#include "converter/convert.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "converter/direction_sampling.hpp"
+#include "load_laws.hpp"
+#include "samara/base/content_hash.hpp"
+#include "samara/base/error.hpp"
+#include "samara/body/body_file.hpp"
+#include "samara/body/octahedral_map.hpp"
+#include "samara/command/subprocess.hpp"
+#include "solved_folder.hpp"
+#include "symmetry_groups.hpp"
+
+namespace samara {
+namespace {
+
+using testing::EndsWith;
+using testing::HasSubstr;
+
+LoadEntry box_law(const Vector3d& direction, double reynolds_number) {
+    LoadEntry entry = test::BoxLaw{}(direction);
+    entry.force *= 1.0 + 1000.0 / reynolds_number;
+    return entry;
+}
+
+Body turned_box() {
+    Body body = test::box_body(Vector3d(0.01, 0.02, 0.04));
+    body.symmetry = test::turned(body.symmetry, test::some_rotation());
+    for (Vector3d& vertex : body.surface.vertices) vertex = test::some_rotation() * vertex;
+    return body;
+}
+
+class Convert : public testing::Test {
+  protected:
+    std::string fault() const {
+        return test::message_of<Error>([&] { convert_cases(folder_.path()); });
+    }
+
+    test::SolvedFolder folder_{test::box_body(Vector3d(0.01, 0.02, 0.04)), 2, {1e3, 1e4}, box_law};
+};
+
+TEST_F(Convert, FillsTheTablesInBodyAxesWhateverTheyAre) {
+    const test::SolvedFolder folder(turned_box(), 2, {1e4, 1e3}, box_law);
+    const Body body = convert_cases(folder.path());
+    ASSERT_TRUE(body.tables);
+    const LoadTables& tables = *body.tables;
+    EXPECT_EQ(tables.reynolds_numbers, (std::vector<double>{1e3, 1e4}));
+    EXPECT_EQ(tables.entries.size(), 2U * 25U);
+    EXPECT_EQ(tables.subdivisions, 2);
+    EXPECT_EQ(tables.quality, "smoke");
+    EXPECT_EQ(tables.reference_length, reference_length(body.moments.surface_area));
+    for (const double reynolds_number : tables.reynolds_numbers) {
+        for (int row = 0; row <= 4; ++row) {
+            for (int column = 0; column <= 4; ++column) {
+                const Vector3d node = octahedral_node(2, row, column);
+                const LoadEntry exact = transformed(box_law(node, reynolds_number), tables.axes);
+                const LoadEntry found = look_up(tables, tables.axes * node, reynolds_number);
+                EXPECT_LT(test::difference(found, exact), 1e-8);
+            }
+        }
+    }
+}
+
+TEST_F(Convert, GivesTheTailOfTheIterationsAsError) {
+    const Conversion conversion = convert_folder(folder_.path());
+    const auto& [direction, entry, error] = conversion.cases.front().sample;
+    EXPECT_EQ(direction, Vector3d(1, 0, 0));
+    // Of 11 iterations the last 9 make three batches, whose means are off by 1/3, -1/3 and 0 of 0.01 F.
+    const double relative = 0.01 / std::sqrt(27.0);
+    EXPECT_NEAR(error.force.x(), relative * std::abs(entry.force.x()), 1e-8);
+    EXPECT_EQ(error.force.y(), 0.0);
+    EXPECT_NEAR(error.turbulent_kinetic_energy, relative * entry.turbulent_kinetic_energy, 1e-10);
+    EXPECT_NEAR(error.dissipation_rate, relative * entry.dissipation_rate, 1e-10);
+    const LoadTables& tables = *conversion.body.tables;
+    EXPECT_EQ(tables.errors[tables.index(0, 2, 4)].force, error.force);
+}
+
+TEST_F(Convert, TakesWhatSymmetryForbidsAsError) {
+    const auto lopsided = [](const Vector3d& direction, double reynolds_number) {
+        LoadEntry entry = box_law(direction, reynolds_number);
+        if (direction.x() == 1.0) entry.force.y() += 0.08;
+        return entry;
+    };
+    const test::SolvedFolder folder(test::box_body(Vector3d(0.01, 0.02, 0.04)), 2, {1e4}, lopsided);
+    const Conversion conversion = convert_folder(folder.path());
+    const DirectionSample& broadside = conversion.cases.front().sample;
+    EXPECT_EQ(broadside.entry.force.y(), 0.0);
+    EXPECT_GT(broadside.error.force.y(), 0.08 / std::sqrt(2.0));
+    EXPECT_LT(broadside.error.force.y(), 1.01 * 0.08 / std::sqrt(2.0));
+}
+
+TEST_F(Convert, KeepsTheRestOfTheBodyAndTheProvenance) {
+    const Body body = convert_cases(folder_.path());
+    EXPECT_EQ(body.name, "box");
+    EXPECT_EQ(surface_hash(body.surface), surface_hash(folder_.body().surface));
+    const nlohmann::json provenance = nlohmann::json::parse(body.tables->provenance);
+    ASSERT_EQ(provenance.size(), 12U);
+    EXPECT_EQ(provenance[0]["name"], "case_00");
+    EXPECT_EQ(provenance[0]["closure"], "kEpsilon");
+    EXPECT_EQ(provenance[0]["direction"], (nlohmann::json{1.0, 0.0, 0.0}));
+    EXPECT_EQ(provenance[11]["reynolds_number"], 1e4);
+}
+
+TEST_F(Convert, SaysHowFarItIs) {
+    std::size_t last = 0;
+    convert_folder(folder_.path(), [&](std::size_t done, std::size_t total) {
+        EXPECT_EQ(done, ++last);
+        EXPECT_EQ(total, 12U);
+    });
+    EXPECT_EQ(last, 12U);
+}
+
+TEST_F(Convert, NamesTheFirstCaseThatIsNotSolved) {
+    std::filesystem::remove(folder_.case_path(3) / "provenance.json");
+    std::filesystem::remove(folder_.case_path(5) / "provenance.json");
+    EXPECT_EQ(fault(),
+              folder_.path().string() +
+                  ": the case case_03 is not solved (2 of 12 are not); run 'samara bake' again, which goes "
+                  "on where it stopped");
+}
+
+TEST_F(Convert, NamesTheCaseThatDiverged) {
+    const std::filesystem::path forces = "case_02/postProcessing/forces/0/force.dat";
+    const std::string text = read_bytes(folder_.path() / forces);
+    folder_.write(forces, text.substr(0, text.rfind("20\t(")) + "20\t(nan nan nan)\t(0 0 0)\t(0 0 0)\n");
+    EXPECT_THAT(fault(), HasSubstr("case_02: diverged: its loads or turbulence are not finite; remove"));
+}
+
+TEST_F(Convert, RefusesThrust) {
+    folder_.write("case_00/postProcessing/forces/0/force.dat",
+                  "# Time total_x total_y total_z\n11 1 0 0\n12 1 0 0\n13 1 0 0\n14 1 0 0\n");
+    EXPECT_THAT(fault(), HasSubstr("case_00: diverged: the drag coefficient is -2.546, not positive"));
+}
+
+TEST_F(Convert, RefusesFieldsAndHistoriesOfDifferentRuns) {
+    folder_.write("case_01/postProcessing/shell/0/volFieldValue.dat",
+                  "# Time volAverage(k) volAverage(epsilon)\n11 1 1\n12 1 1\n13 1 1\n14 1 1\n");
+    EXPECT_THAT(fault(), HasSubstr("case_01: the mean k over the shell is"));
+    EXPECT_THAT(fault(), HasSubstr("they are of different runs"));
+}
+
+TEST_F(Convert, RefusesCasesOfAnotherDirectionOrReynoldsNumberThanPlanned) {
+    folder_.replace("case_01/parameters", "reynoldsNumber 1000", "reynoldsNumber 2000");
+    EXPECT_THAT(fault(),
+                HasSubstr("case_01: was solved for the Reynolds number 2000, but plan.json has 1000"));
+    folder_.replace("case_00/parameters", "direction (1 ", "direction (-1 ");
+    EXPECT_THAT(fault(),
+                HasSubstr("case_00: was solved for the direction (-1, 0, 0), but plan.json has (1, 0, 0)"));
+}
+
+TEST_F(Convert, RefusesTooFewIterations) {
+    folder_.replace("case_00/parameters", "averagingStart 10", "averagingStart 18");
+    EXPECT_THAT(fault(), HasSubstr("force.dat: has 3 iterations from 18 on, too few"));
+}
+
+TEST_F(Convert, RefusesMeshesAndFieldsThatDoNotBelongTogether) {
+    folder_.replace("mesh/constant/polyMesh/cellZones", "3(1 2 4)", "3(1 2 5)");
+    EXPECT_THAT(fault(), HasSubstr("kMean: has no value for cell 5 of the shell"));
+    folder_.replace("mesh/constant/polyMesh/cellZones", "3(1 2 5)", "0()");
+    EXPECT_THAT(fault(), HasSubstr("cellZones: the zone 'shell' has no cells"));
+}
+
+TEST_F(Convert, RefusesAPlanOfAnotherBody) {
+    write_body_file(folder_.path() / "body.body.h5", test::box_body(Vector3d(0.01, 0.02, 0.05)));
+    EXPECT_THAT(fault(), HasSubstr("plan.json and body.body.h5 are of different bodies"));
+}
+
+TEST_F(Convert, NamesADirectionThatThePlanForgot) {
+    nlohmann::json plan = nlohmann::json::parse(read_bytes(folder_.path() / "plan.json"));
+    plan["cases"].erase(7);
+    folder_.write("plan.json", plan.dump());
+    EXPECT_THAT(fault(), HasSubstr("plan.json: Reynolds number 10000: no case in the direction (0.707107, "));
+}
+
+TEST_F(Convert, RefusesDamagedPlansInOneLine) {
+    const std::string plan = read_bytes(folder_.path() / "plan.json");
+    const auto fault_of = [&](const std::string& text) {
+        folder_.write("plan.json", text);
+        const std::string message = fault();
+        EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+        EXPECT_THAT(message, EndsWith("make the cases again with 'samara bake'"));
+        return message;
+    };
+    const auto changed = [&](const std::string& entry, const nlohmann::json& value) {
+        nlohmann::json content = nlohmann::json::parse(plan);
+        content[nlohmann::json::json_pointer(entry)] = value;
+        return content.dump();
+    };
+    EXPECT_THAT(fault_of(plan.substr(0, 100)), HasSubstr("plan.json: is no JSON ("));
+    EXPECT_THAT(fault_of("{}"), HasSubstr("an entry is missing or of the wrong kind"));
+    EXPECT_THAT(fault_of(changed("/quality", 3)), HasSubstr("an entry is missing or of the wrong kind"));
+    EXPECT_THAT(fault_of(changed("/subdivisions", 0)), HasSubstr("'subdivisions' is not sane"));
+    EXPECT_THAT(fault_of(changed("/reference_length", -1)), HasSubstr("'reference_length' is not positive"));
+    EXPECT_THAT(fault_of(changed("/axes/0/0", 2)), HasSubstr("'axes' is no rotation"));
+    EXPECT_THAT(fault_of(changed("/cases", nlohmann::json::array())), HasSubstr("'cases' is empty"));
+    EXPECT_THAT(fault_of(changed("/cases/1/name", "case_00")), HasSubstr("two cases are named case_00"));
+    EXPECT_THAT(fault_of(changed("/cases/1/direction", {1, 1, 0})), HasSubstr("case_01 is no unit vector"));
+    EXPECT_THAT(fault_of(changed("/cases/1/reynolds_number", 0)), HasSubstr("case_01 is not positive"));
+}
+
+/// What samara-convert prints, with its exit status before it.
+class ConvertProgram : public Convert {
+  protected:
+    std::pair<int, std::string> run(std::vector<std::string> words) const {
+        words.insert(words.begin(), std::string(SAMARA_PROGRAMS) + "/samara-convert");
+        const std::filesystem::path output = scratch_.path() / "output";
+        const int status = run_subprocess(words, output);
+        return {status, read_bytes(output)};
+    }
+
+    test::TemporaryFolder scratch_;
+};
+
+TEST_F(ConvertProgram, WritesTheBodyFileAndOneJsonObject) {
+    const std::string file = scratch_.path() / "b.body.h5";
+    const auto [status, text] = run({folder_.path().string(), "-o", file, "--json"});
+    ASSERT_EQ(status, 0) << text;
+    const nlohmann::json result = nlohmann::json::parse(text);
+    EXPECT_EQ(result["cases"].size(), 12U);
+    EXPECT_EQ(result["nodes"], 50);
+    EXPECT_NEAR(result["cases"][0]["drag_coefficient"].get<double>(), 2.0 * 0.6, 1e-9);
+    EXPECT_EQ(result["reynolds_numbers"], (nlohmann::json{1e3, 1e4}));
+    const Body body = read_body_file(file);
+    ASSERT_TRUE(body.tables);
+    EXPECT_NEAR(look_up(*body.tables, Vector3d::UnitZ(), 1e4).force.z(), -1.1 * 1.9, 1e-9);
+}
+
+TEST_F(ConvertProgram, EqualCasesGiveEqualBytes) {
+    const std::string first = scratch_.path() / "a.body.h5";
+    const std::string second = scratch_.path() / "b.body.h5";
+    ASSERT_EQ(run({folder_.path().string(), "-o", first}).first, 0);
+    ASSERT_EQ(run({folder_.path().string(), "-o", second}).first, 0);
+    EXPECT_EQ(read_bytes(first), read_bytes(second));
+}
+
+TEST_F(ConvertProgram, PrintsATableWithErrors) {
+    const auto [status, text] = run({folder_.path().string(), "-o", scratch_.path() / "b.body.h5"});
+    ASSERT_EQ(status, 0) << text;
+    EXPECT_THAT(text, HasSubstr("12 solved cases -> 50 table nodes"));
+    EXPECT_THAT(text, HasSubstr("(1.0000, 0.0000, 0.0000)"));
+    EXPECT_THAT(text, HasSubstr("1.2000 +- 0.0023"));
+}
+
+TEST_F(ConvertProgram, AnswersForeignFoldersWithOneLine) {
+    const std::string output = scratch_.path() / "b.body.h5";
+    for (const std::string& folder : {scratch_.path().string(), std::string("/no/such/folder")}) {
+        const auto [status, text] = run({folder, "-o", output});
+        EXPECT_EQ(status, 1);
+        EXPECT_THAT(text, testing::StartsWith("samara-convert: " + folder + ": is no folder"));
+        EXPECT_THAT(text, EndsWith("give the folder NAME.cases that 'samara bake' made\n"));
+    }
+    EXPECT_FALSE(std::filesystem::exists(output));
+    const auto [status, text] = run({folder_.path().string(), "-o", "b.h5"});
+    EXPECT_EQ(status, 1);
+    EXPECT_THAT(text, HasSubstr("name it NAME.body.h5"));
+}
+
+}  // namespace
+}  // namespace samara

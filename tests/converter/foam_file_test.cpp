@@ -1,0 +1,217 @@
+#include "converter/foam_file.hpp"
+
+#include <chrono>
+#include <cstring>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "samara/base/error.hpp"
+#include "temporary_folder.hpp"
+
+namespace samara {
+namespace {
+
+using testing::ElementsAre;
+using testing::EndsWith;
+using testing::HasSubstr;
+
+std::string header(const std::string& class_name, const std::string& format = "ascii",
+                   const std::string& more = "") {
+    return fmt::format(
+        "/*---- C++ ----*\\\n| banner |\n\\*----*/\nFoamFile\n{{\n    version     2.0;\n    format      "
+        "{};\n{}"
+        "    class       {};\n    location    \"200\";\n    object      kMean;\n}}\n// * * * //\n\n",
+        format, more, class_name);
+}
+
+template <typename Number>
+std::string raw(const std::vector<Number>& numbers) {
+    std::string bytes(numbers.size() * sizeof(Number), '\0');
+    std::memcpy(bytes.data(), numbers.data(), bytes.size());
+    return bytes;
+}
+
+class FoamFile : public testing::Test {
+  protected:
+    std::filesystem::path scalar(const std::string& body) {
+        return folder_.file("kMean", header("volScalarField") + "dimensions [0 2 -2 0 0 0 0];\n\n" + body);
+    }
+    std::string fault_in(const std::string& body) {
+        const std::filesystem::path file = scalar(body);
+        const std::string message = test::message_of<Error>([&] { read_scalar_field(file); });
+        EXPECT_EQ(message.find(file.string() + ":"), 0U) << message;
+        EXPECT_EQ(message.find('\n'), std::string::npos);
+        return message;
+    }
+
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(FoamFile, ListsOneValueToALine) {
+    const auto field = read_scalar_field(scalar(
+        "internalField   nonuniform List<scalar> \n3\n(\n1.5\n-2e-05\n3\n)\n;\n\nboundaryField\n{\n}\n"));
+    EXPECT_FALSE(field.uniform);
+    EXPECT_THAT(field.values, ElementsAre(1.5, -2e-5, 3.0));
+    EXPECT_TRUE(field.covers(2));
+    EXPECT_FALSE(field.covers(3));
+}
+
+TEST_F(FoamFile, ShortListsOnOneLineAndCommentsBetween) {
+    const auto field =
+        read_scalar_field(scalar("#include \"../parameters\"\nsub { a (1 2); b { c 3; } }\n"
+                                 "internalField nonuniform List<scalar> 3(1 2 3); // end\n"));
+    EXPECT_THAT(field.values, ElementsAre(1.0, 2.0, 3.0));
+}
+
+TEST_F(FoamFile, EqualValuesWrittenOnce) {
+    EXPECT_THAT(read_scalar_field(scalar("internalField nonuniform List<scalar> 4{0.25};")).values,
+                ElementsAre(0.25, 0.25, 0.25, 0.25));
+}
+
+TEST_F(FoamFile, UniformFieldsCoverEveryCell) {
+    const auto field = read_scalar_field(scalar("internalField   uniform 0.0015;\n"));
+    EXPECT_TRUE(field.uniform);
+    EXPECT_TRUE(field.covers(1000000));
+    EXPECT_EQ(field[123], 0.0015);
+}
+
+TEST_F(FoamFile, FieldsOverTheCellsAlone) {
+    const auto file =
+        folder_.file("V", header("volScalarField::Internal") +
+                              "dimensions [0 3 0 0 0 0 0];\n\nvalue nonuniform List<scalar> 2(1 2);\n");
+    EXPECT_THAT(read_scalar_field(file).values, ElementsAre(1.0, 2.0));
+}
+
+TEST_F(FoamFile, ValuesThatAreNoNumbersInTheSolverAreReadAsSuch) {
+    const auto field = read_scalar_field(scalar("internalField nonuniform List<scalar> 2(nan -inf);"));
+    EXPECT_TRUE(std::isnan(field.values[0]));
+    EXPECT_TRUE(std::isinf(field.values[1]));
+}
+
+TEST_F(FoamFile, Vectors) {
+    const auto file = folder_.file("UMean", header("volVectorField") +
+                                                "dimensions [0 1 -1 0 0 0 0];\ninternalField nonuniform "
+                                                "List<vector> \n2\n(\n(1 2 3)\n(-4 5e-1 6)\n)\n;\n");
+    const auto field = read_vector_field(file);
+    ASSERT_EQ(field.values.size(), 2U);
+    EXPECT_EQ(field[1], Vector3d(-4.0, 0.5, 6.0));
+    EXPECT_THAT(test::message_of<Error>([&] { read_scalar_field(file); }),
+                HasSubstr("holds a volVectorField, not a volScalarField"));
+}
+
+TEST_F(FoamFile, BinaryScalarsVectorsAndLabels) {
+    const std::string arch = "    arch        \"LSB;label=32;scalar=64\";\n";
+    // The value 4.0 holds bytes that look like brackets and comments nowhere, so a few that do stand beside
+    // it.
+    double tricky = 0.0;
+    std::memcpy(&tricky, "//(;)}/*", sizeof tricky);
+    const auto k = folder_.file("k", header("volScalarField", "binary", arch) +
+                                         "internalField nonuniform List<scalar> \n3\n(" +
+                                         raw<double>({4.0, tricky, -1.0}) + ")\n;\n");
+    EXPECT_THAT(read_scalar_field(k).values, ElementsAre(4.0, tricky, -1.0));
+    const auto u = folder_.file("U", header("volVectorField", "binary", arch) +
+                                         "internalField nonuniform List<vector> \n1\n(" +
+                                         raw<double>({1.0, 2.0, 3.0}) + ")\n;\n");
+    EXPECT_EQ(read_vector_field(u).values.at(0), Vector3d(1, 2, 3));
+    const auto zones =
+        folder_.file("cellZones", header("regIOobject", "binary", arch) +
+                                      "1\n(\nshell\n{\n    type cellZone;\ncellLabels List<label> \n2\n(" +
+                                      raw<std::int32_t>({7, 41}) + ");\n}\n)\n");
+    EXPECT_THAT(read_cell_zone(zones, "shell"), ElementsAre(7, 41));
+}
+
+TEST_F(FoamFile, BinaryOfOtherWidths) {
+    const std::string arch = "    arch        \"LSB;label=64;scalar=32\";\n";
+    const auto k = folder_.file("k", header("volScalarField", "binary", arch) +
+                                         "internalField nonuniform List<scalar> \n2\n(" +
+                                         raw<float>({0.5F, 2.0F}) + ")\n;\n");
+    EXPECT_THAT(read_scalar_field(k).values, ElementsAre(0.5, 2.0));
+    const auto zones =
+        folder_.file("cellZones", header("regIOobject", "binary", arch) +
+                                      "1\n(\nshell\n{\n type cellZone;\ncellLabels List<label> \n1\n(" +
+                                      raw<std::int64_t>({1LL << 40}) + ");\n}\n)\n");
+    EXPECT_THAT(read_cell_zone(zones, "shell"), ElementsAre(1LL << 40));
+}
+
+TEST_F(FoamFile, OtherMachinesBinaryIsRefused) {
+    const auto k =
+        folder_.file("k", header("volScalarField", "binary", "    arch \"MSB;label=32;scalar=64\";\n"));
+    EXPECT_THAT(test::message_of<Error>([&] { read_scalar_field(k); }), HasSubstr("foamFormatConvert"));
+}
+
+TEST_F(FoamFile, CompressedFilesNameTheirRemedy) {
+    const auto file = folder_.file("kMean.gz", "\x1f\x8b");
+    EXPECT_EQ(test::message_of<Error>([&] { read_scalar_field(folder_.path() / "kMean"); }),
+              file.string() + ": is compressed; unpack it with 'gunzip " + file.string() + "'");
+}
+
+TEST_F(FoamFile, FaultsNameFileAndLine) {
+    EXPECT_THAT(fault_in("internalField nonuniform List<scalar> \n3\n(\n1\n2\n)\n;"),
+                EndsWith(":21: the list should have 3 values, but ends after 2"));
+    EXPECT_THAT(fault_in("internalField nonuniform List<scalar> \n1\n(\n1\n2\n)\n;"),
+                EndsWith(":20: the list should have 1 values, but goes on"));
+    EXPECT_THAT(fault_in("internalField nonuniform List<scalar> 2\n(\n1\nabc\n)\n;"),
+                EndsWith(":19: expected a number, found 'abc'"));
+    EXPECT_THAT(fault_in("internalField nonuniform List<scalar> 2\n(\n1\n1.5.2\n)\n;"),
+                EndsWith(":19: expected a number, found '1.5.2'"));
+    EXPECT_THAT(fault_in("internalField nonuniform List<scalar> 2\n(\n1\n"),
+                HasSubstr("expected a number, found the end of the file"));
+    EXPECT_THAT(fault_in("internalField nonuniform List<scalar> -2();"), HasSubstr("cannot have -2 values"));
+    EXPECT_THAT(fault_in("internalField sometimes 3;"), HasSubstr("found 'sometimes'"));
+    EXPECT_THAT(fault_in("internalField uniform 3"), HasSubstr("expected ';', found the end of the file"));
+    EXPECT_THAT(fault_in("boundaryField { far { type patch; } }"), HasSubstr("has no internalField"));
+    EXPECT_THAT(fault_in("boundaryField { far { type patch; }"), HasSubstr("is not ended by '}'"));
+    EXPECT_THAT(fault_in("/* endless"), HasSubstr(":16: this comment has no end"));
+}
+
+TEST_F(FoamFile, FilesOfAnotherKindAreRefused) {
+    const auto empty = folder_.file("empty", "");
+    const auto text = folder_.file("text", "hello world");
+    const auto garbage = folder_.file("garbage", std::string("\x89HDF\r\n\x1a\n\0\0", 10));
+    for (const auto& file : {empty, text, garbage}) {
+        EXPECT_THAT(test::message_of<Error>([&] { read_scalar_field(file); }),
+                    HasSubstr("not an OpenFOAM file"));
+    }
+    EXPECT_THAT(test::message_of<Error>([&] { read_scalar_field(folder_.path() / "none"); }),
+                HasSubstr("cannot be read"));
+}
+
+TEST_F(FoamFile, BinaryThatIsCutShortIsRefused) {
+    const auto k =
+        folder_.file("k", header("volScalarField", "binary", "    arch \"LSB;label=32;scalar=64\";\n") +
+                              "internalField nonuniform List<scalar> \n3\n(" + raw<double>({4.0}));
+    EXPECT_THAT(test::message_of<Error>([&] { read_scalar_field(k); }),
+                HasSubstr("the file ends 16 bytes too early"));
+}
+
+TEST_F(FoamFile, ZonesAreFoundByName) {
+    const auto file =
+        folder_.file("cellZones", header("regIOobject") +
+                                      "2\n(\nwake\n{\n    type cellZone;\ncellLabels      List<label> \n"
+                                      "3\n(\n5\n6\n7\n)\n;\n}\n\nshell\n{\n    type cellZone;\n"
+                                      "cellLabels      List<label> 2(1 9);\n}\n)\n");
+    EXPECT_THAT(read_cell_zone(file, "shell"), ElementsAre(1, 9));
+    EXPECT_THAT(read_cell_zone(file, "wake"), ElementsAre(5, 6, 7));
+    EXPECT_THAT(test::message_of<Error>([&] { read_cell_zone(file, "hull"); }),
+                HasSubstr("has no cell zone 'hull'"));
+    EXPECT_THAT(test::message_of<Error>(
+                    [&] { read_cell_zone(folder_.file("none", header("regIOobject") + "0()\n"), "shell"); }),
+                HasSubstr("has no cell zone 'shell'"));
+}
+
+TEST_F(FoamFile, AMillionCellsAreReadInUnderTwoSeconds) {
+    std::string body = "internalField nonuniform List<scalar> \n1000000\n(\n";
+    for (int i = 0; i < 1000000; ++i) body += fmt::format("{:.8g}\n", 1.0 / (3.0 + i));
+    const std::filesystem::path file = scalar(body + ")\n;\n");
+    const auto start = std::chrono::steady_clock::now();
+    const auto field = read_scalar_field(file);
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    EXPECT_EQ(field.values.size(), 1000000U);
+    EXPECT_LT(elapsed.count(), 2.0);
+    RecordProperty("seconds", fmt::format("{:.3f}", elapsed.count()));
+}
+
+}  // namespace
+}  // namespace samara

@@ -1,0 +1,64 @@
+#include "converter/standard_error.hpp"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace samara {
+namespace {
+
+/// x_i = r x_{i-1} + noise, of unit variance.
+std::vector<double> correlated_series(double correlation, std::size_t length, unsigned seed) {
+    std::mt19937 generator(seed);
+    std::normal_distribution<double> normal;
+    std::vector<double> series;
+    double value = normal(generator);
+    for (std::size_t i = 0; i < length; ++i) {
+        series.push_back(value);
+        value = correlation * value + std::sqrt(1.0 - correlation * correlation) * normal(generator);
+    }
+    return series;
+}
+
+TEST(StandardError, OfAConstantIsZero) {
+    EXPECT_EQ(standard_error(std::vector<double>(50, 0.25)), 0.0);
+    EXPECT_EQ(mean(std::vector<double>(50, 0.25)), 0.25);
+    EXPECT_EQ(standard_error({1.0}), 0.0);
+}
+
+TEST(StandardError, OfTwoValuesIsHalfTheirDifference) {
+    EXPECT_DOUBLE_EQ(standard_error({1.0, 1.5}), 0.25);
+}
+
+TEST(StandardError, OfACorrelatedSeriesIsThatOfItsMean) {
+    constexpr double correlation = 0.8;
+    constexpr std::size_t length = 2500;
+    double sum = 0.0;
+    constexpr unsigned runs = 200;
+    for (unsigned run = 0; run < runs; ++run)
+        sum += standard_error(correlated_series(correlation, length, run));
+    // Of the mean of a first-order autoregressive series (Geyer 1992, equation 3.3 summed): the variance is
+    // (1 + r) / (1 - r) / n. The larger of two estimates is 1.1 to 1.3 times the truth in the mean.
+    const double exact = std::sqrt((1.0 + correlation) / (1.0 - correlation) / static_cast<double>(length));
+    EXPECT_GT(sum / runs, 1.0 * exact);
+    EXPECT_LT(sum / runs, 1.35 * exact);
+}
+
+TEST(StandardError, OfADriftIsAQuarterOfIt) {
+    std::vector<double> series;
+    for (int i = 0; i < 100; ++i) series.push_back(3.0 + 0.02 * i);
+    EXPECT_NEAR(standard_error(series), 0.25 * 2.0, 1e-12);
+}
+
+TEST(StandardError, OfAnOscillationFallsWithItsLength) {
+    const auto oscillation = [](int length) {
+        std::vector<double> series;
+        for (int i = 0; i < length; ++i) series.push_back(std::sin(0.9 * i));
+        return standard_error(series);
+    };
+    EXPECT_LT(oscillation(900), 0.3 * oscillation(100));
+}
+
+}  // namespace
+}  // namespace samara

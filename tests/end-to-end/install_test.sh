@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# The runtime builds and installs alone, without gmsh and OpenFOAM, and another project finds it.
+# Usage: install_test.sh SOURCE_FOLDER WORK_FOLDER
+set -euo pipefail
+source_folder=$1
+work=$2
+rm -rf "$work"
+cmake -S "$source_folder" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Debug -DSAMARA_BAKING=OFF -DSAMARA_TESTS=OFF
+cmake --build "$work/build"
+cmake --install "$work/build" --prefix "$work/installed"
+if ldd "$work/installed/bin/samara" | grep -iE 'gmsh|openfoam'; then
+  echo "the runtime alone links gmsh or OpenFOAM" >&2
+  exit 1
+fi
+"$work/installed/bin/samara" --help | grep -q 'mesh .*(not installed)'
+cmake -S "$source_folder/tests/end-to-end/consumer" -B "$work/consumer" -G Ninja -DCMAKE_PREFIX_PATH="$work/installed"
+cmake --build "$work/consumer"
+"$work/consumer/consumer"
+rm -rf "$work"

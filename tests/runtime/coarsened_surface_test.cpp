@@ -1,0 +1,45 @@
+#include "samara/kirchhoff/coarsened_surface.hpp"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "samara/kirchhoff/surface_checks.hpp"
+#include "support/test_shapes.hpp"
+
+namespace samara {
+namespace {
+
+TEST(CoarsenedSurface, IsClosedAndHasFewerTriangles) {
+    for (const Surface& surface : {test::icosphere(3), test::mapped(test::shaken_icosphere(3, 0.3, 4),
+                                                                    Vector3d(1.0, 2.0, 4.0).asDiagonal())}) {
+        const Surface coarse = coarsened(surface, surface.triangle_count() / 2);
+        EXPECT_LE(coarse.triangle_count(), surface.triangle_count() / 2);
+        EXPECT_GE(coarse.triangle_count(), surface.triangle_count() / 8);
+        EXPECT_EQ(edge_fault(coarse), "");
+        EXPECT_EQ(coarse.vertices.size(), coarse.triangle_count() / 2 + 2);  // Euler: genus 0
+    }
+}
+
+TEST(CoarsenedSurface, HasVerticesOfTheGivenOne) {
+    const Surface surface = test::ellipsoid({1.0, 2.0, 3.0}, 2);
+    for (const Vector3d& vertex : coarsened(surface, 100).vertices) {
+        EXPECT_NE(std::find(surface.vertices.begin(), surface.vertices.end(), vertex),
+                  surface.vertices.end());
+    }
+}
+
+TEST(CoarsenedSurface, KeepsTheCreasesOfABox) {
+    const Surface surface = test::box({1.0, 2.0, 0.3}, 8);
+    const Surface coarse = coarsened(surface, surface.triangle_count() / 4);
+    EXPECT_LT(coarse.triangle_count(), surface.triangle_count() / 3);
+    EXPECT_NEAR(signed_volume(coarse), 0.6, 1e-12);
+    EXPECT_NEAR(surface_area(coarse), surface_area(surface), 1e-12);
+}
+
+TEST(CoarsenedSurface, OfTwelveTrianglesOfABoxIsTheBox) {
+    EXPECT_EQ(coarsened(test::box({1.0, 1.0, 1.0}, 1), 3).triangle_count(), 12U);
+}
+
+}  // namespace
+}  // namespace samara

@@ -1,0 +1,71 @@
+#include "samara/files/hdf5_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "samara/base/content_hash.hpp"
+#include "support/expect_error.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace samara {
+namespace {
+
+using test::error_of;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+void write_sample(const std::filesystem::path& file) {
+    write_hdf5(file, [](Hdf5Writer& writer) {
+        writer.write("/a/doubles", std::vector<double>{1.0, 2.0, 3.0, 4.0, 5.0, 6.0}, {2, 3}, "m", "lengths");
+        writer.write("/a/integers", std::vector<std::int32_t>{7, -8}, {2}, "1", "numbers");
+        writer.write("/a/none", std::vector<double>{}, {0, 3}, "m", "no rows");
+        writer.write_text("/a/b/text", "caf\xc3\xa9\n", "a text");
+        writer.attribute("/a", "word", std::string_view("x y"));
+        writer.attribute("/a", "empty", std::string_view());
+        writer.attribute("/a", "number", 0.1);
+        writer.attribute("/a", "count", std::int64_t{-3});
+    });
+}
+
+TEST(Hdf5File, GivesBackWhatWasWritten) {
+    const test::TemporaryFolder folder;
+    write_sample(folder / "a.h5");
+    const Hdf5Reader reader(folder / "a.h5");
+    EXPECT_THAT(reader.doubles("/a/doubles", {0, 3}), ElementsAre(1.0, 2.0, 3.0, 4.0, 5.0, 6.0));
+    EXPECT_THAT(reader.integers("/a/integers", {2}), ElementsAre(7, -8));
+    EXPECT_TRUE(reader.doubles("/a/none", {0, 3}).empty());
+    EXPECT_EQ(reader.text("/a/b/text"), "caf\xc3\xa9\n");
+    EXPECT_EQ(reader.text_attribute("/a", "word"), "x y");
+    EXPECT_EQ(reader.text_attribute("/a", "empty"), "");
+    EXPECT_EQ(reader.number_attribute("/a", "number"), 0.1);
+    EXPECT_EQ(reader.integer_attribute("/a", "count"), -3);
+    EXPECT_THAT(reader.children("/a"), ElementsAre("b", "doubles", "integers", "none"));
+    EXPECT_THAT(reader.shape("/a/doubles"), ElementsAre(2, 3));
+    EXPECT_TRUE(reader.has("/a/b/text"));
+    EXPECT_FALSE(reader.has("/a/c/text"));
+}
+
+TEST(Hdf5File, EqualContentGivesEqualBytes) {
+    const test::TemporaryFolder folder;
+    write_sample(folder / "a.h5");
+    write_sample(folder / "b.h5");
+    EXPECT_EQ(read_bytes(folder / "a.h5"), read_bytes(folder / "b.h5"));
+}
+
+TEST(Hdf5File, NamesWhatDoesNotFit) {
+    const test::TemporaryFolder folder;
+    write_sample(folder / "a.h5");
+    const Hdf5Reader reader(folder / "a.h5");
+    EXPECT_THAT(error_of([&] {
+                    (void)reader.doubles("/a/doubles", {0, 4});
+                }),
+                HasSubstr("/a/doubles has the shape"));
+    EXPECT_THAT(error_of([&] { (void)reader.doubles("/a/missing", {0}); }),
+                HasSubstr("/a/missing is missing"));
+    EXPECT_THAT(error_of([&] { (void)reader.integers("/a/doubles", {0, 3}); }), HasSubstr("another type"));
+    EXPECT_THAT(error_of([&] { (void)reader.number_attribute("/a", "missing"); }), HasSubstr("missing"));
+    EXPECT_THAT(error_of([&] { (void)reader.children("/c"); }), HasSubstr("/c is missing"));
+}
+
+}  // namespace
+}  // namespace samara

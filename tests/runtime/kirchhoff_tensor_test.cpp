@@ -1,0 +1,327 @@
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <Eigen/Eigenvalues>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "samara/kirchhoff/kirchhoff_solver.hpp"
+#include "samara/kirchhoff/tensor_error.hpp"
+#include "support/expect_error.hpp"
+#include "support/test_shapes.hpp"
+
+namespace samara {
+namespace {
+
+using test::error_of;
+using testing::HasSubstr;
+
+/// Exact added inertia and mass along the principal axes for unit density. Lamb, Hydrodynamics, 6th ed.,
+/// art. 114 and 115, with the integrals in Carlson's form to 30 digits.
+struct ExactBody {
+    const char* name;
+    Vector3d semi_axes;
+    Vector3d inertia;
+    Vector3d mass;
+};
+
+const std::vector<ExactBody> exact_bodies = {
+    {"sphere", {1, 1, 1}, {0, 0, 0}, Vector3d::Constant(2.094395102393)},
+    {"ellipsoid",
+     {1, 2, 4},
+     {19.46017908431, 111.0440372296, 13.6118310185},
+     {50.87072167736, 13.34287626884, 4.241425456327}},
+    {"prolate",
+     {4, 1, 1},
+     {0, 34.63273532154, 34.63273532154},
+     {1.366504841191, 14.40542682308, 14.40542682308}},
+    {"oblate",
+     {1, 1, 0.1},
+     {0.3403414985759, 0.3403414985759, 0},
+     {0.03133385334413, 0.03133385334413, 2.590401796703}},
+};
+
+Matrix6d exact_tensor(const ExactBody& body) {
+    Matrix6d tensor = Matrix6d::Zero();
+    tensor.diagonal() << body.inertia, body.mass;
+    return tensor;
+}
+
+TensorScale scale_of(const VolumeMoments& moments) {
+    return {moments.volume, moments.surface_area};
+}
+
+KirchhoffTensor tensor_of(const Surface& surface, int threads = 0) {
+    return kirchhoff_tensor(surface, test::moments_of(surface), {threads, {}});
+}
+
+double error_against(const ExactBody& body, const Surface& surface) {
+    return relative_tensor_error(tensor_of(surface).matrix, exact_tensor(body),
+                                 scale_of(test::moments_of(surface)));
+}
+
+/// An ellipsoid with a dent, without any symmetry.
+Surface lopsided_surface() {
+    Surface surface = test::ellipsoid({1.0, 0.7, 0.5}, 2);
+    for (Vector3d& vertex : surface.vertices) {
+        const double bump = std::exp(-2.0 * (vertex - Vector3d(0.6, 0.4, 0.3)).squaredNorm());
+        vertex *= 1.0 + 0.5 * bump;
+        vertex.z() += 0.2 * vertex.x() * vertex.y();
+    }
+    return surface;
+}
+
+TEST(KirchhoffTensor, IsWithinTwoPercentOfTheExactOneWith1280Triangles) {
+    for (const ExactBody& body : exact_bodies) {
+        EXPECT_LT(error_against(body, test::ellipsoid(body.semi_axes, 3)), 0.02) << body.name;
+    }
+}
+
+TEST(KirchhoffTensor, ErrorFallsWithTheSecondPowerOfTheTrianglesSize) {
+    for (const ExactBody& body : exact_bodies) {
+        const double coarse = error_against(body, test::ellipsoid(body.semi_axes, 2));
+        const double fine = error_against(body, test::ellipsoid(body.semi_axes, 3));
+        EXPECT_NEAR(std::log2(coarse / fine), 2.0, 0.15) << body.name;
+    }
+}
+
+TEST(KirchhoffTensor, OfAnOrder2SurfaceIsThatOfFourFlatTrianglesForEach) {
+    const Vector3d semi_axes(1.0, 2.0, 4.0);
+    const KirchhoffTensor curved = tensor_of(test::curved_ellipsoid(semi_axes, 2));
+    const KirchhoffTensor flat = tensor_of(test::ellipsoid(semi_axes, 3));
+    EXPECT_EQ(curved.triangles, 1280);
+    EXPECT_LT((curved.matrix - flat.matrix).norm(), 1e-9 * flat.matrix.norm());
+}
+
+TEST(KirchhoffTensor, OfAThinOblateApproachesTheDisc) {
+    // Lamb, art. 108: M = 8/3 a^3 broadside and J = 16/45 a^5 about a diameter; the sphere's J vanishes.
+    const Matrix6d matrix = tensor_of(test::ellipsoid({1.0, 1.0, 0.02}, 3)).matrix;
+    EXPECT_NEAR(matrix(5, 5), 8.0 / 3.0, 0.03 * 8.0 / 3.0);
+    EXPECT_NEAR(matrix(0, 0), 16.0 / 45.0, 0.03 * 16.0 / 45.0);
+}
+
+TEST(KirchhoffTensor, ErrorEstimateCoversTheErrorAndIsNotTenTimesIt) {
+    int covered = 0;
+    int close = 0;
+    int count = 0;
+    for (const ExactBody& body : exact_bodies) {
+        for (const int level : {2, 3}) {
+            const Matrix3d stretch = body.semi_axes.asDiagonal();
+            for (const Surface& surface :
+                 {test::ellipsoid(body.semi_axes, level), test::curved_ellipsoid(body.semi_axes, level - 1),
+                  test::mapped(test::shaken_icosphere(level, 0.1, 1), stretch),
+                  test::mapped(test::shaken_icosphere(level, 0.3, 2), stretch)}) {
+                const KirchhoffTensor result = tensor_of(surface);
+                const double error = relative_tensor_error(result.matrix, exact_tensor(body),
+                                                           scale_of(test::moments_of(surface)));
+                ++count;
+                covered += error <= result.error_estimate ? 1 : 0;
+                close += result.error_estimate <= 10.0 * error ? 1 : 0;
+            }
+        }
+    }
+    EXPECT_GE(10 * covered, 9 * count);
+    EXPECT_GE(10 * close, 9 * count);
+}
+
+TEST(KirchhoffTensor, ErrorEstimateShrinksWithFinerTriangles) {
+    const Vector3d semi_axes(1.0, 2.0, 4.0);
+    EXPECT_LT(tensor_of(test::ellipsoid(semi_axes, 3)).error_estimate,
+              0.5 * tensor_of(test::ellipsoid(semi_axes, 2)).error_estimate);
+}
+
+TEST(KirchhoffTensor, OfABoxOfTwelveTrianglesIsSolvedFiner) {
+    const KirchhoffTensor result = tensor_of(test::box({1.0, 1.0, 1.0}, 1));
+    EXPECT_EQ(result.triangles, 48);
+    EXPECT_GT(result.error_estimate, 0.1);
+    EXPECT_LT(result.error_estimate, 1.0);
+}
+
+TEST(KirchhoffTensor, OfACubeIsIsotropicAndConverges) {
+    // Isotropy follows from the cube's symmetry, up to the one diagonal of each square that the mesh prefers.
+    const Matrix6d coarse = tensor_of(test::box({1.0, 1.0, 1.0}, 5)).matrix;
+    const Matrix6d fine = tensor_of(test::box({1.0, 1.0, 1.0}, 10)).matrix;
+    for (const int i : {3, 4}) EXPECT_NEAR(fine(i, i), fine(5, 5), 2e-3 * fine(5, 5));
+    EXPECT_LT(fine(5, 5), coarse(5, 5));
+    EXPECT_NEAR(fine(5, 5), coarse(5, 5), 0.06 * fine(5, 5));
+}
+
+TEST(KirchhoffTensor, IsSymmetricAndPositiveDefinite) {
+    const Matrix6d matrix = tensor_of(lopsided_surface()).matrix;
+    EXPECT_EQ(matrix, matrix.transpose());
+    EXPECT_GT(Eigen::SelfAdjointEigenSolver<Matrix6d>(matrix).eigenvalues().minCoeff(), 0.0);
+}
+
+TEST(KirchhoffTensor, OfALopsidedBodyHasSmallAsymmetryAndTrueCoupling) {
+    const KirchhoffTensor result = tensor_of(lopsided_surface());
+    EXPECT_GT(result.asymmetry, 0.0);
+    EXPECT_LT(result.asymmetry, 0.02);
+    EXPECT_GT((result.matrix.block<3, 3>(0, 3).norm()), 1e-3 * result.matrix.norm());
+}
+
+TEST(KirchhoffTensor, TurnsWithTheBody) {
+    const Matrix3d rotation =
+        Eigen::AngleAxisd(1.1, Vector3d(1.0, -2.0, 0.5).normalized()).toRotationMatrix();
+    const Surface surface = lopsided_surface();
+    const Matrix6d turned = tensor_of(test::mapped(surface, rotation)).matrix;
+    const Matrix6d expected = in_rotated_axes(tensor_of(surface).matrix, rotation);
+    EXPECT_LT((turned - expected).norm(), 1e-9 * expected.norm());
+}
+
+TEST(KirchhoffTensor, DoesNotChangeWhenTheBodyIsMoved) {
+    const Surface surface = lopsided_surface();
+    const Matrix6d expected = tensor_of(surface).matrix;
+    for (const double distance : {1.0, 1e3, 1e6}) {
+        const Surface moved =
+            test::mapped(surface, Matrix3d::Identity(), distance * Vector3d(1.0, 2.0, -3.0));
+        EXPECT_LT((tensor_of(moved).matrix - expected).norm(), 1e-12 * (1e2 + distance) * expected.norm());
+    }
+}
+
+TEST(KirchhoffTensor, AboutAnotherPointIsThatOfTheMomentsThere) {
+    const Surface surface = lopsided_surface();
+    VolumeMoments moments = test::moments_of(surface);
+    const Matrix6d about_centroid = kirchhoff_tensor(surface, moments).matrix;
+    const Vector3d centroid = moments.centroid;
+    moments.centroid += Vector3d(0.3, -0.2, 0.4);
+    const Matrix6d expected = about_point(about_centroid, centroid, moments.centroid);
+    const Matrix6d found = kirchhoff_tensor(surface, moments).matrix;
+    // Not to rounding: the single layer of the rotations is not exact on the translations it now holds.
+    EXPECT_LT((found - expected).norm(), 5e-3 * expected.norm());
+}
+
+TEST(KirchhoffTensor, AngularBlockGrowsWithTheFifthPowerCouplingFourthTranslationThird) {
+    const Surface surface = lopsided_surface();
+    const Matrix6d unit = tensor_of(surface).matrix;
+    for (const double factor : {1e-6, 0.37, 1e3}) {
+        const Matrix6d scaled = tensor_of(test::mapped(surface, factor * Matrix3d::Identity())).matrix;
+        Vector6d powers;
+        powers << Vector3d::Constant(factor), Vector3d::Ones();
+        const Matrix6d expected = std::pow(factor, 3) * powers.asDiagonal() * unit * powers.asDiagonal();
+        for (const int row : {0, 3}) {
+            for (const int column : {0, 3}) {
+                const Matrix3d block = expected.block<3, 3>(row, column);
+                EXPECT_LT((scaled.block<3, 3>(row, column) - block).norm(), 1e-9 * block.norm()) << factor;
+            }
+        }
+    }
+}
+
+TEST(KirchhoffTensor, OfAMirroredBodyIsMirrored) {
+    // Angular velocity is an axial vector: it takes the sign of the determinant.
+    const Matrix3d mirror = Vector3d(1.0, -1.0, 1.0).asDiagonal();
+    const Surface surface = lopsided_surface();
+    const Matrix6d mirrored = tensor_of(test::mapped(surface, mirror)).matrix;
+    Matrix6d turn = Matrix6d::Zero();
+    turn.block<3, 3>(0, 0) = -mirror;
+    turn.block<3, 3>(3, 3) = mirror;
+    const Matrix6d expected = turn * tensor_of(surface).matrix * turn.transpose();
+    EXPECT_LT((mirrored - expected).norm(), 1e-9 * expected.norm());
+}
+
+TEST(KirchhoffTensor, DoesNotDependOnTheNumberOfThreads) {
+    const Surface surface = lopsided_surface();
+    const KirchhoffTensor one = tensor_of(surface, 1);
+    for (const int threads : {0, 2, 3, 7}) {
+        const KirchhoffTensor many = tensor_of(surface, threads);
+        EXPECT_EQ(one.matrix, many.matrix);
+        EXPECT_EQ(one.error_estimate, many.error_estimate);
+    }
+}
+
+TEST(KirchhoffTensor, ProgressRisesToTheEnd) {
+    const Surface surface = test::icosphere(2);
+    double last = 0.0;
+    kirchhoff_tensor(surface, test::moments_of(surface), {1, [&](double share) {
+                                                              EXPECT_GE(share, last);
+                                                              last = share;
+                                                          }});
+    EXPECT_EQ(last, 1.0);
+}
+
+TEST(KirchhoffTensor, UnweldedVerticesDoNotMatter) {
+    const Surface surface = lopsided_surface();
+    Surface unwelded;
+    for (const auto& triangle : surface.corners) {
+        const auto next = static_cast<std::int32_t>(unwelded.vertices.size());
+        for (const std::int32_t corner : triangle) {
+            unwelded.vertices.push_back(surface.vertices[static_cast<std::size_t>(corner)]);
+        }
+        unwelded.corners.push_back({next, next + 1, next + 2});
+    }
+    const Matrix6d expected = tensor_of(surface).matrix;
+    const Matrix6d found = tensor_of(unwelded).matrix;
+    EXPECT_LT((found - expected).norm(), 0.05 * expected.norm());
+}
+
+TEST(KirchhoffTensor, NamesTheFaultOfABadSurface) {
+    const Surface sound = test::icosphere(2);
+    const VolumeMoments moments = test::moments_of(sound);
+    const auto fault_of = [&](const Surface& surface) {
+        return error_of([&] { kirchhoff_tensor(surface, moments); });
+    };
+
+    Surface holed = sound;
+    holed.corners.pop_back();
+    EXPECT_THAT(fault_of(holed), HasSubstr("hole"));
+
+    Surface one_flipped = sound;
+    std::swap(one_flipped.corners[7][0], one_flipped.corners[7][1]);
+    EXPECT_THAT(fault_of(one_flipped), HasSubstr("opposite ways"));
+
+    Surface inside_out = sound;
+    for (auto& triangle : inside_out.corners) std::swap(triangle[0], triangle[1]);
+    EXPECT_THAT(fault_of(inside_out), HasSubstr("inside out"));
+
+    Surface repeated = sound;
+    repeated.corners.push_back(repeated.corners.front());
+    EXPECT_THAT(fault_of(repeated), HasSubstr("twice"));
+
+    EXPECT_THAT(fault_of(Surface{}), HasSubstr("fewer than four"));
+
+    Surface flat = sound;
+    flat.vertices[static_cast<std::size_t>(flat.corners[0][0])] =
+        flat.vertices[static_cast<std::size_t>(flat.corners[0][1])];
+    EXPECT_FALSE(fault_of(flat).empty());
+
+    Surface not_finite = sound;
+    not_finite.vertices[3].x() = std::nan("");
+    EXPECT_FALSE(fault_of(not_finite).empty());
+
+    // A sphere within the sphere, both outward: every edge is sound, and still it is no body.
+    Surface nested = sound;
+    const Surface inner = test::mapped(sound, 0.5 * Matrix3d::Identity());
+    const auto offset = static_cast<std::int32_t>(sound.vertices.size());
+    nested.vertices.insert(nested.vertices.end(), inner.vertices.begin(), inner.vertices.end());
+    for (const auto& [a, b, c] : inner.corners)
+        nested.corners.push_back({a + offset, b + offset, c + offset});
+    EXPECT_THAT(fault_of(nested), HasSubstr("overlaps"));
+}
+
+TEST(KirchhoffTensor, RefusesMoreTrianglesThanItCanHold) {
+    const Surface large = test::icosphere(5);
+    EXPECT_THAT(error_of([&] {
+                    kirchhoff_tensor(test::curved_ellipsoid({1, 1, 1}, 5), test::moments_of(large));
+                }),
+                HasSubstr("--triangles"));
+}
+
+TEST(TensorError, IsTheWorstBlocksAndMeasuresZeroBlocksByTheScale) {
+    Matrix6d reference = Matrix6d::Identity();
+    reference.block<3, 3>(0, 0) *= 5.0;
+    Matrix6d tensor = reference;
+    tensor.block<3, 3>(0, 0) *= 1.01;
+    tensor.block<3, 3>(3, 3) *= 0.97;
+    const TensorScale scale{2.0, 4.0 * std::numbers::pi};  // L = 2
+    EXPECT_NEAR(relative_tensor_error(tensor, reference, scale), 0.03, 1e-12);
+    tensor(0, 3) = 0.4;  // against V L = 4
+    EXPECT_NEAR(relative_tensor_error(tensor, reference, scale), 0.1, 1e-12);
+    reference.block<3, 3>(0, 0).setZero();
+    tensor.block<3, 3>(0, 0).setZero();
+    tensor(0, 0) = 1.6;  // against V L^2 = 8
+    EXPECT_NEAR(relative_tensor_error(tensor, reference, scale), 0.2, 1e-12);
+}
+
+}  // namespace
+}  // namespace samara

@@ -1,0 +1,129 @@
+#include "samara/scene/scene_file.hpp"
+
+#include <fstream>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "samara/base/error.hpp"
+
+namespace samara {
+namespace {
+
+using testing::HasSubstr;
+
+/// A folder with an (empty) shape file and one scene in it, removed at the end.
+class SceneFile : public testing::Test {
+  protected:
+    SceneFile() {
+        std::filesystem::create_directories(folder_);
+        std::ofstream(folder_ / "ball.stl") << "solid\n";
+    }
+    ~SceneFile() override { std::filesystem::remove_all(folder_); }
+
+    Scene read(const std::string& text) {
+        std::ofstream(folder_ / "scene.toml") << text;
+        return read_scene_file(folder_ / "scene.toml");
+    }
+
+    /// The message of the Error that reading this text throws.
+    std::string refusal(const std::string& text) {
+        try {
+            read(text);
+        } catch (const Error& fault) {
+            return fault.what();
+        }
+        return "accepted";
+    }
+
+    static std::string with_body(const std::string& keys) {
+        return "[scene]\nduration = 1.0\n[[body]]\nname = \"ball\"\nshape = \"ball.stl\"\n" + keys;
+    }
+
+    const std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) /
+                                          testing::UnitTest::GetInstance()->current_test_info()->name();
+};
+
+TEST_F(SceneFile, ValuesNotGivenHaveTheirDocumentedDefaults) {
+    const Scene scene = read(with_body("density = 1200"));
+    EXPECT_EQ(scene.step, 0.002);
+    EXPECT_EQ(scene.frame_rate, 60.0);
+    EXPECT_EQ(scene.seed, 1U);
+    EXPECT_EQ(scene.gravity, Vector3d(0, 0, -9.81));
+    EXPECT_EQ(scene.fluid.density, 998.2);
+    EXPECT_EQ(scene.bodies.at(0).loads, Loads::table);
+    EXPECT_EQ(scene.bodies.at(0).turbulence, Turbulence::table);
+    EXPECT_EQ(scene.bodies.at(0).langevin, Langevin::seen_fluid);
+    EXPECT_EQ(scene.bodies.at(0).shape, folder_ / "ball.stl");
+}
+
+TEST_F(SceneFile, EveryKeyIsRead) {
+    const Scene scene = read(
+        "[scene]\nduration = 2\nstep = 0.01\nframe_rate = 24\nseed = 9\ngravity = [0, 1, 0]\n"
+        "[fluid]\ndensity = 2.0\nviscosity = 0.5\ncurrent = [1, 2, 3]\n"
+        "[[body]]\nname = \"a\"\nshape = \"ball.stl\"\nscale = 0.5\nmass = 3\ncenter_of_mass = [0.1, 0, 0]\n"
+        "inertia = [1, 2, 2.5]\nposition = [1, 1, 1]\norientation = [0, 2, 0, 0]\nvelocity = [1, 0, 0]\n"
+        "angular_velocity = [0, 1, 0]\nstart = 0.5\ncount = 3\nspread = { position = [1, 2, 3], angle = 0.5 "
+        "}\n"
+        "loads = \"coefficients\"\ndrag_coefficient = 1.3\nlift_coefficient = 0.2\nreference_area = 0.1\n"
+        "normal = [0, 0, 2]\ncenter_of_pressure = [0, 0, 0.1]\nturbulence = \"constant\"\n"
+        "turbulent_kinetic_energy = 0.1\ndissipation_rate = 0.2\nlangevin = \"body-velocity\"\n");
+    const SceneBody& body = scene.bodies.at(0);
+    EXPECT_EQ(scene.fluid.current, Vector3d(1, 2, 3));
+    EXPECT_EQ(body.mass.mass, 3.0);
+    EXPECT_EQ((*body.mass.inertia)(2, 2), 2.5);
+    EXPECT_EQ(body.orientation.coeffs(), Eigen::Vector4d(1, 0, 0, 0));
+    EXPECT_EQ(body.spread_angle, 0.5);
+    EXPECT_EQ(body.coefficients.normal, Vector3d(0, 0, 1));
+    EXPECT_EQ(body.turbulence, Turbulence::constant);
+    EXPECT_EQ(body.langevin, Langevin::body_velocity);
+}
+
+TEST_F(SceneFile, AnUnknownKeyIsNamedWithItsLine) {
+    EXPECT_THAT(refusal(with_body("density = 1\ncolour = 3\n")),
+                HasSubstr("scene.toml:7: unknown key 'colour'"));
+    EXPECT_THAT(refusal("[scene]\nduration = 1\ngravty = 3\n"),
+                HasSubstr("scene.toml:3: unknown key 'gravty'"));
+    EXPECT_THAT(refusal(with_body("density = 1\n[extra]\n")), HasSubstr("unknown key 'extra'"));
+}
+
+TEST_F(SceneFile, AValueOutOfRangeIsRefusedWithItsLine) {
+    EXPECT_THAT(refusal(with_body("density = -1")), HasSubstr("scene.toml:6: density"));
+    EXPECT_THAT(refusal(with_body("density = nan")), HasSubstr("scene.toml:6: density"));
+    EXPECT_THAT(refusal(with_body("density = 1\nposition = [0, inf, 0]")),
+                HasSubstr("scene.toml:7: position"));
+    EXPECT_THAT(refusal(with_body("density = 1\norientation = [0, 0, 0, 0]")), HasSubstr("not zero"));
+    EXPECT_THAT(refusal("[scene]\nduration = 0\n"), HasSubstr("scene.toml:2: duration"));
+    EXPECT_THAT(refusal(with_body("density = 1\ncount = 0")), HasSubstr("count"));
+    EXPECT_THAT(refusal(with_body("density = 1\nloads = \"magic\"")), HasSubstr("\"table\""));
+}
+
+TEST_F(SceneFile, AMissingFileOrKeyIsNamed) {
+    EXPECT_THAT(refusal("[scene]\nduration = 1\n[[body]]\nname = \"a\"\nshape = \"gone.stl\"\ndensity = 1\n"),
+                HasSubstr("gone.stl"));
+    EXPECT_THAT(refusal("[scene]\nduration = 1\n"), HasSubstr("no [[body]]"));
+    EXPECT_THAT(refusal(with_body("")), HasSubstr("density"));
+    EXPECT_THROW(read_scene_file(folder_ / "absent.toml"), Error);
+}
+
+TEST_F(SceneFile, ContradictionsAreRefused) {
+    EXPECT_THAT(refusal(with_body("density = 1\nmass = 1")), HasSubstr("one of the two"));
+    EXPECT_THAT(refusal(with_body("density = 1\ninertia = [1, 1, 1]")), HasSubstr("mass instead of density"));
+    EXPECT_THAT(refusal(with_body("density = 1\ndrag_coefficient = 1")),
+                HasSubstr("loads = \"coefficients\""));
+    EXPECT_THAT(refusal(with_body("density = 1\nturbulence = \"constant\"")),
+                HasSubstr("turbulent_kinetic_energy"));
+    EXPECT_THAT(
+        refusal(with_body("density = 1\n[[body]]\nname = \"ball\"\nshape = \"ball.stl\"\ndensity = 1\n")),
+        HasSubstr("taken by another body"));
+    EXPECT_THAT(refusal("[scene]\nduration = 1\n[fluid]\npreset = \"air\"\ndensity = 1\n"),
+                HasSubstr("preset"));
+}
+
+TEST_F(SceneFile, BrokenTomlIsNamedWithItsLine) {
+    EXPECT_THAT(refusal("[scene]\nduration = \n"), HasSubstr("scene.toml:2"));
+}
+
+}  // namespace
+}  // namespace samara

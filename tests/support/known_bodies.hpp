@@ -1,0 +1,35 @@
+#pragma once
+
+#include "samara/body/body.hpp"
+#include "samara/dynamics/immersed_body.hpp"
+#include "samara/dynamics/step.hpp"
+#include "samara/scene/scene.hpp"
+
+namespace samara::test {
+
+/// The ellipsoid with semi-axes 1, 2, 4 cm along x, y, z and its exact Kirchhoff tensor: Lamb, Hydrodynamics,
+/// 6th ed., articles 114 and 115, evaluated to 13 digits.
+Body rubber_ellipsoid();
+
+/// A sphere of the radius (m) with its exact Kirchhoff tensor: half the displaced fluid's mass.
+Body exact_sphere(double radius);
+
+/// Tables that look like those of a blunt body: drag that differs along the axes, a lift, a moment that takes
+/// away half the Kirchhoff moment of `body`, and a moment along the force. Two Reynolds numbers, 1e3 and 1e5,
+/// the second 20 % lower.
+LoadTables blunt_tables(const Body& body, int subdivisions);
+
+/// A body of uniform density in water with table loads, no noise.
+SceneBody scene_body(double density);
+
+/// The rubber ellipsoid with blunt_tables, in water at density 1200, centre of mass moved by `offset` (m).
+ImmersedBody blunt_ellipsoid(const Vector3d& offset = Vector3d::Zero());
+
+/// The rubber ellipsoid in water without any loads.
+ImmersedBody ideal_ellipsoid();
+
+/// A state with different numbers everywhere: speeds of the order of `speed` (m/s), turning rates of `rate`
+/// (rad/s).
+BodyState tumbling_state(double speed, double rate);
+
+}  // namespace samara::test
