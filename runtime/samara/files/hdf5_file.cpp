@@ -21,8 +21,22 @@ H5::FileAccPropList latest_format() {
     return access;
 }
 
+// The root group's times are switched off by the file's properties, other groups' by their own.
 H5::H5File create(const std::filesystem::path& file) {
-    return {file.string(), H5F_ACC_TRUNC, H5::FileCreatPropList::DEFAULT, latest_format()};
+    const H5::FileCreatPropList creation;
+    H5Pset_obj_track_times(creation.getId(), 0);
+    return {file.string(), H5F_ACC_TRUNC, creation, latest_format()};
+}
+
+H5::Group create_group(const H5::Group& parent, const std::string& name) {
+    const hid_t creation = H5Pcreate(H5P_GROUP_CREATE);
+    H5Pset_obj_track_times(creation, 0);
+    const hid_t id = H5Gcreate2(parent.getId(), name.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT);
+    H5Pclose(creation);
+    if (id < 0) throw H5::GroupIException("H5Gcreate2", name);
+    H5::Group group(id);
+    H5Gclose(id);  // `group` holds its own reference
+    return group;
 }
 
 H5::H5File open_for_reading(const std::filesystem::path& file) {
@@ -58,7 +72,7 @@ H5::Group Hdf5Writer::group(const std::string& name) {
     for (std::size_t begin = 1; begin < name.size();) {
         const std::size_t end = std::min(name.find('/', begin), name.size());
         const std::string child = name.substr(begin, end - begin);
-        current = current.nameExists(child) ? current.openGroup(child) : current.createGroup(child);
+        current = current.nameExists(child) ? current.openGroup(child) : create_group(current, child);
         begin = end + 1;
     }
     return current;
