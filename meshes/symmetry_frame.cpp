@@ -95,12 +95,14 @@ Matrix3d aligned_frame(const std::vector<Matrix3d>& elements) {
     return best;
 }
 
+// Quotients, not products: their mean has no error of first order.
 std::vector<Matrix3d> averaged(std::vector<Matrix3d> group) {
     constexpr int most_rounds = 20;
     for (int round = 0; round < most_rounds; ++round) {
         std::vector<Matrix3d> sums(group.size(), Matrix3d::Zero());
         for (const Matrix3d& a : group) {
-            for (const Matrix3d& b : group) sums[nearest_element(group, a * b)] += a * b;
+            for (const Matrix3d& b : group)
+                sums[nearest_element(group, a * b.transpose())] += a * b.transpose();
         }
         double change = 0.0;
         for (std::size_t i = 0; i < group.size(); ++i) {

@@ -21,7 +21,7 @@ struct AlignedGroup {
 };
 
 /// The group that the elements, found within a tolerance, stand for: they are replaced by the mean of the
-/// products that each is until all products agree (Grove, Karcher and Ruh, Math. Ann. 211, 1974). Where the
+/// quotients that each is until all of these agree (Grove, Karcher and Ruh, Math. Ann. 211, 1974). Where the
 /// elements that permute `axes` are given as exactly signed permutations, the whole group is turned into the
 /// shape's axes: `axes` is the identity and these elements stay exact.
 AlignedGroup aligned_group(const std::vector<Matrix3d>& elements);
