@@ -6,7 +6,14 @@ DefineConstant[
   semi_axis_z = {0.04, Name "Shape/Semi-axis along z (m)"}
 ];
 
-Sphere(1) = {0, 0, 0, 1};
-Dilate {{0, 0, 0}, {semi_axis_x, semi_axis_y, semi_axis_z}} { Volume{1}; }
+// Of eight octants: triangles on a whole sphere are poor at its poles and seam.
+Geometry.OCCUnionUnify = 0;
+Sphere(1) = {0, 0, 0, 1, 0, Pi / 2, Pi / 2};
+For quarter In {1 : 3}
+  Rotate {{0, 0, 1}, {0, 0, 0}, quarter * Pi / 2} { Duplicata { Volume{1}; } }
+EndFor
+Rotate {{1, 0, 0}, {0, 0, 0}, Pi} { Duplicata { Volume{1:4}; } }
+BooleanUnion(9) = { Volume{1}; Delete; }{ Volume{2:8}; Delete; };
+Dilate {{0, 0, 0}, {semi_axis_x, semi_axis_y, semi_axis_z}} { Volume{9}; }
 
 Mesh.MeshSizeMax = (semi_axis_x + semi_axis_y + semi_axis_z) / 20;

@@ -58,6 +58,10 @@ GmshSession::GmshSession() {
 }
 
 GmshSession::~GmshSession() {
+    gmsh::logger::stop();
+    // Variables of .geo files would otherwise outlive the session and override the defaults of the next.
+    gmsh::onelab::clear();
+    gmsh::clear();
     gmsh::finalize();
     std::fflush(stdout);
     if (standard_output_ >= 0) {
@@ -82,6 +86,20 @@ void GmshSession::run(const std::string& label, const std::string& what, const s
     } catch (...) {
         fail(label, what, {});
     }
+}
+
+void GmshSession::open(const std::string& label) {
+    constexpr const char* what = "gmsh cannot read it";
+    // An exception out of the parser would leave its state for the next file: let it go on to the end
+    // instead.
+    double abort_on_error = 0.0;
+    gmsh::option::getNumber("General.AbortOnError", abort_on_error);
+    gmsh::option::setNumber("General.AbortOnError", 0);
+    run(label, what, [&] { gmsh::open(label); });
+    if (!first_logged_error().empty()) fail(label, what, {});
+    // A .geo file may have set these for itself.
+    gmsh::option::setNumber("General.AbortOnError", abort_on_error);
+    gmsh::option::setNumber("General.Terminal", 0);
 }
 
 std::string gmsh_version() {

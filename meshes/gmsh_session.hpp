@@ -18,6 +18,10 @@ class GmshSession {
     /// `calls` itself passes on.
     static void run(const std::string& label, const std::string& what, const std::function<void()>& calls);
 
+    /// Opens a file that gmsh reads. Throws Error "LABEL: gmsh cannot read it: <reason>" at gmsh's first
+    /// error.
+    static void open(const std::string& label);
+
   private:
     int standard_output_;  // a copy of the descriptor that gmsh may not write on
 };

@@ -7,13 +7,16 @@
 
 namespace samara {
 
+/// How far the flat triangles of a surface of order 1 may lie within the curved surface that they stand for,
+/// over the greatest distance of a vertex from `centre`; at most 0.05. Zero for curved triangles.
+double faceting(const Surface& surface, const Vector3d& centre);
+
 /// Compares a surface with its images under rotations and reflections about a point: the shapes, not the
-/// triangulations. The points of the image that are compared are the vertices and the centroids of the
-/// triangles, at most a few thousand.
+/// triangulations. The points of the image that are compared are the vertices and points spread over
+/// the triangles, at most 5000.
 class ImageTest {
   public:
-    /// `tolerance`: over the body's size, its greatest distance from the centre; raised, up to 0.03, where
-    /// the triangles are so coarse that flat ones leave a curved surface further than that.
+    /// `tolerance`: over the body's size, its greatest distance from the centre; raised to the faceting.
     ImageTest(const Surface& surface, const Vector3d& centre, double tolerance);
 
     /// Whether each point of the image lies within `slack` times the tolerance of the surface.
@@ -29,7 +32,7 @@ class ImageTest {
     [[nodiscard]] const std::vector<Vector3d>& points() const { return points_; }
 
   private:
-    double size_ = 0.0;
+    double size_;
     double tolerance_;
     std::vector<Vector3d> points_;
     TriangleTree tree_;

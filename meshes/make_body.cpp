@@ -1,11 +1,13 @@
 #include "meshes/make_body.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "meshes/curved_surface.hpp"
 #include "meshes/gmsh_session.hpp"
+#include "meshes/image_test.hpp"
 #include "meshes/remesh.hpp"
 #include "meshes/shape_reader.hpp"
 #include "meshes/surface_check.hpp"
@@ -37,7 +39,7 @@ Surface in_order(const Surface& surface, int order) {
     return order == 2 ? with_straight_edge_nodes(surface) : without_edge_nodes(surface);
 }
 
-Surface surface_of_triangles(const std::filesystem::path& shape, const MeshOptions& options) {
+Surface sound_triangles(const std::filesystem::path& shape, const MeshOptions& options) {
     const std::string label = shape.string();
     Surface surface = welded(read_triangles(shape), label);
     if (options.flip) {
@@ -46,8 +48,28 @@ Surface surface_of_triangles(const std::filesystem::path& shape, const MeshOptio
     // Before scaling: errors name places as the file has them.
     require_sound_surface(surface, label);
     for (Vector3d& vertex : surface.vertices) vertex *= options.scale;
-    if (options.sizing == MeshOptions::Sizing::keep) return in_order(surface, options.order);
-    return remesh(surface, options, label);
+    return surface;
+}
+
+void mesh_triangles(Body& body, const std::filesystem::path& shape, const MeshOptions& options) {
+    const Surface original = sound_triangles(shape, options);
+    body.surface = options.sizing == MeshOptions::Sizing::keep ? in_order(original, options.order)
+                                                               : remesh(original, options, shape.string());
+    body.moments = volume_moments(body.surface);
+    // New triangles lie on the facets of the old ones and cut their corners.
+    const double tolerance =
+        std::max(default_symmetry_tolerance, 2.0 * faceting(original, body.moments.centroid));
+    body.symmetry = find_symmetry(body.surface, body.moments, tolerance);
+}
+
+void mesh_exact_geometry(Body& body, const std::filesystem::path& shape, const MeshOptions& options) {
+    if (options.flip) {
+        throw Error(
+            fmt::format("{}: geometry is turned outwards by itself; leave --flip out", shape.string()));
+    }
+    body.surface = mesh_geometry(shape, options);
+    body.moments = volume_moments(body.surface);
+    body.symmetry = find_symmetry(body.surface, body.moments);
 }
 
 std::string source_line(const std::filesystem::path& shape, const MeshOptions& options, bool is_geometry) {
@@ -67,16 +89,14 @@ std::string source_line(const std::filesystem::path& shape, const MeshOptions& o
 Body make_body(const std::filesystem::path& shape, const MeshOptions& options) {
     const bool is_geometry = shape_kind(shape) == ShapeKind::geometry;
     require_sane(options, shape.string());
-    if (is_geometry && options.flip) {
-        throw Error(
-            fmt::format("{}: geometry is turned outwards by itself; leave --flip out", shape.string()));
-    }
     Body body;
     body.name = body_name_of(shape);
     body.source = source_line(shape, options, is_geometry);
-    body.surface = is_geometry ? mesh_geometry(shape, options) : surface_of_triangles(shape, options);
-    body.moments = volume_moments(body.surface);
-    body.symmetry = find_symmetry(body.surface, body.moments);
+    if (is_geometry) {
+        mesh_exact_geometry(body, shape, options);
+    } else {
+        mesh_triangles(body, shape, options);
+    }
     return body;
 }
 

@@ -14,8 +14,12 @@ namespace samara {
 namespace {
 
 constexpr double smallest = 0.2;
+constexpr double smallest_at_edges = 0.3;
+// Between 1/4, which is best for the volume of flat triangles on an ellipsoid, and 1/2, which is best for a
+// thick part on a large thin one.
+constexpr double curvature_power = 0.4;
 // Edges grade out to this part of the body's reach.
-constexpr double edge_reach = 0.5;
+constexpr double edge_reach = 0.25;
 constexpr double steepest_over_reach = 3.0;
 
 struct Neighbour {
@@ -60,9 +64,11 @@ class Sizing {
         spread(edge_distance_, 1.0);
         std::vector<double> sizes(surface_.vertices.size());
         for (std::size_t i = 0; i < sizes.size(); ++i) {
-            const double by_curvature = 1.0 / std::sqrt(std::max(1.0, curvature_[i] * reach_));
-            const double by_edges = std::sqrt(std::min(1.0, edge_distance_[i] / (edge_reach * reach_)));
-            sizes[i] = std::max(smallest, std::min(by_curvature, by_edges));
+            const double by_curvature =
+                std::max(smallest, std::pow(std::max(1.0, curvature_[i] * reach_), -curvature_power));
+            const double by_edges = std::max(
+                smallest_at_edges, std::sqrt(std::min(1.0, edge_distance_[i] / (edge_reach * reach_))));
+            sizes[i] = std::min(by_curvature, by_edges);
         }
         spread(sizes, steepest_over_reach / reach_);
         return sizes;

@@ -12,10 +12,10 @@ namespace samara {
 inline constexpr double sharp_angle = 0.6981317007977318;
 
 /// Where a body's surface needs smaller triangles: the wanted length of sides at each place, over that where
-/// the body is flat and far from its edges. Between 0.2 and 1: it falls with the square root of the radius of
-/// curvature, and towards edges, where the flow's potential varies like a root of the distance; it changes by
-/// at most 3 within the distance from the middle to the farthest vertex. Measured on a reference surface,
-/// which should resolve the curvature.
+/// the body is flat and far from its edges. It falls with the radius of curvature to the power 0.4, down to
+/// 0.2, and within a quarter of the body's reach (its greatest distance from the middle) towards edges with
+/// the square root of the distance, as the flow's potential varies there, down to 0.3; it changes by at most
+/// 3 over the reach. Measured on a reference surface, which should resolve the curvature.
 class MeshSizeField {
   public:
     /// The reference must be closed, its vertices welded.

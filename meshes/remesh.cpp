@@ -1,11 +1,13 @@
 #include "meshes/remesh.hpp"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -66,14 +68,17 @@ std::vector<int> outer_surfaces(const std::string& label) {
     return tags;
 }
 
-// A mesh of the current model, welded and turned outwards.
+Surface oriented(const Surface& surface, const std::string& label) {
+    Surface result = welded(surface, label);
+    orient_outwards(result);
+    return result;
+}
+
+// A mesh of the geometry, welded and turned outwards.
 Surface generate(const std::string& label, const std::vector<int>& tags, int order) {
     gmsh::model::mesh::clear();
     gmsh::model::mesh::generate(2);
-    if (order == 2) gmsh::model::mesh::setOrder(2);
-    Surface surface = welded(surface_of_model(label, tags), label);
-    orient_outwards(surface);
-    return surface;
+    return oriented(order == 2 ? curved_surface_of_model(label, tags) : surface_of_model(label, tags), label);
 }
 
 // What the sizes are measured on: fine enough to see curvature, coarse enough to be quick.
@@ -106,7 +111,8 @@ double count_error(const Surface& surface, double wanted) {
 
 // The size for which the mesher makes about `wanted` triangles.
 double size_for_count(const MeshSizeField& field, int wanted, const Mesher& mesher) {
-    double size = std::sqrt(field.triangle_count(1.0) / wanted);
+    // gmsh makes about a sixth more triangles than equilateral ones would be.
+    double size = std::sqrt(1.17 * field.triangle_count(1.0) / wanted);
     double best_size = size;
     double best_error = std::numeric_limits<double>::infinity();
     for (int attempt = 0; attempt < most_attempts && best_error > good_count; ++attempt) {
@@ -151,16 +157,51 @@ void add_discrete_surface(const Surface& surface) {
     gmsh::model::mesh::addElementsByType(1, triangle_type, {}, corners);
 }
 
-void require_same_volume(const Surface& before, const Surface& after, const std::string& label) {
-    const VolumeMoments old_moments = volume_moments(before);
-    const VolumeMoments new_moments = volume_moments(after);
-    // Coarse chords lose some of a curved body; more than this is a part that went missing.
-    constexpr double most_lost = 0.1;
-    if (std::abs(new_moments.volume - old_moments.volume) > most_lost * old_moments.volume) {
-        throw Error(fmt::format(
-            "{}: remeshing changed the volume from {:.4g} to {:.4g}; use more triangles, or --keep", label,
-            old_moments.volume, new_moments.volume));
+// The surface with edge nodes on the triangles that it was made of.
+Surface with_nodes_on(const Surface& original, const Surface& surface) {
+    const TriangleTree tree(original.vertices, original.corners);
+    Surface result = with_straight_edge_nodes(surface);
+    for (const auto& nodes : result.edge_nodes) {
+        for (const std::int32_t node : nodes) {
+            Vector3d& vertex = result.vertices[static_cast<std::size_t>(node)];
+            vertex = tree.nearest(vertex).point;
+        }
     }
+    return result;
+}
+
+// The relative change of the volume: coarse chords lose some of a curved body, a lost crease or part more.
+double volume_change(const Surface& before, const Surface& after) {
+    const double volume = volume_moments(before).volume;
+    return std::abs(volume_moments(after).volume - volume) / volume;
+}
+
+Surface remesh_cut_at(double angle, const Surface& flat, const MeshOptions& options,
+                      const std::string& label) {
+    const GmshSession session;
+    Surface result;
+    GmshSession::run(label, "gmsh cannot remesh it; use --keep, which takes its triangles as they are", [&] {
+        add_discrete_surface(flat);
+        constexpr bool cut_at_edges = true;
+        constexpr bool cut_for_parametrisation = true;
+        gmsh::model::mesh::classifySurfaces(angle, cut_at_edges, cut_for_parametrisation, std::numbers::pi);
+        gmsh::model::mesh::createGeometry();
+        forget_sizes_of_file();
+        const auto mesher = [&](int) {
+            gmsh::model::mesh::generate(2);
+            return oriented(surface_of_model(label), label);
+        };
+        result = mesh_model(flat, options, options.size, mesher);
+    });
+    try {
+        require_sound_surface(result, label);
+    } catch (const Error& fault) {
+        // The remedies for a file's own faults do not help here.
+        const std::string text = fault.what();
+        throw Error(fmt::format("{} after remeshing; use more triangles, or --keep",
+                                text.substr(0, text.rfind("; "))));
+    }
+    return result;
 }
 
 }  // namespace
@@ -168,10 +209,8 @@ void require_same_volume(const Surface& before, const Surface& after, const std:
 Surface mesh_geometry(const std::filesystem::path& file, const MeshOptions& options) {
     const std::string label = file.string();
     const GmshSession session;
-    set("General.Terminal", 0);
     gmsh::option::setString("Geometry.OCCTargetUnit", "M");
-    GmshSession::run(label, "gmsh cannot read it", [&] { gmsh::open(label); });
-    set("General.Terminal", 0);
+    GmshSession::open(label);
     Surface surface;
     GmshSession::run(label, "gmsh cannot mesh it", [&] {
         const std::vector<int> tags = outer_surfaces(label);
@@ -192,26 +231,32 @@ Surface mesh_geometry(const std::filesystem::path& file, const MeshOptions& opti
 
 Surface remesh(const Surface& surface, const MeshOptions& options, const std::string& label) {
     const Surface flat = surface.order() == 1 ? surface : welded(flattened(surface, 2), label);
-    const GmshSession session;
-    Surface result;
-    GmshSession::run(label, "gmsh cannot remesh it; use --keep, which takes its triangles as they are", [&] {
-        add_discrete_surface(flat);
-        constexpr bool cut_at_edges = true;
-        constexpr bool cut_for_parametrisation = true;
-        gmsh::model::mesh::classifySurfaces(sharp_angle, cut_at_edges, cut_for_parametrisation,
-                                            std::numbers::pi);
-        gmsh::model::mesh::createGeometry();
-        forget_sizes_of_file();
-        const auto mesher = [&](int order) { return generate(label, {}, order); };
-        result = mesh_model(flat, options, options.size, mesher);
-    });
-    try {
-        require_sound_surface(result, label);
-    } catch (const Error& fault) {
-        throw Error(fmt::format("{}; that is after remeshing: use more triangles, or --keep", fault.what()));
+    // Thin bodies with shallow folds need these as edges; on coarse curved ones that would keep every facet.
+    constexpr std::array<double, 2> cutting_angles = {sharp_angle, sharp_angle / 4.0};
+    constexpr double good_change = 0.03;
+    constexpr double most_change = 0.15;
+    std::optional<Surface> best;
+    std::optional<Error> fault;
+    double smallest_change = std::numeric_limits<double>::infinity();
+    for (const double angle : cutting_angles) {
+        try {
+            Surface result = remesh_cut_at(angle, flat, options, label);
+            const double change = volume_change(flat, result);
+            if (change < smallest_change) {
+                smallest_change = change;
+                best = std::move(result);
+            }
+        } catch (const Error& reason) {
+            if (!fault) fault = reason;
+        }
+        if (smallest_change < good_change) break;
     }
-    require_same_volume(flat, result, label);
-    return result;
+    if (!best) throw *fault;
+    if (smallest_change > most_change) {
+        throw Error(fmt::format("{}: remeshing changed the volume by {:.0f} %; use more triangles, or --keep",
+                                label, 100.0 * smallest_change));
+    }
+    return options.order == 2 ? with_nodes_on(flat, *best) : *best;
 }
 
 }  // namespace samara

@@ -5,7 +5,6 @@
 #include <string>
 
 #include <fmt/format.h>
-#include <gmsh.h>
 #include <tiny_obj_loader.h>
 
 #include "meshes/gmsh_session.hpp"
@@ -59,10 +58,9 @@ Surface read_obj_file(const std::filesystem::path& file) {
 Surface read_msh_file(const std::filesystem::path& file) {
     const GmshSession session;
     Surface surface;
-    GmshSession::run(file.string(), "cannot be read as a gmsh mesh", [&] {
-        gmsh::open(file.string());
-        surface = surface_of_model(file.string());
-    });
+    GmshSession::open(file.string());
+    GmshSession::run(file.string(), "gmsh cannot read it",
+                     [&] { surface = surface_of_model(file.string()); });
     return surface;
 }
 

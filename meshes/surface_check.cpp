@@ -311,7 +311,7 @@ void require_no_crossing(const Surface& surface, const std::string& label) {
         throw Error(
             fmt::format("{}: the surface passes through itself: faces {} and {} cross at {}; join the parts "
                         "into one solid, "
-                        "or use more triangles where the body is thin",
+                        "or where the body is thin use more triangles",
                         label, crossing->first + 1, crossing->second + 1, place(crossing->point)));
     }
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
@@ -20,6 +21,7 @@ using std::numbers::pi;
 
 constexpr int highest_order = 16;  // of rotations about a single axis
 constexpr int highest_order_of_polyhedra = 5;
+constexpr std::size_t most_directions = 28;
 
 // Eigenvalues within this many tolerances (relative) count as one: they vary as the square of lengths.
 constexpr double degenerate = 4.0;
@@ -117,6 +119,12 @@ void add_new_direction(std::vector<Vector3d>& directions, const Vector3d& direct
     if (!known) directions.push_back(unit);
 }
 
+double integer_power(double base, int exponent) {
+    double result = 1.0;
+    for (int i = 0; i < exponent; ++i) result *= base;
+    return result;
+}
+
 // Directions d where the sum of (x . d)^power over the points is largest or smallest: the axes of a
 // polyhedral group are among them. Shifted power iteration: Kolda and Mayo, SIAM J. Matrix Anal. Appl. 32(4),
 // 2011.
@@ -125,7 +133,7 @@ void add_extremal_directions(std::vector<Vector3d>& directions, const std::vecto
     constexpr int starts = 24;
     constexpr int iterations = 80;
     double scale = 0.0;
-    for (const Vector3d& x : points) scale += std::pow(x.norm(), power);
+    for (const Vector3d& x : points) scale += integer_power(x.norm(), power);
     for (int start = 0; start < starts; ++start) {
         // A Fibonacci spiral over the half sphere.
         const double height = (start + 0.5) / starts;
@@ -135,7 +143,7 @@ void add_extremal_directions(std::vector<Vector3d>& directions, const std::vecto
             Vector3d d(radius * std::cos(azimuth), radius * std::sin(azimuth), height);
             for (int i = 0; i < iterations; ++i) {
                 Vector3d gradient = Vector3d::Zero();
-                for (const Vector3d& x : points) gradient += std::pow(x.dot(d), power - 1) * x;
+                for (const Vector3d& x : points) gradient += integer_power(x.dot(d), power - 1) * x;
                 d = (sign * gradient / scale + 0.3 * d).normalized();
             }
             add_new_direction(directions, d);
@@ -150,13 +158,15 @@ std::vector<Vector3d> polyhedral_directions(const ImageTest& test) {
                                        test.points().begin() + static_cast<std::ptrdiff_t>(count));
     std::vector<Vector3d> directions = {Vector3d::UnitZ(), Vector3d::UnitX(), Vector3d::UnitY()};
     for (const int power : {3, 4, 6}) add_extremal_directions(directions, points, power);
+    // A polyhedral group has few; nearly round bodies many that mean nothing.
+    directions.resize(std::min(directions.size(), most_directions));
     return directions;
 }
 
 void add_polyhedral_operations(SymmetryGroup& group, std::vector<Vector3d> directions) {
     for (const Vector3d& direction : directions)
         add_operations_about(group, direction, highest_order_of_polyhedra);
-    constexpr std::size_t most_combined = 14;
+    constexpr std::size_t most_combined = 10;
     directions.resize(std::min(directions.size(), most_combined));
     std::vector<Vector3d> combined = directions;
     for (const Vector3d& a : directions) {
@@ -199,7 +209,8 @@ Symmetry finite_symmetry(const ImageTest& test, const PrincipalDirections& princ
     for (const Matrix3d& element : signed_permutations()) group.add(element);
     group.add(-Matrix3d::Identity());
     if (principal.free_axis == 3) {
-        add_polyhedral_operations(group, directions);
+        // The cube's group is a part of no larger finite one.
+        if (group.elements().size() < 48) add_polyhedral_operations(group, directions);
     } else {
         for (int i = 0; i < 3; ++i) {
             const Vector3d direction = principal.directions.col(i);
@@ -210,8 +221,9 @@ Symmetry finite_symmetry(const ImageTest& test, const PrincipalDirections& princ
         }
     }
     Symmetry symmetry;
-    symmetry.axes = aligned_frame(group.elements());
-    symmetry.elements = snapped_in_frame(group.elements(), symmetry.axes);
+    AlignedGroup aligned = aligned_group(group.elements());
+    symmetry.axes = aligned.axes;
+    symmetry.elements = std::move(aligned.elements);
     return symmetry;
 }
 

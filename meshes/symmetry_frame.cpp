@@ -3,10 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/SVD>
+
 #include "meshes/symmetry_group.hpp"
 
 namespace samara {
 namespace {
+
+// An averaged group is exact but for rounding, so what is further off is no permutation.
+bool permutes(const Matrix3d& element) {
+    constexpr double rounding = 1e-8;
+    return (element - Matrix3d(element.array().round())).norm() < rounding;
+}
 
 // The axis of the rotation that the element is, or is after the inversion: zero for the identity and the
 // inversion.
@@ -33,8 +41,21 @@ std::size_t aligned_count(const std::vector<Matrix3d>& elements, const Matrix3d&
     return static_cast<std::size_t>(
         std::count_if(elements.begin(), elements.end(), [&](const Matrix3d& element) {
             const Matrix3d turned = frame.transpose() * element * frame;
-            return is_same_element(turned, turned.array().round());
+            return permutes(turned);
         }));
+}
+
+std::size_t nearest_element(const std::vector<Matrix3d>& group, const Matrix3d& element) {
+    std::size_t nearest = 0;
+    for (std::size_t i = 1; i < group.size(); ++i) {
+        if ((group[i] - element).squaredNorm() < (group[nearest] - element).squaredNorm()) nearest = i;
+    }
+    return nearest;
+}
+
+Matrix3d nearest_orthogonal(const Matrix3d& matrix) {
+    const Eigen::JacobiSVD<Matrix3d> decomposition(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    return decomposition.matrixU() * decomposition.matrixV().transpose();
 }
 
 // The same three lines with their columns and signs chosen so that it is turned least from the identity.
@@ -47,24 +68,13 @@ Matrix3d relabelled(const Matrix3d& frame) {
     return best;
 }
 
-}  // namespace
-
-Matrix3d frame_about(const Vector3d& axis) {
-    Eigen::Index largest = 0;
-    axis.cwiseAbs().maxCoeff(&largest);
-    const Vector3d along = axis[largest] < 0.0 ? Vector3d(-axis) : axis;
-    // The smallest turn that takes the shape's axis there.
-    return Quaterniond::FromTwoVectors(Vector3d::Unit(largest), along).toRotationMatrix();
-}
-
 Matrix3d aligned_frame(const std::vector<Matrix3d>& elements) {
     Matrix3d best = Matrix3d::Identity();
-    std::size_t best_count = aligned_count(elements, best);
+    std::size_t best_count = 0;
     const auto consider = [&](const Matrix3d& frame) {
         const Matrix3d candidate = relabelled(frame);
         const std::size_t count = aligned_count(elements, candidate);
-        const bool is_nearer =
-            count == best_count && !best.isIdentity() && candidate.trace() > best.trace() + 1e-9;
+        const bool is_nearer = count == best_count && candidate.trace() > best.trace() + 1e-9;
         if (count > best_count || is_nearer) {
             best = candidate;
             best_count = count;
@@ -85,15 +95,59 @@ Matrix3d aligned_frame(const std::vector<Matrix3d>& elements) {
     return best;
 }
 
-std::vector<Matrix3d> snapped_in_frame(const std::vector<Matrix3d>& elements, const Matrix3d& frame) {
-    std::vector<Matrix3d> snapped;
-    for (const Matrix3d& element : elements) {
-        const Matrix3d turned = frame.transpose() * element * frame;
-        const Matrix3d rounded = snapped_to_signed_permutation(turned);
-        // The identity frame leaves exact entries exact.
-        snapped.push_back(frame.isIdentity(0.0) ? rounded : Matrix3d(frame * rounded * frame.transpose()));
+// Quotients, not products: their mean has no error of first order.
+std::vector<Matrix3d> averaged(std::vector<Matrix3d> group) {
+    constexpr int most_rounds = 20;
+    for (int round = 0; round < most_rounds; ++round) {
+        std::vector<Matrix3d> sums(group.size(), Matrix3d::Zero());
+        for (const Matrix3d& a : group) {
+            for (const Matrix3d& b : group)
+                sums[nearest_element(group, a * b.transpose())] += a * b.transpose();
+        }
+        double change = 0.0;
+        for (std::size_t i = 0; i < group.size(); ++i) {
+            const Matrix3d next = nearest_orthogonal(sums[i]);
+            change = std::max(change, (next - group[i]).norm());
+            group[i] = next;
+        }
+        if (change < 1e-14) break;
     }
-    return snapped;
+    return group;
+}
+
+bool is_signed_permutation(const Matrix3d& matrix) {
+    return matrix == Matrix3d(matrix.array().round());
+}
+
+}  // namespace
+
+Matrix3d frame_about(const Vector3d& axis) {
+    Eigen::Index largest = 0;
+    axis.cwiseAbs().maxCoeff(&largest);
+    const Vector3d along = axis[largest] < 0.0 ? Vector3d(-axis) : axis;
+    // The smallest turn that takes the shape's axis there.
+    return Quaterniond::FromTwoVectors(Vector3d::Unit(largest), along).toRotationMatrix();
+}
+
+AlignedGroup aligned_group(const std::vector<Matrix3d>& elements) {
+    AlignedGroup group;
+    const std::vector<Matrix3d> exact = averaged(elements);
+    const Matrix3d frame = aligned_frame(exact);
+    bool along_shape_axes = (frame - Matrix3d::Identity()).norm() < 0.1;
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+        Matrix3d element = frame.transpose() * exact[i] * frame;
+        if (permutes(element)) {
+            element = element.array().round() + 0.0;
+            along_shape_axes = along_shape_axes && is_signed_permutation(elements[i]);
+        }
+        group.elements.push_back(element);
+    }
+    if (!along_shape_axes) {
+        group.axes = frame;
+        for (Matrix3d& element : group.elements) element = frame * element * frame.transpose();
+    }
+    group.elements.front().setIdentity();
+    return group;
 }
 
 }  // namespace samara

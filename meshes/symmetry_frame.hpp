@@ -6,17 +6,24 @@
 
 namespace samara {
 
-/// A right-handed frame (columns) in which as many of the group's elements as can be are signed permutations
-/// of the axes: aligned with mirrors and rotation axes. Of the equally good ones the identity, or else the
-/// one turned and relabelled nearest to it.
-Matrix3d aligned_frame(const std::vector<Matrix3d>& elements);
-
 /// A right-handed frame with the unit vector `axis`, or its opposite, as the column where it is largest,
 /// turned as little as may be from the identity.
 Matrix3d frame_about(const Vector3d& axis);
 
-/// The group's elements with those that are signed permutations in `frame`, but for the tolerance, made
-/// exactly so.
-std::vector<Matrix3d> snapped_in_frame(const std::vector<Matrix3d>& elements, const Matrix3d& frame);
+/// A finite group of rotations and reflections, and a frame for it.
+struct AlignedGroup {
+    /// Columns, right-handed: aligned with mirrors and rotation axes so that as many elements as can be are
+    /// signed permutations of them; of the equally good frames the one turned and relabelled nearest to the
+    /// identity.
+    Matrix3d axes = Matrix3d::Identity();
+    /// The identity first. Products of elements are elements but for rounding.
+    std::vector<Matrix3d> elements;
+};
+
+/// The group that the elements, found within a tolerance, stand for: they are replaced by the mean of the
+/// quotients that each is until all of these agree (Grove, Karcher and Ruh, Math. Ann. 211, 1974). Where the
+/// elements that permute `axes` are given as exactly signed permutations, the whole group is turned into the
+/// shape's axes: `axes` is the identity and these elements stay exact.
+AlignedGroup aligned_group(const std::vector<Matrix3d>& elements);
 
 }  // namespace samara

@@ -10,10 +10,9 @@ namespace {
 // In the Frobenius norm: a turn by 8 degrees. Elements of a group with axes of order 16 differ by 0.55.
 constexpr double same_element = 0.2;
 constexpr std::size_t largest_group = 240;
-constexpr std::size_t points_to_screen = 100;
 constexpr std::size_t points_to_refine = 400;
-// Images that are further than this many tolerances from agreeing are not worth turning.
-constexpr double worth_refining = 4.0;
+// Images with a point that is further than this many tolerances from the surface are not worth turning.
+constexpr double worth_refining = 6.0;
 
 bool is_in(const std::vector<Matrix3d>& elements, const Matrix3d& element) {
     return std::any_of(elements.begin(), elements.end(),
@@ -69,11 +68,6 @@ std::vector<Matrix3d> signed_permutations() {
     return all;
 }
 
-Matrix3d snapped_to_signed_permutation(const Matrix3d& element) {
-    const Matrix3d rounded = element.array().round();
-    return is_same_element(rounded, element) ? Matrix3d(rounded.array() + 0.0) : element;
-}
-
 bool SymmetryGroup::contains(const Matrix3d& element) const {
     return is_in(elements_, element);
 }
@@ -95,10 +89,9 @@ void SymmetryGroup::add(const Matrix3d& element) {
     elements_ = std::move(grown);
 }
 
-void SymmetryGroup::add_refined(Operation operation) {
-    const double near_enough = worth_refining * test_.tolerance();
-    if (contains(operation.matrix())) return;
-    if (test_.mean_distance(operation.matrix(), points_to_screen) > near_enough) return;
+void SymmetryGroup::add_refined(const Operation& operation) {
+    const Matrix3d element = operation.matrix();
+    if (contains(element) || !test_.is_symmetry(element, worth_refining)) return;
     add(refined(operation, test_).matrix());
 }
 

@@ -23,9 +23,6 @@ bool is_same_element(const Matrix3d& a, const Matrix3d& b);
 /// The 48 rotations and reflections of the cube along the axes, the identity first.
 std::vector<Matrix3d> signed_permutations();
 
-/// The signed permutation that is the same element, or the matrix itself.
-Matrix3d snapped_to_signed_permutation(const Matrix3d& element);
-
 /// A finite group of rotations and reflections under which a body looks the same, grown element by element.
 class SymmetryGroup {
   public:
@@ -36,7 +33,7 @@ class SymmetryGroup {
     void add(const Matrix3d& element);
 
     /// Turns the operation's axis to where the images agree best, if they nearly do, then adds it.
-    void add_refined(Operation operation);
+    void add_refined(const Operation& operation);
 
     [[nodiscard]] bool contains(const Matrix3d& element) const;
     [[nodiscard]] const std::vector<Matrix3d>& elements() const { return elements_; }

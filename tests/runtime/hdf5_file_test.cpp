@@ -56,6 +56,18 @@ TEST(Hdf5File, EqualContentGivesEqualBytesAtAnotherTime) {
     EXPECT_EQ(file_content_hash(folder / "a.h5"), file_content_hash(folder / "b.h5"));
 }
 
+TEST(Hdf5File, HoldsNoTimes) {
+    const test::TemporaryFolder folder;
+    write_sample(folder / "a.h5");
+    const H5::H5File file((folder / "a.h5").string(), H5F_ACC_RDONLY);
+    for (const char* object : {"/", "/a", "/a/b", "/a/doubles"}) {
+        H5O_info_t info;
+        ASSERT_GE(H5Oget_info_by_name(file.getId(), object, &info, H5P_DEFAULT), 0);
+        EXPECT_EQ(info.mtime, 0) << object;
+        EXPECT_EQ(info.btime, 0) << object;
+    }
+}
+
 TEST(Hdf5File, NamesWhatDoesNotFit) {
     const test::TemporaryFolder folder;
     write_sample(folder / "a.h5");

@@ -1,0 +1,269 @@
+#include "meshes/make_body.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
+#include <gmock/gmock.h>
+#include <gmsh.h>
+#include <gtest/gtest.h>
+
+#include "meshes/shape_files.hpp"
+#include "meshes/surface_check.hpp"
+#include "samara/body/body_file.hpp"
+#include "support/expect_error.hpp"
+#include "support/temporary_folder.hpp"
+#include "support/test_shapes.hpp"
+
+namespace samara {
+namespace {
+
+using std::numbers::pi;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+constexpr double ellipsoid_volume = 4.0 / 3.0 * pi * 0.01 * 0.02 * 0.04;
+
+MeshOptions with_triangles(int count, int order = 1) {
+    MeshOptions options;
+    options.triangles = count;
+    options.order = order;
+    return options;
+}
+
+MeshOptions keep() {
+    MeshOptions options;
+    options.sizing = MeshOptions::Sizing::keep;
+    return options;
+}
+
+struct Shape {
+    const char* file;
+    double volume;
+    double tolerance;  // relative: what flat triangles leave out of a curved body, or rounding
+    Symmetry::Kind kind;
+    std::size_t elements;
+};
+
+class ShapeOfSamara : public ::testing::TestWithParam<Shape> {};
+
+TEST_P(ShapeOfSamara, MakesAValidBody) {
+    const Shape& shape = GetParam();
+    const Body body = make_body(test::shape_of_samara(shape.file));
+    EXPECT_NEAR(static_cast<double>(body.surface.triangle_count()), 1280.0, 0.1 * 1280.0);
+    EXPECT_NO_THROW(require_sound_surface(body.surface, shape.file));
+    EXPECT_NEAR(body.moments.volume, shape.volume, shape.tolerance * shape.volume);
+    EXPECT_EQ(body.symmetry.kind, shape.kind);
+    EXPECT_EQ(body.symmetry.elements.size(), shape.elements);
+    EXPECT_TRUE(body.symmetry.axes.isIdentity(0.0));
+    EXPECT_EQ(body.name, std::filesystem::path(shape.file).stem());
+    EXPECT_THAT(body.source, AllOf(HasSubstr(shape.file), HasSubstr("1280 triangles"), HasSubstr("gmsh 4.")));
+}
+
+// The leaf and the samara have no closed form: their volumes are of meshes of 20,000 curved triangles.
+INSTANTIATE_TEST_SUITE_P(
+    , ShapeOfSamara,
+    ::testing::Values(Shape{"sphere.geo", 4.0 / 3.0 * pi * 8e-6, 0.015, Symmetry::Kind::spherical, 2},
+                      Shape{"ellipsoid.geo", ellipsoid_volume, 0.02, Symmetry::Kind::finite, 8},
+                      Shape{"disc.geo", pi * 4e-4 * 0.002, 0.005, Symmetry::Kind::axial, 4},
+                      Shape{"sheet.geo", 0.083 * 0.083 * 0.0001, 1e-9, Symmetry::Kind::finite, 16},
+                      Shape{"cube.geo", 8e-6, 1e-9, Symmetry::Kind::finite, 48},
+                      // The folded sheet's own volume, but for the corners of the cut edges.
+                      Shape{"airplane.geo", 0.083 * 0.083 * 0.0001, 0.005, Symmetry::Kind::finite, 2},
+                      Shape{"leaf.geo", 3.8565e-7, 0.02, Symmetry::Kind::finite, 2},
+                      Shape{"samara.geo", 2.5554e-7, 0.04, Symmetry::Kind::finite, 2}),
+    [](const auto& shape) { return std::filesystem::path(shape.param.file).stem().string(); });
+
+TEST(MakeBody, MeetsTheCountOfTrianglesFromHundredsToThousands) {
+    for (const int count : {300, 5000}) {
+        const Body body = make_body(test::shape_of_samara("disc.geo"), with_triangles(count));
+        EXPECT_NEAR(static_cast<double>(body.surface.triangle_count()), count, 0.1 * count);
+    }
+}
+
+TEST(MakeBody, CurvedTrianglesAreAHundredTimesMoreAccurate) {
+    const double flat =
+        make_body(test::shape_of_samara("ellipsoid.geo"), with_triangles(1280)).moments.volume;
+    const Body curved = make_body(test::shape_of_samara("ellipsoid.geo"), with_triangles(1280, 2));
+    EXPECT_EQ(curved.surface.order(), 2);
+    EXPECT_LT(std::abs(curved.moments.volume - ellipsoid_volume), 0.01 * std::abs(flat - ellipsoid_volume));
+    for (const Vector3d& vertex : curved.surface.vertices) {
+        const Vector3d scaled = vertex.cwiseQuotient(Vector3d(0.01, 0.02, 0.04));
+        EXPECT_NEAR(scaled.norm(), 1.0, 1e-6);
+    }
+}
+
+TEST(MakeBody, SizeIsThatOfTheLargestTriangles) {
+    MeshOptions options;
+    options.sizing = MeshOptions::Sizing::size;
+    options.size = 0.004;
+    const Body body = make_body(test::shape_of_samara("sphere.geo"), options);
+    double longest = 0.0;
+    for (const auto& triangle : body.surface.corners) {
+        const Vector3d side = body.surface.vertices[static_cast<std::size_t>(triangle[1])] -
+                              body.surface.vertices[static_cast<std::size_t>(triangle[0])];
+        longest = std::max(longest, side.norm());
+    }
+    EXPECT_NEAR(longest, 0.004, 0.002);
+}
+
+TEST(MakeBody, ScaleIsMetresForOneUnitOfTheFile) {
+    MeshOptions options = with_triangles(1280);
+    const VolumeMoments one = make_body(test::shape_of_samara("cube.geo"), options).moments;
+    options.scale = 10.0;
+    const Body body = make_body(test::shape_of_samara("cube.geo"), options);
+    EXPECT_NEAR(body.moments.volume, 1e3 * one.volume, 1e-9);
+    EXPECT_NEAR(body.moments.surface_area, 1e2 * one.surface_area, 1e-9);
+    EXPECT_NEAR(static_cast<double>(body.surface.triangle_count()), 1280.0, 128.0);
+}
+
+TEST(MakeBody, KeepsTheTrianglesOfTextAndBinaryStlAndObj) {
+    const test::TemporaryFolder folder;
+    const Surface surface = test::ellipsoid(Vector3d(0.01, 0.02, 0.04), 2, Vector3d(0.1, 0.2, 0.3));
+    test::write_stl(folder / "a.stl", surface);
+    test::write_binary_stl(folder / "b.STL", surface);
+    test::write_obj(folder / "c.obj", surface);
+    const VolumeMoments expected = test::moments_of(surface);
+    for (const char* name : {"a.stl", "b.STL", "c.obj"}) {
+        const Body body = make_body(folder / name, keep());
+        EXPECT_EQ(body.surface.triangle_count(), surface.triangle_count());
+        EXPECT_EQ(body.surface.vertices.size(), surface.vertices.size());
+        EXPECT_NEAR(body.moments.volume, expected.volume, 2e-6 * expected.volume) << name;
+        EXPECT_LT((body.moments.centroid - expected.centroid).norm(), 1e-7);
+    }
+}
+
+TEST(MakeBody, RemeshesTriangles) {
+    const test::TemporaryFolder folder;
+    test::write_stl(folder / "box.stl", test::box(Vector3d(0.01, 0.02, 0.03), 1));
+    const Body box = make_body(folder / "box.stl", with_triangles(600));
+    EXPECT_NEAR(static_cast<double>(box.surface.triangle_count()), 600.0, 60.0);
+    EXPECT_NEAR(box.moments.volume, 6e-6, 1e-15);
+    EXPECT_EQ(box.symmetry.elements.size(), 8U);
+
+    const Surface ellipsoid = test::ellipsoid(Vector3d(0.01, 0.02, 0.04), 4);
+    test::write_obj(folder / "ellipsoid.obj", ellipsoid);
+    const Body body = make_body(folder / "ellipsoid.obj", with_triangles(1280, 2));
+    EXPECT_EQ(body.surface.order(), 2);
+    EXPECT_NEAR(static_cast<double>(body.surface.triangle_count()), 1280.0, 128.0);
+    EXPECT_NEAR(body.moments.volume, test::moments_of(ellipsoid).volume, 2e-3 * ellipsoid_volume);
+    EXPECT_EQ(body.symmetry.elements.size(), 8U);
+}
+
+TEST(MakeBody, RemeshingKeepsTheShallowFoldsOfAThinBody) {
+    const test::TemporaryFolder folder;
+    const Body airplane = make_body(test::shape_of_samara("airplane.geo"), with_triangles(400));
+    test::write_stl(folder / "airplane.stl", airplane.surface);
+    const Body body = make_body(folder / "airplane.stl", with_triangles(600));
+    EXPECT_NEAR(body.moments.volume, airplane.moments.volume, 1e-3 * airplane.moments.volume);
+    EXPECT_EQ(body.symmetry.elements.size(), 2U);
+}
+
+TEST(MakeBody, HonoursTheUnitOfAStepFile) {
+    const test::TemporaryFolder folder;
+    // gmsh writes STEP in millimetres.
+    test::write_with_gmsh(folder / "ball.step", [] {
+        gmsh::model::occ::addSphere(0.0, 0.0, 0.0, 20.0);
+        gmsh::model::occ::synchronize();
+    });
+    const Body body = make_body(folder / "ball.step", with_triangles(1280, 2));
+    EXPECT_NEAR(body.moments.volume, 4.0 / 3.0 * pi * 8e-6, 1e-4 * 3.35e-5);
+    EXPECT_EQ(body.symmetry.kind, Symmetry::Kind::spherical);
+}
+
+TEST(MakeBody, ReadsBrepAndLeavesInnerWallsOut) {
+    const test::TemporaryFolder folder;
+    test::write_with_gmsh(folder / "two.brep", [] {
+        gmsh::model::occ::addBox(0.0, 0.0, 0.0, 1.0, 1.0, 1.0);
+        gmsh::model::occ::addBox(1.0, 0.0, 0.0, 1.0, 1.0, 1.0);
+        gmsh::vectorpair parts;
+        std::vector<gmsh::vectorpair> origin;
+        gmsh::model::occ::fragment({{3, 1}}, {{3, 2}}, parts, origin);
+        gmsh::model::occ::synchronize();
+    });
+    const Body body = make_body(folder / "two.brep", with_triangles(600));
+    EXPECT_NEAR(body.moments.volume, 2.0, 1e-12);
+    EXPECT_NEAR(body.moments.surface_area, 10.0, 1e-12);
+}
+
+TEST(MakeBody, ReadsMshOfBothOrders) {
+    const test::TemporaryFolder folder;
+    for (const int order : {1, 2}) {
+        test::write_with_gmsh(folder / "ball.msh", [&] {
+            gmsh::option::setNumber("Mesh.MeshSizeMax", 0.25);
+            gmsh::model::occ::addSphere(0.0, 0.0, 0.0, 1.0);
+            gmsh::model::occ::synchronize();
+            gmsh::model::mesh::generate(2);
+            gmsh::model::mesh::setOrder(order);
+        });
+        MeshOptions options = keep();
+        options.order = order;
+        const Body body = make_body(folder / "ball.msh", options);
+        EXPECT_EQ(body.surface.order(), order);
+        EXPECT_NEAR(body.moments.volume, 4.0 / 3.0 * pi, order == 1 ? 0.1 : 1e-3);
+    }
+}
+
+TEST(MakeBody, TakesTheSurfaceOfABodyFile) {
+    const test::TemporaryFolder folder;
+    const Body body = make_body(test::shape_of_samara("cube.geo"), with_triangles(300));
+    write_body_file(folder / "cube.body.h5", body);
+    const Body again = make_body(folder / "cube.body.h5", keep());
+    EXPECT_EQ(again.surface.triangle_count(), body.surface.triangle_count());
+    EXPECT_NEAR(again.moments.volume, body.moments.volume, 1e-12 * body.moments.volume);
+    EXPECT_EQ(again.name, "cube");
+}
+
+TEST(MakeBody, IsTheSameEachTime) {
+    const Body one = make_body(test::shape_of_samara("samara.geo"), with_triangles(500));
+    const Body two = make_body(test::shape_of_samara("samara.geo"), with_triangles(500));
+    EXPECT_EQ(surface_hash(one.surface), surface_hash(two.surface));
+}
+
+std::string fault_of_text(const std::string& name, const std::string& text) {
+    const test::TemporaryFolder folder;
+    std::ofstream(folder / name) << text;
+    const std::string fault = test::error_of([&] { make_body(folder / name); });
+    EXPECT_THAT(fault, ::testing::StartsWith((folder / name).string() + ": "));
+    EXPECT_THAT(fault, ::testing::Not(HasSubstr("\n")));
+    return fault;
+}
+
+TEST(MakeBody, NamesWhatIsWrongWithAFile) {
+    EXPECT_THAT(test::error_of([] { make_body("nowhere/missing.stl"); }),
+                HasSubstr("missing.stl: does not exist"));
+    EXPECT_THAT(test::error_of([] { make_body(std::filesystem::temp_directory_path() / "x.blend"); }),
+                HasSubstr("is of no known kind; give a .geo"));
+    EXPECT_THAT(fault_of_text("empty.stl", ""), HasSubstr("is empty"));
+    EXPECT_THAT(fault_of_text("words.stl", "these are no triangles"), HasSubstr("is no STL file"));
+    EXPECT_THAT(
+        fault_of_text("cut.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"),
+        HasSubstr("is cut short within a face at line 5"));
+    EXPECT_THAT(fault_of_text("word.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 zero 0\n"),
+                HasSubstr("line 4: 'vertex' needs three numbers, not 'zero'"));
+    EXPECT_THAT(fault_of_text("none.obj", "# nothing\n"), HasSubstr("holds no triangles"));
+    EXPECT_THAT(fault_of_text("range.obj", "v 0 0 0\nv 1 0 0\nf 1 2 7\n"), HasSubstr("range.obj"));
+    EXPECT_THAT(fault_of_text("wrong.geo", "Sphere(1) = {0, 0, nonsense, 1};\n"), HasSubstr("nonsense"));
+    EXPECT_THAT(fault_of_text("none.geo", "Point(1) = {0, 0, 0, 1};\n"), HasSubstr("holds no surface"));
+    EXPECT_THAT(fault_of_text("open.geo", "SetFactory(\"OpenCASCADE\"); Rectangle(1) = {0, 0, 0, 1, 1};\n"),
+                HasSubstr("is not closed"));
+    EXPECT_THAT(fault_of_text("a.step", "ISO-10303-21; cut short"), HasSubstr("a.step"));
+    EXPECT_THAT(fault_of_text("a.msh", "$MeshFormat\nnonsense\n"), HasSubstr("a.msh"));
+    EXPECT_THAT(fault_of_text("a.body.h5", "not HDF5"), HasSubstr("is not an HDF5 file"));
+}
+
+TEST(MakeBody, RefusesOptionsOutOfRange) {
+    const auto cube = test::shape_of_samara("cube.geo");
+    MeshOptions options;
+    options.scale = -1.0;
+    EXPECT_THAT(test::error_of([&] { make_body(cube, options); }), HasSubstr("scale must be positive"));
+    options = {};
+    options.order = 3;
+    EXPECT_THAT(test::error_of([&] { make_body(cube, options); }), HasSubstr("order must be 1 or 2"));
+    options = {};
+    options.flip = true;
+    EXPECT_THAT(test::error_of([&] { make_body(cube, options); }), HasSubstr("leave --flip out"));
+}
+
+}  // namespace
+}  // namespace samara
