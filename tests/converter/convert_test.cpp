@@ -15,6 +15,7 @@
 #include "samara/body/octahedral_map.hpp"
 #include "samara/command/subprocess.hpp"
 #include "solved_folder.hpp"
+#include "support/expect_error.hpp"
 #include "symmetry_groups.hpp"
 
 namespace samara {
@@ -39,7 +40,7 @@ Body turned_box() {
 class Convert : public testing::Test {
   protected:
     std::string fault() const {
-        return test::message_of<Error>([&] { convert_cases(folder_.path()); });
+        return test::error_of([&] { convert_cases(folder_.path()); });
     }
 
     test::SolvedFolder folder_{test::box_body(Vector3d(0.01, 0.02, 0.04)), 2, {1e3, 1e4}, box_law};

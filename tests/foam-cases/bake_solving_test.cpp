@@ -6,6 +6,7 @@
 #include <fstream>
 #include <map>
 #include <regex>
+#include <sstream>
 #include <thread>
 
 #include <fmt/format.h>
@@ -15,13 +16,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "../converter/temporary_folder.hpp"
 #include "foam-cases/case_farm.hpp"
 #include "foam-cases/case_folder.hpp"
 #include "samara/base/content_hash.hpp"
 #include "samara/base/error.hpp"
 #include "samara/body/body_file.hpp"
 #include "samara/command/subprocess.hpp"
+#include "support/program_run.hpp"
+#include "support/temporary_folder.hpp"
 #include "test_bodies.hpp"
 
 namespace samara {
@@ -33,13 +35,6 @@ using testing::Not;
 
 const fs::path program = fs::path(SAMARA_PROGRAMS) / "samara-bake";
 const fs::path templates = fs::path(SAMARA_SOURCE_DIRECTORY) / "foam-cases";
-
-struct Outcome {
-    int status;
-    std::string output;
-    std::string fault;
-    [[nodiscard]] nlohmann::json json() const { return nlohmann::json::parse(output); }
-};
 
 class Bake : public testing::Test {
   protected:
@@ -54,12 +49,12 @@ class Bake : public testing::Test {
         return file;
     }
 
-    // `environment`: assignments before the command, as a shell takes them.
-    Outcome bake(const std::string& words, const std::string& environment = "") const {
-        const std::string command = fmt::format("cd '{}' && {} '{}' {} > stdout 2> stderr", folder_.string(),
-                                                environment, program.string(), words);
-        const int status = run_subprocess({"/bin/sh", "-c", command});
-        return {status, read_bytes(folder_ / "stdout"), read_bytes(folder_ / "stderr")};
+    /// `words`: the command line without the program, words parted by spaces.
+    test::ProgramRun bake(const std::string& words, const std::string& environment = "") const {
+        std::istringstream stream(words);
+        std::vector<std::string> list = {"samara-bake"};
+        for (std::string word; stream >> word;) list.push_back(word);
+        return test::run_program_in(temporary_, list, environment);
     }
 
     [[nodiscard]] std::map<std::string, fs::file_time_type> solved() const {
@@ -91,7 +86,8 @@ class Bake : public testing::Test {
 
 TEST_F(Bake, OfAnEllipsoidGivesTablesAndReusesThemWhenRunAgain) {
     const fs::path file = write_body(test::ellipsoid({0.01, 0.02, 0.04}));
-    const Outcome first = bake(fmt::format("{} -o out.body.h5 --quality smoke --json", file.string()));
+    const test::ProgramRun first =
+        bake(fmt::format("{} -o out.body.h5 --quality smoke --json", file.string()));
     ASSERT_EQ(first.status, 0) << first.fault;
     const nlohmann::json json = first.json();
     ASSERT_EQ(json["cases"].size(), 6u);
@@ -114,7 +110,8 @@ TEST_F(Bake, OfAnEllipsoidGivesTablesAndReusesThemWhenRunAgain) {
     EXPECT_NEAR(-force.x(), json["cases"][0]["drag_coefficient"].get<double>(), 1e-9);
 
     const auto before = solved();
-    const Outcome second = bake(fmt::format("{} -o out.body.h5 --quality smoke --json", file.string()));
+    const test::ProgramRun second =
+        bake(fmt::format("{} -o out.body.h5 --quality smoke --json", file.string()));
     ASSERT_EQ(second.status, 0) << second.fault;
     EXPECT_EQ(second.json()["reused_cases"], 6);
     EXPECT_EQ(solved(), before);
@@ -122,10 +119,11 @@ TEST_F(Bake, OfAnEllipsoidGivesTablesAndReusesThemWhenRunAgain) {
 
 TEST_F(Bake, EstimatesTheCellsOfTheMeshThatIsMade) {
     const fs::path file = write_body(test::sphere(0.01));
-    const Outcome estimate =
+    const test::ProgramRun estimate =
         bake(fmt::format("{} -o out.body.h5 --quality smoke --dry-run --json", file.string()));
     ASSERT_EQ(estimate.status, 0) << estimate.fault;
-    const Outcome made = bake(fmt::format("{} -o out.body.h5 --quality smoke --json", file.string()));
+    const test::ProgramRun made =
+        bake(fmt::format("{} -o out.body.h5 --quality smoke --json", file.string()));
     ASSERT_EQ(made.status, 0) << made.fault;
     const double cells = made.json()["mesh"]["cells"].get<double>();
     EXPECT_NEAR(estimate.json()["estimated_cells"].get<double>(), cells, 0.2 * cells);
@@ -134,7 +132,8 @@ TEST_F(Bake, EstimatesTheCellsOfTheMeshThatIsMade) {
 
 TEST_F(Bake, OfASheetOfATenthOfAPercentKeepsItsRim) {
     const fs::path file = write_body(test::box({0.1, 0.1, 0.00012}));
-    const Outcome made = bake(fmt::format("{} -o out.body.h5 --quality smoke --json", file.string()));
+    const test::ProgramRun made =
+        bake(fmt::format("{} -o out.body.h5 --quality smoke --json", file.string()));
     ASSERT_EQ(made.status, 0) << made.fault;
     EXPECT_NEAR(made.json()["mesh"]["body_area_over_true_area"].get<double>(), 1.0, 0.05);
 }
@@ -152,7 +151,8 @@ TEST_F(Bake, ThatIsKilledLeavesNoSolverBehindAndGoesOnWhereItStopped) {
     EXPECT_EQ(solved(), after_kill);
     EXPECT_FALSE(fs::exists(output_));
 
-    const Outcome again = bake(fmt::format("{} -o out.body.h5 --quality smoke --json", file.string()));
+    const test::ProgramRun again =
+        bake(fmt::format("{} -o out.body.h5 --quality smoke --json", file.string()));
     ASSERT_EQ(again.status, 0) << again.fault;
     EXPECT_EQ(again.json()["reused_cases"], after_kill.size());
     for (const auto& [name, time] : after_kill) EXPECT_EQ(solved().at(name), time);
@@ -194,7 +194,7 @@ TEST_F(Bake, NamesADivergedCaseAndItsLogWhileTheOthersGoOn) {
 
 TEST_F(Bake, WithoutOpenFoamNamesThePackages) {
     const fs::path file = write_body(test::sphere(0.01));
-    const Outcome run = bake(fmt::format("{} -o out.body.h5", file.string()), "PATH=/nowhere");
+    const test::ProgramRun run = bake(fmt::format("{} -o out.body.h5", file.string()), "PATH=/nowhere");
     EXPECT_EQ(run.status, 1);
     EXPECT_THAT(run.fault, HasSubstr("simpleFoam"));
     EXPECT_THAT(run.fault, HasSubstr("apt install openfoam snakemake"));
@@ -204,7 +204,7 @@ TEST_F(Bake, WithoutOpenFoamNamesThePackages) {
 
 TEST_F(Bake, DryRunWritesNothing) {
     const fs::path file = write_body(test::ellipsoid({0.01, 0.02, 0.04}));
-    const Outcome run = bake(fmt::format("{} -o out.body.h5 --dry-run --json", file.string()));
+    const test::ProgramRun run = bake(fmt::format("{} -o out.body.h5 --dry-run --json", file.string()));
     ASSERT_EQ(run.status, 0) << run.fault;
     EXPECT_EQ(run.json()["cases"].size(), 15u);
     EXPECT_GT(run.json()["estimated_cpu_seconds"].get<double>(), 10.0);
@@ -214,14 +214,14 @@ TEST_F(Bake, DryRunWritesNothing) {
 
 TEST_F(Bake, WarnsOfLaminarFlow) {
     const fs::path file = write_body(test::sphere(0.0002));
-    const Outcome run = bake(fmt::format("{} -o out.body.h5 --dry-run", file.string()));
+    const test::ProgramRun run = bake(fmt::format("{} -o out.body.h5 --dry-run", file.string()));
     EXPECT_EQ(run.status, 0);
     EXPECT_THAT(run.fault, HasSubstr("warning: at Reynolds number"));
 }
 
 TEST_F(Bake, RefusesABodyAsDenseAsTheFluid) {
     const fs::path file = write_body(test::sphere(0.01));
-    const Outcome run = bake(fmt::format("{} -o out.body.h5 --density 998.2", file.string()));
+    const test::ProgramRun run = bake(fmt::format("{} -o out.body.h5 --density 998.2", file.string()));
     EXPECT_EQ(run.status, 1);
     EXPECT_THAT(run.fault, HasSubstr("choose another density"));
     EXPECT_FALSE(fs::exists(cases_));
@@ -244,7 +244,7 @@ density = 2000
 loads = "none"
 turbulence = "none"
 )";
-    const Outcome run = bake("scene.toml -o bodies --quality smoke --json");
+    const test::ProgramRun run = bake("scene.toml -o bodies --quality smoke --json");
     ASSERT_EQ(run.status, 0) << run.fault;
     ASSERT_EQ(run.json()["bodies"].size(), 2u);
     const Body ball = read_body_file(folder_ / "bodies/ball.body.h5");
@@ -253,7 +253,7 @@ turbulence = "none"
     EXPECT_FALSE(read_body_file(folder_ / "bodies/ghost.body.h5").tables.has_value());
     EXPECT_FALSE(fs::exists(folder_ / "bodies/ghost.cases"));
 
-    const Outcome mixed = bake("scene.toml -o bodies --density 1200");
+    const test::ProgramRun mixed = bake("scene.toml -o bodies --density 1200");
     EXPECT_EQ(mixed.status, 1);
     EXPECT_THAT(mixed.fault, HasSubstr("drop --density"));
 }

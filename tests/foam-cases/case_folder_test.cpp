@@ -9,11 +9,11 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "../converter/temporary_folder.hpp"
 #include "foam-cases/case_parameters.hpp"
 #include "foam-cases/case_surface.hpp"
 #include "samara/base/content_hash.hpp"
 #include "samara/base/error.hpp"
+#include "support/temporary_folder.hpp"
 #include "test_bodies.hpp"
 
 namespace samara {

@@ -8,10 +8,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "../converter/temporary_folder.hpp"
 #include "foam-cases/folder_lock.hpp"
 #include "samara/base/content_hash.hpp"
 #include "samara/base/error.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace samara {
 namespace {

@@ -5,13 +5,12 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "samara/base/content_hash.hpp"
 #include "samara/body/body_file.hpp"
 #include "samara/command/load_body.hpp"
-#include "samara/command/subprocess.hpp"
 #include "samara/files/hdf5_file.hpp"
 #include "samara/files/replace_file.hpp"
 #include "support/expect_error.hpp"
+#include "support/program_run.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_shapes.hpp"
 
@@ -21,15 +20,9 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-struct Outcome {
-    int status;
-    std::string text;  // standard output and standard error
-};
-
-Outcome samara(const test::TemporaryFolder& folder, std::vector<std::string> words) {
-    words.insert(words.begin(), std::string(SAMARA_PROGRAMS) + "/samara");
-    const int status = run_subprocess(words, folder / "log");
-    return {status, read_bytes(folder / "log")};
+test::ProgramRun samara(const test::TemporaryFolder& folder, std::vector<std::string> words) {
+    words.insert(words.begin(), "samara");
+    return test::run_program_in(folder, words);
 }
 
 std::string write_ellipsoid(const test::TemporaryFolder& folder) {
@@ -44,10 +37,10 @@ std::string write_ellipsoid(const test::TemporaryFolder& folder) {
 
 TEST(KirchhoffCommand, PrintsOneJsonObject) {
     const test::TemporaryFolder folder;
-    const Outcome outcome =
+    const test::ProgramRun outcome =
         samara(folder, {"kirchhoff", write_ellipsoid(folder), "--json", "--threads", "1"});
-    ASSERT_EQ(outcome.status, 0) << outcome.text;
-    const nlohmann::json result = nlohmann::json::parse(outcome.text);
+    ASSERT_EQ(outcome.status, 0) << outcome.fault;
+    const nlohmann::json result = outcome.json();
     EXPECT_NEAR(result["added_mass"][3][3].get<double>(), 50.87072167736, 0.03 * 50.87);  // Lamb, art. 114
     EXPECT_EQ(result["reference_point"], result["centroid"]);
     EXPECT_NEAR(result["centroid"][0].get<double>(), 0.5, 1e-12);
@@ -59,10 +52,10 @@ TEST(KirchhoffCommand, PrintsOneJsonObject) {
 
 TEST(KirchhoffCommand, AboutAnotherPointCouplesRotationToTranslation) {
     const test::TemporaryFolder folder;
-    const Outcome outcome =
+    const test::ProgramRun outcome =
         samara(folder, {"kirchhoff", write_ellipsoid(folder), "--json", "--about", "-0.5,-0.25,1"});
-    ASSERT_EQ(outcome.status, 0) << outcome.text;
-    const nlohmann::json result = nlohmann::json::parse(outcome.text);
+    ASSERT_EQ(outcome.status, 0) << outcome.fault;
+    const nlohmann::json result = outcome.json();
     // The centroid is 1 m along x from the point: v_centroid = v + omega_z y, so p_y of omega_z is M_y.
     EXPECT_NEAR(result["added_mass"][4][2].get<double>(), result["added_mass"][4][4].get<double>(), 1e-6);
     EXPECT_EQ(result["reference_point"], nlohmann::json({-0.5, -0.25, 1.0}));
@@ -74,9 +67,9 @@ TEST(KirchhoffCommand, WritesTheTensorIntoTheBodyFileAndInfoShowsIt) {
     ASSERT_EQ(samara(folder, {"kirchhoff", file, "-o", file}).status, 0);
     const Body body = read_body_file(file);
     ASSERT_TRUE(body.kirchhoff.has_value());
-    const Outcome outcome = samara(folder, {"info", file, "--json"});
-    ASSERT_EQ(outcome.status, 0) << outcome.text;
-    const nlohmann::json result = nlohmann::json::parse(outcome.text);
+    const test::ProgramRun outcome = samara(folder, {"info", file, "--json"});
+    ASSERT_EQ(outcome.status, 0) << outcome.fault;
+    const nlohmann::json result = outcome.json();
     EXPECT_EQ(result["kirchhoff"]["added_mass"][5][5].get<double>(), body.kirchhoff->matrix(5, 5));
     EXPECT_NEAR(result["principal_extents"][2].get<double>(), 8.0, 0.1);
     EXPECT_TRUE(result["tables"].is_null());
@@ -98,10 +91,10 @@ TEST(KirchhoffCommand, BadInputGivesOneLineThatNamesTheFile) {
         {"kirchhoff", sound, "-o", (folder / "wrong.h5").string()},
     };
     for (const auto& words : bad) {
-        const Outcome outcome = samara(folder, words);
+        const test::ProgramRun outcome = samara(folder, words);
         EXPECT_EQ(outcome.status, 1);
-        EXPECT_THAT(outcome.text, StartsWith("samara kirchhoff: "));
-        EXPECT_EQ(std::count(outcome.text.begin(), outcome.text.end(), '\n'), 1) << outcome.text;
+        EXPECT_THAT(outcome.fault, StartsWith("samara kirchhoff: "));
+        EXPECT_TRUE(test::is_one_line(outcome.fault)) << outcome.fault;
     }
     EXPECT_THAT(samara(folder, bad[1]).text, HasSubstr("holed.body.h5: the surface is not closed"));
 }
@@ -109,11 +102,11 @@ TEST(KirchhoffCommand, BadInputGivesOneLineThatNamesTheFile) {
 TEST(InfoCommand, ShowsTablesAndTheirProvenance) {
     const test::TemporaryFolder folder;
     write_body_file(folder / "a.body.h5", test::full_body());
-    const Outcome outcome = samara(folder, {"info", (folder / "a.body.h5").string()});
+    const test::ProgramRun outcome = samara(folder, {"info", (folder / "a.body.h5").string()});
     EXPECT_EQ(outcome.status, 0);
     for (const char* part : {"pebble", "10 200 3000", "18 (octahedron", "openfoam_version", "v1912", "0.5 m",
                              "m^3", "every rotation about"}) {
-        EXPECT_THAT(outcome.text, HasSubstr(part));
+        EXPECT_THAT(outcome.output, HasSubstr(part));
     }
 }
 
@@ -122,9 +115,9 @@ TEST(InfoCommand, ForeignHdf5GivesOneLine) {
     write_hdf5(folder / "a.h5", [](Hdf5Writer& file) {
         file.write("/density", std::vector<double>{1.0}, {1}, "kg/m^3", "of something");
     });
-    const Outcome outcome = samara(folder, {"info", (folder / "a.h5").string()});
+    const test::ProgramRun outcome = samara(folder, {"info", (folder / "a.h5").string()});
     EXPECT_EQ(outcome.status, 1);
-    EXPECT_THAT(outcome.text, HasSubstr("a.h5: is an HDF5 file that samara did not make"));
+    EXPECT_THAT(outcome.fault, HasSubstr("a.h5: is an HDF5 file, but neither a body nor a motion"));
 }
 
 TEST(LoadBody, RefusesScaleAndTrianglesForABodyFile) {
