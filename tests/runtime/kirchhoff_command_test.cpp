@@ -96,7 +96,7 @@ TEST(KirchhoffCommand, BadInputGivesOneLineThatNamesTheFile) {
         EXPECT_THAT(outcome.fault, StartsWith("samara kirchhoff: "));
         EXPECT_TRUE(test::is_one_line(outcome.fault)) << outcome.fault;
     }
-    EXPECT_THAT(samara(folder, bad[1]).text, HasSubstr("holed.body.h5: the surface is not closed"));
+    EXPECT_THAT(samara(folder, bad[1]).fault, HasSubstr("holed.body.h5: the surface is not closed"));
 }
 
 TEST(InfoCommand, ShowsTablesAndTheirProvenance) {
