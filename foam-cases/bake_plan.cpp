@@ -102,6 +102,12 @@ FlowMesh fitted_mesh(const BakeQuality& quality, const Body& body, double length
     mesh.background_cells =
         static_cast<int>(std::lround(2.0 * mesh.box_half_width / quality.background_cell));
     mesh.surface_level = surface_level_for(quality, second_extent(body) / length);
+    // snappyHexMesh refines at a surface that its cells can see, and cells as large as the body do not see
+    // it: so each level is reached through a shell, for the further ones of two cells' thickness.
+    for (int level = quality.mesh.surface_level + 1; level <= mesh.surface_level; ++level) {
+        const double thickness = 2.0 * quality.background_cell / std::ldexp(1.0, level);
+        mesh.refinement_shells.insert(mesh.refinement_shells.begin(), {thickness, level});
+    }
     return mesh;
 }
 

@@ -66,6 +66,16 @@ TEST(BakePlan, WidensTheBoxAndRefinesTheSurfaceOfARod) {
     EXPECT_LE(3.0 * cell * rod.reference_length, 0.002);
 }
 
+TEST(BakePlan, ReachesTheSurfaceLevelThroughShellsThatThinInwards) {
+    const FlowMesh mesh = preview_of(test::ellipsoid({0.001, 0.001, 0.05})).quality.mesh;
+    EXPECT_GT(mesh.surface_level, 4);
+    EXPECT_EQ(mesh.refinement_shells.front().second, mesh.surface_level);
+    for (std::size_t i = 1; i < mesh.refinement_shells.size(); ++i) {
+        EXPECT_LT(mesh.refinement_shells[i - 1].first, mesh.refinement_shells[i].first);
+        EXPECT_EQ(mesh.refinement_shells[i - 1].second, mesh.refinement_shells[i].second + 1);
+    }
+}
+
 TEST(BakePlan, CostsMoreAtAHigherQuality) {
     const Body body = test::ellipsoid({0.01, 0.02, 0.04});
     const BakePlan smoke = plan_bake(body, bake_quality("smoke"), 1e4);
