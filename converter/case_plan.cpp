@@ -1,5 +1,6 @@
 #include "converter/case_plan.hpp"
 
+#include <array>
 #include <cmath>
 #include <set>
 

@@ -23,7 +23,8 @@ std::size_t unique_index(int subdivisions, int row, int column) {
     const int last = 2 * subdivisions;
     if (row == 0 || row == last) column = std::min(column, last - column);
     if (column == 0 || column == last) row = std::min(row, last - row);
-    return static_cast<std::size_t>(row * (last + 1) + column);
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(last + 1) +
+           static_cast<std::size_t>(column);
 }
 
 /// The index of the node in this direction, or nothing where it falls between nodes.

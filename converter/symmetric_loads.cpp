@@ -111,6 +111,7 @@ LoadEntryError transformed_error(const LoadEntryError& error, const Matrix3d& ro
 
 void keep_symmetric_part(const Symmetry& symmetry, std::vector<DirectionSample>& samples) {
     std::vector<AllowedLoads> allowed;
+    allowed.reserve(samples.size());
     for (const DirectionSample& sample : samples) {
         allowed.push_back(allowed_loads(symmetry, sample.direction));
     }

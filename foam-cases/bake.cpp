@@ -81,6 +81,25 @@ Body named_body(const BakeRequest& request, const fs::path& folder) {
     return body;
 }
 
+void solve_and_convert(const BakeRequest& request, const Body& body, int jobs, BakeResult& result) {
+    const fs::path folder = case_folder_of(request.output);
+    const fs::path templates = foam_cases_folder();
+    const FolderLock lock(folder);
+    Stopwatch watch;
+    const BakePlan& plan = *result.preparation.plan;
+    write_case_folder(folder, body, plan, templates);
+    result.reused = count_solved(folder, plan);
+    solve_cases(folder, plan, jobs, templates);
+    result.case_seconds = watch.lap();
+
+    Progress progress("converting", "cases");
+    result.conversion = convert_folder(folder, [&](std::size_t done, std::size_t total) {
+        progress.update(static_cast<double>(done), static_cast<double>(total));
+    });
+    write_body_file(request.output, result.conversion->body);
+    result.conversion_seconds = watch.lap();
+}
+
 }  // namespace
 
 fs::path case_folder_of(const fs::path& output) {
@@ -92,51 +111,22 @@ BakePreparation prepare_bake(const BakeRequest& request) {
     return plan_of(request, named_body(request, folder.path()));
 }
 
-namespace {
-
-// The body with its Kirchhoff tensor; `folder` receives what is made on the way.
-Body body_before_tables(const BakeRequest& request, const fs::path& folder, const Planned& planned,
-                        BakeResult& result) {
+BakeResult bake_body(const BakeRequest& request, int jobs, const Planned& planned) {
+    const TemporaryFolder temporary;
+    const fs::path folder = case_folder_of(request.output);
+    BakeResult result;
     Stopwatch watch;
-    Body body = named_body(request, folder);
+    if (request.tables) require_solvers();
+    Body body = named_body(request, temporary.path());
     result.preparation = plan_of(request, body);
     planned(result.preparation);
     result.mesh_seconds = watch.lap();
-    add_kirchhoff_tensor(body, folder);
+    add_kirchhoff_tensor(body, folder / case_body_name, temporary.path());
     result.kirchhoff_seconds = watch.lap();
-    return body;
-}
-
-void bake_tables(const BakeRequest& request, int jobs, const Planned& planned, BakeResult& result) {
-    const fs::path folder = case_folder_of(request.output);
-    const fs::path templates = foam_cases_folder();
-    require_solvers();
-    const FolderLock lock(folder);
-    const Body body = body_before_tables(request, folder, planned, result);
-
-    Stopwatch watch;
-    const BakePlan& plan = *result.preparation.plan;
-    write_case_folder(folder, body, plan, templates);
-    result.reused = count_solved(folder, plan);
-    solve_cases(folder, plan, jobs, templates);
-    result.case_seconds = watch.lap();
-    Progress progress("converting", "cases");
-    result.conversion = convert_folder(folder, [&](std::size_t done, std::size_t total) {
-        progress.update(static_cast<double>(done), static_cast<double>(total));
-    });
-    write_body_file(request.output, result.conversion->body);
-    result.conversion_seconds = watch.lap();
-}
-
-}  // namespace
-
-BakeResult bake_body(const BakeRequest& request, int jobs, const Planned& planned) {
-    BakeResult result;
     if (request.tables) {
-        bake_tables(request, jobs, planned, result);
+        solve_and_convert(request, body, jobs, result);
     } else {
-        const TemporaryFolder folder;
-        write_body_file(request.output, body_before_tables(request, folder.path(), planned, result));
+        write_body_file(request.output, body);
     }
     return result;
 }

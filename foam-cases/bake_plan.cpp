@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -65,6 +66,33 @@ double mean_width(const Surface& surface) {
     return sum / (nodes * nodes);
 }
 
+// The second smallest extent in case axes (m): that of a rod's thickness, but of a sheet's width.
+double second_extent(const Body& body) {
+    Eigen::Array3d lowest = Eigen::Array3d::Constant(std::numeric_limits<double>::infinity());
+    Eigen::Array3d highest = -lowest;
+    for (const Vector3d& vertex : body.surface.vertices) {
+        const Eigen::Array3d place = (body.symmetry.axes.transpose() * vertex).array();
+        lowest = lowest.min(place);
+        highest = highest.max(place);
+    }
+    Eigen::Array3d extents = highest - lowest;
+    std::sort(extents.data(), extents.data() + 3);
+    return extents[1];
+}
+
+// A rod's surface is to have at least three cells across; snappyHexMesh would not see a thinner one. A sheet,
+// thin in one direction alone, needs no cells inside it.
+int surface_level_for(const BakeQuality& quality, double second_extent_over_length) {
+    constexpr int cells_across = 3;
+    constexpr int most_further_levels = 3;
+    int level = quality.mesh.surface_level;
+    while (level < quality.mesh.surface_level + most_further_levels &&
+           cells_across * quality.background_cell > std::ldexp(second_extent_over_length, level)) {
+        ++level;
+    }
+    return level;
+}
+
 // The far boundary is to be at least ten L away, and four times the body's own reach.
 FlowMesh fitted_mesh(const BakeQuality& quality, const Body& body, double length) {
     FlowMesh mesh = quality.mesh;
@@ -73,6 +101,7 @@ FlowMesh fitted_mesh(const BakeQuality& quality, const Body& body, double length
     mesh.box_half_width = std::max(mesh.box_half_width, needed);
     mesh.background_cells =
         static_cast<int>(std::lround(2.0 * mesh.box_half_width / quality.background_cell));
+    mesh.surface_level = surface_level_for(quality, second_extent(body) / length);
     return mesh;
 }
 

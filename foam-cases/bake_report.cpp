@@ -142,8 +142,12 @@ void print_result(const BakeRequest& request, const BakeResult& result) {
                    solved.sample.entry.turbulent_kinetic_energy, solved.sample.entry.dissipation_rate,
                    number_in(provenance_of(solved), "cpu_seconds"));
     }
+    const nlohmann::json mesh = mesh_json(cases.front());
+    if (mesh.is_object()) {
+        fmt::print("{} cells, checkMesh: {}\n", mesh.value("cells", 0), mesh.value("verdict", "unknown"));
+    }
     fmt::print(
-        "mesh {:.1f} s, Kirchhoff tensor {:.1f} s, cases {:.1f} s, tables {:.1f} s; the cases are in {}\n",
+        "surface {:.1f} s, Kirchhoff tensor {:.1f} s, cases {:.1f} s, tables {:.1f} s; the cases are in {}\n",
         result.mesh_seconds, result.kirchhoff_seconds, result.case_seconds, result.conversion_seconds,
         case_folder_of(request.output).string());
 }

@@ -59,22 +59,21 @@ Body prepare_body(const fs::path& shape, double scale, const fs::path& folder) {
     return body;
 }
 
-void add_kirchhoff_tensor(Body& body, const fs::path& folder) {
+void add_kirchhoff_tensor(Body& body, const fs::path& earlier, const fs::path& folder) {
     if (body.kirchhoff) return;
-    const fs::path known = folder / "body.body.h5";
-    if (fs::exists(known)) {
-        const Body earlier = read_body_file(known);
-        if (earlier.kirchhoff && surface_hash(earlier.surface) == surface_hash(body.surface)) {
-            body.kirchhoff = earlier.kirchhoff;
+    if (fs::exists(earlier)) {
+        const Body known = read_body_file(earlier);
+        if (known.kirchhoff && surface_hash(known.surface) == surface_hash(body.surface)) {
+            body.kirchhoff = known.kirchhoff;
             return;
         }
     }
-    const fs::path meshed = folder / "shape.body.h5";
-    write_body_file(meshed, body);
-    run_stage({require_program("samara").string(), "kirchhoff", meshed.string(), "-o", meshed.string()},
+    const fs::path file = folder / "kirchhoff.body.h5";
+    write_body_file(file, body);
+    run_stage({require_program("samara").string(), "kirchhoff", file.string(), "-o", file.string()},
               folder / "log.kirchhoff", "samara-kirchhoff");
-    body.kirchhoff = read_body_file(meshed).kirchhoff;
-    if (!body.kirchhoff) throw Error(fmt::format("{}: holds no Kirchhoff tensor", meshed.string()));
+    body.kirchhoff = read_body_file(file).kirchhoff;
+    if (!body.kirchhoff) throw Error(fmt::format("{}: has no Kirchhoff tensor", body.name));
 }
 
 }  // namespace samara

@@ -11,8 +11,10 @@ namespace samara {
 /// what is made on the way (shape.body.h5, log.mesh). Throws Error.
 Body prepare_body(const std::filesystem::path& shape, double scale, const std::filesystem::path& folder);
 
-/// Gives the body its Kirchhoff tensor where it has none: the one of FOLDER/body.body.h5 where that is of the
-/// same surface, else by the command `samara kirchhoff`. Throws Error.
-void add_kirchhoff_tensor(Body& body, const std::filesystem::path& folder);
+/// Gives the body its Kirchhoff tensor where it has none: the one of the body file `earlier` where there is
+/// such a file of the same surface, else by the command `samara kirchhoff`, for which `folder` receives what
+/// is made on the way. Throws Error.
+void add_kirchhoff_tensor(Body& body, const std::filesystem::path& earlier,
+                          const std::filesystem::path& folder);
 
 }  // namespace samara

@@ -27,12 +27,18 @@ std::string last_line(const fs::path& file) {
     return last;
 }
 
-// The line that check_case.py left for the mesh or case, with its folder before it.
+// The line that check_case.py left for the mesh or case, its paths taken from here.
 std::string fault_of(const fs::path& folder, const std::string& name) {
-    const std::string line = last_line(folder / name / "log.check");
+    std::string line = last_line(folder / name / "log.check");
     if (line.empty()) {
         return fmt::format("{}: was not run; see {}", (folder / name).string(),
                            (folder / "log.snakemake").string());
+    }
+    const std::string inside = " " + name + "/";
+    const std::string outside = fmt::format(" {}/{}/", folder.string(), name);
+    for (std::size_t at = line.find(inside); at != std::string::npos;
+         at = line.find(inside, at + outside.size())) {
+        line.replace(at, inside.size(), outside);
     }
     return fmt::format("{}/{}", folder.string(), line);
 }
@@ -93,7 +99,7 @@ void solve_cases(const fs::path& folder, const BakePlan& plan, int jobs, const f
     const auto status =
         run_guarded({"snakemake", "--snakefile", (templates / "Snakefile").string(), "--directory",
                      folder.string(), "--cores", fmt::format("{}", jobs), "--keep-going", "--nolock",
-                     "--rerun-incomplete", "--rerun-triggers", "mtime", "--quiet", "all"},
+                     "--ignore-incomplete", "--rerun-triggers", "mtime", "--quiet", "all"},
                     folder / "log.snakemake", fs::current_path(), tick);
     if (!status) {
         throw Error(

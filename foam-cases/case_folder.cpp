@@ -22,8 +22,12 @@ namespace fs = std::filesystem;
 using CaseFiles = std::map<fs::path, std::string>;  // content by the path inside a case
 
 // What the mesh depends on beside the parameters of the mesh.
-constexpr const char* mesh_files[] = {"Allrun", "constant/triSurface/body.stl", "system/blockMeshDict",
-                                      "system/snappyHexMeshDict", "system/topoSetDict"};
+constexpr const char* mesh_files[] = {"Allrun",
+                                      "constant/triSurface/body.stl",
+                                      "system/blockMeshDict",
+                                      "system/snappyHexMeshDict",
+                                      "system/surfaceFeatureExtractDict",
+                                      "system/topoSetDict"};
 
 CaseFiles read_template(const fs::path& folder) {
     CaseFiles files;
@@ -57,10 +61,10 @@ std::string mesh_hash(const CaseFiles& files) {
     return hash_of(inputs);
 }
 
-void write_bytes(const fs::path& path, const std::string& bytes) {
+void write_plan(const fs::path& path, const nlohmann::json& json) {
     replace_file(path, [&](const fs::path& temporary) {
         std::ofstream file(temporary, std::ios::binary);
-        file << bytes;
+        file << json.dump(2) << '\n';
         if (!file.flush()) throw Error(fmt::format("{}: cannot be written", path.string()));
     });
 }
@@ -75,7 +79,10 @@ void write_files(const fs::path& folder, const CaseFiles& files) {
         const fs::path path = folder / name;
         if (holds(path, bytes)) continue;
         fs::create_directories(path.parent_path());
-        write_bytes(path, bytes);
+        // Not synced one by one: a file that a crash cut short differs, and is written again.
+        std::ofstream file(path, std::ios::binary);
+        file << bytes;
+        if (!file.flush()) throw Error(fmt::format("{}: cannot be written", path.string()));
         if (bytes.starts_with("#!")) {
             fs::permissions(path, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
                             fs::perm_options::add);
@@ -148,7 +155,7 @@ void write_case_folder(const fs::path& folder, const Body& body, const BakePlan&
                        const fs::path& templates) {
     const CaseFiles template_files = read_template(templates / "body-flow");
     fs::create_directories(folder);
-    write_body_file(folder / "body.body.h5", body);
+    write_body_file(folder / case_body_name, body);
     remove_unplanned_cases(folder, plan);
 
     nlohmann::json json = plan_json(plan);
@@ -165,7 +172,7 @@ void write_case_folder(const fs::path& folder, const Body& body, const BakePlan&
         link_to_mesh(folder / entry.name, "polyMesh");
         link_to_mesh(folder / entry.name, "triSurface");
     }
-    write_bytes(folder / "plan.json", json.dump(2) + "\n");
+    write_plan(folder / "plan.json", json);
 }
 
 }  // namespace samara

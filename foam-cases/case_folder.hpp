@@ -8,6 +8,9 @@
 
 namespace samara {
 
+/// The body file in a folder of cases: the body that they are around.
+inline constexpr const char* case_body_name = "body.body.h5";
+
 /// Where the templates, the Snakefile and its helper are: the environment's SAMARA_FOAM_CASES, or
 /// ../share/samara/foam-cases beside the running program's folder, or this source tree. Throws Error where
 /// none of them holds a Snakefile.

@@ -13,6 +13,9 @@ int simulate_command(int argc, const char* const* argv);
 /// samara export: a motion for other tools.
 int export_command(int argc, const char* const* argv);
 
+/// samara plot: a picture of a motion.
+int plot_command(int argc, const char* const* argv);
+
 /// samara info: what a file holds.
 int info_command(int argc, const char* const* argv);
 

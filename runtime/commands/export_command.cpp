@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/commands.hpp"
+#include "commands/motion_choice.hpp"
 #include "samara/base/error.hpp"
 #include "samara/command/arguments.hpp"
 #include "samara/command/progress.hpp"
@@ -28,13 +29,6 @@ Both give the place of the shape file's origin, so that the shape file itself ca
 be put there; the velocity in .csv is the velocity of that point.
 
 Example: samara export motion.h5 -o motion.glb)";
-
-void require_run(const std::string& input, const Motion& motion, int run) {
-    if (run < motion.runs) return;
-    throw Error(motion.runs == 1
-                    ? fmt::format("{}: holds one run; leave out --run {} or give 0", input, run)
-                    : fmt::format("{}: holds runs 0 to {}; there is no run {}", input, motion.runs - 1, run));
-}
 
 nlohmann::json export_motion(const std::string& input, const std::string& output, int run, bool run_given) {
     const std::string format = std::filesystem::path(output).extension().string();
@@ -77,9 +71,10 @@ int export_command(int argc, const char* const* argv) {
     return run_program(argc, argv, arguments, [&] {
         nlohmann::json result = export_motion(input, output, run, arguments.given("--run"));
         if (!arguments.json()) {
-            const std::string what = result["format"] == "csv"
-                                         ? fmt::format("{} rows", result["rows"].get<std::size_t>())
-                                         : fmt::format("{} moving nodes", result["nodes"].get<int>());
+            const bool is_table = result["format"] == "csv";
+            const auto count = result[is_table ? "rows" : "nodes"].get<std::size_t>();
+            const std::string what =
+                fmt::format("{} {}{}", count, is_table ? "row" : "node", count == 1 ? "" : "s");
             fmt::print("{}: {}, {} frames, {} bytes\n", output, what, result["frames"].get<int>(),
                        result["bytes"].get<std::uintmax_t>());
         }

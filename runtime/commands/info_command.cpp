@@ -11,6 +11,8 @@
 #include "samara/body/body_file.hpp"
 #include "samara/command/arguments.hpp"
 #include "samara/files/hdf5_file.hpp"
+#include "samara/motion/description.hpp"
+#include "samara/motion/motion_file.hpp"
 
 namespace samara {
 namespace {
@@ -21,6 +23,12 @@ nlohmann::json report_body(const std::string& path, bool json) {
     return body_as_json(body);
 }
 
+nlohmann::json report_motion(const std::string& path, bool json) {
+    const Motion motion = read_motion_file(path);
+    if (!json) fmt::print("{}", describe_motion_text(motion));
+    return describe_motion(motion);
+}
+
 /// A kind of file, known by a group that it alone has.
 struct FileKind {
     const char* group;
@@ -29,24 +37,27 @@ struct FileKind {
 
 constexpr FileKind file_kinds[] = {
     {"/surface", report_body},
+    {"/bodies", report_motion},
 };
 
 nlohmann::json report(const std::string& path, bool json) {
     for (const FileKind& kind : file_kinds) {
         if (Hdf5Reader(path).has(kind.group)) return kind.report(path, json);
     }
-    throw Error(
-        fmt::format("{}: is an HDF5 file that samara did not make; 'samara info' reads body files", path));
+    throw Error(fmt::format("{}: is an HDF5 file, but neither a body nor a motion of samara's", path));
 }
 
 }  // namespace
 
 int info_command(int argc, const char* const* argv) {
     std::string file;
-    Arguments arguments("samara info", "What a body file holds, its units and its provenance.");
-    arguments.positional("FILE", file, "body file (.body.h5)");
+    Arguments arguments("samara info", "What a body or motion file holds, its units and its provenance.");
+    arguments.positional("FILE", file, "body file (.body.h5) or motion file (.h5)");
     arguments.footer(
-        "JSON: kind, name, source, triangles, order, volume (m^3), centroid (m), surface_area (m^2),\n"
+        "JSON of a motion: kind, start, duration (s), frames, frame_rate, runs, gravity, seed, scene, bodies "
+        "with their\n"
+        "measures. Of a body: kind, name, source, triangles, order, volume (m^3), centroid (m), surface_area "
+        "(m^2),\n"
         "principal_extents (m, shortest first), symmetry, kirchhoff and tables (null where there are none).");
     return run_program(argc, argv, arguments, [&] { return report(file, arguments.json()); });
 }

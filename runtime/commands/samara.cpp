@@ -28,6 +28,7 @@ constexpr Command commands[] = {
     {"convert", "solved cases -> tables in the body file", nullptr},
     {"simulate", "scene -> motion of its bodies", samara::simulate_command},
     {"export", "motion -> .glb for animation tools, .csv", samara::export_command},
+    {"plot", "motion -> picture: silhouettes along the path, time series", samara::plot_command},
     {"info", "what a file holds, its units and its provenance", samara::info_command},
 };
 

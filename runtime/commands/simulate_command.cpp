@@ -50,6 +50,17 @@ std::filesystem::path file_of(const SceneBody& scene_body, const std::string& bo
     return baked;
 }
 
+/// Says where the added mass is too uncertain to trust the motion.
+void warn_of_added_mass(const SceneBody& scene_body, const KirchhoffTensor& kirchhoff) {
+    constexpr double doubtful = 0.2;
+    if (kirchhoff.error_estimate <= doubtful) return;
+    fmt::print(stderr,
+               "samara simulate: note: the added mass of '{}' may be wrong by {:.0f} % (error estimate): the "
+               "body is "
+               "thin or its mesh coarse\n",
+               scene_body.name, 100.0 * kirchhoff.error_estimate);
+}
+
 CastBody cast_body(const SceneBody& scene_body, const std::string& bodies) {
     const std::filesystem::path file = file_of(scene_body, bodies);
     // A baked body is in metres already: the scene's scale went into it.
@@ -57,6 +68,7 @@ CastBody cast_body(const SceneBody& scene_body, const std::string& bodies) {
     if (!cast.body.kirchhoff) {
         cast.body.kirchhoff = kirchhoff_tensor(cast.body.surface, cast.body.moments);
     }
+    warn_of_added_mass(scene_body, *cast.body.kirchhoff);
     return cast;
 }
 

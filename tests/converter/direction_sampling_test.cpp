@@ -110,7 +110,8 @@ TEST(NodeImages, EveryNodeIsTheImageOfARequiredDirection) {
     ASSERT_EQ(images.size(), 81U);
     for (int row = 0; row <= 2 * n; ++row) {
         for (int column = 0; column <= 2 * n; ++column) {
-            const NodeImage& image = images[static_cast<std::size_t>(row * (2 * n + 1) + column)];
+            const NodeImage& image =
+                images[static_cast<std::size_t>(row) * (2 * n + 1) + static_cast<std::size_t>(column)];
             EXPECT_NE(std::find(required.begin(), required.end(), image.source), required.end());
             EXPECT_LT((image.element * image.source - octahedral_node(n, row, column)).norm(), 1e-15);
         }

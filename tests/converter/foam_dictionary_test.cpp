@@ -4,7 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "samara/base/error.hpp"
-#include "temporary_folder.hpp"
+#include "support/expect_error.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace samara {
 namespace {
@@ -15,10 +16,10 @@ class FoamDictionaryTest : public testing::Test {
   protected:
     FoamDictionary read(const char* text) { return FoamDictionary(folder_.file("parameters", text)); }
     std::string number_fault(const char* text) {
-        return test::message_of<Error>([&] { static_cast<void>(read(text).number("a")); });
+        return test::error_of([&] { static_cast<void>(read(text).number("a")); });
     }
     std::string vector_fault(const char* text) {
-        return test::message_of<Error>([&] { static_cast<void>(read(text).vector("a")); });
+        return test::error_of([&] { static_cast<void>(read(text).vector("a")); });
     }
 
     test::TemporaryFolder folder_;

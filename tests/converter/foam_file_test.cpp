@@ -8,7 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "samara/base/error.hpp"
-#include "temporary_folder.hpp"
+#include "support/expect_error.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace samara {
 namespace {
@@ -40,7 +41,7 @@ class FoamFile : public testing::Test {
     }
     std::string fault_in(const std::string& body) {
         const std::filesystem::path file = scalar(body);
-        const std::string message = test::message_of<Error>([&] { read_scalar_field(file); });
+        std::string message = test::error_of([&] { read_scalar_field(file); });
         EXPECT_EQ(message.find(file.string() + ":"), 0U) << message;
         EXPECT_EQ(message.find('\n'), std::string::npos);
         return message;
@@ -97,7 +98,7 @@ TEST_F(FoamFile, Vectors) {
     const auto field = read_vector_field(file);
     ASSERT_EQ(field.values.size(), 2U);
     EXPECT_EQ(field[1], Vector3d(-4.0, 0.5, 6.0));
-    EXPECT_THAT(test::message_of<Error>([&] { read_scalar_field(file); }),
+    EXPECT_THAT(test::error_of([&] { read_scalar_field(file); }),
                 HasSubstr("holds a volVectorField, not a volScalarField"));
 }
 
@@ -138,12 +139,12 @@ TEST_F(FoamFile, BinaryOfOtherWidths) {
 TEST_F(FoamFile, OtherMachinesBinaryIsRefused) {
     const auto k =
         folder_.file("k", header("volScalarField", "binary", "    arch \"MSB;label=32;scalar=64\";\n"));
-    EXPECT_THAT(test::message_of<Error>([&] { read_scalar_field(k); }), HasSubstr("foamFormatConvert"));
+    EXPECT_THAT(test::error_of([&] { read_scalar_field(k); }), HasSubstr("foamFormatConvert"));
 }
 
 TEST_F(FoamFile, CompressedFilesNameTheirRemedy) {
     const auto file = folder_.file("kMean.gz", "\x1f\x8b");
-    EXPECT_EQ(test::message_of<Error>([&] { read_scalar_field(folder_.path() / "kMean"); }),
+    EXPECT_EQ(test::error_of([&] { read_scalar_field(folder_.path() / "kMean"); }),
               file.string() + ": is compressed; unpack it with 'gunzip " + file.string() + "'");
 }
 
@@ -171,10 +172,9 @@ TEST_F(FoamFile, FilesOfAnotherKindAreRefused) {
     const auto text = folder_.file("text", "hello world");
     const auto garbage = folder_.file("garbage", std::string("\x89HDF\r\n\x1a\n\0\0", 10));
     for (const auto& file : {empty, text, garbage}) {
-        EXPECT_THAT(test::message_of<Error>([&] { read_scalar_field(file); }),
-                    HasSubstr("not an OpenFOAM file"));
+        EXPECT_THAT(test::error_of([&] { read_scalar_field(file); }), HasSubstr("not an OpenFOAM file"));
     }
-    EXPECT_THAT(test::message_of<Error>([&] { read_scalar_field(folder_.path() / "none"); }),
+    EXPECT_THAT(test::error_of([&] { read_scalar_field(folder_.path() / "none"); }),
                 HasSubstr("cannot be read"));
 }
 
@@ -182,8 +182,21 @@ TEST_F(FoamFile, BinaryThatIsCutShortIsRefused) {
     const auto k =
         folder_.file("k", header("volScalarField", "binary", "    arch \"LSB;label=32;scalar=64\";\n") +
                               "internalField nonuniform List<scalar> \n3\n(" + raw<double>({4.0}));
-    EXPECT_THAT(test::message_of<Error>([&] { read_scalar_field(k); }),
-                HasSubstr("the file ends 16 bytes too early"));
+    EXPECT_THAT(test::error_of([&] { read_scalar_field(k); }), HasSubstr("the file ends 16 bytes too early"));
+}
+
+TEST_F(FoamFile, IsRefusedWhereverItIsCutShort) {
+    const std::string ascii = header("volScalarField") +
+                              "dimensions [0 2 -2 0 0 0 0];\ninternalField nonuniform List<scalar> 2(0.5 4);";
+    const std::string binary = header("volScalarField", "binary", "    arch \"LSB;label=32;scalar=64\";\n") +
+                               "internalField nonuniform List<scalar> 2(" + raw<double>({4.0, 5.0}) + ");";
+    for (const std::string& whole : {ascii, binary}) {
+        EXPECT_EQ(read_scalar_field(folder_.file("k", whole)).values.size(), 2U);
+        for (std::size_t length = 0; length < whole.size(); ++length) {
+            const std::filesystem::path file = folder_.file("k", whole.substr(0, length));
+            EXPECT_THROW(read_scalar_field(file), Error) << "after " << length << " bytes";
+        }
+    }
 }
 
 TEST_F(FoamFile, ZonesAreFoundByName) {
@@ -194,9 +207,8 @@ TEST_F(FoamFile, ZonesAreFoundByName) {
                                       "cellLabels      List<label> 2(1 9);\n}\n)\n");
     EXPECT_THAT(read_cell_zone(file, "shell"), ElementsAre(1, 9));
     EXPECT_THAT(read_cell_zone(file, "wake"), ElementsAre(5, 6, 7));
-    EXPECT_THAT(test::message_of<Error>([&] { read_cell_zone(file, "hull"); }),
-                HasSubstr("has no cell zone 'hull'"));
-    EXPECT_THAT(test::message_of<Error>(
+    EXPECT_THAT(test::error_of([&] { read_cell_zone(file, "hull"); }), HasSubstr("has no cell zone 'hull'"));
+    EXPECT_THAT(test::error_of(
                     [&] { read_cell_zone(folder_.file("none", header("regIOobject") + "0()\n"), "shell"); }),
                 HasSubstr("has no cell zone 'shell'"));
 }

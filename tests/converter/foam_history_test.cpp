@@ -4,7 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "samara/base/error.hpp"
-#include "temporary_folder.hpp"
+#include "support/expect_error.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace samara {
 namespace {
@@ -42,7 +43,7 @@ TEST(FoamHistory, ReadsVolumeAverages) {
         "# Time          \tvolAverage(k)\tvolAverage(epsilon)\n1 \t5.7e-04\t1.2e-04\n2\t6e-04\tnan\n"));
     EXPECT_THAT(history.column("volAverage(k)", 0.0), ElementsAre(5.7e-4, 6e-4));
     EXPECT_TRUE(std::isnan(history.column("volAverage(epsilon)", 2.0).at(0)));
-    EXPECT_THAT(test::message_of<Error>([&] { static_cast<void>(history.column("volAverage(p)", 0.0)); }),
+    EXPECT_THAT(test::error_of([&] { static_cast<void>(history.column("volAverage(p)", 0.0)); }),
                 EndsWith("volFieldValue.dat: has no column 'volAverage(p)'"));
 }
 
@@ -50,7 +51,7 @@ TEST(FoamHistory, FaultsNameFileAndLine) {
     const test::TemporaryFolder folder;
     const auto fault = [&](const char* text) {
         const std::filesystem::path file = folder.file("force.dat", text);
-        return test::message_of<Error>([&] { read_history(file); });
+        return test::error_of([&] { read_history(file); });
     };
     EXPECT_THAT(fault("# Time a\n1 2\n2 x3\n"), EndsWith("force.dat:3: expected a number, found 'x3'"));
     EXPECT_THAT(fault("# Time a\n1 2\n2\n"), EndsWith("force.dat:3: has 1 values for 2 columns"));

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "samara/body/body.hpp"
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace samara::test {
 

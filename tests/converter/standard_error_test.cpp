@@ -38,8 +38,8 @@ TEST(StandardError, OfACorrelatedSeriesIsThatOfItsMean) {
     constexpr unsigned runs = 200;
     for (unsigned run = 0; run < runs; ++run)
         sum += standard_error(correlated_series(correlation, length, run));
-    // Of the mean of a first-order autoregressive series (Geyer 1992, equation 3.3 summed): the variance is
-    // (1 + r) / (1 - r) / n. The larger of two estimates is 1.1 to 1.3 times the truth in the mean.
+    // The mean of a long first-order autoregressive series of unit variance has the variance
+    // (1 + r) / (1 - r) / n. The larger of two estimates exceeds it a little in the mean.
     const double exact = std::sqrt((1.0 + correlation) / (1.0 - correlation) / static_cast<double>(length));
     EXPECT_GT(sum / runs, 1.0 * exact);
     EXPECT_LT(sum / runs, 1.35 * exact);

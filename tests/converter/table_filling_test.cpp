@@ -10,8 +10,9 @@
 #include "load_laws.hpp"
 #include "samara/base/error.hpp"
 #include "samara/body/octahedral_map.hpp"
+#include "support/expect_error.hpp"
+#include "support/temporary_folder.hpp"
 #include "symmetry_groups.hpp"
-#include "temporary_folder.hpp"
 
 namespace samara {
 namespace {
@@ -141,7 +142,7 @@ TEST(FilledMap, OfABodyOfRevolutionIsExactAtTheAxisAndBroadside) {
         const FilledMap map = fill_map(symmetry, n, solve(symmetry, n, law));
         for (const auto& [row, column] : {std::pair{3, 6}, {3, 0}, {3, 3}, {6, 3}, {0, 3}, {0, 0}}) {
             const LoadEntry exact = law(octahedral_node(n, row, column));
-            const auto node = static_cast<std::size_t>(row * (2 * n + 1) + column);
+            const auto node = static_cast<std::size_t>(row) * (2 * n + 1) + static_cast<std::size_t>(column);
             EXPECT_LT(test::difference(map.entries[node], exact), 1e-14);
         }
     }
@@ -170,7 +171,7 @@ TEST(FilledMap, OfASphereIsTheSameDragEverywhere) {
 TEST(FilledMap, NamesTheDirectionThatWasNotSolved) {
     std::vector<DirectionSample> samples = solve(test::box_symmetry(), 2, test::BoxLaw{});
     samples.erase(samples.begin());
-    const std::string message = test::message_of<Error>([&] { fill_map(test::box_symmetry(), 2, samples); });
+    const std::string message = test::error_of([&] { fill_map(test::box_symmetry(), 2, samples); });
     EXPECT_EQ(message, "no case in the direction (1, 0, 0), which the table needs");
 }
 

@@ -1,12 +1,12 @@
 #include "samara/body/body_file.hpp"
 
-#include <fstream>
+#include <cmath>
+#include <cstdlib>
 #include <random>
 #include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "samara/base/content_hash.hpp"
 #include "samara/files/hdf5_file.hpp"
@@ -19,6 +19,7 @@ namespace samara {
 namespace {
 
 using test::error_of;
+using testing::AllOf;
 using testing::HasSubstr;
 
 void expect_equal(const LoadEntry& a, const LoadEntry& b) {
@@ -132,8 +133,9 @@ TEST(BodyFile, ForeignHdf5IsRefused) {
     EXPECT_THAT(fault_of(folder / "a.body.h5"), HasSubstr("not a body file"));
 }
 
-TEST(BodyFile, FlippedByteNeverGivesAnotherBodyInSilence) {
-    const test::TemporaryFolder folder;
+/// Reads 400 copies of a body file with one bit flipped in each. Returns whether every one was refused by
+/// name or gave the same body (what is not read may be flipped), and most were refused.
+bool every_flip_is_seen(const test::TemporaryFolder& folder) {
     const Body body = test::full_body();
     const std::filesystem::path file = folder / "a.body.h5";
     write_body_file(file, body);
@@ -147,13 +149,21 @@ TEST(BodyFile, FlippedByteNeverGivesAnotherBodyInSilence) {
         flipped[place] = static_cast<char>(flipped[place] ^ static_cast<char>(1U << (generator() % 8)));
         replace_file_with(file, flipped);
         try {
-            expect_equal(read_body_file(file), body);  // what is not read may be flipped
+            expect_equal(read_body_file(file), body);
         } catch (const Error& fault) {
             EXPECT_THAT(fault.what(), HasSubstr("a.body.h5"));
             ++refused;
         }
     }
     EXPECT_GT(refused, trials / 2);
+    return !testing::Test::HasFailure();
+}
+
+TEST(BodyFile, FlippedBitNeverGivesAnotherBodyInSilence) {
+    // In a process of its own: HDF5 1.10 loses memory when it meets damaged metadata, as a plain C program
+    // that opens and closes such files shows.
+    const test::TemporaryFolder folder;
+    EXPECT_EXIT(std::_Exit(every_flip_is_seen(folder) ? 0 : 1), testing::ExitedWithCode(0), "");
 }
 
 TEST(BodyFile, NewerFormatAsksForAnUpdate) {
@@ -192,14 +202,10 @@ TEST(BodyFile, NothingIsLeftWhereTheFolderDoesNotExist) {
     EXPECT_EQ(folder.file_count(), 0);
 }
 
-TEST(BodyFile, NothingIsLeftWhereTheFolderIsNotWritable) {
-    if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
-    const test::TemporaryFolder folder;
-    std::filesystem::permissions(folder.path(),
-                                 std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
-    EXPECT_THAT(error_of([&] { write_body_file(folder / "a.body.h5", test::full_body()); }),
-                HasSubstr("cannot be written"));
-    EXPECT_EQ(folder.file_count(), 0);
+TEST(BodyFile, AFolderThatTakesNoFilesIsNamed) {
+    // The kernel's own folder: not even root can write there.
+    EXPECT_THAT(error_of([&] { write_body_file("/proc/a.body.h5", test::full_body()); }),
+                AllOf(HasSubstr("/proc/a.body.h5"), HasSubstr("cannot be written")));
 }
 
 TEST(BodyFile, NameOfTheBodyIsTheStem) {

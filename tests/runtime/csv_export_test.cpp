@@ -6,16 +6,16 @@
 #include "samara/command/subprocess.hpp"
 #include "samara/export/csv_file.hpp"
 #include "samara/motion/motion_file.hpp"
+#include "support/temporary_folder.hpp"
 #include "synthetic_motion.hpp"
-#include "temporary_folder.hpp"
 
 namespace samara {
 namespace {
 
-using testing::TemporaryFolder;
+using test::TemporaryFolder;
 
 Motion motion_with_runs_and_copies() {
-    Motion motion = testing::motion_of([](double t) { return testing::tumble(t, 9.0, 0.3); }, 1.0, 100.0);
+    Motion motion = test::motion_of([](double t) { return test::tumble(t, 9.0, 0.3); }, 1.0, 100.0);
     motion.runs = 2;
     BodyMotion& body = motion.bodies[0];
     body.copies = 3;
@@ -24,7 +24,7 @@ Motion motion_with_runs_and_copies() {
     for (int run = 0; run < 2; ++run) {
         for (const double time : motion.times) {
             for (int copy = 0; copy < 3; ++copy) {
-                body.poses.push_back(testing::tumble(time, 9.0 + run, 0.3 + copy));
+                body.poses.push_back(test::tumble(time, 9.0 + run, 0.3 + copy));
             }
         }
     }
@@ -81,7 +81,7 @@ TEST(CsvExport, VelocityIsTheDerivativeOfThePosition) {
 
 TEST(CsvExport, QuaternionsKeepTheirSign) {
     const TemporaryFolder folder;
-    Motion motion = testing::motion_of([](double t) { return testing::tumble(t, 9.0, 0.3); }, 1.0);
+    Motion motion = test::motion_of([](double t) { return test::tumble(t, 9.0, 0.3); }, 1.0);
     for (std::size_t i = 0; i < motion.bodies[0].poses.size(); i += 3) {
         motion.bodies[0].poses[i].orientation.coeffs() *= -1.0;
     }
@@ -96,7 +96,7 @@ TEST(CsvExport, QuaternionsKeepTheirSign) {
 
 TEST(CsvExport, NamesWithCommasAreQuoted) {
     const TemporaryFolder folder;
-    Motion motion = testing::motion_of([](double) { return Pose{}; }, 0.0);
+    Motion motion = test::motion_of([](double) { return Pose{}; }, 0.0);
     motion.bodies[0].name = "leaf, \"red\"";
     write_csv(folder / "motion.csv", motion);
     EXPECT_NE(read_bytes(folder / "motion.csv").find("\n0,\"leaf, \"\"red\"\"\",0,0,"), std::string::npos);

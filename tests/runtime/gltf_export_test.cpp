@@ -13,16 +13,16 @@
 #include "samara/export/shaded_mesh.hpp"
 #include "samara/export/shape_pose.hpp"
 #include "samara/motion/motion_file.hpp"
+#include "support/temporary_folder.hpp"
 #include "synthetic_motion.hpp"
-#include "temporary_folder.hpp"
 
 namespace samara {
 namespace {
 
-using testing::TemporaryFolder;
+using test::TemporaryFolder;
 
 Motion leaves(int copies, double duration, int runs = 1) {
-    Motion motion = testing::motion_of([](double t) { return testing::tumble(t, 9.0, 0.3); }, duration);
+    Motion motion = test::motion_of([](double t) { return test::tumble(t, 9.0, 0.3); }, duration);
     motion.runs = runs;
     BodyMotion& body = motion.bodies[0];
     body.copies = copies;
@@ -31,13 +31,13 @@ Motion leaves(int copies, double duration, int runs = 1) {
     for (int run = 0; run < runs; ++run) {
         for (const double time : motion.times) {
             for (int copy = 0; copy < copies; ++copy) {
-                body.poses.push_back(testing::tumble(time + run, 9.0 + copy, 0.3));
+                body.poses.push_back(test::tumble(time + run, 9.0 + copy, 0.3));
             }
         }
     }
     BodyMotion cube = body;
     cube.name = "cube";
-    cube.surface = testing::cube_surface();
+    cube.surface = test::cube_surface();
     motion.bodies.push_back(cube);
     return motion;
 }
@@ -201,7 +201,7 @@ TEST(GltfExport, CommandWritesTheRunAskedFor) {
 
 TEST(ShadedMesh, IsSmoothOnAnEllipsoidAndSharpOnACube) {
     const Vector3d semi_axes(0.04, 0.02, 0.01);
-    const Surface surface = testing::ellipsoid_surface(semi_axes, 3);
+    const Surface surface = test::ellipsoid_surface(semi_axes, 3);
     const ShadedMesh smooth = shaded_mesh(surface);
     EXPECT_EQ(smooth.positions.size(), surface.vertices.size());
     EXPECT_EQ(smooth.triangles.size(), surface.corners.size());
@@ -210,7 +210,7 @@ TEST(ShadedMesh, IsSmoothOnAnEllipsoidAndSharpOnACube) {
             smooth.positions[i].cwiseQuotient(semi_axes.cwiseProduct(semi_axes)).normalized();
         EXPECT_GT(smooth.normals[i].dot(exact), 0.99);
     }
-    const ShadedMesh cube = shaded_mesh(testing::cube_surface());
+    const ShadedMesh cube = shaded_mesh(test::cube_surface());
     EXPECT_EQ(cube.positions.size(), 24U);
     for (std::size_t i = 0; i < cube.normals.size(); ++i) {
         EXPECT_NEAR(cube.normals[i].lpNorm<Eigen::Infinity>(), 1.0, 1e-12);

@@ -1,5 +1,8 @@
 #include "samara/files/hdf5_file.hpp"
 
+#include <chrono>
+#include <thread>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -45,11 +48,12 @@ TEST(Hdf5File, GivesBackWhatWasWritten) {
     EXPECT_FALSE(reader.has("/a/c/text"));
 }
 
-TEST(Hdf5File, EqualContentGivesEqualBytes) {
+TEST(Hdf5File, EqualContentGivesEqualBytesAtAnotherTime) {
     const test::TemporaryFolder folder;
     write_sample(folder / "a.h5");
+    std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // HDF5 counts its times in seconds
     write_sample(folder / "b.h5");
-    EXPECT_EQ(read_bytes(folder / "a.h5"), read_bytes(folder / "b.h5"));
+    EXPECT_EQ(file_content_hash(folder / "a.h5"), file_content_hash(folder / "b.h5"));
 }
 
 TEST(Hdf5File, HoldsNoTimes) {

@@ -9,10 +9,10 @@
 namespace samara {
 namespace {
 
-using testing::degree;
-using testing::flutter;
-using testing::motion_of;
-using testing::tumble;
+using test::degree;
+using test::flutter;
+using test::motion_of;
+using test::tumble;
 
 Measures measures_of(const std::function<Pose(double)>& pose, double duration, double frame_rate = 60.0) {
     const Motion motion = motion_of(pose, duration, frame_rate);

@@ -11,21 +11,21 @@
 #include "samara/files/hdf5_file.hpp"
 #include "samara/files/replace_file.hpp"
 #include "samara/motion/description.hpp"
+#include "support/temporary_folder.hpp"
 #include "synthetic_motion.hpp"
-#include "temporary_folder.hpp"
 
 namespace samara {
 namespace {
 
+using test::TemporaryFolder;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using testing::TemporaryFolder;
 
 Motion two_bodies() {
-    const auto early = [](double t) { return testing::flutter(t, 1.0, 0.5, 0.2); };
-    const auto late = [](double t) { return testing::tumble(t + 10.0, 5.0, 0.3); };
-    Motion motion = testing::motion_of(early, 0.5, 20.0);
-    Motion other = testing::motion_of(late, 0.5, 20.0);
+    const auto early = [](double t) { return test::flutter(t, 1.0, 0.5, 0.2); };
+    const auto late = [](double t) { return test::tumble(t + 10.0, 5.0, 0.3); };
+    Motion motion = test::motion_of(early, 0.5, 20.0);
+    Motion other = test::motion_of(late, 0.5, 20.0);
     motion.runs = 2;
     motion.seed = 0xfedcba9876543210;
     motion.gravity = Vector3d(0.0, -1.0, -9.0);
@@ -120,7 +120,7 @@ TEST(MotionFile, EqualMotionsGiveEqualBytes) {
 
 TEST(MotionFile, HoldsManyPosesInBoundedChunks) {
     const TemporaryFolder folder;
-    Motion motion = testing::motion_of([](double t) { return testing::tumble(t, 1.0, 1.0); }, 0.0);
+    Motion motion = test::motion_of([](double t) { return test::tumble(t, 1.0, 1.0); }, 0.0);
     BodyMotion& body = motion.bodies[0];
     body.copies = 100000;
     body.poses.assign(100000, body.poses[0]);

@@ -9,7 +9,7 @@
 
 #include "samara/motion/motion.hpp"
 
-namespace samara::testing {
+namespace samara::test {
 
 inline constexpr double degree = std::numbers::pi / 180.0;
 
@@ -96,4 +96,4 @@ inline Pose tumble(double time, double spin, double speed) {
     return pose;
 }
 
-}  // namespace samara::testing
+}  // namespace samara::test

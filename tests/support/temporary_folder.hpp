@@ -2,9 +2,11 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <iterator>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace samara::test {
 
@@ -26,6 +28,14 @@ class TemporaryFolder {
 
     [[nodiscard]] std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+    /// Writes a file in the folder, with the folders on its way, and returns its path.
+    [[nodiscard]] std::filesystem::path file(const std::filesystem::path& name, std::string_view text) const {
+        const std::filesystem::path path = path_ / name;
+        std::filesystem::create_directories(path.parent_path());
+        std::ofstream(path, std::ios::binary) << text;
+        return path;
+    }
+    /// How many files and folders are in it.
     [[nodiscard]] std::ptrdiff_t file_count() const {
         return std::distance(std::filesystem::directory_iterator(path_), {});
     }

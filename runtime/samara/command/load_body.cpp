@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -65,15 +66,17 @@ bool is_hdf5(const std::filesystem::path& file) {
     return stream && std::memcmp(start, "\x89HDF\r\n\x1a\n", sizeof start) == 0;
 }
 
-/// The last line that the program wrote, without its name.
+/// The last line that the program wrote, without its name, which may be that of the command.
 std::string last_line(const std::filesystem::path& log) {
     std::ifstream stream(log);
     std::string last;
     for (std::string line; std::getline(stream, line);) {
         if (!line.empty()) last = line;
     }
-    constexpr const char* prefix = "samara-mesh: ";
-    return last.starts_with(prefix) ? last.substr(std::strlen(prefix)) : last;
+    for (const std::string_view name : {"samara-mesh: ", "samara mesh: "}) {
+        if (last.starts_with(name)) return last.substr(name.size());
+    }
+    return last;
 }
 
 Body meshed(const std::filesystem::path& shape, double scale, int triangles) {

@@ -28,7 +28,7 @@ double corner_angle(const Surface& surface, const Corner& corner) {
         const auto& triangle = surface.corners[corner.triangle];
         return surface.vertices[static_cast<std::size_t>(triangle[static_cast<std::size_t>(place % 3)])];
     };
-    const Vector3d here = vertex(corner.place);
+    const Vector3d& here = vertex(corner.place);
     const Vector3d a = vertex(corner.place + 1) - here;
     const Vector3d b = vertex(corner.place + 2) - here;
     return std::atan2(a.cross(b).norm(), a.dot(b));

@@ -21,21 +21,23 @@ H5::FileAccPropList latest_format() {
     return access;
 }
 
-// The root group's times are switched off by the file's properties, other groups' by their own.
+/// Object times off, so that equal content gives equal bytes. The file's own list speaks of its root group.
+template <typename CreationList>
+CreationList without_times(CreationList list) {
+    H5Pset_obj_track_times(list.getId(), 0);
+    return list;
+}
+
 H5::H5File create(const std::filesystem::path& file) {
-    const H5::FileCreatPropList creation;
-    H5Pset_obj_track_times(creation.getId(), 0);
-    return {file.string(), H5F_ACC_TRUNC, creation, latest_format()};
+    return {file.string(), H5F_ACC_TRUNC, without_times(H5::FileCreatPropList()), latest_format()};
 }
 
 H5::Group create_group(const H5::Group& parent, const std::string& name) {
-    const hid_t creation = H5Pcreate(H5P_GROUP_CREATE);
-    H5Pset_obj_track_times(creation, 0);
-    const hid_t id = H5Gcreate2(parent.getId(), name.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT);
-    H5Pclose(creation);
-    if (id < 0) throw H5::GroupIException("H5Gcreate2", name);
-    H5::Group group(id);
-    H5Gclose(id);  // `group` holds its own reference
+    const H5::PropList creation = without_times(H5::PropList(H5P_GROUP_CREATE));
+    const hid_t made = H5Gcreate2(parent.getId(), name.c_str(), H5P_DEFAULT, creation.getId(), H5P_DEFAULT);
+    if (made < 0) throw H5::GroupIException("create_group", name);
+    H5::Group group(made);
+    H5Gclose(made);  // the object holds a reference of its own
     return group;
 }
 
@@ -83,8 +85,7 @@ H5::DataSet Hdf5Writer::dataset(const std::string& name, const H5::DataType& typ
                                 std::string_view meaning) {
     const std::size_t slash = name.rfind('/');
     H5::Group parent = group(name.substr(0, slash));
-    H5::DSetCreatPropList creation;
-    H5Pset_obj_track_times(creation.getId(), 0);
+    H5::DSetCreatPropList creation = without_times(H5::DSetCreatPropList());
     const bool empty = std::find(dimensions.begin(), dimensions.end(), 0U) != dimensions.end();
     if (!empty) {
         std::vector<hsize_t> chunk = dimensions;

@@ -22,12 +22,13 @@ struct KirchhoffOptions {
 /// derivation is in docs/theory-kirchhoff. Each triangle of an order-2 surface becomes four.
 ///
 /// error_estimate comes from a second solve on a coarser surface whose vertices are some of the given ones
-/// (the corners of an order-2 surface; else about half the triangles), so that it covers the flatness of the
-/// triangles as well as the elements' error; it takes the error to fall with the first power of the
-/// triangles' size, as creases demand, which on smooth bodies is about three times too careful. Where the
-/// surface cannot be coarsened (a box of twelve triangles, a thin plate), each triangle is cut in four
-/// instead: the result is then that of the finer surface, and the flatness is estimated from the volumes
-/// alone. It cannot see what the given surface leaves out of the body. 1: nothing is known.
+/// (the corners of an order-2 surface; else about half of the triangles, a quarter where edges turn by more
+/// than a radian), so that it covers the flatness of the triangles as well as the elements' error. It takes
+/// the error to fall with the first power of the triangles' size, which on smooth bodies is about three times
+/// too careful, and with the power 2/3 where there are creases. Where the coarser surface is of no use (a box
+/// of twelve triangles, a thin plate), each triangle is cut in four instead: the result is then that of the
+/// finer surface, and the flatness is estimated from the volumes. The estimate cannot see what the given
+/// surface itself leaves out of the body. 1: nothing is known.
 ///
 /// Throws Error, without a file name, where the surface is empty, turned inside out, open, has flipped,
 /// repeated, overlapping or degenerate triangles, or more than most_panels of them.

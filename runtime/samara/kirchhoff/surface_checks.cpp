@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <set>
 #include <utility>
@@ -71,6 +72,21 @@ std::string edge_fault(const Surface& surface) {
     if (flipped > 0) return fmt::format("{} edges have triangles that face opposite ways", flipped);
     if (open > 0) return fmt::format("it has a hole: {} edges belong to one triangle alone", open);
     return {};
+}
+
+bool has_creases(const Surface& surface, double angle) {
+    const std::vector<Triangle> triangles = welded(surface);
+    std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> owners;
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+        for (std::size_t i = 0; i < 3; ++i) owners[{triangles[t][i], triangles[t][(i + 1) % 3]}] = t;
+    }
+    const double least_cosine = std::cos(angle);
+    return std::any_of(owners.begin(), owners.end(), [&](const auto& owner) {
+        const auto opposite = owners.find({owner.first.second, owner.first.first});
+        if (opposite == owners.end()) return false;
+        const Vector3d here = area_vector(surface, owner.second).normalized();
+        return here.dot(area_vector(surface, opposite->second).normalized()) < least_cosine;
+    });
 }
 
 }  // namespace samara

@@ -13,4 +13,7 @@ double signed_volume(const Surface& surface);
 /// where its edges show no fault. Vertices at the same place count as one.
 std::string edge_fault(const Surface& surface);
 
+/// Whether two flat triangles that share an edge turn by more than `angle` (radians) there.
+bool has_creases(const Surface& surface, double angle);
+
 }  // namespace samara

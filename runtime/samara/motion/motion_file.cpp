@@ -131,7 +131,7 @@ void read_vectors(const Hdf5Reader& file, const std::string& name, const std::ve
 
 /// Checks the shape that the file claims before memory for it is taken.
 std::vector<hsize_t> pose_dimensions(const Hdf5Reader& file, const std::string& name, std::size_t frames) {
-    const std::vector<hsize_t> shape = file.shape(name);
+    std::vector<hsize_t> shape = file.shape(name);
     constexpr hsize_t most = std::numeric_limits<std::int32_t>::max();
     if (shape.size() != 4 || shape[0] < 1 || shape[0] > most || shape[1] != frames || shape[2] < 1 ||
         shape[2] > most || shape[3] != 3) {

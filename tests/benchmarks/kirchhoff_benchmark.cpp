@@ -1,0 +1,31 @@
+// Time and error of the Kirchhoff tensor of the 1:2:4 ellipsoid, against Lamb's exact values.
+
+#include <benchmark/benchmark.h>
+
+#include "samara/kirchhoff/kirchhoff_solver.hpp"
+#include "samara/kirchhoff/tensor_error.hpp"
+#include "support/known_bodies.hpp"
+#include "support/test_shapes.hpp"
+
+namespace samara {
+namespace {
+
+void kirchhoff_tensor_of_ellipsoid(benchmark::State& state) {
+    const Surface surface = test::ellipsoid({0.01, 0.02, 0.04}, static_cast<int>(state.range(0)));
+    const VolumeMoments moments = test::moments_of(surface);
+    KirchhoffTensor tensor;
+    for (auto _ : state) {
+        tensor = kirchhoff_tensor(surface, moments);
+        benchmark::DoNotOptimize(tensor);
+    }
+    const Body exact = test::rubber_ellipsoid();
+    state.counters["triangles"] = static_cast<double>(surface.triangle_count());
+    state.counters["error"] = relative_tensor_error(tensor.matrix, exact.kirchhoff->matrix,
+                                                    {exact.moments.volume, exact.moments.surface_area});
+    state.counters["estimate"] = tensor.error_estimate;
+}
+
+BENCHMARK(kirchhoff_tensor_of_ellipsoid)->DenseRange(2, 4)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+}  // namespace
+}  // namespace samara

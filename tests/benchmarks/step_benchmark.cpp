@@ -1,0 +1,41 @@
+// Time of one step of the runtime.
+
+#include <benchmark/benchmark.h>
+
+#include "samara/dynamics/step.hpp"
+#include "support/known_bodies.hpp"
+
+namespace samara {
+namespace {
+
+const Vector3d gravity(0.0, 0.0, -9.81);
+
+/// A falling ellipsoid, advanced step by step; `noise`: with table turbulence.
+void fall(benchmark::State& state, ImmersedBody body, bool noisy) {
+    if (noisy) body.turbulence = Turbulence::table;
+    BodyState body_state = test::tumbling_state(0.1, 2.0);
+    const Noise noise(1, "rubber", 0, 0);
+    std::uint64_t step = 0;
+    for (auto _ : state) {
+        body_state = advance(body, gravity, 0.002, body_state, noise, step++).state;
+        benchmark::DoNotOptimize(body_state);
+    }
+    state.SetItemsProcessed(state.iterations());
+}
+
+void step_with_tables_and_noise(benchmark::State& state) {
+    fall(state, test::blunt_ellipsoid(), true);
+}
+void step_with_tables(benchmark::State& state) {
+    fall(state, test::blunt_ellipsoid(), false);
+}
+void step_without_loads(benchmark::State& state) {
+    fall(state, test::ideal_ellipsoid(), false);
+}
+
+BENCHMARK(step_with_tables_and_noise);
+BENCHMARK(step_with_tables);
+BENCHMARK(step_without_loads);
+
+}  // namespace
+}  // namespace samara

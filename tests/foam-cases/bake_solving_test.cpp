@@ -1,0 +1,262 @@
+// Real OpenFOAM runs at smoke quality, through the program as a user calls it.
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <sstream>
+#include <thread>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "foam-cases/case_farm.hpp"
+#include "foam-cases/case_folder.hpp"
+#include "samara/base/content_hash.hpp"
+#include "samara/base/error.hpp"
+#include "samara/body/body_file.hpp"
+#include "samara/command/subprocess.hpp"
+#include "support/program_run.hpp"
+#include "support/temporary_folder.hpp"
+#include "test_bodies.hpp"
+
+namespace samara {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::Not;
+
+const fs::path program = fs::path(SAMARA_PROGRAMS) / "samara-bake";
+const fs::path templates = fs::path(SAMARA_SOURCE_DIRECTORY) / "foam-cases";
+
+class Bake : public testing::Test {
+  protected:
+    const test::TemporaryFolder temporary_;
+    const fs::path folder_ = temporary_.path();
+    const fs::path output_ = folder_ / "out.body.h5";
+    const fs::path cases_ = folder_ / "out.cases";
+
+    fs::path write_body(const Body& body) {
+        const fs::path file = folder_ / (body.name + ".body.h5");
+        write_body_file(file, body);
+        return file;
+    }
+
+    /// `words`: the command line without the program, words parted by spaces.
+    test::ProgramRun bake(const std::string& words, const std::string& environment = "") const {
+        std::istringstream stream(words);
+        std::vector<std::string> list = {"samara-bake"};
+        for (std::string word; stream >> word;) list.push_back(word);
+        return test::run_program_in(temporary_, list, environment);
+    }
+
+    [[nodiscard]] std::map<std::string, fs::file_time_type> solved() const {
+        std::map<std::string, fs::file_time_type> found;
+        if (!fs::exists(cases_)) return found;
+        for (const auto& entry : fs::directory_iterator(cases_)) {
+            const fs::path record = entry.path() / "provenance.json";
+            if (fs::exists(record)) found[entry.path().filename()] = fs::last_write_time(record);
+        }
+        return found;
+    }
+
+    // Starts a bake of the ellipsoid and waits until the first of its cases is solved.
+    pid_t start_until_first_case(const fs::path& body) {
+        const pid_t child = ::fork();
+        if (child == 0) {
+            const std::string log = (folder_ / "stderr").string();
+            if (std::freopen(log.c_str(), "w", stderr) == nullptr) ::_exit(1);
+            ::execl(program.c_str(), program.c_str(), body.c_str(), "-o", output_.c_str(), "--quality",
+                    "smoke", "--jobs", "1", nullptr);
+            ::_exit(1);
+        }
+        for (int i = 0; i < 3000 && solved().empty(); ++i) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        }
+        return child;
+    }
+};
+
+TEST_F(Bake, OfAnEllipsoidGivesTablesAndReusesThemWhenRunAgain) {
+    const fs::path file = write_body(test::ellipsoid({0.01, 0.02, 0.04}));
+    const test::ProgramRun first =
+        bake(fmt::format("{} -o out.body.h5 --quality smoke --json", file.string()));
+    ASSERT_EQ(first.status, 0) << first.fault;
+    const nlohmann::json json = first.json();
+    ASSERT_EQ(json["cases"].size(), 6u);
+    EXPECT_EQ(json["reused_cases"], 0);
+    EXPECT_EQ(json["mesh"]["verdict"], "ok");
+    EXPECT_GT(json["cases"][0]["cpu_seconds"].get<double>(), 0.1);
+
+    // Broadside first, end-on last. A fine solution has 1.30 and 0.09 on the area pi L^2 / 4; the smoke mesh
+    // is coarse. Disks and prolate spheroids (Hoerner 1965) bracket these.
+    EXPECT_EQ(json["cases"][0]["direction"], nlohmann::json({1.0, 0.0, 0.0}));
+    EXPECT_NEAR(json["cases"][0]["drag_coefficient"].get<double>(), 1.45, 0.35);
+    EXPECT_NEAR(json["cases"][5]["drag_coefficient"].get<double>(), 0.09, 0.04);
+
+    const Body body = read_body_file(output_);
+    ASSERT_TRUE(body.tables.has_value());
+    EXPECT_TRUE(body.kirchhoff.has_value());
+    EXPECT_EQ(body.tables->quality, "smoke");
+    const Vector3d force = look_up(*body.tables, Vector3d::UnitX(), 1e4).force;
+    EXPECT_LT(force.x(), 0.0);
+    EXPECT_NEAR(-force.x(), json["cases"][0]["drag_coefficient"].get<double>(), 1e-9);
+
+    const auto before = solved();
+    const test::ProgramRun second =
+        bake(fmt::format("{} -o out.body.h5 --quality smoke --json", file.string()));
+    ASSERT_EQ(second.status, 0) << second.fault;
+    EXPECT_EQ(second.json()["reused_cases"], 6);
+    EXPECT_EQ(solved(), before);
+}
+
+TEST_F(Bake, EstimatesTheCellsOfTheMeshThatIsMade) {
+    const fs::path file = write_body(test::sphere(0.01));
+    const test::ProgramRun estimate =
+        bake(fmt::format("{} -o out.body.h5 --quality smoke --dry-run --json", file.string()));
+    ASSERT_EQ(estimate.status, 0) << estimate.fault;
+    const test::ProgramRun made =
+        bake(fmt::format("{} -o out.body.h5 --quality smoke --json", file.string()));
+    ASSERT_EQ(made.status, 0) << made.fault;
+    const double cells = made.json()["mesh"]["cells"].get<double>();
+    EXPECT_NEAR(estimate.json()["estimated_cells"].get<double>(), cells, 0.2 * cells);
+    EXPECT_NEAR(made.json()["mesh"]["body_area_over_true_area"].get<double>(), 1.0, 0.05);
+}
+
+TEST_F(Bake, OfASheetOfATenthOfAPercentKeepsItsRim) {
+    const fs::path file = write_body(test::box({0.1, 0.1, 0.00012}));
+    const test::ProgramRun made =
+        bake(fmt::format("{} -o out.body.h5 --quality smoke --json", file.string()));
+    ASSERT_EQ(made.status, 0) << made.fault;
+    EXPECT_NEAR(made.json()["mesh"]["body_area_over_true_area"].get<double>(), 1.0, 0.05);
+}
+
+TEST_F(Bake, ThatIsKilledLeavesNoSolverBehindAndGoesOnWhereItStopped) {
+    const fs::path file = write_body(test::ellipsoid({0.01, 0.02, 0.04}));
+    const pid_t child = start_until_first_case(file);
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    const auto after_kill = solved();
+    ASSERT_FALSE(after_kill.empty());
+    ASSERT_LT(after_kill.size(), 6u);
+    std::this_thread::sleep_for(std::chrono::seconds(2));
+    EXPECT_EQ(solved(), after_kill);
+    EXPECT_FALSE(fs::exists(output_));
+
+    const test::ProgramRun again =
+        bake(fmt::format("{} -o out.body.h5 --quality smoke --json", file.string()));
+    ASSERT_EQ(again.status, 0) << again.fault;
+    EXPECT_EQ(again.json()["reused_cases"], after_kill.size());
+    for (const auto& [name, time] : after_kill) EXPECT_EQ(solved().at(name), time);
+}
+
+TEST_F(Bake, ThatIsInterruptedSaysThatItCanGoOn) {
+    const fs::path file = write_body(test::ellipsoid({0.01, 0.02, 0.04}));
+    const pid_t child = start_until_first_case(file);
+    ::kill(child, SIGINT);
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 1);
+    EXPECT_THAT(read_bytes(folder_ / "stderr"), HasSubstr("the same command goes on from there"));
+    EXPECT_FALSE(fs::exists(output_));
+}
+
+TEST_F(Bake, NamesADivergedCaseAndItsLogWhileTheOthersGoOn) {
+    const Body body = test::ellipsoid({0.01, 0.02, 0.04});
+    const BakePlan plan = plan_bake(body, bake_quality("smoke"), 1e4);
+    write_case_folder(cases_, body, plan, templates);
+    // Over-relaxed momentum equations diverge for real.
+    const fs::path parameters = cases_ / "direction_01/parameters";
+    const std::string text = std::regex_replace(read_bytes(parameters), std::regex("momentumRelaxation +0.9"),
+                                                "momentumRelaxation 1.9");
+    std::ofstream(parameters) << text;
+    try {
+        solve_cases(cases_, plan, 2, templates);
+        FAIL() << "no error";
+    } catch (const Error& fault) {
+        EXPECT_THAT(fault.what(), HasSubstr("direction_01: simpleFoam diverged"));
+        EXPECT_THAT(fault.what(), HasSubstr("see " + (cases_ / "direction_01/log.simpleFoam").string()));
+        EXPECT_THAT(fault.what(), HasSubstr("1 of 6 cases failed"));
+        EXPECT_THAT(fault.what(), Not(HasSubstr("\n")));
+    }
+    EXPECT_EQ(solved().size(), 5u);
+    EXPECT_TRUE(fs::exists(cases_ / "direction_01/log.simpleFoam"));
+}
+
+TEST_F(Bake, WithoutOpenFoamNamesThePackages) {
+    const fs::path file = write_body(test::sphere(0.01));
+    const test::ProgramRun run = bake(fmt::format("{} -o out.body.h5", file.string()), "PATH=/nowhere");
+    EXPECT_EQ(run.status, 1);
+    EXPECT_THAT(run.fault, HasSubstr("simpleFoam"));
+    EXPECT_THAT(run.fault, HasSubstr("apt install openfoam snakemake"));
+    EXPECT_EQ(std::count(run.fault.begin(), run.fault.end(), '\n'), 1);
+    EXPECT_FALSE(fs::exists(cases_));
+}
+
+TEST_F(Bake, DryRunWritesNothing) {
+    const fs::path file = write_body(test::ellipsoid({0.01, 0.02, 0.04}));
+    const test::ProgramRun run = bake(fmt::format("{} -o out.body.h5 --dry-run --json", file.string()));
+    ASSERT_EQ(run.status, 0) << run.fault;
+    EXPECT_EQ(run.json()["cases"].size(), 15u);
+    EXPECT_GT(run.json()["estimated_cpu_seconds"].get<double>(), 10.0);
+    EXPECT_FALSE(fs::exists(output_));
+    EXPECT_FALSE(fs::exists(cases_));
+}
+
+TEST_F(Bake, WarnsOfLaminarFlow) {
+    const fs::path file = write_body(test::sphere(0.0002));
+    const test::ProgramRun run = bake(fmt::format("{} -o out.body.h5 --dry-run", file.string()));
+    EXPECT_EQ(run.status, 0);
+    EXPECT_THAT(run.fault, HasSubstr("warning: at Reynolds number"));
+}
+
+TEST_F(Bake, RefusesABodyAsDenseAsTheFluid) {
+    const fs::path file = write_body(test::sphere(0.01));
+    const test::ProgramRun run = bake(fmt::format("{} -o out.body.h5 --density 998.2", file.string()));
+    EXPECT_EQ(run.status, 1);
+    EXPECT_THAT(run.fault, HasSubstr("choose another density"));
+    EXPECT_FALSE(fs::exists(cases_));
+}
+
+TEST_F(Bake, OfASceneGivesOneFileForEachBodyAndNoCasesToThoseWithoutTables) {
+    write_body(test::sphere(0.01));
+    std::ofstream(folder_ / "scene.toml") << R"([scene]
+duration = 1.0
+[fluid]
+preset = "water"
+[[body]]
+name = "ball"
+shape = "sphere.body.h5"
+density = 2000
+[[body]]
+name = "ghost"
+shape = "sphere.body.h5"
+density = 2000
+loads = "none"
+turbulence = "none"
+)";
+    const test::ProgramRun run = bake("scene.toml -o bodies --quality smoke --json");
+    ASSERT_EQ(run.status, 0) << run.fault;
+    ASSERT_EQ(run.json()["bodies"].size(), 2u);
+    const Body ball = read_body_file(folder_ / "bodies/ball.body.h5");
+    EXPECT_EQ(ball.name, "ball");
+    EXPECT_TRUE(ball.tables.has_value());
+    EXPECT_FALSE(read_body_file(folder_ / "bodies/ghost.body.h5").tables.has_value());
+    EXPECT_FALSE(fs::exists(folder_ / "bodies/ghost.cases"));
+
+    const test::ProgramRun mixed = bake("scene.toml -o bodies --density 1200");
+    EXPECT_EQ(mixed.status, 1);
+    EXPECT_THAT(mixed.fault, HasSubstr("drop --density"));
+}
+
+}  // namespace
+}  // namespace samara

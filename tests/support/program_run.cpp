@@ -1,0 +1,26 @@
+#include "support/program_run.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "samara/base/content_hash.hpp"
+#include "samara/command/subprocess.hpp"
+
+namespace samara::test {
+
+ProgramRun run_program_in(const TemporaryFolder& folder, const std::vector<std::string>& words,
+                          const std::string& environment) {
+    std::string command = fmt::format("cd '{}' && {} '{}/{}'", folder.path().string(), environment,
+                                      SAMARA_PROGRAMS, words.front());
+    for (std::size_t i = 1; i < words.size(); ++i) command += fmt::format(" '{}'", words[i]);
+    command += " > .output 2> .fault";
+    const int status = run_subprocess({"/bin/sh", "-c", command});
+    return {status, read_bytes(folder / ".output"), read_bytes(folder / ".fault")};
+}
+
+bool is_one_line(const std::string& text) {
+    return !text.empty() && text.back() == '\n' && std::count(text.begin(), text.end(), '\n') == 1;
+}
+
+}  // namespace samara::test

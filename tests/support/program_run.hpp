@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "support/temporary_folder.hpp"
+
+namespace samara::test {
+
+/// What a program left behind.
+struct ProgramRun {
+    int status = 0;
+    std::string output;  ///< standard output
+    std::string fault;   ///< standard error
+    [[nodiscard]] nlohmann::json json() const { return nlohmann::json::parse(output); }
+};
+
+/// Runs one of the project's programs (the first word, such as "samara") in the folder, to its end.
+/// `environment`: assignments before the command, as a shell takes them.
+ProgramRun run_program_in(const TemporaryFolder& folder, const std::vector<std::string>& words,
+                          const std::string& environment = "");
+
+/// One line that ends with a line break, as every refusal must be.
+bool is_one_line(const std::string& text);
+
+}  // namespace samara::test
