@@ -52,13 +52,19 @@ nlohmann::json summary(const Body& body, const std::string& output, double secon
             {"seconds", seconds}};
 }
 
-void print_for_people(const Body& body, const std::string& output, double seconds) {
+void print_for_people(const Body& body, const MeshOptions& options, const std::string& output,
+                      double seconds) {
     Eigen::AlignedBox3d box;
     for (const samara::Vector3d& vertex : body.surface.vertices) box.extend(vertex);
     const samara::Vector3d size = box.sizes();
     const samara::VolumeMoments& moments = body.moments;
     fmt::print("{}: {} triangles of order {}, {} vertices, in {:.2f} s\n", output,
                body.surface.triangle_count(), body.surface.order(), body.surface.vertices.size(), seconds);
+    const auto count = static_cast<double>(body.surface.triangle_count());
+    if (options.sizing == MeshOptions::Sizing::triangles && count > 1.15 * options.triangles) {
+        fmt::print("  note      {} triangles were asked for; the shape's own edges need more\n",
+                   options.triangles);
+    }
     fmt::print("  extent    {:.5g} x {:.5g} x {:.5g} m\n", size.x(), size.y(), size.z());
     fmt::print("  volume    {:.6g} m^3 (of this surface)\n", moments.volume);
     fmt::print("  area      {:.6g} m^2\n", moments.surface_area);
@@ -113,7 +119,7 @@ int main(int argc, char** argv) {
         const Body body = samara::make_body(shape, options);
         samara::write_body_file(output, body);
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-        if (!arguments.json()) print_for_people(body, output, elapsed.count());
+        if (!arguments.json()) print_for_people(body, options, output, elapsed.count());
         return summary(body, output, elapsed.count());
     });
 }
