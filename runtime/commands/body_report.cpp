@@ -15,7 +15,7 @@ namespace {
 
 template <typename... Values>
 void print_row(const char* name, fmt::format_string<Values...> format, Values&&... values) {
-    fmt::print("  {:<22}{}\n", name, fmt::format(format, std::forward<Values>(values)...));
+    fmt::print("  {:<26}{}\n", name, fmt::format(format, std::forward<Values>(values)...));
 }
 
 std::string in_words(const Vector3d& vector) {

@@ -1,5 +1,6 @@
 #include "samara/command/progress.hpp"
 
+#include <cmath>
 #include <cstdio>
 #include <utility>
 
@@ -21,7 +22,7 @@ void Progress::update(double done, double total) {
     const std::chrono::duration<double> since_last = now - last_;
     if (elapsed.count() < 1.0 || since_last.count() < (terminal_ ? 0.2 : 10.0)) return;
     last_ = now;
-    std::string line = fmt::format("{}: {:.0f} of {:.0f} {}", what_, done, total, unit_);
+    std::string line = fmt::format("{}: {:.0f} of {:.0f} {}", what_, std::floor(done), total, unit_);
     if (done > 0.0) line += fmt::format(", about {:.0f} s left", elapsed.count() * (total - done) / done);
     fmt::print(stderr, "{}{}{}", terminal_ ? "\r\033[K" : "", line, terminal_ ? "" : "\n");
     std::fflush(stderr);
