@@ -8,10 +8,10 @@
 namespace samara {
 namespace {
 
-const Vector3d gravity(0.0, 0.0, -9.81);
+const Vector3d earth(0.0, 0.0, -9.81);
 
-/// A falling ellipsoid, advanced step by step; `noise`: with table turbulence.
-void fall(benchmark::State& state, ImmersedBody body, bool noisy) {
+/// An ellipsoid, advanced step by step; `noisy`: with table turbulence.
+void fall(benchmark::State& state, ImmersedBody body, bool noisy, const Vector3d& gravity) {
     if (noisy) body.turbulence = Turbulence::table;
     BodyState body_state = test::tumbling_state(0.1, 2.0);
     const Noise noise(1, "rubber", 0, 0);
@@ -24,10 +24,10 @@ void fall(benchmark::State& state, ImmersedBody body, bool noisy) {
 }
 
 void step_with_tables_and_noise(benchmark::State& state) {
-    fall(state, test::blunt_ellipsoid(), true);
+    fall(state, test::blunt_ellipsoid(), true, earth);
 }
 void step_with_tables(benchmark::State& state) {
-    fall(state, test::blunt_ellipsoid(), false);
+    fall(state, test::blunt_ellipsoid(), false, earth);
 }
 void step_without_loads(benchmark::State& state) {
     fall(state, test::ideal_ellipsoid(), false);

@@ -38,7 +38,9 @@ struct LoadTables {
 
     [[nodiscard]] int map_size() const { return 2 * subdivisions + 1; }
     [[nodiscard]] std::size_t index(int reynolds, int row, int column) const {
-        return static_cast<std::size_t>((reynolds * map_size() + row) * map_size() + column);
+        const auto size = static_cast<std::size_t>(map_size());
+        return (static_cast<std::size_t>(reynolds) * size + static_cast<std::size_t>(row)) * size +
+               static_cast<std::size_t>(column);
     }
 };
 

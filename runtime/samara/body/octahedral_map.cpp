@@ -14,7 +14,7 @@ double sign(double value) noexcept {
 
 Eigen::Vector2d octahedral_coordinates(const Vector3d& direction) noexcept {
     const double norm = direction.lpNorm<1>();
-    const Eigen::Vector2d projected = direction.head<2>() / norm;
+    Eigen::Vector2d projected = direction.head<2>() / norm;
     if (direction.z() >= 0.0) return projected;
     return {(1.0 - std::abs(projected.y())) * sign(projected.x()),
             (1.0 - std::abs(projected.x())) * sign(projected.y())};

@@ -66,7 +66,6 @@ void require_tables(const Body& body, const SceneBody& scene_body) {
 
 ProjectedAreaMap::ProjectedAreaMap(const Surface& surface) {
     constexpr int size = 2 * subdivisions + 1;
-    areas_.reserve(static_cast<std::size_t>(size * size));
     for (int row = 0; row < size; ++row) {
         for (int column = 0; column < size; ++column) {
             areas_.push_back(samara::projected_area(surface, octahedral_node(subdivisions, row, column)));
@@ -75,10 +74,11 @@ ProjectedAreaMap::ProjectedAreaMap(const Surface& surface) {
 }
 
 double ProjectedAreaMap::at(const Vector3d& direction) const noexcept {
-    constexpr int size = 2 * subdivisions + 1;
+    constexpr std::size_t size = 2 * subdivisions + 1;
     const OctahedralCell cell = octahedral_cell(subdivisions, direction);
     const auto area = [&](int row, int column) {
-        return areas_[static_cast<std::size_t>((cell.row + row) * size + cell.column + column)];
+        return areas_[static_cast<std::size_t>(cell.row + row) * size +
+                      static_cast<std::size_t>(cell.column + column)];
     };
     return (1.0 - cell.row_fraction) *
                ((1.0 - cell.column_fraction) * area(0, 0) + cell.column_fraction * area(0, 1)) +
