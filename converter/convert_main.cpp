@@ -8,6 +8,7 @@
 
 #include "converter/convert.hpp"
 #include "samara/base/error.hpp"
+#include "samara/base/vector_json.hpp"
 #include "samara/body/body_file.hpp"
 #include "samara/command/arguments.hpp"
 #include "samara/command/progress.hpp"
@@ -47,11 +48,7 @@ Summary summary_of(const DirectionSample& sample) {
             error_of_length(sample.error.moment, sample.entry.moment)};
 }
 
-nlohmann::json as_json(const Vector3d& vector) {
-    return {vector.x(), vector.y(), vector.z()};
-}
-
-nlohmann::json as_json(const SolvedCase& solved) {
+nlohmann::json case_as_json(const SolvedCase& solved) {
     const auto& [direction, entry, error] = solved.sample;
     const Summary summary = summary_of(solved.sample);
     return {{"name", solved.name},
@@ -69,12 +66,12 @@ nlohmann::json as_json(const SolvedCase& solved) {
             {"dissipation_rate_error", error.dissipation_rate}};
 }
 
-nlohmann::json as_json(const Conversion& conversion, const std::string& output) {
+nlohmann::json conversion_as_json(const Conversion& conversion, const std::string& output) {
     const LoadTables& tables = *conversion.body.tables;
     nlohmann::json axes = nlohmann::json::array();
     for (int row = 0; row < 3; ++row) axes.push_back(as_json(Vector3d(tables.axes.row(row))));
     nlohmann::json cases = nlohmann::json::array();
-    for (const SolvedCase& solved : conversion.cases) cases.push_back(as_json(solved));
+    for (const SolvedCase& solved : conversion.cases) cases.push_back(case_as_json(solved));
     return {{"body", conversion.body.name},
             {"output", output},
             {"quality", tables.quality},
@@ -136,7 +133,7 @@ int run(int argc, const char* const* argv) {
         });
         write_body_file(output, conversion.body);
         if (!arguments.json()) print_cases(conversion);
-        return as_json(conversion, output);
+        return conversion_as_json(conversion, output);
     });
 }
 

@@ -93,12 +93,12 @@ nlohmann::json run_requests(const std::vector<BakeRequest>& requests, const Bake
             const BakePreparation preparation = prepare_bake(request);
             warn_of_laminar_flow(preparation);
             if (!quiet) print_preparation(request, preparation, options.jobs);
-            one = as_json(request, preparation);
+            one = bake_as_json(request, preparation);
         } else {
             if (request.output.has_parent_path()) fs::create_directories(request.output.parent_path());
             const BakeResult result = bake_body(request, options.jobs, warn_of_laminar_flow);
             if (!quiet) print_result(request, result);
-            one = as_json(request, result);
+            one = bake_as_json(request, result);
         }
         results.push_back(one);
     }

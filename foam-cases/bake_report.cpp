@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "samara/base/vector_json.hpp"
 #include "samara/body/body_file.hpp"
 
 namespace samara {
@@ -15,10 +16,6 @@ namespace {
 
 double reynolds_number_of(const BakePlan& plan) {
     return plan.cases.front().reynolds_number;
-}
-
-nlohmann::json as_json(const Vector3d& vector) {
-    return {vector.x(), vector.y(), vector.z()};
 }
 
 nlohmann::json provenance_of(const SolvedCase& solved) {
@@ -35,7 +32,7 @@ double drag_coefficient(const SolvedCase& solved) {
     return -solved.sample.entry.force.dot(solved.sample.direction);
 }
 
-nlohmann::json as_json(const SolvedCase& solved) {
+nlohmann::json case_as_json(const SolvedCase& solved) {
     return {
         {"name", solved.name},
         {"direction", as_json(solved.sample.direction)},
@@ -69,7 +66,7 @@ nlohmann::json mesh_json(const SolvedCase& solved) {
 
 }  // namespace
 
-nlohmann::json as_json(const BakeRequest& request, const BakePreparation& preparation) {
+nlohmann::json bake_as_json(const BakeRequest& request, const BakePreparation& preparation) {
     nlohmann::json json = base_json(request, preparation);
     json["dry_run"] = true;
     json["cases"] = nlohmann::json::array();
@@ -84,7 +81,7 @@ nlohmann::json as_json(const BakeRequest& request, const BakePreparation& prepar
     return json;
 }
 
-nlohmann::json as_json(const BakeRequest& request, const BakeResult& result) {
+nlohmann::json bake_as_json(const BakeRequest& request, const BakeResult& result) {
     nlohmann::json json = base_json(request, result.preparation);
     json["cases"] = nlohmann::json::array();
     json["seconds"] = {{"mesh", result.mesh_seconds},
@@ -92,7 +89,7 @@ nlohmann::json as_json(const BakeRequest& request, const BakeResult& result) {
                        {"cases", result.case_seconds},
                        {"convert", result.conversion_seconds}};
     if (!result.conversion) return json;
-    for (const SolvedCase& solved : result.conversion->cases) json["cases"].push_back(as_json(solved));
+    for (const SolvedCase& solved : result.conversion->cases) json["cases"].push_back(case_as_json(solved));
     const LoadTables& tables = *result.conversion->body.tables;
     json["tables"] = {{"map_size", tables.map_size()},
                       {"subdivisions", tables.subdivisions},

@@ -7,8 +7,8 @@
 namespace samara {
 
 /// What samara-bake prints as JSON of one body with --dry-run, and after baking it.
-nlohmann::json as_json(const BakeRequest& request, const BakePreparation& preparation);
-nlohmann::json as_json(const BakeRequest& request, const BakeResult& result);
+nlohmann::json bake_as_json(const BakeRequest& request, const BakePreparation& preparation);
+nlohmann::json bake_as_json(const BakeRequest& request, const BakeResult& result);
 
 /// The same for people, on standard output.
 void print_preparation(const BakeRequest& request, const BakePreparation& preparation, int jobs);

@@ -18,17 +18,6 @@ namespace {
 using samara::Body;
 using samara::MeshOptions;
 
-const char* name_of(samara::Symmetry::Kind kind) {
-    switch (kind) {
-        case samara::Symmetry::Kind::axial:
-            return "axial";
-        case samara::Symmetry::Kind::spherical:
-            return "spherical";
-        default:
-            return "finite";
-    }
-}
-
 nlohmann::json rows(const samara::Matrix3d& matrix) {
     nlohmann::json result = nlohmann::json::array();
     for (int row = 0; row < 3; ++row) result.push_back({matrix(row, 0), matrix(row, 1), matrix(row, 2)});
@@ -46,7 +35,7 @@ nlohmann::json summary(const Body& body, const std::string& output, double secon
             {"surface_area", moments.surface_area},
             {"second_moments", rows(moments.second_moments)},
             {"symmetry",
-             {{"kind", name_of(body.symmetry.kind)},
+             {{"kind", samara::name_of(body.symmetry.kind)},
               {"elements", body.symmetry.elements.size()},
               {"tolerance", body.symmetry.tolerance}}},
             {"seconds", seconds}};

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/provenance_summary.hpp"
+#include "samara/base/vector_json.hpp"
 
 namespace samara {
 namespace {
@@ -20,10 +21,6 @@ void print_row(const char* name, fmt::format_string<Values...> format, Values&&.
 
 std::string in_words(const Vector3d& vector) {
     return fmt::format("({:.6g}, {:.6g}, {:.6g})", vector.x(), vector.y(), vector.z());
-}
-
-nlohmann::json as_json(const Vector3d& vector) {
-    return {vector.x(), vector.y(), vector.z()};
 }
 
 /// The lengths of the surface along the columns of `axes` (m).
@@ -50,17 +47,6 @@ std::string in_words(const Symmetry& symmetry) {
             return fmt::format("every rotation about {}, and {}", in_words(symmetry.axis), group);
         default:
             return group;
-    }
-}
-
-const char* kind_name(Symmetry::Kind kind) {
-    switch (kind) {
-        case Symmetry::Kind::spherical:
-            return "spherical";
-        case Symmetry::Kind::axial:
-            return "axial";
-        default:
-            return "finite";
     }
 }
 
@@ -183,7 +169,7 @@ nlohmann::json body_as_json(const Body& body) {
         {"centroid", as_json(moments.centroid)},
         {"surface_area", moments.surface_area},
         {"principal_extents", as_json(extents_along(body.surface, principal_axes(moments)))},
-        {"symmetry", {{"kind", kind_name(body.symmetry.kind)}, {"elements", body.symmetry.elements.size()}}},
+        {"symmetry", {{"kind", name_of(body.symmetry.kind)}, {"elements", body.symmetry.elements.size()}}},
         {"kirchhoff", nullptr},
         {"tables", nullptr},
     };

@@ -11,6 +11,7 @@
 
 #include "commands/commands.hpp"
 #include "samara/base/error.hpp"
+#include "samara/base/vector_json.hpp"
 #include "samara/body/body_file.hpp"
 #include "samara/command/arguments.hpp"
 #include "samara/command/load_body.hpp"
@@ -56,11 +57,7 @@ std::string in_words(const Vector3d& point) {
     return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", point.x(), point.y(), point.z());
 }
 
-nlohmann::json as_json(const Vector3d& vector) {
-    return {vector.x(), vector.y(), vector.z()};
-}
-
-nlohmann::json as_json(const Matrix6d& matrix) {
+nlohmann::json rows(const Matrix6d& matrix) {
     nlohmann::json rows;
     for (int row = 0; row < 6; ++row) {
         nlohmann::json values;
@@ -116,7 +113,7 @@ nlohmann::json run(const Request& request, bool json) {
         about ? about_point(body.kirchhoff->matrix, centroid, *about) : body.kirchhoff->matrix;
     if (!json) print_text(body, matrix, about, seconds.count());
     nlohmann::json result = {
-        {"added_mass", as_json(matrix)},
+        {"added_mass", rows(matrix)},
         {"reference_point", as_json(about.value_or(centroid))},
         {"volume", body.moments.volume},
         {"centroid", as_json(centroid)},

@@ -11,6 +11,7 @@
 #include "commands/commands.hpp"
 #include "samara/base/content_hash.hpp"
 #include "samara/base/error.hpp"
+#include "samara/base/vector_json.hpp"
 #include "samara/body/body_file.hpp"
 #include "samara/command/arguments.hpp"
 #include "samara/command/load_body.hpp"
@@ -88,10 +89,6 @@ void warn_of_reynolds_numbers(const Scene& scene, const std::vector<CastBody>& c
                 scene.bodies[i].name, report.highest_reynolds_number[i], highest);
         }
     }
-}
-
-nlohmann::json as_json(const Vector3d& vector) {
-    return {vector.x(), vector.y(), vector.z()};
 }
 
 nlohmann::json body_result(const Motion& motion, const BodyMotion& body) {

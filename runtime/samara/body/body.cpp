@@ -15,6 +15,18 @@ Matrix3d uniform_inertia(const VolumeMoments& moments, double density) {
     return density * (moments.second_moments.trace() * Matrix3d::Identity() - moments.second_moments);
 }
 
+const char* name_of(Symmetry::Kind kind) {
+    switch (kind) {
+        case Symmetry::Kind::axial:
+            return "axial";
+        case Symmetry::Kind::spherical:
+            return "spherical";
+        case Symmetry::Kind::finite:
+            break;
+    }
+    return "finite";
+}
+
 Matrix6d about_point(const Matrix6d& tensor, const Vector3d& old_point, const Vector3d& new_point) {
     // With v at the new point, the velocity at the old one is v + omega x (old - new).
     Matrix6d shift = Matrix6d::Identity();

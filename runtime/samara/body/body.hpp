@@ -44,6 +44,9 @@ struct Symmetry {
     double tolerance = 0.0;    ///< the distance over the body's size within which the images were accepted
 };
 
+/// "finite", "axial" or "spherical", as body files and reports say it.
+const char* name_of(Symmetry::Kind kind);
+
 /// The fluid's inertia: l and p of the fluid are K_fluid (omega, v), order omega then v, in shape axes, about
 /// the centroid of the volume, for a fluid of density 1 kg/m^3. Blocks: m^5, m^4, m^3.
 struct KirchhoffTensor {

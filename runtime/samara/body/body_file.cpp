@@ -29,17 +29,6 @@ Symmetry::Kind symmetry_kind(const Hdf5Reader& file) {
                             file.path().string(), kind));
 }
 
-const char* name_of(Symmetry::Kind kind) {
-    switch (kind) {
-        case Symmetry::Kind::axial:
-            return "axial";
-        case Symmetry::Kind::spherical:
-            return "spherical";
-        default:
-            return "finite";
-    }
-}
-
 void write_symmetry(Hdf5Writer& file, const Symmetry& symmetry) {
     std::vector<double> elements;
     for (const Matrix3d& element : symmetry.elements) {

@@ -14,33 +14,10 @@
 #include "samara/base/error.hpp"
 #include "samara/body/body_file.hpp"
 #include "samara/command/subprocess.hpp"
+#include "samara/files/temporary_folder.hpp"
 
 namespace samara {
 namespace {
-
-/// A new folder for passing files, removed with all it holds at the end.
-class TemporaryFolder {
-  public:
-    TemporaryFolder() {
-        std::string pattern = (std::filesystem::temp_directory_path() / "samara-XXXXXX").string();
-        if (::mkdtemp(pattern.data()) == nullptr) {
-            throw Error(fmt::format("{}: no temporary folder can be made there: {}",
-                                    std::filesystem::temp_directory_path().string(), std::strerror(errno)));
-        }
-        path_ = pattern;
-    }
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
-  private:
-    std::filesystem::path path_;
-};
 
 /// While it lives, Ctrl-C ends the program that is waited for, not this one, which then cleans up. A handler
 /// rather than SIG_IGN, since the other program would inherit that.

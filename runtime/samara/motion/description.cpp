@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "samara/base/vector_json.hpp"
+
 namespace samara {
 namespace {
 
@@ -12,11 +14,7 @@ using nlohmann::json;
 
 constexpr double degrees = 180.0 / std::numbers::pi;
 
-json as_json(const Vector3d& vector) {
-    return {vector.x(), vector.y(), vector.z()};
-}
-
-json as_json(const std::optional<double>& value) {
+json number_or_null(const std::optional<double>& value) {
     return value ? json(*value) : json(nullptr);
 }
 
@@ -32,7 +30,7 @@ json describe(const Motion& motion, const BodyMotion& body) {
             {"descent_speed", all.descent_speed},
             {"descent_speed_deviation", all.descent_speed_deviation},
             {"inclination_amplitude", all.inclination_amplitude},
-            {"frequency", as_json(all.frequency)},
+            {"frequency", number_or_null(all.frequency)},
             {"rms_angular_speed", all.rms_angular_speed},
             {"regime", name_of(all.regime)},
             {"regime_share", all.regime_share}};
@@ -68,7 +66,7 @@ json as_json(const Measures& measures) {
             {"descent_speed", measures.descent_speed},
             {"mean_inclination", measures.mean_inclination},
             {"inclination_amplitude", measures.inclination_amplitude},
-            {"frequency", as_json(measures.frequency)},
+            {"frequency", number_or_null(measures.frequency)},
             {"rms_angular_speed", measures.rms_angular_speed},
             {"swings", measures.swings},
             {"turnovers", measures.turnovers},

@@ -13,35 +13,12 @@
 #include "samara/base/error.hpp"
 #include "samara/command/subprocess.hpp"
 #include "samara/files/replace_file.hpp"
+#include "samara/files/temporary_folder.hpp"
 #include "samara/plot/series_panel.hpp"
 #include "samara/plot/strip_panel.hpp"
 
 namespace samara {
 namespace {
-
-/// A folder for the script and gnuplot's messages, removed at the end.
-class ScratchFolder {
-  public:
-    ScratchFolder() {
-        std::string name = (std::filesystem::temp_directory_path() / "samara-plot-XXXXXX").string();
-        if (::mkdtemp(name.data()) == nullptr) {
-            throw Error(fmt::format("{}: cannot be made: {}; set TMPDIR to a folder that can be written",
-                                    name, std::strerror(errno)));
-        }
-        path_ = name;
-    }
-    ~ScratchFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-    [[nodiscard]] std::filesystem::path operator/(const char* name) const { return path_ / name; }
-
-  private:
-    std::filesystem::path path_;
-};
 
 std::string preamble(bool as_svg) {
     return "set encoding utf8\nset minussign\n" + terminal(as_svg) +
@@ -84,7 +61,7 @@ void run_gnuplot(const std::string& script, const std::filesystem::path& output)
             "gnuplot is not installed, which draws the pictures; install it, on Debian by 'apt install "
             "gnuplot-nox'");
     }
-    const ScratchFolder folder;
+    const TemporaryFolder folder;
     std::ofstream stream(folder / "plot.gnuplot");
     stream << script;
     stream.close();
