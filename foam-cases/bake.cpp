@@ -14,35 +14,13 @@
 #include "samara/base/error.hpp"
 #include "samara/body/body_file.hpp"
 #include "samara/command/progress.hpp"
+#include "samara/files/temporary_folder.hpp"
 
 namespace samara {
 namespace {
 
 namespace fs = std::filesystem;
 using Planned = std::function<void(const BakePreparation&)>;
-
-// A folder that is gone, with all in it, when this is.
-class TemporaryFolder {
-  public:
-    TemporaryFolder() {
-        std::string name = (fs::temp_directory_path() / "samara-bake-XXXXXX").string();
-        if (::mkdtemp(name.data()) == nullptr) {
-            throw Error(fmt::format("{}: no folder can be made there; set TMPDIR",
-                                    fs::temp_directory_path().string()));
-        }
-        path_ = name;
-    }
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    [[nodiscard]] const fs::path& path() const { return path_; }
-
-  private:
-    fs::path path_;
-};
 
 // Seconds since the last call.
 class Stopwatch {
