@@ -62,10 +62,19 @@ void warn_of_added_mass(const SceneBody& scene_body, const KirchhoffTensor& kirc
                scene_body.name, 100.0 * kirchhoff.error_estimate);
 }
 
+/// Refuses a body that was baked before its shape was changed.
+void require_same_shape(const std::filesystem::path& file, const Body& body, const SceneBody& scene_body) {
+    if (is_body_file_name(scene_body.shape)) return;
+    if (body.source.find(file_content_hash(scene_body.shape)) != std::string::npos) return;
+    throw Error(fmt::format("{}: was made from another shape than {} is now; bake the scene again",
+                            file.string(), scene_body.shape.string()));
+}
+
 CastBody cast_body(const SceneBody& scene_body, const std::string& bodies) {
     const std::filesystem::path file = file_of(scene_body, bodies);
     // A baked body is in metres already: the scene's scale went into it.
     CastBody cast{load_body(file, bodies.empty() ? scene_body.scale : 1.0), file_content_hash(file)};
+    if (!bodies.empty()) require_same_shape(file, cast.body, scene_body);
     if (!cast.body.kirchhoff) {
         cast.body.kirchhoff = kirchhoff_tensor(cast.body.surface, cast.body.moments);
     }

@@ -95,6 +95,12 @@ TEST(MainPath, AShapeBecomesABakedBodyThatFallsAndLeavesForOtherTools) {
     ASSERT_EQ(other.status, 0) << other.fault;
     EXPECT_NE(file_content_hash(folder / "fall.h5"), file_content_hash(folder / "other.h5"));
 
+    write_scene(folder, shapes + "sphere.geo");
+    const auto changed =
+        run_program_in(folder, {"samara", "simulate", "scene.toml", "--bodies", "bodies", "-o", "x.h5"});
+    EXPECT_EQ(changed.status, 1);
+    EXPECT_THAT(changed.fault, HasSubstr("bake the scene again"));
+
     for (const char* file : {"fall.glb", "fall.csv"}) {
         const auto written = run_program_in(folder, {"samara", "export", "fall.h5", "-o", file, "--json"});
         EXPECT_EQ(written.status, 0) << written.fault;
