@@ -86,6 +86,7 @@ int exit_status(int status) {
 std::optional<int> run_guarded(const std::vector<std::string>& words, const std::filesystem::path& output,
                                const std::filesystem::path& folder, const std::function<void()>& tick) {
     std::vector<char*> pointers;
+    pointers.reserve(words.size() + 1);
     for (const std::string& word : words) pointers.push_back(const_cast<char*>(word.c_str()));
     pointers.push_back(nullptr);
 

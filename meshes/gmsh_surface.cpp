@@ -152,7 +152,7 @@ class EdgeNodeMaker {
         std::vector<std::vector<std::size_t>> nodes;
         gmsh::model::mesh::getElements(types, elements, nodes, dimension, tag);
         std::vector<Tags> edges;
-        const auto corners = static_cast<std::size_t>(dimension + 1);
+        const auto corners = static_cast<std::size_t>(dimension) + 1;
         for (const std::vector<std::size_t>& list : nodes) {
             for (std::size_t first = 0; first + corners <= list.size(); first += corners) {
                 for (std::size_t i = 0; i < (dimension == 1 ? 1U : 3U); ++i) {

@@ -147,6 +147,7 @@ double enclosed_volume(const Surface& surface, const Component& component) {
 
 std::vector<int> nesting_depths(const Surface& surface, const std::vector<Component>& pieces) {
     std::vector<Eigen::AlignedBox3d> boxes;
+    boxes.reserve(pieces.size());
     for (const Component& piece : pieces) boxes.push_back(box_of(surface, piece));
     std::vector<int> depths(pieces.size(), 0);
     for (std::size_t inner = 0; inner < pieces.size(); ++inner) {

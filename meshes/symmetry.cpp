@@ -191,7 +191,7 @@ struct PrincipalDirections {
 
 PrincipalDirections principal_directions(const VolumeMoments& moments, double tolerance) {
     const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(moments.second_moments);
-    const Vector3d values = solver.eigenvalues();
+    const Vector3d& values = solver.eigenvalues();
     const double limit = degenerate * tolerance * values[2];
     const bool low_pair = values[1] - values[0] < limit;
     const bool high_pair = values[2] - values[1] < limit;

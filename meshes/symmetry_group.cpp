@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 
 namespace samara {
@@ -22,7 +23,9 @@ bool is_in(const std::vector<Matrix3d>& elements, const Matrix3d& element) {
 // Descends by steps of the axis along two directions across it, halved from 2 degrees to 0.02.
 Operation refined(Operation operation, const ImageTest& test) {
     double best = test.mean_distance(operation.matrix(), points_to_refine);
-    for (double step = 0.035; step > 3e-4; step /= 2.0) {
+    constexpr int halvings = 7;
+    for (int halving = 0; halving < halvings; ++halving) {
+        const double step = std::ldexp(0.035, -halving);
         bool improved = true;
         for (int round = 0; improved && round < 4; ++round) {
             improved = false;

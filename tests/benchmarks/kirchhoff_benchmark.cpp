@@ -14,7 +14,7 @@ void kirchhoff_tensor_of_ellipsoid(benchmark::State& state) {
     const Surface surface = test::ellipsoid({0.01, 0.02, 0.04}, static_cast<int>(state.range(0)));
     const VolumeMoments moments = test::moments_of(surface);
     KirchhoffTensor tensor;
-    for (auto _ : state) {
+    while (state.KeepRunning()) {
         tensor = kirchhoff_tensor(surface, moments);
         benchmark::DoNotOptimize(tensor);
     }

@@ -16,7 +16,7 @@ void fall(benchmark::State& state, ImmersedBody body, bool noisy, const Vector3d
     BodyState body_state = test::tumbling_state(0.1, 2.0);
     const Noise noise(1, "rubber", 0, 0);
     std::uint64_t step = 0;
-    for (auto _ : state) {
+    while (state.KeepRunning()) {
         body_state = advance(body, gravity, 0.002, body_state, noise, step++).state;
         benchmark::DoNotOptimize(body_state);
     }

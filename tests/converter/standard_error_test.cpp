@@ -46,15 +46,15 @@ TEST(StandardError, OfACorrelatedSeriesIsThatOfItsMean) {
 }
 
 TEST(StandardError, OfADriftIsAQuarterOfIt) {
-    std::vector<double> series;
-    for (int i = 0; i < 100; ++i) series.push_back(3.0 + 0.02 * i);
+    std::vector<double> series(100);
+    for (std::size_t i = 0; i < series.size(); ++i) series[i] = 3.0 + 0.02 * static_cast<double>(i);
     EXPECT_NEAR(standard_error(series), 0.25 * 2.0, 1e-12);
 }
 
 TEST(StandardError, OfAnOscillationFallsWithItsLength) {
-    const auto oscillation = [](int length) {
-        std::vector<double> series;
-        for (int i = 0; i < length; ++i) series.push_back(std::sin(0.9 * i));
+    const auto oscillation = [](std::size_t length) {
+        std::vector<double> series(length);
+        for (std::size_t i = 0; i < length; ++i) series[i] = std::sin(0.9 * static_cast<double>(i));
         return standard_error(series);
     };
     EXPECT_LT(oscillation(900), 0.3 * oscillation(100));

@@ -50,6 +50,7 @@ std::optional<std::filesystem::path> find_program(const std::string& name) {
 int run_subprocess(const std::vector<std::string>& words, const std::filesystem::path& output,
                    const std::filesystem::path& folder) {
     std::vector<char*> pointers;
+    pointers.reserve(words.size() + 1);
     for (const std::string& word : words) pointers.push_back(const_cast<char*>(word.c_str()));
     pointers.push_back(nullptr);
     const pid_t child = ::fork();

@@ -12,8 +12,8 @@ double relative_tensor_error(const Matrix6d& tensor, const Matrix6d& reference, 
     const double block_scales[2][2] = {{scale.volume * length * length, scale.volume * length},
                                        {scale.volume * length, scale.volume}};
     double error = 0.0;
-    for (const int row : {0, 1}) {
-        for (const int column : {0, 1}) {
+    for (const Eigen::Index row : {0, 1}) {
+        for (const Eigen::Index column : {0, 1}) {
             const Matrix3d block = reference.block<3, 3>(3 * row, 3 * column);
             const Matrix3d difference = tensor.block<3, 3>(3 * row, 3 * column) - block;
             const double block_scale = block_scales[row][column];
