@@ -4,9 +4,9 @@
 #include <cmath>
 #include <random>
 
-#include "meshes/curved_surface.hpp"
 #include "meshes/mesh_size_field.hpp"
-#include "meshes/surface_edges.hpp"
+#include "samara/body/curved_surface.hpp"
+#include "samara/body/surface_edges.hpp"
 
 namespace samara {
 namespace {

@@ -5,18 +5,18 @@
 
 #include <fmt/format.h>
 
-#include "meshes/curved_surface.hpp"
 #include "meshes/gmsh_session.hpp"
 #include "meshes/image_test.hpp"
 #include "meshes/remesh.hpp"
 #include "meshes/shape_reader.hpp"
 #include "meshes/surface_check.hpp"
-#include "meshes/surface_edges.hpp"
 #include "meshes/symmetry.hpp"
 #include "meshes/volume_moments.hpp"
 #include "samara/base/content_hash.hpp"
 #include "samara/base/error.hpp"
 #include "samara/body/body_file.hpp"
+#include "samara/body/curved_surface.hpp"
+#include "samara/body/surface_edges.hpp"
 
 namespace samara {
 namespace {

@@ -7,8 +7,8 @@
 #include <queue>
 #include <utility>
 
-#include "meshes/surface_edges.hpp"
 #include "samara/body/surface.hpp"
+#include "samara/body/surface_edges.hpp"
 
 namespace samara {
 namespace {

@@ -13,14 +13,14 @@
 #include <fmt/format.h>
 #include <gmsh.h>
 
-#include "meshes/curved_surface.hpp"
 #include "meshes/gmsh_session.hpp"
 #include "meshes/gmsh_surface.hpp"
 #include "meshes/mesh_size_field.hpp"
 #include "meshes/surface_check.hpp"
-#include "meshes/surface_edges.hpp"
 #include "meshes/volume_moments.hpp"
 #include "samara/base/error.hpp"
+#include "samara/body/curved_surface.hpp"
+#include "samara/body/surface_edges.hpp"
 
 namespace samara {
 namespace {

@@ -8,10 +8,10 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "meshes/curved_surface.hpp"
 #include "meshes/surface_crossing.hpp"
-#include "meshes/surface_edges.hpp"
 #include "samara/base/error.hpp"
+#include "samara/body/curved_surface.hpp"
+#include "samara/body/surface_edges.hpp"
 
 namespace samara {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "meshes/curved_surface.hpp"
+#include "samara/body/curved_surface.hpp"
 #include "support/test_shapes.hpp"
 
 namespace samara {

@@ -8,6 +8,10 @@ namespace samara {
 /// on the quadratic one for order 2.
 Vector3d point_of_triangle(const Surface& surface, std::size_t triangle, double u, double v);
 
+/// The outward normal (m^2, not unit) of the triangle at corner coordinates (1 - u - v, u, v): the cross
+/// product of the derivatives of its point by u and v.
+Vector3d normal_of_triangle(const Surface& surface, std::size_t triangle, double u, double v);
+
 /// Flat triangles that follow the curved ones: each is cut into subdivisions^2, with three vertices of its
 /// own. A surface of order 1 is returned as it is.
 Surface flattened(const Surface& surface, int subdivisions);

@@ -1,4 +1,4 @@
-#include "meshes/surface_edges.hpp"
+#include "samara/body/surface_edges.hpp"
 
 #include <algorithm>
 #include <cmath>

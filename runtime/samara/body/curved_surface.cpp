@@ -1,8 +1,8 @@
-#include "meshes/curved_surface.hpp"
+#include "samara/body/curved_surface.hpp"
 
 #include <array>
 
-#include "meshes/surface_edges.hpp"
+#include "samara/body/surface_edges.hpp"
 
 namespace samara {
 namespace {
@@ -38,6 +38,11 @@ Vector3d point_of_triangle(const Surface& surface, std::size_t triangle, double 
     const std::array<Vector3d, 6> n = nodes_of(surface, triangle);
     return w * (2.0 * w - 1.0) * n[0] + u * (2.0 * u - 1.0) * n[1] + v * (2.0 * v - 1.0) * n[2] +
            4.0 * (w * u * n[3] + u * v * n[4] + v * w * n[5]);
+}
+
+Vector3d normal_of_triangle(const Surface& surface, std::size_t triangle, double u, double v) {
+    if (surface.order() == 1) return 2.0 * area_vector(surface, triangle);
+    return normal_at(nodes_of(surface, triangle), u, v);
 }
 
 Surface flattened(const Surface& surface, int subdivisions) {

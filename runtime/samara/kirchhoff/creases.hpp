@@ -1,0 +1,28 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "samara/body/surface.hpp"
+
+namespace samara {
+
+/// Faces that meet at more than this angle (radians, 40 degrees) meet in a crease of the body; at less, they
+/// stand for a curved surface. The angle at which `samara mesh` cuts surfaces too.
+inline constexpr double crease_angle = 0.6981317007977318;
+
+/// For each triangle, whether its side from corner i to the next is a crease.
+using Creases = std::vector<std::array<bool, 3>>;
+
+/// The sides at which the normals of the two triangles differ by more than crease_angle: of the flat
+/// triangles for order 1, of the curved ones at the middle of the edge for order 2. Sides that are not shared
+/// by exactly two triangles count as creases.
+Creases find_creases(const Surface& surface);
+
+/// Whether any side is a crease.
+bool any_crease(const Creases& creases);
+
+/// Whether each vertex is the end of a crease.
+std::vector<bool> vertices_on_creases(const Surface& surface, const Creases& creases);
+
+}  // namespace samara
