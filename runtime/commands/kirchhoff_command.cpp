@@ -21,10 +21,16 @@
 namespace samara {
 namespace {
 
+// What samara mesh takes by itself, and how this grows where a tolerance needs more.
+constexpr int first_triangles = 1280;
+constexpr int finer = 4;
+constexpr int most_triangles = 20480;
+
 struct Request {
     std::string file;
     std::string output;
     int triangles = 0;
+    double tolerance = 0.0;
     int threads = 0;
     std::string about;
 };
@@ -69,13 +75,42 @@ nlohmann::json rows(const Matrix6d& matrix) {
 
 KirchhoffTensor solve(const Body& body, const Request& request) {
     Progress progress("Kirchhoff tensor", "percent");
+    KirchhoffOptions options;
+    options.threads = request.threads;
+    options.tolerance = request.tolerance;
+    options.progress = [&](double share) { progress.update(100.0 * share, 100.0); };
     try {
-        return kirchhoff_tensor(body.surface, body.moments, {request.threads, [&](double share) {
-                                                                 progress.update(100.0 * share, 100.0);
-                                                             }});
+        return kirchhoff_tensor(body.surface, body.moments, options);
     } catch (const Error& fault) {
         throw Error(fmt::format("{}: {}", request.file, fault.what()));
     }
+}
+
+bool within_tolerance(const Body& body, const Request& request) {
+    return request.tolerance == 0.0 || body.kirchhoff->error_estimate <= request.tolerance;
+}
+
+/// The body of the file with its tensor. Where the tolerance asks for more triangles than a shape was meshed
+/// with, and none were asked for, it is meshed again.
+Body solved_body(const Request& request) {
+    Body body = load_body(request.file, 1.0, request.triangles);
+    body.kirchhoff = solve(body, request);
+    const bool is_shape = !is_body_file_name(request.file);
+    for (int triangles = finer * first_triangles;
+         is_shape && request.triangles == 0 && triangles <= most_triangles &&
+         !within_tolerance(body, request);
+         triangles *= finer) {
+        body = load_body(request.file, 1.0, triangles);
+        body.kirchhoff = solve(body, request);
+    }
+    if (!within_tolerance(body, request)) {
+        throw Error(fmt::format("{}: the tolerance {:.2g} is out of reach: {} triangles give {:.2g}; {}",
+                                request.file, request.tolerance, body.kirchhoff->triangles,
+                                body.kirchhoff->error_estimate,
+                                is_shape ? "ask for less, or for more --triangles"
+                                         : "ask for less, or mesh the shape with more triangles"));
+    }
+    return body;
 }
 
 void print_text(const Body& body, const Matrix6d& matrix, const std::optional<Vector3d>& about,
@@ -102,9 +137,8 @@ nlohmann::json run(const Request& request, bool json) {
     if (!request.output.empty() && !is_body_file_name(request.output)) {
         throw Error(fmt::format("{}: the name of a body file must end in .body.h5", request.output));
     }
-    Body body = load_body(request.file, 1.0, request.triangles);
     const auto start = std::chrono::steady_clock::now();
-    body.kirchhoff = solve(body, request);
+    const Body body = solved_body(request);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     if (!request.output.empty()) write_body_file(request.output, body);
 
@@ -137,8 +171,9 @@ int kirchhoff_command(int argc, const char* const* argv) {
     arguments.positional("FILE", request.file, "body file (.body.h5), or any shape (.geo .stl .obj .step)");
     arguments.option("-o,--output", request.output, "write the body file with the tensor in it");
     arguments.option("--triangles", request.triangles,
-                     "mesh the shape with about this many; 0: samara mesh's choice", 0,
-                     static_cast<int>(most_panels));
+                     "mesh the shape with about this many; 0: samara mesh's choice", 0, 100'000);
+    arguments.option("--tolerance", request.tolerance,
+                     "the relative error that will do, such as 1e-3; 0: what the mesh gives", 0.0, 1.0);
     arguments.option("--threads", request.threads, "0: all cores; the result does not depend on it", 0, 1024);
     arguments.option("--about", request.about,
                      "x,y,z: reference point in metres, shape axes; else the centroid of the volume");
@@ -148,8 +183,7 @@ int kirchhoff_command(int argc, const char* const* argv) {
         "angular velocity then velocity. A body file keeps it about the centroid, whatever --about is.\n"
         "JSON: added_mass (6x6; kg m^2, kg m, kg), reference_point and centroid (m), volume (m^3), "
         "triangles,\n"
-        "error_estimate and asymmetry (relative), method, seconds (of the solve, without meshing), "
-        "output.\n\n"
+        "error_estimate and asymmetry (relative), method, seconds (with meshing), output.\n\n"
         "Example: samara kirchhoff rubber.stl -o rubber.body.h5");
     return run_program(argc, argv, arguments, [&] { return run(request, arguments.json()); });
 }

@@ -10,6 +10,10 @@
 namespace samara {
 namespace {
 
+Surface coarsened(const Surface& surface, std::size_t most_triangles) {
+    return samara::coarsened({surface, find_creases(surface)}, most_triangles).surface;
+}
+
 TEST(CoarsenedSurface, IsClosedAndHasFewerTriangles) {
     for (const Surface& surface : {test::icosphere(3), test::mapped(test::shaken_icosphere(3, 0.3, 4),
                                                                     Vector3d(1.0, 2.0, 4.0).asDiagonal())}) {
@@ -39,6 +43,15 @@ TEST(CoarsenedSurface, KeepsTheCreasesOfABox) {
 
 TEST(CoarsenedSurface, OfTwelveTrianglesOfABoxIsTheBox) {
     EXPECT_EQ(coarsened(test::box({1.0, 1.0, 1.0}, 1), 3).triangle_count(), 12U);
+}
+
+TEST(CoarsenedSurface, OfASmoothBodyHasNoCreasesAndOfABoxKeepsThem) {
+    const Surface smooth = test::ellipsoid({1.0, 2.0, 4.0}, 3);
+    const CreasedSurface coarse = samara::coarsened({smooth, find_creases(smooth)}, 80);
+    EXPECT_TRUE(any_crease(find_creases(coarse.surface)));
+    EXPECT_FALSE(any_crease(coarse.creases));
+    const Surface cube = test::box({1.0, 1.0, 1.0}, 4);
+    EXPECT_TRUE(any_crease(samara::coarsened({cube, find_creases(cube)}, 60).creases));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "samara/body/surface.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -17,6 +18,17 @@ Vector3d triangle_centroid(const Surface& surface, std::size_t triangle) {
         sum += surface.vertices[static_cast<std::size_t>(index)];
     }
     return sum / 3.0;
+}
+
+double longest_edge(const Surface& surface, std::size_t triangle) {
+    const auto& corners = surface.corners[triangle];
+    double longest = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vector3d edge = surface.vertices[static_cast<std::size_t>(corners[(i + 1) % 3])] -
+                              surface.vertices[static_cast<std::size_t>(corners[i])];
+        longest = std::max(longest, edge.norm());
+    }
+    return longest;
 }
 
 double surface_area(const Surface& surface) {

@@ -29,6 +29,9 @@ Vector3d area_vector(const Surface& surface, std::size_t triangle);
 /// The centre of gravity of the flat triangle's corners (m).
 Vector3d triangle_centroid(const Surface& surface, std::size_t triangle);
 
+/// The length (m) of the flat triangle's longest edge.
+double longest_edge(const Surface& surface, std::size_t triangle);
+
 /// The sum of the flat triangles' areas (m^2).
 double surface_area(const Surface& surface);
 

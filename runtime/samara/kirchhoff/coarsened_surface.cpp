@@ -41,13 +41,16 @@ class Coarsening {
         return any;
     }
 
-    [[nodiscard]] Surface result() const {
+    /// The surface that is left; `given_index` becomes the index of each vertex in the given surface.
+    [[nodiscard]] Surface result(std::vector<std::size_t>& given_index) const {
         Surface surface;
+        given_index.clear();
         std::vector<std::int32_t> new_index(vertices_.size(), -1);
         for (std::size_t v = 0; v < vertices_.size(); ++v) {
             if (around_[v].empty()) continue;
             new_index[v] = static_cast<std::int32_t>(surface.vertices.size());
             surface.vertices.push_back(vertices_[v]);
+            given_index.push_back(v);
         }
         for (const Triangle& triangle : triangles_) {
             if (triangle[0] < 0) continue;
@@ -156,11 +159,24 @@ class Coarsening {
 
 }  // namespace
 
-Surface coarsened(const Surface& surface, std::size_t most_triangles) {
-    Coarsening coarsening(surface);
+CreasedSurface coarsened(const CreasedSurface& given, std::size_t most_triangles) {
+    Coarsening coarsening(given.surface);
     while (coarsening.triangle_count() > most_triangles && coarsening.remove_layer()) {
     }
-    return coarsening.result();
+    CreasedSurface result;
+    std::vector<std::size_t> given_index;
+    result.surface = coarsening.result(given_index);
+    result.creases = find_creases(result.surface);
+    const std::vector<bool> on_crease = vertices_on_creases(given.surface, given.creases);
+    for (std::size_t t = 0; t < result.creases.size(); ++t) {
+        for (std::size_t side = 0; side < 3; ++side) {
+            for (const std::size_t end : {side, (side + 1) % 3}) {
+                const auto vertex = static_cast<std::size_t>(result.surface.corners[t][end]);
+                if (!on_crease[given_index[vertex]]) result.creases[t][side] = false;
+            }
+        }
+    }
+    return result;
 }
 
 }  // namespace samara

@@ -3,153 +3,173 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "samara/base/error.hpp"
-#include "samara/kirchhoff/coarsened_surface.hpp"
-#include "samara/kirchhoff/collocation.hpp"
-#include "samara/kirchhoff/panels.hpp"
+#include "samara/body/curved_surface.hpp"
+#include "samara/kirchhoff/curved_collocation.hpp"
+#include "samara/kirchhoff/hypersingular.hpp"
 #include "samara/kirchhoff/surface_checks.hpp"
+#include "samara/kirchhoff/surface_ladder.hpp"
 #include "samara/kirchhoff/tensor_error.hpp"
+#include "samara/kirchhoff/thickness.hpp"
 
 namespace samara {
 namespace {
 
-// A closed surface's solid angles sum up to 4e-15; a missing or flipped triangle shows as 1e-2 and more.
-constexpr double most_closure_fault = 1e-6;
 // Below this share of its scale a block is within what two surfaces of one body differ by.
 constexpr double zero_block = 1e-3;
-// An estimate above this says only that the coarse surface is too coarse, for the body's thickness say.
-constexpr double most_useful_estimate = 0.5;
-// An edge that turns by more than this is held to be one of the body. The potential there goes as the
-// distance to the power 2/3 at a right angle, and the error falls no faster than that power is sure to.
-constexpr double crease_angle = 1.0;  // radians
-constexpr double order_at_creases = 2.0 / 3.0;
+
+// A sound surface's solid angles sum up better than this; one that overlaps itself is off by 0.1 and more.
+constexpr double most_closure_fault = 0.02;
+// Of the curved method, whose matrix takes 64 bytes for each pair of triangles.
+constexpr std::size_t most_curved_triangles = 6000;
+constexpr std::size_t most_flat_triangles = 120000;
+// Up to this count a surface with creases is refined once more than its own triangles.
+constexpr std::size_t most_refined_triangles = 8000;
+// Below, triangles that face each other across the body are too near for collocation.
+constexpr double least_relative_thickness = 0.2;
 // Surfaces whose triangles are nearer in size than this are not compared.
-constexpr double least_size_ratio = 1.2;
+constexpr double least_ratio = 1.2;
+// With which the error is sure to fall with the triangles' size; half an order and more below what it does.
+constexpr double sure_order_curved = 3.0;
+constexpr double sure_order_flat = 4.0 / 3.0;
 
-/// A surface of order 1 and its tensor in SI units, as solved.
+Surface in_units(Surface surface, const Vector3d& reference_point, double length) {
+    for (Vector3d& vertex : surface.vertices) vertex = (vertex - reference_point) / length;
+    return surface;
+}
+
 struct Solved {
-    Surface surface;
-    Matrix6d tensor;
-    TensorScale scale;
-    double closure_fault = 0.0;
+    Matrix6d tensor;  // SI
     double asymmetry = 0.0;
-
-    [[nodiscard]] bool closed() const { return closure_fault <= most_closure_fault; }
+    std::size_t triangles = 0;
 };
 
-Solved solve_flat(Surface surface, const VolumeMoments& moments, const KirchhoffOptions& options) {
-    const TensorScale scale{moments.volume, surface_area(surface)};
-    const double length = reference_length(scale.surface_area);
-    const Panels panels = make_panels(surface, moments.centroid, length);
-    const CollocationResult result =
-        solve_collocation(panels, most_closure_fault, options.threads, options.progress);
-    Vector6d powers;
-    powers << Vector3d::Constant(length), Vector3d::Ones();
-    const Matrix6d tensor = std::pow(length, 3) * powers.asDiagonal() * result.tensor * powers.asDiagonal();
-    const double asymmetry = relative_tensor_error(tensor, tensor.transpose(), scale, zero_block);
-    return {std::move(surface), tensor, scale, result.closure_fault, asymmetry};
-}
+/// One body, in units of its own size about the reference point, and all that is solved for it.
+class Solver {
+  public:
+    Solver(const Surface& surface, const VolumeMoments& moments, const KirchhoffOptions& options)
+        : options_(options),
+          scale_{moments.volume, surface_area(surface)},
+          length_(reference_length(scale_.surface_area)),
+          ladder_(in_units(surface, moments.centroid, length_), options.threads) {}
 
-void require_sound(const Surface& surface) {
-    if (surface.triangle_count() < 4) throw Error("the surface has fewer than four triangles; it is no body");
-    const std::size_t panels = surface.triangle_count() * (surface.order() == 2 ? 4 : 1);
-    if (panels > most_panels) {
-        throw Error(
-            fmt::format("the surface has {} flat triangles, more than the {} that can be solved for; "
-                        "mesh the shape with fewer (--triangles)",
-                        panels, most_panels));
+    KirchhoffTensor run() {
+        if (options_.method != KirchhoffMethod::automatic) return run_with(options_.method);
+        const CreasedSurface& base = ladder_.base();
+        const bool is_smooth = !any_crease(base.creases) &&
+                               base.surface.triangle_count() <= most_curved_triangles &&
+                               relative_thickness(base.surface) > least_relative_thickness;
+        return run_with(is_smooth ? KirchhoffMethod::curved_collocation : KirchhoffMethod::hypersingular);
     }
-    if (std::string fault = edge_fault(surface); !fault.empty()) {
-        throw Error(fmt::format(
-            "the surface is not closed and outward: {}; mesh the shape again with 'samara mesh'", fault));
+
+  private:
+    KirchhoffTensor run_with(KirchhoffMethod method) {
+        KirchhoffTensor found = options_.tolerance > 0.0 ? climb(method) : compare_two(method);
+        if (options_.progress) options_.progress(1.0);
+        return found;
     }
-    if (!(signed_volume(surface) > 0.0)) {
-        throw Error(
-            "the surface is turned inside out (its volume is negative); mesh the shape again with "
-            "'samara mesh'");
+
+    /// The surface's own triangles, and a coarser or finer surface to compare with.
+    KirchhoffTensor compare_two(KirchhoffMethod method) {
+        const std::size_t own = ladder_.base().surface.triangle_count();
+        const bool is_refined = method == KirchhoffMethod::hypersingular && 4 * own <= most_refined_triangles;
+        const int rung = is_refined ? 1 : 0;
+        const Solved coarse = solve(method, rung - 1, {0.0, 0.1});
+        return compared(method, solve(method, rung, {0.1, 1.0}), coarse, is_refined);
     }
-}
 
-void require_closed(const Solved& solved) {
-    if (solved.closed()) return;
-    throw Error(
-        fmt::format("the surface overlaps or touches itself: its solid angle is off by {:.1g}; mesh "
-                    "the shape again with 'samara mesh'",
-                    solved.closure_fault));
-}
-
-Surface fine_surface(const Surface& surface) {
-    return surface.order() == 2 ? subdivided(surface) : surface;
-}
-
-/// The surfaces to compare with, the best first: their vertices are some of the given ones. Where there are
-/// creases the error falls slowly, and a quarter of the triangles tell more than half of them.
-std::vector<Surface> coarse_surfaces(const Surface& surface) {
-    if (surface.order() == 2) {
-        Surface corners = surface;
-        corners.edge_nodes.clear();
-        return {corners};
+    /// From coarse surfaces to finer ones, until the estimate is within the tolerance or no finer one helps.
+    KirchhoffTensor climb(KirchhoffMethod method) {
+        int rung = ladder_.lowest();
+        double begin = 0.0;
+        Solved coarse = solve(method, rung, {begin, 0.5});
+        for (;;) {
+            ++rung;
+            begin = 0.5 * (1.0 + begin);
+            Solved fine = solve(method, rung, {begin, 0.5 * (1.0 + begin)});
+            const KirchhoffTensor found = compared(method, fine, coarse, rung > 0);
+            // Finer triangles than the given ones know no more of a smooth body's curvature.
+            const bool is_finest = method == KirchhoffMethod::curved_collocation
+                                       ? rung >= 0
+                                       : 4 * fine.triangles > most_flat_triangles;
+            if (found.error_estimate <= options_.tolerance || is_finest) return found;
+            coarse = std::move(fine);
+        }
     }
-    const Surface half = coarsened(surface, surface.triangle_count() / 2);
-    if (!has_creases(surface, crease_angle)) return {half};
-    return {coarsened(half, surface.triangle_count() / 4), half};
-}
 
-/// The ratio of the triangles' sizes on two surfaces of one body.
-double size_ratio(const Surface& fine, const Surface& coarse) {
-    return std::sqrt(static_cast<double>(fine.triangle_count()) /
-                     static_cast<double>(coarse.triangle_count()));
-}
+    struct Shares {
+        double begin;
+        double end;
+    };
 
-/// What is left of the error on the fine surface: the difference carried on to triangles of no size.
-double extrapolated_error(const Solved& fine, const Solved& coarse) {
-    const double order = has_creases(fine.surface, crease_angle) ? order_at_creases : 1.0;
-    return relative_tensor_error(coarse.tensor, fine.tensor, fine.scale, zero_block) /
-           (std::pow(size_ratio(fine.surface, coarse.surface), order) - 1.0);
-}
+    Solved solve(KirchhoffMethod method, int rung, const Shares& shares) {
+        const Surface& surface = ladder_.rung(rung).surface;
+        BoundaryElementOptions options{options_.threads, {}};
+        if (options_.progress) {
+            options.progress = [&](double share) {
+                options_.progress(shares.begin + share * (shares.end - shares.begin));
+            };
+        }
+        const BoundaryElementResult found = method == KirchhoffMethod::curved_collocation
+                                                ? solve_curved_collocation(surface, options)
+                                                : solve_hypersingular(without_edge_nodes(surface), options);
+        if (found.closure_fault > most_closure_fault) {
+            throw Error(
+                fmt::format("the surface overlaps or touches itself: its solid angle is off by {:.1g}; "
+                            "mesh the shape again with 'samara mesh'",
+                            found.closure_fault));
+        }
+        Vector6d powers;
+        powers << Vector3d::Constant(length_), Vector3d::Ones();
+        Solved solved;
+        solved.tensor = std::pow(length_, 3) * powers.asDiagonal() * found.tensor * powers.asDiagonal();
+        solved.asymmetry =
+            relative_tensor_error(solved.tensor, solved.tensor.transpose(), scale_, zero_block);
+        solved.triangles = surface.triangle_count();
+        return solved;
+    }
 
-/// What the flatness of the triangles costs, from the volumes: the tensor's blocks grow with the volume's
-/// power up to 5/3.
-double flatness_error(const Surface& fine, const Surface& coarse) {
-    const double ratio = size_ratio(fine, coarse);
-    if (!(ratio > least_size_ratio)) return 0.0;  // nothing could be merged: there are creases alone
-    return 5.0 / 3.0 * std::abs(signed_volume(coarse) / signed_volume(fine) - 1.0) / (ratio - 1.0);
-}
+    /// `nested`: the finer surface cuts the coarser one's triangles.
+    KirchhoffTensor compared(KirchhoffMethod method, const Solved& fine, const Solved& coarse,
+                             bool nested) const {
+        const double difference = relative_tensor_error(coarse.tensor, fine.tensor, scale_, zero_block);
+        const double ratio =
+            std::sqrt(static_cast<double>(fine.triangles) / static_cast<double>(coarse.triangles));
+        const bool is_curved = method == KirchhoffMethod::curved_collocation;
+        Matrix6d tensor = fine.tensor;
+        double estimate = 1.0;
+        if (!is_curved && nested) {
+            // Richardson, for the second order that grading gives; what remains is less where that is right.
+            tensor += (fine.tensor - coarse.tensor) / 3.0;
+            estimate = difference / 3.0;
+        } else if (ratio > least_ratio) {
+            estimate = difference / (std::pow(ratio, is_curved ? sure_order_curved : sure_order_flat) - 1.0);
+        }
+        KirchhoffTensor result;
+        result.matrix = 0.5 * (tensor + tensor.transpose());
+        result.asymmetry = fine.asymmetry;
+        result.error_estimate = std::min(1.0, std::max(estimate, fine.asymmetry));
+        result.triangles = static_cast<int>(fine.triangles);
+        result.method = is_curved ? "direct boundary elements, quadratic on curved triangles"
+                                  : "Galerkin boundary elements, hypersingular, linear on flat triangles";
+        return result;
+    }
 
-KirchhoffTensor as_result(const Solved& solved, double error_estimate) {
-    KirchhoffTensor result;
-    result.matrix = 0.5 * (solved.tensor + solved.tensor.transpose());
-    result.error_estimate = std::max(error_estimate, solved.asymmetry);
-    result.asymmetry = solved.asymmetry;
-    result.triangles = static_cast<int>(solved.surface.triangle_count());
-    result.method = "direct boundary elements, constant on flat triangles";
-    return result;
-}
+    const KirchhoffOptions& options_;
+    TensorScale scale_;
+    double length_;
+    SurfaceLadder ladder_;
+};
 
 }  // namespace
 
-KirchhoffTensor kirchhoff_tensor(const Surface& surface, const VolumeMoments& moments,
+KirchhoffTensor kirchhoff_tensor(const Surface& given, const VolumeMoments& moments,
                                  const KirchhoffOptions& options) {
-    require_sound(surface);
-    const Solved fine = solve_flat(fine_surface(surface), moments, options);
-    require_closed(fine);
-    const std::vector<Surface> coarse_ones = coarse_surfaces(surface);
-    for (const Surface& coarse : coarse_ones) {
-        if (size_ratio(fine.surface, coarse) < least_size_ratio) continue;
-        const Solved compared = solve_flat(coarse, moments, {options.threads, {}});
-        const double error = extrapolated_error(fine, compared);
-        if (compared.closed() && error < most_useful_estimate) return as_result(fine, error);
-    }
-    if (4 * fine.surface.triangle_count() > most_panels) {
-        return as_result(fine, 1.0);  // nothing is known of it
-    }
-    const Solved finer = solve_flat(subdivided(fine.surface), moments, options);
-    return as_result(finer,
-                     extrapolated_error(finer, fine) + flatness_error(fine.surface, coarse_ones.back()));
+    const Surface surface = sound_surface(given);
+    return Solver(surface, moments, options).run();
 }
 
 }  // namespace samara

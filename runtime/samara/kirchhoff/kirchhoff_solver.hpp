@@ -6,32 +6,37 @@
 
 namespace samara {
 
-/// The largest number of flat triangles that are solved for: the matrix then takes 3.2 GB.
-inline constexpr std::size_t most_panels = 20000;
+/// The boundary elements that a tensor is computed with. docs/theory-kirchhoff derives both.
+enum class KirchhoffMethod {
+    automatic,           ///< what suits the surface
+    curved_collocation,  ///< direct, quadratic on curved triangles: the fourth order on smooth bodies
+    hypersingular,  ///< Galerkin, linear on flat triangles: for edges, thin bodies and very many triangles
+};
 
 struct KirchhoffOptions {
-    int threads = 0;                            ///< 0: all cores; the result does not depend on it
+    int threads = 0;         ///< 0: all cores; the result does not depend on it
+    double tolerance = 0.0;  ///< relative tensor error that will do: the coarsest surface whose estimate is
+                             ///< below it is taken; 0: as good as the surface's own triangles give
+    KirchhoffMethod method = KirchhoffMethod::automatic;
     std::function<void(double)> progress = {};  ///< called with the share of the work done, 0 to 1
 };
 
 /// The Kirchhoff tensor (added mass) of a closed, outward surface in unbounded ideal fluid at rest: 6x6,
 /// order (omega, v), about moments.centroid, in shape axes, for a fluid of 1 kg/m^3 (Lamb, Hydrodynamics,
-/// 6th ed., art. 121-124).
+/// 6th ed., art. 121-124). The surface may have several closed parts, which move as one.
 ///
-/// Direct boundary elements with one unknown on each flat triangle, second order in their size; the
-/// derivation is in docs/theory-kirchhoff. Each triangle of an order-2 surface becomes four.
+/// A smooth surface is solved on curved triangles: its own where it is of order 2, else those that its flat
+/// ones stand for (rebuilt_surface). Surfaces with creases, and those much thinner than their triangles, are
+/// solved with the hypersingular operator, on each triangle cut in four towards the creases, and extrapolated
+/// to triangles of no size.
 ///
-/// error_estimate comes from a second solve on a coarser surface whose vertices are some of the given ones
-/// (the corners of an order-2 surface; else about half of the triangles, a quarter where edges turn by more
-/// than a radian), so that it covers the flatness of the triangles as well as the elements' error. It takes
-/// the error to fall with the first power of the triangles' size, which on smooth bodies is about three times
-/// too careful, and with the power 2/3 where there are creases. Where the coarser surface is of no use (a box
-/// of twelve triangles, a thin plate), each triangle is cut in four instead: the result is then that of the
-/// finer surface, and the flatness is estimated from the volumes. The estimate cannot see what the given
-/// surface itself leaves out of the body. 1: nothing is known.
+/// error_estimate comes from the difference between two surfaces of different fineness, so that it covers
+/// the elements and the surface's curvature; it cannot see details that the given triangles leave out of the
+/// body. 1: nothing is known.
 ///
 /// Throws Error, without a file name, where the surface is empty, turned inside out, open, has flipped,
-/// repeated, overlapping or degenerate triangles, or more than most_panels of them.
+/// repeated, overlapping or degenerate triangles or a cavity. A tolerance out of reach of the surface's
+/// triangles shows in error_estimate alone.
 KirchhoffTensor kirchhoff_tensor(const Surface& surface, const VolumeMoments& moments,
                                  const KirchhoffOptions& options = {});
 

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <map>
+
+#include "samara/kirchhoff/refined_surface.hpp"
+
+namespace samara {
+
+/// One body's surfaces of order 2 from coarse to fine, each with about a quarter of the next one's triangles.
+/// Rung 0 is the given surface; those below have some of its corners, with their curvature rebuilt from these
+/// alone; those above cut each triangle in four on the same curved surface.
+class SurfaceLadder {
+  public:
+    /// A surface of order 1 is rebuilt first. It must be closed, with its vertices merged.
+    explicit SurfaceLadder(const Surface& surface, int threads = 0);
+
+    [[nodiscard]] const CreasedSurface& base() const { return rungs_.at(0); }
+
+    /// Made when it is first asked for. Valid as long as the ladder.
+    const CreasedSurface& rung(int index);
+
+    /// The lowest rung that can be asked for: the last with enough triangles to tell anything.
+    [[nodiscard]] int lowest() const;
+
+  private:
+    int threads_;
+    std::map<int, CreasedSurface> rungs_;
+};
+
+}  // namespace samara

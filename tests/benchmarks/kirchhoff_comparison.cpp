@@ -1,0 +1,129 @@
+// Error against time of the Kirchhoff tensor, for bodies with an exact one: ours and the methods of others,
+// on the same meshes. Prints a table, and writes it as a .csv where a file is named.
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "peers/offset_sources.hpp"
+#include "samara/kirchhoff/kirchhoff_solver.hpp"
+#include "samara/kirchhoff/tensor_error.hpp"
+#include "support/exact_ellipsoids.hpp"
+#include "support/test_shapes.hpp"
+
+namespace samara {
+namespace {
+
+struct Row {
+    std::string body;
+    std::string method;
+    std::size_t triangles = 0;
+    double milliseconds = 0.0;
+    double error = 0.0;
+    double estimate = 0.0;  // 0: the method gives none
+};
+
+/// The least time of several runs, in milliseconds.
+double time_of(const std::function<void()>& run) {
+    using Clock = std::chrono::steady_clock;
+    double least = 1e300;
+    const auto start = Clock::now();
+    int runs = 0;
+    do {
+        const auto begin = Clock::now();
+        run();
+        least = std::min(least, std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
+        ++runs;
+    } while (runs < 30 && (runs < 3 || Clock::now() - start < std::chrono::milliseconds(400)));
+    return least;
+}
+
+/// A way from a surface (about its centroid) to the tensor.
+struct Method {
+    const char* name;
+    bool curved;  // works on order-2 surfaces
+    std::size_t most_triangles;
+    std::function<KirchhoffTensor(const Surface&, const VolumeMoments&)> run;
+};
+
+KirchhoffTensor as_tensor(const Matrix6d& matrix) {
+    KirchhoffTensor tensor;
+    tensor.matrix = matrix;
+    return tensor;
+}
+
+std::vector<Method> methods() {
+    const auto offset = [](double offset) {
+        return [offset](const Surface& surface, const VolumeMoments&) {
+            return as_tensor(peers::offset_source_tensor(surface, offset));
+        };
+    };
+    const auto ours = [](KirchhoffMethod method) {
+        return [method](const Surface& surface, const VolumeMoments& moments) {
+            return kirchhoff_tensor(surface, moments, {.method = method});
+        };
+    };
+    return {
+        {"offset sources, 0.1", false, 1280, offset(0.1)},
+        {"offset sources, 0.6", false, 1280, offset(0.6)},
+        {"samara, flat mesh", false, 5120, ours(KirchhoffMethod::automatic)},
+        {"samara, curved mesh", true, 5120, ours(KirchhoffMethod::automatic)},
+        {"samara, hypersingular", false, 1280, ours(KirchhoffMethod::hypersingular)},
+    };
+}
+
+std::vector<Row> measure(const test::ExactEllipsoid& body, const Method& method) {
+    std::vector<Row> rows;
+    for (int level = 1; level <= 4; ++level) {
+        const Surface surface = method.curved ? test::curved_ellipsoid(body.semi_axes, level)
+                                              : test::ellipsoid(body.semi_axes, level);
+        if (surface.triangle_count() > method.most_triangles) break;
+        const VolumeMoments moments = test::exact_moments(body);
+        KirchhoffTensor tensor;
+        Row row{body.name, method.name, surface.triangle_count()};
+        row.milliseconds = time_of([&] { tensor = method.run(surface, moments); });
+        row.error = relative_tensor_error(tensor.matrix, test::exact_tensor(body),
+                                          {moments.volume, moments.surface_area});
+        row.estimate = tensor.error_estimate;
+        rows.push_back(row);
+    }
+    return rows;
+}
+
+void print(const Row& row) {
+    fmt::print("{:<18}{:<24}{:>10}{:>12.2f}{:>12.1e}{:>12}\n", row.body, row.method, row.triangles,
+               row.milliseconds, row.error, row.estimate > 0.0 ? fmt::format("{:.1e}", row.estimate) : "");
+    std::fflush(stdout);
+}
+
+}  // namespace
+}  // namespace samara
+
+int main(int argc, char** argv) {
+    using namespace samara;
+    std::vector<Row> rows;
+    fmt::print("{:<18}{:<24}{:>10}{:>12}{:>12}{:>12}\n", "body", "method", "triangles", "ms", "error",
+               "estimate");
+    for (const test::ExactEllipsoid& body : test::exact_ellipsoids()) {
+        for (const Method& method : methods()) {
+            for (const Row& row : measure(body, method)) {
+                print(row);
+                rows.push_back(row);
+            }
+        }
+    }
+    if (argc < 2) return 0;
+    std::ofstream file(argv[1]);
+    file << "body,method,triangles,milliseconds,error,estimate\n";
+    for (const Row& row : rows) {
+        file << fmt::format("\"{}\",\"{}\",{},{:.3f},{:.3e},{:.3e}\n", row.body, row.method, row.triangles,
+                            row.milliseconds, row.error, row.estimate);
+    }
+    return file.flush() ? 0 : 1;
+}
