@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace samara {
+
+/// Points and weights for integrals over the unit triangle p, q >= 0, p + q <= 1; the weights sum to 1/2.
+/// The arrays are filled up to a multiple of eight points with points of no weight, for vector registers.
+struct TriangleRule {
+    std::vector<double> p;
+    std::vector<double> q;
+    std::vector<double> weight;
+    std::size_t points = 0;  ///< without those of no weight
+    int degree = 0;          ///< of the polynomials that it integrates exactly
+};
+
+/// The nodes and weights of Gauss and Legendre on [0, 1], exact up to degree 2 n - 1.
+std::pair<std::vector<double>, std::vector<double>> gauss_legendre(int n);
+
+/// Symmetric rules with 3, 6, 12 and 16 points for the degrees 2, 4, 6 and 8 (D. A. Dunavant, Int. J. Numer.
+/// Methods Eng. 21, 1985); for other degrees a product of Gauss rules that meet in a corner, about
+/// (degree / 2 + 1)^2 points.
+TriangleRule triangle_rule(int degree);
+
+/// For integrands that are singular as 1/r in the corner p = q = 0: a Gauss rule along the rays from that
+/// corner and one across them (M. G. Duffy, SIAM J. Numer. Anal. 19(6), 1982).
+TriangleRule corner_rule(int radial_points, int angular_points);
+
+}  // namespace samara
