@@ -241,10 +241,11 @@ void require_shared_edge_nodes(const Surface& surface, const std::vector<std::sp
 }
 
 void require_curved_faces_to_stay_flat_enough(const Surface& surface, const std::string& label) {
-    const std::int32_t overturned = first_overturned_triangle(surface);
-    if (overturned < 0) return;
+    const std::vector<std::int32_t> overturned = overturned_triangles(surface);
+    if (overturned.empty()) return;
+    const std::int32_t first = overturned.front();
     throw Error(fmt::format("{}: the curved face {} at {} turns over; use more triangles, or order 1", label,
-                            overturned + 1, place(triangle_centroid(surface, as_index(overturned)))));
+                            first + 1, place(triangle_centroid(surface, as_index(first)))));
 }
 
 void require_faces_to_agree(const Surface& surface, const std::vector<Component>& pieces,

@@ -1,5 +1,6 @@
 #include "samara/body/curved_surface.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "samara/body/surface_edges.hpp"
@@ -101,18 +102,20 @@ Surface without_edge_nodes(const Surface& surface) {
     return result;
 }
 
-std::int32_t first_overturned_triangle(const Surface& surface) {
-    if (surface.order() == 1) return -1;
+std::vector<std::int32_t> overturned_triangles(const Surface& surface) {
+    std::vector<std::int32_t> overturned;
+    if (surface.order() == 1) return overturned;
     constexpr std::array<std::array<double, 2>, 6> places = {
         {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}, {0.5, 0.0}, {0.5, 0.5}, {0.0, 0.5}}};
     for (std::size_t t = 0; t < surface.triangle_count(); ++t) {
         const std::array<Vector3d, 6> nodes = nodes_of(surface, t);
-        for (const auto& [u, v] : places) {
-            if (normal_at(nodes, u, v).dot(area_vector(surface, t)) <= 0.0)
-                return static_cast<std::int32_t>(t);
-        }
+        const Vector3d area = area_vector(surface, t);
+        const bool turns = std::any_of(places.begin(), places.end(), [&](const auto& place) {
+            return normal_at(nodes, place[0], place[1]).dot(area) <= 0.0;
+        });
+        if (turns) overturned.push_back(static_cast<std::int32_t>(t));
     }
-    return -1;
+    return overturned;
 }
 
 }  // namespace samara

@@ -23,9 +23,8 @@ Surface with_straight_edge_nodes(const Surface& surface);
 /// The flat surface of the corners alone, unused vertices left out.
 Surface without_edge_nodes(const Surface& surface);
 
-/// The first triangle whose curved face turns over somewhere (its normal leans more than a right angle from
-/// that of its corners), or -1 where there is none: such a surface of order 2 is too coarse for its
-/// curvature.
-std::int32_t first_overturned_triangle(const Surface& surface);
+/// The triangles whose curved face turns over somewhere (its normal leans more than a right angle from that
+/// of its corners): such a surface of order 2 is too coarse for its curvature.
+std::vector<std::int32_t> overturned_triangles(const Surface& surface);
 
 }  // namespace samara

@@ -10,6 +10,7 @@
 
 #include "samara/base/parallel_for.hpp"
 #include "samara/body/surface_edges.hpp"
+#include "samara/kirchhoff/surface_projection.hpp"
 
 namespace samara {
 namespace {
@@ -263,7 +264,7 @@ Surface rebuilt_surface(const Surface& flat, const Creases& creases, int threads
             result.edge_nodes[as_index(use.triangle)][as_index(use.side)] = node;
         }
     }
-    return result;
+    return without_folds(std::move(result));
 }
 
 }  // namespace samara

@@ -4,6 +4,7 @@
 
 #include "samara/kirchhoff/coarsened_surface.hpp"
 #include "samara/kirchhoff/rebuilt_surface.hpp"
+#include "samara/kirchhoff/surface_projection.hpp"
 
 namespace samara {
 namespace {
@@ -12,7 +13,8 @@ constexpr std::size_t fewest_triangles = 60;
 
 }  // namespace
 
-SurfaceLadder::SurfaceLadder(const Surface& surface, int threads) : threads_(threads) {
+SurfaceLadder::SurfaceLadder(const Surface& surface, int threads)
+    : threads_(threads), is_rebuilt_(surface.order() == 1) {
     Creases creases = find_creases(surface);
     Surface curved = surface.order() == 2 ? surface : rebuilt_surface(surface, creases, threads);
     rungs_.emplace(0, CreasedSurface{std::move(curved), std::move(creases)});
@@ -30,7 +32,8 @@ const CreasedSurface& SurfaceLadder::rung(int index) {
     if (index > 0) return rungs_.emplace(index, refined(rung(index - 1))).first->second;
     const CreasedSurface& finer = rung(index + 1);
     CreasedSurface coarse = coarsened(finer, finer.surface.triangle_count() / 4);
-    coarse.surface = rebuilt_surface(coarse.surface, coarse.creases, threads_);
+    coarse.surface = is_rebuilt_ ? rebuilt_surface(coarse.surface, coarse.creases, threads_)
+                                 : drawn_onto(coarse.surface, base().surface, threads_);
     return rungs_.emplace(index, std::move(coarse)).first->second;
 }
 
