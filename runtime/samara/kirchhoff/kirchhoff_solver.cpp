@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -21,8 +22,9 @@ namespace {
 // Below this share of its scale a block is within what two surfaces of one body differ by.
 constexpr double zero_block = 1e-3;
 
-// A sound surface's solid angles sum up better than this; one that overlaps itself is off by 0.1 and more.
-constexpr double most_closure_fault = 0.02;
+// A sound surface's solid angles sum up better than this, even where it is very thin; one that overlaps
+// itself is off by 1.
+constexpr double most_closure_fault = 0.3;
 // Of the curved method, whose matrix takes 64 bytes for each pair of triangles.
 constexpr std::size_t most_curved_triangles = 6000;
 constexpr std::size_t most_flat_triangles = 120000;
@@ -30,10 +32,13 @@ constexpr std::size_t most_flat_triangles = 120000;
 constexpr std::size_t most_refined_triangles = 8000;
 // Below, triangles that face each other across the body are too near for collocation.
 constexpr double least_relative_thickness = 0.2;
+// Above this estimate of the curved method the other is tried too.
+constexpr double poor_estimate = 0.01;
 // Surfaces whose triangles are nearer in size than this are not compared.
 constexpr double least_ratio = 1.2;
-// With which the error is sure to fall with the triangles' size; half an order and more below what it does.
-constexpr double sure_order_curved = 3.0;
+// With which the error falls with the triangles' size, or is sure to.
+// Coarser surfaces have triangles of worse shapes, and that differ more than the order says.
+constexpr double order_curved = 4.0;
 constexpr double sure_order_flat = 4.0 / 3.0;
 
 Surface in_units(Surface surface, const Vector3d& reference_point, double length) {
@@ -62,10 +67,23 @@ class Solver {
         const bool is_smooth = !any_crease(base.creases) &&
                                base.surface.triangle_count() <= most_curved_triangles &&
                                relative_thickness(base.surface) > least_relative_thickness;
-        return run_with(is_smooth ? KirchhoffMethod::curved_collocation : KirchhoffMethod::hypersingular);
+        if (!is_smooth) return run_with(KirchhoffMethod::hypersingular);
+        const std::optional<KirchhoffTensor> curved = try_curved();
+        if (curved && curved->error_estimate <= poor_estimate) return *curved;
+        const KirchhoffTensor flat = run_with(KirchhoffMethod::hypersingular);
+        return curved && curved->error_estimate <= flat.error_estimate ? *curved : flat;
     }
 
   private:
+    /// Nothing where curved triangles cannot follow so coarse a surface without folding.
+    std::optional<KirchhoffTensor> try_curved() {
+        try {
+            return run_with(KirchhoffMethod::curved_collocation);
+        } catch (const Error&) {
+            return std::nullopt;
+        }
+    }
+
     KirchhoffTensor run_with(KirchhoffMethod method) {
         KirchhoffTensor found = options_.tolerance > 0.0 ? climb(method) : compare_two(method);
         if (options_.progress) options_.progress(1.0);
@@ -146,7 +164,7 @@ class Solver {
             tensor += (fine.tensor - coarse.tensor) / 3.0;
             estimate = difference / 3.0;
         } else if (ratio > least_ratio) {
-            estimate = difference / (std::pow(ratio, is_curved ? sure_order_curved : sure_order_flat) - 1.0);
+            estimate = difference / (std::pow(ratio, is_curved ? order_curved : sure_order_flat) - 1.0);
         }
         KirchhoffTensor result;
         result.matrix = 0.5 * (tensor + tensor.transpose());

@@ -22,7 +22,7 @@ SurfaceLadder::SurfaceLadder(const Surface& surface, int threads)
 
 int SurfaceLadder::lowest() const {
     int index = 0;
-    for (std::size_t count = base().surface.triangle_count(); count / 4 >= fewest_triangles; count /= 4)
+    for (std::size_t count = base().surface.triangle_count(); count / 2 >= fewest_triangles; count /= 2)
         --index;
     return index;
 }
@@ -31,9 +31,10 @@ const CreasedSurface& SurfaceLadder::rung(int index) {
     if (const auto known = rungs_.find(index); known != rungs_.end()) return known->second;
     if (index > 0) return rungs_.emplace(index, refined(rung(index - 1))).first->second;
     const CreasedSurface& finer = rung(index + 1);
-    CreasedSurface coarse = coarsened(finer, finer.surface.triangle_count() / 4);
+    const SurfaceProjection shape(base().surface);
+    CreasedSurface coarse = coarsened(finer, finer.surface.triangle_count() / 2);
     coarse.surface = is_rebuilt_ ? rebuilt_surface(coarse.surface, coarse.creases, threads_)
-                                 : drawn_onto(coarse.surface, base().surface, threads_);
+                                 : drawn_onto(coarse.surface, shape, threads_);
     return rungs_.emplace(index, std::move(coarse)).first->second;
 }
 

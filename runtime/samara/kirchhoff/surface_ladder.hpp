@@ -6,11 +6,11 @@
 
 namespace samara {
 
-/// One body's surfaces of order 2 from coarse to fine, each with about a quarter of the next one's triangles.
-/// Rung 0 is the given surface; those below have some of its corners and the curvature that its own order
-/// tells: the given one for order 2, and for order 1 what rebuilding makes of their own corners alone, so
-/// that rungs differ by what rebuilding gets wrong too. Those above cut each triangle in four on the same
-/// curved surface.
+/// One body's surfaces of order 2 from coarse to fine.
+/// Rung 0 is the given surface; each below has about half of the triangles of the next, some of its corners
+/// and the curvature that its own order tells: the given one for order 2, and for order 1 what rebuilding
+/// makes of their own corners alone, so that rungs differ by what rebuilding gets wrong too. Those above cut
+/// each triangle in four on the same curved surface.
 class SurfaceLadder {
   public:
     /// A surface of order 1 is rebuilt first. It must be closed, with its vertices merged.
