@@ -16,6 +16,7 @@ struct CurvedPanel {
     std::array<Vector3d, 6> coefficients;
     Vector3d centre;      ///< the place of p = q = 1/3
     double radius = 0.0;  ///< from the centre to the farthest node
+    bool bent = false;    ///< its normal turns by more than 45 degrees
 
     [[nodiscard]] Vector3d place(double p, double q) const;
     /// The cross product of the two tangents: along the outward normal, as long as the panel's area is to
