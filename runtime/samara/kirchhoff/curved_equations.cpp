@@ -61,7 +61,7 @@ class GroupAssembly {
         const double ratio = quadrature_.far_ratio();
         for (std::size_t j = 0; j < panels_.panels.size(); ++j) {
             const CurvedPanel& panel = panels_.panels[j];
-            const double reach = ratio * panel.radius + radius_;
+            const double reach = ratio * quadrature_.effective_radius(panel) + radius_;
             if ((panel.centre - centre_).squaredNorm() >= reach * reach) {
                 far_.push_back(static_cast<std::uint32_t>(j));
             } else {
@@ -75,7 +75,8 @@ class GroupAssembly {
     void add_near(std::size_t j) {
         const CurvedPanel& panel = panels_.panels[j];
         const double least = quadrature_.least_squared_ratio();
-        const double scale = 1.0 / (panel.radius * panel.radius);
+        const double radius = quadrature_.effective_radius(panel);
+        const double scale = 1.0 / (radius * radius);
         std::array<double, group_size> ratios;
         for (std::size_t i = 0; i < group_size; ++i) {
             const double x = wide_.x[i] - panel.centre.x();
@@ -189,7 +190,30 @@ CurvedEquations assemble_curved_equations(const CurvedPanels& panels, double tol
         },
         options.progress);
     equations.closure_fault = row_faults.maxCoeff();
-    return equations;
+    std::vector<int> o(equations.count);
+    for (size_t i = 0; i < o.size(); i++) o[i] = (int)i;
+    std::sort(o.begin(), o.end(), [&](int a, int b) { return row_faults[a] > row_faults[b]; });
+    for (int k = 0; k < 6; k++) {
+        int i = o[(size_t)k];
+        printf("  node %d fault %.2e share %.4f at %g %g %g\n", i, row_faults[i], shares[(size_t)i],
+               panels.nodes[(size_t)i].x(), panels.nodes[(size_t)i].y(), panels.nodes[(size_t)i].z());
+        if (k < 2)
+            for (auto& p : panels.panels)
+                for (size_t a = 0; a < 6; a++)
+                    if (p.nodes[a] == i) {
+                        printf("     own %zu bent %d r %.3g normals", a, p.bent, p.radius);
+                        for (auto& [u, v] : node_coordinates) {
+                            Vector3d n = p.area_normal(u, v).normalized();
+                            printf(" (%.2f %.2f %.2f)", n.x(), n.y(), n.z());
+                        }
+                        puts("");
+                    }
+    }
+    int c = 0;
+    for (double f : row_faults) c += f > 1e-5;
+    printf("  %d of %zu above 1e-5\n", c, equations.count);
+}
+return equations;
 }
 
 }  // namespace samara

@@ -69,27 +69,32 @@ CurvedPanel make_panel(const std::array<std::int32_t, 6>& numbers, const std::ve
     return panel;
 }
 
-/// The smallest cosine between the normals at the centre and at the nodes.
-double least_normal_cosine(const CurvedPanel& panel) {
-    const Vector3d middle = panel.area_normal(1.0 / 3.0, 1.0 / 3.0).normalized();
-    double least = 1.0;
-    for (const auto& [p, q] : node_coordinates) {
-        least = std::min(least, panel.area_normal(p, q).normalized().dot(middle));
-    }
-    return least;
-}
-
-/// The area normal must not turn over within the panel: else an edge node lies too far from its edge's
+/// The area normal must not vanish: else two nodes are at one place, or an edge node far from its edge's
 /// middle.
 void require_regular(const CurvedPanel& panel, std::size_t triangle) {
     const double least_area = 1e-12 * panel.radius * panel.radius;
-    // Not so either where a coordinate is not a number.
-    if (panel.area_normal(1.0 / 3.0, 1.0 / 3.0).norm() > least_area && least_normal_cosine(panel) > 0.0)
-        return;
-    throw Error(
-        fmt::format("triangle {} has no area, is folded or not finite; mesh the shape again with "
-                    "'samara mesh'",
-                    triangle));
+    for (const auto& [p, q] : node_coordinates) {
+        // Not so either where a coordinate is not a number.
+        if (panel.area_normal(p, q).norm() > least_area) continue;
+        throw Error(
+            fmt::format("triangle {} has no area, an edge node far from the middle of its edge or a "
+                        "coordinate that is not finite; mesh the shape again with 'samara mesh'",
+                        triangle));
+    }
+}
+
+void mark_bent(CurvedPanel& panel) {
+    std::array<Vector3d, 6> normals;
+    double least = HUGE_VAL;
+    for (std::size_t a = 0; a < 6; ++a) {
+        normals[a] = panel.area_normal(node_coordinates[a][0], node_coordinates[a][1]);
+        least = std::min(least, normals[a].norm());
+    }
+    for (const Vector3d& normal : normals) {
+        for (const Vector3d& other : normals) {
+            panel.bent = panel.bent || (normal - other).norm() > most_normal_change * least;
+        }
+    }
 }
 
 /// The solid angle of three unit vectors (van Oosterom and Strackee 1983), signed by their sense.
@@ -133,7 +138,7 @@ CurvedPanels make_curved_panels(const Surface& surface) {
         }
         result.panels.push_back(make_panel(nodes, result.nodes));
         require_regular(result.panels.back(), t);
-        result.panels.back().bent = least_normal_cosine(result.panels.back()) < std::numbers::sqrt2 / 2.0;
+        mark_bent(result.panels.back());
     }
     // In the order of their nodes, so that panels which lie together are worked on together.
     std::sort(result.panels.begin(), result.panels.end(),

@@ -19,6 +19,8 @@ constexpr std::array piece_degrees = {6, 8, 10, 14};
 constexpr int most_cuts = 60;
 // The side across the rays is at most this many times as long as the shorter of the two rays at its ends.
 constexpr double widest_fan = 1.3;
+// On bent panels rules converge as if the panel were this many times as large.
+constexpr double bent_radius = 2.0;
 constexpr std::size_t panels_a_piece = 64;
 
 /// The square of the ratio from which a rule of a degree is enough.
@@ -83,11 +85,11 @@ Places places_of(const CurvedPanel& panel, const Corners& corners) {
     return places;
 }
 
-/// Whether the normal turns by less than 45 degrees over a piece of a panel.
+/// Whether the area normal changes little from the first corner of a piece to the others.
 bool is_flat(const CurvedPanel& panel, const Corners& corners) {
-    const Vector3d first = panel.area_normal(corners[0][0], corners[0][1]).normalized();
+    const Vector3d first = panel.area_normal(corners[0][0], corners[0][1]);
     return std::all_of(corners.begin() + 1, corners.end(), [&](const std::array<double, 2>& corner) {
-        return panel.area_normal(corner[0], corner[1]).normalized().dot(first) > std::numbers::sqrt2 / 2.0;
+        return (panel.area_normal(corner[0], corner[1]) - first).norm() < most_normal_change * first.norm();
     });
 }
 
@@ -121,6 +123,10 @@ PanelQuadrature::PanelQuadrature(const std::vector<CurvedPanel>& panels, double 
     rays_ = corner_rule(4, std::clamp(across, 4, 16));
 }
 
+double PanelQuadrature::effective_radius(const CurvedPanel& panel) {
+    return panel.bent ? bent_radius * panel.radius : panel.radius;
+}
+
 const SourcePoints<double>& PanelQuadrature::near_sources(double squared_ratio) const {
     return enough_at(whole_, squared_ratio).rule;
 }
@@ -141,6 +147,7 @@ void PanelQuadrature::add_near(const CurvedPanel& panel, const Corners& corners,
         squared_radius = std::max(squared_radius, (place - centre).squaredNorm());
     }
     const double squared_distance = (node - centre).squaredNorm();
+    if (panel.bent && !is_flat(panel, corners)) squared_radius *= bent_radius * bent_radius;
     if (squared_distance >= pieces_.back().squared_ratio * squared_radius || depth == most_cuts) {
         const TriangleRule& rule = enough_at(pieces_, squared_distance / squared_radius).rule;
         add_piece(rule, piece_between(corners), panel, node, sums);

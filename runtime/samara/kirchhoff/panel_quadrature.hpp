@@ -25,6 +25,8 @@ class PanelQuadrature {
     /// For integrals with errors of about `tolerance` of the panel's part.
     PanelQuadrature(const std::vector<CurvedPanel>& panels, double tolerance, int threads);
 
+    /// The radius that the ratios are taken of: that of the panel, or more where it is bent.
+    [[nodiscard]] static double effective_radius(const CurvedPanel& panel);
     /// From this ratio on far_sources() are enough.
     [[nodiscard]] double far_ratio() const { return far_ratio_; }
     [[nodiscard]] const SourcePoints<float>& far_sources() const { return far_; }
