@@ -65,9 +65,8 @@ double thickness_in_panels(const CurvedPanels& panels, const SixColumns& moments
 
 /// The accuracy of the integrals that keeps their part of the tensor's error below a tenth of the elements'
 /// own, as measured on ellipsoids. Across a thin body the two sides cancel, and more is needed.
-double quadrature_tolerance(const CurvedPanels& panels, const SixColumns& moments) {
+double quadrature_tolerance(const CurvedPanels& panels, double thickness) {
     const double smooth = std::clamp(10.0 / static_cast<double>(panels.panels.size()), 1e-4, 0.03);
-    const double thickness = thickness_in_panels(panels, moments);
     return std::max(1e-8, smooth * thickness * thickness);
 }
 
@@ -77,22 +76,24 @@ double solver_tolerance(const CurvedPanels& panels) {
     return std::clamp(1.0 / (count * count), 1e-9, 1e-5);
 }
 
-/// Without a preconditioner where that converges soon, as it does on all but thin bodies.
-BlockSolution solve(const CurvedEquations& equations, double tolerance, int threads) {
+/// Without a preconditioner where that converges soon, as it does on all but thin bodies. The thinner the
+/// body, the more entries count: what is left out of the inverse must be small against its least modes.
+BlockSolution solve(const CurvedPanels& panels, const CurvedEquations& equations, double thickness,
+                    int threads) {
     const auto times_matrix = [&](const SixColumns& columns) { return equations.multiply(columns, threads); };
     std::optional<NearFieldInverse> near_field;
     const auto precondition = [&](const SixColumns& residuals, int iterations) -> SixColumns {
         if (iterations < iterations_without_inverse) return residuals;
-        if (!near_field) near_field.emplace(equations);
+        if (!near_field) near_field.emplace(equations, std::min(0.01, 0.1 * thickness));
         return *near_field * residuals;
     };
-    BlockSolution solution =
-        solve_block(times_matrix, equations.right_hand_sides, {tolerance, most_iterations, precondition});
+    BlockSolution solution = solve_block(times_matrix, equations.right_hand_sides,
+                                         {solver_tolerance(panels), most_iterations, precondition});
     if (!solution.converged) {
         throw Error(
             fmt::format("the equations of {} curved triangles did not converge in {} steps; mesh the "
                         "shape again with 'samara mesh', with more or more even triangles",
-                        equations.count, most_iterations));
+                        panels.panels.size(), most_iterations));
     }
     return solution;
 }
@@ -103,13 +104,14 @@ BoundaryElementResult solve_curved_collocation(const Surface& surface,
                                                const BoundaryElementOptions& options) {
     const CurvedPanels panels = make_curved_panels(surface);
     const SixColumns moments = normal_moments(panels, options.threads);
-    const double tolerance = quadrature_tolerance(panels, moments);
-    const CurvedEquations equations = assemble_curved_equations(panels, tolerance, options);
+    const double thickness = thickness_in_panels(panels, moments);
+    const CurvedEquations equations =
+        assemble_curved_equations(panels, quadrature_tolerance(panels, thickness), options);
     BoundaryElementResult result;
     result.unknowns = equations.count;
     result.memory = equations.rows.bytes();
     result.closure_fault = equations.closure_fault;
-    BlockSolution solution = solve(equations, solver_tolerance(panels), options.threads);
+    BlockSolution solution = solve(panels, equations, thickness, options.threads);
     result.iterations = solution.iterations;
     for (std::size_t i = 0; i < equations.count; ++i) {
         solution.columns.row(row_of(i)).tail<3>() += panels.nodes[i].transpose();  // phi = psi + x

@@ -190,30 +190,7 @@ CurvedEquations assemble_curved_equations(const CurvedPanels& panels, double tol
         },
         options.progress);
     equations.closure_fault = row_faults.maxCoeff();
-    std::vector<int> o(equations.count);
-    for (size_t i = 0; i < o.size(); i++) o[i] = (int)i;
-    std::sort(o.begin(), o.end(), [&](int a, int b) { return row_faults[a] > row_faults[b]; });
-    for (int k = 0; k < 6; k++) {
-        int i = o[(size_t)k];
-        printf("  node %d fault %.2e share %.4f at %g %g %g\n", i, row_faults[i], shares[(size_t)i],
-               panels.nodes[(size_t)i].x(), panels.nodes[(size_t)i].y(), panels.nodes[(size_t)i].z());
-        if (k < 2)
-            for (auto& p : panels.panels)
-                for (size_t a = 0; a < 6; a++)
-                    if (p.nodes[a] == i) {
-                        printf("     own %zu bent %d r %.3g normals", a, p.bent, p.radius);
-                        for (auto& [u, v] : node_coordinates) {
-                            Vector3d n = p.area_normal(u, v).normalized();
-                            printf(" (%.2f %.2f %.2f)", n.x(), n.y(), n.z());
-                        }
-                        puts("");
-                    }
-    }
-    int c = 0;
-    for (double f : row_faults) c += f > 1e-5;
-    printf("  %d of %zu above 1e-5\n", c, equations.count);
-}
-return equations;
+    return equations;
 }
 
 }  // namespace samara

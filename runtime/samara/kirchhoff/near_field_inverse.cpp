@@ -7,8 +7,8 @@
 
 namespace samara {
 
-NearFieldInverse::NearFieldInverse(const CurvedEquations& equations) {
-    constexpr float strong_entry = 0.003F;  // of a matrix whose diagonal is about 1/2
+NearFieldInverse::NearFieldInverse(const CurvedEquations& equations, double least_entry) {
+    const auto strong_entry = static_cast<float>(least_entry);
     std::vector<Eigen::Triplet<double>> entries;
     for (std::size_t group = 0; group < equations.groups; ++group) {
         const float* rows = equations.group_rows(group);

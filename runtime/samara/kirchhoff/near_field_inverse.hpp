@@ -10,7 +10,8 @@ namespace samara {
 /// panels that face each other across a thin body, which a solver without it is slow on.
 class NearFieldInverse {
   public:
-    explicit NearFieldInverse(const CurvedEquations& equations);
+    /// Of the diagonal and of the entries above `least_entry`.
+    NearFieldInverse(const CurvedEquations& equations, double least_entry);
 
     /// The inverse times six columns; the columns themselves where the strong entries have no inverse.
     [[nodiscard]] SixColumns operator*(const SixColumns& columns) const;
