@@ -53,15 +53,10 @@ class ImageSpace {
 }  // namespace
 
 BlockSolution solve_block(const std::function<SixColumns(const SixColumns&)>& multiply,
-                          const SixColumns& right_hand_sides, const SixColumns& start,
-                          const BlockSolverOptions& options) {
+                          const SixColumns& right_hand_sides, const BlockSolverOptions& options) {
     constexpr double least_share = 1e-3;
-    BlockSolution result{start, 0, false};
+    BlockSolution result{SixColumns::Zero(right_hand_sides.rows(), 6), 0, false};
     Basis residual = right_hand_sides;
-    if (!start.isZero(0.0)) {
-        residual -= multiply(start);
-        ++result.iterations;
-    }
     const Eigen::RowVectorXd norms = right_hand_sides.colwise().norm();
     const Eigen::RowVectorXd targets = options.tolerance * norms.cwiseMax(least_share * norms.maxCoeff());
     ImageSpace space(right_hand_sides.rows());
@@ -74,7 +69,7 @@ BlockSolution solve_block(const std::function<SixColumns(const SixColumns&)>& mu
             result.converged = false;
         }
         if (result.converged || result.iterations >= options.most_iterations) return result;
-        if (options.precondition) open = options.precondition(open);
+        if (options.precondition) open = options.precondition(open, result.iterations);
         const Eigen::Index added = space.extend(open, multiply(open));
         ++result.iterations;
         if (added == 0) return result;

@@ -69,17 +69,31 @@ CurvedPanel make_panel(const std::array<std::int32_t, 6>& numbers, const std::ve
     return panel;
 }
 
-/// The area normal must not turn over within the panel: else an edge node lies too far from its edge's
+/// The area normal must not vanish: else two nodes are at one place, or an edge node far from its edge's
 /// middle.
 void require_regular(const CurvedPanel& panel, std::size_t triangle) {
-    const Vector3d middle = panel.area_normal(1.0 / 3.0, 1.0 / 3.0);
+    const double least_area = 1e-12 * panel.radius * panel.radius;
     for (const auto& [p, q] : node_coordinates) {
-        // Also thrown where a coordinate is not a number.
-        if (panel.area_normal(p, q).dot(middle) > 1e-24 * std::pow(panel.radius, 4)) continue;
+        // Not so either where a coordinate is not a number.
+        if (panel.area_normal(p, q).norm() > least_area) continue;
         throw Error(
-            fmt::format("triangle {} has no area, is folded or not finite; mesh the shape again with "
-                        "'samara mesh'",
+            fmt::format("triangle {} has no area, an edge node far from the middle of its edge or a "
+                        "coordinate that is not finite; mesh the shape again with 'samara mesh'",
                         triangle));
+    }
+}
+
+void mark_bent(CurvedPanel& panel) {
+    std::array<Vector3d, 6> normals;
+    double least = HUGE_VAL;
+    for (std::size_t a = 0; a < 6; ++a) {
+        normals[a] = panel.area_normal(node_coordinates[a][0], node_coordinates[a][1]);
+        least = std::min(least, normals[a].norm());
+    }
+    for (const Vector3d& normal : normals) {
+        for (const Vector3d& other : normals) {
+            panel.bent = panel.bent || (normal - other).norm() > most_normal_change * least;
+        }
     }
 }
 
@@ -124,6 +138,7 @@ CurvedPanels make_curved_panels(const Surface& surface) {
         }
         result.panels.push_back(make_panel(nodes, result.nodes));
         require_regular(result.panels.back(), t);
+        mark_bent(result.panels.back());
     }
     // In the order of their nodes, so that panels which lie together are worked on together.
     std::sort(result.panels.begin(), result.panels.end(),

@@ -80,8 +80,7 @@ HWY_INLINE void add_to(Floats tag, V value, float* place) {
 }
 
 /// Adds the float sums over several panels to the double ones.
-void flush(std::array<std::array<float, group_size>, 3>& parts,
-           std::array<std::array<double, group_size>, 3>& potentials) {
+void flush(std::array<std::array<float, group_size>, 3>& parts, GroupPotentials& potentials) {
     for (std::size_t k = 0; k < 3; ++k) {
         for (std::size_t i = 0; i < group_size; ++i) {
             potentials[k][i] += static_cast<double>(parts[k][i]);
@@ -92,7 +91,7 @@ void flush(std::array<std::array<float, group_size>, 3>& parts,
 
 void add_far_panels(const SourcePoints<float>& sources, const std::vector<CurvedPanel>& panels,
                     const std::vector<std::uint32_t>& list, const NodeGroup<float>& group, float* rows,
-                    std::array<std::array<double, group_size>, 3>& potentials) {
+                    GroupPotentials& potentials) {
     constexpr std::size_t panels_a_flush = 16;
     const Floats tag;
     alignas(64) std::array<std::array<float, group_size>, 3> parts{};
@@ -121,23 +120,36 @@ void add_far_panels(const SourcePoints<float>& sources, const std::vector<Curved
     flush(parts, potentials);
 }
 
-void sum_panel(const SourcePoints<double>& sources, std::size_t panel, const NodeGroup<double>& group,
-               PanelSums& sums) {
+void add_near_panel(const SourcePoints<double>& sources, const std::vector<CurvedPanel>& panels,
+                    std::size_t panel, const NodeGroup<double>& group,
+                    const std::array<double, group_size>& share, float* rows, GroupPotentials& potentials) {
     const Doubles tag;
+    const hn::Rebind<float, Doubles> narrow;
     const SourcePoint<double>* points = sources.sources.data() + panel * sources.points;
     for (std::size_t i = 0; i < group_size; i += hn::Lanes(tag)) {
         const auto s =
             sum_points(tag, sources.functions.data(), points, sources.points, hn::Load(tag, &group.x[i]),
                        hn::Load(tag, &group.y[i]), hn::Load(tag, &group.z[i]));
-        hn::Store(s.f0, tag, &sums.values[0][i]);
-        hn::Store(s.f1, tag, &sums.values[1][i]);
-        hn::Store(s.f2, tag, &sums.values[2][i]);
-        hn::Store(s.f3, tag, &sums.values[3][i]);
-        hn::Store(s.f4, tag, &sums.values[4][i]);
-        hn::Store(s.f5, tag, &sums.values[5][i]);
-        hn::Store(s.px, tag, &sums.values[6][i]);
-        hn::Store(s.py, tag, &sums.values[7][i]);
-        hn::Store(s.pz, tag, &sums.values[8][i]);
+        // Where the panel's own nodes are among the points, the sums there are not finite.
+        const auto wanted = hn::Gt(hn::LoadU(tag, &share[i]), hn::Zero(tag));
+        const auto add_row = [&](std::size_t a, auto value) {
+            float* row = rows + static_cast<std::size_t>(panels[panel].nodes[a]) * group_size + i;
+            const auto entry = hn::DemoteTo(narrow, hn::IfThenElseZero(wanted, value));
+            hn::Store(hn::Add(hn::Load(narrow, row), entry), narrow, row);
+        };
+        const auto add_potential = [&](std::size_t k, auto value) {
+            double* place = &potentials[k][i];
+            hn::StoreU(hn::Add(hn::LoadU(tag, place), hn::IfThenElseZero(wanted, value)), tag, place);
+        };
+        add_row(0, s.f0);
+        add_row(1, s.f1);
+        add_row(2, s.f2);
+        add_row(3, s.f3);
+        add_row(4, s.f4);
+        add_row(5, s.f5);
+        add_potential(0, s.px);
+        add_potential(1, s.py);
+        add_potential(2, s.pz);
     }
 }
 
@@ -276,20 +288,21 @@ HWY_AFTER_NAMESPACE();
 namespace samara {
 
 HWY_EXPORT(add_far_panels);
-HWY_EXPORT(sum_panel);
+HWY_EXPORT(add_near_panel);
 HWY_EXPORT(add_piece);
 HWY_EXPORT(multiply_group);
 HWY_EXPORT(row_sums);
 
 void add_far_panels(const SourcePoints<float>& sources, const std::vector<CurvedPanel>& panels,
                     const std::vector<std::uint32_t>& list, const NodeGroup<float>& group, float* rows,
-                    std::array<std::array<double, group_size>, 3>& potentials) {
+                    GroupPotentials& potentials) {
     HWY_DYNAMIC_DISPATCH(add_far_panels)(sources, panels, list, group, rows, potentials);
 }
 
-void sum_panel(const SourcePoints<double>& sources, std::size_t panel, const NodeGroup<double>& group,
-               PanelSums& sums) {
-    HWY_DYNAMIC_DISPATCH(sum_panel)(sources, panel, group, sums);
+void add_near_panel(const SourcePoints<double>& sources, const std::vector<CurvedPanel>& panels,
+                    std::size_t panel, const NodeGroup<double>& group,
+                    const std::array<double, group_size>& share, float* rows, GroupPotentials& potentials) {
+    HWY_DYNAMIC_DISPATCH(add_near_panel)(sources, panels, panel, group, share, rows, potentials);
 }
 
 void add_piece(const TriangleRule& rule, const PanelPiece& piece, const CurvedPanel& panel,

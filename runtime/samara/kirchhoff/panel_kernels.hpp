@@ -42,12 +42,6 @@ struct SourcePoints {
     std::vector<SourcePoint<Real>> sources;
 };
 
-/// What six node functions on one panel do at a group of nodes x: the integrals of
-/// (y - x).n f_a / (4 pi r^3), a = 0..5, and of y cross n / (4 pi r), three components.
-struct PanelSums {
-    alignas(64) std::array<std::array<double, group_size>, 9> values;
-};
-
 /// A piece of a panel's unit triangle: the rule's p and q run from `corner` along the two sides.
 struct PanelPiece {
     std::array<double, 2> corner;
@@ -61,16 +55,21 @@ struct PolynomialSums {
     alignas(64) std::array<std::array<double, 8>, 9> lanes;
 };
 
-/// Adds the panels listed to the group's rows of the matrix, and to its potentials (three components), in
-/// single precision; sums over many panels are taken in double.
+/// Three components of a potential at the nodes of a group.
+using GroupPotentials = std::array<std::array<double, group_size>, 3>;
+
+/// Adds what six node functions f_a on each of the panels listed do at the group's nodes x: to the group's
+/// rows of the matrix the integrals of (y - x).n f_a / (4 pi r^3), and to the potentials those of y cross n /
+/// (4 pi r). In single precision; sums over many panels are taken in double.
 void add_far_panels(const SourcePoints<float>& sources, const std::vector<CurvedPanel>& panels,
                     const std::vector<std::uint32_t>& list, const NodeGroup<float>& group, float* rows,
-                    std::array<std::array<double, group_size>, 3>& potentials);
+                    GroupPotentials& potentials);
 
-/// The sums over one panel at all nodes of a group, in double precision. At nodes that lie on one of the
-/// panel's points they are not finite.
-void sum_panel(const SourcePoints<double>& sources, std::size_t panel, const NodeGroup<double>& group,
-               PanelSums& sums);
+/// The same for one panel in double precision, at those nodes of the group whose `share` is 1; it is 0 at the
+/// others.
+void add_near_panel(const SourcePoints<double>& sources, const std::vector<CurvedPanel>& panels,
+                    std::size_t panel, const NodeGroup<double>& group,
+                    const std::array<double, group_size>& share, float* rows, GroupPotentials& potentials);
 
 /// Adds the integrals over one piece of a panel as seen from `node`.
 void add_piece(const TriangleRule& rule, const PanelPiece& piece, const CurvedPanel& panel,

@@ -13,17 +13,30 @@ using Corners = std::array<std::array<double, 2>, 3>;  // of a piece of the unit
 using Places = std::array<Vector3d, 3>;                // of its corners
 
 constexpr int far_degree = 4;
-constexpr std::array whole_panel_degrees = {6, 8, 10, 14};
+constexpr std::array whole_panel_degrees = {6, 8};
+constexpr std::array piece_degrees = {6, 8, 10, 14};
 // Two cuts halve a piece: enough for distances down to 1e-9 of the panel.
 constexpr int most_cuts = 60;
 // The side across the rays is at most this many times as long as the shorter of the two rays at its ends.
 constexpr double widest_fan = 1.3;
+// On bent panels rules converge as if the panel were this many times as large.
+constexpr double bent_radius = 2.0;
 constexpr std::size_t panels_a_piece = 64;
 
-/// The ratio from which a rule of a degree is enough.
-double ratio_for(int degree, double tolerance) {
+/// The square of the ratio from which a rule of a degree is enough.
+double squared_ratio_for(int degree, double tolerance) {
     constexpr double measured_factor = 0.3;
-    return std::max(1.5, std::pow(measured_factor / tolerance, 1.0 / (degree + 1)));
+    constexpr double least_ratio = 1.3;
+    const double ratio = std::pow(measured_factor / tolerance, 1.0 / (degree + 1));
+    return std::max(least_ratio * least_ratio, ratio * ratio);
+}
+
+/// The first of the steps, which has the fewest points, that is enough at a ratio; else the last.
+template <typename Steps>
+const auto& enough_at(const Steps& steps, double squared_ratio) {
+    const auto step = std::find_if(steps.begin(), steps.end(),
+                                   [&](const auto& each) { return squared_ratio >= each.squared_ratio; });
+    return step == steps.end() ? steps.back() : *step;
 }
 
 template <typename Real>
@@ -72,6 +85,14 @@ Places places_of(const CurvedPanel& panel, const Corners& corners) {
     return places;
 }
 
+/// Whether the area normal changes little from the first corner of a piece to the others.
+bool is_flat(const CurvedPanel& panel, const Corners& corners) {
+    const Vector3d first = panel.area_normal(corners[0][0], corners[0][1]);
+    return std::all_of(corners.begin() + 1, corners.end(), [&](const std::array<double, 2>& corner) {
+        return (panel.area_normal(corner[0], corner[1]) - first).norm() < most_normal_change * first.norm();
+    });
+}
+
 /// From sums with 1, p, q, p^2, pq, q^2 to sums with the node functions.
 PanelIntegrals integrals_of(const PolynomialSums& sums) {
     std::array<double, 9> total{};
@@ -87,23 +108,27 @@ PanelIntegrals integrals_of(const PolynomialSums& sums) {
 }  // namespace
 
 PanelQuadrature::PanelQuadrature(const std::vector<CurvedPanel>& panels, double tolerance, int threads)
-    : far_ratio_(ratio_for(far_degree, tolerance)),
+    : far_ratio_(std::sqrt(squared_ratio_for(far_degree, tolerance))),
       far_(sources_of<float>(panels, triangle_rule(far_degree), threads)) {
     for (const int degree : whole_panel_degrees) {
         const TriangleRule rule = triangle_rule(degree);
-        steps_.push_back({ratio_for(degree, tolerance), rule, sources_of<double>(panels, rule, threads)});
+        whole_.push_back({squared_ratio_for(degree, tolerance), sources_of<double>(panels, rule, threads)});
+    }
+    for (const int degree : piece_degrees) {
+        pieces_.push_back({squared_ratio_for(degree, tolerance), triangle_rule(degree)});
     }
     // A fan that is as wide as the rays are long converges by this factor a point across.
     constexpr double gain_a_point = 4.8;
-    const int across = static_cast<int>(std::ceil(std::log(1.0 / tolerance) / std::log(gain_a_point)));
-    rays_ = corner_rule(tolerance < 1e-6 ? 5 : 4, std::clamp(across, 4, 16));
+    const int across = static_cast<int>(std::ceil(std::log(100.0 / tolerance) / std::log(gain_a_point)));
+    rays_ = corner_rule(4, std::clamp(across, 4, 16));
 }
 
-const SourcePoints<double>* PanelQuadrature::near_sources(double ratio) const {
-    for (const Step& step : steps_) {
-        if (ratio >= step.ratio) return &step.sources;
-    }
-    return nullptr;
+double PanelQuadrature::effective_radius(const CurvedPanel& panel) {
+    return panel.bent ? bent_radius * panel.radius : panel.radius;
+}
+
+const SourcePoints<double>& PanelQuadrature::near_sources(double squared_ratio) const {
+    return enough_at(whole_, squared_ratio).rule;
 }
 
 PanelIntegrals PanelQuadrature::near_integrals(const CurvedPanel& panel, const Vector3d& node) const {
@@ -121,11 +146,10 @@ void PanelQuadrature::add_near(const CurvedPanel& panel, const Corners& corners,
     for (const Vector3d& place : places) {
         squared_radius = std::max(squared_radius, (place - centre).squaredNorm());
     }
-    const double ratio = std::sqrt((node - centre).squaredNorm() / squared_radius);
-    const auto step =
-        std::find_if(steps_.begin(), steps_.end(), [&](const Step& s) { return ratio >= s.ratio; });
-    if (step != steps_.end() || depth == most_cuts) {
-        const TriangleRule& rule = step == steps_.end() ? steps_.back().rule : step->rule;
+    const double squared_distance = (node - centre).squaredNorm();
+    if (panel.bent && !is_flat(panel, corners)) squared_radius *= bent_radius * bent_radius;
+    if (squared_distance >= pieces_.back().squared_ratio * squared_radius || depth == most_cuts) {
+        const TriangleRule& rule = enough_at(pieces_, squared_distance / squared_radius).rule;
         add_piece(rule, piece_between(corners), panel, node, sums);
         return;
     }
@@ -170,15 +194,26 @@ PanelIntegrals PanelQuadrature::own_integrals(const CurvedPanel& panel, std::siz
 
 void PanelQuadrature::add_rays(const CurvedPanel& panel, const Corners& corners, const Places& places,
                                int depth, PolynomialSums& sums) const {
-    const double shorter = std::min((places[1] - places[0]).norm(), (places[2] - places[0]).norm());
-    if ((places[2] - places[1]).norm() <= widest_fan * shorter || depth == most_cuts) {
-        add_piece(rays_, piece_between(corners), panel, places[0], sums);
+    const auto& [node, first, last] = corners;
+    const auto& [node_place, first_place, last_place] = places;
+    const double shorter = std::min((first_place - node_place).norm(), (last_place - node_place).norm());
+    if ((last_place - first_place).norm() > widest_fan * shorter && depth < most_cuts) {
+        const std::array<double, 2> middle = between(first, last);
+        const Vector3d middle_place = panel.place(middle[0], middle[1]);
+        add_rays(panel, {node, first, middle}, {node_place, first_place, middle_place}, depth + 1, sums);
+        add_rays(panel, {node, middle, last}, {node_place, middle_place, last_place}, depth + 1, sums);
         return;
     }
-    const std::array<double, 2> middle = between(corners[1], corners[2]);
-    const Vector3d middle_place = panel.place(middle[0], middle[1]);
-    add_rays(panel, {corners[0], corners[1], middle}, {places[0], places[1], middle_place}, depth + 1, sums);
-    add_rays(panel, {corners[0], middle, corners[2]}, {places[0], middle_place, places[2]}, depth + 1, sums);
+    if (!panel.bent || depth == most_cuts || is_flat(panel, corners)) {
+        add_piece(rays_, piece_between(corners), panel, node_place, sums);
+        return;
+    }
+    // The part of the fan beyond half the rays may come back near to the node.
+    const Corners inner = {node, between(node, first), between(node, last)};
+    add_rays(panel, inner, places_of(panel, inner), depth + 1, sums);
+    for (const Corners& outer : {Corners{inner[1], first, last}, Corners{inner[1], last, inner[2]}}) {
+        add_near(panel, outer, places_of(panel, outer), node_place, depth, sums);
+    }
 }
 
 }  // namespace samara

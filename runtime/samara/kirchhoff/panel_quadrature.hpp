@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 #include "samara/kirchhoff/panel_kernels.hpp"
@@ -26,13 +25,16 @@ class PanelQuadrature {
     /// For integrals with errors of about `tolerance` of the panel's part.
     PanelQuadrature(const std::vector<CurvedPanel>& panels, double tolerance, int threads);
 
+    /// The radius that the ratios are taken of: that of the panel, or more where it is bent.
+    [[nodiscard]] static double effective_radius(const CurvedPanel& panel);
     /// From this ratio on far_sources() are enough.
     [[nodiscard]] double far_ratio() const { return far_ratio_; }
     [[nodiscard]] const SourcePoints<float>& far_sources() const { return far_; }
 
-    /// The points in double with the fewest points that are enough at this ratio; none where the panel must
-    /// be cut in pieces.
-    [[nodiscard]] const SourcePoints<double>* near_sources(double ratio) const;
+    /// From the square of which ratio on near_sources are enough; nearer panels must be cut in pieces.
+    [[nodiscard]] double least_squared_ratio() const { return whole_.back().squared_ratio; }
+    /// The fewest points in double that are enough at this ratio.
+    [[nodiscard]] const SourcePoints<double>& near_sources(double squared_ratio) const;
 
     /// The integrals over a panel that the node does not belong to, however near it is.
     [[nodiscard]] PanelIntegrals near_integrals(const CurvedPanel& panel, const Vector3d& node) const;
@@ -41,10 +43,10 @@ class PanelQuadrature {
     [[nodiscard]] PanelIntegrals own_integrals(const CurvedPanel& panel, std::size_t own) const;
 
   private:
+    template <typename Rule>
     struct Step {
-        double ratio;  // from which the rule is enough
-        TriangleRule rule;
-        SourcePoints<double> sources;  // empty: for pieces of panels alone
+        double squared_ratio;  // from which the rule is enough
+        Rule rule;
     };
 
     void add_near(const CurvedPanel& panel, const std::array<std::array<double, 2>, 3>& corners,
@@ -55,7 +57,8 @@ class PanelQuadrature {
 
     double far_ratio_;
     SourcePoints<float> far_;
-    std::vector<Step> steps_;  // the fewest points first
+    std::vector<Step<SourcePoints<double>>> whole_;  // panels; the fewest points first
+    std::vector<Step<TriangleRule>> pieces_;
     TriangleRule rays_;
 };
 
