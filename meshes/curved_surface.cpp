@@ -1,5 +1,6 @@
 #include "meshes/curved_surface.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "meshes/surface_edges.hpp"
@@ -23,6 +24,15 @@ Vector3d normal_at(const std::array<Vector3d, 6>& n, double u, double v) {
     const Vector3d by_v =
         (1.0 - 4.0 * w) * n[0] + (4.0 * v - 1.0) * n[2] + 4.0 * ((w - v) * n[5] + u * (n[4] - n[3]));
     return by_u.cross(by_v);
+}
+
+bool is_overturned(const Surface& surface, std::size_t triangle) {
+    constexpr std::array<std::array<double, 2>, 6> places = {
+        {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}, {0.5, 0.0}, {0.5, 0.5}, {0.0, 0.5}}};
+    const std::array<Vector3d, 6> nodes = nodes_of(surface, triangle);
+    return std::any_of(places.begin(), places.end(), [&](const auto& place) {
+        return normal_at(nodes, place[0], place[1]).dot(area_vector(surface, triangle)) <= 0.0;
+    });
 }
 
 }  // namespace
@@ -96,18 +106,41 @@ Surface without_edge_nodes(const Surface& surface) {
     return result;
 }
 
-std::int32_t first_overturned_triangle(const Surface& surface) {
-    if (surface.order() == 1) return -1;
-    constexpr std::array<std::array<double, 2>, 6> places = {
-        {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}, {0.5, 0.0}, {0.5, 0.5}, {0.0, 0.5}}};
-    for (std::size_t t = 0; t < surface.triangle_count(); ++t) {
+bool has_straight_edges(const Surface& surface) {
+    constexpr double rounding = 1e-6;
+    for (std::size_t t = 0; t < surface.edge_nodes.size(); ++t) {
         const std::array<Vector3d, 6> nodes = nodes_of(surface, t);
-        for (const auto& [u, v] : places) {
-            if (normal_at(nodes, u, v).dot(area_vector(surface, t)) <= 0.0)
-                return static_cast<std::int32_t>(t);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Vector3d& from = nodes[i];
+            const Vector3d& to = nodes[(i + 1) % 3];
+            if ((nodes[i + 3] - 0.5 * (from + to)).norm() > rounding * (to - from).norm()) return false;
         }
     }
+    return true;
+}
+
+std::int32_t first_overturned_triangle(const Surface& surface) {
+    if (surface.order() == 1) return -1;
+    for (std::size_t t = 0; t < surface.triangle_count(); ++t) {
+        if (is_overturned(surface, t)) return static_cast<std::int32_t>(t);
+    }
     return -1;
+}
+
+void straighten_overturned(Surface& surface) {
+    // A straightened edge may overturn the triangle on its other side: three rounds reach what matters.
+    for (int round = 0; round < 3; ++round) {
+        for (std::size_t t = 0; t < surface.edge_nodes.size(); ++t) {
+            if (!is_overturned(surface, t)) continue;
+            for (std::size_t i = 0; i < 3; ++i) {
+                const auto corner = [&](std::size_t k) -> const Vector3d& {
+                    return surface.vertices[static_cast<std::size_t>(surface.corners[t][k % 3])];
+                };
+                surface.vertices[static_cast<std::size_t>(surface.edge_nodes[t][i])] =
+                    0.5 * (corner(i) + corner(i + 1));
+            }
+        }
+    }
 }
 
 }  // namespace samara
