@@ -154,9 +154,12 @@ class Evening {
             Edge edge{one.low, one.high, {one.triangle, two.triangle}, {one.side, two.side}, false, 1.0};
             const Vector3d first = fans_.area_vector_of(fans_.triangles[as_index(one.triangle)]);
             const Vector3d second = fans_.area_vector_of(fans_.triangles[as_index(two.triangle)]);
-            edge.crease = first.dot(second) < crease_cosine_ * first.norm() * second.norm();
-            edge.ratio = (fans_.vertex(one.high) - fans_.vertex(one.low)).norm() /
-                         (0.5 * size_ * (sizes_[as_index(one.low)] + sizes_[as_index(one.high)]));
+            const Vector3d along = fans_.vertex(one.high) - fans_.vertex(one.low);
+            // Slivers of a reduced surface may turn by as much where the shape is smooth.
+            edge.crease = first.dot(second) < crease_cosine_ * first.norm() * second.norm() &&
+                          shape_.is_near_crease(fans_.vertex(one.low) + 0.5 * along, 0.3 * along.norm());
+            edge.ratio =
+                along.norm() / (0.5 * size_ * (sizes_[as_index(one.low)] + sizes_[as_index(one.high)]));
             if (edge.crease) {
                 add_crease(edge.a, edge.b);
                 add_crease(edge.b, edge.a);
@@ -192,8 +195,10 @@ class Evening {
             const double wanted = 0.5 * size_ * (sizes_[as_index(vertex)] + sizes_[as_index(target)]);
             if (length > longest * wanted) return false;
         }
+        // A thin rim's triangles become longer slivers, which is what is wanted there.
+        const double of_worst = edge.crease ? 0.25 : 1.0;
         return fans_.keeps_shape(from, target, least_cosine,
-                                 std::min(least_quality, fans_.worst_quality(from)));
+                                 std::min(least_quality, of_worst * fans_.worst_quality(from)));
     }
 
     [[nodiscard]] std::pair<std::int32_t, std::int32_t> opposite(const Edge& edge) const {

@@ -17,7 +17,7 @@ namespace {
 using Triangle = TriangleFans::Triangle;
 
 constexpr double least_cosine = 0.5;    // between a triangle's normals before and after
-constexpr double least_quality = 0.15;  // 1: equilateral; or what the triangles around had before
+constexpr double least_quality = 0.15;  // 1: equilateral; or half of what the triangles around had before
 // The square of a length that a vertex is drawn counts with this weight, so that flat places stay resolved
 // and their triangles in shape.
 constexpr double weight_of_length = 1e-6;
@@ -124,7 +124,7 @@ class Reduction {
     void choose_target(std::size_t v, Ring& ring, Ring& other) {
         fans_.gather_ring(v, ring);
         if (ring.empty()) return;
-        const double least = std::min(least_quality, fans_.worst_quality(v));
+        const double least = std::min(least_quality, 0.5 * fans_.worst_quality(v));
         for (const std::int32_t target : ring) {
             const Vector3d& place = fans_.vertex(target);
             const double cost =

@@ -31,6 +31,11 @@ class SmoothShape {
     /// than `bound`.
     [[nodiscard]] std::optional<Vector3d> on_crease(const Vector3d& point, double bound) const;
 
+    /// Whether the point lies within `bound` (m) of a crease.
+    [[nodiscard]] bool is_near_crease(const Vector3d& point, double bound) const {
+        return creases_.is_within(point, bound);
+    }
+
     /// Faces that meet at more than this angle (radians) are creased.
     [[nodiscard]] double crease_angle() const { return crease_angle_; }
 
