@@ -15,11 +15,12 @@ namespace {
 
 constexpr double longest = 4.0 / 3.0;   // of the wanted length: longer sides are split
 constexpr double shortest = 4.0 / 5.0;  // shorter ones are drawn together
-constexpr double least_cosine = 0.5;    // between a triangle's normals before and after a change
+constexpr double least_cosine = 0.3;    // between a triangle's normals before and after a change
 constexpr double least_quality = 0.15;
 constexpr double good_count = 0.03;
 constexpr int least_rounds = 8;
 constexpr int most_rounds = 24;
+constexpr int most_passes = 12;
 
 std::size_t as_index(std::int32_t value) {
     return static_cast<std::size_t>(value);
@@ -41,7 +42,8 @@ class Evening {
     void scale_size(double factor) { size_ *= factor; }
     [[nodiscard]] std::size_t triangle_count() const { return fans_.triangles.size(); }
 
-    void split_long_sides() {
+    // Splits sides that do not touch; whether there were any.
+    bool split_long_sides() {
         std::vector<std::pair<double, std::size_t>> order;
         for (std::size_t e = 0; e < edges_.size(); ++e) {
             if (edges_[e].ratio > longest) order.emplace_back(-edges_[e].ratio, e);
@@ -63,9 +65,12 @@ class Evening {
             lock_around(edge);
         }
         refresh();
+        return !order.empty();
     }
 
-    void draw_short_sides_together() {
+    // Draws sides that do not touch together; whether there were any.
+    bool draw_short_sides_together() {
+        const std::size_t before = triangle_count();
         std::vector<std::pair<double, std::size_t>> order;
         for (std::size_t e = 0; e < edges_.size(); ++e) {
             if (edges_[e].ratio < shortest) order.emplace_back(edges_[e].ratio, e);
@@ -81,6 +86,7 @@ class Evening {
             }
         }
         refresh();
+        return triangle_count() < before;
     }
 
     void flip_sides() {
@@ -233,10 +239,7 @@ class Evening {
         for (const std::int32_t t : edge.triangles) {
             const Vector3d before = fans_.area_vector_of(fans_.triangles[as_index(t)]);
             for (const Vector3d& after : {one, two}) {
-                // As flat as the creases are sharp, so that none is made.
-                if (!(before.dot(after) >
-                      std::max(least_cosine, crease_cosine_) * before.norm() * after.norm()))
-                    return false;
+                if (!(before.dot(after) > least_cosine * before.norm() * after.norm())) return false;
             }
         }
         return true;
@@ -282,8 +285,7 @@ class Evening {
             fans_.vertices[v] = place;
             const Vector3d after = fans_.area_vector_of(triangle);
             fans_.vertices[v] = old;
-            if (!(before.dot(after) > std::max(least_cosine, crease_cosine_) * before.norm() * after.norm()))
-                return false;
+            if (!(before.dot(after) > least_cosine * before.norm() * after.norm())) return false;
             if (after.norm() < 0.1 * before.norm()) return false;
         }
         return true;
@@ -328,9 +330,11 @@ Surface evened(const Surface& start, const SmoothShape& shape, const MeshSizeFie
         const double ratio = static_cast<double>(evening.triangle_count()) / options.triangles;
         const bool good = !by_count || std::abs(ratio - 1.0) < good_count;
         if (round >= least_rounds && good) break;
-        if (by_count && round >= 3) evening.scale_size(std::sqrt(std::clamp(ratio, 0.8, 1.25)));
-        evening.split_long_sides();
-        evening.draw_short_sides_together();
+        if (by_count && round >= 2) evening.scale_size(std::pow(ratio, round < 8 ? 0.5 : 0.25));
+        for (int pass = 0; pass < most_passes && evening.split_long_sides(); ++pass) {
+        }
+        for (int pass = 0; pass < most_passes && evening.draw_short_sides_together(); ++pass) {
+        }
         evening.flip_sides();
         evening.relax();
         if (progress) progress((round + 1.0) / most_rounds);

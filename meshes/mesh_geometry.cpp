@@ -73,6 +73,7 @@ Surface mesh_geometry(const std::filesystem::path& file, const MeshOptions& opti
         }
         surface = mesh_held(label, tags, options.order == 1 ? 1 : 2);
     });
+    if (options.order == automatic_order) straighten_overturned(surface);
     const bool flat = options.order == 1 || (options.order == automatic_order && has_straight_edges(surface));
     if (flat && surface.order() == 2) surface = without_edge_nodes(surface);
     require_sound_surface(surface, label);

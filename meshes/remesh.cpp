@@ -143,7 +143,10 @@ Surface remesh(const Surface& surface, const MeshOptions& options, const std::st
             Surface result = with_nodes_on(shape, flat_result, options.order);
             require_sound_result(result, label);
             const double change = volume_change(flat, result);
-            if (change < smallest_change) {
+            // Cut at every shallow fold, a coarse mesh may need many times the triangles that were asked for.
+            const bool too_many = options.sizing == MeshOptions::Sizing::triangles && best &&
+                                  static_cast<double>(result.triangle_count()) > 1.5 * options.triangles;
+            if (change < smallest_change && !too_many) {
                 smallest_change = change;
                 best = std::move(result);
             }
