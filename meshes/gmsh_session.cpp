@@ -102,6 +102,17 @@ void GmshSession::open(const std::string& label) {
     gmsh::option::setNumber("General.Terminal", 0);
 }
 
+void GmshSession::generate_surface_mesh() {
+    // gmsh meshes surfaces in parallel, and an exception out of there would end the program; and it mends
+    // much of what it reports as an error.
+    double abort_on_error = 0.0;
+    gmsh::option::getNumber("General.AbortOnError", abort_on_error);
+    gmsh::option::setNumber("General.AbortOnError", 0);
+    gmsh::model::mesh::clear();
+    gmsh::model::mesh::generate(2);
+    gmsh::option::setNumber("General.AbortOnError", abort_on_error);
+}
+
 std::string gmsh_version() {
     return GMSH_API_VERSION;
 }

@@ -22,6 +22,9 @@ class GmshSession {
     /// error.
     static void open(const std::string& label);
 
+    /// Has gmsh mesh the surfaces of the model anew. It may leave the mesh open where it fails: check it.
+    static void generate_surface_mesh();
+
   private:
     int standard_output_;  // a copy of the descriptor that gmsh may not write on
 };

@@ -6,7 +6,8 @@
 #include <fmt/format.h>
 
 #include "meshes/gmsh_session.hpp"
-#include "meshes/image_test.hpp"
+#include "meshes/image_comparison.hpp"
+#include "meshes/mesh_geometry.hpp"
 #include "meshes/remesh.hpp"
 #include "meshes/shape_reader.hpp"
 #include "meshes/surface_check.hpp"
@@ -26,7 +27,8 @@ void require_sane(const MeshOptions& options, const std::string& label) {
         if (!sane) throw Error(fmt::format("{}: {}", label, what));
     };
     require(std::isfinite(options.scale) && options.scale > 0.0, "the scale must be positive");
-    require(options.order == 1 || options.order == 2, "the order must be 1 or 2");
+    require(options.order == automatic_order || options.order == 1 || options.order == 2,
+            "the order must be 1 or 2");
     require(options.sizing != MeshOptions::Sizing::triangles || options.triangles >= 4,
             "the number of triangles must be at least 4");
     require(
@@ -35,7 +37,7 @@ void require_sane(const MeshOptions& options, const std::string& label) {
 }
 
 Surface in_order(const Surface& surface, int order) {
-    if (surface.order() == order) return surface;
+    if (order == automatic_order || surface.order() == order) return surface;
     return order == 2 ? with_straight_edge_nodes(surface) : without_edge_nodes(surface);
 }
 
@@ -72,31 +74,31 @@ void mesh_exact_geometry(Body& body, const std::filesystem::path& shape, const M
     body.symmetry = find_symmetry(body.surface, body.moments);
 }
 
-std::string source_line(const std::filesystem::path& shape, const MeshOptions& options, bool is_geometry) {
+std::string source_line(const std::filesystem::path& shape, const MeshOptions& options, int order) {
     std::string sizes = "kept triangles";
     if (options.sizing == MeshOptions::Sizing::triangles)
         sizes = fmt::format("{} triangles", options.triangles);
     if (options.sizing == MeshOptions::Sizing::size) sizes = fmt::format("size {} m", options.size);
-    std::string line = fmt::format("{} (xxh128 {}), {}, order {}, scale {}{}", shape.filename().string(),
-                                   file_content_hash(shape), sizes, options.order, options.scale,
-                                   options.flip ? ", flipped" : "");
-    if (is_geometry || options.sizing != MeshOptions::Sizing::keep) line += ", gmsh " + gmsh_version();
+    std::string line =
+        fmt::format("{} (xxh128 {}), {}, order {}, scale {}{}", shape.filename().string(),
+                    file_content_hash(shape), sizes, order, options.scale, options.flip ? ", flipped" : "");
+    if (shape_kind(shape) == ShapeKind::geometry || options.sizing != MeshOptions::Sizing::keep)
+        line += ", gmsh " + gmsh_version();
     return line;
 }
 
 }  // namespace
 
 Body make_body(const std::filesystem::path& shape, const MeshOptions& options) {
-    const bool is_geometry = shape_kind(shape) == ShapeKind::geometry;
     require_sane(options, shape.string());
     Body body;
     body.name = body_name_of(shape);
-    body.source = source_line(shape, options, is_geometry);
-    if (is_geometry) {
+    if (shape_kind(shape) == ShapeKind::geometry) {
         mesh_exact_geometry(body, shape, options);
     } else {
         mesh_triangles(body, shape, options);
     }
+    body.source = source_line(shape, options, body.surface.order());
     return body;
 }
 

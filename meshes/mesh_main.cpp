@@ -79,6 +79,7 @@ MeshOptions::Sizing sizing_of(const samara::Arguments& arguments, bool keep) {
 int main(int argc, char** argv) {
     std::string shape;
     std::string output;
+    std::string order = "automatic";
     bool keep = false;
     MeshOptions options;
     samara::Arguments arguments("samara mesh",
@@ -91,17 +92,19 @@ int main(int argc, char** argv) {
                      "sides of this length (m) where the body is flat; smaller elsewhere", 1e-12, 1e12);
     arguments.flag("--keep", keep,
                    "the triangles as the file has them; for geometry the sizes that the file sets");
-    arguments.option("--order", options.order, "1: flat triangles, 2: curved ones with nodes on the edges", 1,
-                     2);
+    arguments.choice("--order", order, {"automatic", "1", "2"},
+                     "1: flat triangles; 2: curved ones with nodes on the edges; automatic: 2 where the body "
+                     "has curved faces (--keep: as the file has them)");
     arguments.option("--scale", options.scale,
                      "metres for one unit of the file (STEP states its unit: left at 1)", 1e-12, 1e12);
     arguments.flag("--flip", options.flip, "turn every triangle round: for a surface that is inside out");
     arguments.footer(
         "The surface must be closed. Triangles are smaller where the body curves and near its edges.\n"
-        "Example: samara mesh meshes/ellipsoid.geo -o ellipsoid.body.h5 --triangles 1280 --order 2");
+        "Example: samara mesh meshes/ellipsoid.geo -o ellipsoid.body.h5 --triangles 1280");
     return samara::run_program(argc, argv, arguments, [&] {
         const auto start = std::chrono::steady_clock::now();
         options.sizing = sizing_of(arguments, keep);
+        options.order = order == "automatic" ? samara::automatic_order : std::stoi(order);
         if (!samara::is_body_file_name(output)) {
             throw samara::Error(fmt::format("{}: the name of a body file ends in .body.h5", output));
         }

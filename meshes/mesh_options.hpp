@@ -2,6 +2,9 @@
 
 namespace samara {
 
+/// The order of a surface is left to the shape: 2 where it has curved faces, 1 where all are flat.
+inline constexpr int automatic_order = 0;
+
 /// How a shape becomes a surface: the options of `samara mesh`.
 struct MeshOptions {
     enum class Sizing {
@@ -11,10 +14,10 @@ struct MeshOptions {
     };
     Sizing sizing = Sizing::triangles;
     int triangles = 1280;
-    double size = 0.0;   ///< m, after scaling
-    int order = 1;       ///< 2: curved triangles with nodes in the middle of their edges
-    double scale = 1.0;  ///< metres for one unit of the file
-    bool flip = false;   ///< turn every face of a file of triangles round
+    double size = 0.0;            ///< m, after scaling
+    int order = automatic_order;  ///< 1: flat; 2: curved triangles with nodes in the middle of their edges
+    double scale = 1.0;           ///< metres for one unit of the file
+    bool flip = false;            ///< turn every face of a file of triangles round
 };
 
 }  // namespace samara

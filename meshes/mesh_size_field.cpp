@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <queue>
+#include <span>
 #include <utility>
+
+#include <Eigen/Eigenvalues>
 
 #include "samara/body/surface.hpp"
 #include "samara/body/surface_edges.hpp"
@@ -13,19 +15,8 @@
 namespace samara {
 namespace {
 
-constexpr double smallest = 0.2;
-constexpr double smallest_at_edges = 0.3;
-// Between 1/4, which is best for the volume of flat triangles on an ellipsoid, and 1/2, which is best for a
-// thick part on a large thin one.
-constexpr double curvature_power = 0.4;
 // Edges grade out to this part of the body's reach.
 constexpr double edge_reach = 0.25;
-constexpr double steepest_over_reach = 3.0;
-
-struct Neighbour {
-    std::size_t vertex;
-    double distance;
-};
 
 std::size_t as_index(std::int32_t value) {
     return static_cast<std::size_t>(value);
@@ -46,52 +37,51 @@ double reach_of(const Surface& surface) {
     return reach;
 }
 
-class Sizing {
+// The angle (radians) by which the two triangles at the edge turn.
+double turn_at(const Surface& surface, std::span<const EdgeUse> edge) {
+    const Vector3d first = area_vector(surface, as_index(edge.front().triangle));
+    const Vector3d second = area_vector(surface, as_index(edge.back().triangle));
+    return std::atan2(first.cross(second).norm(), first.dot(second));
+}
+
+std::vector<TriangleTree::Triangle> sharp_edges(const Surface& surface) {
+    std::vector<TriangleTree::Triangle> sharp;
+    const std::vector<EdgeUse> uses = edge_uses(surface);
+    for (const auto& edge : edges_of(uses)) {
+        const EdgeUse& use = edge.front();
+        if (turn_at(surface, edge) > sharp_angle) sharp.push_back({use.low, use.high, use.high});
+    }
+    return sharp;
+}
+
+// The strongest normal curvature (1/m) at each vertex, sharp edges left out: of the curvature tensor of
+// Cohen- Steiner and Morvan, Restricted Delaunay Triangulations and Normal Cycle, SoCG 2003, summed over the
+// triangles around the vertex and its neighbours.
+class Curvature {
   public:
-    explicit Sizing(const Surface& surface)
+    explicit Curvature(const Surface& surface)
         : surface_(surface),
-          reach_(reach_of(surface)),
-          curvature_(surface.vertices.size(), 0.0),
-          edge_distance_(surface.vertices.size(), std::numeric_limits<double>::infinity()),
+          tensors_(surface.vertices.size(), Matrix3d::Zero()),
+          areas_(surface.vertices.size(), 0.0),
           neighbours_(surface.vertices.size()) {
         const std::vector<EdgeUse> uses = edge_uses(surface);
-        for (const auto& edge : edges_of(uses)) {
-            if (edge.size() == 2) measure(edge[0], edge[1]);
-        }
-    }
-
-    std::vector<double> relative_sizes() {
-        spread(edge_distance_, 1.0);
-        std::vector<double> sizes(surface_.vertices.size());
-        for (std::size_t i = 0; i < sizes.size(); ++i) {
-            const double by_curvature =
-                std::max(smallest, std::pow(std::max(1.0, curvature_[i] * reach_), -curvature_power));
-            const double by_edges = std::max(
-                smallest_at_edges, std::sqrt(std::min(1.0, edge_distance_[i] / (edge_reach * reach_))));
-            sizes[i] = std::min(by_curvature, by_edges);
-        }
-        spread(sizes, steepest_over_reach / reach_);
-        return sizes;
-    }
-
-  private:
-    void measure(const EdgeUse& one, const EdgeUse& two) {
-        const Vector3d first = area_vector(surface_, as_index(one.triangle));
-        const Vector3d second = area_vector(surface_, as_index(two.triangle));
-        const double angle = std::atan2(first.cross(second).norm(), first.dot(second));
-        const double length =
-            (surface_.vertices[as_index(one.high)] - surface_.vertices[as_index(one.low)]).norm();
-        // Heights of the two triangles over the edge: their centroids lie a third of that from it.
-        const double between_centroids = 2.0 * (first.norm() + second.norm()) / length / 3.0;
-        for (const auto& [from, to] : {std::pair{one.low, one.high}, std::pair{one.high, one.low}}) {
-            neighbours_[as_index(from)].push_back({as_index(to), length});
-            if (angle > sharp_angle) {
-                edge_distance_[as_index(from)] = 0.0;
-            } else {
-                double& curvature = curvature_[as_index(from)];
-                curvature = std::max(curvature, angle / between_centroids);
+        for (const auto& edge : edges_of(uses)) add(edge);
+        for (std::size_t t = 0; t < surface.triangle_count(); ++t) {
+            for (const std::int32_t corner : surface.corners[t]) {
+                areas_[as_index(corner)] += area_vector(surface, t).norm() / 3.0;
             }
         }
+    }
+
+    [[nodiscard]] double strongest(std::size_t vertex) const {
+        Matrix3d tensor = tensors_[vertex];
+        double area = areas_[vertex];
+        for (const auto& [other, distance] : neighbours_[vertex]) {
+            tensor += tensors_[other];
+            area += areas_[other];
+        }
+        const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(tensor, Eigen::EigenvaluesOnly);
+        return solver.eigenvalues().cwiseAbs().maxCoeff() / area;
     }
 
     // Lowers values so that they differ by at most `slope` times the distance along the surface's edges:
@@ -99,33 +89,75 @@ class Sizing {
     void spread(std::vector<double>& values, double slope) const {
         using Entry = std::pair<double, std::size_t>;
         std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-        for (std::size_t i = 0; i < values.size(); ++i) {
-            if (std::isfinite(values[i])) queue.emplace(values[i], i);
-        }
+        for (std::size_t i = 0; i < values.size(); ++i) queue.emplace(values[i], i);
         while (!queue.empty()) {
             const auto [value, vertex] = queue.top();
             queue.pop();
             if (value > values[vertex]) continue;
-            for (const Neighbour& next : neighbours_[vertex]) {
-                const double candidate = value + slope * next.distance;
-                if (candidate >= values[next.vertex]) continue;
-                values[next.vertex] = candidate;
-                queue.emplace(candidate, next.vertex);
+            for (const auto& [next, distance] : neighbours_[vertex]) {
+                const double candidate = value + slope * distance;
+                if (candidate >= values[next]) continue;
+                values[next] = candidate;
+                queue.emplace(candidate, next);
             }
         }
     }
 
+  private:
+    void add(std::span<const EdgeUse> edge) {
+        const std::size_t low = as_index(edge.front().low);
+        const std::size_t high = as_index(edge.front().high);
+        const Vector3d along = surface_.vertices[high] - surface_.vertices[low];
+        const double length = along.norm();
+        neighbours_[low].emplace_back(high, length);
+        neighbours_[high].emplace_back(low, length);
+        const double turn = turn_at(surface_, edge);
+        if (turn > sharp_angle) return;
+        const Vector3d first = area_vector(surface_, as_index(edge.front().triangle));
+        const Vector3d second = area_vector(surface_, as_index(edge.back().triangle));
+        const bool hollow = first.cross(second).dot(along) * (edge.front().forward ? 1.0 : -1.0) < 0.0;
+        const Matrix3d part = 0.5 * (hollow ? -turn : turn) / length * along * along.transpose();
+        tensors_[low] += part;
+        tensors_[high] += part;
+    }
+
     const Surface& surface_;
-    double reach_;
-    std::vector<double> curvature_;
-    std::vector<double> edge_distance_;
-    std::vector<std::vector<Neighbour>> neighbours_;
+    std::vector<Matrix3d> tensors_;
+    std::vector<double> areas_;
+    std::vector<std::vector<std::pair<std::size_t, double>>> neighbours_;
 };
+
+std::vector<double> sizes_by_curvature(const Surface& surface, const SizeLaw& law, double reach) {
+    const Curvature curvature(surface);
+    std::vector<double> sizes(surface.vertices.size());
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+        const double bent = std::max(1.0, curvature.strongest(i) * reach);
+        sizes[i] = std::max(law.smallest, std::pow(bent, -law.curvature_power));
+    }
+    curvature.spread(sizes, law.steepest / reach);
+    return sizes;
+}
 
 }  // namespace
 
-MeshSizeField::MeshSizeField(const Surface& reference)
-    : tree_(reference.vertices, reference.corners), relative_size_(Sizing(reference).relative_sizes()) {}
+SizeLaw size_law(int) {
+    return {};
+}
+
+MeshSizeField::MeshSizeField(const Surface& reference, const SizeLaw& law)
+    : law_(law),
+      reach_(reach_of(reference)),
+      tree_(reference.vertices, reference.corners),
+      edges_(reference.vertices, sharp_edges(reference)),
+      by_curvature_(sizes_by_curvature(reference, law, reach_)) {}
+
+double MeshSizeField::by_edges(const Vector3d& point) const {
+    const TriangleTree::Nearest nearest = edges_.nearest(point, edge_reach * reach_);
+    if (!std::isfinite(nearest.squared_distance)) return 1.0;
+    const double distance = std::sqrt(nearest.squared_distance) / reach_;
+    return std::min(std::max(law_.smallest_at_edges, std::sqrt(distance / edge_reach)),
+                    law_.smallest_at_edges + law_.steepest * distance);
+}
 
 double MeshSizeField::operator()(const Vector3d& point) const {
     const TriangleTree::Nearest nearest = tree_.nearest(point);
@@ -136,22 +168,36 @@ double MeshSizeField::operator()(const Vector3d& point) const {
         const Vector3d one = tree_.corner(t, (i + 1) % 3) - nearest.point;
         const Vector3d two = tree_.corner(t, (i + 2) % 3) - nearest.point;
         const double weight = one.cross(two).norm();
-        weighted += weight * relative_size_[as_index(tree_.triangles()[t][static_cast<std::size_t>(i)])];
+        weighted += weight * by_curvature_[as_index(tree_.triangles()[t][static_cast<std::size_t>(i)])];
         total += weight;
     }
-    return total > 0.0 ? weighted / total : relative_size_[as_index(tree_.triangles()[t][0])];
+    const double by_curvature =
+        total > 0.0 ? weighted / total : by_curvature_[as_index(tree_.triangles()[t][0])];
+    return std::min(by_curvature, by_edges(nearest.point));
 }
 
 double MeshSizeField::triangle_count(double size) const {
-    double count = 0.0;
+    constexpr double places_over_the_area = 4000.0;
+    std::vector<double> areas;
+    double whole = 0.0;
     for (std::size_t t = 0; t < tree_.triangles().size(); ++t) {
         const Vector3d& a = tree_.corner(t, 0);
-        const double area = 0.5 * (tree_.corner(t, 1) - a).cross(tree_.corner(t, 2) - a).norm();
-        double relative = 0.0;
-        for (const std::int32_t vertex : tree_.triangles()[t])
-            relative += relative_size_[as_index(vertex)] / 3.0;
-        const double side = size * relative;
-        count += area / (std::sqrt(3.0) / 4.0 * side * side);
+        areas.push_back(0.5 * (tree_.corner(t, 1) - a).cross(tree_.corner(t, 2) - a).norm());
+        whole += areas.back();
+    }
+    double count = 0.0;
+    for (std::size_t t = 0; t < areas.size(); ++t) {
+        // The middles of n^2 equal parts.
+        const int n = 1 + static_cast<int>(std::sqrt(areas[t] / whole * places_over_the_area));
+        for (int i = 0; i < n; ++i) {
+            for (int j = 0; j < 2 * (n - i) - 1; ++j) {
+                const double u = (i + (j % 2 == 0 ? 1.0 : 2.0) / 3.0) / n;
+                const double v = (j / 2 + (j % 2 == 0 ? 1.0 : 2.0) / 3.0) / n;
+                const double side = size * (*this)((1.0 - u - v) * tree_.corner(t, 0) +
+                                                   u * tree_.corner(t, 1) + v * tree_.corner(t, 2));
+                count += areas[t] / (n * n) / (std::sqrt(3.0) / 4.0 * side * side);
+            }
+        }
     }
     return count;
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 
 #include "meshes/mesh_options.hpp"
@@ -8,17 +7,12 @@
 
 namespace samara {
 
-/// Meshes the body in a file of exact geometry (.geo, .step, .stp, .brep): the surface of its volumes, or all
-/// of its surfaces where it has no volume. Faces that two volumes share are left out. Where the count of
-/// triangles is given, it is met within about 5 %, unless the geometry's own edges and corners need more. The
-/// result is in metres, welded, checked (require_sound_surface) and oriented outwards; the nodes of order 2
-/// lie on the geometry. STEP files state their unit, which is honoured. Throws Error.
-Surface mesh_geometry(const std::filesystem::path& file, const MeshOptions& options);
-
-/// Covers the welded and sound surface of triangles with new ones on the same faces, as mesh_geometry does:
-/// gmsh cuts it along edges of more than 40 degrees, parametrises each part and meshes that. `surface` and
-/// the result are in metres: options.scale is not used. Throws Error, which proposes to keep the triangles,
-/// where gmsh cannot do it or the new surface's volume differs.
+/// Covers the welded and sound surface of triangles with new ones, sized as in mesh_geometry: where there are
+/// many more than needed they are reduced first (reduced), then evened (evened) on the smooth shape that the
+/// given triangles stand for (SmoothShape), with faces that meet at more than 40 degrees as edges, or 10
+/// where that would change the volume by more than 3 %. `surface` and the result are in metres: options.scale
+/// is not used. Throws Error, which proposes to keep the triangles, where the new surface passes through
+/// itself or its volume differs by more than 15 %.
 Surface remesh(const Surface& surface, const MeshOptions& options, const std::string& label);
 
 }  // namespace samara

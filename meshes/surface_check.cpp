@@ -271,40 +271,52 @@ void require_faces_to_agree(const Surface& surface, const std::vector<Component>
                     first + 1, place(triangle_centroid(surface, as_index(first)))));
 }
 
+std::string place_of(const Surface& surface, const Component& piece) {
+    return place(triangle_centroid(surface, as_index(piece.triangles.front())));
+}
+
 void require_matter_inside(const Surface& surface, const std::vector<Component>& pieces,
                            const std::string& label) {
     const std::vector<int> depths = nesting_depths(surface, pieces);
     const double size = box_of_faces(surface).diagonal().norm();
-    bool all_look_wrong = true;
-    std::size_t wrong = pieces.size();
+    std::vector<double> volumes;
+    std::size_t outer = 0;
+    std::size_t inside_out = 0;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
-        const double volume = enclosed_volume(surface, pieces[i]);
-        const Vector3d where = triangle_centroid(surface, as_index(pieces[i].triangles.front()));
-        if (std::abs(volume) <= 1e-12 * size * size * size) {
+        volumes.push_back(enclosed_volume(surface, pieces[i]));
+        if (std::abs(volumes[i]) <= 1e-12 * size * size * size) {
             throw Error(fmt::format("{}: the faces around {} enclose no volume; give the sheet its thickness",
-                                    label, place(where)));
+                                    label, place_of(surface, pieces[i])));
         }
-        const bool looks_wrong = (volume < 0.0) != (depths[i] % 2 == 1);
-        if (looks_wrong && wrong == pieces.size()) wrong = i;
-        all_look_wrong = all_look_wrong && looks_wrong;
+        if (depths[i] > 0) continue;
+        ++outer;
+        if (volumes[i] < 0.0) ++inside_out;
     }
-    if (wrong == pieces.size()) return;
-    if (all_look_wrong) {
+    if (inside_out == outer) {
         throw Error(
             fmt::format("{}: the surface is inside out: its faces look inwards (volume {:.4g}); turn them "
                         "round with --flip",
-                        label, enclosed_volume(surface, pieces[wrong])));
+                        label, *std::min_element(volumes.begin(), volumes.end())));
     }
-    const std::string where = place(triangle_centroid(surface, as_index(pieces[wrong].triangles.front())));
-    const std::size_t faces = pieces[wrong].triangles.size();
-    if (depths[wrong] % 2 == 1) {
-        throw Error(fmt::format(
-            "{}: the {} around {} are a body within a body; delete them, or turn them round to make a cavity",
-            label, count_of(faces, "face", "faces"), where));
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const std::string faces = count_of(pieces[i].triangles.size(), "face", "faces");
+        const std::string where = place_of(surface, pieces[i]);
+        if (depths[i] > 0 && volumes[i] < 0.0) {
+            throw Error(fmt::format(
+                "{}: the {} around {} enclose a cavity, which no outer fluid reaches; delete them, and give "
+                "the body's mass, center_of_mass and inertia in the scene",
+                label, faces, where));
+        }
+        if (depths[i] > 0) {
+            throw Error(fmt::format("{}: the {} around {} are a body within a body; delete them", label,
+                                    faces, where));
+        }
+        if (volumes[i] < 0.0) {
+            throw Error(fmt::format(
+                "{}: the piece of {} around {} is inside out, the others are not; turn its normals round",
+                label, faces, where));
+        }
     }
-    throw Error(
-        fmt::format("{}: the piece of {} around {} is inside out, the others are not; turn its normals round",
-                    label, count_of(faces, "face", "faces"), where));
 }
 
 void require_no_crossing(const Surface& surface, const std::string& label) {

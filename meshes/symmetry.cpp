@@ -10,7 +10,7 @@
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
-#include "meshes/image_test.hpp"
+#include "meshes/image_comparison.hpp"
 #include "meshes/symmetry_frame.hpp"
 #include "meshes/symmetry_group.hpp"
 
@@ -38,29 +38,31 @@ bool is_near(const Vector3d& a, const Vector3d& b) {
 }
 
 // Angles that no finite rotation group of low order has in common.
-bool is_axis_of_revolution(const ImageTest& test, const Vector3d& axis) {
+bool is_axis_of_revolution(const ImageComparison& images, const Vector3d& axis) {
     constexpr std::array<double, 5> turns = {0.381966, 0.145898, 0.072949, 0.031415, 0.267949};
     return std::all_of(turns.begin(), turns.end(), [&](double turn) {
-        return test.is_symmetry(Operation{axis, 2.0 * pi * turn, false}.matrix());
+        return images.is_symmetry(Operation{axis, 2.0 * pi * turn, false}.matrix());
     });
 }
 
-bool is_spherical(const ImageTest& test) {
-    return is_axis_of_revolution(test, Vector3d::UnitZ()) && is_axis_of_revolution(test, Vector3d::UnitX()) &&
-           is_axis_of_revolution(test, Vector3d(1.0, 1.0, 1.0).normalized());
+bool is_spherical(const ImageComparison& images) {
+    return is_axis_of_revolution(images, Vector3d::UnitZ()) &&
+           is_axis_of_revolution(images, Vector3d::UnitX()) &&
+           is_axis_of_revolution(images, Vector3d(1.0, 1.0, 1.0).normalized());
 }
 
 // The axis of revolution among the directions, as a shape's axis where it is one.
-std::optional<Vector3d> axis_of_revolution(const ImageTest& test, const std::vector<Vector3d>& directions) {
+std::optional<Vector3d> axis_of_revolution(const ImageComparison& images,
+                                           const std::vector<Vector3d>& directions) {
     for (const Vector3d& direction : directions) {
         const Vector3d shape_axis = nearest_shape_axis(direction);
-        if (is_near(direction, shape_axis) && is_axis_of_revolution(test, shape_axis)) return shape_axis;
-        if (is_axis_of_revolution(test, direction)) return direction;
+        if (is_near(direction, shape_axis) && is_axis_of_revolution(images, shape_axis)) return shape_axis;
+        if (is_axis_of_revolution(images, direction)) return direction;
     }
     return std::nullopt;
 }
 
-Symmetry axial_symmetry(const ImageTest& test, const Vector3d& axis) {
+Symmetry axial_symmetry(const ImageComparison& images, const Vector3d& axis) {
     Symmetry symmetry;
     symmetry.kind = Symmetry::Kind::axial;
     symmetry.axis = axis;
@@ -71,7 +73,7 @@ Symmetry axial_symmetry(const ImageTest& test, const Vector3d& axis) {
     const Matrix3d mirror_through = Matrix3d::Identity() - 2.0 * across * across.transpose();
     const Matrix3d mirror_across = Matrix3d::Identity() - 2.0 * axis * axis.transpose();
     symmetry.elements = {Matrix3d::Identity(), mirror_through};
-    if (test.is_symmetry(mirror_across)) {
+    if (images.is_symmetry(mirror_across)) {
         symmetry.elements.push_back(mirror_across);
         symmetry.elements.push_back(mirror_through * mirror_across);
     }
@@ -88,7 +90,7 @@ void add_operations_about(SymmetryGroup& group, const Vector3d& direction, int h
 }
 
 // Mirrors and half turns whose axes lie across the body's one axis, at any angle about it.
-void add_operations_across(SymmetryGroup& group, const ImageTest& test, const Vector3d& axis) {
+void add_operations_across(SymmetryGroup& group, const ImageComparison& images, const Vector3d& axis) {
     constexpr int steps = 120;
     constexpr std::size_t points = 100;
     const Vector3d first = axis.unitOrthogonal();
@@ -100,7 +102,7 @@ void add_operations_across(SymmetryGroup& group, const ImageTest& test, const Ve
             return Operation{std::cos(angle) * first + std::sin(angle) * second, pi, improper};
         };
         for (int i = 0; i < steps; ++i) {
-            distances[static_cast<std::size_t>(i)] = test.mean_distance(operation(i).matrix(), points);
+            distances[static_cast<std::size_t>(i)] = images.mean_distance(operation(i).matrix(), points);
         }
         for (int i = 0; i < steps; ++i) {
             const double here = distances[static_cast<std::size_t>(i)];
@@ -152,10 +154,10 @@ void add_extremal_directions(std::vector<Vector3d>& directions, const std::vecto
 }
 
 // For bodies whose second moments single out no axis.
-std::vector<Vector3d> polyhedral_directions(const ImageTest& test) {
-    const std::size_t count = std::min<std::size_t>(test.points().size(), 1000);
-    const std::vector<Vector3d> points(test.points().begin(),
-                                       test.points().begin() + static_cast<std::ptrdiff_t>(count));
+std::vector<Vector3d> polyhedral_directions(const ImageComparison& images) {
+    const std::size_t count = std::min<std::size_t>(images.points().size(), 1000);
+    const std::vector<Vector3d> points(images.points().begin(),
+                                       images.points().begin() + static_cast<std::ptrdiff_t>(count));
     std::vector<Vector3d> directions = {Vector3d::UnitZ(), Vector3d::UnitX(), Vector3d::UnitY()};
     for (const int power : {3, 4, 6}) add_extremal_directions(directions, points, power);
     // A polyhedral group has few; nearly round bodies many that mean nothing.
@@ -202,9 +204,9 @@ PrincipalDirections principal_directions(const VolumeMoments& moments, double to
     return result;
 }
 
-Symmetry finite_symmetry(const ImageTest& test, const PrincipalDirections& principal,
+Symmetry finite_symmetry(const ImageComparison& images, const PrincipalDirections& principal,
                          const std::vector<Vector3d>& directions) {
-    SymmetryGroup group(test);
+    SymmetryGroup group(images);
     // First, so that bodies aligned with their axes get exact elements.
     for (const Matrix3d& element : signed_permutations()) group.add(element);
     group.add(-Matrix3d::Identity());
@@ -217,7 +219,7 @@ Symmetry finite_symmetry(const ImageTest& test, const PrincipalDirections& princ
             add_operations_about(group, direction, i == principal.free_axis ? highest_order : 2);
         }
         if (principal.free_axis >= 0) {
-            add_operations_across(group, test, principal.directions.col(principal.free_axis));
+            add_operations_across(group, images, principal.directions.col(principal.free_axis));
         }
     }
     Symmetry symmetry;
@@ -227,30 +229,30 @@ Symmetry finite_symmetry(const ImageTest& test, const PrincipalDirections& princ
     return symmetry;
 }
 
-Symmetry search(const ImageTest& test, const VolumeMoments& moments) {
-    const PrincipalDirections principal = principal_directions(moments, test.tolerance());
+Symmetry search(const ImageComparison& images, const VolumeMoments& moments) {
+    const PrincipalDirections principal = principal_directions(moments, images.tolerance());
     std::vector<Vector3d> directions;
     if (principal.free_axis == 3) {
-        if (is_spherical(test)) {
+        if (is_spherical(images)) {
             Symmetry symmetry;
             symmetry.kind = Symmetry::Kind::spherical;
             symmetry.elements = {Matrix3d::Identity(), -Matrix3d::Identity()};
             return symmetry;
         }
-        directions = polyhedral_directions(test);
+        directions = polyhedral_directions(images);
     } else if (principal.free_axis >= 0) {
         directions.push_back(principal.directions.col(principal.free_axis));
     }
-    if (const auto axis = axis_of_revolution(test, directions)) return axial_symmetry(test, *axis);
-    return finite_symmetry(test, principal, directions);
+    if (const auto axis = axis_of_revolution(images, directions)) return axial_symmetry(images, *axis);
+    return finite_symmetry(images, principal, directions);
 }
 
 }  // namespace
 
 Symmetry find_symmetry(const Surface& surface, const VolumeMoments& moments, double tolerance) {
-    const ImageTest test(surface, moments.centroid, tolerance);
-    Symmetry symmetry = search(test, moments);
-    symmetry.tolerance = test.tolerance();
+    const ImageComparison images(surface, moments.centroid, tolerance);
+    Symmetry symmetry = search(images, moments);
+    symmetry.tolerance = images.tolerance();
     return symmetry;
 }
 

@@ -21,8 +21,8 @@ bool is_in(const std::vector<Matrix3d>& elements, const Matrix3d& element) {
 }
 
 // Descends by steps of the axis along two directions across it, halved from 2 degrees to 0.02.
-Operation refined(Operation operation, const ImageTest& test) {
-    double best = test.mean_distance(operation.matrix(), points_to_refine);
+Operation refined(Operation operation, const ImageComparison& images) {
+    double best = images.mean_distance(operation.matrix(), points_to_refine);
     constexpr int halvings = 7;
     for (int halving = 0; halving < halvings; ++halving) {
         const double step = std::ldexp(0.035, -halving);
@@ -34,7 +34,7 @@ Operation refined(Operation operation, const ImageTest& test) {
             for (const Vector3d& direction : std::array<Vector3d, 4>{across, -across, other, -other}) {
                 Operation turned = operation;
                 turned.axis = (operation.axis + step * direction).normalized();
-                const double distance = test.mean_distance(turned.matrix(), points_to_refine);
+                const double distance = images.mean_distance(turned.matrix(), points_to_refine);
                 if (distance >= best) continue;
                 best = distance;
                 operation = turned;
@@ -76,7 +76,7 @@ bool SymmetryGroup::contains(const Matrix3d& element) const {
 }
 
 void SymmetryGroup::add(const Matrix3d& element) {
-    if (contains(element) || !test_.is_symmetry(element)) return;
+    if (contains(element) || !images_.is_symmetry(element)) return;
     std::vector<Matrix3d> grown = elements_;
     grown.push_back(element);
     constexpr double slack_of_products = 2.0;
@@ -84,7 +84,7 @@ void SymmetryGroup::add(const Matrix3d& element) {
         for (std::size_t j = 0; j < grown.size(); ++j) {
             for (const Matrix3d& product : {Matrix3d(grown[i] * grown[j]), Matrix3d(grown[j] * grown[i])}) {
                 if (is_in(grown, product)) continue;
-                if (grown.size() == largest_group || !test_.is_symmetry(product, slack_of_products)) return;
+                if (grown.size() == largest_group || !images_.is_symmetry(product, slack_of_products)) return;
                 grown.push_back(product);
             }
         }
@@ -94,8 +94,8 @@ void SymmetryGroup::add(const Matrix3d& element) {
 
 void SymmetryGroup::add_refined(const Operation& operation) {
     const Matrix3d element = operation.matrix();
-    if (contains(element) || !test_.is_symmetry(element, worth_refining)) return;
-    add(refined(operation, test_).matrix());
+    if (contains(element) || !images_.is_symmetry(element, worth_refining)) return;
+    add(refined(operation, images_).matrix());
 }
 
 }  // namespace samara

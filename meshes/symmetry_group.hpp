@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "meshes/image_test.hpp"
+#include "meshes/image_comparison.hpp"
 #include "samara/base/linear_algebra.hpp"
 
 namespace samara {
@@ -26,7 +26,7 @@ std::vector<Matrix3d> signed_permutations();
 /// A finite group of rotations and reflections under which a body looks the same, grown element by element.
 class SymmetryGroup {
   public:
-    explicit SymmetryGroup(const ImageTest& test) : test_(test) {}
+    explicit SymmetryGroup(const ImageComparison& images) : images_(images) {}
 
     /// Adds the element, and all products with it, if the body's images agree; products within twice the
     /// tolerance. Does nothing otherwise, or where the group has it already.
@@ -39,7 +39,7 @@ class SymmetryGroup {
     [[nodiscard]] const std::vector<Matrix3d>& elements() const { return elements_; }
 
   private:
-    const ImageTest& test_;
+    const ImageComparison& images_;
     std::vector<Matrix3d> elements_ = {Matrix3d::Identity()};
 };
 

@@ -59,7 +59,7 @@ KirchhoffTensor as_tensor(const Matrix6d& matrix) {
 }
 
 std::vector<Method> methods() {
-    const auto offset = [](double offset) {
+    const auto offset_sources = [](double offset) {
         return [offset](const Surface& surface, const VolumeMoments&) {
             return as_tensor(peers::offset_source_tensor(surface, offset));
         };
@@ -70,8 +70,8 @@ std::vector<Method> methods() {
         };
     };
     return {
-        {"offset sources, 0.1", false, 1280, offset(0.1)},
-        {"offset sources, 0.6", false, 1280, offset(0.6)},
+        {"offset sources, 0.1", false, 1280, offset_sources(0.1)},
+        {"offset sources, 0.6", false, 1280, offset_sources(0.6)},
         {"samara, flat mesh", false, 5120, ours(KirchhoffMethod::automatic)},
         {"samara, curved mesh", true, 5120, ours(KirchhoffMethod::automatic)},
         {"samara, hypersingular", false, 1280, ours(KirchhoffMethod::hypersingular)},

@@ -24,7 +24,7 @@ using ::testing::HasSubstr;
 
 constexpr double ellipsoid_volume = 4.0 / 3.0 * pi * 0.01 * 0.02 * 0.04;
 
-MeshOptions with_triangles(int count, int order = 1) {
+MeshOptions with_triangles(int count, int order = automatic_order) {
     MeshOptions options;
     options.triangles = count;
     options.order = order;

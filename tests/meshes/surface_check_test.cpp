@@ -167,12 +167,27 @@ TEST(SurfaceCheck, FindsASurfaceThatPassesThroughItself) {
     EXPECT_THAT(fault_of(boxes), HasSubstr("passes through itself"));
 }
 
-TEST(SurfaceCheck, TakesACavityForWhatItIs) {
+TEST(SurfaceCheck, RefusesACavityAndSaysWhatToDo) {
     Surface shell = test::box(Vector3d::Ones(), 2);
     append(shell, turned(test::box(Vector3d::Constant(0.5), 2)));
-    const Surface sound = welded(shell, "shell");
-    EXPECT_NO_THROW(require_sound_surface(sound, "shell"));
-    EXPECT_NEAR(volume_moments(sound).volume, 1.0 - 0.125, 1e-12);
+    EXPECT_THAT(fault_of(shell),
+                AllOf(HasSubstr("the 48 faces around"), HasSubstr("enclose a cavity"),
+                      HasSubstr("delete them"), HasSubstr("mass, center_of_mass and inertia in the scene")));
+}
+
+TEST(SurfaceCheck, FindsAHollowBodyThatIsInsideOut) {
+    Surface shell = turned(test::box(Vector3d::Ones(), 2));
+    append(shell, test::box(Vector3d::Constant(0.5), 2));
+    EXPECT_THAT(fault_of(shell), AllOf(HasSubstr("inside out"), HasSubstr("--flip")));
+}
+
+TEST(SurfaceCheck, TakesABodyOfSeveralPieces) {
+    Surface bodies = test::box(Vector3d::Ones(), 2);
+    append(bodies,
+           test::mapped(test::box(Vector3d::Ones(), 2), Matrix3d::Identity(), Vector3d(3.0, 0.0, 0.0)));
+    const Surface sound = welded(bodies, "two");
+    EXPECT_NO_THROW(require_sound_surface(sound, "two"));
+    EXPECT_NEAR(volume_moments(sound).volume, 2.0, 1e-12);
 }
 
 TEST(SurfaceCheck, FindsABodyWithinABody) {

@@ -26,6 +26,15 @@ Vector3d normal_at(const std::array<Vector3d, 6>& n, double u, double v) {
     return by_u.cross(by_v);
 }
 
+bool is_overturned(const Surface& surface, std::size_t triangle) {
+    constexpr std::array<std::array<double, 2>, 6> places = {
+        {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}, {0.5, 0.0}, {0.5, 0.5}, {0.0, 0.5}}};
+    const std::array<Vector3d, 6> nodes = nodes_of(surface, triangle);
+    return std::any_of(places.begin(), places.end(), [&](const auto& place) {
+        return normal_at(nodes, place[0], place[1]).dot(area_vector(surface, triangle)) <= 0.0;
+    });
+}
+
 }  // namespace
 
 Vector3d point_of_triangle(const Surface& surface, std::size_t triangle, double u, double v) {
@@ -102,20 +111,41 @@ Surface without_edge_nodes(const Surface& surface) {
     return result;
 }
 
+bool has_straight_edges(const Surface& surface) {
+    constexpr double rounding = 1e-6;
+    for (std::size_t t = 0; t < surface.edge_nodes.size(); ++t) {
+        const std::array<Vector3d, 6> nodes = nodes_of(surface, t);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Vector3d& from = nodes[i];
+            const Vector3d& to = nodes[(i + 1) % 3];
+            if ((nodes[i + 3] - 0.5 * (from + to)).norm() > rounding * (to - from).norm()) return false;
+        }
+    }
+    return true;
+}
+
 std::vector<std::int32_t> overturned_triangles(const Surface& surface) {
     std::vector<std::int32_t> overturned;
-    if (surface.order() == 1) return overturned;
-    constexpr std::array<std::array<double, 2>, 6> places = {
-        {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}, {0.5, 0.0}, {0.5, 0.5}, {0.0, 0.5}}};
-    for (std::size_t t = 0; t < surface.triangle_count(); ++t) {
-        const std::array<Vector3d, 6> nodes = nodes_of(surface, t);
-        const Vector3d area = area_vector(surface, t);
-        const bool turns = std::any_of(places.begin(), places.end(), [&](const auto& place) {
-            return normal_at(nodes, place[0], place[1]).dot(area) <= 0.0;
-        });
-        if (turns) overturned.push_back(static_cast<std::int32_t>(t));
+    for (std::size_t t = 0; t < surface.edge_nodes.size(); ++t) {
+        if (is_overturned(surface, t)) overturned.push_back(static_cast<std::int32_t>(t));
     }
     return overturned;
+}
+
+void straighten_overturned(Surface& surface) {
+    // A straightened edge may overturn the triangle on its other side: three rounds reach what matters.
+    for (int round = 0; round < 3; ++round) {
+        for (std::size_t t = 0; t < surface.edge_nodes.size(); ++t) {
+            if (!is_overturned(surface, t)) continue;
+            for (std::size_t i = 0; i < 3; ++i) {
+                const auto corner = [&](std::size_t k) -> const Vector3d& {
+                    return surface.vertices[static_cast<std::size_t>(surface.corners[t][k % 3])];
+                };
+                surface.vertices[static_cast<std::size_t>(surface.edge_nodes[t][i])] =
+                    0.5 * (corner(i) + corner(i + 1));
+            }
+        }
+    }
 }
 
 }  // namespace samara

@@ -23,8 +23,14 @@ Surface with_straight_edge_nodes(const Surface& surface);
 /// The flat surface of the corners alone, unused vertices left out.
 Surface without_edge_nodes(const Surface& surface);
 
+/// Whether all nodes of a surface of order 2 lie halfway along straight edges, within 1e-6 of their length.
+bool has_straight_edges(const Surface& surface);
+
 /// The triangles whose curved face turns over somewhere (its normal leans more than a right angle from that
 /// of its corners): such a surface of order 2 is too coarse for its curvature.
 std::vector<std::int32_t> overturned_triangles(const Surface& surface);
+
+/// Makes the edges of overturned triangles straight.
+void straighten_overturned(Surface& surface);
 
 }  // namespace samara

@@ -37,8 +37,10 @@ constexpr double poor_estimate = 0.01;
 // Surfaces whose triangles are nearer in size than this are not compared.
 constexpr double least_ratio = 1.2;
 // With which the error falls with the triangles' size, or is sure to.
-// Coarser surfaces have triangles of worse shapes, and that differ more than the order says.
+// Coarser surfaces have triangles of worse shapes and differ by more than the order says; but where curvature
+// is rebuilt on both, its error is alike.
 constexpr double order_curved = 4.0;
+constexpr double sure_order_rebuilt = 2.0;
 constexpr double sure_order_flat = 4.0 / 3.0;
 
 Surface in_units(Surface surface, const Vector3d& reference_point, double length) {
@@ -164,7 +166,10 @@ class Solver {
             tensor += (fine.tensor - coarse.tensor) / 3.0;
             estimate = difference / 3.0;
         } else if (ratio > least_ratio) {
-            estimate = difference / (std::pow(ratio, is_curved ? order_curved : sure_order_flat) - 1.0);
+            const double order = !is_curved ? sure_order_flat
+                                 : ladder_.is_rebuilt() ? sure_order_rebuilt
+                                                        : order_curved;
+            estimate = difference / (std::pow(ratio, order) - 1.0);
         }
         KirchhoffTensor result;
         result.matrix = 0.5 * (tensor + tensor.transpose());

@@ -9,8 +9,8 @@
 #include <Eigen/Dense>
 
 #include "samara/base/parallel_for.hpp"
+#include "samara/body/curved_surface.hpp"
 #include "samara/body/surface_edges.hpp"
-#include "samara/kirchhoff/surface_projection.hpp"
 
 namespace samara {
 namespace {
@@ -264,7 +264,8 @@ Surface rebuilt_surface(const Surface& flat, const Creases& creases, int threads
             result.edge_nodes[as_index(use.triangle)][as_index(use.side)] = node;
         }
     }
-    return without_folds(std::move(result));
+    straighten_overturned(result);
+    return result;
 }
 
 }  // namespace samara

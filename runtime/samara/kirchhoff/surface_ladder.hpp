@@ -18,6 +18,9 @@ class SurfaceLadder {
 
     [[nodiscard]] const CreasedSurface& base() const { return rungs_.at(0); }
 
+    /// Whether the curvature is rebuilt from flat triangles.
+    [[nodiscard]] bool is_rebuilt() const { return is_rebuilt_; }
+
     /// Made when it is first asked for. Valid as long as the ladder.
     const CreasedSurface& rung(int index);
 

@@ -97,25 +97,8 @@ Surface drawn_onto(const Surface& coarse, const SurfaceProjection& fine, int thr
             node = fine.near_point(node, direction);
         }
     });
-    return without_folds(std::move(result));
-}
-
-Surface without_folds(Surface surface) {
-    // A neighbour may fold where it did not before.
-    for (std::vector<std::int32_t> folded = overturned_triangles(surface); !folded.empty();) {
-        for (const std::int32_t t : folded) {
-            const auto& corners = surface.corners[as_index(t)];
-            for (std::size_t side = 0; side < 3; ++side) {
-                const auto node = as_index(surface.edge_nodes[as_index(t)][side]);
-                surface.vertices[node] = 0.5 * (surface.vertices[as_index(corners[side])] +
-                                                surface.vertices[as_index(corners[(side + 1) % 3])]);
-            }
-        }
-        const std::vector<std::int32_t> still = overturned_triangles(surface);
-        if (still == folded) break;
-        folded = still;
-    }
-    return surface;
+    straighten_overturned(result);
+    return result;
 }
 
 }  // namespace samara

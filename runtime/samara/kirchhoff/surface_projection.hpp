@@ -33,7 +33,4 @@ std::vector<Vector3d> vertex_normals(const Surface& surface);
 /// keep straight edges.
 Surface drawn_onto(const Surface& coarse, const SurfaceProjection& fine, int threads = 0);
 
-/// The surface of order 2 with straight edges, for both their triangles, wherever a curved triangle folds.
-Surface without_folds(Surface surface);
-
 }  // namespace samara

@@ -14,10 +14,10 @@ double faceting(const Surface& surface, const Vector3d& centre);
 /// Compares a surface with its images under rotations and reflections about a point: the shapes, not the
 /// triangulations. The points of the image that are compared are the vertices and points spread over
 /// the triangles, at most 5000.
-class ImageTest {
+class ImageComparison {
   public:
     /// `tolerance`: over the body's size, its greatest distance from the centre; raised to the faceting.
-    ImageTest(const Surface& surface, const Vector3d& centre, double tolerance);
+    ImageComparison(const Surface& surface, const Vector3d& centre, double tolerance);
 
     /// Whether each point of the image lies within `slack` times the tolerance of the surface.
     [[nodiscard]] bool is_symmetry(const Matrix3d& element, double slack = 1.0) const;

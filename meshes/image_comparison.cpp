@@ -1,4 +1,4 @@
-#include "meshes/image_test.hpp"
+#include "meshes/image_comparison.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -86,19 +86,19 @@ double faceting(const Surface& surface, const Vector3d& centre) {
     return surface.order() == 1 ? std::min(coarsest, sagitta(surface) / size_of(surface, centre)) : 0.0;
 }
 
-ImageTest::ImageTest(const Surface& surface, const Vector3d& centre, double tolerance)
+ImageComparison::ImageComparison(const Surface& surface, const Vector3d& centre, double tolerance)
     : size_(size_of(surface, centre)),
       tolerance_(std::max(tolerance, faceting(surface, centre))),
       points_(points_of(surface, centre)),
       tree_(tree_of(surface, centre)) {}
 
-bool ImageTest::is_symmetry(const Matrix3d& element, double slack) const {
+bool ImageComparison::is_symmetry(const Matrix3d& element, double slack) const {
     return std::all_of(points_.begin(), points_.end(), [&](const Vector3d& point) {
         return tree_.is_within(element * point, slack * tolerance_ * size_);
     });
 }
 
-double ImageTest::mean_distance(const Matrix3d& element, std::size_t points) const {
+double ImageComparison::mean_distance(const Matrix3d& element, std::size_t points) const {
     const std::size_t count = std::min(points, points_.size());
     double sum = 0.0;
     for (std::size_t i = 0; i < count; ++i)

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+
+#include "meshes/mesh_options.hpp"
+#include "samara/body/surface.hpp"
+
+namespace samara {
+
+/// Meshes the body in a file of exact geometry (.geo, .step, .stp, .brep): the surface of its volumes, or all
+/// of its surfaces where it has no volume. Faces that two volumes share are left out. Where the count of
+/// triangles is given, it is met within about 5 %, unless the geometry's own edges and corners need more. The
+/// result is in metres, welded, checked (require_sound_surface) and oriented outwards; the nodes of order 2
+/// lie on the geometry. STEP files state their unit, which is honoured. Throws Error.
+Surface mesh_geometry(const std::filesystem::path& file, const MeshOptions& options);
+
+}  // namespace samara
