@@ -107,4 +107,36 @@ TriangleRule corner_rule(int radial_points, int angular_points) {
     return filled(std::move(rule), std::min(2 * radial_points - 2, 2 * angular_points - 1));
 }
 
+namespace {
+
+std::vector<RulePoint> barycentric(const TriangleRule& rule) {
+    std::vector<RulePoint> points;
+    for (std::size_t i = 0; i < rule.points; ++i) {
+        points.push_back({{1.0 - rule.p[i] - rule.q[i], rule.p[i], rule.q[i]}, 2.0 * rule.weight[i]});
+    }
+    return points;
+}
+
+}  // namespace
+
+const std::vector<RulePoint>& triangle_rule_3() {
+    static const std::vector<RulePoint> points = barycentric(triangle_rule(2));
+    return points;
+}
+
+const std::vector<RulePoint>& triangle_rule_6() {
+    static const std::vector<RulePoint> points = barycentric(triangle_rule(4));
+    return points;
+}
+
+const std::vector<RulePoint>& triangle_rule_12() {
+    static const std::vector<RulePoint> points = barycentric(triangle_rule(6));
+    return points;
+}
+
+const std::vector<RulePoint>& triangle_rule_16() {
+    static const std::vector<RulePoint> points = barycentric(triangle_rule(8));
+    return points;
+}
+
 }  // namespace samara

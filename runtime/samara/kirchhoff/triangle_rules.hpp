@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -23,6 +24,18 @@ std::pair<std::vector<double>, std::vector<double>> gauss_legendre(int n);
 /// Methods Eng. 21, 1985); for other degrees a product of Gauss rules that meet in a corner, about
 /// (degree / 2 + 1)^2 points.
 TriangleRule triangle_rule(int degree);
+
+/// A point of a rule by its barycentric coordinates, and its share of the triangle's area.
+struct RulePoint {
+    std::array<double, 3> corner_shares;
+    double weight;
+};
+
+/// The symmetric rules with 3, 6, 12 and 16 points, in this form.
+const std::vector<RulePoint>& triangle_rule_3();
+const std::vector<RulePoint>& triangle_rule_6();
+const std::vector<RulePoint>& triangle_rule_12();
+const std::vector<RulePoint>& triangle_rule_16();
 
 /// For integrands that are singular as 1/r in the corner p = q = 0: a Gauss rule along the rays from that
 /// corner and one across them (M. G. Duffy, SIAM J. Numer. Anal. 19(6), 1982).
