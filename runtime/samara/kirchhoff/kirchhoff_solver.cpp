@@ -41,6 +41,7 @@ constexpr double least_ratio = 1.2;
 // is rebuilt on both, its error is alike.
 constexpr double order_curved = 4.0;
 constexpr double sure_order_rebuilt = 2.0;
+constexpr double rebuilt_share = 1.3;
 constexpr double sure_order_flat = 4.0 / 3.0;
 
 Surface in_units(Surface surface, const Vector3d& reference_point, double length) {
@@ -163,10 +164,13 @@ class Solver {
         double estimate = 1.0;
         if (!is_curved && nested) {
             // Richardson, for the second order that grading gives; what remains is less where that is right.
+            // A rebuilt curvature is the same on both, and its error of the size of what it differs by from
+            // flat.
             tensor += (fine.tensor - coarse.tensor) / 3.0;
-            estimate = difference / 3.0;
+            const bool is_polyhedron = has_straight_edges(ladder_.base().surface);
+            estimate = difference * (ladder_.is_rebuilt() && !is_polyhedron ? rebuilt_share : 1.0 / 3.0);
         } else if (ratio > least_ratio) {
-            const double order = !is_curved ? sure_order_flat
+            const double order = !is_curved             ? sure_order_flat
                                  : ladder_.is_rebuilt() ? sure_order_rebuilt
                                                         : order_curved;
             estimate = difference / (std::pow(ratio, order) - 1.0);

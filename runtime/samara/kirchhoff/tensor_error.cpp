@@ -1,6 +1,7 @@
 #include "samara/kirchhoff/tensor_error.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "samara/body/surface.hpp"
 
@@ -9,8 +10,10 @@ namespace samara {
 double relative_tensor_error(const Matrix6d& tensor, const Matrix6d& reference, const TensorScale& scale,
                              double zero) {
     const double length = reference_length(scale.surface_area);
-    const double block_scales[2][2] = {{scale.volume * length * length, scale.volume * length},
-                                       {scale.volume * length, scale.volume}};
+    const double coupling = std::max(
+        scale.volume * length,
+        std::sqrt(reference.topLeftCorner<3, 3>().norm() * reference.bottomRightCorner<3, 3>().norm()));
+    const double block_scales[2][2] = {{scale.volume * length * length, coupling}, {coupling, scale.volume}};
     double error = 0.0;
     for (const Eigen::Index row : {0, 1}) {
         for (const Eigen::Index column : {0, 1}) {
