@@ -2,6 +2,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include "samara/kirchhoff/curved_collocation.hpp"
 #include "samara/kirchhoff/kirchhoff_solver.hpp"
 #include "samara/kirchhoff/tensor_error.hpp"
 #include "support/known_bodies.hpp"
@@ -26,6 +27,27 @@ void kirchhoff_tensor_of_ellipsoid(benchmark::State& state) {
 }
 
 BENCHMARK(kirchhoff_tensor_of_ellipsoid)->DenseRange(2, 4)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+/// Curved triangles, in units of the middle semi-axis.
+void curved_collocation_of_ellipsoid(benchmark::State& state) {
+    const Surface surface = test::curved_ellipsoid({0.5, 1.0, 2.0}, static_cast<int>(state.range(0)));
+    BoundaryElementResult result;
+    while (state.KeepRunning()) {
+        result = solve_curved_collocation(surface, {});
+        benchmark::DoNotOptimize(result);
+    }
+    const Body exact = test::rubber_ellipsoid();
+    constexpr double unit = 0.02;  // m
+    Vector6d powers;
+    powers << Vector3d::Constant(unit), Vector3d::Ones();
+    const Matrix6d tensor = unit * unit * unit * powers.asDiagonal() * result.tensor * powers.asDiagonal();
+    state.counters["triangles"] = static_cast<double>(surface.triangle_count());
+    state.counters["error"] = relative_tensor_error(tensor, exact.kirchhoff->matrix,
+                                                    {exact.moments.volume, exact.moments.surface_area});
+    state.counters["memory"] = static_cast<double>(result.memory);
+}
+
+BENCHMARK(curved_collocation_of_ellipsoid)->DenseRange(1, 4)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace
 }  // namespace samara

@@ -12,6 +12,8 @@ namespace samara {
 namespace {
 
 constexpr std::size_t groups_a_piece = 2;
+// Nearer than this, the rounding of the places in single precision counts. The body's size is 1.
+constexpr double least_far_distance = 0.02;
 
 Eigen::Index row_of(std::size_t index) {
     return static_cast<Eigen::Index>(index);
@@ -61,7 +63,8 @@ class GroupAssembly {
         const double ratio = quadrature_.far_ratio();
         for (std::size_t j = 0; j < panels_.panels.size(); ++j) {
             const CurvedPanel& panel = panels_.panels[j];
-            const double reach = ratio * quadrature_.effective_radius(panel) + radius_;
+            const double reach =
+                std::max(ratio * PanelQuadrature::effective_radius(panel), least_far_distance) + radius_;
             if ((panel.centre - centre_).squaredNorm() >= reach * reach) {
                 far_.push_back(static_cast<std::uint32_t>(j));
             } else {
@@ -75,7 +78,7 @@ class GroupAssembly {
     void add_near(std::size_t j) {
         const CurvedPanel& panel = panels_.panels[j];
         const double least = quadrature_.least_squared_ratio();
-        const double radius = quadrature_.effective_radius(panel);
+        const double radius = PanelQuadrature::effective_radius(panel);
         const double scale = 1.0 / (radius * radius);
         std::array<double, group_size> ratios;
         for (std::size_t i = 0; i < group_size; ++i) {
@@ -181,7 +184,7 @@ CurvedEquations assemble_curved_equations(const CurvedPanels& panels, double tol
     equations.right_hand_sides.resize(row_of(equations.count), 6);
     Eigen::VectorXd row_faults(row_of(equations.count));
     const PanelQuadrature quadrature(panels.panels, tolerance, options.threads);
-    const std::vector<double> shares = interior_shares(panels);
+    const std::vector<double> shares = interior_shares(panels, options.threads);
     parallel_for(
         equations.groups, groups_a_piece, options.threads,
         [&](std::size_t begin, std::size_t end) {

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "samara/base/error.hpp"
+#include "samara/base/parallel_for.hpp"
 
 namespace samara {
 namespace {
@@ -102,6 +103,37 @@ double solid_angle(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
     return 2.0 * std::atan2(a.dot(b.cross(c)), 1.0 + a.dot(b) + b.dot(c) + c.dot(a));
 }
 
+/// The solid angle between `inward` and the directions in which the panel leaves its node a: the sector
+/// between two tangents at a corner, and two such sectors, by way of the opposite corner, at the middle of an
+/// edge.
+double sector_angle(const CurvedPanel& panel, std::size_t a, const Vector3d& inward) {
+    const Eigen::Matrix<double, 3, 2> tangents =
+        panel.tangents(node_coordinates[a][0], node_coordinates[a][1]);
+    const Vector3d along_p = tangents.col(0);
+    const Vector3d along_q = tangents.col(1);
+    const Vector3d across = along_q - along_p;
+    const auto sector = [&](const Vector3d& first, const Vector3d& last) {
+        return solid_angle(inward, first.normalized(), last.normalized());
+    };
+    const auto half_plane = [&](const Vector3d& first, const Vector3d& middle) {
+        return sector(first, middle) + sector(middle, -first);
+    };
+    switch (a) {
+        case 0:
+            return sector(along_p, along_q);
+        case 1:
+            return sector(across, -along_p);
+        case 2:
+            return sector(-along_q, -across);
+        case 3:
+            return half_plane(along_p, along_q - 0.5 * along_p);
+        case 4:
+            return half_plane(across, -0.5 * (along_p + along_q));
+        default:
+            return half_plane(-along_q, along_p - 0.5 * along_q);
+    }
+}
+
 }  // namespace
 
 Vector3d CurvedPanel::place(double p, double q) const {
@@ -146,7 +178,7 @@ CurvedPanels make_curved_panels(const Surface& surface) {
     return result;
 }
 
-std::vector<double> interior_shares(const CurvedPanels& panels) {
+std::vector<double> interior_shares(const CurvedPanels& panels, int threads) {
     const std::size_t count = panels.nodes.size();
     std::vector<Vector3d> inwards(count, Vector3d::Zero());
     for (const CurvedPanel& panel : panels.panels) {
@@ -155,36 +187,23 @@ std::vector<double> interior_shares(const CurvedPanels& panels) {
             inwards[at(panel.nodes[a])] -= panel.area_normal(p, q).normalized();
         }
     }
-    std::vector<double> angles(count, 0.0);
-    for (const CurvedPanel& panel : panels.panels) {
+    std::vector<std::array<double, 6>> angles(panels.panels.size());
+    parallel_for(angles.size(), 64, threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t j = begin; j < end; ++j) {
+            for (std::size_t a = 0; a < 6; ++a) {
+                const CurvedPanel& panel = panels.panels[j];
+                angles[j][a] = sector_angle(panel, a, inwards[at(panel.nodes[a])].normalized());
+            }
+        }
+    });
+    std::vector<double> shares(count, 0.0);
+    for (std::size_t j = 0; j < angles.size(); ++j) {
         for (std::size_t a = 0; a < 6; ++a) {
-            const auto& [p, q] = node_coordinates[a];
-            const Eigen::Matrix<double, 3, 2> tangents = panel.tangents(p, q);
-            const Vector3d along_p = tangents.col(0);
-            const Vector3d along_q = tangents.col(1);
-            const Vector3d across = along_q - along_p;
-            const Vector3d inward = inwards[at(panel.nodes[a])].normalized();
-            // The panel's directions from the node span the sector between two tangents at a corner, and two
-            // such sectors, by way of the opposite corner, at the middle of an edge.
-            const std::array<std::array<Vector3d, 3>, 6> sectors = {
-                {{along_p, along_q, along_q},
-                 {across, -along_p, -along_p},
-                 {-along_q, -across, -across},
-                 {along_p, along_q - 0.5 * along_p, -along_p},
-                 {across, -0.5 * (along_p + along_q), -across},
-                 {-along_q, along_p - 0.5 * along_q, along_q}}};
-            const Vector3d first = sectors[a][0].normalized();
-            const Vector3d middle = sectors[a][1].normalized();
-            const Vector3d last = sectors[a][2].normalized();
-            angles[at(panel.nodes[a])] -= solid_angle(inward, first, middle);
-            if (a >= 3) angles[at(panel.nodes[a])] -= solid_angle(inward, middle, last);
+            shares[at(panels.panels[j].nodes[a])] -= angles[j][a] / (4.0 * std::numbers::pi);
         }
     }
-    for (double& angle : angles) {
-        angle /= 4.0 * std::numbers::pi;
-        angle -= std::floor(angle);  // the whole sphere cannot lie inside
-    }
-    return angles;
+    for (double& share : shares) share -= std::floor(share);  // the whole sphere cannot lie inside
+    return shares;
 }
 
 }  // namespace samara

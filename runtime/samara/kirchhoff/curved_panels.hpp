@@ -48,6 +48,6 @@ CurvedPanels make_curved_panels(const Surface& surface);
 
 /// The share of the full solid angle about each node that lies inside the body, from the tangents of the
 /// panels that meet there: 1/2 where the surface is smooth.
-std::vector<double> interior_shares(const CurvedPanels& panels);
+std::vector<double> interior_shares(const CurvedPanels& panels, int threads = 0);
 
 }  // namespace samara

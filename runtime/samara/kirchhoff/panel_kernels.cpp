@@ -17,6 +17,9 @@ using Doubles = hn::CappedTag<double, 8>;
 /// 1 / sqrt(x) to the last bits of single precision: Newton's step doubles the digits of the estimate.
 template <class V>
 HWY_INLINE V inverse_root(Floats tag, V x) {
+#if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128
+    return hn::Div(hn::Set(tag, 1.0F), hn::Sqrt(x));  // the estimate there has five bits
+#else
     const auto three_halves = hn::Set(tag, 1.5F);
     const auto half_x = hn::Mul(hn::Set(tag, 0.5F), x);
     auto y = hn::ApproximateReciprocalSqrt(x);
@@ -26,6 +29,7 @@ HWY_INLINE V inverse_root(Floats tag, V x) {
     y = hn::Mul(y, hn::NegMulAdd(hn::Mul(half_x, y), y, three_halves));
 #endif
     return y;
+#endif
 }
 
 template <class V>
