@@ -158,11 +158,26 @@ void contour_potential_lanes(const FlatTriangle& triangle, const Vector3d& direc
     }
 }
 
-void hat_potentials_lanes(const FlatTriangle& triangle, const PointBatch& points, HatBatch& result) {
+void add_hat_sums_lanes(const FlatTriangle& triangle, const SourceBatch& sources, HatSums& sums) {
     const Tag tag;
     const double inverse = 0.5 / triangle.area;
+    // v_k falls from 1 at corner k to 0 across the edge opposite, along that edge's outward normal.
+    double along[3][3];
+    double slopes[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t opposite = (k + 1) % 3;
+        slopes[k] = -triangle.lengths[opposite] * inverse;
+        for (std::size_t e = 0; e < 3; ++e) {
+            along[k][e] = slopes[k] * triangle.outward[opposite].dot(triangle.outward[e]);
+        }
+    }
+    Lanes potentials[3][3];
+    Lanes angles[3][3];
+    for (std::size_t k = 0; k < 3; ++k) {
+        for (std::size_t a = 0; a < 3; ++a) potentials[k][a] = angles[k][a] = hn::Zero(tag);
+    }
     for (std::size_t i = 0; i < point_batch; i += hn::Lanes(tag)) {
-        const View seen = view(triangle, load(points, i));
+        const View seen = view(triangle, load(sources.points, i));
         const Lanes uniform = potential(seen);
         const Lanes signed_angle = hn::CopySign(seen.solid_angle, seen.height);
         const Lanes height_squared = hn::Mul(seen.height, seen.height);
@@ -175,21 +190,29 @@ void hat_potentials_lanes(const FlatTriangle& triangle, const PointBatch& points
             moments[e] = hn::Mul(hn::Set(tag, 0.5), hn::MulAdd(off, seen.logarithms[e], ends));
         }
         for (std::size_t k = 0; k < 3; ++k) {
-            // v_k falls from 1 at corner k to 0 across the edge opposite, along that edge's outward normal.
-            const std::size_t opposite = (k + 1) % 3;
-            const double slope = -triangle.lengths[opposite] * inverse;
-            const Lanes at_point = hn::Mul(hn::Set(tag, -slope), seen.across[opposite]);
+            const Lanes at_point = hn::Mul(hn::Set(tag, -slopes[k]), seen.across[(k + 1) % 3]);
             Lanes first = hn::Zero(tag);
             Lanes second = hn::Zero(tag);
             for (std::size_t e = 0; e < 3; ++e) {
-                const Lanes along = hn::Set(tag, slope * triangle.outward[opposite].dot(triangle.outward[e]));
-                first = hn::MulAdd(along, moments[e], first);
-                second = hn::MulAdd(along, seen.logarithms[e], second);
+                first = hn::MulAdd(hn::Set(tag, along[k][e]), moments[e], first);
+                second = hn::MulAdd(hn::Set(tag, along[k][e]), seen.logarithms[e], second);
             }
-            hn::Store(hn::MulAdd(at_point, uniform, first), tag, &result.potentials[k].values[i]);
+            const Lanes hat_potential = hn::MulAdd(at_point, uniform, first);
             // The logarithms are multiplied with the height, which is zero where they are infinite.
-            hn::Store(hn::MulSub(at_point, signed_angle, hn::Mul(seen.height, second)), tag,
-                      &result.solid_angles[k].values[i]);
+            const Lanes hat_angle = hn::MulSub(at_point, signed_angle, hn::Mul(seen.height, second));
+            for (std::size_t a = 0; a < 3; ++a) {
+                const Lanes strength = hn::Load(tag, &sources.strengths[a].values[i]);
+                potentials[k][a] = hn::MulAdd(hat_potential, strength, potentials[k][a]);
+                angles[k][a] = hn::MulAdd(hat_angle, strength, angles[k][a]);
+            }
+        }
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+        for (std::size_t a = 0; a < 3; ++a) {
+            const auto row = static_cast<Eigen::Index>(k);
+            const auto column = static_cast<Eigen::Index>(a);
+            sums.potentials(row, column) += hn::GetLane(hn::SumOfLanes(tag, potentials[k][a]));
+            sums.solid_angles(row, column) += hn::GetLane(hn::SumOfLanes(tag, angles[k][a]));
         }
     }
 }
@@ -203,7 +226,7 @@ namespace samara {
 
 HWY_EXPORT(uniform_potential_lanes);
 HWY_EXPORT(contour_potential_lanes);
-HWY_EXPORT(hat_potentials_lanes);
+HWY_EXPORT(add_hat_sums_lanes);
 
 ValueBatch uniform_potential(const FlatTriangle& triangle, const PointBatch& points) {
     ValueBatch result;
@@ -218,10 +241,8 @@ ValueBatch contour_potential(const FlatTriangle& triangle, const Vector3d& direc
     return result;
 }
 
-HatBatch hat_potentials(const FlatTriangle& triangle, const PointBatch& points) {
-    HatBatch result;
-    HWY_DYNAMIC_DISPATCH(hat_potentials_lanes)(triangle, points, result);
-    return result;
+void add_hat_sums(const FlatTriangle& triangle, const SourceBatch& sources, HatSums& sums) {
+    HWY_DYNAMIC_DISPATCH(add_hat_sums_lanes)(triangle, sources, sums);
 }
 
 }  // namespace samara

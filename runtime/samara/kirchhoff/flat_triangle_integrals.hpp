@@ -28,11 +28,18 @@ struct ValueBatch {
     alignas(64) std::array<double, point_batch> values;
 };
 
-/// What a triangle with the densities v_i (1 at corner i, 0 at the others, linear between) exerts on each
-/// point.
-struct HatBatch {
-    std::array<ValueBatch, 3> potentials;    ///< integral of v_i / r
-    std::array<ValueBatch, 3> solid_angles;  ///< integral of v_i n . (y - x) / r^3, y on the triangle
+/// Points that carry three strengths each.
+struct SourceBatch {
+    PointBatch points;
+    std::array<ValueBatch, 3> strengths;
+};
+
+/// Integrals of the densities v_k of a triangle (1 at corner k, 0 at the others, linear between), summed over
+/// sources: rows k, columns the strengths.
+struct HatSums {
+    Matrix3d potentials = Matrix3d::Zero();  ///< strength x integral of v_k / r
+    Matrix3d solid_angles =
+        Matrix3d::Zero();  ///< strength x integral of v_k n . (y - x) / r^3, y on the triangle
 };
 
 /// The integral of 1/r over the triangle at each point, which may lie on it (Wilton et al., IEEE Trans.
@@ -45,9 +52,9 @@ ValueBatch uniform_potential(const FlatTriangle& triangle, const PointBatch& poi
 ValueBatch contour_potential(const FlatTriangle& triangle, const Vector3d& direction, double height,
                              const PointBatch& points);
 
-/// The same as uniform_potential for the three linear densities; both integrals share their logarithms
-/// (Wilton et al. 1984). A point in the triangle's plane has no solid angle.
-HatBatch hat_potentials(const FlatTriangle& triangle, const PointBatch& points);
+/// Adds the potentials and solid angles of the triangle's three linear densities at the sources to `sums`;
+/// all share their logarithms (Wilton et al. 1984). A point in the triangle's plane has no solid angle.
+void add_hat_sums(const FlatTriangle& triangle, const SourceBatch& sources, HatSums& sums);
 
 /// The double integral of 1/r over two triangles in any position to each other (apart, touching, the same, or
 /// facing each other at any distance), to about 1e-9 of the radii cubed; not for triangles that cross.

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "samara/kirchhoff/flat_triangle_integrals.hpp"
 
@@ -12,8 +11,8 @@ constexpr std::array<double, 4> gauss_nodes = {0.1834346424956498, 0.52553240991
                                                0.9602898564975363};
 constexpr std::array<double, 4> gauss_weights = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
                                                  0.1012285362903763};
-constexpr double least_distance = 2.2;      // of a singularity from an interval's middle, in half lengths
-constexpr double shortest_interval = 1e-4;  // of the edge: what is left is of the order of its square
+constexpr double least_distance = 1.6;      // of a singularity from an interval's middle, in half lengths
+constexpr double shortest_interval = 2e-3;  // of the edge: what is left is of the order of its square
 constexpr double coplanar = 1e-11;          // of the radii
 constexpr double far_common_line = 1e5;     // radii
 
@@ -24,6 +23,13 @@ struct Singularity {
     double distance;
 };
 
+struct Singularities {
+    std::array<Singularity, 6> list;
+    std::size_t count = 0;
+
+    void add(double place, double distance) { list[count++] = {place, distance}; }
+};
+
 struct Edge {
     Vector3d start;
     Vector3d tangent;
@@ -32,13 +38,12 @@ struct Edge {
 
 /// The singularities of a triangle's potential along an edge: its corners and, where the edge passes them
 /// within their length, its own edges.
-std::vector<Singularity> singularities(const Edge& edge, const FlatTriangle& other) {
-    std::vector<Singularity> found;
-    found.reserve(6);
+Singularities singularities(const Edge& edge, const FlatTriangle& other) {
+    Singularities found;
     for (const Vector3d& corner : other.corners) {
         const Vector3d arm = corner - edge.start;
         const double place = arm.dot(edge.tangent);
-        found.push_back({place, (arm - place * edge.tangent).norm()});
+        found.add(place, (arm - place * edge.tangent).norm());
     }
     for (std::size_t e = 0; e < 3; ++e) {
         const Vector3d arm = other.corners[e] - edge.start;
@@ -48,7 +53,7 @@ std::vector<Singularity> singularities(const Edge& edge, const FlatTriangle& oth
         const double place = arm.cross(other.tangents[e]).dot(across) / sine_squared;
         const double there = arm.cross(edge.tangent).dot(across) / sine_squared;
         if (there < -0.2 * other.lengths[e] || there > 1.2 * other.lengths[e]) continue;
-        found.push_back({place, std::abs(arm.dot(across)) / sine_squared});
+        found.add(place, std::abs(arm.dot(across)) / sine_squared);
     }
     return found;
 }
@@ -56,7 +61,7 @@ std::vector<Singularity> singularities(const Edge& edge, const FlatTriangle& oth
 /// Calls rule(middle, half) for intervals that make up (0, length), each a few half lengths away from all
 /// singularities or very short.
 template <typename Rule>
-void on_graded_intervals(const std::vector<Singularity>& singular, double length, const Rule& rule) {
+void on_graded_intervals(const Singularities& singular, double length, const Rule& rule) {
     struct Interval {
         double begin;
         double end;
@@ -70,15 +75,16 @@ void on_graded_intervals(const std::vector<Singularity>& singular, double length
         const double half = 0.5 * (end - begin);
         double nearest = least_distance;
         double split = middle;
-        for (const auto& [place, distance] : singular) {
-            const double away = std::hypot(place - middle, distance) / half;
+        for (std::size_t k = 0; k < singular.count; ++k) {
+            const auto& [place, distance] = singular.list[k];
+            const double away = std::sqrt((place - middle) * (place - middle) + distance * distance) / half;
             if (away >= nearest) continue;
             nearest = away;
             const double inside = (place - begin) / (end - begin);
             if (inside > 0.05 && inside < 0.95) {
                 split = place;
             } else {
-                split = inside <= 0.05 ? begin + 0.3 * (end - begin) : end - 0.3 * (end - begin);
+                split = inside <= 0.05 ? begin + 0.25 * (end - begin) : end - 0.25 * (end - begin);
             }
         }
         if (nearest >= least_distance || end - begin < shortest_interval * length || top + 2 > stack.size()) {
@@ -154,6 +160,16 @@ double parallel(const FlatTriangle& first, const FlatTriangle& second, double he
     return sum;
 }
 
+/// A corner that both triangles have; none: null.
+const Vector3d* shared_corner(const FlatTriangle& first, const FlatTriangle& second) {
+    for (const Vector3d& a : first.corners) {
+        for (const Vector3d& b : second.corners) {
+            if (a == b) return &a;
+        }
+    }
+    return nullptr;
+}
+
 double largest_offset(const FlatTriangle& first, const FlatTriangle& second) {
     double offset = 0.0;
     for (const Vector3d& corner : first.corners) {
@@ -165,6 +181,8 @@ double largest_offset(const FlatTriangle& first, const FlatTriangle& second) {
 }  // namespace
 
 double pair_potential(const FlatTriangle& first, const FlatTriangle& second) {
+    // From a corner that is common to both, the edges that meet there are at no distance and drop out.
+    if (const Vector3d* corner = shared_corner(first, second)) return homogeneous(first, second, *corner);
     const double radius = std::max(first.radius, second.radius);
     const Vector3d middle = 0.5 * (first.centroid + second.centroid);
     if (std::max(largest_offset(first, second), largest_offset(second, first)) < coplanar * radius) {

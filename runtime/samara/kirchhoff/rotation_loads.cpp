@@ -28,11 +28,13 @@ struct RotationSources {
     std::array<std::vector<double>, 3> area_vector;
 };
 
-/// Sources in one point, or three points, a triangle.
+/// Sources in one, three or six points a triangle, and batches for the near ones.
 struct RotationSourceSets {
     RotationSources one;
     RotationSources three;
+    RotationSources six;
     std::vector<double> radius;
+    std::vector<std::array<SourceBatch, 2>> near;
 };
 
 /// Sums over sources at one point.
@@ -45,6 +47,20 @@ struct FieldAtPoint {
 struct TargetPoint {
     std::array<double, 3> place;
     std::array<double, 3> normal;
+};
+
+/// A triangle's own points that the fields of others are summed at.
+struct Targets {
+    TargetPoint one;
+    std::array<TargetPoint, 3> three;
+    std::array<TargetPoint, 6> six;
+    double radius;
+};
+
+struct Fields {
+    FieldAtPoint one;
+    std::array<FieldAtPoint, 3> three;
+    std::array<FieldAtPoint, 6> six;
 };
 
 }  // namespace samara
@@ -104,50 +120,58 @@ HWY_INLINE void add_to(const LaneSums& sums, FieldAtPoint& field) {
     field.solid_angle += hn::GetLane(hn::SumOfLanes(tag, sums.solid_angle));
 }
 
-/// The fields of all distant triangles at a triangle's middle (of those very far off) and at its three points
-/// (of the others), and the list of those too near for either.
-void far_fields(const RotationSourceSets& sources, const TargetPoint& middle,
-                const std::array<TargetPoint, 3>& points, double radius,
-                const std::array<double, 2>& distances, std::size_t count, FieldAtPoint& field_at_middle,
-                std::array<FieldAtPoint, 3>& fields, std::vector<std::size_t>& near) {
+/// Adds the sources of one group of triangles, those marked, at all points of a rule.
+template <std::size_t points, class Mask>
+HWY_INLINE void add_group(const RotationSources& sources, std::size_t group,
+                          const std::array<TargetPoint, points>& targets, Mask marked, LaneSums* sums) {
+    for (std::size_t q = 0; q < points; ++q) {
+        for (std::size_t p = 0; p < points; ++p) {
+            add_sources(sources, p * sources.stride + group, targets[q], marked, sums[q]);
+        }
+    }
+}
+
+/// The fields of all distant triangles at a triangle's points, one point for those very far off, three or six
+/// for the others, and the list of those too near.
+void far_fields(const RotationSourceSets& sources, const Targets& targets,
+                const std::array<double, 3>& distances, std::size_t count, Fields& fields,
+                std::vector<std::size_t>& near) {
     const Tag tag;
     const std::size_t lanes = hn::Lanes(tag);
-    LaneSums middle_sums = no_sums();
-    LaneSums sums[3] = {no_sums(), no_sums(), no_sums()};
-    const auto far_ratio = hn::Set(tag, distances[0] * distances[0]);
-    const auto near_ratio = hn::Set(tag, distances[1] * distances[1]);
+    LaneSums one = no_sums();
+    LaneSums three[3] = {no_sums(), no_sums(), no_sums()};
+    LaneSums six[6] = {no_sums(), no_sums(), no_sums(), no_sums(), no_sums(), no_sums()};
     for (std::size_t j = 0; j < count; j += lanes) {
+        const TargetPoint& middle = targets.one;
         const Lanes dx = hn::Sub(hn::LoadU(tag, &sources.one.place[0][j]), hn::Set(tag, middle.place[0]));
         const Lanes dy = hn::Sub(hn::LoadU(tag, &sources.one.place[1][j]), hn::Set(tag, middle.place[1]));
         const Lanes dz = hn::Sub(hn::LoadU(tag, &sources.one.place[2][j]), hn::Set(tag, middle.place[2]));
         const Lanes squared = hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz)));
-        const Lanes reach = hn::Add(hn::Set(tag, radius), hn::LoadU(tag, &sources.radius[j]));
+        const Lanes reach = hn::Add(hn::Set(tag, targets.radius), hn::LoadU(tag, &sources.radius[j]));
         const Lanes reach_squared = hn::Mul(reach, reach);
         const auto present = hn::FirstN(tag, std::min(lanes, count - j));
-        const auto very_far = hn::Gt(squared, hn::Mul(reach_squared, far_ratio));
-        if (hn::AllTrue(tag, hn::Or(very_far, hn::Not(present)))) {
-            add_sources(sources.one, j, middle, present, middle_sums);
+        const auto beyond = [&](std::size_t rule) HWY_ATTR {
+            return hn::Gt(squared, hn::Mul(reach_squared, hn::Set(tag, distances[rule] * distances[rule])));
+        };
+        if (hn::AllTrue(tag, hn::Or(beyond(0), hn::Not(present)))) {
+            add_sources(sources.one, j, middle, present, one);
             continue;
         }
-        const auto is_far = hn::And(present, hn::Gt(squared, hn::Mul(reach_squared, near_ratio)));
-        if (!hn::AllFalse(tag, is_far)) {
-            for (std::size_t q = 0; q < 3; ++q) {
-                for (std::size_t p = 0; p < 3; ++p) {
-                    add_sources(sources.three, p * sources.three.stride + j, points[q], is_far, sums[q]);
-                }
-            }
-        }
-        const auto is_near = hn::AndNot(is_far, present);
-        if (!hn::AllFalse(tag, is_near)) {
-            HWY_ALIGN double marks[8];
-            hn::Store(hn::IfThenElseZero(is_near, hn::Set(tag, 1.0)), tag, marks);
-            for (std::size_t k = 0; k < lanes; ++k) {
-                if (marks[k] != 0.0) near.push_back(j + k);
-            }
+        const auto far = hn::And(present, beyond(1));
+        if (!hn::AllFalse(tag, far)) add_group(sources.three, j, targets.three, far, three);
+        const auto nearer = hn::AndNot(far, present);
+        if (hn::AllFalse(tag, nearer)) continue;
+        const auto six_points = hn::And(nearer, beyond(2));
+        if (!hn::AllFalse(tag, six_points)) add_group(sources.six, j, targets.six, six_points, six);
+        HWY_ALIGN double marks[8];
+        hn::Store(hn::IfThenElseZero(hn::AndNot(six_points, nearer), hn::Set(tag, 1.0)), tag, marks);
+        for (std::size_t k = 0; k < lanes; ++k) {
+            if (marks[k] != 0.0) near.push_back(j + k);
         }
     }
-    add_to(middle_sums, field_at_middle);
-    for (std::size_t q = 0; q < 3; ++q) add_to(sums[q], fields[q]);
+    add_to(one, fields.one);
+    for (std::size_t q = 0; q < 3; ++q) add_to(three[q], fields.three[q]);
+    for (std::size_t q = 0; q < 6; ++q) add_to(six[q], fields.six[q]);
 }
 
 }  // namespace
@@ -160,8 +184,8 @@ namespace {
 
 HWY_EXPORT(far_fields);
 
-// In sums of both radii: beyond the first one point a triangle, beyond the second three.
-constexpr std::array<double, 2> source_distances = {15.0, 2.0};
+// In sums of both radii: beyond the first one point a triangle, beyond the next three, beyond the last six.
+constexpr std::array<double, 3> source_distances = {15.0, 3.0, 1.2};
 constexpr std::size_t padding = 8;
 constexpr std::size_t rows_a_piece = 32;
 constexpr double full_solid_angle = 4.0 * std::numbers::pi;
@@ -196,18 +220,40 @@ RotationSources empty_sources(std::size_t stride, std::size_t points) {
     return sources;
 }
 
+void set_sources(RotationSources& sources, std::size_t t, const FlatTriangle& triangle,
+                 const std::vector<RulePoint>& rule) {
+    for (std::size_t p = 0; p < rule.size(); ++p) {
+        const Vector3d place = place_on(triangle, rule[p]);
+        set_source(sources, p * sources.stride + t, triangle, place, rule[p].weight * triangle.area);
+    }
+}
+
+std::array<SourceBatch, 2> near_sources(const FlatTriangle& triangle) {
+    const std::vector<RulePoint>& rule = triangle_rule_16();
+    std::array<SourceBatch, 2> batches;
+    for (std::size_t i = 0; i < rule.size(); ++i) {
+        SourceBatch& batch = batches[i / point_batch];
+        const Vector3d place = place_on(triangle, rule[i]);
+        const Vector3d strength = rule[i].weight * triangle.area * place.cross(triangle.normal);
+        batch.points.set(i % point_batch, place);
+        for (std::size_t a = 0; a < 3; ++a) batch.strengths[a].values[i % point_batch] = strength[at(a)];
+    }
+    return batches;
+}
+
 RotationSourceSets make_sources(const std::vector<FlatTriangle>& triangles) {
     const std::size_t stride = triangles.size() + padding;
-    RotationSourceSets sets{empty_sources(stride, 1), empty_sources(stride, 3), {}};
+    RotationSourceSets sets{
+        empty_sources(stride, 1), empty_sources(stride, 3), empty_sources(stride, 6), {}, {}};
     sets.radius.assign(stride, 0.0);
+    sets.near.reserve(triangles.size());
     for (std::size_t t = 0; t < triangles.size(); ++t) {
         const FlatTriangle& triangle = triangles[t];
         sets.radius[t] = triangle.radius;
         set_source(sets.one, t, triangle, triangle.centroid, triangle.area);
-        for (std::size_t p = 0; p < 3; ++p) {
-            const Vector3d place = place_on(triangle, triangle_rule_3()[p]);
-            set_source(sets.three, p * stride + t, triangle, place, triangle.area / 3.0);
-        }
+        set_sources(sets.three, t, triangle, triangle_rule_3());
+        set_sources(sets.six, t, triangle, triangle_rule_6());
+        sets.near.push_back(near_sources(triangle));
     }
     return sets;
 }
@@ -240,27 +286,6 @@ void add_field(const FieldAtPoint& field, const FlatTriangle& triangle, const Ru
     row.energies += area * potential * motions.transpose();
 }
 
-void add_near(const FlatTriangle& source, const FlatTriangle& triangle, RowLoads& row) {
-    const std::vector<RulePoint>& rule = triangle_rule_16();
-    std::array<Vector6d, 3> motions;
-    for (std::size_t k = 0; k < 3; ++k) motions[k] = motions_at(triangle.corners[k], triangle.normal);
-    PointBatch points;
-    for (std::size_t first = 0; first < rule.size(); first += point_batch) {
-        for (std::size_t i = 0; i < point_batch; ++i) points.set(i, place_on(source, rule[first + i]));
-        const HatBatch hats = hat_potentials(triangle, points);
-        for (std::size_t i = 0; i < point_batch; ++i) {
-            const Vector3d place(points.x[i], points.y[i], points.z[i]);
-            const Vector3d strength = rule[first + i].weight * source.area * place.cross(source.normal);
-            for (std::size_t k = 0; k < 3; ++k) {
-                if (&source != &triangle) {
-                    row.loads.row(at(k)) += hats.solid_angles[k].values[i] * strength.transpose();
-                }
-                row.energies += hats.potentials[k].values[i] * strength * motions[k].transpose();
-            }
-        }
-    }
-}
-
 /// The solid angles of the near triangles from the middle of one.
 double near_solid_angles(const std::vector<FlatTriangle>& triangles, const std::vector<std::size_t>& near,
                          std::size_t own) {
@@ -280,26 +305,60 @@ double near_solid_angles(const std::vector<FlatTriangle>& triangles, const std::
     return sum;
 }
 
+template <std::size_t points>
+std::array<TargetPoint, points> targets_on(const FlatTriangle& triangle, const std::vector<RulePoint>& rule) {
+    std::array<TargetPoint, points> targets;
+    for (std::size_t q = 0; q < points; ++q) {
+        targets[q] = target(place_on(triangle, rule[q]), triangle.normal);
+    }
+    return targets;
+}
+
+template <std::size_t points>
+void add_fields(const std::array<FieldAtPoint, points>& fields, const FlatTriangle& triangle,
+                const std::vector<RulePoint>& rule, RowLoads& row) {
+    for (std::size_t q = 0; q < points; ++q) {
+        add_field(fields[q], triangle, rule[q], row);
+        row.solid_angle += rule[q].weight * fields[q].solid_angle;
+    }
+}
+
+void add_near(const RotationSourceSets& sources, const std::vector<std::size_t>& near, std::size_t own,
+              const FlatTriangle& triangle, RowLoads& row) {
+    HatSums sums;
+    for (const std::size_t j : near) {
+        for (const SourceBatch& batch : sources.near[j]) {
+            if (j == own) {
+                HatSums own_sums;  // whose solid angles are zero, not what rounding leaves of them
+                add_hat_sums(triangle, batch, own_sums);
+                sums.potentials += own_sums.potentials;
+            } else {
+                add_hat_sums(triangle, batch, sums);
+            }
+        }
+    }
+    row.loads += sums.solid_angles;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vector6d motions = motions_at(triangle.corners[k], triangle.normal);
+        row.energies += sums.potentials.row(at(k)).transpose() * motions.transpose();
+    }
+}
+
 RowLoads row_loads(const LinearElements& elements, const RotationSourceSets& sources, std::size_t t) {
     const FlatTriangle& triangle = elements.triangles[t];
-    const std::vector<RulePoint>& rule = triangle_rule_3();
-    const TargetPoint middle = target(triangle.centroid, triangle.normal);
-    std::array<TargetPoint, 3> points;
-    for (std::size_t q = 0; q < 3; ++q) points[q] = target(place_on(triangle, rule[q]), triangle.normal);
-    FieldAtPoint at_middle;
-    std::array<FieldAtPoint, 3> fields;
+    const Targets targets{target(triangle.centroid, triangle.normal),
+                          targets_on<3>(triangle, triangle_rule_3()),
+                          targets_on<6>(triangle, triangle_rule_6()), triangle.radius};
+    Fields fields;
     std::vector<std::size_t> near;
     HWY_DYNAMIC_DISPATCH(far_fields)
-    (sources, middle, points, triangle.radius, source_distances, elements.triangle_count(), at_middle, fields,
-     near);
+    (sources, targets, source_distances, elements.triangle_count(), fields, near);
     RowLoads row;
-    add_field(at_middle, triangle, {{1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}, 1.0}, row);
-    row.solid_angle = at_middle.solid_angle;
-    for (std::size_t q = 0; q < 3; ++q) {
-        add_field(fields[q], triangle, rule[q], row);
-        row.solid_angle += fields[q].solid_angle / 3.0;
-    }
-    for (const std::size_t j : near) add_near(elements.triangles[j], triangle, row);
+    add_field(fields.one, triangle, {{1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}, 1.0}, row);
+    row.solid_angle = fields.one.solid_angle;
+    add_fields(fields.three, triangle, triangle_rule_3(), row);
+    add_fields(fields.six, triangle, triangle_rule_6(), row);
+    add_near(sources, near, t, triangle, row);
     row.solid_angle += near_solid_angles(elements.triangles, near, t);
     return row;
 }

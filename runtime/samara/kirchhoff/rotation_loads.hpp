@@ -13,7 +13,7 @@ struct RotationLoads {
     /// <g_a, S N_b> for the rotations a and all six motions b = (omega, v); S is the single layer.
     Eigen::Matrix<double, 3, 6> energies;
     /// The largest difference between the solid angle of all triangles from the middle of one and 2 pi, as a
-    /// share of 4 pi. Distant triangles' own are good to about 1e-5.
+    /// share of 4 pi. TBD
     double closure_fault;
 };
 
