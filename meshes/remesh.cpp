@@ -72,10 +72,11 @@ bool is_sound(const Surface& surface, const std::string& label) {
 }
 
 // The surface that meshing starts from: reduced as far as the shape stays.
-Surface base_of(const Surface& flat, const MeshOptions& options, const std::string& label) {
+Surface base_of(const Surface& flat, const MeshOptions& options, const std::string& label,
+                const std::function<void(double)>& progress) {
     const double extent = extent_of(flat);
     for (std::size_t count = enough_triangles(flat, options); count < flat.triangle_count(); count *= 2) {
-        Surface base = reduced(flat, count);
+        Surface base = reduced(flat, count, progress);
         if (volume_change(flat, base) < most_volume_lost &&
             distance_between(flat, base) < most_distance * extent && is_sound(base, label)) {
             return base;
@@ -125,9 +126,13 @@ void require_sound_result(const Surface& surface, const std::string& label) {
 
 }  // namespace
 
-Surface remesh(const Surface& surface, const MeshOptions& options, const std::string& label) {
+Surface remesh(const Surface& surface, const MeshOptions& options, const std::string& label,
+               const std::function<void(double)>& progress) {
+    constexpr double share_of_reduction = 0.7;
     const Surface flat = surface.order() == 1 ? surface : welded(flattened(surface, 2), label);
-    const Surface base = base_of(flat, options, label);
+    const Surface base = base_of(flat, options, label, [&](double share) {
+        if (progress) progress(share_of_reduction * share);
+    });
     const MeshSizeField field(base, size_law(options.order));
     // Thin bodies with shallow folds need these as edges; on coarse curved ones that would keep every facet.
     constexpr std::array<double, 2> cutting_angles = {sharp_angle, sharp_angle / 4.0};
@@ -139,7 +144,9 @@ Surface remesh(const Surface& surface, const MeshOptions& options, const std::st
     for (const double angle : cutting_angles) {
         try {
             const SmoothShape shape(flat, angle);
-            const Surface flat_result = evened(base, shape, field, options, angle);
+            const Surface flat_result = evened(base, shape, field, options, angle, [&](double share) {
+                if (progress) progress(share_of_reduction + (1.0 - share_of_reduction) * share);
+            });
             Surface result = with_nodes_on(shape, flat_result, options.order);
             require_sound_result(result, label);
             const double change = volume_change(flat, result);

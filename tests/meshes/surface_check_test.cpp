@@ -170,9 +170,9 @@ TEST(SurfaceCheck, FindsASurfaceThatPassesThroughItself) {
 TEST(SurfaceCheck, RefusesACavityAndSaysWhatToDo) {
     Surface shell = test::box(Vector3d::Ones(), 2);
     append(shell, turned(test::box(Vector3d::Constant(0.5), 2)));
-    EXPECT_THAT(fault_of(shell), AllOf(HasSubstr("the 48 faces around"), HasSubstr("enclose a cavity"),
-                                       HasSubstr("delete them"),
-                                       HasSubstr("mass, center_of_mass and inertia in the scene")));
+    EXPECT_THAT(fault_of(shell),
+                AllOf(HasSubstr("the 48 faces around"), HasSubstr("enclose a cavity"),
+                      HasSubstr("delete them"), HasSubstr("mass, center_of_mass and inertia in the scene")));
 }
 
 TEST(SurfaceCheck, FindsAHollowBodyThatIsInsideOut) {
