@@ -53,7 +53,7 @@ class Evening {
             const Edge& edge = edges_[e];
             if (is_locked(edge)) continue;
             const auto middle = static_cast<std::int32_t>(fans_.vertices.size());
-            fans_.vertices.push_back(0.5 * (fans_.vertex(edge.a) + fans_.vertex(edge.b)));
+            fans_.vertices.push_back(middle_of(edge));
             sizes_.push_back(0.5 * (sizes_[as_index(edge.a)] + sizes_[as_index(edge.b)]));
             for (std::size_t i = 0; i < 2; ++i) {
                 TriangleFans::Triangle& one = fans_.triangles[as_index(edge.triangles[i])];
@@ -178,6 +178,23 @@ class Evening {
         CreaseEnds& ends = creases_[as_index(from)];
         if (ends.count < 2) ends.others[as_index(ends.count)] = to;
         ++ends.count;
+    }
+
+    // The middle of the edge, on the shape.
+    [[nodiscard]] Vector3d middle_of(const Edge& edge) const {
+        constexpr double most_bent = 0.3;  // over the edge's length
+        const Vector3d along = fans_.vertex(edge.b) - fans_.vertex(edge.a);
+        const Vector3d middle = fans_.vertex(edge.a) + 0.5 * along;
+        std::optional<Vector3d> place;
+        if (edge.crease) place = shape_.on_crease(middle, most_bent * along.norm());
+        if (!place) {
+            Vector3d normal = Vector3d::Zero();
+            for (const std::int32_t t : edge.triangles) {
+                normal += fans_.area_vector_of(fans_.triangles[as_index(t)]);
+            }
+            place = shape_.on_surface(middle, normal);
+        }
+        return place && (*place - middle).norm() < most_bent * along.norm() ? *place : middle;
     }
 
     // On a crease that runs on through the vertex.

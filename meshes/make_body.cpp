@@ -41,22 +41,45 @@ Surface in_order(const Surface& surface, int order) {
     return order == 2 ? with_straight_edge_nodes(surface) : without_edge_nodes(surface);
 }
 
-Surface sound_triangles(const std::filesystem::path& shape, const MeshOptions& options) {
+using ProgressCall = std::function<void(double)>;
+
+// Shares of the time that a million triangles take, up to the end of each stage.
+constexpr double triangles_read = 0.03;
+constexpr double triangles_welded = 0.12;
+constexpr double triangles_checked = 0.45;
+constexpr double triangles_meshed = 0.95;
+constexpr double geometry_meshed = 0.9;
+
+void tell(const ProgressCall& progress, double share) {
+    if (progress) progress(share);
+}
+
+Surface sound_triangles(const std::filesystem::path& shape, const MeshOptions& options,
+                        const ProgressCall& progress) {
     const std::string label = shape.string();
-    Surface surface = welded(read_triangles(shape), label);
+    const Surface read = read_triangles(shape);
+    tell(progress, triangles_read);
+    Surface surface = welded(read, label);
+    tell(progress, triangles_welded);
     if (options.flip) {
         for (std::size_t t = 0; t < surface.triangle_count(); ++t) turn_round(surface, t);
     }
     // Before scaling: errors name places as the file has them.
     require_sound_surface(surface, label);
+    tell(progress, triangles_checked);
     for (Vector3d& vertex : surface.vertices) vertex *= options.scale;
     return surface;
 }
 
-void mesh_triangles(Body& body, const std::filesystem::path& shape, const MeshOptions& options) {
-    const Surface original = sound_triangles(shape, options);
-    body.surface = options.sizing == MeshOptions::Sizing::keep ? in_order(original, options.order)
-                                                               : remesh(original, options, shape.string());
+void mesh_triangles(Body& body, const std::filesystem::path& shape, const MeshOptions& options,
+                    const ProgressCall& progress) {
+    const Surface original = sound_triangles(shape, options, progress);
+    const auto meshing = [&](double share) {
+        tell(progress, triangles_checked + share * (triangles_meshed - triangles_checked));
+    };
+    body.surface = options.sizing == MeshOptions::Sizing::keep
+                       ? in_order(original, options.order)
+                       : remesh(original, options, shape.string(), meshing);
     body.moments = volume_moments(body.surface);
     // New triangles lie on the facets of the old ones and cut their corners.
     const double tolerance =
@@ -64,12 +87,14 @@ void mesh_triangles(Body& body, const std::filesystem::path& shape, const MeshOp
     body.symmetry = find_symmetry(body.surface, body.moments, tolerance);
 }
 
-void mesh_exact_geometry(Body& body, const std::filesystem::path& shape, const MeshOptions& options) {
+void mesh_exact_geometry(Body& body, const std::filesystem::path& shape, const MeshOptions& options,
+                         const ProgressCall& progress) {
     if (options.flip) {
         throw Error(
             fmt::format("{}: geometry is turned outwards by itself; leave --flip out", shape.string()));
     }
-    body.surface = mesh_geometry(shape, options);
+    body.surface =
+        mesh_geometry(shape, options, [&](double share) { tell(progress, geometry_meshed * share); });
     body.moments = volume_moments(body.surface);
     body.symmetry = find_symmetry(body.surface, body.moments);
 }
@@ -89,14 +114,15 @@ std::string source_line(const std::filesystem::path& shape, const MeshOptions& o
 
 }  // namespace
 
-Body make_body(const std::filesystem::path& shape, const MeshOptions& options) {
+Body make_body(const std::filesystem::path& shape, const MeshOptions& options,
+               const std::function<void(double)>& progress) {
     require_sane(options, shape.string());
     Body body;
     body.name = body_name_of(shape);
     if (shape_kind(shape) == ShapeKind::geometry) {
-        mesh_exact_geometry(body, shape, options);
+        mesh_exact_geometry(body, shape, options, progress);
     } else {
-        mesh_triangles(body, shape, options);
+        mesh_triangles(body, shape, options, progress);
     }
     body.source = source_line(shape, options, body.surface.order());
     return body;

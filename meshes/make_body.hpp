@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 
 #include "meshes/mesh_options.hpp"
 #include "samara/body/body.hpp"
@@ -10,7 +11,9 @@ namespace samara {
 /// Makes a body of a shape file (.geo, .step, .stp, .brep, .stl, .obj, .msh, .body.h5): its surface read,
 /// welded, checked and meshed as the options say, its volume moments and its symmetry. Name and source are
 /// filled, Kirchhoff tensor and tables are not: those of a .body.h5 belong to another surface. Throws Error,
-/// one line that names the file, the place and the remedy.
-Body make_body(const std::filesystem::path& shape, const MeshOptions& options = {});
+/// one line that names the file, the place and the remedy. `progress`: called with the share of the work
+/// done, 0 to 1.
+Body make_body(const std::filesystem::path& shape, const MeshOptions& options = {},
+               const std::function<void(double)>& progress = {});
 
 }  // namespace samara

@@ -54,7 +54,11 @@ Surface reference_of_geometry(const std::string& label, const std::vector<int>& 
 
 }  // namespace
 
-Surface mesh_geometry(const std::filesystem::path& file, const MeshOptions& options) {
+Surface mesh_geometry(const std::filesystem::path& file, const MeshOptions& options,
+                      const std::function<void(double)>& progress) {
+    const auto tell = [&](double share) {
+        if (progress) progress(share);
+    };
     const std::string label = file.string();
     const GmshSession session;
     gmsh::option::setString("Geometry.OCCTargetUnit", "M");
@@ -68,9 +72,11 @@ Surface mesh_geometry(const std::filesystem::path& file, const MeshOptions& opti
             forget_sizes_of_file();
             const Surface reference = reference_of_geometry(label, tags);
             require_sound_surface(reference, label);
+            tell(0.2);
             mesh_model(MeshSizeField(reference, size_law(options.order)), options,
                        options.size / options.scale, tags);
         }
+        tell(0.8);
         surface = mesh_held(label, tags, options.order == 1 ? 1 : 2);
     });
     if (options.order == automatic_order) straighten_overturned(surface);

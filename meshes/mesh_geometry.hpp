@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 
 #include "meshes/mesh_options.hpp"
 #include "samara/body/surface.hpp"
@@ -11,7 +12,9 @@ namespace samara {
 /// of its surfaces where it has no volume. Faces that two volumes share are left out. Where the count of
 /// triangles is given, it is met within about 5 %, unless the geometry's own edges and corners need more. The
 /// result is in metres, welded, checked (require_sound_surface) and oriented outwards; the nodes of order 2
-/// lie on the geometry. STEP files state their unit, which is honoured. Throws Error.
-Surface mesh_geometry(const std::filesystem::path& file, const MeshOptions& options);
+/// lie on the geometry. STEP files state their unit, which is honoured. Throws Error. `progress`:
+/// called with the share of the work done, 0 to 1.
+Surface mesh_geometry(const std::filesystem::path& file, const MeshOptions& options,
+                      const std::function<void(double)>& progress = {});
 
 }  // namespace samara

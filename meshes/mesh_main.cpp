@@ -12,6 +12,7 @@
 #include "samara/base/error.hpp"
 #include "samara/body/body_file.hpp"
 #include "samara/command/arguments.hpp"
+#include "samara/command/progress.hpp"
 
 namespace {
 
@@ -108,7 +109,11 @@ int main(int argc, char** argv) {
         if (!samara::is_body_file_name(output)) {
             throw samara::Error(fmt::format("{}: the name of a body file ends in .body.h5", output));
         }
-        const Body body = samara::make_body(shape, options);
+        const Body body = [&] {
+            samara::Progress progress("meshing " + shape, "percent");
+            return samara::make_body(shape, options,
+                                     [&](double share) { progress.update(100.0 * share, 100.0); });
+        }();
         samara::write_body_file(output, body);
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
         if (!arguments.json()) print_for_people(body, options, output, elapsed.count());

@@ -1,6 +1,7 @@
 #include "meshes/reduced_surface.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -8,6 +9,7 @@
 
 #include <Eigen/Geometry>
 
+#include "meshes/mesh_size_field.hpp"
 #include "meshes/triangle_fans.hpp"
 #include "samara/base/parallel_for.hpp"
 
@@ -111,6 +113,43 @@ class Reduction {
     };
     using Ring = std::vector<std::int32_t>;
 
+    // The sharp edges that meet in a vertex.
+    struct Sharpness {
+        int edges = 0;
+        std::array<std::int32_t, 2> ends{};  // of the first two
+    };
+
+    [[nodiscard]] Sharpness sharpness_at(std::size_t v) const {
+        Sharpness sharpness;
+        const std::uint32_t* const begin = fans_.begin_around(v);
+        const std::uint32_t* const end = fans_.end_around(v);
+        const Vector3d first = fans_.area_vector_of(fans_.triangles[*begin]);
+        const double least = std::cos(0.5 * sharp_angle);
+        const bool smooth = std::all_of(begin + 1, end, [&](std::uint32_t t) {
+            const Vector3d other = fans_.area_vector_of(fans_.triangles[t]);
+            return first.dot(other) > least * first.norm() * other.norm();
+        });
+        if (smooth) return sharpness;
+        for (const std::uint32_t* t = begin; t != end; ++t) {
+            // The edge from v to the next corner, which the other triangle runs along the other way.
+            const Triangle& triangle = fans_.triangles[*t];
+            const auto next_of = [&](const Triangle& corners, std::size_t step) {
+                const auto at = std::find(corners.begin(), corners.end(), static_cast<std::int32_t>(v));
+                return corners[(static_cast<std::size_t>(at - corners.begin()) + step) % 3];
+            };
+            const std::int32_t far_end = next_of(triangle, 1);
+            const std::uint32_t* other = std::find_if(begin, end, [&](std::uint32_t candidate) {
+                return next_of(fans_.triangles[candidate], 2) == far_end;
+            });
+            const Vector3d one = fans_.area_vector_of(triangle);
+            const Vector3d two = fans_.area_vector_of(fans_.triangles[*other]);
+            if (one.dot(two) >= std::cos(sharp_angle) * one.norm() * two.norm()) continue;
+            if (sharpness.edges < 2) sharpness.ends[static_cast<std::size_t>(sharpness.edges)] = far_end;
+            ++sharpness.edges;
+        }
+        return sharpness;
+    }
+
     void choose_targets() {
         choices_.assign(fans_.vertices.size(), {});
         parallel_for(choices_.size(), vertices_of_a_piece, 0, [&](std::size_t begin, std::size_t end) {
@@ -124,8 +163,12 @@ class Reduction {
     void choose_target(std::size_t v, Ring& ring, Ring& other) {
         fans_.gather_ring(v, ring);
         if (ring.empty()) return;
+        const Sharpness sharpness = sharpness_at(v);
+        if (sharpness.edges != 0 && sharpness.edges != 2) return;
         const double least = std::min(least_quality, 0.5 * fans_.worst_quality(v));
         for (const std::int32_t target : ring) {
+            // Along the edge or not at all: across the rim of a plate the way is short.
+            if (sharpness.edges == 2 && target != sharpness.ends[0] && target != sharpness.ends[1]) continue;
             const Vector3d& place = fans_.vertex(target);
             const double cost =
                 quadrics_[v].mean(place) + weight_of_length * (place - fans_.vertices[v]).squaredNorm();

@@ -52,14 +52,11 @@ double distance_between(const Surface& original, const Surface& other) {
     return std::sqrt(squared);
 }
 
-// Triangles to start from: enough to show all that the wanted ones can.
-std::size_t enough_triangles(const Surface& surface, const MeshOptions& options) {
-    double wanted = options.triangles;
-    if (options.sizing == MeshOptions::Sizing::size) {
-        // Twice the equilateral ones of that size, since curved places and edges get smaller ones.
-        wanted = 2.0 * surface_area(surface) / (std::sqrt(3.0) / 4.0 * options.size * options.size);
-    }
-    return static_cast<std::size_t>(std::min(4000.0 + 2.0 * wanted, 1e9));
+std::size_t wanted_triangles(const Surface& surface, const MeshOptions& options) {
+    if (options.sizing == MeshOptions::Sizing::triangles) return static_cast<std::size_t>(options.triangles);
+    // Twice the equilateral ones of that size, since curved places and edges get smaller ones.
+    const double count = 2.0 * surface_area(surface) / (std::sqrt(3.0) / 4.0 * options.size * options.size);
+    return static_cast<std::size_t>(std::min(count, 1e9));
 }
 
 bool is_sound(const Surface& surface, const std::string& label) {
@@ -72,10 +69,12 @@ bool is_sound(const Surface& surface, const std::string& label) {
 }
 
 // The surface that meshing starts from: reduced as far as the shape stays.
-Surface base_of(const Surface& flat, const MeshOptions& options, const std::string& label) {
+Surface base_of(const Surface& flat, const MeshOptions& options, const std::string& label,
+                const std::function<void(double)>& progress) {
     const double extent = extent_of(flat);
-    for (std::size_t count = enough_triangles(flat, options); count < flat.triangle_count(); count *= 2) {
-        Surface base = reduced(flat, count);
+    for (std::size_t count = 4000 + 2 * wanted_triangles(flat, options); count < flat.triangle_count();
+         count *= 2) {
+        Surface base = reduced(flat, count, progress);
         if (volume_change(flat, base) < most_volume_lost &&
             distance_between(flat, base) < most_distance * extent && is_sound(base, label)) {
             return base;
@@ -125,9 +124,13 @@ void require_sound_result(const Surface& surface, const std::string& label) {
 
 }  // namespace
 
-Surface remesh(const Surface& surface, const MeshOptions& options, const std::string& label) {
+Surface remesh(const Surface& surface, const MeshOptions& options, const std::string& label,
+               const std::function<void(double)>& progress) {
+    constexpr double share_of_reduction = 0.7;
     const Surface flat = surface.order() == 1 ? surface : welded(flattened(surface, 2), label);
-    const Surface base = base_of(flat, options, label);
+    const Surface base = base_of(flat, options, label, [&](double share) {
+        if (progress) progress(share_of_reduction * share);
+    });
     const MeshSizeField field(base, size_law(options.order));
     // Thin bodies with shallow folds need these as edges; on coarse curved ones that would keep every facet.
     constexpr std::array<double, 2> cutting_angles = {sharp_angle, sharp_angle / 4.0};
@@ -139,7 +142,9 @@ Surface remesh(const Surface& surface, const MeshOptions& options, const std::st
     for (const double angle : cutting_angles) {
         try {
             const SmoothShape shape(flat, angle);
-            const Surface flat_result = evened(base, shape, field, options, angle);
+            const Surface flat_result = evened(base, shape, field, options, angle, [&](double share) {
+                if (progress) progress(share_of_reduction + (1.0 - share_of_reduction) * share);
+            });
             Surface result = with_nodes_on(shape, flat_result, options.order);
             require_sound_result(result, label);
             const double change = volume_change(flat, result);
@@ -154,6 +159,16 @@ Surface remesh(const Surface& surface, const MeshOptions& options, const std::st
             if (!fault) fault = reason;
         }
         if (smallest_change < good_change) break;
+    }
+    if (smallest_change > good_change) {
+        // Long triangles along a needle or around a rim show the shape where even ones cannot.
+        const SmoothShape shape(flat, sharp_angle);
+        Surface result = with_nodes_on(shape, reduced(flat, wanted_triangles(flat, options)), options.order);
+        const double change = volume_change(flat, result);
+        if (change < smallest_change && is_sound(result, label)) {
+            smallest_change = change;
+            best = std::move(result);
+        }
     }
     if (!best) throw *fault;
     if (smallest_change > most_change) {

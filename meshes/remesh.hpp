@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "meshes/mesh_options.hpp"
@@ -12,7 +13,9 @@ namespace samara {
 /// given triangles stand for (SmoothShape), with faces that meet at more than 40 degrees as edges, or 10
 /// where that would change the volume by more than 3 %. `surface` and the result are in metres: options.scale
 /// is not used. Throws Error, which proposes to keep the triangles, where the new surface passes through
-/// itself or its volume differs by more than 15 %.
-Surface remesh(const Surface& surface, const MeshOptions& options, const std::string& label);
+/// itself or its volume differs by more than 15 %. `progress`: called with the share of the work done, 0
+/// to 1.
+Surface remesh(const Surface& surface, const MeshOptions& options, const std::string& label,
+               const std::function<void(double)>& progress = {});
 
 }  // namespace samara

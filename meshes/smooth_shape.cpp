@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include <Eigen/Geometry>
+#include <Eigen/QR>
 
 #include "samara/body/surface_edges.hpp"
 
@@ -115,7 +116,36 @@ Vector3d SmoothShape::normal_at(std::size_t triangle, std::size_t corner) const 
             }
         }
     }
-    return sum.normalized();
+    const Vector3d normal = sum.normalized();
+    const bool whole = side.size() == static_cast<std::size_t>(end - begin);
+    return whole && side.size() >= 5 ? fitted_normal(side, vertex, normal) : normal;
+}
+
+// The normal of the quadratic surface through the vertex that fits its neighbours best; `normal` is near it.
+Vector3d SmoothShape::fitted_normal(const std::vector<std::size_t>& around, std::size_t vertex,
+                                    const Vector3d& normal) const {
+    const Vector3d x = normal.unitOrthogonal();
+    const Vector3d y = normal.cross(x);
+    const auto count = static_cast<Eigen::Index>(around.size());
+    Eigen::Matrix<double, Eigen::Dynamic, 5> terms(count, 5);
+    Eigen::VectorXd heights(count);
+    double length = 0.0;
+    for (Eigen::Index i = 0; i < count; ++i) {
+        const Triangle& corners = flat_.corners[around[static_cast<std::size_t>(i)]];
+        const auto at = static_cast<std::size_t>(
+            std::find(corners.begin(), corners.end(), static_cast<std::int32_t>(vertex)) - corners.begin());
+        const Vector3d offset = flat_.vertices[as_index(corners[(at + 1) % 3])] - flat_.vertices[vertex];
+        if (i == 0) length = offset.norm();
+        const double u = offset.dot(x) / length;
+        const double v = offset.dot(y) / length;
+        terms.row(i) << u, v, u * u, u * v, v * v;
+        heights[i] = offset.dot(normal) / length;
+    }
+    const Eigen::Matrix<double, 5, 1> fit = terms.colPivHouseholderQr().solve(heights);
+    const Vector3d fitted = (normal - fit[0] * x - fit[1] * y).normalized();
+    // Noise, or neighbours on a conic.
+    constexpr double least_cosine = 0.95;
+    return fitted.dot(normal) > least_cosine ? fitted : normal;
 }
 
 // The unit tangent of the crease at an end of the segment: of the circle through its neighbours; along the

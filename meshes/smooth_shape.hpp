@@ -15,9 +15,10 @@ namespace samara {
 /// A point of a triangle is lifted by half the mean, with the point's barycentric coordinates as weights, of
 /// its offsets from the tangent planes at the corners: exact for surfaces whose height is quadratic, third
 /// order for others. (Boubekeur and Alexa, Phong Tessellation, ACM Trans. Graph. 27(5), 2008, with the factor
-/// 1/2, which makes it so.) The tangent planes are from the triangles around the corner on the same side of
-/// creases, weighted as in Max, J. Graphics Tools 4(2), 1999: exact for a sphere. Creases are lifted alike,
-/// by their tangents. Where triangles turn by more than half the angle of creases, they are taken for flat.
+/// 1/2, which makes it so.) The tangent planes are those of quadratic surfaces fitted to the neighbours; next
+/// to creases of the triangles on the same side, weighted as in Max, J. Graphics Tools 4(2), 1999: exact for
+/// a sphere. Creases are lifted alike, by their tangents. Where triangles turn by more than half the angle of
+/// creases, they are taken for flat.
 class SmoothShape {
   public:
     /// `flat`: closed, its vertices welded, of order 1. `crease_angle`: radians.
@@ -43,6 +44,8 @@ class SmoothShape {
     void gather_triangles_around();
     void gather_crease_neighbours();
     [[nodiscard]] Vector3d normal_at(std::size_t triangle, std::size_t corner) const;
+    [[nodiscard]] Vector3d fitted_normal(const std::vector<std::size_t>& around, std::size_t vertex,
+                                         const Vector3d& normal) const;
     [[nodiscard]] Vector3d tangent_at(std::size_t segment, int end) const;
 
     Surface flat_;

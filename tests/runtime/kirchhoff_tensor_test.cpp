@@ -31,6 +31,14 @@ double error_against(const ExactEllipsoid& body, const KirchhoffTensor& tensor) 
     return relative_tensor_error(tensor.matrix, exact_tensor(body), scale_of(test::exact_moments(body)));
 }
 
+/// The cube with edges of length 1, from the hypersingular method on 12,288 graded triangles and extrapolated
+/// (samara kirchhoff --tolerance), about 1e-4 of it uncertain.
+Matrix6d cube_tensor() {
+    Matrix6d tensor = Matrix6d::Zero();
+    tensor.diagonal() << Vector3d::Constant(0.03931), Vector3d::Constant(0.63865);
+    return tensor;
+}
+
 /// An ellipsoid with a dent, without any symmetry.
 Surface lopsided_surface() {
     Surface surface = test::ellipsoid({1.0, 0.7, 0.5}, 2);
@@ -93,7 +101,7 @@ TEST(KirchhoffTensor, ErrorEstimateCoversTheErrorAndIsMostlyWithinTenTimes) {
 TEST(KirchhoffTensor, ErrorEstimateOfACubeCoversTheError) {
     for (const int n : {1, 2, 4, 8}) {
         const KirchhoffTensor tensor = tensor_of(test::box({1.0, 1.0, 1.0}, n));
-        const double error = relative_tensor_error(tensor.matrix, test::cube_tensor(), {1.0, 6.0});
+        const double error = relative_tensor_error(tensor.matrix, cube_tensor(), {1.0, 6.0});
         EXPECT_LT(error, tensor.error_estimate) << n;
         EXPECT_LT(tensor.error_estimate, 10.0 * error) << n;
         EXPECT_THAT(tensor.method, HasSubstr("hypersingular"));
@@ -106,7 +114,7 @@ TEST(KirchhoffTensor, OfATwelveTriangleBoxIsWithinAPercentWhereAskedFor) {
     const Surface cube = test::box({1.0, 1.0, 1.0}, 1);
     const KirchhoffTensor tensor = kirchhoff_tensor(cube, test::moments_of(cube), options);
     EXPECT_LE(tensor.error_estimate, 0.01);
-    EXPECT_LT(relative_tensor_error(tensor.matrix, test::cube_tensor(), {1.0, 6.0}), 0.01);
+    EXPECT_LT(relative_tensor_error(tensor.matrix, cube_tensor(), {1.0, 6.0}), 0.01);
 }
 
 TEST(KirchhoffTensor, ToleranceTakesTheCoarsestSurfaceThatMeetsIt) {

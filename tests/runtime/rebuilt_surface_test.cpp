@@ -97,6 +97,28 @@ TEST(Creases, AreTheTwelveEdgesOfABox) {
     EXPECT_FALSE(any_crease(find_creases(test::icosphere(2))));
 }
 
+TEST(Creases, AreFoundWhereAFlatSheetIsFoldedALittleButNotOnACylinder) {
+    Surface sheet = test::box({1.0, 1.0, 0.01}, 4);
+    for (Vector3d& vertex : sheet.vertices) vertex.z() += 0.15 * std::max(0.0, vertex.x());
+    const Creases folded = find_creases(sheet);
+    int along_fold = 0;
+    for (std::size_t t = 0; t < folded.size(); ++t) {
+        for (std::size_t side = 0; side < 3; ++side) {
+            const Vector3d& from = sheet.vertices[static_cast<std::size_t>(sheet.corners[t][side])];
+            const Vector3d& to = sheet.vertices[static_cast<std::size_t>(sheet.corners[t][(side + 1) % 3])];
+            const bool is_on_fold =
+                std::abs(from.x()) < 1e-9 && std::abs(to.x()) < 1e-9 && std::abs(from.z() - to.z()) < 1e-9;
+            if (is_on_fold && folded[t][side]) ++along_fold;
+        }
+    }
+    EXPECT_EQ(along_fold, 2 * 2 * 4);
+    // A cylinder's sides turn by 15 degrees, and are no creases: its two rims are.
+    const Creases round = find_creases(cylinder(24, 0.5));
+    std::ptrdiff_t sides = 0;
+    for (const auto& triangle : round) sides += std::count(triangle.begin(), triangle.end(), true);
+    EXPECT_EQ(sides, 2 * 2 * 24);
+}
+
 TEST(RefinedSurface, CutsEachTriangleInFourOnTheSameSurface) {
     const Surface curved = test::curved_ellipsoid({1.0, 2.0, 4.0}, 2);
     const CreasedSurface fine = refined({curved, find_creases(curved)});

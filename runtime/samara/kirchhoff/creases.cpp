@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "samara/body/curved_surface.hpp"
 #include "samara/body/surface_edges.hpp"
@@ -18,16 +19,58 @@ Vector3d normal_at_side(const Surface& surface, const EdgeUse& use) {
     return normal_of_triangle(surface, triangle, u, v);
 }
 
-}  // namespace
-
-Creases find_creases(const Surface& surface) {
-    Creases creases(surface.triangle_count(), {true, true, true});
+/// By how much the surface turns (radians) at each side of each triangle; pi where it ends.
+std::vector<std::array<double, 3>> turns_of(const Surface& surface) {
+    std::vector<std::array<double, 3>> turns(surface.triangle_count(),
+                                             {std::numbers::pi, std::numbers::pi, std::numbers::pi});
     const std::vector<EdgeUse> uses = edge_uses(surface);
     for (const auto& edge : edges_of(uses)) {
         if (edge.size() != 2) continue;
         const Vector3d one = normal_at_side(surface, edge[0]);
         const Vector3d other = normal_at_side(surface, edge[1]);
-        const bool is_crease = std::atan2(one.cross(other).norm(), one.dot(other)) > crease_angle;
+        const double turn = std::atan2(one.cross(other).norm(), one.dot(other));
+        for (const EdgeUse& use : edge) {
+            turns[static_cast<std::size_t>(use.triangle)][static_cast<std::size_t>(use.side)] = turn;
+        }
+    }
+    return turns;
+}
+
+/// For each vertex the most that the surface turns at an edge around it, sharp creases aside.
+std::vector<double> most_turns(const Surface& surface, const std::vector<std::array<double, 3>>& turns) {
+    std::vector<double> most(surface.vertices.size(), 0.0);
+    for (std::size_t t = 0; t < turns.size(); ++t) {
+        for (std::size_t side = 0; side < 3; ++side) {
+            if (turns[t][side] > crease_angle) continue;
+            for (const std::size_t end : {side, (side + 1) % 3}) {
+                double& value = most[static_cast<std::size_t>(surface.corners[t][end])];
+                value = std::max(value, turns[t][side]);
+            }
+        }
+    }
+    return most;
+}
+
+}  // namespace
+
+Creases find_creases(const Surface& surface) {
+    const std::vector<std::array<double, 3>> turns = turns_of(surface);
+    const std::vector<double> most = most_turns(surface, turns);
+    const auto apex_turn = [&](std::size_t triangle, std::size_t side) {
+        return most[static_cast<std::size_t>(surface.corners[triangle][(side + 2) % 3])];
+    };
+    Creases creases(surface.triangle_count(), {true, true, true});
+    const std::vector<EdgeUse> uses = edge_uses(surface);
+    for (const auto& edge : edges_of(uses)) {
+        if (edge.size() != 2) continue;
+        const auto triangle = static_cast<std::size_t>(edge[0].triangle);
+        const auto side = static_cast<std::size_t>(edge[0].side);
+        const double turn = turns[triangle][side];
+        const double around = std::max(
+            apex_turn(triangle, side),
+            apex_turn(static_cast<std::size_t>(edge[1].triangle), static_cast<std::size_t>(edge[1].side)));
+        const bool is_crease =
+            turn > crease_angle || (turn > shallow_crease_angle && turn > shallow_crease_ratio * around);
         for (const EdgeUse& use : edge) {
             creases[static_cast<std::size_t>(use.triangle)][static_cast<std::size_t>(use.side)] = is_crease;
         }

@@ -14,9 +14,16 @@ inline constexpr double crease_angle = 0.6981317007977318;
 /// For each triangle, whether its side from corner i to the next is a crease.
 using Creases = std::vector<std::array<bool, 3>>;
 
-/// The sides at which the normals of the two triangles differ by more than crease_angle: of the flat
-/// triangles for order 1, of the curved ones at the middle of the edge for order 2. Sides that are not shared
-/// by exactly two triangles count as creases.
+/// The least angle (radians, 5 degrees) of a shallow crease, and how many times more than the edges beyond
+/// the triangles on both its sides it turns.
+inline constexpr double shallow_crease_angle = 0.0872664625997165;
+inline constexpr double shallow_crease_ratio = 3.0;
+
+/// The sides at which the normals of the two triangles differ by more than crease_angle, or by less where the
+/// surface around turns so little that it must be a fold: shallow_crease_angle, shallow_crease_ratio. The
+/// normals are those of the flat triangles for order 1, of the curved ones at the middle of the edge for
+/// order
+/// 2. Sides that are not shared by exactly two triangles count as creases.
 Creases find_creases(const Surface& surface);
 
 /// Whether any side is a crease.
