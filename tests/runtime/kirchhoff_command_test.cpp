@@ -44,7 +44,7 @@ TEST(KirchhoffCommand, PrintsOneJsonObject) {
     EXPECT_NEAR(result["added_mass"][3][3].get<double>(), 50.87072167736, 0.03 * 50.87);  // Lamb, art. 114
     EXPECT_EQ(result["reference_point"], result["centroid"]);
     EXPECT_NEAR(result["centroid"][0].get<double>(), 0.5, 1e-12);
-    EXPECT_EQ(result["triangles"], 320);
+    EXPECT_GE(result["triangles"].get<int>(), 320);
     EXPECT_GT(result["error_estimate"].get<double>(), 0.0);
     for (const char* key : {"volume", "asymmetry", "method", "seconds"})
         EXPECT_TRUE(result.contains(key)) << key;

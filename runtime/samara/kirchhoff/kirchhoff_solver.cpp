@@ -28,8 +28,9 @@ constexpr double most_closure_fault = 0.3;
 // Of the curved method, whose matrix takes 64 bytes for each pair of triangles.
 constexpr std::size_t most_curved_triangles = 6000;
 constexpr std::size_t most_flat_triangles = 120000;
-// Up to this count a surface with creases is refined once more than its own triangles.
+// A surface with creases is refined once, if it then has no more than the first, and again up to the second.
 constexpr std::size_t most_refined_triangles = 8000;
+constexpr std::size_t least_refined_triangles = 1200;
 // Below, triangles that face each other across the body are too near for collocation.
 constexpr double least_relative_thickness = 0.2;
 // Above this estimate of the curved method the other is tried too.
@@ -95,30 +96,44 @@ class Solver {
 
     /// The surface's own triangles, and a coarser or finer surface to compare with.
     KirchhoffTensor compare_two(KirchhoffMethod method) {
-        const std::size_t own = ladder_.base().surface.triangle_count();
-        const bool is_refined = method == KirchhoffMethod::hypersingular && 4 * own <= most_refined_triangles;
-        const int rung = is_refined ? 1 : 0;
+        int rung = 0;
+        if (method == KirchhoffMethod::hypersingular) {
+            std::size_t count = 4 * ladder_.base().surface.triangle_count();
+            if (count <= most_refined_triangles) rung = 1;
+            for (; 4 * count <= least_refined_triangles; count *= 4) ++rung;
+        }
         const Solved coarse = solve(method, rung - 1, {0.0, 0.1});
-        return compared(method, solve(method, rung, {0.1, 1.0}), coarse, is_refined);
+        return compared(method, solve(method, rung, {0.1, 1.0}), coarse, rung > 0);
     }
 
     /// From coarse surfaces to finer ones, until the estimate is within the tolerance or no finer one helps.
     KirchhoffTensor climb(KirchhoffMethod method) {
-        int rung = ladder_.lowest();
         double begin = 0.0;
-        Solved coarse = solve(method, rung, {begin, 0.5});
-        for (;;) {
-            ++rung;
+        std::optional<Solved> coarse;
+        for (int rung = ladder_.lowest();; ++rung) {
+            const bool is_last = is_finest(method, rung);
+            std::optional<Solved> fine;
+            try {
+                fine = solve(method, rung, {begin, 0.5 * (1.0 + begin)});
+            } catch (const Error&) {
+                if (is_last) throw;  // below, a surface too coarse to be one is no fault of the given one
+            }
             begin = 0.5 * (1.0 + begin);
-            Solved fine = solve(method, rung, {begin, 0.5 * (1.0 + begin)});
-            const KirchhoffTensor found = compared(method, fine, coarse, rung > 0);
-            // Finer triangles than the given ones know no more of a smooth body's curvature.
-            const bool is_finest = method == KirchhoffMethod::curved_collocation
-                                       ? rung >= 0
-                                       : 4 * fine.triangles > most_flat_triangles;
-            if (found.error_estimate <= options_.tolerance || is_finest) return found;
+            if (fine && coarse) {
+                const KirchhoffTensor found = compared(method, *fine, *coarse, rung > 0);
+                if (found.error_estimate <= options_.tolerance || is_last) return found;
+            } else if (is_last) {
+                return compared(method, *fine, *fine, false);
+            }
             coarse = std::move(fine);
         }
+    }
+
+    /// Whether finer triangles than the rung's are of no use: they know no more of a smooth body's curvature
+    /// than the given ones.
+    bool is_finest(KirchhoffMethod method, int rung) {
+        if (method == KirchhoffMethod::curved_collocation) return rung >= 0;
+        return rung >= 0 && 4 * ladder_.rung(rung).surface.triangle_count() > most_flat_triangles;
     }
 
     struct Shares {
