@@ -287,7 +287,7 @@ TEST(CurvedCollocation, SaysWhatItTook) {
     const BoundaryElementResult result = solve_curved_collocation(
         curved_ellipsoid({1.0, 0.7, 0.5}, 2), {1, [&](double share) { progress = share; }});
     EXPECT_EQ(result.unknowns, 642U);
-    EXPECT_EQ(result.memory, 656U * 642U * sizeof(float));  // rows in groups of 16
+    EXPECT_EQ(result.memory, std::size_t{656} * 642 * sizeof(float));  // rows in groups of 16
     EXPECT_GT(result.iterations, 0);
     EXPECT_EQ(progress, 1.0);
 }
