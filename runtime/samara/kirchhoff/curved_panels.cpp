@@ -85,6 +85,7 @@ void require_regular(const CurvedPanel& panel, std::size_t triangle) {
 }
 
 void mark_bent(CurvedPanel& panel) {
+    constexpr double most_change = 1.5;
     std::array<Vector3d, 6> normals;
     double least = HUGE_VAL;
     for (std::size_t a = 0; a < 6; ++a) {
@@ -93,7 +94,7 @@ void mark_bent(CurvedPanel& panel) {
     }
     for (const Vector3d& normal : normals) {
         for (const Vector3d& other : normals) {
-            panel.bent = panel.bent || (normal - other).norm() > most_normal_change * least;
+            panel.bent = panel.bent || (normal - other).norm() > most_change * least;
         }
     }
 }

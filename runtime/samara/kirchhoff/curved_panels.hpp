@@ -8,9 +8,6 @@
 
 namespace samara {
 
-/// A panel on which the area normal changes by no more than this share counts as nearly flat.
-inline constexpr double most_normal_change = 0.7;
-
 /// A curved triangle with six nodes: the place is the polynomial
 /// c0 + c1 p + c2 q + c3 p^2 + c4 p q + c5 q^2 of the coordinates p, q of the unit triangle, with the corners
 /// at (0,0), (1,0) and (0,1).
@@ -19,7 +16,7 @@ struct CurvedPanel {
     std::array<Vector3d, 6> coefficients;
     Vector3d centre;      ///< the place of p = q = 1/3
     double radius = 0.0;  ///< from the centre to the farthest node
-    bool bent = false;    ///< its area normal changes by more than most_normal_change of its least length
+    bool bent = false;    ///< its area normal changes by more than 1.5 times its least length
 
     [[nodiscard]] Vector3d place(double p, double q) const;
     /// The cross product of the two tangents: along the outward normal, as long as the panel's area is to

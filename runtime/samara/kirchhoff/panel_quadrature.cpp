@@ -87,6 +87,7 @@ Places places_of(const CurvedPanel& panel, const Corners& corners) {
 
 /// Whether the area normal changes little from the first corner of a piece to the others.
 bool is_flat(const CurvedPanel& panel, const Corners& corners) {
+    constexpr double most_normal_change = 0.7;  // of its length
     const Vector3d first = panel.area_normal(corners[0][0], corners[0][1]);
     return std::all_of(corners.begin() + 1, corners.end(), [&](const std::array<double, 2>& corner) {
         return (panel.area_normal(corner[0], corner[1]) - first).norm() < most_normal_change * first.norm();
