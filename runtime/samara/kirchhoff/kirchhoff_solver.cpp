@@ -24,7 +24,7 @@ constexpr double zero_block = 1e-3;
 
 // A sound surface's solid angles sum up better than this, even where it is very thin; one that overlaps
 // itself is off by 1.
-constexpr double most_closure_fault = 0.3;
+constexpr double most_closure_fault = 0.05;
 // Of the curved method, whose matrix takes 64 bytes for each pair of triangles.
 constexpr std::size_t most_curved_triangles = 6000;
 constexpr std::size_t most_flat_triangles = 120000;
@@ -34,7 +34,7 @@ constexpr std::size_t least_refined_triangles = 1200;
 // Below, triangles that face each other across the body are too near for collocation.
 constexpr double least_relative_thickness = 0.2;
 // Above this estimate of the curved method the other is tried too.
-constexpr double poor_estimate = 0.01;
+constexpr double poor_estimate = 0.05;
 // Surfaces whose triangles are nearer in size than this are not compared.
 constexpr double least_ratio = 1.2;
 // With which the error falls with the triangles' size, or is sure to.
