@@ -50,7 +50,8 @@ void add_product(const float* matrix, std::size_t rows, std::size_t inner, const
                 if (whole) {
                     hn::StoreU(hn::Add(hn::LoadU(tag, place), sums[c]), tag, place);
                 } else {
-                    hn::BlendedStore(hn::Add(hn::MaskedLoad(present, tag, place), sums[c]), present, tag, place);
+                    hn::BlendedStore(hn::Add(hn::MaskedLoad(present, tag, place), sums[c]), present, tag,
+                                     place);
                 }
             }
         }
@@ -111,8 +112,8 @@ void add_block(const CompressedMatrix::Block& block, const CurlColumns& columns,
     }
     add_product(block.left.data(), block.rows, block.columns, column_factor, stride, row_result, stride);
     if (block.row_begin != block.column_begin) {
-        add_transposed_product(block.left.data(), block.rows, block.columns, row_factor, stride, column_result,
-                               stride);
+        add_transposed_product(block.left.data(), block.rows, block.columns, row_factor, stride,
+                               column_result, stride);
     }
 }
 
@@ -167,8 +168,8 @@ void fill_in_full(const SingleLayerEntries& entries, Block& block) {
     for (std::size_t i = 0; i < block.rows; ++i) {
         // On the diagonal a row starts at its own column, so that each pair is integrated once.
         const std::size_t skipped = block.row_begin == block.column_begin ? i : 0;
-        entries.fill_row(block.row_begin + i, block.column_begin + skipped, block.column_begin + block.columns,
-                         row.data() + skipped);
+        entries.fill_row(block.row_begin + i, block.column_begin + skipped,
+                         block.column_begin + block.columns, row.data() + skipped);
         for (std::size_t j = skipped; j < block.columns; ++j) {
             block.left[j * block.rows + i] = static_cast<float>(row[j]);
             if (skipped > 0 || block.row_begin == block.column_begin) {
@@ -182,8 +183,8 @@ void fill(const SingleLayerEntries& entries, double tolerance, Block& block) {
     if (block.is_far) {
         const std::size_t most_rank = block.rows * block.columns / (block.rows + block.columns);
         auto factors = cross_approximation(entries, {block.row_begin, block.row_begin + block.rows},
-                                           {block.column_begin, block.column_begin + block.columns}, tolerance,
-                                           most_rank);
+                                           {block.column_begin, block.column_begin + block.columns},
+                                           tolerance, most_rank);
         if (factors) {
             block.rank = factors->rank;
             block.left = std::move(factors->left);
@@ -213,8 +214,8 @@ std::vector<std::vector<std::size_t>> grouped(const std::vector<Block>& blocks) 
 
 }  // namespace
 
-CompressedMatrix::CompressedMatrix(const SingleLayerEntries& entries, const ClusterTree& tree, double tolerance,
-                                   int threads, const std::function<void(double)>& progress)
+CompressedMatrix::CompressedMatrix(const SingleLayerEntries& entries, const ClusterTree& tree,
+                                   double tolerance, int threads, const std::function<void(double)>& progress)
     : size_(entries.size()) {
     add_blocks(tree, 0, 0, blocks_);
     parallel_for(

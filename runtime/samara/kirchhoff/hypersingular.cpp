@@ -3,14 +3,23 @@
 #include <Eigen/Cholesky>
 
 #include "samara/base/error.hpp"
+#include "samara/kirchhoff/compressed_matrix.hpp"
+#include "samara/kirchhoff/conjugate_gradients.hpp"
+#include "samara/kirchhoff/hypersingular_operator.hpp"
 #include "samara/kirchhoff/linear_elements.hpp"
 #include "samara/kirchhoff/rotation_loads.hpp"
+#include "samara/kirchhoff/schwarz_preconditioner.hpp"
 #include "samara/kirchhoff/single_layer_matrix.hpp"
 
 namespace samara {
 namespace {
 
-constexpr std::size_t leaf_size = 64;
+constexpr std::size_t leaf_size = 64;         // triangles
+constexpr std::size_t schwarz_cluster = 256;  // triangles
+constexpr const char* unsolvable =
+    "the boundary elements' equations have no solution: the surface crosses itself or is not closed; mesh "
+    "the "
+    "shape again with 'samara mesh'";
 
 Eigen::Index at(std::size_t index) {
     return static_cast<Eigen::Index>(index);
@@ -73,6 +82,17 @@ std::function<void(double)> part_of(const std::function<void(double)>& progress,
     return [=](double share) { progress(begin + share * (end - begin)); };
 }
 
+/// The columns of the right-hand sides; (1/2 + D') n_k = n_k - W x_k exactly, because x_k is linear on each
+/// triangle.
+SixColumns all_loads(const LinearElements& elements, const RotationLoads& rotations,
+                     const Eigen::Matrix<double, Eigen::Dynamic, 3>& coordinate_loads) {
+    SixColumns loads(at(elements.node_count()), 6);
+    loads.leftCols<3>() = rotations.loads;
+    loads.rightCols<3>() = normal_loads(elements) - coordinate_loads;
+    remove_component_sums(elements, loads);
+    return loads;
+}
+
 BoundaryElementResult solve_dense(const LinearElements& elements, const BoundaryElementOptions& options) {
     const SingleLayerEntries entries(elements.triangles);
     const RowMatrix single_layer =
@@ -80,35 +100,72 @@ BoundaryElementResult solve_dense(const LinearElements& elements, const Boundary
     RowMatrix hypersingular = dense_hypersingular(elements, single_layer, options.threads);
     const RotationLoads rotations =
         rotation_loads(elements, options.threads, part_of(options.progress, 0.6, 0.9));
-
-    SixColumns loads(at(elements.node_count()), 6);
-    loads.leftCols<3>() = rotations.loads;
-    // (1/2 + D') n_k = n_k - W x_k, exactly: x_k is linear on each triangle.
-    loads.rightCols<3>() = normal_loads(elements) - hypersingular * coordinates_of(elements);
-    remove_component_sums(elements, loads);
+    const SixColumns loads = all_loads(elements, rotations, hypersingular * coordinates_of(elements));
+    const auto normals = normals_of(elements);
+    BoundaryElementResult result;
+    result.tensor = single_layer_energies(rotations, normals.transpose() * (single_layer * normals));
+    result.memory = sizeof(double) * static_cast<std::size_t>(single_layer.size() + hypersingular.size());
     regularise(elements, hypersingular);
     const Eigen::LLT<Eigen::Ref<RowMatrix>> factors(hypersingular);
-    if (factors.info() != Eigen::Success) {
-        throw Error(
-            "the boundary elements' matrix is not positive definite: the surface crosses itself or is not "
-            "closed; mesh the shape again with 'samara mesh'");
-    }
-    const auto normals = normals_of(elements);
-    Eigen::Matrix<double, Eigen::Dynamic, 3> areas_free = single_layer * normals;
-    BoundaryElementResult result;
-    result.tensor = single_layer_energies(rotations, normals.transpose() * areas_free);
+    if (factors.info() != Eigen::Success) throw Error(unsolvable);
     result.tensor += loads.transpose() * factors.solve(loads);
     result.closure_fault = rotations.closure_fault;
     result.unknowns = elements.node_count();
-    result.memory = sizeof(double) * static_cast<std::size_t>(single_layer.size() + hypersingular.size());
+    return result;
+}
+
+/// <n_k, S n_l> by the compressed matrix.
+Matrix3d translation_energies(const LinearElements& elements, const CompressedMatrix& single_layer,
+                              int threads) {
+    const auto normals = normals_of(elements);
+    CurlColumns columns = CurlColumns::Zero(normals.rows(), 18);
+    columns.leftCols<3>() = normals.cast<float>();
+    const CurlColumns products = single_layer.times(columns, threads);
+    return normals.transpose() * products.leftCols<3>().cast<double>();
+}
+
+Eigen::Matrix<double, Eigen::Dynamic, 3> coordinate_loads(const LinearElements& elements,
+                                                          const CompressedMatrix& single_layer, int threads) {
+    SixColumns columns = SixColumns::Zero(at(elements.node_count()), 6);
+    columns.leftCols<3>() = coordinates_of(elements);
+    return hypersingular_times(elements, single_layer, columns, threads).leftCols<3>();
+}
+
+BoundaryElementResult solve_compressed(const LinearElements& elements, const BoundaryElementOptions& options,
+                                       const HypersingularOptions& how) {
+    const SingleLayerEntries entries(elements.triangles);
+    const CompressedMatrix single_layer(entries, elements.tree, how.compression, options.threads,
+                                        part_of(options.progress, 0.0, 0.3));
+    const RotationLoads rotations =
+        rotation_loads(elements, options.threads, part_of(options.progress, 0.3, 0.7));
+    const SchwarzPreconditioner preconditioner(elements, entries, schwarz_cluster, options.threads);
+    const SixColumns loads =
+        all_loads(elements, rotations, coordinate_loads(elements, single_layer, options.threads));
+    BoundaryElementResult result;
+    result.tensor =
+        single_layer_energies(rotations, translation_energies(elements, single_layer, options.threads));
+    const auto solution = conjugate_gradients(
+        [&](const SixColumns& columns) {
+            return hypersingular_times(elements, single_layer, columns, options.threads);
+        },
+        [&](const SixColumns& columns) { return preconditioner.apply(columns, options.threads); }, loads,
+        result.tensor.diagonal(), how.tolerance, part_of(options.progress, 0.75, 1.0));
+    if (!solution) throw Error(unsolvable);
+    result.tensor += solution->energies;
+    result.closure_fault = rotations.closure_fault;
+    result.unknowns = elements.node_count();
+    result.iterations = solution->iterations;
+    result.memory = single_layer.memory() + preconditioner.memory();
     return result;
 }
 
 }  // namespace
 
 BoundaryElementResult solve_hypersingular(const Surface& surface, const BoundaryElementOptions& options,
-                                          const HypersingularOptions&) {
-    return solve_dense(linear_elements(surface, leaf_size), options);
+                                          const HypersingularOptions& how) {
+    const LinearElements elements = linear_elements(surface, leaf_size);
+    return elements.node_count() <= how.most_dense_nodes ? solve_dense(elements, options)
+                                                         : solve_compressed(elements, options, how);
 }
 
 }  // namespace samara

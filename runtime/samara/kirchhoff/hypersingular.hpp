@@ -8,9 +8,9 @@ namespace samara {
 /// How solve_hypersingular solves for its unknowns.
 struct HypersingularOptions {
     /// Up to as many nodes the matrix is factorised; above, V is compressed and the solver iterates.
-    std::size_t most_dense_nodes = 2600;
-    double compression = 1e-6;  ///< error of a compressed block, relative to its norm
-    double tolerance = 1e-7;    ///< of the iteration: residual relative to the right-hand side
+    std::size_t most_dense_nodes = 1000;
+    double compression = 1e-5;  ///< error of a compressed block, relative to its norm
+    double tolerance = 1e-7;    ///< of the iteration: the energy that is left, relative to the tensor's entry
 };
 
 /// The Kirchhoff tensor by linear Galerkin elements for the hypersingular equation W phi = -(1/2 + D') g on

@@ -41,7 +41,6 @@ struct RotationSourceSets {
 struct FieldAtPoint {
     std::array<double, 3> potential{};  ///< of the strengths: sum of g / r
     std::array<double, 3> flux{};       ///< sum of g n . (y - x) / r^3, y and n this point's
-    double solid_angle = 0.0;           ///< sum of area vector . (x - y) / r^3
 };
 
 struct TargetPoint {
@@ -58,6 +57,8 @@ struct Targets {
 };
 
 struct Fields {
+    double solid_angle =
+        0.0;  ///< sum of area vector . (x - y) / r^3 over the distant sources x, y the middle
     FieldAtPoint one;
     std::array<FieldAtPoint, 3> three;
     std::array<FieldAtPoint, 6> six;
@@ -77,12 +78,11 @@ using Lanes = hn::Vec<Tag>;
 struct LaneSums {
     Lanes potential[3];
     Lanes flux[3];
-    Lanes solid_angle;
 };
 
 HWY_INLINE LaneSums no_sums() {
     const Lanes zero = hn::Zero(Tag());
-    return {{zero, zero, zero}, {zero, zero, zero}, zero};
+    return {{zero, zero, zero}, {zero, zero, zero}};
 }
 
 /// Adds the sources from `there` on, as many as there are lanes; `count` says which.
@@ -105,10 +105,22 @@ HWY_INLINE void add_sources(const RotationSources& sources, std::size_t there, c
         sums.potential[a] = hn::MulAdd(strength, inverse, sums.potential[a]);
         sums.flux[a] = hn::MulAdd(strength, factor, sums.flux[a]);
     }
-    const Lanes seen = hn::MulAdd(dx, hn::LoadU(tag, &sources.area_vector[0][there]),
-                                  hn::MulAdd(dy, hn::LoadU(tag, &sources.area_vector[1][there]),
-                                             hn::Mul(dz, hn::LoadU(tag, &sources.area_vector[2][there]))));
-    sums.solid_angle = hn::NegMulAdd(seen, cubed, sums.solid_angle);
+}
+
+/// The solid angles of the sources from `there` on, of those marked.
+template <class Mask>
+HWY_INLINE Lanes solid_angles(const RotationSources& sources, std::size_t there, const TargetPoint& eye,
+                              Mask marked) {
+    const Tag tag;
+    const Lanes dx = hn::Sub(hn::LoadU(tag, &sources.place[0][there]), hn::Set(tag, eye.place[0]));
+    const Lanes dy = hn::Sub(hn::LoadU(tag, &sources.place[1][there]), hn::Set(tag, eye.place[1]));
+    const Lanes dz = hn::Sub(hn::LoadU(tag, &sources.place[2][there]), hn::Set(tag, eye.place[2]));
+    const Lanes squared = hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz)));
+    const Lanes inverse = hn::IfThenElseZero(marked, inverse_root(tag, squared));
+    const Lanes along = hn::MulAdd(dx, hn::LoadU(tag, &sources.area_vector[0][there]),
+                                   hn::MulAdd(dy, hn::LoadU(tag, &sources.area_vector[1][there]),
+                                              hn::Mul(dz, hn::LoadU(tag, &sources.area_vector[2][there]))));
+    return hn::Mul(along, hn::Mul(inverse, hn::Mul(inverse, inverse)));
 }
 
 HWY_INLINE void add_to(const LaneSums& sums, FieldAtPoint& field) {
@@ -117,7 +129,6 @@ HWY_INLINE void add_to(const LaneSums& sums, FieldAtPoint& field) {
         field.potential[a] += hn::GetLane(hn::SumOfLanes(tag, sums.potential[a]));
         field.flux[a] += hn::GetLane(hn::SumOfLanes(tag, sums.flux[a]));
     }
-    field.solid_angle += hn::GetLane(hn::SumOfLanes(tag, sums.solid_angle));
 }
 
 /// Adds the sources of one group of triangles, those marked, at all points of a rule.
@@ -132,12 +143,13 @@ HWY_INLINE void add_group(const RotationSources& sources, std::size_t group,
 }
 
 /// The fields of all distant triangles at a triangle's points, one point for those very far off, three or six
-/// for the others, and the list of those too near.
+/// for the others; the list of those whose solid angle is left to do, and that of those too near for points.
 void far_fields(const RotationSourceSets& sources, const Targets& targets,
                 const std::array<double, 3>& distances, std::size_t count, Fields& fields,
-                std::vector<std::size_t>& near) {
+                std::vector<std::size_t>& exact, std::vector<std::size_t>& near) {
     const Tag tag;
     const std::size_t lanes = hn::Lanes(tag);
+    Lanes angles = hn::Zero(tag);
     LaneSums one = no_sums();
     LaneSums three[3] = {no_sums(), no_sums(), no_sums()};
     LaneSums six[6] = {no_sums(), no_sums(), no_sums(), no_sums(), no_sums(), no_sums()};
@@ -155,20 +167,30 @@ void far_fields(const RotationSourceSets& sources, const Targets& targets,
         };
         if (hn::AllTrue(tag, hn::Or(beyond(0), hn::Not(present)))) {
             add_sources(sources.one, j, middle, present, one);
+            angles = hn::Add(angles, solid_angles(sources.one, j, middle, present));
             continue;
         }
         const auto far = hn::And(present, beyond(1));
-        if (!hn::AllFalse(tag, far)) add_group(sources.three, j, targets.three, far, three);
+        if (!hn::AllFalse(tag, far)) {
+            add_group(sources.three, j, targets.three, far, three);
+            for (std::size_t p = 0; p < 3; ++p) {
+                angles =
+                    hn::Add(angles, solid_angles(sources.three, p * sources.three.stride + j, middle, far));
+            }
+        }
         const auto nearer = hn::AndNot(far, present);
         if (hn::AllFalse(tag, nearer)) continue;
         const auto six_points = hn::And(nearer, beyond(2));
         if (!hn::AllFalse(tag, six_points)) add_group(sources.six, j, targets.six, six_points, six);
-        HWY_ALIGN double marks[8];
-        hn::Store(hn::IfThenElseZero(hn::AndNot(six_points, nearer), hn::Set(tag, 1.0)), tag, marks);
+        HWY_ALIGN double marks[8];  // 0: done, 1: six points, 2: near
+        const Lanes near_mark = hn::IfThenElse(six_points, hn::Set(tag, 1.0), hn::Set(tag, 2.0));
+        hn::Store(hn::IfThenElseZero(nearer, near_mark), tag, marks);
         for (std::size_t k = 0; k < lanes; ++k) {
-            if (marks[k] != 0.0) near.push_back(j + k);
+            if (marks[k] > 0.5) exact.push_back(j + k);
+            if (marks[k] > 1.5) near.push_back(j + k);
         }
     }
+    fields.solid_angle = hn::GetLane(hn::SumOfLanes(tag, angles));
     add_to(one, fields.one);
     for (std::size_t q = 0; q < 3; ++q) add_to(three[q], fields.three[q]);
     for (std::size_t q = 0; q < 6; ++q) add_to(six[q], fields.six[q]);
@@ -286,12 +308,12 @@ void add_field(const FieldAtPoint& field, const FlatTriangle& triangle, const Ru
     row.energies += area * potential * motions.transpose();
 }
 
-/// The solid angles of the near triangles from the middle of one.
-double near_solid_angles(const std::vector<FlatTriangle>& triangles, const std::vector<std::size_t>& near,
-                         std::size_t own) {
+/// The solid angles of some triangles from the middle of one.
+double exact_solid_angles(const std::vector<FlatTriangle>& triangles, const std::vector<std::size_t>& seen,
+                          std::size_t own) {
     const Vector3d& eye = triangles[own].centroid;
     double sum = 0.0;
-    for (const std::size_t j : near) {
+    for (const std::size_t j : seen) {
         if (j == own) continue;
         const Vector3d a = triangles[j].corners[0] - eye;
         const Vector3d b = triangles[j].corners[1] - eye;
@@ -319,7 +341,6 @@ void add_fields(const std::array<FieldAtPoint, points>& fields, const FlatTriang
                 const std::vector<RulePoint>& rule, RowLoads& row) {
     for (std::size_t q = 0; q < points; ++q) {
         add_field(fields[q], triangle, rule[q], row);
-        row.solid_angle += rule[q].weight * fields[q].solid_angle;
     }
 }
 
@@ -350,16 +371,16 @@ RowLoads row_loads(const LinearElements& elements, const RotationSourceSets& sou
                           targets_on<3>(triangle, triangle_rule_3()),
                           targets_on<6>(triangle, triangle_rule_6()), triangle.radius};
     Fields fields;
+    std::vector<std::size_t> exact;
     std::vector<std::size_t> near;
     HWY_DYNAMIC_DISPATCH(far_fields)
-    (sources, targets, source_distances, elements.triangle_count(), fields, near);
+    (sources, targets, source_distances, elements.triangle_count(), fields, exact, near);
     RowLoads row;
     add_field(fields.one, triangle, {{1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}, 1.0}, row);
-    row.solid_angle = fields.one.solid_angle;
+    row.solid_angle = fields.solid_angle + exact_solid_angles(elements.triangles, exact, t);
     add_fields(fields.three, triangle, triangle_rule_3(), row);
     add_fields(fields.six, triangle, triangle_rule_6(), row);
     add_near(sources, near, t, triangle, row);
-    row.solid_angle += near_solid_angles(elements.triangles, near, t);
     return row;
 }
 
