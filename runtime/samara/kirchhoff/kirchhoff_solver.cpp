@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -28,9 +30,9 @@ constexpr double most_closure_fault = 0.05;
 // Of the curved method, whose matrix takes 64 bytes for each pair of triangles.
 constexpr std::size_t most_curved_triangles = 6000;
 constexpr std::size_t most_flat_triangles = 120000;
-// A surface with creases is refined once, if it then has no more than the first, and again up to the second.
+// A surface with creases is refined up to this count.
 constexpr std::size_t most_refined_triangles = 8000;
-constexpr std::size_t least_refined_triangles = 1200;
+constexpr int most_rungs = 8;
 // Below, triangles that face each other across the body are too near for collocation.
 constexpr double least_relative_thickness = 0.2;
 // Above this estimate of the curved method the other is tried too.
@@ -42,7 +44,11 @@ constexpr double least_ratio = 1.2;
 // is rebuilt on both, its error is alike.
 constexpr double order_curved = 4.0;
 constexpr double sure_order_rebuilt = 2.0;
-constexpr double rebuilt_share = 1.3;
+// Of the change from the given corners to their refinement: the errors that rebuilt and given curvature, and
+// the luck of extrapolation may leave.
+constexpr double rebuilt_share = 2.0;
+constexpr double curved_share = 0.03;
+constexpr double least_share = 0.05;
 constexpr double sure_order_flat = 4.0 / 3.0;
 
 Surface in_units(Surface surface, const Vector3d& reference_point, double length) {
@@ -54,6 +60,7 @@ struct Solved {
     Matrix6d tensor;  // SI
     double asymmetry = 0.0;
     std::size_t triangles = 0;
+    int rung = 0;  // of the ladder: above 0 its triangles cut those of the rung below
 };
 
 /// One body, in units of its own size about the reference point, and all that is solved for it.
@@ -89,43 +96,52 @@ class Solver {
     }
 
     KirchhoffTensor run_with(KirchhoffMethod method) {
-        KirchhoffTensor found = options_.tolerance > 0.0 ? climb(method) : compare_two(method);
+        KirchhoffTensor found = options_.tolerance > 0.0 ? climb(method) : solve_own(method);
         if (options_.progress) options_.progress(1.0);
         return found;
     }
 
-    /// The surface's own triangles, and a coarser or finer surface to compare with.
-    KirchhoffTensor compare_two(KirchhoffMethod method) {
-        int rung = 0;
-        if (method == KirchhoffMethod::hypersingular) {
-            std::size_t count = 4 * ladder_.base().surface.triangle_count();
-            if (count <= most_refined_triangles) rung = 1;
-            for (; 4 * count <= least_refined_triangles; count *= 4) ++rung;
+    /// The surface's own triangles or their refinement, and the coarser surfaces to compare with.
+    KirchhoffTensor solve_own(KirchhoffMethod method) {
+        const int rung = method == KirchhoffMethod::hypersingular ? rung_to_refine_to() : 0;
+        const int first = rung > 0 ? 0 : -1;
+        std::vector<Solved> solved;
+        double begin = 0.0;
+        for (int i = first; i <= rung; ++i) {
+            const double end = std::pow(0.1, rung - i);
+            auto next = try_solve(method, i, {begin, end}, i == rung);
+            if (next) solved.push_back(std::move(*next));
+            begin = end;
         }
-        const Solved coarse = solve(method, rung - 1, {0.0, 0.1});
-        return compared(method, solve(method, rung, {0.1, 1.0}), coarse, rung > 0);
+        return judged(method, solved);
+    }
+
+    /// How often a surface with creases is refined: a polyhedron as far as is quick, a curved one as far as
+    /// its own curvature is worth it.
+    [[nodiscard]] int rung_to_refine_to() const {
+        const Surface& own = ladder_.base().surface;
+        const int most = has_straight_edges(own) ? most_rungs : ladder_.is_rebuilt() ? 1 : 2;
+        int rung = 0;
+        for (std::size_t count = 4 * own.triangle_count(); count <= most_refined_triangles && rung < most;
+             count *= 4) {
+            ++rung;
+        }
+        return rung;
     }
 
     /// From coarse surfaces to finer ones, until the estimate is within the tolerance or no finer one helps.
     KirchhoffTensor climb(KirchhoffMethod method) {
+        std::vector<Solved> solved;
         double begin = 0.0;
-        std::optional<Solved> coarse;
         for (int rung = ladder_.lowest();; ++rung) {
             const bool is_last = is_finest(method, rung);
-            std::optional<Solved> fine;
-            try {
-                fine = solve(method, rung, {begin, 0.5 * (1.0 + begin)});
-            } catch (const Error&) {
-                if (is_last) throw;  // below, a surface too coarse to be one is no fault of the given one
-            }
-            begin = 0.5 * (1.0 + begin);
-            if (fine && coarse) {
-                const KirchhoffTensor found = compared(method, *fine, *coarse, rung > 0);
-                if (found.error_estimate <= options_.tolerance || is_last) return found;
-            } else if (is_last) {
-                return compared(method, *fine, *fine, false);
-            }
-            coarse = std::move(fine);
+            const double end = 0.5 * (1.0 + begin);
+            auto next = try_solve(method, rung, {begin, end}, is_last);
+            begin = end;
+            if (!next) continue;
+            solved.push_back(std::move(*next));
+            KirchhoffTensor found = judged(method, solved);
+            if (found.error_estimate <= options_.tolerance || is_last) return found;
         }
     }
 
@@ -140,6 +156,16 @@ class Solver {
         double begin;
         double end;
     };
+
+    /// Nothing where the rung's surface is too coarse to be solved and is not `required`.
+    std::optional<Solved> try_solve(KirchhoffMethod method, int rung, const Shares& shares, bool required) {
+        try {
+            return solve(method, rung, shares);
+        } catch (const Error&) {
+            if (required) throw;
+            return std::nullopt;
+        }
+    }
 
     Solved solve(KirchhoffMethod method, int rung, const Shares& shares) {
         const Surface& surface = ladder_.rung(rung).surface;
@@ -165,39 +191,77 @@ class Solver {
         solved.asymmetry =
             relative_tensor_error(solved.tensor, solved.tensor.transpose(), scale_, zero_block);
         solved.triangles = surface.triangle_count();
+        solved.rung = rung;
         return solved;
     }
 
-    /// `nested`: the finer surface cuts the coarser one's triangles.
-    KirchhoffTensor compared(KirchhoffMethod method, const Solved& fine, const Solved& coarse,
-                             bool nested) const {
-        const double difference = relative_tensor_error(coarse.tensor, fine.tensor, scale_, zero_block);
-        const double ratio =
-            std::sqrt(static_cast<double>(fine.triangles) / static_cast<double>(coarse.triangles));
+    /// The tensor of the last surface, the finest, and its error by those before.
+    [[nodiscard]] KirchhoffTensor judged(KirchhoffMethod method, const std::vector<Solved>& solved) const {
+        const Solved& fine = solved.back();
         const bool is_curved = method == KirchhoffMethod::curved_collocation;
-        Matrix6d tensor = fine.tensor;
-        double estimate = 1.0;
-        if (!is_curved && nested) {
-            // Richardson, for the second order that grading gives; what remains is less where that is right.
-            // A rebuilt curvature is the same on both, and its error of the size of what it differs by from
-            // flat.
-            tensor += (fine.tensor - coarse.tensor) / 3.0;
-            const bool is_polyhedron = has_straight_edges(ladder_.base().surface);
-            estimate = difference * (ladder_.is_rebuilt() && !is_polyhedron ? rebuilt_share : 1.0 / 3.0);
-        } else if (ratio > least_ratio) {
-            const double order = !is_curved             ? sure_order_flat
-                                 : ladder_.is_rebuilt() ? sure_order_rebuilt
-                                                        : order_curved;
-            estimate = difference / (std::pow(ratio, order) - 1.0);
+        Judgement judgement{fine.tensor, 1.0};
+        if (solved.size() > 1 && !is_curved && fine.rung > 0) {
+            judgement = extrapolated(solved);
+        } else if (solved.size() > 1) {
+            judgement.error = carried_on(fine, solved[solved.size() - 2],
+                                         !is_curved             ? sure_order_flat
+                                         : ladder_.is_rebuilt() ? sure_order_rebuilt
+                                                                : order_curved);
         }
         KirchhoffTensor result;
-        result.matrix = 0.5 * (tensor + tensor.transpose());
+        result.matrix = 0.5 * (judgement.tensor + judgement.tensor.transpose());
         result.asymmetry = fine.asymmetry;
-        result.error_estimate = std::min(1.0, std::max(estimate, fine.asymmetry));
+        result.error_estimate = std::clamp(judgement.error, fine.asymmetry, 1.0);
         result.triangles = static_cast<int>(fine.triangles);
         result.method = is_curved ? "direct boundary elements, quadratic on curved triangles"
                                   : "Galerkin boundary elements, hypersingular, linear on flat triangles";
         return result;
+    }
+
+    struct Judgement {
+        Matrix6d tensor;
+        double error;
+    };
+
+    [[nodiscard]] double difference(const Matrix6d& one, const Matrix6d& better) const {
+        return relative_tensor_error(one, better, scale_, zero_block);
+    }
+
+    /// What is left of the error on the fine surface: the difference carried on to triangles of no size.
+    [[nodiscard]] double carried_on(const Solved& fine, const Solved& coarse, double order) const {
+        const double ratio =
+            std::sqrt(static_cast<double>(fine.triangles) / static_cast<double>(coarse.triangles));
+        if (ratio < least_ratio) return 1.0;
+        return difference(coarse.tensor, fine.tensor) / (std::pow(ratio, order) - 1.0);
+    }
+
+    /// Richardson's extrapolation with the second order that grading gives. What remains is less than the
+    /// correction where the order is right, and where three surfaces are nested, about what the correction
+    /// changed by. All have the curvature of the given surface, whose error goes with that of flat triangles.
+    [[nodiscard]] Judgement extrapolated(const std::vector<Solved>& solved) const {
+        const auto best = [](const Solved& fine, const Solved& coarse) -> Matrix6d {
+            return fine.tensor + (fine.tensor - coarse.tensor) / 3.0;
+        };
+        const std::size_t last = solved.size() - 1;
+        const Matrix6d tensor = best(solved[last], solved[last - 1]);
+        const double step = difference(solved[last - 1].tensor, solved[last].tensor);
+        double error = step / 3.0;
+        if (last >= 2 && solved[last - 1].rung > 0) {
+            error =
+                std::max(difference(best(solved[last - 1], solved[last - 2]), tensor), least_share * step);
+        }
+        return {tensor, std::max(error, curvature_error(solved))};
+    }
+
+    /// The difference that the curvature makes to the given corners, as a share that the rebuilt or given one
+    /// is sure to be better than.
+    [[nodiscard]] double curvature_error(const std::vector<Solved>& solved) const {
+        if (has_straight_edges(ladder_.base().surface)) return 0.0;
+        const auto first =
+            std::find_if(solved.begin(), solved.end(), [](const Solved& s) { return s.rung == 1; });
+        if (first == solved.begin() || first == solved.end()) return 0.0;
+        return difference(std::prev(first)->tensor, first->tensor) *
+               (ladder_.is_rebuilt() ? rebuilt_share : curved_share);
     }
 
     const KirchhoffOptions& options_;
