@@ -98,6 +98,37 @@ TEST(KirchhoffTensor, ErrorEstimateCoversTheErrorAndIsMostlyWithinTenTimes) {
     EXPECT_GE(2 * close, count);
 }
 
+TEST(KirchhoffTensor, ErrorEstimateHoldsForBodiesThatItWasNotMadeOn) {
+    int covered = 0;
+    int close = 0;
+    int count = 0;
+    for (const Vector3d& semi_axes :
+         {Vector3d(1.0, 1.5, 3.0), Vector3d(1.0, 3.0, 3.0), Vector3d(0.3, 1.0, 2.0), Vector3d(0.2, 0.9, 1.0),
+          Vector3d(1.0, 1.0, 1.3), Vector3d(2.0, 2.5, 9.0), Vector3d(0.05, 1.0, 1.5)}) {
+        const ExactEllipsoid body = test::exact_ellipsoid(semi_axes);
+        for (const Surface& surface :
+             {test::ellipsoid(semi_axes, 3), test::curved_ellipsoid(semi_axes, 2),
+              test::curved_ellipsoid(semi_axes, 3),
+              test::mapped(test::shaken_icosphere(3, 0.2, 7), semi_axes.asDiagonal())}) {
+            const KirchhoffTensor result = tensor_of(surface);
+            const double error = error_against(body, result);
+            ++count;
+            covered += error <= result.error_estimate ? 1 : 0;
+            close += result.error_estimate <= 10.0 * error ? 1 : 0;
+        }
+    }
+    EXPECT_GE(10 * covered, 9 * count);
+    EXPECT_GE(3 * close, 2 * count);
+}
+
+TEST(ExactEllipsoid, NumericalIntegralsGiveTheTabulatedValues) {
+    for (const ExactEllipsoid& body : test::exact_ellipsoids()) {
+        const ExactEllipsoid found = test::exact_ellipsoid(body.semi_axes);
+        EXPECT_LT((found.mass - body.mass).norm(), 1e-9 * body.mass.norm()) << body.name;
+        EXPECT_LT((found.inertia - body.inertia).norm(), 1e-9 * (body.inertia.norm() + 1e-3)) << body.name;
+    }
+}
+
 TEST(KirchhoffTensor, ErrorEstimateOfACubeCoversTheError) {
     for (const int n : {1, 2, 4, 8}) {
         const KirchhoffTensor tensor = tensor_of(test::box({1.0, 1.0, 1.0}, n));

@@ -1,11 +1,50 @@
 #include "support/exact_ellipsoids.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "support/test_shapes.hpp"
 
 namespace samara::test {
+namespace {
+
+/// a b c times the integral over lambda from 0 to infinity of 1 / ((a_i^2 + lambda) D(lambda)), D the root of
+/// the product of all (a_j^2 + lambda). Lamb, art. 114, equation 6. By the trapezoidal rule after lambda =
+/// exp(s - exp(-s)), which converges exponentially.
+double lamb_integral(const Vector3d& semi_axes, Eigen::Index axis) {
+    const Vector3d squares = semi_axes.cwiseAbs2();
+    constexpr double step = 1.0 / 64.0;
+    double sum = 0.0;
+    for (int i = -6 * 64; i <= 100 * 64; ++i) {
+        const double s = step * i;
+        const double lambda = std::exp(s - std::exp(-s));
+        const Vector3d shifted = squares.array() + lambda;
+        sum += lambda * (1.0 + std::exp(-s)) / (shifted(axis) * std::sqrt(shifted.prod()));
+    }
+    return semi_axes.prod() * step * sum;
+}
+
+}  // namespace
+
+ExactEllipsoid exact_ellipsoid(const Vector3d& semi_axes) {
+    const double volume = 4.0 / 3.0 * std::numbers::pi * semi_axes.prod();
+    Vector3d integrals;
+    for (Eigen::Index i = 0; i < 3; ++i) integrals(i) = lamb_integral(semi_axes, i);
+    ExactEllipsoid body{"ellipsoid", semi_axes, Vector3d::Zero(), Vector3d::Zero()};
+    for (Eigen::Index i = 0; i < 3; ++i) {
+        const Eigen::Index j = (i + 1) % 3;
+        const Eigen::Index k = (i + 2) % 3;
+        const double b = semi_axes(j) * semi_axes(j);
+        const double c = semi_axes(k) * semi_axes(k);
+        body.mass(i) = volume * integrals(i) / (2.0 - integrals(i));
+        if (b == c) continue;
+        // Art. 115, equation 8.
+        body.inertia(i) = volume / 5.0 * (b - c) * (b - c) * (integrals(k) - integrals(j)) /
+                          (2.0 * (b - c) + (b + c) * (integrals(j) - integrals(k)));
+    }
+    return body;
+}
 
 const std::vector<ExactEllipsoid>& exact_ellipsoids() {
     static const std::vector<ExactEllipsoid> bodies = {

@@ -18,6 +18,10 @@ struct ExactEllipsoid {
 /// Lamb, Hydrodynamics, 6th ed., art. 114 and 115, with the integrals in Carlson's form to 30 digits.
 const std::vector<ExactEllipsoid>& exact_ellipsoids();
 
+/// That of any semi-axes, at least two of them different, by the same formulas with the integrals done
+/// numerically, to about 1e-10.
+ExactEllipsoid exact_ellipsoid(const Vector3d& semi_axes);
+
 /// The one with the name. The name must be known.
 const ExactEllipsoid& exact_ellipsoid(const std::string& name);
 
