@@ -5,283 +5,16 @@
 #include <numbers>
 
 #include "samara/base/parallel_for.hpp"
-#include "samara/kirchhoff/flat_triangle_integrals.hpp"
-#include "samara/kirchhoff/triangle_rules.hpp"
+#include "samara/kirchhoff/rotation_fields.hpp"
 
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "samara/kirchhoff/rotation_loads.cpp"
-#include <hwy/foreach_target.h>  // IWYU pragma: keep
-//
-#include <hwy/highway.h>
-
-#include "samara/kirchhoff/inverse_root-inl.h"
-
-#ifndef SAMARA_ROTATION_LOADS_TYPES
-#define SAMARA_ROTATION_LOADS_TYPES
-namespace samara {
-
-/// Point sources, coordinate by coordinate: the three rotations' strengths and an area vector each.
-struct RotationSources {
-    std::size_t stride = 0;  ///< from one point of a triangle to the next
-    std::array<std::vector<double>, 3> place;
-    std::array<std::vector<double>, 3> strength;
-    std::array<std::vector<double>, 3> area_vector;
-};
-
-/// Sources in one, three or six points a triangle, and batches for the near ones.
-struct RotationSourceSets {
-    RotationSources one;
-    RotationSources three;
-    RotationSources six;
-    std::vector<double> radius;
-    std::vector<std::array<SourceBatch, 2>> near;
-};
-
-/// Sums over sources at one point.
-struct FieldAtPoint {
-    std::array<double, 3> potential{};  ///< of the strengths: sum of g / r
-    std::array<double, 3> flux{};       ///< sum of g n . (y - x) / r^3, y and n this point's
-};
-
-struct TargetPoint {
-    std::array<double, 3> place;
-    std::array<double, 3> normal;
-};
-
-/// A triangle's own points that the fields of others are summed at.
-struct Targets {
-    TargetPoint one;
-    std::array<TargetPoint, 3> three;
-    std::array<TargetPoint, 6> six;
-    double radius;
-};
-
-struct Fields {
-    double solid_angle =
-        0.0;  ///< sum of area vector . (x - y) / r^3 over the distant sources x, y the middle
-    FieldAtPoint one;
-    std::array<FieldAtPoint, 3> three;
-    std::array<FieldAtPoint, 6> six;
-};
-
-}  // namespace samara
-#endif
-
-HWY_BEFORE_NAMESPACE();
-namespace samara::HWY_NAMESPACE {
-namespace {
-
-namespace hn = hwy::HWY_NAMESPACE;
-using Tag = hn::CappedTag<double, 8>;
-using Lanes = hn::Vec<Tag>;
-
-struct LaneSums {
-    Lanes potential[3];
-    Lanes flux[3];
-};
-
-HWY_INLINE LaneSums no_sums() {
-    const Lanes zero = hn::Zero(Tag());
-    return {{zero, zero, zero}, {zero, zero, zero}};
-}
-
-/// Adds the sources from `there` on, as many as there are lanes; `count` says which.
-template <class Mask>
-HWY_INLINE void add_sources(const RotationSources& sources, std::size_t there, const TargetPoint& target,
-                            Mask count, LaneSums& sums) {
-    const Tag tag;
-    const Lanes dx = hn::Sub(hn::Set(tag, target.place[0]), hn::LoadU(tag, &sources.place[0][there]));
-    const Lanes dy = hn::Sub(hn::Set(tag, target.place[1]), hn::LoadU(tag, &sources.place[1][there]));
-    const Lanes dz = hn::Sub(hn::Set(tag, target.place[2]), hn::LoadU(tag, &sources.place[2][there]));
-    const Lanes squared = hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz)));
-    const Lanes inverse = hn::IfThenElseZero(count, inverse_root(tag, squared));
-    const Lanes cubed = hn::Mul(inverse, hn::Mul(inverse, inverse));
-    const Lanes along = hn::MulAdd(
-        dx, hn::Set(tag, target.normal[0]),
-        hn::MulAdd(dy, hn::Set(tag, target.normal[1]), hn::Mul(dz, hn::Set(tag, target.normal[2]))));
-    const Lanes factor = hn::Mul(along, cubed);
-    for (std::size_t a = 0; a < 3; ++a) {
-        const Lanes strength = hn::LoadU(tag, &sources.strength[a][there]);
-        sums.potential[a] = hn::MulAdd(strength, inverse, sums.potential[a]);
-        sums.flux[a] = hn::MulAdd(strength, factor, sums.flux[a]);
-    }
-}
-
-/// The solid angles of the sources from `there` on, of those marked.
-template <class Mask>
-HWY_INLINE Lanes solid_angles(const RotationSources& sources, std::size_t there, const TargetPoint& eye,
-                              Mask marked) {
-    const Tag tag;
-    const Lanes dx = hn::Sub(hn::LoadU(tag, &sources.place[0][there]), hn::Set(tag, eye.place[0]));
-    const Lanes dy = hn::Sub(hn::LoadU(tag, &sources.place[1][there]), hn::Set(tag, eye.place[1]));
-    const Lanes dz = hn::Sub(hn::LoadU(tag, &sources.place[2][there]), hn::Set(tag, eye.place[2]));
-    const Lanes squared = hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz)));
-    const Lanes inverse = hn::IfThenElseZero(marked, inverse_root(tag, squared));
-    const Lanes along = hn::MulAdd(dx, hn::LoadU(tag, &sources.area_vector[0][there]),
-                                   hn::MulAdd(dy, hn::LoadU(tag, &sources.area_vector[1][there]),
-                                              hn::Mul(dz, hn::LoadU(tag, &sources.area_vector[2][there]))));
-    return hn::Mul(along, hn::Mul(inverse, hn::Mul(inverse, inverse)));
-}
-
-HWY_INLINE void add_to(const LaneSums& sums, FieldAtPoint& field) {
-    const Tag tag;
-    for (std::size_t a = 0; a < 3; ++a) {
-        field.potential[a] += hn::GetLane(hn::SumOfLanes(tag, sums.potential[a]));
-        field.flux[a] += hn::GetLane(hn::SumOfLanes(tag, sums.flux[a]));
-    }
-}
-
-/// Adds the sources of one group of triangles, those marked, at all points of a rule.
-template <std::size_t points, class Mask>
-HWY_INLINE void add_group(const RotationSources& sources, std::size_t group,
-                          const std::array<TargetPoint, points>& targets, Mask marked, LaneSums* sums) {
-    for (std::size_t q = 0; q < points; ++q) {
-        for (std::size_t p = 0; p < points; ++p) {
-            add_sources(sources, p * sources.stride + group, targets[q], marked, sums[q]);
-        }
-    }
-}
-
-/// The fields of all distant triangles at a triangle's points, one point for those very far off, three or six
-/// for the others; the list of those whose solid angle is left to do, and that of those too near for points.
-void far_fields(const RotationSourceSets& sources, const Targets& targets,
-                const std::array<double, 3>& distances, std::size_t count, Fields& fields,
-                std::vector<std::size_t>& exact, std::vector<std::size_t>& near) {
-    const Tag tag;
-    const std::size_t lanes = hn::Lanes(tag);
-    Lanes angles = hn::Zero(tag);
-    LaneSums one = no_sums();
-    LaneSums three[3] = {no_sums(), no_sums(), no_sums()};
-    LaneSums six[6] = {no_sums(), no_sums(), no_sums(), no_sums(), no_sums(), no_sums()};
-    for (std::size_t j = 0; j < count; j += lanes) {
-        const TargetPoint& middle = targets.one;
-        const Lanes dx = hn::Sub(hn::LoadU(tag, &sources.one.place[0][j]), hn::Set(tag, middle.place[0]));
-        const Lanes dy = hn::Sub(hn::LoadU(tag, &sources.one.place[1][j]), hn::Set(tag, middle.place[1]));
-        const Lanes dz = hn::Sub(hn::LoadU(tag, &sources.one.place[2][j]), hn::Set(tag, middle.place[2]));
-        const Lanes squared = hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz)));
-        const Lanes reach = hn::Add(hn::Set(tag, targets.radius), hn::LoadU(tag, &sources.radius[j]));
-        const Lanes reach_squared = hn::Mul(reach, reach);
-        const auto present = hn::FirstN(tag, std::min(lanes, count - j));
-        const auto beyond = [&](std::size_t rule) HWY_ATTR {
-            return hn::Gt(squared, hn::Mul(reach_squared, hn::Set(tag, distances[rule] * distances[rule])));
-        };
-        if (hn::AllTrue(tag, hn::Or(beyond(0), hn::Not(present)))) {
-            add_sources(sources.one, j, middle, present, one);
-            angles = hn::Add(angles, solid_angles(sources.one, j, middle, present));
-            continue;
-        }
-        const auto far = hn::And(present, beyond(1));
-        if (!hn::AllFalse(tag, far)) {
-            add_group(sources.three, j, targets.three, far, three);
-            for (std::size_t p = 0; p < 3; ++p) {
-                angles =
-                    hn::Add(angles, solid_angles(sources.three, p * sources.three.stride + j, middle, far));
-            }
-        }
-        const auto nearer = hn::AndNot(far, present);
-        if (hn::AllFalse(tag, nearer)) continue;
-        const auto six_points = hn::And(nearer, beyond(2));
-        if (!hn::AllFalse(tag, six_points)) add_group(sources.six, j, targets.six, six_points, six);
-        HWY_ALIGN double marks[8];  // 0: done, 1: six points, 2: near
-        const Lanes near_mark = hn::IfThenElse(six_points, hn::Set(tag, 1.0), hn::Set(tag, 2.0));
-        hn::Store(hn::IfThenElseZero(nearer, near_mark), tag, marks);
-        for (std::size_t k = 0; k < lanes; ++k) {
-            if (marks[k] > 0.5) exact.push_back(j + k);
-            if (marks[k] > 1.5) near.push_back(j + k);
-        }
-    }
-    fields.solid_angle = hn::GetLane(hn::SumOfLanes(tag, angles));
-    add_to(one, fields.one);
-    for (std::size_t q = 0; q < 3; ++q) add_to(three[q], fields.three[q]);
-    for (std::size_t q = 0; q < 6; ++q) add_to(six[q], fields.six[q]);
-}
-
-}  // namespace
-}  // namespace samara::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
 namespace samara {
 namespace {
 
-HWY_EXPORT(far_fields);
-
-// In sums of both radii: beyond the first one point a triangle, beyond the next three, beyond the last six.
-constexpr std::array<double, 3> source_distances = {15.0, 3.0, 1.2};
-constexpr std::size_t padding = 8;
 constexpr std::size_t rows_a_piece = 32;
 constexpr double full_solid_angle = 4.0 * std::numbers::pi;
 
 Eigen::Index at(std::size_t index) {
     return static_cast<Eigen::Index>(index);
-}
-
-Vector3d place_on(const FlatTriangle& triangle, const RulePoint& point) {
-    return point.corner_shares[0] * triangle.corners[0] + point.corner_shares[1] * triangle.corners[1] +
-           point.corner_shares[2] * triangle.corners[2];
-}
-
-void set_source(RotationSources& sources, std::size_t i, const FlatTriangle& triangle, const Vector3d& place,
-                double area) {
-    const Vector3d velocity = place.cross(triangle.normal);
-    for (std::size_t c = 0; c < 3; ++c) {
-        sources.place[c][i] = place[at(c)];
-        sources.strength[c][i] = area * velocity[at(c)];
-        sources.area_vector[c][i] = area * triangle.normal[at(c)];
-    }
-}
-
-RotationSources empty_sources(std::size_t stride, std::size_t points) {
-    RotationSources sources;
-    sources.stride = stride;
-    for (std::size_t c = 0; c < 3; ++c) {
-        sources.place[c].assign(points * stride, 1e3);
-        sources.strength[c].assign(points * stride, 0.0);
-        sources.area_vector[c].assign(points * stride, 0.0);
-    }
-    return sources;
-}
-
-void set_sources(RotationSources& sources, std::size_t t, const FlatTriangle& triangle,
-                 const std::vector<RulePoint>& rule) {
-    for (std::size_t p = 0; p < rule.size(); ++p) {
-        const Vector3d place = place_on(triangle, rule[p]);
-        set_source(sources, p * sources.stride + t, triangle, place, rule[p].weight * triangle.area);
-    }
-}
-
-std::array<SourceBatch, 2> near_sources(const FlatTriangle& triangle) {
-    const std::vector<RulePoint>& rule = triangle_rule_16();
-    std::array<SourceBatch, 2> batches;
-    for (std::size_t i = 0; i < rule.size(); ++i) {
-        SourceBatch& batch = batches[i / point_batch];
-        const Vector3d place = place_on(triangle, rule[i]);
-        const Vector3d strength = rule[i].weight * triangle.area * place.cross(triangle.normal);
-        batch.points.set(i % point_batch, place);
-        for (std::size_t a = 0; a < 3; ++a) batch.strengths[a].values[i % point_batch] = strength[at(a)];
-    }
-    return batches;
-}
-
-RotationSourceSets make_sources(const std::vector<FlatTriangle>& triangles) {
-    const std::size_t stride = triangles.size() + padding;
-    RotationSourceSets sets{
-        empty_sources(stride, 1), empty_sources(stride, 3), empty_sources(stride, 6), {}, {}};
-    sets.radius.assign(stride, 0.0);
-    sets.near.reserve(triangles.size());
-    for (std::size_t t = 0; t < triangles.size(); ++t) {
-        const FlatTriangle& triangle = triangles[t];
-        sets.radius[t] = triangle.radius;
-        set_source(sets.one, t, triangle, triangle.centroid, triangle.area);
-        set_sources(sets.three, t, triangle, triangle_rule_3());
-        set_sources(sets.six, t, triangle, triangle_rule_6());
-        sets.near.push_back(near_sources(triangle));
-    }
-    return sets;
-}
-
-TargetPoint target(const Vector3d& place, const Vector3d& normal) {
-    return {{place.x(), place.y(), place.z()}, {normal.x(), normal.y(), normal.z()}};
 }
 
 /// What all triangles exert on one: row k of `loads` belongs to its corner k.
@@ -328,15 +61,6 @@ double exact_solid_angles(const std::vector<FlatTriangle>& triangles, const std:
 }
 
 template <std::size_t points>
-std::array<TargetPoint, points> targets_on(const FlatTriangle& triangle, const std::vector<RulePoint>& rule) {
-    std::array<TargetPoint, points> targets;
-    for (std::size_t q = 0; q < points; ++q) {
-        targets[q] = target(place_on(triangle, rule[q]), triangle.normal);
-    }
-    return targets;
-}
-
-template <std::size_t points>
 void add_fields(const std::array<FieldAtPoint, points>& fields, const FlatTriangle& triangle,
                 const std::vector<RulePoint>& rule, RowLoads& row) {
     for (std::size_t q = 0; q < points; ++q) {
@@ -367,20 +91,13 @@ void add_near(const RotationSourceSets& sources, const std::vector<std::size_t>&
 
 RowLoads row_loads(const LinearElements& elements, const RotationSourceSets& sources, std::size_t t) {
     const FlatTriangle& triangle = elements.triangles[t];
-    const Targets targets{target(triangle.centroid, triangle.normal),
-                          targets_on<3>(triangle, triangle_rule_3()),
-                          targets_on<6>(triangle, triangle_rule_6()), triangle.radius};
-    Fields fields;
-    std::vector<std::size_t> exact;
-    std::vector<std::size_t> near;
-    HWY_DYNAMIC_DISPATCH(far_fields)
-    (sources, targets, source_distances, elements.triangle_count(), fields, exact, near);
+    const DistantFields fields = distant_fields(sources, triangle);
     RowLoads row;
     add_field(fields.one, triangle, {{1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}, 1.0}, row);
-    row.solid_angle = fields.solid_angle + exact_solid_angles(elements.triangles, exact, t);
     add_fields(fields.three, triangle, triangle_rule_3(), row);
     add_fields(fields.six, triangle, triangle_rule_6(), row);
-    add_near(sources, near, t, triangle, row);
+    add_near(sources, fields.near, t, triangle, row);
+    row.solid_angle = fields.solid_angle + exact_solid_angles(elements.triangles, fields.exact, t);
     return row;
 }
 
@@ -398,7 +115,7 @@ Matrix3d own_loads(const FlatTriangle& triangle) {
 
 RotationLoads rotation_loads(const LinearElements& elements, int threads,
                              const std::function<void(double)>& progress) {
-    const RotationSourceSets sources = make_sources(elements.triangles);
+    const RotationSourceSets sources = rotation_sources(elements);
     std::vector<RowLoads> rows(elements.triangle_count());
     parallel_for(
         rows.size(), rows_a_piece, threads,
@@ -421,4 +138,3 @@ RotationLoads rotation_loads(const LinearElements& elements, int threads,
 }
 
 }  // namespace samara
-#endif
