@@ -11,23 +11,24 @@ namespace samara {
 namespace {
 
 /// The outward direction at the middle of a side.
-Vector3d normal_at_side(const Surface& surface, const EdgeUse& use) {
+Vector3d normal_at_side(const Surface& surface, const EdgeUse& use, bool flat) {
     const auto triangle = static_cast<std::size_t>(use.triangle);
-    if (surface.order() == 1) return area_vector(surface, triangle);
+    if (flat) return area_vector(surface, triangle);
     constexpr std::array<std::array<double, 2>, 3> middles = {{{0.5, 0.0}, {0.5, 0.5}, {0.0, 0.5}}};
     const auto& [u, v] = middles[static_cast<std::size_t>(use.side)];
     return normal_of_triangle(surface, triangle, u, v);
 }
 
-/// By how much the surface turns (radians) at each side of each triangle; pi where it ends.
-std::vector<std::array<double, 3>> turns_of(const Surface& surface) {
+/// By how much the surface, or that of its flat corner triangles, turns (radians) at each side of each
+/// triangle; pi where it ends.
+std::vector<std::array<double, 3>> turns_of(const Surface& surface, bool flat) {
     std::vector<std::array<double, 3>> turns(surface.triangle_count(),
                                              {std::numbers::pi, std::numbers::pi, std::numbers::pi});
     const std::vector<EdgeUse> uses = edge_uses(surface);
     for (const auto& edge : edges_of(uses)) {
         if (edge.size() != 2) continue;
-        const Vector3d one = normal_at_side(surface, edge[0]);
-        const Vector3d other = normal_at_side(surface, edge[1]);
+        const Vector3d one = normal_at_side(surface, edge[0], flat);
+        const Vector3d other = normal_at_side(surface, edge[1], flat);
         const double turn = std::atan2(one.cross(other).norm(), one.dot(other));
         for (const EdgeUse& use : edge) {
             turns[static_cast<std::size_t>(use.triangle)][static_cast<std::size_t>(use.side)] = turn;
@@ -54,8 +55,10 @@ std::vector<double> most_turns(const Surface& surface, const std::vector<std::ar
 }  // namespace
 
 Creases find_creases(const Surface& surface) {
-    const std::vector<std::array<double, 3>> turns = turns_of(surface);
-    const std::vector<double> most = most_turns(surface, turns);
+    const std::vector<std::array<double, 3>> flat_turns = turns_of(surface, true);
+    const std::vector<std::array<double, 3>> turns =
+        surface.order() == 1 ? flat_turns : turns_of(surface, false);
+    const std::vector<double> most = most_turns(surface, flat_turns);
     const auto apex_turn = [&](std::size_t triangle, std::size_t side) {
         return most[static_cast<std::size_t>(surface.corners[triangle][(side + 2) % 3])];
     };
@@ -69,8 +72,10 @@ Creases find_creases(const Surface& surface) {
         const double around = std::max(
             apex_turn(triangle, side),
             apex_turn(static_cast<std::size_t>(edge[1].triangle), static_cast<std::size_t>(edge[1].side)));
-        const bool is_crease =
-            turn > crease_angle || (turn > shallow_crease_angle && turn > shallow_crease_ratio * around);
+        // Of curved triangles the turns vary from edge to edge; of flat ones only at folds.
+        const bool is_fold = std::min(turn, flat_turns[triangle][side]) > shallow_crease_angle &&
+                             flat_turns[triangle][side] > shallow_crease_ratio * around;
+        const bool is_crease = turn > crease_angle || is_fold;
         for (const EdgeUse& use : edge) {
             creases[static_cast<std::size_t>(use.triangle)][static_cast<std::size_t>(use.side)] = is_crease;
         }
