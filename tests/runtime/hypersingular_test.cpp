@@ -83,7 +83,7 @@ Matrix6d block_diagonal(const Matrix3d& map, double sign) {
 }
 
 TEST(Hypersingular, ConvergesWithTheSquareOfTheSizeOnTheEllipsoid) {
-    Vector6d last;
+    Vector6d last = Vector6d::Zero();
     for (const int level : {2, 3, 4}) {
         const Vector6d diagonal = tensor_of(test::ellipsoid({1.0, 2.0, 4.0}, level)).diagonal();
         const Vector6d error = diagonal.cwiseQuotient(ellipsoid_124()) - Vector6d::Ones();
@@ -104,14 +104,14 @@ TEST(Hypersingular, IsNotDisturbedByAnUnevenMesh) {
 }
 
 TEST(Hypersingular, RisesMonotonicallyToTheCubesAddedMass) {
-    // 0.63786: the value that this method's own results on finer, graded meshes extrapolate to; 0.638 in the
-    // literature's three digits.
+    // 0.63842: what 48 to 49,152 triangles graded to the edges extrapolate to (0.63745, 0.63823, 0.63838);
+    // 0.638 in the literature's three digits.
     double last = 0.0;
     Surface surface = test::box({1.0, 1.0, 1.0}, 2);
     for (int step = 0; step < 4; ++step) {
         const Matrix6d tensor = tensor_of(surface);
         EXPECT_GT(tensor(3, 3), last);
-        EXPECT_LT(tensor(3, 3), 0.63786);
+        EXPECT_LT(tensor(3, 3), 0.63842);
         last = tensor(3, 3);
         surface = without_edge_nodes(
             refined({with_straight_edge_nodes(surface), Creases(surface.triangle_count())}).surface);
