@@ -1,5 +1,5 @@
 # The picture of error against time: gnuplot -e "rows='kirchhoff.csv'; picture='kirchhoff.png'" kirchhoff.gp
-set terminal pngcairo size 1800, 760 font "DejaVu Sans,15" linewidth 1.6
+set terminal pngcairo size 2000, 700 font "DejaVu Sans,15" linewidth 1.6
 set output picture
 set datafile separator ","
 set logscale xy
@@ -13,12 +13,12 @@ set border 3 lc rgb "#6b6b6b"
 set tics nomirror textcolor rgb "#1a1a1a"
 set key off
 
-bodies = "'ellipsoid 1:2:4' 'oblate 1:1:0.1' 'oblate 1:1:0.01'"
+bodies = "'ellipsoid 1:2:4' 'oblate 1:1:0.01' 'cube' 'plate 1:1:0.0001'"
 methods = "'offset sources, 0.1' 'offset sources, 0.6' 'samara, hypersingular' 'samara, flat mesh' 'samara, curved mesh'"
 array color[5] = ["#b0b0b0", "#7a7a7a", "#2a7f8e", "#d98c1f", "#c0392b"]
 
-set multiplot layout 1, 3 margins 0.06, 0.985, 0.22, 0.92 spacing 0.045
-do for [b = 1:3] {
+set multiplot layout 1, 4 margins 0.05, 0.99, 0.23, 0.92 spacing 0.035
+do for [b = 1:4] {
   body = word(bodies, b)
   set title body
   if (b == 1) { set ylabel "relative tensor error" } else { unset ylabel }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <functional>
@@ -14,7 +15,7 @@
 #include "peers/offset_sources.hpp"
 #include "samara/kirchhoff/kirchhoff_solver.hpp"
 #include "samara/kirchhoff/tensor_error.hpp"
-#include "support/exact_ellipsoids.hpp"
+#include "support/exact_bodies.hpp"
 #include "support/test_shapes.hpp"
 
 namespace samara {
@@ -78,18 +79,54 @@ std::vector<Method> methods() {
     };
 }
 
-std::vector<Row> measure(const test::ExactEllipsoid& body, const Method& method) {
+/// A body of which the tensor is known: its meshes from coarse to fine, and how wrong a tensor is.
+struct Case {
+    std::string name;
+    VolumeMoments moments;
+    std::function<Surface(int level, bool curved)> mesh;
+    std::function<double(const Matrix6d&)> error;
+};
+
+Case ellipsoid_case(const test::ExactEllipsoid& body) {
+    const VolumeMoments moments = test::exact_moments(body);
+    return {body.name, moments,
+            [axes = body.semi_axes](int level, bool curved) {
+                return curved ? test::curved_ellipsoid(axes, level) : test::ellipsoid(axes, level);
+            },
+            [exact = test::exact_tensor(body), moments](const Matrix6d& tensor) {
+                return relative_tensor_error(tensor, exact, {moments.volume, moments.surface_area});
+            }};
+}
+
+Case box_case(const char* name, const Vector3d& edges, const std::function<double(const Matrix6d&)>& error) {
+    return {name, test::moments_of(test::box(edges, 1)),
+            [edges](int level, bool) { return test::box(edges, 1 << level); }, error};
+}
+
+std::vector<Case> cases() {
+    std::vector<Case> all;
+    for (const test::ExactEllipsoid& body : test::exact_ellipsoids()) all.push_back(ellipsoid_case(body));
+    all.push_back(box_case("cube", {1.0, 1.0, 1.0}, [](const Matrix6d& tensor) {
+        return relative_tensor_error(tensor, test::unit_cube_tensor(), {1.0, 6.0});
+    }));
+    // Broadside alone: of a plate without thickness nothing else is known.
+    all.push_back(box_case("plate 1:1:0.0001", {1.0, 1.0, 1e-4}, [](const Matrix6d& tensor) {
+        return std::abs(tensor(5, 5) / test::unit_plate_added_mass() - 1.0);
+    }));
+    return all;
+}
+
+std::vector<Row> measure(const Case& body, const Method& method) {
     std::vector<Row> rows;
+    const bool is_box = body.mesh(1, true).order() == 1;
+    if (is_box && method.curved) return rows;
     for (int level = 1; level <= 4; ++level) {
-        const Surface surface = method.curved ? test::curved_ellipsoid(body.semi_axes, level)
-                                              : test::ellipsoid(body.semi_axes, level);
+        const Surface surface = body.mesh(level, method.curved);
         if (surface.triangle_count() > method.most_triangles) break;
-        const VolumeMoments moments = test::exact_moments(body);
         KirchhoffTensor tensor;
         Row row{body.name, method.name, surface.triangle_count()};
-        row.milliseconds = time_of([&] { tensor = method.run(surface, moments); });
-        row.error = relative_tensor_error(tensor.matrix, test::exact_tensor(body),
-                                          {moments.volume, moments.surface_area});
+        row.milliseconds = time_of([&] { tensor = method.run(surface, body.moments); });
+        row.error = body.error(tensor.matrix);
         row.estimate = tensor.error_estimate;
         rows.push_back(row);
     }
@@ -110,7 +147,7 @@ int main(int argc, char** argv) {
     std::vector<Row> rows;
     fmt::print("{:<18}{:<24}{:>10}{:>12}{:>12}{:>12}\n", "body", "method", "triangles", "ms", "error",
                "estimate");
-    for (const test::ExactEllipsoid& body : test::exact_ellipsoids()) {
+    for (const Case& body : cases()) {
         for (const Method& method : methods()) {
             for (const Row& row : measure(body, method)) {
                 print(row);

@@ -105,7 +105,6 @@ TEST(Hypersingular, IsNotDisturbedByAnUnevenMesh) {
 
 TEST(Hypersingular, RisesMonotonicallyToTheCubesAddedMass) {
     // 0.63842: what 48 to 49,152 triangles graded to the edges extrapolate to (0.63745, 0.63823, 0.63838);
-    // 0.638 in the literature's three digits.
     double last = 0.0;
     Surface surface = test::box({1.0, 1.0, 1.0}, 2);
     for (int step = 0; step < 4; ++step) {

@@ -9,7 +9,7 @@
 
 #include "samara/kirchhoff/kirchhoff_solver.hpp"
 #include "samara/kirchhoff/tensor_error.hpp"
-#include "support/exact_ellipsoids.hpp"
+#include "support/exact_bodies.hpp"
 #include "support/test_shapes.hpp"
 
 namespace samara {

@@ -8,7 +8,7 @@
 
 #include "samara/kirchhoff/kirchhoff_solver.hpp"
 #include "samara/kirchhoff/tensor_error.hpp"
-#include "support/exact_ellipsoids.hpp"
+#include "support/exact_bodies.hpp"
 #include "support/expect_error.hpp"
 #include "support/test_shapes.hpp"
 
@@ -29,15 +29,6 @@ KirchhoffTensor tensor_of(const Surface& surface, int threads = 0) {
 
 double error_against(const ExactEllipsoid& body, const KirchhoffTensor& tensor) {
     return relative_tensor_error(tensor.matrix, exact_tensor(body), scale_of(test::exact_moments(body)));
-}
-
-/// The cube with edges of length 1, extrapolated from the hypersingular method on 3,072, 12,288 and 49,152
-/// graded triangles, which converge from below with the order 2.3: 0.63745, 0.63823, 0.63838 (translation)
-/// and 0.038956, 0.039198, 0.039248 (rotation).
-Matrix6d cube_tensor() {
-    Matrix6d tensor = Matrix6d::Zero();
-    tensor.diagonal() << Vector3d::Constant(0.03926), Vector3d::Constant(0.63842);
-    return tensor;
 }
 
 /// An ellipsoid with a dent, without any symmetry.
@@ -133,7 +124,7 @@ TEST(ExactEllipsoid, NumericalIntegralsGiveTheTabulatedValues) {
 TEST(KirchhoffTensor, ErrorEstimateOfACubeCoversTheError) {
     for (const int n : {1, 2, 4, 8}) {
         const KirchhoffTensor tensor = tensor_of(test::box({1.0, 1.0, 1.0}, n));
-        const double error = relative_tensor_error(tensor.matrix, cube_tensor(), {1.0, 6.0});
+        const double error = relative_tensor_error(tensor.matrix, test::unit_cube_tensor(), {1.0, 6.0});
         EXPECT_LT(error, tensor.error_estimate) << n;
         EXPECT_LT(tensor.error_estimate, 10.0 * error) << n;
         EXPECT_THAT(tensor.method, HasSubstr("hypersingular"));
@@ -146,7 +137,7 @@ TEST(KirchhoffTensor, OfATwelveTriangleBoxIsWithinAPercentWhereAskedFor) {
     const Surface cube = test::box({1.0, 1.0, 1.0}, 1);
     const KirchhoffTensor tensor = kirchhoff_tensor(cube, test::moments_of(cube), options);
     EXPECT_LE(tensor.error_estimate, 0.01);
-    EXPECT_LT(relative_tensor_error(tensor.matrix, cube_tensor(), {1.0, 6.0}), 0.01);
+    EXPECT_LT(relative_tensor_error(tensor.matrix, test::unit_cube_tensor(), {1.0, 6.0}), 0.01);
 }
 
 TEST(KirchhoffTensor, ToleranceTakesTheCoarsestSurfaceThatMeetsIt) {

@@ -31,7 +31,8 @@ constexpr double most_closure_fault = 0.05;
 constexpr std::size_t most_curved_triangles = 6000;
 constexpr std::size_t most_flat_triangles = 120000;
 // A surface with creases is refined up to this count.
-constexpr std::size_t most_refined_triangles = 8000;
+constexpr std::size_t most_refined_triangles = 25000;
+constexpr std::size_t quick_triangles = 8000;  // and a second time up to this one
 constexpr int most_rungs = 8;
 // Below, triangles that face each other across the body are too near for collocation.
 constexpr double least_relative_thickness = 0.2;
@@ -50,6 +51,7 @@ constexpr double rebuilt_share = 2.0;
 constexpr double curved_share = 0.03;
 constexpr double least_share = 0.05;
 constexpr double sure_order_flat = 4.0 / 3.0;
+constexpr double sure_order_at_creases = 0.6;  // where triangles are not graded to them
 
 Surface in_units(Surface surface, const Vector3d& reference_point, double length) {
     for (Vector3d& vertex : surface.vertices) vertex = (vertex - reference_point) / length;
@@ -122,8 +124,8 @@ class Solver {
         const Surface& own = ladder_.base().surface;
         const int most = has_straight_edges(own) ? most_rungs : ladder_.is_rebuilt() ? 1 : 2;
         int rung = 0;
-        for (std::size_t count = 4 * own.triangle_count(); count <= most_refined_triangles && rung < most;
-             count *= 4) {
+        for (std::size_t count = 4 * own.triangle_count(); rung < most; count *= 4) {
+            if (count > (rung == 0 ? most_refined_triangles : quick_triangles)) break;
             ++rung;
         }
         return rung;
@@ -204,7 +206,7 @@ class Solver {
             judgement = extrapolated(solved);
         } else if (solved.size() > 1) {
             judgement.error = carried_on(fine, solved[solved.size() - 2],
-                                         !is_curved             ? sure_order_flat
+                                         !is_curved             ? order_of_flat()
                                          : ladder_.is_rebuilt() ? sure_order_rebuilt
                                                                 : order_curved);
         }
@@ -216,6 +218,10 @@ class Solver {
         result.method = is_curved ? "direct boundary elements, quadratic on curved triangles"
                                   : "Galerkin boundary elements, hypersingular, linear on flat triangles";
         return result;
+    }
+
+    [[nodiscard]] double order_of_flat() const {
+        return any_crease(ladder_.base().creases) ? sure_order_at_creases : sure_order_flat;
     }
 
     struct Judgement {

@@ -1,4 +1,4 @@
-#include "support/exact_ellipsoids.hpp"
+#include "support/exact_bodies.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -87,6 +87,16 @@ VolumeMoments exact_moments(const ExactEllipsoid& body) {
     moments.second_moments = (moments.volume / 5.0 * squares).asDiagonal();
     moments.surface_area = surface_area(ellipsoid(body.semi_axes, 4));
     return moments;
+}
+
+Matrix6d unit_cube_tensor() {
+    Matrix6d tensor = Matrix6d::Zero();
+    tensor.diagonal() << Vector3d::Constant(0.03926), Vector3d::Constant(0.63842);
+    return tensor;
+}
+
+double unit_plate_added_mass() {
+    return 0.5790 * std::numbers::pi / 4.0;
 }
 
 }  // namespace samara::test
