@@ -36,7 +36,7 @@ std::vector<Triangle> crease_segments(const Surface& flat, double crease_angle) 
 
 // Barycentric coordinates of a point of the triangle.
 Vector3d weights_in(const TriangleTree& tree, std::size_t triangle, const Vector3d& point) {
-    const Vector3d a = tree.corner(triangle, 0);
+    const Vector3d& a = tree.corner(triangle, 0);
     const Vector3d ab = tree.corner(triangle, 1) - a;
     const Vector3d ac = tree.corner(triangle, 2) - a;
     const Vector3d normal = ab.cross(ac);

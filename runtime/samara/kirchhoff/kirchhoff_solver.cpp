@@ -205,22 +205,23 @@ class Solver {
         if (solved.size() > 1 && !is_curved && fine.rung > 0) {
             judgement = extrapolated(solved);
         } else if (solved.size() > 1) {
-            judgement.error = carried_on(fine, solved[solved.size() - 2],
-                                         !is_curved             ? order_of_flat()
-                                         : ladder_.is_rebuilt() ? sure_order_rebuilt
-                                                                : order_curved);
+            judgement.error = carried_on(fine, solved[solved.size() - 2], order_of(method));
         }
         KirchhoffTensor result;
         result.matrix = 0.5 * (judgement.tensor + judgement.tensor.transpose());
         result.asymmetry = fine.asymmetry;
-        result.error_estimate = std::clamp(judgement.error, fine.asymmetry, 1.0);
+        // Also where it is not a number.
+        result.error_estimate = judgement.error < 1.0 ? std::max(judgement.error, fine.asymmetry) : 1.0;
         result.triangles = static_cast<int>(fine.triangles);
         result.method = is_curved ? "direct boundary elements, quadratic on curved triangles"
                                   : "Galerkin boundary elements, hypersingular, linear on flat triangles";
         return result;
     }
 
-    [[nodiscard]] double order_of_flat() const {
+    [[nodiscard]] double order_of(KirchhoffMethod method) const {
+        if (method == KirchhoffMethod::curved_collocation) {
+            return ladder_.is_rebuilt() ? sure_order_rebuilt : order_curved;
+        }
         return any_crease(ladder_.base().creases) ? sure_order_at_creases : sure_order_flat;
     }
 
