@@ -64,8 +64,8 @@ class Refinement {
             const bool high = on_crease[static_cast<std::size_t>(use.high)];
             EdgeCut cut;
             if (low != high) cut.part = low ? cut_towards_creases : 1.0 - cut_towards_creases;
-            const Place from = corner_places[use.forward ? side : (side + 1) % 3];
-            const Place to = corner_places[use.forward ? (side + 1) % 3 : side];
+            const Place& from = corner_places[use.forward ? side : (side + 1) % 3];
+            const Place& to = corner_places[use.forward ? (side + 1) % 3 : side];
             const auto at = [&](double part) { return add(point(triangle, from + part * (to - from))); };
             cut.cut = at(cut.part);
             cut.at_low = at(0.5 * cut.part);
