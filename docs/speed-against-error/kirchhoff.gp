@@ -14,7 +14,7 @@ set tics nomirror textcolor rgb "#1a1a1a"
 set key off
 
 bodies = "'ellipsoid 1:2:4' 'oblate 1:1:0.01' 'cube' 'plate 1:1:0.0001'"
-methods = "'offset sources, 0.1' 'offset sources, 0.6' 'samara, hypersingular' 'samara, flat mesh' 'samara, curved mesh'"
+methods = "'offset sources (0.1)' 'offset sources (0.6)' 'samara hypersingular' 'samara from flat mesh' 'samara from curved mesh'"
 array color[5] = ["#b0b0b0", "#7a7a7a", "#2a7f8e", "#d98c1f", "#c0392b"]
 
 set multiplot layout 1, 4 margins 0.05, 0.99, 0.23, 0.92 spacing 0.035

@@ -71,11 +71,11 @@ std::vector<Method> methods() {
         };
     };
     return {
-        {"offset sources, 0.1", false, 1280, offset_sources(0.1)},
-        {"offset sources, 0.6", false, 1280, offset_sources(0.6)},
-        {"samara, flat mesh", false, 5120, ours(KirchhoffMethod::automatic)},
-        {"samara, curved mesh", true, 5120, ours(KirchhoffMethod::automatic)},
-        {"samara, hypersingular", false, 1280, ours(KirchhoffMethod::hypersingular)},
+        {"offset sources (0.1)", false, 1280, offset_sources(0.1)},
+        {"offset sources (0.6)", false, 1280, offset_sources(0.6)},
+        {"samara from flat mesh", false, 5120, ours(KirchhoffMethod::automatic)},
+        {"samara from curved mesh", true, 5120, ours(KirchhoffMethod::automatic)},
+        {"samara hypersingular", false, 1280, ours(KirchhoffMethod::hypersingular)},
     };
 }
 
@@ -159,7 +159,7 @@ int main(int argc, char** argv) {
     std::ofstream file(argv[1]);
     file << "body,method,triangles,milliseconds,error,estimate\n";
     for (const Row& row : rows) {
-        file << fmt::format("\"{}\",\"{}\",{},{:.3f},{:.3e},{:.3e}\n", row.body, row.method, row.triangles,
+        file << fmt::format("{},{},{},{:.3f},{:.3e},{:.3e}\n", row.body, row.method, row.triangles,
                             row.milliseconds, row.error, row.estimate);
     }
     return file.flush() ? 0 : 1;
