@@ -7,7 +7,7 @@ namespace samara {
 namespace {
 
 constexpr int most_iterations = 300;
-constexpr double least_scale = 1e-6;  // of the block's largest
+constexpr double least_scale = 1e-3;  // of the block's largest
 
 Vector6d products(const SixColumns& a, const SixColumns& b) {
     return a.cwiseProduct(b).colwise().sum().transpose();

@@ -15,7 +15,7 @@ namespace samara {
 namespace {
 
 constexpr std::size_t leaf_size = 64;         // triangles
-constexpr std::size_t schwarz_cluster = 256;  // triangles
+constexpr std::size_t schwarz_cluster = 512;  // triangles
 constexpr const char* unsolvable =
     "the boundary elements' equations have no solution: the surface crosses itself or is not closed; mesh "
     "the "

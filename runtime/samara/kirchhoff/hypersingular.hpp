@@ -10,7 +10,7 @@ struct HypersingularOptions {
     /// Up to as many nodes the matrix is factorised; above, V is compressed and the solver iterates.
     std::size_t most_dense_nodes = 1000;
     double compression = 1e-5;  ///< error of a compressed block, relative to its norm
-    double tolerance = 1e-7;    ///< of the iteration: the energy that is left, relative to the tensor's entry
+    double tolerance = 1e-6;    ///< of the iteration: the energy that is left, relative to the tensor's entry
 };
 
 /// The Kirchhoff tensor by linear Galerkin elements for the hypersingular equation W phi = -(1/2 + D') g on
