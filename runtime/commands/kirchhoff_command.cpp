@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -93,15 +94,20 @@ bool within_tolerance(const Body& body, const Request& request) {
 /// The body of the file with its tensor. Where the tolerance asks for more triangles than a shape was meshed
 /// with, and none were asked for, it is meshed again.
 Body solved_body(const Request& request) {
-    Body body = load_body(request.file, 1.0, request.triangles);
-    body.kirchhoff = solve(body, request);
-    const bool is_shape = !is_body_file_name(request.file);
-    for (int triangles = finer * first_triangles;
-         is_shape && request.triangles == 0 && triangles <= most_triangles &&
-         !within_tolerance(body, request);
-         triangles *= finer) {
-        body = load_body(request.file, 1.0, triangles);
+    const auto solved = [&](int triangles) {
+        Body body = load_body(request.file, 1.0, triangles);
         body.kirchhoff = solve(body, request);
+        return body;
+    };
+    Body body = solved(request.triangles);
+    const bool is_shape = !is_body_file_name(request.file);
+    if (is_shape && request.triangles == 0) {
+        for (int triangles = finer * first_triangles;
+             triangles <= most_triangles && !within_tolerance(body, request); triangles *= finer) {
+            Body next = solved(triangles);
+            if (next.kirchhoff->error_estimate >= body.kirchhoff->error_estimate) break;
+            body = std::move(next);
+        }
     }
     if (!within_tolerance(body, request)) {
         throw Error(fmt::format("{}: the tolerance {:.2g} is out of reach: {} triangles give {:.2g}; {}",

@@ -75,6 +75,27 @@ TEST(KirchhoffCommand, WritesTheTensorIntoTheBodyFileAndInfoShowsIt) {
     EXPECT_TRUE(result["tables"].is_null());
 }
 
+TEST(KirchhoffCommand, ToleranceIsMetOrSaidToBeOutOfReach) {
+    const test::TemporaryFolder folder;
+    Body body;
+    body.name = "egg";
+    body.source = "made for a test";
+    body.surface = test::curved_ellipsoid({1.0, 2.0, 4.0}, 3);
+    body.moments = test::moments_of(body.surface);
+    const std::string file = (folder / "egg.body.h5").string();
+    write_body_file(file, body);
+
+    const test::ProgramRun met = samara(folder, {"kirchhoff", file, "--json", "--tolerance", "1e-3"});
+    ASSERT_EQ(met.status, 0) << met.fault;
+    EXPECT_LE(met.json()["error_estimate"].get<double>(), 1e-3);
+
+    const test::ProgramRun missed = samara(folder, {"kirchhoff", file, "-o", file, "--tolerance", "1e-9"});
+    EXPECT_EQ(missed.status, 1);
+    EXPECT_TRUE(test::is_one_line(missed.fault)) << missed.fault;
+    EXPECT_THAT(missed.fault, HasSubstr("egg.body.h5: the tolerance 1e-09 is out of reach"));
+    EXPECT_FALSE(read_body_file(file).kirchhoff.has_value());
+}
+
 TEST(KirchhoffCommand, BadInputGivesOneLineThatNamesTheFile) {
     const test::TemporaryFolder folder;
     Body holed;
