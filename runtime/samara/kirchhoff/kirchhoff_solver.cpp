@@ -143,7 +143,9 @@ class Solver {
             if (!next) continue;
             solved.push_back(std::move(*next));
             KirchhoffTensor found = judged(method, solved);
-            if (found.error_estimate <= options_.tolerance || is_last) return found;
+            // What the given curvature may be wrong by, no refinement mends.
+            const bool is_hopeless = rung > 0 && curvature_error(solved) > options_.tolerance;
+            if (found.error_estimate <= options_.tolerance || is_last || is_hopeless) return found;
         }
     }
 
