@@ -31,6 +31,21 @@ double error_against(const ExactEllipsoid& body, const KirchhoffTensor& tensor) 
     return relative_tensor_error(tensor.matrix, exact_tensor(body), scale_of(test::exact_moments(body)));
 }
 
+/// How often the error estimate is honest, and how often of use.
+struct EstimateTally {
+    int count = 0;
+    int covered = 0;  ///< the error is not above the estimate
+    int close = 0;    ///< the estimate is not above ten times the error
+
+    void add(const ExactEllipsoid& body, const Surface& surface) {
+        const KirchhoffTensor result = tensor_of(surface);
+        const double error = error_against(body, result);
+        ++count;
+        covered += error <= result.error_estimate ? 1 : 0;
+        close += result.error_estimate <= 10.0 * error ? 1 : 0;
+    }
+};
+
 /// An ellipsoid with a dent, without any symmetry.
 Surface lopsided_surface() {
     Surface surface = test::ellipsoid({1.0, 0.7, 0.5}, 3);
@@ -67,9 +82,7 @@ TEST(KirchhoffTensor, OfAThinOblateApproachesTheDisc) {
 }
 
 TEST(KirchhoffTensor, ErrorEstimateCoversTheErrorAndIsMostlyWithinTenTimes) {
-    int covered = 0;
-    int close = 0;
-    int count = 0;
+    EstimateTally tally;
     for (const ExactEllipsoid& body : test::exact_ellipsoids()) {
         for (const int level : {2, 3}) {
             const Matrix3d stretch = body.semi_axes.asDiagonal();
@@ -78,22 +91,16 @@ TEST(KirchhoffTensor, ErrorEstimateCoversTheErrorAndIsMostlyWithinTenTimes) {
                   test::curved_ellipsoid(body.semi_axes, level),
                   test::mapped(test::shaken_icosphere(level, 0.1, 1), stretch),
                   test::mapped(test::shaken_icosphere(level, 0.3, 2), stretch)}) {
-                const KirchhoffTensor result = tensor_of(surface);
-                const double error = error_against(body, result);
-                ++count;
-                covered += error <= result.error_estimate ? 1 : 0;
-                close += result.error_estimate <= 10.0 * error ? 1 : 0;
+                tally.add(body, surface);
             }
         }
     }
-    EXPECT_GE(10 * covered, 9 * count);
-    EXPECT_GE(2 * close, count);
+    EXPECT_GE(10 * tally.covered, 9 * tally.count);
+    EXPECT_GE(2 * tally.close, tally.count);
 }
 
 TEST(KirchhoffTensor, ErrorEstimateHoldsForBodiesThatItWasNotMadeOn) {
-    int covered = 0;
-    int close = 0;
-    int count = 0;
+    EstimateTally tally;
     for (const Vector3d& semi_axes :
          {Vector3d(1.0, 1.5, 3.0), Vector3d(1.0, 3.0, 3.0), Vector3d(0.3, 1.0, 2.0), Vector3d(0.2, 0.9, 1.0),
           Vector3d(1.0, 1.0, 1.3), Vector3d(2.0, 2.5, 9.0), Vector3d(0.05, 1.0, 1.5)}) {
@@ -102,15 +109,11 @@ TEST(KirchhoffTensor, ErrorEstimateHoldsForBodiesThatItWasNotMadeOn) {
              {test::ellipsoid(semi_axes, 3), test::curved_ellipsoid(semi_axes, 2),
               test::curved_ellipsoid(semi_axes, 3),
               test::mapped(test::shaken_icosphere(3, 0.2, 7), semi_axes.asDiagonal())}) {
-            const KirchhoffTensor result = tensor_of(surface);
-            const double error = error_against(body, result);
-            ++count;
-            covered += error <= result.error_estimate ? 1 : 0;
-            close += result.error_estimate <= 10.0 * error ? 1 : 0;
+            tally.add(body, surface);
         }
     }
-    EXPECT_GE(10 * covered, 9 * count);
-    EXPECT_GE(3 * close, 2 * count);
+    EXPECT_GE(10 * tally.covered, 9 * tally.count);
+    EXPECT_GE(3 * tally.close, 2 * tally.count);
 }
 
 TEST(ExactEllipsoid, NumericalIntegralsGiveTheTabulatedValues) {
