@@ -4,12 +4,9 @@
 
 #include "meshes/triangle_tree.hpp"
 #include "samara/body/surface.hpp"
+#include "samara/kirchhoff/creases.hpp"
 
 namespace samara {
-
-/// Faces that meet at more than this angle (radians, 40 degrees) meet in an edge of the body; at less, they
-/// stand for a curved surface.
-inline constexpr double sharp_angle = 0.6981317007977318;
 
 /// How the size of triangles varies over a body.
 struct SizeLaw {

@@ -31,7 +31,7 @@ double mean_over(const FlatTriangle& triangle, int n, const Function& f) {
     const Vector3d v = (triangle.corners[2] - triangle.corners[0]) / n;
     double sum = 0.0;
     const auto add = [&](const Vector3d& a, const Vector3d& b, const Vector3d& c) {
-        for (const RulePoint& point : triangle_rule_16()) {
+        for (const RulePoint& point : symmetric_rule(8)) {
             const auto& shares = point.corner_shares;
             sum += point.weight * f(Vector3d(shares[0] * a + shares[1] * b + shares[2] * c));
         }
@@ -83,10 +83,10 @@ TEST(TriangleRules, AreExactToTheirDegree) {
             }
         }
     };
-    check(triangle_rule_3(), 2);
-    check(triangle_rule_6(), 4);
-    check(triangle_rule_12(), 6);
-    check(triangle_rule_16(), 8);
+    check(symmetric_rule(2), 2);
+    check(symmetric_rule(4), 4);
+    check(symmetric_rule(6), 6);
+    check(symmetric_rule(8), 8);
 }
 
 TEST(UniformPotential, AtTheCentreOfAnEquilateralTriangleIsExact) {

@@ -241,16 +241,17 @@ TEST(KirchhoffTensor, DoesNotDependOnTheNumberOfThreads) {
     }
 }
 
-TEST(KirchhoffTensor, ProgressRisesToTheEnd) {
-    const Surface surface = test::icosphere(2);
-    double last = 0.0;
-    KirchhoffOptions options;
-    options.progress = [&](double share) {
-        EXPECT_GE(share, last);
-        last = share;
-    };
-    kirchhoff_tensor(surface, test::moments_of(surface), options);
-    EXPECT_EQ(last, 1.0);
+TEST(KirchhoffTensor, ProgressRisesToTheEndAlsoWhereBothMethodsAreTried) {
+    for (const Surface& surface : {test::icosphere(2), test::ellipsoid({1.0, 1.0, 0.1}, 2)}) {
+        double last = 0.0;
+        KirchhoffOptions options;
+        options.progress = [&](double share) {
+            EXPECT_GE(share, last);
+            last = share;
+        };
+        kirchhoff_tensor(surface, test::moments_of(surface), options);
+        EXPECT_EQ(last, 1.0);
+    }
 }
 
 TEST(KirchhoffTensor, UnweldedVerticesDoNotMatter) {

@@ -80,8 +80,8 @@ TEST(RebuiltSurface, KeepsTheRimOfADiscSharpAndMakesItRound) {
     const CreasedSurface rebuilt = {rebuilt_surface(flat, find_creases(flat)), find_creases(flat)};
     const Surface fine = without_edge_nodes(refined(rebuilt).surface);
     const double exact = std::numbers::pi * 0.2;
-    EXPECT_NEAR(signed_volume(fine), exact, 5e-3 * exact);
-    EXPECT_GT(exact - signed_volume(flat), 1e-2 * exact);
+    EXPECT_NEAR(test::moments_of(fine).volume, exact, 5e-3 * exact);
+    EXPECT_GT(exact - test::moments_of(flat).volume, 1e-2 * exact);
     for (const Vector3d& vertex : fine.vertices) {
         EXPECT_GT(vertex.z(), -1e-12);
         EXPECT_LT(vertex.z(), 0.2 + 1e-12);
@@ -127,7 +127,8 @@ TEST(RefinedSurface, CutsEachTriangleInFourOnTheSameSurface) {
     EXPECT_EQ(fine.surface.vertices.size(), 2 * fine.surface.triangle_count() + 2);  // Euler, order 2
     // Without creases the cuts are the given edge nodes.
     const Surface corners = without_edge_nodes(fine.surface);
-    EXPECT_NEAR(signed_volume(corners), signed_volume(test::ellipsoid({1.0, 2.0, 4.0}, 3)), 1e-9);
+    EXPECT_NEAR(test::moments_of(corners).volume,
+                test::moments_of(test::ellipsoid({1.0, 2.0, 4.0}, 3)).volume, 1e-9);
 }
 
 TEST(RefinedSurface, OfABoxIsTheBoxWithTrianglesGradedToItsEdges) {
@@ -136,7 +137,7 @@ TEST(RefinedSurface, OfABoxIsTheBoxWithTrianglesGradedToItsEdges) {
     for (int i = 0; i < 2; ++i) fine = refined(fine);
     const Surface corners = without_edge_nodes(fine.surface);
     EXPECT_EQ(edge_fault(corners), "");
-    EXPECT_NEAR(signed_volume(corners), 1.0, 1e-12);
+    EXPECT_NEAR(test::moments_of(corners).volume, 1.0, 1e-12);
     EXPECT_NEAR(surface_area(corners), 6.0, 1e-12);
     double nearest = 1.0;  // of the vertices off the edges, to an edge
     for (const Vector3d& vertex : corners.vertices) {

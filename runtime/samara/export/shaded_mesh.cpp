@@ -51,13 +51,13 @@ Surface flattened_surface(const Surface& surface) {
     return flat;
 }
 
-ShadedMesh shaded_mesh(const Surface& surface, double crease_angle) {
+ShadedMesh shaded_mesh(const Surface& surface, double sharp_angle) {
     const Surface flat = flattened_surface(surface);
     std::vector<Vector3d> faces(flat.triangle_count());
     for (std::size_t t = 0; t < faces.size(); ++t) faces[t] = area_vector(flat, t).stableNormalized();
     const auto has_area = [&](std::size_t t) { return faces[t].squaredNorm() > 0.5; };
 
-    const double least_cosine = std::cos(crease_angle);
+    const double least_cosine = std::cos(sharp_angle);
     ShadedMesh mesh;
     std::vector<std::array<std::uint32_t, 3>> indices(flat.triangle_count());
     const auto corners = corners_by_vertex(flat);

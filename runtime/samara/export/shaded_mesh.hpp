@@ -20,8 +20,8 @@ Surface flattened_surface(const Surface& surface);
 
 /// The surface with normals that are smooth over its curved parts and sharp at its creases: a corner's normal
 /// is the mean, weighted by the corner's angle, of those triangles about its vertex whose faces are within
-/// `crease_angle` (rad) of its own. Order 2 is flattened first; triangles without area are left out. The
+/// `sharp_angle` (rad) of its own. Order 2 is flattened first; triangles without area are left out. The
 /// result is the same for the same surface.
-ShadedMesh shaded_mesh(const Surface& surface, double crease_angle = 0.9);
+ShadedMesh shaded_mesh(const Surface& surface, double sharp_angle = 0.9);
 
 }  // namespace samara

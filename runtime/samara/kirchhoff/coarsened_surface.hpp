@@ -10,7 +10,7 @@ namespace samara {
 /// them neighbours, are drawn into neighbours until at most `most_triangles` are left or nothing more can go.
 /// Each layer is taken whole, so that a graded surface stays graded alike. Creases and corners stay: a vertex
 /// that stands out of its neighbours by more than half the distance to the nearest is kept. Edges of the
-/// result are creases where they turn by more than crease_angle between two vertices of given creases, so
+/// result are creases where they turn by more than sharp_angle between two vertices of given creases, so
 /// that a smooth body stays one however coarse.
 CreasedSurface coarsened(const CreasedSurface& given, std::size_t most_triangles);
 

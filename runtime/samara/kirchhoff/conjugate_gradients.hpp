@@ -19,9 +19,9 @@ struct SolutionEnergies {
 /// variational form X^T B + B^T X - X^T A X, whose error is of second order in that of X.
 ///
 /// `scales`: what is added to the energies' diagonal later. A column ends where the energy that is left (its
-/// preconditioned residual) is below `tolerance` times energy plus scale, or below a thousandth of that of the
-/// largest of its three columns (omega or v). Nothing where the matrix turns out not to be positive, or 300
-/// iterations do not suffice. `progress` is called with the share of the digits done.
+/// preconditioned residual) is below `tolerance` times energy plus scale, or below a thousandth of that of
+/// the largest of its three columns (omega or v). Nothing where the matrix turns out not to be positive, or
+/// 300 iterations do not suffice. `progress` is called with the share of the digits done.
 std::optional<SolutionEnergies> conjugate_gradients(
     const std::function<SixColumns(const SixColumns&)>& multiply,
     const std::function<SixColumns(const SixColumns&)>& precondition, const SixColumns& right_hand_sides,

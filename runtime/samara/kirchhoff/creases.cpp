@@ -42,7 +42,7 @@ std::vector<double> most_turns(const Surface& surface, const std::vector<std::ar
     std::vector<double> most(surface.vertices.size(), 0.0);
     for (std::size_t t = 0; t < turns.size(); ++t) {
         for (std::size_t side = 0; side < 3; ++side) {
-            if (turns[t][side] > crease_angle) continue;
+            if (turns[t][side] > sharp_angle) continue;
             for (const std::size_t end : {side, (side + 1) % 3}) {
                 double& value = most[static_cast<std::size_t>(surface.corners[t][end])];
                 value = std::max(value, turns[t][side]);
@@ -75,7 +75,7 @@ Creases find_creases(const Surface& surface) {
         // Of curved triangles the turns vary from edge to edge; of flat ones only at folds.
         const bool is_fold = std::min(turn, flat_turns[triangle][side]) > shallow_crease_angle &&
                              flat_turns[triangle][side] > shallow_crease_ratio * around;
-        const bool is_crease = turn > crease_angle || is_fold;
+        const bool is_crease = turn > sharp_angle || is_fold;
         for (const EdgeUse& use : edge) {
             creases[static_cast<std::size_t>(use.triangle)][static_cast<std::size_t>(use.side)] = is_crease;
         }

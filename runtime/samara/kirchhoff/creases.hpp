@@ -9,7 +9,7 @@ namespace samara {
 
 /// Faces that meet at more than this angle (radians, 40 degrees) meet in a crease of the body; at less, they
 /// stand for a curved surface. The angle at which `samara mesh` cuts surfaces too.
-inline constexpr double crease_angle = 0.6981317007977318;
+inline constexpr double sharp_angle = 0.6981317007977318;
 
 /// For each triangle, whether its side from corner i to the next is a crease.
 using Creases = std::vector<std::array<bool, 3>>;
@@ -19,7 +19,7 @@ using Creases = std::vector<std::array<bool, 3>>;
 inline constexpr double shallow_crease_angle = 0.0872664625997165;
 inline constexpr double shallow_crease_ratio = 3.0;
 
-/// The sides at which the normals of the two triangles differ by more than crease_angle, or by less where the
+/// The sides at which the normals of the two triangles differ by more than sharp_angle, or by less where the
 /// surface around turns so little that it must be a fold: shallow_crease_angle, shallow_crease_ratio. The
 /// normals are those of the flat triangles for order 1, of the curved ones at the middle of the edge for
 /// order

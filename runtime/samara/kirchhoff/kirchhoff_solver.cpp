@@ -27,7 +27,7 @@ constexpr double zero_block = 1e-3;
 // A sound surface's solid angles sum up better than this, even where it is very thin; one that overlaps
 // itself is off by 1.
 constexpr double most_closure_fault = 0.05;
-// Of the curved method, whose matrix takes 64 bytes for each pair of triangles.
+// Of the curved method, whose matrix takes 16 bytes for each pair of triangles.
 constexpr std::size_t most_curved_triangles = 6000;
 constexpr std::size_t most_flat_triangles = 120000;
 // A surface with creases is refined up to this count.
@@ -40,18 +40,18 @@ constexpr double least_relative_thickness = 0.2;
 constexpr double poor_estimate = 0.05;
 // Surfaces whose triangles are nearer in size than this are not compared.
 constexpr double least_ratio = 1.2;
-// With which the error falls with the triangles' size, or is sure to.
-// Coarser surfaces have triangles of worse shapes and differ by more than the order says; but where curvature
-// is rebuilt on both, its error is alike.
+// The power of the triangles' size that the error falls with, or faster. Coarser surfaces have triangles of
+// worse shapes and differ by more than the order says; but where curvature is rebuilt on both, its error is
+// alike.
 constexpr double order_curved = 4.0;
-constexpr double sure_order_rebuilt = 2.0;
-// Of the change from the given corners to their refinement: the errors that rebuilt and given curvature, and
-// the luck of extrapolation may leave.
+constexpr double order_rebuilt = 2.0;
+constexpr double order_flat = 4.0 / 3.0;
+constexpr double order_at_creases = 0.6;  // where triangles are not graded to them
+// Of the change from the given corners to their refinement: what rebuilt and given curvature, and the luck of
+// extrapolation may leave.
 constexpr double rebuilt_share = 2.0;
 constexpr double curved_share = 0.03;
 constexpr double least_share = 0.05;
-constexpr double sure_order_flat = 4.0 / 3.0;
-constexpr double sure_order_at_creases = 0.6;  // where triangles are not graded to them
 
 Surface in_units(Surface surface, const Vector3d& reference_point, double length) {
     for (Vector3d& vertex : surface.vertices) vertex = (vertex - reference_point) / length;
@@ -75,6 +75,13 @@ class Solver {
           ladder_(in_units(surface, moments.centroid, length_), options.threads) {}
 
     KirchhoffTensor run() {
+        KirchhoffTensor found = run_chosen();
+        tell(1.0);
+        return found;
+    }
+
+  private:
+    KirchhoffTensor run_chosen() {
         if (options_.method != KirchhoffMethod::automatic) return run_with(options_.method);
         const CreasedSurface& base = ladder_.base();
         const bool is_smooth = !any_crease(base.creases) &&
@@ -87,7 +94,13 @@ class Solver {
         return curved && curved->error_estimate <= flat.error_estimate ? *curved : flat;
     }
 
-  private:
+    /// A second method starts from no progress again, which nobody wants to see.
+    void tell(double share) {
+        if (!options_.progress || share < told_) return;
+        told_ = share;
+        options_.progress(share);
+    }
+
     /// Nothing where curved triangles cannot follow so coarse a surface without folding.
     std::optional<KirchhoffTensor> try_curved() {
         try {
@@ -98,9 +111,7 @@ class Solver {
     }
 
     KirchhoffTensor run_with(KirchhoffMethod method) {
-        KirchhoffTensor found = options_.tolerance > 0.0 ? climb(method) : solve_own(method);
-        if (options_.progress) options_.progress(1.0);
-        return found;
+        return options_.tolerance > 0.0 ? climb(method) : solve_own(method);
     }
 
     /// The surface's own triangles or their refinement, and the coarser surfaces to compare with.
@@ -173,12 +184,9 @@ class Solver {
 
     Solved solve(KirchhoffMethod method, int rung, const Shares& shares) {
         const Surface& surface = ladder_.rung(rung).surface;
-        BoundaryElementOptions options{options_.threads, {}};
-        if (options_.progress) {
-            options.progress = [&](double share) {
-                options_.progress(shares.begin + share * (shares.end - shares.begin));
-            };
-        }
+        const BoundaryElementOptions options{options_.threads, [&](double share) {
+                                                 tell(shares.begin + share * (shares.end - shares.begin));
+                                             }};
         const BoundaryElementResult found = method == KirchhoffMethod::curved_collocation
                                                 ? solve_curved_collocation(surface, options)
                                                 : solve_hypersingular(without_edge_nodes(surface), options);
@@ -222,9 +230,9 @@ class Solver {
 
     [[nodiscard]] double order_of(KirchhoffMethod method) const {
         if (method == KirchhoffMethod::curved_collocation) {
-            return ladder_.is_rebuilt() ? sure_order_rebuilt : order_curved;
+            return ladder_.is_rebuilt() ? order_rebuilt : order_curved;
         }
-        return any_crease(ladder_.base().creases) ? sure_order_at_creases : sure_order_flat;
+        return any_crease(ladder_.base().creases) ? order_at_creases : order_flat;
     }
 
     struct Judgement {
@@ -277,6 +285,7 @@ class Solver {
     TensorScale scale_;
     double length_;
     SurfaceLadder ladder_;
+    double told_ = 0.0;
 };
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <utility>
 
 #include <Eigen/Dense>
@@ -219,7 +218,7 @@ class CreaseCurves {
         const Vector3d before = place(here) - place(from);
         const Vector3d after = place(next) - place(here);
         const double turn = std::atan2(before.cross(after).norm(), before.dot(after));
-        return turn > crease_angle ? -1 : next;
+        return turn > sharp_angle ? -1 : next;
     }
 
     const Surface& surface_;

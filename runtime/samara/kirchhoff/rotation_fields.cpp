@@ -268,7 +268,7 @@ void set_sources(RotationSources& sources, std::size_t t, const FlatTriangle& tr
 }
 
 std::array<SourceBatch, 2> near_sources(const FlatTriangle& triangle) {
-    const std::vector<RulePoint>& rule = triangle_rule_16();
+    const std::vector<RulePoint>& rule = symmetric_rule(8);
     std::array<SourceBatch, 2> batches;
     for (std::size_t i = 0; i < rule.size(); ++i) {
         SourceBatch& batch = batches[i / point_batch];
@@ -336,8 +336,8 @@ RotationSourceSets rotation_sources(const LinearElements& elements) {
         const FlatTriangle& triangle = triangles[t];
         sets.radius[t] = triangle.radius;
         set_source(sets.one, t, triangle, triangle.centroid, triangle.area);
-        set_sources(sets.three, t, triangle, triangle_rule_3());
-        set_sources(sets.six, t, triangle, triangle_rule_6());
+        set_sources(sets.three, t, triangle, symmetric_rule(2));
+        set_sources(sets.six, t, triangle, symmetric_rule(4));
         sets.near.push_back(near_sources(triangle));
     }
     sets.distant = distant_sources(sets.one);
@@ -346,8 +346,8 @@ RotationSourceSets rotation_sources(const LinearElements& elements) {
 
 DistantFields distant_fields(const RotationSourceSets& sources, const FlatTriangle& triangle) {
     const Targets targets{target(triangle.centroid, triangle.normal),
-                          targets_on<3>(triangle, triangle_rule_3()),
-                          targets_on<6>(triangle, triangle_rule_6()), triangle.radius};
+                          targets_on<3>(triangle, symmetric_rule(2)),
+                          targets_on<6>(triangle, symmetric_rule(4)), triangle.radius};
     DistantFields fields;
     HWY_DYNAMIC_DISPATCH(all_fields)(sources, targets, source_distances, fields);
     return fields;

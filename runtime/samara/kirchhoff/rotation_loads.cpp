@@ -94,8 +94,8 @@ RowLoads row_loads(const LinearElements& elements, const RotationSourceSets& sou
     const DistantFields fields = distant_fields(sources, triangle);
     RowLoads row;
     add_field(fields.one, triangle, {{1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}, 1.0}, row);
-    add_fields(fields.three, triangle, triangle_rule_3(), row);
-    add_fields(fields.six, triangle, triangle_rule_6(), row);
+    add_fields(fields.three, triangle, symmetric_rule(2), row);
+    add_fields(fields.six, triangle, symmetric_rule(4), row);
     add_near(sources, fields.near, t, triangle, row);
     row.solid_angle = fields.solid_angle + exact_solid_angles(elements.triangles, fields.exact, t);
     return row;

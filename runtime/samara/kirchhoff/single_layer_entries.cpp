@@ -137,7 +137,7 @@ double squared_distance_to_edges(const Vector3d& point, const FlatTriangle& tria
 
 /// The double integral of 1/r by a rule on `outer` and the exact potential of `inner`.
 double by_outer_rule(const FlatTriangle& outer, const FlatTriangle& inner) {
-    const std::vector<RulePoint>& rule = triangle_rule_16();
+    const std::vector<RulePoint>& rule = symmetric_rule(8);
     double sum = 0.0;
     PointBatch points;
     for (std::size_t first = 0; first < rule.size(); first += point_batch) {
@@ -167,9 +167,9 @@ SingleLayerEntries::SingleLayerEntries(std::vector<FlatTriangle> triangles)
         arrays_.radius[t] = triangles_[t].radius;
         arrays_.area[t] = triangles_[t].area;
     }
-    arrays_.rules = {points_of(triangles_, arrays_.stride, triangle_rule_3()),
-                     points_of(triangles_, arrays_.stride, triangle_rule_6()),
-                     points_of(triangles_, arrays_.stride, triangle_rule_12())};
+    arrays_.rules = {points_of(triangles_, arrays_.stride, symmetric_rule(2)),
+                     points_of(triangles_, arrays_.stride, symmetric_rule(4)),
+                     points_of(triangles_, arrays_.stride, symmetric_rule(6))};
 }
 
 void SingleLayerEntries::fill_row(std::size_t row, std::size_t begin, std::size_t end, double* values) const {

@@ -32,15 +32,6 @@ std::string in_words(const Vector3d& point) {
 
 }  // namespace
 
-double signed_volume(const Surface& surface) {
-    double volume = 0.0;
-    const Vector3d origin = surface.vertices.empty() ? Vector3d::Zero() : surface.vertices.front();
-    for (std::size_t t = 0; t < surface.triangle_count(); ++t) {
-        volume += (triangle_centroid(surface, t) - origin).dot(area_vector(surface, t)) / 3.0;
-    }
-    return volume;
-}
-
 Surface with_merged_vertices(const Surface& surface) {
     Surface result;
     std::map<std::array<double, 3>, std::int32_t> places;

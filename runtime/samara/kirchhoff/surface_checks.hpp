@@ -6,9 +6,6 @@
 
 namespace samara {
 
-/// The volume (m^3) inside the flat corner triangles; negative where they face inwards.
-double signed_volume(const Surface& surface);
-
 /// The surface with vertices at the same place made one, unused ones left out. Edge nodes of order 2 too.
 Surface with_merged_vertices(const Surface& surface);
 

@@ -31,10 +31,9 @@ const CreasedSurface& SurfaceLadder::rung(int index) {
     if (const auto known = rungs_.find(index); known != rungs_.end()) return known->second;
     if (index > 0) return rungs_.emplace(index, refined(rung(index - 1))).first->second;
     const CreasedSurface& finer = rung(index + 1);
-    const SurfaceProjection shape(base().surface);
     CreasedSurface coarse = coarsened(finer, finer.surface.triangle_count() / 2);
     coarse.surface = is_rebuilt_ ? rebuilt_surface(coarse.surface, coarse.creases, threads_)
-                                 : drawn_onto(coarse.surface, shape, threads_);
+                                 : drawn_onto(coarse.surface, base().surface, threads_);
     return rungs_.emplace(index, std::move(coarse)).first->second;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include <Eigen/LU>
 
@@ -17,8 +18,26 @@ std::size_t as_index(std::int32_t value) {
     return static_cast<std::size_t>(value);
 }
 
-}  // namespace
+/// The points of a curved surface that are near given ones.
+class SurfaceProjection {
+  public:
+    /// `surface`: of order 2, and outlives this.
+    explicit SurfaceProjection(const Surface& surface);
 
+    /// A point of the curved triangles near `point`, where they look along `direction`; `point` itself where
+    /// none do.
+    [[nodiscard]] Vector3d near_point(const Vector3d& point, const Vector3d& direction) const;
+
+  private:
+    [[nodiscard]] Vector3d on_triangle(std::size_t triangle, const Vector3d& point) const;
+
+    const Surface& surface_;
+    std::vector<std::size_t> corners_;  // the vertices that are corners
+    std::vector<Vector3d> normals_;     // of each of these
+    std::vector<std::vector<std::size_t>> around_;
+};
+
+/// The sum of the area vectors of the flat triangles around each vertex.
 std::vector<Vector3d> vertex_normals(const Surface& surface) {
     std::vector<Vector3d> normals(surface.vertices.size(), Vector3d::Zero());
     for (std::size_t t = 0; t < surface.triangle_count(); ++t) {
@@ -83,7 +102,10 @@ Vector3d SurfaceProjection::on_triangle(std::size_t triangle, const Vector3d& po
     return point_of_triangle(surface_, triangle, u, v);
 }
 
-Surface drawn_onto(const Surface& coarse, const SurfaceProjection& fine, int threads) {
+}  // namespace
+
+Surface drawn_onto(const Surface& coarse, const Surface& fine, int threads) {
+    const SurfaceProjection shape(fine);
     const std::vector<Vector3d> normals = vertex_normals(coarse);
     Surface result = with_straight_edge_nodes(coarse);
     const std::vector<EdgeUse> uses = edge_uses(coarse);
@@ -94,7 +116,7 @@ Surface drawn_onto(const Surface& coarse, const SurfaceProjection& fine, int thr
             const Vector3d direction = normals[as_index(use.low)] + normals[as_index(use.high)];
             Vector3d& node =
                 result.vertices[as_index(result.edge_nodes[as_index(use.triangle)][as_index(use.side)])];
-            node = fine.near_point(node, direction);
+            node = shape.near_point(node, direction);
         }
     });
     straighten_overturned(result);

@@ -119,24 +119,11 @@ std::vector<RulePoint> barycentric(const TriangleRule& rule) {
 
 }  // namespace
 
-const std::vector<RulePoint>& triangle_rule_3() {
-    static const std::vector<RulePoint> points = barycentric(triangle_rule(2));
-    return points;
-}
-
-const std::vector<RulePoint>& triangle_rule_6() {
-    static const std::vector<RulePoint> points = barycentric(triangle_rule(4));
-    return points;
-}
-
-const std::vector<RulePoint>& triangle_rule_12() {
-    static const std::vector<RulePoint> points = barycentric(triangle_rule(6));
-    return points;
-}
-
-const std::vector<RulePoint>& triangle_rule_16() {
-    static const std::vector<RulePoint> points = barycentric(triangle_rule(8));
-    return points;
+const std::vector<RulePoint>& symmetric_rule(int degree) {
+    static const std::array<std::vector<RulePoint>, 4> rules = {
+        barycentric(triangle_rule(2)), barycentric(triangle_rule(4)), barycentric(triangle_rule(6)),
+        barycentric(triangle_rule(8))};
+    return rules[static_cast<std::size_t>(degree / 2 - 1)];
 }
 
 }  // namespace samara

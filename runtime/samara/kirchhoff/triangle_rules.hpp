@@ -31,11 +31,8 @@ struct RulePoint {
     double weight;
 };
 
-/// The symmetric rules with 3, 6, 12 and 16 points, in this form.
-const std::vector<RulePoint>& triangle_rule_3();
-const std::vector<RulePoint>& triangle_rule_6();
-const std::vector<RulePoint>& triangle_rule_12();
-const std::vector<RulePoint>& triangle_rule_16();
+/// The symmetric rule for the degree 2, 4, 6 or 8, in this form: 3, 6, 12 or 16 points.
+const std::vector<RulePoint>& symmetric_rule(int degree);
 
 /// For integrands that are singular as 1/r in the corner p = q = 0: a Gauss rule along the rays from that
 /// corner and one across them (M. G. Duffy, SIAM J. Numer. Anal. 19(6), 1982).
