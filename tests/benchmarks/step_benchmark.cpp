@@ -17,7 +17,7 @@ void fall(benchmark::State& state, ImmersedBody body, bool noisy, const Vector3d
     const Noise noise(1, "rubber", 0, 0);
     std::uint64_t step = 0;
     while (state.KeepRunning()) {
-        body_state = advance(body, gravity, 0.002, body_state, noise, step++).state;
+        body_state = advance(body, {.gravity = gravity}, 0.0, 0.002, body_state, noise, step++).state;
         benchmark::DoNotOptimize(body_state);
     }
     state.SetItemsProcessed(state.iterations());

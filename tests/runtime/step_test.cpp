@@ -174,9 +174,15 @@ TEST(ImplicitStep, ABottomHeavyBodyWithLoadsComesToRestUpright) {
 TEST(Advance, SubstepsOnlyWhereTheBodyTurnsFastAndSaysSo) {
     const ImmersedBody body = test::blunt_ellipsoid();
     const Noise noise(1, "body", 0, 0);
-    EXPECT_EQ(advance(body, gravity, 0.001, test::tumbling_state(0.1, 1.0), noise, 0).substeps, 1);
-    EXPECT_GT(advance(body, gravity, 1.0 / 24.0, test::tumbling_state(0.1, 100.0), noise, 0).substeps, 10);
-    EXPECT_EQ(advance(body, gravity, 1.0, test::tumbling_state(0.1, 1e6), noise, 0).substeps, most_substeps);
+    EXPECT_EQ(
+        advance(body, {.gravity = gravity}, 0.0, 0.001, test::tumbling_state(0.1, 1.0), noise, 0).substeps,
+        1);
+    EXPECT_GT(advance(body, {.gravity = gravity}, 0.0, 1.0 / 24.0, test::tumbling_state(0.1, 100.0), noise, 0)
+                  .substeps,
+              10);
+    EXPECT_EQ(
+        advance(body, {.gravity = gravity}, 0.0, 1.0, test::tumbling_state(0.1, 1e6), noise, 0).substeps,
+        most_substeps);
 }
 
 }  // namespace

@@ -89,7 +89,7 @@ BodyState implicit_step(const ImmersedBody& body, const Vector3d& gravity, doubl
     return result;
 }
 
-StepResult advance(const ImmersedBody& body, const Vector3d& gravity, double time_step,
+StepResult advance(const ImmersedBody& body, const Surroundings& surroundings, double time, double time_step,
                    const BodyState& state, const Noise& noise, std::uint64_t step) noexcept {
     StepResult result{state, 1};
     const TurbulenceLevel level = turbulence_level(body, (body.to_centroid * state.velocity).tail<3>());
@@ -100,8 +100,10 @@ StepResult advance(const ImmersedBody& body, const Vector3d& gravity, double tim
     }
     const double turns = time_step * turning_rate(body, result.state.velocity) / largest_turn;
     result.substeps = static_cast<int>(std::ceil(std::clamp(turns, 1.0, static_cast<double>(most_substeps))));
+    const double h = time_step / result.substeps;
     for (int i = 0; i < result.substeps; ++i) {
-        result.state = implicit_step(body, gravity, time_step / result.substeps, result.state);
+        const Vector3d gravity = apparent_gravity(surroundings, time + i * h, time + (i + 1) * h);
+        result.state = implicit_step(body, gravity, h, result.state);
     }
     return result;
 }

@@ -6,10 +6,11 @@
 #include "samara/dynamics/immersed_body.hpp"
 #include "samara/dynamics/langevin.hpp"
 #include "samara/dynamics/noise.hpp"
+#include "samara/dynamics/surroundings.hpp"
 
 namespace samara {
 
-/// A body's state in the frame that moves with the mean current.
+/// A body's state in the frame that moves with the undisturbed flow (surroundings.hpp).
 struct BodyState {
     Vector3d position = Vector3d::Zero();               ///< of the centre of mass (m)
     Quaterniond orientation = Quaterniond::Identity();  ///< body to world
@@ -28,13 +29,14 @@ BodyState implicit_step(const ImmersedBody& body, const Vector3d& gravity, doubl
                         const BodyState& state) noexcept;
 
 /// One step of the scene: the Langevin update over the time step, then implicit steps over equal parts of it,
-/// so short that the body turns by at most 0.3 rad in each, or as the limit on their number allows.
+/// so short that the body turns by at most 0.3 rad in each, or as the limit on their number allows. `step` is
+/// the number of the step in the body's flight, for its noise, and `time` the world's (s) at its beginning.
 struct StepResult {
     BodyState state;
     int substeps = 1;
 };
 inline constexpr int most_substeps = 64;
-StepResult advance(const ImmersedBody& body, const Vector3d& gravity, double time_step,
+StepResult advance(const ImmersedBody& body, const Surroundings& surroundings, double time, double time_step,
                    const BodyState& state, const Noise& noise, std::uint64_t step) noexcept;
 
 /// u K u / 2 (J): the kinetic energy of body and fluid.

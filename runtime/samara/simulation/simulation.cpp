@@ -27,6 +27,10 @@ std::vector<double> frame_times(const Scene& scene) {
     return times;
 }
 
+Surroundings surroundings_of(const Scene& scene) {
+    return {.gravity = scene.gravity, .current = scene.fluid.current};
+}
+
 /// The copy's own start: the scene's, or drawn around it from the seed.
 BodyState initial_state(const SceneBody& scene_body, const ImmersedBody& body, const Fluid& fluid,
                         const Noise& noise) {
@@ -108,7 +112,9 @@ class Flight {
 
   private:
     void step() {
-        const StepResult result = advance(body_, scene_.gravity, scene_.step, state_, noise_, steps_);
+        const StepResult result = advance(body_, surroundings_of(scene_),
+                                          scene_body_.start + static_cast<double>(steps_) * scene_.step,
+                                          scene_.step, state_, noise_, steps_);
         state_ = result.state;
         if (!state_.velocity.allFinite() || !state_.position.allFinite()) {
             throw Error(fmt::format("body '{}' left the range of numbers at {:.4g} s; use a smaller step",

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "samara/dynamics/immersed_body.hpp"
+#include "samara/dynamics/noise.hpp"
+#include "samara/dynamics/step.hpp"
+#include "samara/dynamics/surroundings.hpp"
+
+namespace samara {
+
+/// What a batch did in its steps.
+struct BatchReport {
+    std::uint64_t implicit_steps = 0;  ///< over all bodies
+    int most_substeps = 1;             ///< that any body took in one step
+};
+
+/// Many bodies of one kind that are stepped together. Each moves as advance() moves it alone, whatever its
+/// place in the batch, the number of threads and the way the steps are cut into calls.
+class Batch {
+  public:
+    /// `body` must outlive the batch.
+    Batch(const ImmersedBody& body, std::size_t count);
+
+    [[nodiscard]] std::size_t size() const noexcept { return states_.size(); }
+    void set_state(std::size_t index, const BodyState& state) noexcept;
+    [[nodiscard]] BodyState state(std::size_t index) const noexcept;
+    /// The source of the body's random numbers; without it, that of seed 0, no name, run 0 and copy 0.
+    void set_noise(std::size_t index, const Noise& noise) noexcept;
+
+    /// `steps` steps of `time_step` (s) each; the first is the bodies' step number `first_step` and begins at
+    /// `time` (s, of the world). `threads`: 0 for all cores.
+    BatchReport advance(const Surroundings& surroundings, double time, double time_step,
+                        std::uint64_t first_step, std::uint64_t steps, int threads = 1);
+
+  private:
+    const ImmersedBody* body_;
+    std::vector<BodyState> states_;
+    std::vector<Noise> noises_;
+};
+
+}  // namespace samara
