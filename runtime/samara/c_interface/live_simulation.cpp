@@ -129,8 +129,12 @@ double LiveSimulation::step_time(const Kind& kind) const {
     return kind.given.start + static_cast<double>(kind.steps) * settings_.step;
 }
 
-void LiveSimulation::advance_to(double time) {
+void LiveSimulation::require_running() const {
     if (!stopped_.empty()) throw Fault(SAMARA_OUT_OF_RANGE, stopped_);
+}
+
+void LiveSimulation::advance_to(double time) {
+    require_running();
     if (!std::isfinite(time)) throw Fault(SAMARA_INVALID_ARGUMENT, "time is not a finite number");
     if (time < time_) {
         throw Fault(SAMARA_TIME_PASSED,
@@ -231,14 +235,15 @@ std::string LiveSimulation::fingerprint() const {
 }
 
 std::size_t LiveSimulation::state_size() const {
-    constexpr std::size_t common =
-        4 * sizeof(double) + 2 * sizeof(std::uint64_t) + 2 * sizeof(std::uint32_t) + sizeof(std::uint8_t);
+    constexpr std::size_t common = sizeof(double) + sizeof(std::uint8_t) + sizeof(std::uint64_t) +
+                                   sizeof(std::uint32_t);  // time, begun, seed, run
+    constexpr std::size_t of_report = 2 * sizeof(std::uint64_t) + sizeof(std::int32_t) + sizeof(double);
     constexpr std::size_t of_a_body = body_state_bytes + pose_bytes + sizeof(double);
-    return seal_size() + common + kinds_.size() * sizeof(std::uint64_t) + size_ * of_a_body;
+    return seal_size() + common + of_report + kinds_.size() * sizeof(std::uint64_t) + size_ * of_a_body;
 }
 
 std::string LiveSimulation::state() const {
-    if (!stopped_.empty()) throw Fault(SAMARA_OUT_OF_RANGE, stopped_);
+    require_running();
     StateWriter writer;
     writer.write(time_);
     writer.write(static_cast<std::uint8_t>(has_begun_));

@@ -37,6 +37,9 @@ class LiveSimulation {
     [[nodiscard]] double time() const noexcept { return time_; }
     [[nodiscard]] const LiveReport& report() const noexcept { return report_; }
 
+    /// Throws Fault where the simulation has stopped, since a body's motion left the range of numbers.
+    void require_running() const;
+
     /// Steps all bodies to a time (s). Throws Fault where it lies before time() or too far off, and where a
     /// body's motion leaves the range of numbers: then, and from then on.
     void advance_to(double time);

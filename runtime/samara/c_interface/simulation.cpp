@@ -146,6 +146,7 @@ samara_status samara_get_poses(const samara_simulation* simulation, size_t first
                                samara_pose* poses, size_t stride, char* error, size_t error_size) {
     return guarded(error, error_size, [&] {
         const std::size_t bytes = checked_stride(simulation, first, count, poses, stride);
+        simulation->live.require_running();
         auto* place = reinterpret_cast<std::byte*>(poses);
         for (size_t i = first; i < first + count; ++i, place += bytes) {
             const samara_pose pose = c_pose(simulation->live.pose(i), simulation->live.center_of_mass(i));
@@ -158,6 +159,7 @@ samara_status samara_set_poses(samara_simulation* simulation, size_t first, size
                                const samara_pose* poses, size_t stride, char* error, size_t error_size) {
     return guarded(error, error_size, [&] {
         const std::size_t bytes = checked_stride(simulation, first, count, poses, stride);
+        simulation->live.require_running();
         const auto* place = reinterpret_cast<const std::byte*>(poses);
         std::vector<Pose> checked(count);
         for (size_t i = 0; i < count; ++i, place += bytes) {
