@@ -176,8 +176,8 @@ SAMARA_API double samara_simulation_time(const samara_simulation* simulation);  
 
 /* Moves all bodies to a time (s), not before the simulation's own: SAMARA_TIME_PASSED. The steps lie on a
  * grid that `step` fixes, and poses in between are interpolated: asking at 24 or at 60 times a second, or at
- * any times, gives the same motion to the last bit. SAMARA_OUT_OF_RANGE: the simulation has stopped; only
- * samara_set_state brings it back. */
+ * any times, gives the same motion to the last bit. SAMARA_OUT_OF_RANGE: the simulation has stopped, has no
+ * poses any more, and only samara_set_state brings it back. */
 SAMARA_API samara_status samara_advance_to(samara_simulation* simulation, double time, char* error,
                                            size_t error_size);
 

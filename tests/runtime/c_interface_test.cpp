@@ -11,6 +11,7 @@
 #include "c_interface_calls.hpp"
 #include "samara.h"
 #include "samara/base/content_hash.hpp"
+#include "samara/command/subprocess.hpp"
 #include "samara/files/hdf5_file.hpp"
 
 namespace samara {
@@ -69,6 +70,21 @@ TEST(CBody, RefusesFilesThatAreMissingCutShortForeignOrFromANewerVersion) {
     });
     EXPECT_TRUE(refused(folder.path() / "newer.body.h5"));
     EXPECT_THAT(fault.text(), HasSubstr("newer"));
+}
+
+TEST(CInterface, TheExampleOfTheDocumentationRuns) {
+    const BodyOnDisk body;
+    const test::TemporaryFolder folder;
+    const std::string program = std::string(SAMARA_EXAMPLES) + "/example-fall";
+    const std::filesystem::path output = folder / "output";
+    const auto run = [&](const std::string& file) {
+        return run_subprocess({"/bin/sh", "-c", program + " '" + file + "' > " + output.string() + " 2>&1"});
+    };
+    ASSERT_EQ(run(body.file().string()), 0) << read_bytes(output);
+    EXPECT_THAT(read_bytes(output), AllOf(HasSubstr("rubber: 33.51 cm^3"), HasSubstr("1.0000 s  body 2"),
+                                          HasSubstr("1500 steps")));
+    EXPECT_EQ(run("missing.body.h5"), 1);
+    EXPECT_THAT(read_bytes(output), AllOf(testing::StartsWith("fall: "), HasSubstr("missing.body.h5")));
 }
 
 TEST(CInterface, NullPointersAreRefused) {

@@ -14,7 +14,7 @@ constexpr std::uint32_t byte_order = 0x01020304;
 constexpr std::size_t hash_size = 32;  // of content_hash
 
 // A member more would be lost: write it, and raise state_version.
-static_assert(sizeof(BodyState) == 160 && sizeof(SeenFluid) == 48);
+static_assert(sizeof(BodyState) == 208 && sizeof(SeenFluid) == 48);
 
 [[noreturn]] void refuse(const std::string& why) {
     throw Fault(SAMARA_FOREIGN_STATE, why);
@@ -28,6 +28,7 @@ void visit_state(State& state, const Visit& visit) {
     for (auto& number : state.velocity) visit(number);
     for (auto& number : state.seen_fluid.velocity) visit(number);
     for (auto& number : state.seen_fluid.angular_velocity) visit(number);
+    for (auto& number : state.acceleration) visit(number);
 }
 
 template <typename AnyPose, typename Visit>

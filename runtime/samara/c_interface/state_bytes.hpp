@@ -45,7 +45,7 @@ class StateReader {
 };
 
 /// How many bytes a body state and a pose take.
-inline constexpr std::size_t body_state_bytes = 19 * sizeof(double);
+inline constexpr std::size_t body_state_bytes = 25 * sizeof(double);
 inline constexpr std::size_t pose_bytes = 13 * sizeof(double);
 
 /// The payload between a head (mark, version, byte order, size, fingerprint) and a hash of all before it.
