@@ -98,13 +98,12 @@ HWY_INLINE TowMatrix<V> tow_matrix(const FlightConstants<Real>& c, const Triple<
 /// The tow's matrix about the centroid, for a force that acts at the arm r.
 template <class V>
 HWY_INLINE LoadBlocks<V> moved_by_arm(const TowMatrix<V>& tow, const Triple<V>& r) {
-    const Square<V> at_point = plus_diagonal(skew_matrix(tow.side), tow.drag);
     const V along = dot(r, tow.side);
-    const Square<V> drag_arm = skew_matrix(tow.drag * r);
-    return {plus_diagonal(skew_matrix(along * r) - tow.drag * outer(r, r), tow.drag * dot(r, r)),
-            plus_diagonal(drag_arm + outer(tow.side, r), -along),
-            plus_diagonal(-drag_arm - outer(r, tow.side), along),
-            at_point};
+    const Triple<V> drag_arm = tow.drag * r;
+    return {plus_cross(plus_diagonal(-outer(drag_arm, r), dot(drag_arm, r)), along * r),
+            plus_cross(plus_diagonal(outer(tow.side, r), -along), drag_arm),
+            plus_cross(plus_diagonal(-outer(r, tow.side), along), -drag_arm),
+            scaling_and_cross(tow.drag, tow.side)};
 }
 
 /// A symmetric block between turning and moving, each entry of which, in the principal axes of the two drags,
@@ -114,7 +113,8 @@ HWY_INLINE Square<V> paid_transport(const FlightConstants<Real>& c, const Triple
                                     V drag_root) {
     const Square<V> left = broadcast<V>(c.turning_axes);
     const Square<V> right = broadcast<V>(c.drag_axes);
-    const Square<V> wanted = left * (skew_matrix(V(c.working_transport) * momentum) * transposed(right));
+    const Square<V> wanted =
+        left * (scaling_and_cross(V(0.0), V(c.working_transport) * momentum) * transposed(right));
     const Triple<V> w = turning_root * broadcast<V>(c.turning_roots);
     const Triple<V> d = drag_root * broadcast<V>(c.drag_roots);
     const auto held = [&](V entry, V most) HWY_ATTR { return larger(-most, smaller(most, entry)); };
@@ -147,9 +147,9 @@ HWY_INLINE LoadBlocks<V> load_blocks(const FlightConstants<Real>& c, const Tripl
     const Square<V> windmill = outer(point.moment_along_force, velocity);
     // kappa (omega x (M v), v x (M v)): workless.
     const Triple<V> momentum = broadcast<V>(c.added_mass) * velocity;
-    const Square<V> transport = skew_matrix(V(c.transport) * momentum);
-    blocks.moment_by_velocity = blocks.moment_by_velocity + (transport - windmill);
-    blocks.force_by_turning = blocks.force_by_turning + (transport + transposed(windmill));
+    const Triple<V> transport = V(c.transport) * momentum;
+    blocks.moment_by_velocity = plus_cross(blocks.moment_by_velocity - windmill, transport);
+    blocks.force_by_turning = plus_cross(blocks.force_by_turning + transposed(windmill), transport);
 
     const V drag_share = tip_speed * inverse * tip_speed;
     if (c.working_transport != 0) {

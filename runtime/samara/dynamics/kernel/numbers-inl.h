@@ -118,12 +118,21 @@ inline constexpr bool in_single_precision = sizeof(RealOf<V>) == 4;
 template <class V>
 inline constexpr double tiny = in_single_precision<V> ? 1e-15 : 1e-140;
 
-/// c[0] + c[1] x + ... by Horner's rule.
+/// c[first] + c[first + stride] x + ... in pairs (Estrin's scheme): a short chain, where Horner's rule is a long one.
+template <int first, int stride, int N, class V>
+HWY_INLINE V polynomial_from(const double (&c)[N], V x) {
+    if constexpr (first + stride >= N) {
+        return V(c[first]);
+    } else {
+        const V square = x * x;
+        return polynomial_from<first, 2 * stride>(c, square) +
+               x * polynomial_from<first + stride, 2 * stride>(c, square);
+    }
+}
+/// c[0] + c[1] x + ...
 template <int N, class V>
 HWY_INLINE V polynomial(const double (&c)[N], V x) {
-    V sum(c[N - 1]);
-    for (int i = N - 2; i >= 0; --i) sum = sum * x + V(c[i]);
-    return sum;
+    return polynomial_from<0, 1>(c, x);
 }
 
 /// The natural logarithm of a positive normal number, to its last bits: twice the series of artanh.

@@ -76,15 +76,9 @@ HWY_INLINE void improve(const FlightConstants<Real>& c, const StepStart<V>& star
     Square<V> matrix_back = transposed(coupling);
     Triple<V> moment = cross(broadcast<V>(c.weight_moment), gravity);
     Triple<V> force = V(c.weight) * gravity;
-    const Square<V> transport = skew_matrix(linear_momentum);
-    V step;
-    if (c.loads == Loads::none) {
-        middle.theta = V(0.5);
-        step = middle.theta * start.h;
-        matrix_coupling = matrix_coupling - step * transport;
-        matrix_back = matrix_back - step * transport;
-        matrix_turning = matrix_turning - step * skew_matrix(angular_momentum);
-    } else {
+    V step = V(0.5) * start.h;
+    middle.theta = V(0.5);
+    if (c.loads != Loads::none) {
         // The seen fluid is fixed in the world while the body turns under it by half the step.
         const Triple<V> fluid_turning = turned_back(middle.half_turn, start.seen_rotation);
         const Triple<V> fluid_velocity = turned_back(middle.half_turn, start.seen_velocity);
@@ -93,13 +87,16 @@ HWY_INLINE void improve(const FlightConstants<Real>& c, const StepStart<V>& star
         const V z = stiffness(c, loads, start.h);
         middle.theta = (V(3.0) + z) / (V(6.0) + z);
         step = middle.theta * start.h;
-        matrix_turning = matrix_turning + step * (loads.moment_by_turning - skew_matrix(angular_momentum));
-        matrix_coupling = matrix_coupling + step * (loads.moment_by_velocity - transport);
-        matrix_back = matrix_back + step * (loads.force_by_turning - transport);
+        matrix_turning = matrix_turning + step * loads.moment_by_turning;
+        matrix_coupling = matrix_coupling + step * loads.moment_by_velocity;
+        matrix_back = matrix_back + step * loads.force_by_turning;
         matrix_moving = matrix_moving + step * loads.force_by_velocity;
         moment = moment + loads.moment_by_turning * fluid_turning + loads.moment_by_velocity * fluid_velocity;
         force = force + loads.force_by_turning * fluid_turning + loads.force_by_velocity * fluid_velocity;
     }
+    matrix_turning = plus_cross(matrix_turning, -step * angular_momentum);
+    matrix_coupling = plus_cross(matrix_coupling, -step * linear_momentum);
+    matrix_back = plus_cross(matrix_back, -step * linear_momentum);
     const Triple<V> right_moment = start.angular_momentum + step * moment;
     const Triple<V> right_force = start.linear_momentum + step * force;
 

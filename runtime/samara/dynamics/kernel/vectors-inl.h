@@ -94,15 +94,21 @@ template <class V>
 HWY_INLINE Square<V> outer(const Triple<V>& a, const Triple<V>& b) {
     return {a.x * b, a.y * b, a.z * b};
 }
-/// The matrix of the cross product: skew_matrix(a) b = a x b.
-template <class V>
-HWY_INLINE Square<V> skew_matrix(const Triple<V>& a) {
-    const V zero(0.0);
-    return {{zero, -a.z, a.y}, {a.z, zero, -a.x}, {-a.y, a.x, zero}};
-}
 template <class V>
 HWY_INLINE Square<V> plus_diagonal(const Square<V>& a, V s) {
     return {{a.x.x + s, a.x.y, a.x.z}, {a.y.x, a.y.y + s, a.y.z}, {a.z.x, a.z.y, a.z.z + s}};
+}
+/// The matrix of a multiple and a cross product: it takes b to s b + w x b.
+template <class V>
+HWY_INLINE Square<V> scaling_and_cross(V s, const Triple<V>& w) {
+    return {{s, -w.z, w.y}, {w.z, s, -w.x}, {-w.y, w.x, s}};
+}
+/// a + w^, where w^ b = w x b; nothing is added to the diagonal.
+template <class V>
+HWY_INLINE Square<V> plus_cross(const Square<V>& a, const Triple<V>& w) {
+    return {{a.x.x, a.x.y - w.z, a.x.z + w.y},
+            {a.y.x + w.z, a.y.y, a.y.z - w.x},
+            {a.z.x - w.y, a.z.y + w.x, a.z.z}};
 }
 
 /// L U = a without pivoting, for matrices whose symmetric part is positive definite: their pivots are never
