@@ -188,12 +188,11 @@ samara_status samara_get_state(const samara_simulation* simulation, void* bytes,
     return guarded(error, error_size, [&] {
         require(simulation, "simulation");
         require(bytes, "bytes");
-        const size_t needed = simulation->live.state_size();
-        if (size < needed) {
-            throw Fault(SAMARA_INVALID_ARGUMENT,
-                        fmt::format("size is {}, but the state takes {} bytes", size, needed));
-        }
         const std::string state = simulation->live.state();
+        if (size < state.size()) {
+            throw Fault(SAMARA_INVALID_ARGUMENT,
+                        fmt::format("size is {}, but the state takes {} bytes", size, state.size()));
+        }
         std::memcpy(bytes, state.data(), state.size());
     });
 }
