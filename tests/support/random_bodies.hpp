@@ -10,7 +10,8 @@ namespace samara::test {
 /// Bodies as no shape would give them, to search for faults: any positive definite added mass with coupling,
 /// densities from a thousandth to a billion times water's, the centre of mass up to two body lengths away,
 /// tables that jump from node to node by up to a hundred times (some with drag against the motion that
-/// interpolation turns into thrust), or coefficients; any positive semidefinite dynamic coefficients.
+/// interpolation turns into thrust), coefficients, or no loads;
+/// any positive semidefinite dynamic coefficients.
 class RandomBodies {
   public:
     explicit RandomBodies(unsigned seed) : generator_(seed) {}

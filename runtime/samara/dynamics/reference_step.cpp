@@ -19,6 +19,7 @@ using Vector12d = Eigen::Matrix<double, 12, 1>;
 using Stages = std::array<MotionVector, 2>;
 
 constexpr int most_iterations = 60;
+constexpr int most_slow_iterations = 3;  // that shrink the change by less than half; shorter parts cost less
 constexpr double rounding = std::numeric_limits<double>::epsilon();
 constexpr double nearly_rounding = 1e3 * rounding;
 
@@ -48,6 +49,7 @@ std::optional<Stages> solved_rates(const ImmersedBody& body, const EquationsOfMo
     const Matrix6d gradient = equations.acceleration_gradient(0.5 * (stages[0] + stages[1]));
     const Eigen::PartialPivLU<Matrix12d> newton(newton_matrix(gradient, h));
     double least_change = std::numeric_limits<double>::infinity();
+    int slow = 0;
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
         const Stages rates = {equations.rate(stages[0]), equations.rate(stages[1])};
         Stages next;
@@ -74,7 +76,8 @@ std::optional<Stages> solved_rates(const ImmersedBody& body, const EquationsOfMo
         // methods, BIT 48 (2008).
         const bool still_shrinks = change < least_change;
         if (change <= 0.5 * rounding || (!still_shrinks && change <= nearly_rounding)) return rates;
-        if (change > 1e3 * least_change) return {};
+        if (change > nearly_rounding && change > 0.5 * least_change && ++slow > most_slow_iterations)
+            return {};
         least_change = std::min(least_change, change);
         stages = next;
     }
