@@ -77,10 +77,11 @@ ImmersedBody immersed(const Body& body, double density, const Fluid& fluid, Load
 
 std::vector<NamedBody> five_bodies(Loads loads) {
     const Body ellipsoid = baked_ellipsoid({0.01, 0.02, 0.04});
+    const Body bubble = baked_ellipsoid({0.002, 0.003, 0.004});
     const Body coin = baked_ellipsoid({0.001, 0.0125, 0.0125});
     return {{"rubber ellipsoid", immersed(ellipsoid, rubber, water(), loads)},
             {"paper sheet", immersed(paper_sheet(), paper, air(), loads)},
-            {"light ellipsoid", immersed(ellipsoid, air().density, water(), loads)},
+            {"air bubble", immersed(bubble, air().density, water(), loads)},
             {"neutral ellipsoid", immersed(ellipsoid, water().density, water(), loads)},
             {"copper coin", immersed(coin, copper, water(), loads)}};
 }

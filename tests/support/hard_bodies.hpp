@@ -34,8 +34,9 @@ struct NamedBody {
     ImmersedBody body;
 };
 
-/// Five that differ in what is hard about them: a rubber ellipsoid in water, a paper sheet in air, a light
-/// and a neutral ellipsoid and a copper coin in water.
+/// Five that differ in what is hard about them: a rubber ellipsoid (1:2:4 cm) in water, a paper sheet in air,
+/// a bubble (an ellipsoid, 2:3:4 mm), a neutral ellipsoid and a copper coin (an ellipsoid, 1:12.5:12.5 mm) in
+/// water. Sizes are semi-axes.
 std::vector<NamedBody> five_bodies(Loads loads);
 
 }  // namespace samara::test
