@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "samara/dynamics/batch.hpp"
@@ -80,6 +81,31 @@ TEST(Noise, DoesNotPumpTheSpinOverTenMinutes) {
         const double late = rms_turning(named.body, state, 30'000, 6000);
         test::expect_row({named.name + ", noise", "1/60 s", "rms omega at 500-600 s over that at 10-110 s",
                           1.25, late / early});
+    }
+}
+
+TEST(Noise, TheSeenFluidHasItsVarianceAndItsTimeAtAnyStep) {
+    const ImmersedBody body = test::ideal_ellipsoid();
+    const TurbulenceLevel level{.turbulent_kinetic_energy = 0.03, .dissipation_rate = 0.09};
+    const double rate = 0.75 * 2.1 * level.dissipation_rate / level.turbulent_kinetic_energy;
+    const Noise noise(8, "seen fluid", 0, 0);
+    for (const double step_over_time : {0.3, 1.0, 3.0, 10.0}) {
+        SeenFluid seen;
+        double square = 0.0;
+        double product = 0.0;
+        constexpr std::uint64_t steps = 1'500'000;
+        for (std::uint64_t step = 0; step < steps; ++step) {
+            const Vector3d before = seen.velocity;
+            seen = advance_seen_fluid(body, level, seen, step_over_time / rate, noise, step);
+            square += seen.velocity.squaredNorm();
+            product += seen.velocity.dot(before);
+        }
+        const double variance = square / (3.0 * static_cast<double>(steps));
+        const std::string name = fmt::format("a h = {}", step_over_time);
+        test::expect_row({"seen fluid", name, "error of the variance 2k/3", 0.01,
+                          std::abs(variance / (2.0 / 3.0 * level.turbulent_kinetic_energy) - 1.0)});
+        test::expect_row({"seen fluid", name, "error of the correlation over a step, exp(-a h)", 0.01,
+                          std::abs(product / square - std::exp(-step_over_time))});
     }
 }
 

@@ -93,7 +93,9 @@ TEST(ReferenceStep, AgreesWithTheImplicitStepToItsSecondOrder) {
         BodyState state = start;
         for (int i = 0; i < steps; ++i) state = implicit_step(body, gravity, 0.5 / steps, state);
         const double error = distance(state, exact);
-        if (before > 0.0) EXPECT_NEAR(std::log2(before / error), 2.0, 0.1) << steps << " steps";
+        if (before > 0.0) {
+            EXPECT_NEAR(std::log2(before / error), 2.0, 0.1) << steps << " steps";
+        }
         before = error;
     }
     EXPECT_LT(before, 1e-4);
@@ -129,7 +131,9 @@ TEST(ReferenceStep, KeepsTheMomentaOfFreeMotionInSpaceToFourthOrder) {
             state = reference_step(body, Vector3d::Zero(), 1.0 / steps, state).state;
         }
         const double error = (linear_momentum(state) - linear_momentum(start)).norm();
-        if (before > 0.0) EXPECT_NEAR(std::log2(before / error), 4.0, 0.2) << steps << " steps";
+        if (before > 0.0) {
+            EXPECT_NEAR(std::log2(before / error), 4.0, 0.2) << steps << " steps";
+        }
         before = error;
     }
 }

@@ -12,7 +12,7 @@ void expect_row(const StabilityRow& row) {
     const nlohmann::json line = {{"subject", row.subject},
                                  {"step", row.step},
                                  {"checked", row.checked},
-                                 {"bound", fmt::format("{:.2g}", row.bound)},
+                                 {"bound", fmt::format("{:.3g}", row.bound)},
                                  {"figure", fmt::format("{:.2g}", row.figure)}};
     const int number = testing::UnitTest::GetInstance()->current_test_info()->result()->test_property_count();
     testing::Test::RecordProperty(fmt::format("row_{}", number), line.dump());
