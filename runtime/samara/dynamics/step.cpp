@@ -5,6 +5,7 @@
 
 #include <Eigen/LU>
 
+#include "samara/dynamics/ground_contact.hpp"
 #include "samara/dynamics/loads.hpp"
 
 namespace samara {
@@ -102,8 +103,13 @@ StepResult advance(const ImmersedBody& body, const Surroundings& surroundings, d
     result.substeps = static_cast<int>(std::ceil(std::clamp(turns, 1.0, static_cast<double>(most_substeps))));
     const double h = time_step / result.substeps;
     for (int i = 0; i < result.substeps; ++i) {
-        const Vector3d gravity = apparent_gravity(surroundings, time + i * h, time + (i + 1) * h);
+        const double begin = time + i * h;
+        const Vector3d gravity = apparent_gravity(surroundings, begin, begin + h);
+        const BodyState before = i == 0 ? state : result.state;
         result.state = implicit_step(body, gravity, h, result.state);
+        if (surroundings.ground) {
+            touch_ground(body, ground_in_flow(surroundings, begin, begin + h), h, before, result.state);
+        }
     }
     return result;
 }
