@@ -19,7 +19,7 @@ constexpr std::size_t enough = 20'000;  // vertices to smooth a side over
 
 /// Vertices with the area of the surface that belongs to each.
 struct WeightedPoints {
-    Eigen::Matrix3Xd points;
+    Eigen::MatrixX3d points;
     Eigen::VectorXd areas;
 };
 
@@ -110,10 +110,10 @@ std::vector<Vector3d> well_spread(const std::vector<Vector3d>& points) {
 WeightedPoints thinned(const std::vector<Vector3d>& vertices, const std::vector<double>& areas) {
     const std::size_t stride = 1 + vertices.size() / enough;
     const auto count = static_cast<Eigen::Index>((vertices.size() + stride - 1) / stride);
-    WeightedPoints result{Eigen::Matrix3Xd(3, count), Eigen::VectorXd(count)};
+    WeightedPoints result{Eigen::MatrixX3d(count, 3), Eigen::VectorXd(count)};
     for (Eigen::Index i = 0; i < count; ++i) {
         const std::size_t vertex = static_cast<std::size_t>(i) * stride;
-        result.points.col(i) = vertices[vertex];
+        result.points.row(i) = vertices[vertex].transpose();
         result.areas[i] = areas[vertex];
     }
     return result;
@@ -123,7 +123,7 @@ WeightedPoints thinned(const std::vector<Vector3d>& vertices, const std::vector<
 /// near they are to it and by their area.
 Vector3d smoothed_extreme(const WeightedPoints& points, const Eigen::VectorXd& reaches, double width) {
     const double farthest = reaches.maxCoeff();
-    constexpr double vanishing = 30.0;  // widths
+    constexpr double vanishing = 12.0;  // widths
     double weights = 0.0;
     Vector3d sum = Vector3d::Zero();
     for (Eigen::Index i = 0; i < reaches.size(); ++i) {
@@ -131,7 +131,7 @@ Vector3d smoothed_extreme(const WeightedPoints& points, const Eigen::VectorXd& r
         if (below > vanishing) continue;
         const double weight = points.areas[i] * std::exp(-below);
         weights += weight;
-        sum += weight * points.points.col(i);
+        sum += weight * points.points.row(i).transpose();
     }
     return sum / weights;
 }
@@ -160,12 +160,12 @@ ContactPoints contact_points(const Surface& surface, const Vector3d& center_of_m
     Eigen::VectorXd reaches(points.areas.size());
     bool has_round_sides = false;
     for_each_node([&](const Vector3d& direction) {
-        reaches.noalias() = points.points.transpose() * direction;
+        reaches.noalias() = points.points * direction;
         has_round_sides = has_round_sides || reach_of(result.corners, direction) < reaches.maxCoeff() - width;
     });
     if (!has_round_sides) return result;
     for_each_node([&](const Vector3d& direction) {
-        reaches.noalias() = points.points.transpose() * direction;
+        reaches.noalias() = points.points * direction;
         Vector3d point = smoothed_extreme(points, reaches, width);
         // Beside a sharp edge the smoothed point must stay within the hull, or it would hold the edge up.
         if (result.corners.empty()) point += (reaches.maxCoeff() - point.dot(direction)) * direction;
