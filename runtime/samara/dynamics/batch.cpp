@@ -41,11 +41,13 @@ BatchReport Batch::advance(const Surroundings& surroundings, double time, double
                 states_[i] = result.state;
                 piece.implicit_steps += static_cast<std::uint64_t>(result.substeps);
                 piece.most_substeps = std::max(piece.most_substeps, result.substeps);
+                piece.steps_at_limit += result.substeps == most_substeps ? 1 : 0;
             }
         }
         const std::lock_guard lock(mutex);
         report.implicit_steps += piece.implicit_steps;
         report.most_substeps = std::max(report.most_substeps, piece.most_substeps);
+        report.steps_at_limit += piece.steps_at_limit;
     });
     return report;
 }

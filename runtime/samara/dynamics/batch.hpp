@@ -15,6 +15,7 @@ namespace samara {
 struct BatchReport {
     std::uint64_t implicit_steps = 0;  ///< over all bodies
     int most_substeps = 1;             ///< that any body took in one step
+    std::uint64_t steps_at_limit = 0;  ///< steps, over all bodies, that took samara::most_substeps
 };
 
 /// Many bodies of one kind that are stepped together. Each moves as advance() moves it alone, whatever its

@@ -7,7 +7,7 @@
 
 #include "samara/base/linear_algebra.hpp"
 #include "samara/body/body.hpp"
-#include "samara/dynamics/contact_points.hpp"
+#include "samara/body/contact_points.hpp"
 #include "samara/dynamics/dynamic_coefficients.hpp"
 #include "samara/scene/scene.hpp"
 

@@ -3,14 +3,9 @@
 #include <optional>
 
 #include "samara/base/linear_algebra.hpp"
+#include "samara/scene/scene.hpp"
 
 namespace samara {
-
-/// A uniform flow that swings: amplitude sin(2 pi t / period), world axes.
-struct Gust {
-    Vector3d amplitude = Vector3d::Zero();  ///< m/s
-    double period = 1.0;                    ///< s
-};
 
 /// What surrounds the bodies. They move in the frame of the undisturbed flow (current and gust), which
 /// coincides with the world's at time 0: there a current is no fluid motion at all, and a gust is a swinging

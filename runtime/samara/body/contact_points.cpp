@@ -1,4 +1,4 @@
-#include "samara/dynamics/contact_points.hpp"
+#include "samara/body/contact_points.hpp"
 
 #include <algorithm>
 #include <cmath>
