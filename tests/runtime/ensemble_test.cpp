@@ -91,7 +91,7 @@ TEST(Ensemble, StartsThatLieApartAreNoSpread) {
         return pose;
     });
     const BodyMeasures all = measure_all(motion, motion.bodies[0]);
-    EXPECT_LT(all.path_spread, 1e-7);
+    EXPECT_EQ(all.path_spread, 0.0);
     EXPECT_FALSE(all.path_spread_growth.has_value());
 }
 

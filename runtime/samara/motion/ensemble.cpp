@@ -10,7 +10,7 @@ namespace samara {
 namespace {
 
 constexpr std::size_t most_spots = 256;
-constexpr double least_spread = 1e-9;  // m
+constexpr double least_spread = 1e-6;  // over the way: less is rounding
 
 Vector3d horizontal(const Vector3d& vector, const Vector3d& down) {
     return vector - vector.dot(down) * down;
@@ -121,7 +121,9 @@ void Ensemble::add_landing(const Motion& motion, const BodyMotion& body, int run
 
 double Ensemble::spread_at(const Spot& spot) const {
     const double count = sums_.samples;
-    return std::sqrt(std::max(0.0, spot.square / count - (spot.way / count).squaredNorm()));
+    const double square = spot.square / count;
+    const double spread = square - (spot.way / count).squaredNorm();
+    return spread > least_spread * least_spread * square ? std::sqrt(spread) : 0.0;
 }
 
 void Ensemble::measure_path(BodyMeasures& all) const {
@@ -133,7 +135,7 @@ void Ensemble::measure_path(BodyMeasures& all) const {
         if (spot.time > end) break;
         const double spread = spread_at(spot);
         all.path_spread = spread;
-        if (spot.time < begin + (end - begin) / 3.0 || spot.time <= begin || spread < least_spread) continue;
+        if (spot.time < begin + (end - begin) / 3.0 || spot.time <= begin || spread == 0.0) continue;
         times.push_back(std::log(spot.time - begin));
         spreads.push_back(std::log(spread));
     }

@@ -15,6 +15,7 @@ namespace {
 constexpr std::int64_t format_version = 1;
 constexpr std::size_t block_bytes = 64U << 20U;
 constexpr std::size_t rows_in_chunk = (1U << 16U) / 3;
+constexpr std::size_t most_frames = 4096;
 constexpr std::size_t pose_bytes = 13 * sizeof(double);
 
 struct Series {
@@ -52,14 +53,20 @@ std::size_t poses_in_frame(const Motion& motion) {
     return poses * static_cast<std::size_t>(motion.runs);
 }
 
+/// `whole` cut into the fewest pieces of at most `most`, of which all are about as large.
+std::size_t even_piece(std::size_t whole, std::size_t most) {
+    const std::size_t pieces = (whole + most - 1) / most;
+    return (whole + pieces - 1) / pieces;
+}
+
 /// As many copies and then runs at the frames of a block as fit.
 std::vector<hsize_t> chunk_of(const Motion& motion, const BodyMotion& body, hsize_t components) {
-    const auto runs = static_cast<std::size_t>(motion.runs);
-    const auto copies = static_cast<std::size_t>(body.copies);
     const std::size_t frames = frames_in_block(motion);
-    const std::size_t chunk_copies = std::clamp<std::size_t>(rows_in_chunk / frames, 1, copies);
-    const std::size_t chunk_runs = std::clamp<std::size_t>(rows_in_chunk / (frames * chunk_copies), 1, runs);
-    return {chunk_runs, frames, chunk_copies, components};
+    const std::size_t copies =
+        even_piece(static_cast<std::size_t>(body.copies), std::max<std::size_t>(rows_in_chunk / frames, 1));
+    const std::size_t runs = even_piece(static_cast<std::size_t>(motion.runs),
+                                        std::max<std::size_t>(rows_in_chunk / (frames * copies), 1));
+    return {runs, frames, copies, components};
 }
 
 void write_body(Hdf5Writer& file, const Motion& motion, std::size_t index) {
@@ -81,12 +88,20 @@ void write_body(Hdf5Writer& file, const Motion& motion, std::size_t index) {
     file.attribute(group, "models", std::string_view(body.models));
 }
 
+std::uintmax_t rounded_up(std::uintmax_t value, std::uintmax_t multiple) {
+    return (value + multiple - 1) / multiple * multiple;
+}
+
 /// Somewhat more than the file will take (bytes).
 std::uintmax_t expected_size(const Motion& motion) {
     constexpr std::uintmax_t small_parts = 1U << 20U;
-    std::uintmax_t bytes = small_parts + motion.times.size() * (poses_in_frame(motion) * pose_bytes + 8);
-    bytes += bytes / 1000;  // the list of chunks
+    std::uintmax_t bytes = small_parts + 8 * motion.times.size();
     for (const BodyMotion& body : motion.bodies) {
+        const std::vector<hsize_t> chunk = chunk_of(motion, body, 1);
+        const std::uintmax_t poses = rounded_up(static_cast<std::uintmax_t>(motion.runs), chunk[0]) *
+                                     rounded_up(motion.times.size(), chunk[1]) *
+                                     rounded_up(static_cast<std::uintmax_t>(body.copies), chunk[2]);
+        bytes += poses * pose_bytes + poses * pose_bytes / 1000;  // and the list of chunks
         bytes += body.surface.vertices.size() * 24 + body.surface.corners.size() * 24;
     }
     return bytes;
@@ -141,7 +156,7 @@ void MotionWriter::finish(std::size_t frames) {
 
 std::size_t frames_in_block(const Motion& motion) {
     const std::size_t in_memory = block_bytes / (poses_in_frame(motion) * pose_bytes);
-    return std::clamp<std::size_t>(in_memory, 1, std::min<std::size_t>(motion.times.size(), 4096));
+    return even_piece(motion.times.size(), std::clamp<std::size_t>(in_memory, 1, most_frames));
 }
 
 void write_motion_file(const std::filesystem::path& path, const Motion& motion_but_poses,
