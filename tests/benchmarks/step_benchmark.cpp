@@ -2,6 +2,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include "samara/dynamics/batch.hpp"
 #include "samara/dynamics/step.hpp"
 #include "support/known_bodies.hpp"
 
@@ -13,6 +14,7 @@ const Vector3d earth(0.0, 0.0, -9.81);
 /// An ellipsoid, advanced step by step; `noisy`: with table turbulence.
 void fall(benchmark::State& state, ImmersedBody body, bool noisy, const Vector3d& gravity) {
     if (noisy) body.turbulence = Turbulence::table;
+    prepare(body);
     BodyState body_state = test::tumbling_state(0.1, 2.0);
     const Noise noise(1, "rubber", 0, 0);
     std::uint64_t step = 0;
@@ -34,6 +36,41 @@ void step_without_loads(benchmark::State& state) {
     fall(state, test::ideal_ellipsoid(), false, Vector3d::Zero());
 }
 
+/// Items a second are body-steps; `threads`: 1 or all cores.
+template <class BatchOf>
+void batch(benchmark::State& state, int threads) {
+    ImmersedBody body = test::blunt_ellipsoid();
+    body.turbulence = Turbulence::table;
+    prepare(body);
+    const auto count = static_cast<std::size_t>(state.range(0));
+    BatchOf bodies(body, count);
+    for (std::size_t i = 0; i < count; ++i) {
+        bodies.set_state(i, test::tumbling_state(0.1, 0.001 * static_cast<double>(i % 1000)));
+        bodies.set_noise(i, Noise(1, "leaf", 0, static_cast<std::uint32_t>(i)));
+    }
+    std::uint64_t step = 0;
+    constexpr std::uint64_t steps = 8;
+    std::uint64_t implicit_steps = 0;
+    while (state.KeepRunning()) {
+        implicit_steps += bodies.advance(Surroundings{}, 0.0, 0.002, step, steps, threads).implicit_steps;
+        step += steps;
+    }
+    state.SetItemsProcessed(static_cast<std::int64_t>(step * count));
+    state.counters["substeps"] = static_cast<double>(implicit_steps) / static_cast<double>(step * count);
+}
+void float_batch(benchmark::State& state) {
+    batch<FloatBatch>(state, 1);
+}
+void float_batch_on_all_cores(benchmark::State& state) {
+    batch<FloatBatch>(state, 0);
+}
+void double_batch(benchmark::State& state) {
+    batch<Batch>(state, 1);
+}
+
+BENCHMARK(float_batch)->Arg(4096)->Arg(1'000'000)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(float_batch_on_all_cores)->Arg(1'000'000)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(double_batch)->Arg(4096)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(step_with_tables_and_noise);
 BENCHMARK(step_with_tables);
 BENCHMARK(step_without_loads);

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "samara/dynamics/batch.hpp"
 #include "support/ground_bodies.hpp"
 #include "support/known_bodies.hpp"
 #include "support/test_shapes.hpp"
@@ -134,8 +135,8 @@ TEST(GroundContact, AHitWithoutFrictionalLoadLosesTheApproachAlone) {
 
 TEST(GroundContact, ASlidingCubeIsBrakedByTheFrictionOfItsWeight) {
     // Slid along the ground in a fluid without drag: a = mu (m - rho V) g / (m + m_a).
-    ImmersedBody body = cube();
-    body.loads = Loads::none;
+    const ImmersedBody body =
+        test::uniform_body(test::box({0.02, 0.02, 0.02}, 2), 1500.0, water, Loads::none);
     BodyState state = test::above_ground(body, Quaterniond::Identity(), 0.0);
     state.velocity << 0, 0, 0, 0.5, 0, 0;
     const BodyState end = test::flown(body, ground_at_zero(), state, 0.05, 1e-4);
@@ -194,6 +195,35 @@ TEST(GroundContact, MovesWithTheFlowsFrameToRounding) {
     const BodyState carried = test::flown(cube(), ground_at_zero(current), start, 0.5, 0.002);
     EXPECT_EQ(still.position, carried.position);
     EXPECT_EQ(still.velocity, carried.velocity);
+}
+
+TEST(GroundContact, InABatchIsThatOfABodyAloneToTheLastBit) {
+    Surroundings surroundings = ground_at_zero(Vector3d(0.05, 0.02, 0.0));
+    surroundings.gust = {.amplitude = Vector3d(0.1, 0.0, 0.02), .period = 0.7};
+    constexpr std::size_t count = 37;
+    constexpr double step = 0.01;
+    Batch batch(cube(), count);
+    std::vector<BodyState> alone(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        alone[i] = test::above_ground(cube(), turned(10.0 * static_cast<double>(i), Vector3d(1, 2, 3)),
+                                      0.01 * static_cast<double>(i));
+        alone[i].velocity << 1.0, 2.0, 3.0, 0.1, 0.0, -0.2;
+        batch.set_state(i, alone[i]);
+    }
+    const Noise noise(0, "", 0, 0);
+    for (std::uint64_t call = 0; call < 20; ++call) {
+        const double time = static_cast<double>(5 * call) * step;
+        batch.advance(surroundings, time, step, 5 * call, 5, 2);
+        for (std::size_t i = 0; i < count; ++i) {
+            for (std::uint64_t k = 0; k < 5; ++k) {
+                alone[i] = advance(cube(), surroundings, time + static_cast<double>(k) * step, step, alone[i],
+                                   noise, 5 * call + k)
+                               .state;
+            }
+            ASSERT_EQ(batch.state(i).position, alone[i].position) << i << " at call " << call;
+            ASSERT_EQ(batch.state(i).velocity, alone[i].velocity) << i << " at call " << call;
+        }
+    }
 }
 
 }  // namespace

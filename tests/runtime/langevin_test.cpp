@@ -87,6 +87,7 @@ TEST(BodyVelocity, DriftsAndDiffusesAsEquationEightSays) {
 TEST(TurbulenceLevel, OfATableScalesWithTheSpeed) {
     ImmersedBody body = test::blunt_ellipsoid();
     body.turbulence = Turbulence::table;
+    prepare(body);
     // Above the table's Reynolds numbers, where its values are held.
     const TurbulenceLevel slow = turbulence_level(body, Vector3d(0, 10, 0));
     const TurbulenceLevel fast = turbulence_level(body, Vector3d(0, 20, 0));

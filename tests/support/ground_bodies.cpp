@@ -8,7 +8,7 @@
 
 namespace samara::test {
 
-ImmersedBody uniform_body(const Surface& surface, double density, const Fluid& fluid) {
+ImmersedBody uniform_body(const Surface& surface, double density, const Fluid& fluid, Loads loads) {
     Body body;
     body.name = "body";
     body.surface = surface;
@@ -17,7 +17,7 @@ ImmersedBody uniform_body(const Surface& surface, double density, const Fluid& f
     SceneBody given;
     given.name = "body";
     given.mass.density = density;
-    given.loads = Loads::coefficients;
+    given.loads = loads;
     given.coefficients.drag_coefficient = 1.2;
     given.turbulence = Turbulence::none;
     return make_immersed_body(body, given, fluid);

@@ -6,13 +6,15 @@
 
 namespace samara::test {
 
-/// A uniform body of the surface with drag coefficient 1.2 and its Kirchhoff tensor.
-ImmersedBody uniform_body(const Surface& surface, double density, const Fluid& fluid);
+/// A uniform body of the surface with its Kirchhoff tensor; the drag coefficient of loads by coefficients
+/// is 1.2.
+ImmersedBody uniform_body(const Surface& surface, double density, const Fluid& fluid,
+                          Loads loads = Loads::coefficients);
 
 /// A disc about the origin, its axis along z, its rim a polygon of 96 sides.
 Surface disc(double radius, double thickness);
 
-/// A start above the ground: turned by `angle` (rad) about y, its lowest point `drop` (m) above the height 0.
+/// A start above the ground: at rest, its lowest point `drop` (m) above the height 0.
 BodyState above_ground(const ImmersedBody& body, const Quaterniond& orientation, double drop);
 
 /// The height (m) of the body's lowest contact point.

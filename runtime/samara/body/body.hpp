@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "samara/base/linear_algebra.hpp"
+#include "samara/body/dynamic_coefficients.hpp"
 #include "samara/body/load_tables.hpp"
 #include "samara/body/surface.hpp"
 
@@ -73,6 +74,7 @@ struct Body {
     Symmetry symmetry;
     std::optional<KirchhoffTensor> kirchhoff;
     std::optional<LoadTables> tables;
+    std::optional<IdentifiedCoefficients> dynamic;
 };
 
 }  // namespace samara

@@ -4,46 +4,99 @@
 #include <mutex>
 
 #include "samara/base/parallel_for.hpp"
+#include "samara/dynamics/ground_contact.hpp"
+#include "samara/dynamics/kernel/kernel.hpp"
 
 namespace samara {
 namespace {
 
-constexpr std::size_t bodies_a_piece = 64;
+constexpr std::size_t blocks_a_piece = 64;
+
+/// The ground that the bodies of a batch touch.
+struct BatchGround {
+    const ImmersedBody& body;
+    const Surroundings& surroundings;
+
+    static void resolve(const void* context, double time, double substep, const BodyState& before,
+                        BodyState& state) noexcept {
+        const auto& ground = *static_cast<const BatchGround*>(context);
+        touch_ground(ground.body, ground_in_flow(ground.surroundings, time - substep, time), substep, before,
+                     state);
+    }
+
+    [[nodiscard]] kernel::Contact contact(double time, double time_step, std::uint64_t steps) const noexcept {
+        if (!surroundings.ground) return {};
+        const double radius = body.contact_points.bounding_radius;
+        const double fastest = surroundings.current.norm() + surroundings.gust.amplitude.norm();
+        double highest = *surroundings.ground - flow_displacement(surroundings, time).z();
+        for (std::uint64_t step = 1; step <= steps; ++step) {
+            const double end = time + static_cast<double>(step) * time_step;
+            highest = std::max(highest, *surroundings.ground - flow_displacement(surroundings, end).z());
+        }
+        return {.resolve = resolve,
+                .context = this,
+                .reach = highest + radius + fastest * time_step,
+                .radius = radius,
+                .ground_speed = fastest};
+    }
+};
 
 }  // namespace
 
-Batch::Batch(const ImmersedBody& body, std::size_t count)
-    : body_(&body), states_(count), noises_(count, Noise(0, "", 0, 0)) {}
-
-void Batch::set_state(std::size_t index, const BodyState& state) noexcept {
-    states_[index] = state;
+template <class Real>
+BasicBatch<Real>::BasicBatch(const ImmersedBody& body, std::size_t count)
+    : body_(&body),
+      size_(count),
+      constants_(flight_constants<Real>(body)),
+      blocks_((count + FlightBlock<Real>::size - 1) / FlightBlock<Real>::size) {
+    for (std::size_t i = 0; i < blocks_.size(); ++i) {
+        blocks_[i].bodies = std::min(FlightBlock<Real>::size, count - i * FlightBlock<Real>::size);
+        for (std::size_t lane = 0; lane < FlightBlock<Real>::size; ++lane) {
+            keep_state(BodyState{}, blocks_[i], lane);
+        }
+    }
+    for (std::size_t i = 0; i < count; ++i) set_noise(i, Noise(0, "", 0, 0));
 }
 
-BodyState Batch::state(std::size_t index) const noexcept {
-    return states_[index];
+template <class Real>
+void BasicBatch<Real>::set_state(std::size_t index, const BodyState& state) noexcept {
+    keep_state(state, blocks_[index / FlightBlock<Real>::size], index % FlightBlock<Real>::size);
 }
 
-void Batch::set_noise(std::size_t index, const Noise& noise) noexcept {
-    noises_[index] = noise;
+template <class Real>
+BodyState BasicBatch<Real>::state(std::size_t index) const noexcept {
+    return state_of(blocks_[index / FlightBlock<Real>::size], index % FlightBlock<Real>::size);
 }
 
-BatchReport Batch::advance(const Surroundings& surroundings, double time, double time_step,
-                           std::uint64_t first_step, std::uint64_t steps, int threads) {
+template <class Real>
+void BasicBatch<Real>::set_noise(std::size_t index, const Noise& noise) noexcept {
+    const auto words = noise.words();
+    FlightBlock<Real>& block = blocks_[index / FlightBlock<Real>::size];
+    for (std::size_t word = 0; word < words.size(); ++word) {
+        block.noise[word][index % FlightBlock<Real>::size] = words[word];
+    }
+}
+
+template <class Real>
+BatchReport BasicBatch<Real>::advance(const Surroundings& surroundings, double time, double time_step,
+                                      std::uint64_t first_step, std::uint64_t steps, int threads) {
+    std::vector<Vector3d> gravities;
+    for (std::uint64_t step = 0; step < steps; ++step) {
+        const double begin = time + static_cast<double>(step) * time_step;
+        gravities.push_back(apparent_gravity(surroundings, begin, begin + time_step));
+    }
+    const BatchGround ground{*body_, surroundings};
+    const kernel::BlockSteps task{.gravities = gravities.data(),
+                                  .time = time,
+                                  .time_step = time_step,
+                                  .first_step = first_step,
+                                  .steps = steps,
+                                  .contact = ground.contact(time, time_step, steps)};
     BatchReport report;
     std::mutex mutex;
-    parallel_for(states_.size(), bodies_a_piece, threads, [&](std::size_t begin, std::size_t end) {
-        BatchReport piece;
-        for (std::size_t i = begin; i < end; ++i) {
-            for (std::uint64_t step = 0; step < steps; ++step) {
-                const StepResult result =
-                    samara::advance(*body_, surroundings, time + static_cast<double>(step) * time_step,
-                                    time_step, states_[i], noises_[i], first_step + step);
-                states_[i] = result.state;
-                piece.implicit_steps += static_cast<std::uint64_t>(result.substeps);
-                piece.most_substeps = std::max(piece.most_substeps, result.substeps);
-                piece.steps_at_limit += result.substeps == most_substeps ? 1 : 0;
-            }
-        }
+    parallel_for(blocks_.size(), blocks_a_piece, threads, [&](std::size_t begin, std::size_t end) {
+        const kernel::BlockReport piece =
+            kernel::advance_blocks(constants_, task, &blocks_[begin], end - begin);
         const std::lock_guard lock(mutex);
         report.implicit_steps += piece.implicit_steps;
         report.most_substeps = std::max(report.most_substeps, piece.most_substeps);
@@ -51,5 +104,8 @@ BatchReport Batch::advance(const Surroundings& surroundings, double time, double
     });
     return report;
 }
+
+template class BasicBatch<float>;
+template class BasicBatch<double>;
 
 }  // namespace samara

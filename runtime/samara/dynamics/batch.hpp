@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "samara/dynamics/immersed_body.hpp"
+#include "samara/dynamics/kernel/flight_block.hpp"
 #include "samara/dynamics/noise.hpp"
 #include "samara/dynamics/step.hpp"
 #include "samara/dynamics/surroundings.hpp"
@@ -18,14 +19,17 @@ struct BatchReport {
     std::uint64_t steps_at_limit = 0;  ///< steps, over all bodies, that took samara::most_substeps
 };
 
-/// Many bodies of one kind that are stepped together. Each moves as advance() moves it alone, whatever its
-/// place in the batch, the number of threads and the way the steps are cut into calls.
-class Batch {
+/// Many bodies of one kind that are stepped together, as many at a time as the machine's vectors hold. Each moves
+/// as advance() moves it alone, whatever its place in the batch, the number of threads and the way the steps are
+/// cut into calls: in double precision to the last bit; in single precision, for crowds, within what docs/stability
+/// states.
+template <class Real>
+class BasicBatch {
   public:
-    /// `body` must outlive the batch.
-    Batch(const ImmersedBody& body, std::size_t count);
+    /// `body` must outlive the batch. All start at rest at the origin.
+    BasicBatch(const ImmersedBody& body, std::size_t count);
 
-    [[nodiscard]] std::size_t size() const noexcept { return states_.size(); }
+    [[nodiscard]] std::size_t size() const noexcept { return size_; }
     void set_state(std::size_t index, const BodyState& state) noexcept;
     [[nodiscard]] BodyState state(std::size_t index) const noexcept;
     /// The source of the body's random numbers; without it, that of seed 0, no name, run 0 and copy 0.
@@ -38,8 +42,15 @@ class Batch {
 
   private:
     const ImmersedBody* body_;
-    std::vector<BodyState> states_;
-    std::vector<Noise> noises_;
+    std::size_t size_;
+    FlightConstants<Real> constants_;
+    std::vector<FlightBlock<Real>> blocks_;
 };
+
+extern template class BasicBatch<float>;
+extern template class BasicBatch<double>;
+
+using Batch = BasicBatch<double>;
+using FloatBatch = BasicBatch<float>;
 
 }  // namespace samara

@@ -43,7 +43,8 @@ DynamicCoefficients rotational_drag_alone(const Body& body) {
 
 DynamicCoefficients default_dynamic_coefficients(const Body& body) {
     DynamicCoefficients coefficients = rotational_drag_alone(body);
-    coefficients.transport = default_transport;
+    coefficients.force_transport = default_transport;
+    coefficients.moment_transport = default_transport;
     const Matrix3d axes = principal_axes(body.moments);
     for (int i = 0; i < 3; ++i) {
         const Vector3d axis = axes.col(i);

@@ -63,28 +63,21 @@ void require_tables(const Body& body, const SceneBody& scene_body) {
         scene_body.shape.string()));
 }
 
-}  // namespace
-
-ProjectedAreaMap::ProjectedAreaMap(const Surface& surface) {
-    constexpr int size = 2 * subdivisions + 1;
-    for (int row = 0; row < size; ++row) {
-        for (int column = 0; column < size; ++column) {
-            areas_.push_back(samara::projected_area(surface, octahedral_node(subdivisions, row, column)));
+std::vector<double> projected_areas(const Surface& surface) {
+    constexpr int side = 2 * shadow_subdivisions + 1;
+    std::vector<double> areas;
+    for (int row = 0; row < side; ++row) {
+        for (int column = 0; column < side; ++column) {
+            areas.push_back(projected_area(surface, octahedral_node(shadow_subdivisions, row, column)));
         }
     }
+    return areas;
 }
 
-double ProjectedAreaMap::at(const Vector3d& direction) const noexcept {
-    constexpr std::size_t size = 2 * subdivisions + 1;
-    const OctahedralCell cell = octahedral_cell(subdivisions, direction);
-    const auto area = [&](int row, int column) {
-        return areas_[static_cast<std::size_t>(cell.row + row) * size +
-                      static_cast<std::size_t>(cell.column + column)];
-    };
-    return (1.0 - cell.row_fraction) *
-               ((1.0 - cell.column_fraction) * area(0, 0) + cell.column_fraction * area(0, 1)) +
-           cell.row_fraction *
-               ((1.0 - cell.column_fraction) * area(1, 0) + cell.column_fraction * area(1, 1));
+}  // namespace
+
+void prepare(ImmersedBody& body) {
+    body.constants = flight_constants<double>(body);
 }
 
 ImmersedBody make_immersed_body(const Body& body, const SceneBody& scene_body, const Fluid& fluid) {
@@ -127,11 +120,12 @@ ImmersedBody make_immersed_body(const Body& body, const SceneBody& scene_body, c
             break;
         case Loads::coefficients:
             result.dynamic = rotational_drag_alone(body);
-            if (!scene_body.coefficients.reference_area)
-                result.projected_area = ProjectedAreaMap(body.surface);
+            if (!scene_body.coefficients.reference_area) {
+                result.projected_areas = projected_areas(body.surface);
+            }
             break;
         case Loads::table:
-            result.dynamic = default_dynamic_coefficients(body);
+            result.dynamic = body.dynamic ? body.dynamic->values : default_dynamic_coefficients(body);
             break;
     }
     result.turbulence = scene_body.turbulence;
@@ -139,6 +133,7 @@ ImmersedBody make_immersed_body(const Body& body, const SceneBody& scene_body, c
     result.dissipation_rate = scene_body.dissipation_rate;
     result.langevin = scene_body.langevin;
     if (result.loads == Loads::table || result.turbulence == Turbulence::table) result.tables = body.tables;
+    prepare(result);
     return result;
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,25 +8,14 @@
 #include "samara/body/body.hpp"
 #include "samara/body/contact_points.hpp"
 #include "samara/dynamics/dynamic_coefficients.hpp"
+#include "samara/dynamics/kernel/flight_constants.hpp"
 #include "samara/scene/scene.hpp"
 
 namespace samara {
 
-/// Areas of a body's shadow over the octahedral map of its axes: bilinear between the nodes.
-class ProjectedAreaMap {
-  public:
-    ProjectedAreaMap() = default;
-    explicit ProjectedAreaMap(const Surface& surface);
-    /// m^2, along a unit vector in body axes.
-    [[nodiscard]] double at(const Vector3d& direction) const noexcept;
-
-  private:
-    static constexpr int subdivisions = 16;
-    std::vector<double> areas_;
-};
-
 /// A body in a fluid, made ready for the time steps: constant while it moves. Body axes are the shape file's,
-/// about the centre of mass unless said otherwise; SI units.
+/// about the centre of mass unless said otherwise; SI units. Where a member is set by hand, prepare() must
+/// follow.
 struct ImmersedBody {
     std::string name;
     double mass = 0.0;                           ///< kg
@@ -42,14 +30,16 @@ struct ImmersedBody {
     Matrix3d added_mass = Matrix3d::Zero();       ///< rho_f M (kg)
     Matrix6d inverse_inertia = Matrix6d::Identity();
     ContactPoints contact_points;
-    double length = 0.0;          ///< L = sqrt(S/pi) (m)
+    double length = 1.0;          ///< L = sqrt(S/pi) (m)
     double reference_area = 0.0;  ///< A = pi L^2/4 (m^2)
     double turning_scale = 0.0;   ///< sqrt of the largest ratio of added-mass difference to inertia (1/m):
                                   ///< with |v| the rate at which the Munk moment turns the body
 
     Loads loads = Loads::none;
-    CoefficientLoads coefficients;     ///< where loads are coefficients; normal always set
-    ProjectedAreaMap projected_area;   ///< where loads are coefficients without a reference area
+    CoefficientLoads coefficients;  ///< where loads are coefficients; normal always set
+    /// m^2, where loads are coefficients without a reference area: the body's shadow along the nodes of an
+    /// octahedral map of `shadow_subdivisions`, row by row.
+    std::vector<double> projected_areas;
     std::optional<LoadTables> tables;  ///< where loads or turbulence are from tables
     DynamicCoefficients dynamic;
 
@@ -57,7 +47,13 @@ struct ImmersedBody {
     double turbulent_kinetic_energy = 0.0;
     double dissipation_rate = 0.0;
     Langevin langevin = Langevin::seen_fluid;
+
+    FlightConstants<double> constants;  ///< of all the above, by prepare()
 };
+inline constexpr int shadow_subdivisions = 16;
+
+/// Works out what the steps need of the members.
+void prepare(ImmersedBody& body);
 
 /// Puts body, mass and fluid together. Throws Error where the body file lacks what the scene asks of it (the
 /// Kirchhoff tensor; tables: the message names the command that bakes them), and where the inertia is not

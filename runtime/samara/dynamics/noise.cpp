@@ -1,9 +1,8 @@
 #include "samara/dynamics/noise.hpp"
 
-#include <cmath>
-#include <numbers>
-
 #include <Random123/philox.h>
+
+#include "samara/dynamics/kernel/kernel.hpp"
 
 namespace samara {
 namespace {
@@ -40,12 +39,8 @@ std::array<double, 4> Noise::uniforms(std::uint64_t step, NoiseStream stream) co
 std::array<double, 4> Noise::normals(std::uint64_t step, NoiseStream stream) const noexcept {
     const std::array<double, 4> uniform = uniforms(step, stream);
     std::array<double, 4> normal{};
-    for (std::size_t pair = 0; pair < 4; pair += 2) {
-        const double radius = std::sqrt(-2.0 * std::log(uniform[pair]));
-        const double angle = 2.0 * std::numbers::pi * uniform[pair + 1];
-        normal[pair] = radius * std::cos(angle);
-        normal[pair + 1] = radius * std::sin(angle);
-    }
+    kernel::normal_pair(uniform[0], uniform[1], normal[0], normal[1]);
+    kernel::normal_pair(uniform[2], uniform[3], normal[2], normal[3]);
     return normal;
 }
 

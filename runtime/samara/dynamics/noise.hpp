@@ -26,6 +26,11 @@ class Noise {
     /// Four independent numbers, uniform in (0, 1).
     [[nodiscard]] std::array<double, 4> uniforms(std::uint64_t step, NoiseStream stream) const noexcept;
 
+    /// What the numbers are of: the key (two words), the copy and the run.
+    [[nodiscard]] std::array<std::uint32_t, 4> words() const noexcept {
+        return {key_[0], key_[1], copy_, run_};
+    }
+
   private:
     std::array<std::uint32_t, 2> key_;
     std::uint32_t run_;

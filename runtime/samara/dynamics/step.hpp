@@ -16,6 +16,9 @@ struct BodyState {
     Quaterniond orientation = Quaterniond::Identity();  ///< body to world
     Vector6d velocity = Vector6d::Zero();  ///< (omega, v) of the centre of mass, body axes (rad/s, m/s)
     SeenFluid seen_fluid;
+    /// The velocity's mean rate of change in the step before (rad/s^2, m/s^2), zero where there was none: it
+    /// only helps the next step to guess its middle.
+    Vector6d acceleration = Vector6d::Zero();
 };
 
 /// How the body moves from one step to the next: K (omega, v) = (l, p), the momenta of body and fluid.

@@ -12,6 +12,7 @@ int main() {
     body.volume = 1e-3;
     body.mass = 1.5;
     body.inertia.diagonal() << 1e-3, 1e-3, 1e-3, 2.0, 2.0, 2.0;
+    samara::prepare(body);
     samara::BodyState state;
     for (int i = 0; i < 100; ++i) {
         state = samara::implicit_step(body, samara::Vector3d(0.0, 0.0, -9.81), 0.01, state);

@@ -1,0 +1,176 @@
+#include "samara/dynamics/kernel/flight_constants.hpp"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Eigenvalues>
+
+#include "samara/dynamics/immersed_body.hpp"
+
+namespace samara {
+namespace {
+
+template <class Real>
+Triple<Real> triple(const Vector3d& v) {
+    return {static_cast<Real>(v.x()), static_cast<Real>(v.y()), static_cast<Real>(v.z())};
+}
+
+template <class Real>
+Square<Real> square(const Matrix3d& m) {
+    return {triple<Real>(m.row(0)), triple<Real>(m.row(1)), triple<Real>(m.row(2))};
+}
+
+/// Principal axes (rows) of a symmetric tensor, and the roots of its values.
+struct Principal {
+    Matrix3d axes;
+    Vector3d roots;
+};
+Principal principal(const Matrix3d& tensor) {
+    const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(tensor);
+    return {solver.eigenvectors().transpose(), solver.eigenvalues().cwiseMax(0.0).cwiseSqrt()};
+}
+
+template <class Real>
+void set_planes(const std::vector<double>& reynolds_numbers, DirectionTable<Real>& table) {
+    for (const double number : reynolds_numbers) table.logarithms.push_back(static_cast<Real>(std::log(number)));
+    for (std::size_t i = 1; i < reynolds_numbers.size(); ++i) {
+        table.inverse_differences.push_back(
+            static_cast<Real>(1.0 / std::log(reynolds_numbers[i] / reynolds_numbers[i - 1])));
+    }
+}
+
+/// The table with each entry's numbers as `row` gives them.
+template <class Real, std::size_t width, class Row>
+DirectionTable<Real> direction_table(const LoadTables& tables, const Row& row) {
+    DirectionTable<Real> result;
+    result.width = static_cast<int>(width);
+    result.side = tables.map_size();
+    result.to_map_axes = square<Real>(tables.axes.transpose());
+    set_planes(tables.reynolds_numbers, result);
+    for (const LoadEntry& entry : tables.entries) {
+        const std::array<double, width> numbers = row(entry);
+        for (const double number : numbers) result.rows.push_back(static_cast<Real>(number));
+    }
+    return result;
+}
+
+template <class Real>
+DirectionTable<Real> load_table(const LoadTables& tables) {
+    return direction_table<Real, 8>(tables, [](const LoadEntry& entry) {
+        const Vector3d& f = entry.force;
+        const Vector3d& m = entry.moment;
+        return std::array<double, 8>{f.x(), f.y(), f.z(), 0.0, m.x(), m.y(), m.z(), 0.0};
+    });
+}
+
+template <class Real>
+DirectionTable<Real> turbulence_table(const LoadTables& tables) {
+    return direction_table<Real, 4>(tables, [](const LoadEntry& entry) {
+        return std::array<double, 4>{entry.turbulent_kinetic_energy, entry.dissipation_rate, 0.0, 0.0};
+    });
+}
+
+/// The area over A by direction: the projected one, or a given one everywhere.
+template <class Real>
+DirectionTable<Real> area_table(const ImmersedBody& body) {
+    DirectionTable<Real> table;
+    table.side = body.coefficients.reference_area ? 3 : 2 * shadow_subdivisions + 1;
+    table.to_map_axes = square<Real>(Matrix3d::Identity());
+    table.logarithms = {Real{0}};
+    const auto nodes = static_cast<std::size_t>(table.side) * static_cast<std::size_t>(table.side);
+    for (std::size_t node = 0; node < nodes; ++node) {
+        const double area = body.coefficients.reference_area ? *body.coefficients.reference_area
+                                                             : body.projected_areas[node];
+        table.rows.insert(table.rows.end(),
+                          {static_cast<Real>(area / body.reference_area), Real{0}, Real{0}, Real{0}});
+    }
+    return table;
+}
+
+template <class Real>
+void set_inertia(const ImmersedBody& body, FlightConstants<Real>& c) {
+    const Matrix6d from_centroid = body.to_centroid.inverse();
+    const Matrix6d inertia = from_centroid.transpose() * body.inertia * from_centroid;
+    const double length = body.length;
+    const double mass = inertia.bottomRightCorner<3, 3>().trace() / 3.0;
+    const Matrix3d turning = inertia.topLeftCorner<3, 3>() / (mass * length * length);
+    const Matrix3d moving = inertia.bottomRightCorner<3, 3>() / mass;
+    c.mass_scale = static_cast<Real>(mass);
+    c.inertia_turning = square<Real>(turning);
+    c.inertia_coupling = square<Real>(inertia.topRightCorner<3, 3>() / (mass * length));
+    c.inertia_moving = square<Real>(moving);
+    c.inverse_turning = triple<Real>(turning.diagonal().cwiseInverse());
+    c.inverse_moving = triple<Real>(moving.diagonal().cwiseInverse());
+    c.added_mass = square<Real>(body.added_mass / mass);
+    c.weight = static_cast<Real>((body.mass - body.fluid_density * body.volume) / (mass * length));
+    c.weight_moment = triple<Real>(-body.mass / (mass * length * length) * body.center_of_buoyancy);
+    c.munk_rate = static_cast<Real>(body.turning_scale * length);
+}
+
+template <class Real>
+void set_loads(const ImmersedBody& body, FlightConstants<Real>& c) {
+    const double mass = static_cast<double>(c.mass_scale);
+    const double length = body.length;
+    const double half_density = 0.5 * body.fluid_density;
+    const DynamicCoefficients& dynamic = body.dynamic;
+    const double tow = half_density * body.reference_area * length / mass;
+    const double transport = 0.5 * (dynamic.moment_transport + dynamic.force_transport);
+    c.loads = body.loads;
+    c.tow_factor = static_cast<Real>(tow);
+    c.reynolds_factor = static_cast<Real>(length * length * body.fluid_density / body.viscosity);
+    c.transport = static_cast<Real>(transport);
+    c.working_transport = static_cast<Real>(0.5 * (dynamic.moment_transport - dynamic.force_transport));
+    c.half_length = static_cast<Real>(dynamic.half_length / length);
+    const Matrix3d drag = half_density * length / mass * dynamic.drag_in_motion;
+    const Matrix3d turning = half_density / (mass * length) * dynamic.rotational_drag;
+    c.drag_in_motion = square<Real>(drag);
+    c.rotational_drag = square<Real>(turning);
+    const Principal drags = principal(drag / 3.0);
+    const Principal turnings = principal(turning / 3.0);
+    c.drag_axes = square<Real>(drags.axes);
+    c.drag_roots = triple<Real>(drags.roots);
+    c.turning_axes = square<Real>(turnings.axes);
+    c.turning_roots = triple<Real>(turnings.roots);
+    const double creeping = std::numbers::pi * body.viscosity * length / mass;
+    c.creeping_turn = static_cast<Real>(creeping);
+    c.creeping_drag = static_cast<Real>(3.0 * creeping);
+    if (body.loads == Loads::table) {
+        c.kirchhoff_share = static_cast<Real>((1.0 - transport) / tow);
+        c.lowest_reynolds_inverse = static_cast<Real>(1.0 / body.tables->reynolds_numbers.front());
+        c.loads_by_direction = load_table<Real>(*body.tables);
+    } else {
+        c.drag_coefficient = static_cast<Real>(body.coefficients.drag_coefficient);
+        c.twice_lift_coefficient = static_cast<Real>(2.0 * body.coefficients.lift_coefficient);
+        c.normal = triple<Real>(*body.coefficients.normal);
+        c.center_of_pressure = triple<Real>(body.coefficients.center_of_pressure / length);
+        c.loads_by_direction = area_table<Real>(body);
+    }
+}
+
+}  // namespace
+
+template <class Real>
+FlightConstants<Real> flight_constants(const ImmersedBody& body) {
+    FlightConstants<Real> c;
+    c.length = static_cast<Real>(body.length);
+    c.inverse_length = static_cast<Real>(1.0 / body.length);
+    c.center_of_buoyancy = triple<Real>(body.center_of_buoyancy);
+    set_inertia(body, c);
+    if (body.loads != Loads::none) set_loads(body, c);
+    c.turbulence = body.turbulence;
+    c.langevin = body.langevin;
+    c.turbulent_kinetic_energy = static_cast<Real>(body.turbulent_kinetic_energy);
+    c.dissipation_rate = static_cast<Real>(body.dissipation_rate);
+    if (body.turbulence == Turbulence::table) {
+        c.reynolds_factor =
+            static_cast<Real>(body.length * body.length * body.fluid_density / body.viscosity);
+        c.turbulence_by_direction = turbulence_table<Real>(*body.tables);
+    }
+    return c;
+}
+
+template FlightConstants<float> flight_constants<float>(const ImmersedBody&);
+template FlightConstants<double> flight_constants<double>(const ImmersedBody&);
+
+}  // namespace samara

@@ -1,0 +1,173 @@
+// The fluid's loads beyond the Kirchhoff terms, as a matrix (docs/theory, "Loads of a moving body").
+// Included once for each instruction set (Highway), hence no plain include guard.
+#if defined(SAMARA_LOADS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef SAMARA_LOADS_INL_H
+#undef SAMARA_LOADS_INL_H
+#else
+#define SAMARA_LOADS_INL_H
+#endif
+
+#include "samara/dynamics/kernel/tables-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace samara::HWY_NAMESPACE {
+
+/// The blocks of D, with which the moment and force are -D (omega, v).
+template <class V>
+struct LoadBlocks {
+    Square<V> moment_by_turning, moment_by_velocity, force_by_turning, force_by_velocity;
+};
+
+/// A velocity's length and direction (zero where it has none).
+template <class V>
+struct Heading {
+    V speed;
+    Triple<V> direction;
+};
+template <class V>
+HWY_INLINE Heading<V> heading_of(const Triple<V>& velocity) {
+    const V speed = root(dot(velocity, velocity));
+    const V inverse = select(V(tiny<V>) < speed, V(1.0) / larger(V(tiny<V>), speed), V(0.0));
+    return {speed, inverse * velocity};
+}
+
+/// Eq. 5 in its regular form: what a body of that area feels in a tow, over the dynamic pressure.
+template <class V, class Real>
+HWY_INLINE Triple<V> coefficient_force(const FlightConstants<Real>& c, const Triple<V>& direction, V area) {
+    const Triple<V> normal = broadcast<V>(c.normal);
+    const V along = dot(direction, normal);
+    const Triple<V> lift = (V(c.twice_lift_coefficient) * along) * (normal - along * direction);
+    return -area * (V(c.drag_coefficient) * direction + lift);
+}
+
+/// The force of a steady tow over rho A U^2 / 2, and its moment over rho A L U^2 / 2 about the centroid.
+template <class V>
+struct TowCoefficients {
+    Triple<V> force, moment;
+};
+
+template <bool with_moment, class V, class Real>
+HWY_INLINE TowCoefficients<V> tow_coefficients(const FlightConstants<Real>& c, const Heading<V>& heading) {
+    const V zero(0.0);
+    Place<V> place;
+    find_place(c.loads_by_direction, heading.direction, V(c.reynolds_factor) * heading.speed, place);
+    const Quad<V> first = look_up(c.loads_by_direction, place, 0);
+    if (c.loads == Loads::coefficients) {
+        const Triple<V> force = coefficient_force(c, heading.direction, first.a);
+        return {force, cross(broadcast<V>(c.center_of_pressure), force)};
+    }
+    const Triple<V> force{first.a, first.b, first.c};
+    if constexpr (!with_moment) return {force, {zero, zero, zero}};
+    const Quad<V> second = look_up(c.loads_by_direction, place, 4);
+    return {force, {second.a, second.b, second.c}};
+}
+
+/// Where the tow's force acts, and the part of its moment that no arm can give (over the speed squared).
+template <class V>
+struct PressurePoint {
+    Triple<V> arm, moment_along_force;
+};
+template <class V, class Real>
+HWY_INLINE PressurePoint<V> pressure_point(const FlightConstants<Real>& c, const Heading<V>& heading, V share) {
+    const TowCoefficients<V> tow = tow_coefficients<true>(c, heading);
+    // In a steady tow the equations' left side holds the part (1 - kappa) of the Kirchhoff moment already.
+    const Triple<V> kirchhoff =
+        cross(broadcast<V>(c.added_mass) * heading.direction, heading.direction);
+    const Triple<V> moment = tow.moment - V(c.kirchhoff_share) * kirchhoff;
+    const V square = dot(tow.force, tow.force);
+    const V scale = select(V(tiny<V>) < square, share / larger(V(tiny<V>), square), V(0.0));
+    return {scale * cross(tow.force, moment),
+            (V(c.tow_factor) * scale * dot(moment, tow.force)) * tow.force};
+}
+
+/// The tow's force at its point as -(drag + side x): the lift turns with the flow and does no work.
+template <class V>
+struct TowMatrix {
+    V drag;
+    Triple<V> side;
+};
+template <class V, class Real>
+HWY_INLINE TowMatrix<V> tow_matrix(const FlightConstants<Real>& c, const Triple<V>& velocity) {
+    const Heading<V> heading = heading_of(velocity);
+    const Triple<V> force = tow_coefficients<false>(c, heading).force;
+    const V scale = V(c.tow_factor) * heading.speed;
+    return {scale * larger(V(0.0), -dot(force, heading.direction)),
+            scale * cross(force, heading.direction)};
+}
+
+/// The tow's matrix about the centroid, for a force that acts at the arm r.
+template <class V>
+HWY_INLINE LoadBlocks<V> moved_by_arm(const TowMatrix<V>& tow, const Triple<V>& r) {
+    const V along = dot(r, tow.side);
+    const Triple<V> drag_arm = tow.drag * r;
+    return {plus_cross(plus_diagonal(-outer(drag_arm, r), dot(drag_arm, r)), along * r),
+            plus_cross(plus_diagonal(outer(tow.side, r), -along), drag_arm),
+            plus_cross(plus_diagonal(-outer(r, tow.side), along), -drag_arm),
+            scaling_and_cross(tow.drag, tow.side)};
+}
+
+/// A symmetric block between turning and moving, each entry of which, in the principal axes of the two drags,
+/// is held below what these can pay for.
+template <class V, class Real>
+HWY_INLINE Square<V> paid_transport(const FlightConstants<Real>& c, const Triple<V>& momentum, V turning_root,
+                                    V drag_root) {
+    const Square<V> left = broadcast<V>(c.turning_axes);
+    const Square<V> right = broadcast<V>(c.drag_axes);
+    const Square<V> wanted =
+        left * (scaling_and_cross(V(0.0), V(c.working_transport) * momentum) * transposed(right));
+    const Triple<V> w = turning_root * broadcast<V>(c.turning_roots);
+    const Triple<V> d = drag_root * broadcast<V>(c.drag_roots);
+    const auto held = [&](V entry, V most) HWY_ATTR { return larger(-most, smaller(most, entry)); };
+    const auto held_row = [&](const Triple<V>& row, V root_of_row) HWY_ATTR {
+        return Triple<V>{held(row.x, root_of_row * d.x), held(row.y, root_of_row * d.y),
+                         held(row.z, root_of_row * d.z)};
+    };
+    const Square<V> paid{held_row(wanted.x, w.x), held_row(wanted.y, w.y), held_row(wanted.z, w.z)};
+    return transposed(left) * (paid * right);
+}
+
+/// D at a velocity of the centroid relative to the fluid.
+template <class V, class Real>
+HWY_INLINE LoadBlocks<V> load_blocks(const FlightConstants<Real>& c, const Triple<V>& omega,
+                                     const Triple<V>& velocity) {
+    const V zero(0.0);
+    const V one(1.0);
+    const Heading<V> heading = heading_of(velocity);
+    const V tip_speed = V(c.half_length) * root(dot(omega, omega));
+    const V combined = root(heading.speed * heading.speed + tip_speed * tip_speed);
+    const V inverse = select(V(tiny<V>) < combined, one / larger(V(tiny<V>), combined), zero);
+
+    // The tow's moment fades as the tip speed outgrows the speed: a steady tow keeps it whole.
+    const V share = (heading.speed * inverse) * (heading.speed * inverse);
+    const PressurePoint<V> point = pressure_point(c, heading, share);
+    LoadBlocks<V> blocks =
+        moved_by_arm(tow_matrix(c, velocity + cross(omega, point.arm)), point.arm);
+
+    // What a turning body gains along the force it loses along its path, as a windmill does: workless.
+    const Square<V> windmill = outer(point.moment_along_force, velocity);
+    // kappa (omega x (M v), v x (M v)): workless.
+    const Triple<V> momentum = broadcast<V>(c.added_mass) * velocity;
+    const Triple<V> transport = V(c.transport) * momentum;
+    blocks.moment_by_velocity = plus_cross(blocks.moment_by_velocity - windmill, transport);
+    blocks.force_by_turning = plus_cross(blocks.force_by_turning + transposed(windmill), transport);
+
+    const V drag_share = tip_speed * inverse * tip_speed;
+    if (c.working_transport != 0) {
+        const Square<V> working = paid_transport(c, momentum, root(combined), root(drag_share));
+        blocks.moment_by_velocity = blocks.moment_by_velocity + working;
+        blocks.force_by_turning = blocks.force_by_turning + transposed(working);
+    }
+    const V below = larger(zero, one - V(c.reynolds_factor) * heading.speed * V(c.lowest_reynolds_inverse));
+    const V creeping_drag = select(zero < V(c.lowest_reynolds_inverse), V(c.creeping_drag) * below, zero);
+    blocks.moment_by_turning =
+        plus_diagonal(blocks.moment_by_turning + combined * broadcast<V>(c.rotational_drag),
+                      V(c.creeping_turn));
+    blocks.force_by_velocity = plus_diagonal(
+        blocks.force_by_velocity + drag_share * broadcast<V>(c.drag_in_motion), creeping_drag);
+    return blocks;
+}
+
+}  // namespace samara::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

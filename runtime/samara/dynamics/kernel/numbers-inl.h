@@ -1,0 +1,234 @@
+// What the step's formulas are written in: double, or Lanes of a Highway vector, with the same operations.
+// Included once for each instruction set (Highway), hence no plain include guard.
+#if defined(SAMARA_NUMBERS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef SAMARA_NUMBERS_INL_H
+#undef SAMARA_NUMBERS_INL_H
+#else
+#define SAMARA_NUMBERS_INL_H
+#endif
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace samara::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// A vector of numbers of one body each.
+template <class Tag>
+struct Lanes {
+    hn::Vec<Tag> raw;
+
+    Lanes() = default;
+    HWY_INLINE Lanes(hn::Vec<Tag> value) : raw(value) {}
+    HWY_INLINE Lanes(double value) : raw(hn::Set(Tag(), static_cast<hn::TFromD<Tag>>(value))) {}
+
+    friend HWY_INLINE Lanes operator+(Lanes a, Lanes b) { return hn::Add(a.raw, b.raw); }
+    friend HWY_INLINE Lanes operator-(Lanes a, Lanes b) { return hn::Sub(a.raw, b.raw); }
+    friend HWY_INLINE Lanes operator*(Lanes a, Lanes b) { return hn::Mul(a.raw, b.raw); }
+    friend HWY_INLINE Lanes operator/(Lanes a, Lanes b) { return hn::Div(a.raw, b.raw); }
+    friend HWY_INLINE Lanes operator-(Lanes a) { return hn::Neg(a.raw); }
+    friend HWY_INLINE hn::Mask<Tag> operator<(Lanes a, Lanes b) { return hn::Lt(a.raw, b.raw); }
+    friend HWY_INLINE Lanes root(Lanes a) { return hn::Sqrt(a.raw); }
+    friend HWY_INLINE Lanes magnitude(Lanes a) { return hn::Abs(a.raw); }
+    friend HWY_INLINE Lanes whole_part(Lanes a) { return hn::Floor(a.raw); }
+    friend HWY_INLINE Lanes larger(Lanes a, Lanes b) { return select(a < b, b, a); }
+    friend HWY_INLINE Lanes smaller(Lanes a, Lanes b) { return select(b < a, b, a); }
+    friend HWY_INLINE Lanes select(hn::Mask<Tag> condition, Lanes a, Lanes b) {
+        return hn::IfThenElse(condition, a.raw, b.raw);
+    }
+};
+
+HWY_INLINE double root(double a) { return std::sqrt(a); }
+HWY_INLINE double magnitude(double a) { return std::abs(a); }
+HWY_INLINE double whole_part(double a) { return std::floor(a); }
+HWY_INLINE double larger(double a, double b) { return a < b ? b : a; }
+HWY_INLINE double smaller(double a, double b) { return b < a ? b : a; }
+HWY_INLINE double select(bool condition, double a, double b) { return condition ? a : b; }
+
+template <class V>
+struct NumberTraits;
+template <>
+struct NumberTraits<double> {
+    using Real = double;
+    static HWY_INLINE double power_of_two(double n) {
+        return std::bit_cast<double>((static_cast<std::int64_t>(n) + 1023) << 52);
+    }
+    /// x = mantissa 2^exponent with the mantissa in [1, 2); x > 0 and normal.
+    static HWY_INLINE double exponent(double x) {
+        return static_cast<double>((std::bit_cast<std::int64_t>(x) >> 52) - 1023);
+    }
+    static HWY_INLINE double mantissa(double x) {
+        constexpr std::int64_t bits = (std::int64_t{1} << 52) - 1;
+        return std::bit_cast<double>((std::bit_cast<std::int64_t>(x) & bits) | (std::int64_t{1023} << 52));
+    }
+};
+template <class Tag>
+struct NumberTraits<Lanes<Tag>> {
+    using Real = hn::TFromD<Tag>;
+    using Integers = hn::RebindToSigned<Tag>;
+    static constexpr int fraction_bits = std::numeric_limits<Real>::digits - 1;
+    static constexpr int bias = std::numeric_limits<Real>::max_exponent - 1;
+
+    static HWY_INLINE Lanes<Tag> power_of_two(Lanes<Tag> n) {
+        const Integers integers;
+        // The sum's last bits are n: its exponent field keeps them in place.
+        const auto whole = to_integers(n);
+        return hn::BitCast(Tag(), hn::ShiftLeft<fraction_bits>(hn::Add(whole, hn::Set(integers, bias))));
+    }
+    static HWY_INLINE Lanes<Tag> exponent(Lanes<Tag> x) {
+        const Integers integers;
+        const auto field = hn::ShiftRight<fraction_bits>(hn::BitCast(integers, x.raw));
+        return to_numbers(hn::Sub(field, hn::Set(integers, bias)));
+    }
+    static HWY_INLINE Lanes<Tag> mantissa(Lanes<Tag> x) {
+        const Integers integers;
+        constexpr auto bits = static_cast<hn::TFromD<Integers>>(
+            (static_cast<hn::TFromD<Integers>>(1) << fraction_bits) - 1);
+        const auto fraction = hn::And(hn::BitCast(integers, x.raw), hn::Set(integers, bits));
+        return hn::Or(hn::BitCast(Tag(), fraction), hn::Set(Tag(), Real{1}));
+    }
+
+  private:
+    // Integers of small size by way of a large number's last bits: exact, and on every instruction set.
+    static constexpr double large = 1.5 * static_cast<double>(std::int64_t{1} << fraction_bits);
+    static HWY_INLINE hn::Vec<Integers> to_integers(Lanes<Tag> n) {
+        const Integers integers;
+        const auto base = hn::BitCast(integers, Lanes<Tag>(large).raw);
+        return hn::Sub(hn::BitCast(integers, (n + Lanes<Tag>(large)).raw), base);
+    }
+    static HWY_INLINE Lanes<Tag> to_numbers(hn::Vec<Integers> n) {
+        const Integers integers;
+        const auto base = hn::BitCast(integers, Lanes<Tag>(large).raw);
+        return Lanes<Tag>(hn::BitCast(Tag(), hn::Add(n, base))) - Lanes<Tag>(large);
+    }
+};
+
+template <class V>
+using RealOf = typename NumberTraits<V>::Real;
+template <class V>
+inline constexpr bool in_single_precision = sizeof(RealOf<V>) == 4;
+
+/// A speed (1/s, lengths in body lengths) below which a direction has no meaning; its square is a normal number.
+template <class V>
+inline constexpr double tiny = in_single_precision<V> ? 1e-15 : 1e-140;
+
+/// c[first] + c[first + stride] x + ... in pairs (Estrin's scheme): a short chain, where Horner's rule is a long one.
+template <int first, int stride, int N, class V>
+HWY_INLINE V polynomial_from(const double (&c)[N], V x) {
+    if constexpr (first + stride >= N) {
+        return V(c[first]);
+    } else {
+        const V square = x * x;
+        return polynomial_from<first, 2 * stride>(c, square) +
+               x * polynomial_from<first + stride, 2 * stride>(c, square);
+    }
+}
+/// c[0] + c[1] x + ...
+template <int N, class V>
+HWY_INLINE V polynomial(const double (&c)[N], V x) {
+    return polynomial_from<0, 1>(c, x);
+}
+
+/// The natural logarithm of a positive normal number, to its last bits: twice the series of artanh.
+template <class V>
+HWY_INLINE V logarithm(V x) {
+    using Traits = NumberTraits<V>;
+    constexpr double ln2 = 0.693147180559945309417;
+    const V m = Traits::mantissa(x);
+    const auto above = V(1.41421356237309504880) < m;
+    const V mantissa = select(above, m * V(0.5), m);
+    const V exponent = Traits::exponent(x) + select(above, V(1.0), V(0.0));
+    const V s = (mantissa - V(1.0)) / (mantissa + V(1.0));
+    const V square = s * s;
+    V series;
+    if constexpr (in_single_precision<V>) {
+        constexpr double c[] = {2.0, 2.0 / 3, 2.0 / 5, 2.0 / 7, 2.0 / 9};
+        series = polynomial(c, square);
+    } else {
+        constexpr double c[] = {2.0,      2.0 / 3,  2.0 / 5,  2.0 / 7,  2.0 / 9, 2.0 / 11,
+                                2.0 / 13, 2.0 / 15, 2.0 / 17, 2.0 / 19, 2.0 / 21};
+        series = polynomial(c, square);
+    }
+    return exponent * V(ln2) + s * series;
+}
+
+/// exp(x) - 1 for x <= 0, accurate near zero: Taylor's series about the nearest multiple of ln 2.
+template <class V>
+HWY_INLINE V exponential_less_one(V x) {
+    constexpr double lowest = in_single_precision<V> ? -80.0 : -700.0;
+    constexpr double ln2_high = in_single_precision<V> ? 0.693359375 : 0x1.62e42fee00000p-1;
+    constexpr double ln2_low = in_single_precision<V> ? -2.12194440054690583e-4 : 1.90821492927058770002e-10;
+    const V held = larger(x, V(lowest));
+    const V n = whole_part(held * V(1.44269504088896340736) + V(0.5));
+    const V y = held - n * V(ln2_high) - n * V(ln2_low);
+    V series;
+    if constexpr (in_single_precision<V>) {
+        constexpr double c[] = {1.0, 1.0 / 2, 1.0 / 6, 1.0 / 24, 1.0 / 120, 1.0 / 720, 1.0 / 5040};
+        series = y * polynomial(c, y);
+    } else {
+        constexpr double c[] = {1.0,         1.0 / 2,      1.0 / 6,       1.0 / 24,       1.0 / 120,
+                                1.0 / 720,   1.0 / 5040,   1.0 / 40320,   1.0 / 362880,   1.0 / 3628800,
+                                1.0 / 39916800, 1.0 / 479001600, 1.0 / 6227020800};
+        series = y * polynomial(c, y);
+    }
+    const V power = NumberTraits<V>::power_of_two(n);
+    return power * series + (power - V(1.0));
+}
+
+/// Cosine and sine of a turn's fraction u in [0, 1): of the angle 2 pi u.
+template <class V>
+HWY_INLINE void cosine_and_sine_of_turn(V u, V& cosine, V& sine) {
+    const V quarters = u * V(4.0);
+    const V n = whole_part(quarters + V(0.5));
+    const V angle = (quarters - n) * V(1.57079632679489661923);
+    const V square = angle * angle;
+    V s;
+    V c;
+    if constexpr (in_single_precision<V>) {
+        constexpr double sines[] = {1.0, -1.0 / 6, 1.0 / 120, -1.0 / 5040, 1.0 / 362880};
+        constexpr double cosines[] = {1.0, -1.0 / 2, 1.0 / 24, -1.0 / 720, 1.0 / 40320};
+        s = angle * polynomial(sines, square);
+        c = polynomial(cosines, square);
+    } else {
+        constexpr double sines[] = {1.0,
+                                    -1.0 / 6,
+                                    1.0 / 120,
+                                    -1.0 / 5040,
+                                    1.0 / 362880,
+                                    -1.0 / 39916800,
+                                    1.0 / 6227020800,
+                                    -1.0 / 1307674368000,
+                                    1.0 / 355687428096000};
+        constexpr double cosines[] = {1.0,
+                                      -1.0 / 2,
+                                      1.0 / 24,
+                                      -1.0 / 720,
+                                      1.0 / 40320,
+                                      -1.0 / 3628800,
+                                      1.0 / 479001600,
+                                      -1.0 / 87178291200,
+                                      1.0 / 20922789888000};
+        s = angle * polynomial(sines, square);
+        c = polynomial(cosines, square);
+    }
+    // n = 0 .. 4 quarters are behind the angle.
+    const V odd = n - V(2.0) * whole_part(n * V(0.5));
+    const auto swapped = V(0.5) < odd;
+    const V first = select(swapped, s, c);
+    const V second = select(swapped, c, s);
+    const auto cosine_negative = magnitude(n - V(1.5)) < V(1.0);
+    const auto sine_negative = magnitude(n - V(2.5)) < V(1.0);
+    cosine = select(cosine_negative, -first, first);
+    sine = select(sine_negative, -second, second);
+}
+
+}  // namespace samara::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,176 @@
+// One implicit step (docs/theory, "The step").
+// Included once for each instruction set (Highway), hence no plain include guard.
+#if defined(SAMARA_STEP_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef SAMARA_STEP_INL_H
+#undef SAMARA_STEP_INL_H
+#else
+#define SAMARA_STEP_INL_H
+#endif
+
+#include "samara/dynamics/kernel/loads-inl.h"
+#include "samara/dynamics/step.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace samara::HWY_NAMESPACE {
+
+/// BodyState (step.hpp) in the step's numbers.
+template <class V>
+struct Flight {
+    Triple<V> position;
+    Turn<V> orientation;
+    Triple<V> angular_velocity, velocity;
+    Triple<V> seen_velocity, seen_rotation;
+    Triple<V> angular_acceleration, acceleration;
+};
+
+/// The velocity of the centroid, in body lengths a second.
+template <class V, class Real>
+HWY_INLINE Triple<V> centroid_velocity(const FlightConstants<Real>& c, const Flight<V>& flight) {
+    const Triple<V> arm = broadcast<V>(c.center_of_buoyancy);
+    return V(c.inverse_length) * (flight.velocity + cross(flight.angular_velocity, arm));
+}
+
+/// What the passes over one step share: its start.
+template <class V>
+struct StepStart {
+    V h;
+    Triple<V> omega, velocity;
+    Triple<V> angular_momentum, linear_momentum;
+    Triple<V> gravity, seen_rotation, seen_velocity;  // body axes
+};
+
+/// The velocities inside the step, and the turn they were found with.
+template <class V>
+struct StepMiddle {
+    Triple<V> omega, velocity;
+    Triple<V> half_turn;
+    V theta;
+};
+
+/// How stiff the drag is: h max(D_ii / K_ii).
+template <class V, class Real>
+HWY_INLINE V stiffness(const FlightConstants<Real>& c, const LoadBlocks<V>& loads, V h) {
+    const Triple<V> w = broadcast<V>(c.inverse_turning);
+    const Triple<V> v = broadcast<V>(c.inverse_moving);
+    const Square<V>& a = loads.moment_by_turning;
+    const Square<V>& b = loads.force_by_velocity;
+    const V turning = larger(larger(a.x.x * w.x, a.y.y * w.y), a.z.z * w.z);
+    const V moving = larger(larger(b.x.x * v.x, b.y.y * v.y), b.z.z * v.z);
+    return h * larger(turning, moving);
+}
+
+/// Solves the step's system with everything taken at the middle that the pass before found.
+template <class V, class Real>
+HWY_INLINE void improve(const FlightConstants<Real>& c, const StepStart<V>& start, StepMiddle<V>& middle) {
+    const Square<V> turning = broadcast<V>(c.inertia_turning);
+    const Square<V> coupling = broadcast<V>(c.inertia_coupling);
+    const Square<V> moving = broadcast<V>(c.inertia_moving);
+    middle.half_turn = (V(0.5) * start.h) * middle.omega;
+    const Triple<V> gravity = turned_back(middle.half_turn, start.gravity);
+    const Triple<V> angular_momentum = turning * middle.omega + coupling * middle.velocity;
+    const Triple<V> linear_momentum =
+        transposed_times(coupling, middle.omega) + moving * middle.velocity;
+    Square<V> matrix_turning = turning;
+    Square<V> matrix_coupling = coupling;
+    Square<V> matrix_moving = moving;
+    Square<V> matrix_back = transposed(coupling);
+    Triple<V> moment = cross(broadcast<V>(c.weight_moment), gravity);
+    Triple<V> force = V(c.weight) * gravity;
+    V step = V(0.5) * start.h;
+    middle.theta = V(0.5);
+    if (c.loads != Loads::none) {
+        // The seen fluid is fixed in the world while the body turns under it by half the step.
+        const Triple<V> fluid_turning = turned_back(middle.half_turn, start.seen_rotation);
+        const Triple<V> fluid_velocity = turned_back(middle.half_turn, start.seen_velocity);
+        const LoadBlocks<V> loads =
+            load_blocks(c, middle.omega - fluid_turning, middle.velocity - fluid_velocity);
+        const V z = stiffness(c, loads, start.h);
+        middle.theta = (V(3.0) + z) / (V(6.0) + z);
+        step = middle.theta * start.h;
+        matrix_turning = matrix_turning + step * loads.moment_by_turning;
+        matrix_coupling = matrix_coupling + step * loads.moment_by_velocity;
+        matrix_back = matrix_back + step * loads.force_by_turning;
+        matrix_moving = matrix_moving + step * loads.force_by_velocity;
+        moment = moment + loads.moment_by_turning * fluid_turning + loads.moment_by_velocity * fluid_velocity;
+        force = force + loads.force_by_turning * fluid_turning + loads.force_by_velocity * fluid_velocity;
+    }
+    matrix_turning = plus_cross(matrix_turning, -step * angular_momentum);
+    matrix_coupling = plus_cross(matrix_coupling, -step * linear_momentum);
+    matrix_back = plus_cross(matrix_back, -step * linear_momentum);
+    const Triple<V> right_moment = start.angular_momentum + step * moment;
+    const Triple<V> right_force = start.linear_momentum + step * force;
+
+    // The velocity is eliminated: its block, then what is left for the turning.
+    const Square<V> factors = factorised(matrix_moving);
+    const Square<V> columns = transposed(matrix_back);
+    const Square<V> solutions{solved(factors, columns.x), solved(factors, columns.y),
+                              solved(factors, columns.z)};
+    const Triple<V> rest = solved(factors, right_force);
+    const Square<V> left{matrix_turning.x - solutions * matrix_coupling.x,
+                         matrix_turning.y - solutions * matrix_coupling.y,
+                         matrix_turning.z - solutions * matrix_coupling.z};
+    middle.omega = solved(factorised(left), right_moment - matrix_coupling * rest);
+    middle.velocity = rest - transposed_times(solutions, middle.omega);
+}
+
+/// One implicit step over h under a gravity (world axes). The middle of the step is guessed by the acceleration of
+/// the step before; two passes make it good to second order and more.
+template <class V, class Real>
+HWY_INLINE void implicit_step(const FlightConstants<Real>& c, const Triple<V>& gravity, V h, Flight<V>& flight) {
+    const Square<V> to_world = rotation_matrix(flight.orientation);
+    StepStart<V> start;
+    start.h = h;
+    start.omega = flight.angular_velocity;
+    start.velocity = centroid_velocity(c, flight);
+    start.angular_momentum = broadcast<V>(c.inertia_turning) * start.omega +
+                             broadcast<V>(c.inertia_coupling) * start.velocity;
+    start.linear_momentum = transposed_times(broadcast<V>(c.inertia_coupling), start.omega) +
+                            broadcast<V>(c.inertia_moving) * start.velocity;
+    start.gravity = transposed_times(to_world, gravity);
+    start.seen_rotation = transposed_times(to_world, flight.seen_rotation);
+    start.seen_velocity = V(c.inverse_length) * transposed_times(to_world, flight.seen_velocity);
+
+    const Triple<V> arm = broadcast<V>(c.center_of_buoyancy);
+    const V half = V(0.5) * h;
+    StepMiddle<V> middle;
+    middle.omega = start.omega + half * flight.angular_acceleration;
+    middle.velocity = start.velocity + (half * V(c.inverse_length)) *
+                                           (flight.acceleration + cross(flight.angular_acceleration, arm));
+    improve(c, start, middle);
+    improve(c, start, middle);
+
+    const V whole = V(1.0) / middle.theta;
+    const Triple<V> middle_velocity = V(c.length) * middle.velocity - cross(middle.omega, arm);
+    // The same turn that carried gravity: what gravity works is then what the height gives.
+    flight.position =
+        flight.position + h * (to_world * turned_back(-middle.half_turn, middle_velocity));
+    flight.orientation = turned_by(flight.orientation, middle.half_turn);
+    flight.angular_velocity = start.omega + whole * (middle.omega - start.omega);
+    const Triple<V> velocity = start.velocity + whole * (middle.velocity - start.velocity);
+    const Triple<V> end_velocity = V(c.length) * velocity - cross(flight.angular_velocity, arm);
+    const V rate = V(1.0) / h;
+    flight.angular_acceleration = rate * (flight.angular_velocity - start.omega);
+    flight.acceleration = rate * (end_velocity - flight.velocity);
+    flight.velocity = end_velocity;
+}
+
+/// The rate (1/s) at which the body turns, or would turn by its Munk moment.
+template <class V, class Real>
+HWY_INLINE V turning_rate(const FlightConstants<Real>& c, const Flight<V>& flight) {
+    const Triple<V> velocity = centroid_velocity(c, flight);
+    return root(dot(flight.angular_velocity, flight.angular_velocity)) +
+           V(c.munk_rate) * root(dot(velocity, velocity));
+}
+
+/// Into how many equal parts the step is cut: each turns the body by at most 0.3 rad, as far as the limit on
+/// their number allows.
+template <class V, class Real>
+HWY_INLINE V substeps_of(const FlightConstants<Real>& c, V h, const Flight<V>& flight) {
+    const V turns = h * turning_rate(c, flight) * V(1.0 / 0.3);
+    return -whole_part(-smaller(V(most_substeps), larger(V(1.0), turns)));
+}
+
+}  // namespace samara::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,17 @@
+#pragma once
+
+namespace samara {
+
+/// Three numbers: a vector whose components are plain numbers, or as many lanes of them as the machine holds.
+template <class Number>
+struct Triple {
+    Number x, y, z;
+};
+
+/// A 3x3 matrix by its rows.
+template <class Number>
+struct Square {
+    Triple<Number> x, y, z;
+};
+
+}  // namespace samara
