@@ -1,6 +1,7 @@
 // samara info: what a file holds, its units and its provenance.
 
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -10,6 +11,7 @@
 #include "samara/base/error.hpp"
 #include "samara/body/body_file.hpp"
 #include "samara/command/arguments.hpp"
+#include "samara/command/progress.hpp"
 #include "samara/files/hdf5_file.hpp"
 #include "samara/motion/description.hpp"
 #include "samara/motion/motion_file.hpp"
@@ -24,9 +26,12 @@ nlohmann::json report_body(const std::string& path, bool json) {
 }
 
 nlohmann::json report_motion(const std::string& path, bool json) {
-    const Motion motion = read_motion_file(path);
-    if (!json) fmt::print("{}", describe_motion_text(motion));
-    return describe_motion(motion);
+    const MotionReader file(path);
+    Progress progress("measuring", "poses");
+    const std::vector<BodyMeasures> measures =
+        measure_file(file, 0, [&](double done, double total) { progress.update(done, total); });
+    if (!json) fmt::print("{}", describe_motion_text(file.motion(), measures));
+    return describe_motion(file.motion(), measures);
 }
 
 /// A kind of file, known by a group that it alone has.

@@ -17,8 +17,9 @@
 #include "samara/command/load_body.hpp"
 #include "samara/command/progress.hpp"
 #include "samara/kirchhoff/kirchhoff_solver.hpp"
-#include "samara/motion/measures.hpp"
+#include "samara/motion/description.hpp"
 #include "samara/motion/motion_file.hpp"
+#include "samara/motion/motion_writer.hpp"
 #include "samara/scene/scene_file.hpp"
 #include "samara/simulation/simulation.hpp"
 
@@ -32,6 +33,7 @@ struct Request {
     std::uint64_t seed = 0;
     double step = 0.0;
     int runs = 1;
+    int threads = 0;
 };
 
 std::atomic<bool> interrupted = false;
@@ -82,47 +84,71 @@ CastBody cast_body(const SceneBody& scene_body, const std::string& bodies) {
     return cast;
 }
 
-void warn_of_reynolds_numbers(const Scene& scene, const std::vector<CastBody>& cast,
-                              const SimulationReport& report) {
-    for (std::size_t i = 0; i < cast.size(); ++i) {
-        const bool uses_tables =
-            scene.bodies[i].loads == Loads::table || scene.bodies[i].turbulence == Turbulence::table;
-        if (!uses_tables) continue;
-        const double highest = cast[i].body.tables->reynolds_numbers.back();
-        // A table of one Reynolds number is made for the terminal speed: swings around it are expected.
-        if (report.highest_reynolds_number[i] > 2.0 * highest) {
-            fmt::print(
-                stderr,
-                "samara simulate: note: '{}' reached the Reynolds number {:.3g}, its table ends at {:.3g}: "
-                "its last values were held\n",
-                scene.bodies[i].name, report.highest_reynolds_number[i], highest);
-        }
+void note(const std::string& text) {
+    fmt::print(stderr, "samara simulate: note: {}\n", text);
+}
+
+/// Says where coefficients were held at an end of their tables.
+void warn_of_reynolds_numbers(const SceneBody& scene_body, const Body& body, const FlightReport& report) {
+    if (scene_body.loads != Loads::table && scene_body.turbulence != Turbulence::table) return;
+    const double lowest = body.tables->reynolds_numbers.front();
+    const double highest = body.tables->reynolds_numbers.back();
+    // A table of one Reynolds number is made for the terminal speed: swings around it are expected.
+    if (report.highest_reynolds_number > 2.0 * highest) {
+        note(
+            fmt::format("'{}' reached the Reynolds number {:.3g}, its table ends at {:.3g}: its last values "
+                        "were held",
+                        scene_body.name, report.highest_reynolds_number, highest));
+    }
+    const double share = share_below_table(report);
+    if (scene_body.loads == Loads::table && share > 0.5) {
+        note(
+            fmt::format("'{}' moved below its table's lowest Reynolds number, {:.3g}, for {:.0f} % of its "
+                        "flight: there Stokes resistance is added to the table's first values",
+                        scene_body.name, lowest, 100.0 * share));
     }
 }
 
-nlohmann::json body_result(const Motion& motion, const BodyMotion& body) {
-    const BodyMeasures measures = measure_all(motion, body);
-    return {{"name", body.name},
-            {"mean_velocity", as_json(measures.mean_velocity)},
-            {"mean_descent_speed", measures.descent_speed},
-            {"descent_speed_deviation", measures.descent_speed_deviation},
-            {"final_position", as_json(motion.pose(body, 0, motion.frames() - 1, 0).position)},
-            {"inclination_amplitude", measures.inclination_amplitude},
-            {"frequency", measures.frequency ? nlohmann::json(*measures.frequency) : nlohmann::json()},
-            {"rms_angular_speed", measures.rms_angular_speed},
-            {"regime", name_of(measures.regime)},
-            {"regime_share", measures.regime_share},
-            {"models", body.models}};
+void warn_of_substeps(const SimulationReport& report) {
+    if (report.steps_at_limit == 0) return;
+    note(
+        fmt::format("in {} of {} steps a body turned so fast that {} substeps were too few for 0.3 rad "
+                    "each; use a smaller step",
+                    report.steps_at_limit, report.steps, most_substeps));
 }
 
-void print_body(const nlohmann::json& body) {
-    constexpr double degrees = 180.0 / 3.14159265358979323846;
-    fmt::print("{}: {}, descends at {:.4g} m/s, inclination up to {:.3g} degrees",
-               body["name"].get<std::string>(), body["regime"].get<std::string>(),
-               body["mean_descent_speed"].get<double>(),
-               degrees * body["inclination_amplitude"].get<double>());
-    if (!body["frequency"].is_null()) fmt::print(", {:.3g} Hz", body["frequency"].get<double>());
-    fmt::print("\n  {}\n", body["models"].get<std::string>());
+/// Flies the scene into the motion file.
+SimulationReport fly(Simulation& simulation, const std::string& output) {
+    SimulationReport report;
+    write_motion_file(output, simulation.motion(), [&](MotionWriter& writer) {
+        Progress progress("simulating", "steps");
+        report = simulation.fly([&](std::size_t body, std::size_t first,
+                                    const std::vector<Pose>& poses) { writer.write(body, first, poses); },
+                                [&](double done, double total) {
+                                    progress.update(done, total);
+                                    return !interrupted;
+                                });
+        writer.finish(report.frames);
+    });
+    if (report.interrupted) {
+        throw Error(fmt::format("interrupted at {:g} of {:g} s: {} holds the {} frames until then",
+                                simulation.motion().times[report.frames - 1],
+                                simulation.motion().times.back(), output, report.frames));
+    }
+    return report;
+}
+
+nlohmann::json body_result(const MotionReader& file, std::size_t index, const BodyMeasures& measures,
+                           const FlightReport& report) {
+    const BodyMotion& body = file.motion().bodies[index];
+    nlohmann::json result = as_json(measures);
+    result["name"] = body.name;
+    result["models"] = body.models;
+    result["mean_descent_speed"] = measures.descent_speed;
+    result["final_position"] = as_json(file.poses(index, {}).back().position);
+    result["highest_reynolds_number"] = report.highest_reynolds_number;
+    result["share_below_table"] = share_below_table(report);
+    return result;
 }
 
 nlohmann::json run(const Request& request, const Arguments& arguments) {
@@ -135,31 +161,39 @@ nlohmann::json run(const Request& request, const Arguments& arguments) {
 
     std::signal(SIGINT, note_interrupt);
     std::signal(SIGTERM, note_interrupt);
-    SimulationResult result;
-    {
-        Progress progress("simulating", "steps");
-        result = simulate(scene, cast, request.runs, [&](double done, double total) {
-            progress.update(done, total);
-            return !interrupted;
-        });
+    Simulation simulation(scene, cast, request.runs, request.threads);
+    const SimulationReport report = fly(simulation, request.output);
+    std::signal(SIGINT, SIG_DFL);  // the file stands
+    std::signal(SIGTERM, SIG_DFL);
+    for (std::size_t i = 0; i < cast.size(); ++i) {
+        warn_of_reynolds_numbers(scene.bodies[i], cast[i].body, report.bodies[i]);
     }
-    write_motion_file(request.output, result.motion);
-    warn_of_reynolds_numbers(scene, cast, result.report);
+    warn_of_substeps(report);
 
+    const MotionReader file(request.output);
+    Progress progress("measuring", "poses");
+    const std::vector<BodyMeasures> measures =
+        measure_file(file, request.threads, [&](double done, double total) { progress.update(done, total); });
     nlohmann::json bodies = nlohmann::json::array();
-    for (const BodyMotion& body : result.motion.bodies) bodies.push_back(body_result(result.motion, body));
-    const auto steps = static_cast<double>(result.report.steps);
-    const double nanoseconds = steps > 0.0 ? 1e9 * result.report.seconds / steps : 0.0;
+    for (std::size_t i = 0; i < measures.size(); ++i) {
+        bodies.push_back(body_result(file, i, measures[i], report.bodies[i]));
+        if (arguments.json()) continue;
+        const BodyMotion& body = file.motion().bodies[i];
+        fmt::print("{}\n{}  {}\n", body.name, as_text(measures[i]), body.models);
+    }
+    const auto steps = static_cast<double>(report.steps);
+    const double nanoseconds = steps > 0.0 ? 1e9 * report.seconds / steps : 0.0;
     if (!arguments.json()) {
-        for (const auto& body : bodies) print_body(body);
-        fmt::print("{} steps in {:.3g} s, {:.0f} ns each -> {}\n", result.report.steps, result.report.seconds,
-                   nanoseconds, request.output);
+        fmt::print("{} steps in {:.3g} s, {:.0f} ns each -> {}\n", report.steps, report.seconds, nanoseconds,
+                   request.output);
     }
     return {{"bodies", bodies},
-            {"steps", result.report.steps},
-            {"implicit_steps", result.report.implicit_steps},
-            {"most_substeps", result.report.most_substeps},
-            {"seconds", result.report.seconds},
+            {"frames", report.frames},
+            {"steps", report.steps},
+            {"implicit_steps", report.implicit_steps},
+            {"most_substeps", report.most_substeps},
+            {"steps_at_limit", report.steps_at_limit},
+            {"seconds", report.seconds},
             {"nanoseconds_per_step", nanoseconds},
             {"output", request.output}};
 }
@@ -177,11 +211,15 @@ int simulate_command(int argc, const char* const* argv) {
     arguments.option("--seed", request.seed, "seed of the noise, instead of the scene's");
     arguments.option("--step", request.step, "time step (s), instead of the scene's", 1e-9, 1e3);
     arguments.option("--runs", request.runs, "runs that differ by their noise alone", 1, 1'000'000);
+    arguments.option("--threads", request.threads,
+                     "threads, 0: all cores; the motion is the same for any number", 0, 4096);
     arguments.footer(
-        "--json: bodies (a list with name, mean_velocity, mean_descent_speed, final_position, regime, ...), "
-        "steps,\n"
-        "seconds, nanoseconds_per_step. Speeds in m/s over the last two thirds of the fall, angles in "
-        "radians.\n");
+        "--json: bodies (a list with name, mean_velocity, mean_descent_speed, final_position, regime, and "
+        "the\n"
+        "figures of the ensemble of copies and runs: docs/output.md), steps, seconds, nanoseconds_per_step.\n"
+        "Speeds in m/s over the last two thirds of the fall, angles in radians. An interrupt (Ctrl-C) "
+        "leaves\n"
+        "the frames flown so far as a motion file.\n");
     return run_program(argc, argv, arguments, [&] { return run(request, arguments); });
 }
 

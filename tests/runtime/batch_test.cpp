@@ -32,8 +32,8 @@ ImmersedBody coefficient_body() {
 }
 
 BodyState start_of(std::size_t i) {
-    BodyState state = test::tumbling_state(0.05 + 0.001 * static_cast<double>(i % 200),
-                                           0.1 * static_cast<double>(i % 97));
+    BodyState state =
+        test::tumbling_state(0.05 + 0.001 * static_cast<double>(i % 200), 0.1 * static_cast<double>(i % 97));
     state.position = Vector3d(0.01 * static_cast<double>(i), -0.1, 0.2);
     return state;
 }
@@ -184,7 +184,8 @@ TEST(FloatBatch, KeepsTheEnergyOfFreeMotionAndNeverGainsWithLoads) {
     FloatBatch slowed = started<float>(body, first(64));
     for (int i = 0; i < 50; ++i) {
         std::vector<double> before;
-        for (std::size_t k = 0; k < slowed.size(); ++k) before.push_back(kinetic_energy(body, slowed.state(k)));
+        for (std::size_t k = 0; k < slowed.size(); ++k)
+            before.push_back(kinetic_energy(body, slowed.state(k)));
         slowed.advance(still, 0.0, 1.0 / 24.0, 0, 1);
         for (std::size_t k = 0; k < slowed.size(); ++k) {
             ASSERT_LE(kinetic_energy(body, slowed.state(k)), before[k] * (1.0 + 1e-5));

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "samara/base/error.hpp"
+#include "samara/motion/ensemble.hpp"
 #include "samara/motion/inclination.hpp"
 #include "synthetic_motion.hpp"
 

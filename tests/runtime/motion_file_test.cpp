@@ -11,6 +11,7 @@
 #include "samara/files/hdf5_file.hpp"
 #include "samara/files/replace_file.hpp"
 #include "samara/motion/description.hpp"
+#include "samara/motion/motion_writer.hpp"
 #include "support/temporary_folder.hpp"
 #include "synthetic_motion.hpp"
 
@@ -129,6 +130,59 @@ TEST(MotionFile, HoldsManyPosesInBoundedChunks) {
     EXPECT_EQ(read_motion_file(folder / "motion.h5").bodies[0].poses.back().position.z(), 7.0);
 }
 
+TEST(MotionFile, WrittenBlockByBlockHasTheBytesOfOneWrittenWhole) {
+    const TemporaryFolder folder;
+    // More frames than a block holds.
+    const Motion motion = test::motion_of([](double t) { return test::tumble(t, 1.0, 1.0); }, 10.0, 1000.0);
+    write_motion_file(folder / "whole.h5", motion);
+    Motion empty = motion;
+    empty.bodies[0].poses.clear();
+    const std::size_t block = frames_in_block(motion);
+    ASSERT_LT(block, motion.times.size());
+    write_motion_file(folder / "blocks.h5", empty, [&](MotionWriter& writer) {
+        const auto& poses = motion.bodies[0].poses;
+        for (std::size_t first = 0; first < poses.size(); first += block) {
+            const std::size_t end = std::min(first + block, poses.size());
+            writer.write(0, first, {poses.data() + first, poses.data() + end});
+        }
+        writer.finish(poses.size());
+    });
+    EXPECT_EQ(read_bytes(folder / "whole.h5"), read_bytes(folder / "blocks.h5"));
+    const Motion read = read_motion_file(folder / "blocks.h5");
+    EXPECT_EQ(read.bodies[0].poses[5000].position, motion.bodies[0].poses[5000].position);
+}
+
+TEST(MotionFile, IsReadInPartsThatMakeUpTheWhole) {
+    const TemporaryFolder folder;
+    const Motion motion = two_bodies();
+    write_motion_file(folder / "motion.h5", motion);
+    const MotionReader reader(folder / "motion.h5");
+    ASSERT_EQ(reader.motion().bodies.size(), 2U);
+    for (std::size_t i = 0; i < 2; ++i) {
+        const BodyMotion& body = motion.bodies[i];
+        const PoseBlock last{motion.runs - 1, 1, body.copies - 1, 1};
+        const std::vector<Pose> poses = reader.poses(i, last);
+        ASSERT_EQ(poses.size(), motion.times.size());
+        for (int frame = 0; frame < motion.frames(); ++frame) {
+            EXPECT_EQ(poses[static_cast<std::size_t>(frame)].position,
+                      motion.pose(body, last.first_run, frame, last.first_copy).position);
+        }
+    }
+}
+
+TEST(MotionFile, ThatTheDiskHasNoRoomForIsRefusedAndLeavesNothing) {
+    const TemporaryFolder folder;
+    Motion motion = test::motion_of([](double t) { return test::tumble(t, 1.0, 1.0); }, 1.0);
+    motion.runs = 2'000'000;
+    motion.bodies[0].copies = 1'000'000;
+    bool filled = false;
+    const std::string error = error_of(
+        [&] { write_motion_file(folder / "motion.h5", motion, [&](MotionWriter&) { filled = true; }); });
+    EXPECT_THAT(error, AllOf(HasSubstr("motion.h5"), HasSubstr("no room")));
+    EXPECT_FALSE(filled);
+    EXPECT_EQ(folder.file_count(), 0);
+}
+
 TEST(MotionFile, RefusesFilesOfOtherKinds) {
     const TemporaryFolder folder;
     EXPECT_THAT(reading_error(folder / "none.h5"), HasSubstr("no such file"));
@@ -228,14 +282,16 @@ TEST(MotionFile, IsNotWrittenFromAMotionThatBreaksItsRules) {
 
 TEST(MotionDescription, NamesBodiesRunsAndMeasures) {
     const Motion motion = two_bodies();
-    const nlohmann::json json = describe_motion(motion);
+    std::vector<BodyMeasures> measures;
+    for (const BodyMotion& body : motion.bodies) measures.push_back(measure_all(motion, body));
+    const nlohmann::json json = describe_motion(motion, measures);
     EXPECT_EQ(json["kind"], "motion");
     EXPECT_EQ(json["runs"], 2);
     EXPECT_EQ(json["seed"], motion.seed);
     EXPECT_EQ(json["bodies"][1]["copies"], 2);
     EXPECT_EQ(json["bodies"][0]["name"], "z first");
     EXPECT_TRUE(json["bodies"][0]["descent_speed"].is_number());
-    const std::string text = describe_motion_text(motion);
+    const std::string text = describe_motion_text(motion, measures);
     EXPECT_THAT(text, AllOf(HasSubstr("body z first"), HasSubstr("2 copies"), HasSubstr("m/s")));
     EXPECT_EQ(text.back(), '\n');
 }

@@ -52,6 +52,8 @@ TEST_F(SceneFile, ValuesNotGivenHaveTheirDocumentedDefaults) {
     EXPECT_EQ(scene.seed, 1U);
     EXPECT_EQ(scene.gravity, Vector3d(0, 0, -9.81));
     EXPECT_EQ(scene.fluid.density, 998.2);
+    EXPECT_FALSE(scene.ground.has_value());
+    EXPECT_TRUE(scene.fluid.gust.amplitude.isZero(0.0));
     EXPECT_EQ(scene.bodies.at(0).loads, Loads::table);
     EXPECT_EQ(scene.bodies.at(0).turbulence, Turbulence::table);
     EXPECT_EQ(scene.bodies.at(0).langevin, Langevin::seen_fluid);
@@ -61,7 +63,8 @@ TEST_F(SceneFile, ValuesNotGivenHaveTheirDocumentedDefaults) {
 TEST_F(SceneFile, EveryKeyIsRead) {
     const Scene scene = read(
         "[scene]\nduration = 2\nstep = 0.01\nframe_rate = 24\nseed = 9\ngravity = [0, 1, 0]\n"
-        "[fluid]\ndensity = 2.0\nviscosity = 0.5\ncurrent = [1, 2, 3]\n"
+        "ground = -2\n[fluid]\ndensity = 2.0\nviscosity = 0.5\ncurrent = [1, 2, 3]\n"
+        "gust = { amplitude = [0, 0.5, 0], period = 2 }\n"
         "[[body]]\nname = \"a\"\nshape = \"ball.stl\"\nscale = 0.5\nmass = 3\ncenter_of_mass = [0.1, 0, 0]\n"
         "inertia = [1, 2, 2.5]\nposition = [1, 1, 1]\norientation = [0, 2, 0, 0]\nvelocity = [1, 0, 0]\n"
         "angular_velocity = [0, 1, 0]\nstart = 0.5\ncount = 3\nspread = { position = [1, 2, 3], angle = 0.5 "
@@ -70,7 +73,10 @@ TEST_F(SceneFile, EveryKeyIsRead) {
         "normal = [0, 0, 2]\ncenter_of_pressure = [0, 0, 0.1]\nturbulence = \"constant\"\n"
         "turbulent_kinetic_energy = 0.1\ndissipation_rate = 0.2\nlangevin = \"body-velocity\"\n");
     const SceneBody& body = scene.bodies.at(0);
+    EXPECT_EQ(scene.ground, -2.0);
     EXPECT_EQ(scene.fluid.current, Vector3d(1, 2, 3));
+    EXPECT_EQ(scene.fluid.gust.amplitude, Vector3d(0, 0.5, 0));
+    EXPECT_EQ(scene.fluid.gust.period, 2.0);
     EXPECT_EQ(body.mass.mass, 3.0);
     EXPECT_EQ((*body.mass.inertia)(2, 2), 2.5);
     EXPECT_EQ(body.orientation.coeffs(), Eigen::Vector4d(1, 0, 0, 0));
@@ -97,6 +103,18 @@ TEST_F(SceneFile, AValueOutOfRangeIsRefusedWithItsLine) {
     EXPECT_THAT(refusal("[scene]\nduration = 0\n"), HasSubstr("scene.toml:2: duration"));
     EXPECT_THAT(refusal(with_body("density = 1\ncount = 0")), HasSubstr("count"));
     EXPECT_THAT(refusal(with_body("density = 1\nloads = \"magic\"")), HasSubstr("\"table\""));
+}
+
+TEST_F(SceneFile, AGustNeedsAFiniteAmplitudeAndAPeriodAboveZero) {
+    const auto with_gust = [&](const std::string& gust) {
+        return refusal("[scene]\nduration = 1\n[fluid]\ngust = { " + gust + " }\n");
+    };
+    EXPECT_THAT(with_gust("amplitude = [0, 0, 1]"), HasSubstr("scene.toml:4: period in [gust] is missing"));
+    EXPECT_THAT(with_gust("period = 1"), HasSubstr("amplitude in [gust] is missing"));
+    EXPECT_THAT(with_gust("amplitude = [0, 0, 1], period = 0"), HasSubstr("period in [gust] must be"));
+    EXPECT_THAT(with_gust("amplitude = [0, nan, 1], period = 1"), HasSubstr("amplitude in [gust] must"));
+    EXPECT_THAT(with_gust("amplitude = [0, 0, 1], period = 1, phase = 1"), HasSubstr("unknown key 'phase'"));
+    EXPECT_THAT(refusal("[scene]\nduration = 1\nground = inf\n"), HasSubstr("scene.toml:3: ground"));
 }
 
 TEST_F(SceneFile, AMissingFileOrKeyIsNamed) {

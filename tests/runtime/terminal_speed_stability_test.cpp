@@ -25,7 +25,7 @@ BodyState flown(const ImmersedBody& body, BodyState state, double h, double dura
     const Noise noise(1, "body", 0, 0);
     const auto steps = static_cast<std::uint64_t>(std::lround(duration / h));
     for (std::uint64_t i = 0; i < steps; ++i) {
-        state = advance(body, {.gravity = earth}, static_cast<double>(i) * h, h, state, noise, i).state;
+        state = advance(body, {.gravity = earth}, 0.0, h, state, noise, i).state;
     }
     return state;
 }

@@ -162,7 +162,7 @@ void LiveSimulation::advance_one_step(Kind& kind) {
         kind.before_time[i] = begin;
     }
     const BatchReport done =
-        kind.batch.advance(settings_.surroundings, begin, settings_.step, kind.steps, 1, settings_.threads);
+        kind.batch.advance(settings_.surroundings, kind.given.start, settings_.step, kind.steps, 1, settings_.threads);
     ++kind.steps;
     report_.steps += kind.batch.size();
     report_.substeps += done.implicit_steps;

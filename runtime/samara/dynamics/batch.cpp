@@ -1,15 +1,47 @@
 #include "samara/dynamics/batch.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <mutex>
 
 #include "samara/base/parallel_for.hpp"
+#include "samara/dynamics/ground_contact.hpp"
 #include "samara/dynamics/kernel/kernel.hpp"
 
 namespace samara {
 namespace {
 
 constexpr std::size_t blocks_a_piece = 64;
+
+/// The ground that the bodies of a batch touch.
+struct BatchGround {
+    const ImmersedBody& body;
+    const Surroundings& surroundings;
+
+    static void resolve(const void* context, double time, double substep, const BodyState& before,
+                        BodyState& state) noexcept {
+        const auto& ground = *static_cast<const BatchGround*>(context);
+        touch_ground(ground.body, ground_in_flow(ground.surroundings, time - substep, time), substep, before,
+                     state);
+    }
+
+    [[nodiscard]] kernel::Contact contact(double start, double time_step, std::uint64_t first_step,
+                                          std::uint64_t steps) const noexcept {
+        if (!surroundings.ground) return {};
+        const double radius = body.contact_points.bounding_radius;
+        const double fastest = surroundings.current.norm() + surroundings.gust.amplitude.norm();
+        double highest = -std::numeric_limits<double>::infinity();
+        for (std::uint64_t step = first_step; step <= first_step + steps; ++step) {
+            const double time = step_time(start, time_step, step);
+            highest = std::max(highest, *surroundings.ground - flow_displacement(surroundings, time).z());
+        }
+        return {.resolve = resolve,
+                .context = this,
+                .reach = highest + radius + fastest * time_step,
+                .radius = radius,
+                .ground_speed = fastest};
+    }
+};
 
 }  // namespace
 
@@ -48,18 +80,20 @@ void BasicBatch<Real>::set_noise(std::size_t index, const Noise& noise) noexcept
 }
 
 template <class Real>
-BatchReport BasicBatch<Real>::advance(const Surroundings& surroundings, double time, double time_step,
+BatchReport BasicBatch<Real>::advance(const Surroundings& surroundings, double start, double time_step,
                                       std::uint64_t first_step, std::uint64_t steps, int threads) {
     std::vector<Vector3d> gravities;
-    for (std::uint64_t step = 0; step < steps; ++step) {
-        const double begin = time + static_cast<double>(step) * time_step;
-        gravities.push_back(apparent_gravity(surroundings, begin, begin + time_step));
+    for (std::uint64_t step = first_step; step < first_step + steps; ++step) {
+        gravities.push_back(apparent_gravity(surroundings, step_time(start, time_step, step),
+                                             step_time(start, time_step, step + 1)));
     }
+    const BatchGround ground{*body_, surroundings};
     const kernel::BlockSteps task{.gravities = gravities.data(),
-                                  .time = time,
+                                  .start = start,
                                   .time_step = time_step,
                                   .first_step = first_step,
-                                  .steps = steps};
+                                  .steps = steps,
+                                  .contact = ground.contact(start, time_step, first_step, steps)};
     BatchReport report;
     std::mutex mutex;
     parallel_for(blocks_.size(), blocks_a_piece, threads, [&](std::size_t begin, std::size_t end) {
@@ -68,6 +102,7 @@ BatchReport BasicBatch<Real>::advance(const Surroundings& surroundings, double t
         const std::lock_guard lock(mutex);
         report.implicit_steps += piece.implicit_steps;
         report.most_substeps = std::max(report.most_substeps, piece.most_substeps);
+        report.steps_at_limit += piece.steps_at_limit;
     });
     return report;
 }

@@ -16,12 +16,13 @@ namespace samara {
 struct BatchReport {
     std::uint64_t implicit_steps = 0;  ///< over all bodies
     int most_substeps = 1;             ///< that any body took in one step
+    std::uint64_t steps_at_limit = 0;  ///< steps, over all bodies, that took samara::most_substeps
 };
 
-/// Many bodies of one kind that are stepped together, as many at a time as the machine's vectors hold. Each moves
-/// as advance() moves it alone, whatever its place in the batch, the number of threads and the way the steps are
-/// cut into calls: in double precision to the last bit; in single precision, for crowds, within what docs/stability
-/// states.
+/// Many bodies of one kind that are stepped together, as many at a time as the machine's vectors hold. Each
+/// moves as advance() moves it alone, whatever its place in the batch, the number of threads and the way the
+/// steps are cut into calls: in double precision to the last bit; in single precision, for crowds, within
+/// what docs/stability states.
 template <class Real>
 class BasicBatch {
   public:
@@ -34,9 +35,9 @@ class BasicBatch {
     /// The source of the body's random numbers; without it, that of seed 0, no name, run 0 and copy 0.
     void set_noise(std::size_t index, const Noise& noise) noexcept;
 
-    /// `steps` steps of `time_step` (s) each; the first is the bodies' step number `first_step` and begins at
-    /// `time` (s, of the world). `threads`: 0 for all cores.
-    BatchReport advance(const Surroundings& surroundings, double time, double time_step,
+    /// `steps` steps of `time_step` (s) each; the first is the bodies' step number `first_step`; their
+    /// flight began at `start` (s, of the world). `threads`: 0 for all cores.
+    BatchReport advance(const Surroundings& surroundings, double start, double time_step,
                         std::uint64_t first_step, std::uint64_t steps, int threads = 1);
 
   private:

@@ -6,6 +6,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <fmt/format.h>
 
 #include "samara/base/error.hpp"
@@ -105,6 +106,8 @@ ImmersedBody make_immersed_body(const Body& body, const SceneBody& scene_body, c
             "tensor with more triangles",
             scene_body.name));
     }
+    result.inverse_inertia = result.inertia.inverse();
+    result.contact_points = contact_points(body.surface, mass.center);
     result.turning_scale = turning_scale(result.inertia, result.added_mass);
     result.length = reference_length(body.moments.surface_area);
     result.reference_area = std::numbers::pi * result.length * result.length / 4.0;

@@ -6,6 +6,7 @@
 
 #include "samara/base/linear_algebra.hpp"
 #include "samara/body/body.hpp"
+#include "samara/body/contact_points.hpp"
 #include "samara/dynamics/dynamic_coefficients.hpp"
 #include "samara/dynamics/kernel/flight_constants.hpp"
 #include "samara/scene/scene.hpp"
@@ -13,7 +14,8 @@
 namespace samara {
 
 /// A body in a fluid, made ready for the time steps: constant while it moves. Body axes are the shape file's,
-/// about the centre of mass unless said otherwise; SI units. Where a member is set by hand, prepare() must follow.
+/// about the centre of mass unless said otherwise; SI units. Where a member is set by hand, prepare() must
+/// follow.
 struct ImmersedBody {
     std::string name;
     double mass = 0.0;                           ///< kg
@@ -26,13 +28,15 @@ struct ImmersedBody {
     Matrix6d inertia = Matrix6d::Identity();  ///< K = K_body + rho_f K_fluid, order (omega, v)
     Matrix6d to_centroid = Matrix6d::Identity();  ///< X: (omega, v) at the centre of mass -> at the centroid
     Matrix3d added_mass = Matrix3d::Zero();       ///< rho_f M (kg)
-    double length = 1.0;                          ///< L = sqrt(S/pi) (m)
-    double reference_area = 0.0;                  ///< A = pi L^2/4 (m^2)
-    double turning_scale = 0.0;  ///< sqrt of the largest ratio of added-mass difference to inertia (1/m):
-                                 ///< with |v| the rate at which the Munk moment turns the body
+    Matrix6d inverse_inertia = Matrix6d::Identity();
+    ContactPoints contact_points;
+    double length = 1.0;          ///< L = sqrt(S/pi) (m)
+    double reference_area = 0.0;  ///< A = pi L^2/4 (m^2)
+    double turning_scale = 0.0;   ///< sqrt of the largest ratio of added-mass difference to inertia (1/m):
+                                  ///< with |v| the rate at which the Munk moment turns the body
 
     Loads loads = Loads::none;
-    CoefficientLoads coefficients;     ///< where loads are coefficients; normal always set
+    CoefficientLoads coefficients;  ///< where loads are coefficients; normal always set
     /// m^2, where loads are coefficients without a reference area: the body's shadow along the nodes of an
     /// octahedral map of `shadow_subdivisions`, row by row.
     std::vector<double> projected_areas;

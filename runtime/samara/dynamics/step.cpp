@@ -1,5 +1,6 @@
 #include "samara/dynamics/step.hpp"
 
+#include "samara/dynamics/ground_contact.hpp"
 #include "samara/dynamics/kernel/kernel.hpp"
 
 namespace samara {
@@ -11,14 +12,19 @@ BodyState implicit_step(const ImmersedBody& body, const Vector3d& gravity, doubl
     return result;
 }
 
-StepResult advance(const ImmersedBody& body, const Surroundings& surroundings, double time, double time_step,
+StepResult advance(const ImmersedBody& body, const Surroundings& surroundings, double start, double time_step,
                    const BodyState& state, const Noise& noise, std::uint64_t step) noexcept {
     StepResult result{state, 1};
     result.substeps = kernel::begin_step(body.constants, time_step, noise, step, result.state);
-    const Vector3d gravity = apparent_gravity(surroundings, time, time + time_step);
+    const double time = step_time(start, time_step, step);
+    const Vector3d gravity = apparent_gravity(surroundings, time, step_time(start, time_step, step + 1));
     const double substep = time_step / result.substeps;
     for (int i = 0; i < result.substeps; ++i) {
+        const BodyState before = result.state;
         kernel::implicit_step(body.constants, gravity, substep, result.state);
+        if (!surroundings.ground) continue;
+        const double end = time + (i + 1) * substep;
+        touch_ground(body, ground_in_flow(surroundings, end - substep, end), substep, before, result.state);
     }
     return result;
 }

@@ -33,13 +33,13 @@ BodyState implicit_step(const ImmersedBody& body, const Vector3d& gravity, doubl
 
 /// One step of the scene: the Langevin update over the time step, then implicit steps over equal parts of it,
 /// so short that the body turns by at most 0.3 rad in each, or as the limit on their number allows. `step` is
-/// the number of the step in the body's flight, for its noise, and `time` the world's (s) at its beginning.
+/// the number of the step in the body's flight, which began at `start` (s, of the world).
 struct StepResult {
     BodyState state;
     int substeps = 1;
 };
 inline constexpr int most_substeps = 64;
-StepResult advance(const ImmersedBody& body, const Surroundings& surroundings, double time, double time_step,
+StepResult advance(const ImmersedBody& body, const Surroundings& surroundings, double start, double time_step,
                    const BodyState& state, const Noise& noise, std::uint64_t step) noexcept;
 
 /// u K u / 2 (J): the kinetic energy of body and fluid.

@@ -1,16 +1,12 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "samara/base/linear_algebra.hpp"
+#include "samara/scene/scene.hpp"
 
 namespace samara {
-
-/// A uniform flow that swings: amplitude sin(2 pi t / period), world axes.
-struct Gust {
-    Vector3d amplitude = Vector3d::Zero();  ///< m/s
-    double period = 1.0;                    ///< s
-};
 
 /// What surrounds the bodies. They move in the frame of the undisturbed flow (current and gust), which
 /// coincides with the world's at time 0: there a current is no fluid motion at all, and a gust is a swinging
@@ -31,5 +27,10 @@ Vector3d flow_displacement(const Surroundings& surroundings, double time) noexce
 /// Gravity less the flow's mean acceleration between two times (m/s^2): what body and fluid both feel in the
 /// flow's frame, so that the buoyancy is that of a swinging fluid.
 Vector3d apparent_gravity(const Surroundings& surroundings, double begin, double end) noexcept;
+
+/// When a step (by its number) of a flight that began at `start` begins (s): one sum, whatever came before.
+inline double step_time(double start, double time_step, std::uint64_t step) noexcept {
+    return start + static_cast<double>(step) * time_step;
+}
 
 }  // namespace samara

@@ -1,10 +1,16 @@
 #include "samara/files/hdf5_file.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include "samara/base/error.hpp"
 #include "samara/files/replace_file.hpp"
@@ -67,7 +73,7 @@ void write_text_attribute(H5::H5Object& object, const std::string& name, std::st
 
 }  // namespace
 
-Hdf5Writer::Hdf5Writer(const std::filesystem::path& file) : file_(create(file)) {}
+Hdf5Writer::Hdf5Writer(const std::filesystem::path& file) : path_(file), file_(create(file)) {}
 
 H5::Group Hdf5Writer::group(const std::string& name) {
     H5::Group current = file_.openGroup("/");
@@ -80,20 +86,37 @@ H5::Group Hdf5Writer::group(const std::string& name) {
     return current;
 }
 
+namespace {
+
+/// The largest chunk of neighbours in a row-major array.
+std::vector<hsize_t> usual_chunk(const std::vector<hsize_t>& dimensions) {
+    std::vector<hsize_t> chunk = dimensions;
+    hsize_t left = largest_chunk;
+    for (std::size_t i = chunk.size(); i-- > 0;) {
+        chunk[i] = std::clamp<hsize_t>(left, 1, std::max<hsize_t>(dimensions[i], 1));
+        left /= chunk[i];
+    }
+    return chunk;
+}
+
+/// The part of a dataset's space at `offset`.
+H5::DataSpace part_of(const H5::DataSet& dataset, const std::vector<hsize_t>& offset,
+                      const std::vector<hsize_t>& shape) {
+    H5::DataSpace space = dataset.getSpace();
+    space.selectHyperslab(H5S_SELECT_SET, shape.data(), offset.data());
+    return space;
+}
+
+}  // namespace
+
 H5::DataSet Hdf5Writer::dataset(const std::string& name, const H5::DataType& type,
-                                const std::vector<hsize_t>& dimensions, std::string_view units,
-                                std::string_view meaning) {
+                                const std::vector<hsize_t>& dimensions, const std::vector<hsize_t>& chunk,
+                                std::string_view units, std::string_view meaning) {
     const std::size_t slash = name.rfind('/');
     H5::Group parent = group(name.substr(0, slash));
     H5::DSetCreatPropList creation = without_times(H5::DSetCreatPropList());
     const bool empty = std::find(dimensions.begin(), dimensions.end(), 0U) != dimensions.end();
     if (!empty) {
-        std::vector<hsize_t> chunk = dimensions;
-        hsize_t left = largest_chunk;
-        for (std::size_t i = chunk.size(); i-- > 0;) {
-            chunk[i] = std::clamp<hsize_t>(left, 1, dimensions[i]);
-            left /= chunk[i];
-        }
         creation.setChunk(static_cast<int>(chunk.size()), chunk.data());
         creation.setFletcher32();
     }
@@ -107,20 +130,62 @@ H5::DataSet Hdf5Writer::dataset(const std::string& name, const H5::DataType& typ
 void Hdf5Writer::write(const std::string& name, const std::vector<double>& values,
                        const std::vector<hsize_t>& dimensions, std::string_view units,
                        std::string_view meaning) {
-    H5::DataSet target = dataset(name, H5::PredType::IEEE_F64LE, dimensions, units, meaning);
-    if (!values.empty()) target.write(values.data(), H5::PredType::NATIVE_DOUBLE);
+    H5::DataSet target =
+        dataset(name, H5::PredType::IEEE_F64LE, dimensions, usual_chunk(dimensions), units, meaning);
+    if (!values.empty()) {
+        write_values(target, values.data(), H5::PredType::NATIVE_DOUBLE, H5::DataSpace::ALL,
+                     H5::DataSpace::ALL);
+    }
 }
 
 void Hdf5Writer::write(const std::string& name, const std::vector<std::int32_t>& values,
                        const std::vector<hsize_t>& dimensions, std::string_view units,
                        std::string_view meaning) {
-    H5::DataSet target = dataset(name, H5::PredType::STD_I32LE, dimensions, units, meaning);
-    if (!values.empty()) target.write(values.data(), H5::PredType::NATIVE_INT32);
+    H5::DataSet target =
+        dataset(name, H5::PredType::STD_I32LE, dimensions, usual_chunk(dimensions), units, meaning);
+    if (!values.empty()) {
+        write_values(target, values.data(), H5::PredType::NATIVE_INT32, H5::DataSpace::ALL,
+                     H5::DataSpace::ALL);
+    }
+}
+
+void Hdf5Writer::reserve(const std::string& name, const std::vector<hsize_t>& dimensions,
+                         const std::vector<hsize_t>& chunk, std::string_view units,
+                         std::string_view meaning) {
+    dataset(name, H5::PredType::IEEE_F64LE, dimensions, chunk, units, meaning);
+}
+
+void Hdf5Writer::write_block(const std::string& name, const std::vector<double>& values,
+                             const std::vector<hsize_t>& offset, const std::vector<hsize_t>& shape) {
+    const H5::DataSet target = file_.openDataSet(name);
+    const H5::DataSpace memory(static_cast<int>(shape.size()), shape.data());
+    write_values(target, values.data(), H5::PredType::NATIVE_DOUBLE, memory, part_of(target, offset, shape));
+}
+
+void Hdf5Writer::write_values(const H5::DataSet& dataset, const void* values, const H5::DataType& type,
+                              const H5::DataSpace& memory, const H5::DataSpace& place) {
+    try {
+        dataset.write(values, type, memory, place);
+        // Small datasets wait in memory until they are closed, where a failure could not be told.
+        if (H5Dflush(dataset.getId()) < 0) throw H5::DataSetIException("write", "H5Dflush failed");
+    } catch (const H5::Exception&) {
+        // Before the dataset is closed: HDF5 cannot close what it cannot write, and crashes when the program
+        // ends.
+        abandon();
+        throw;
+    }
+}
+
+void Hdf5Writer::shorten(const std::string& name, const std::vector<hsize_t>& dimensions) {
+    file_.openDataSet(name).extend(dimensions.data());
 }
 
 void Hdf5Writer::write_text(const std::string& name, std::string_view text, std::string_view meaning) {
-    H5::DataSet target = dataset(name, H5::PredType::STD_U8LE, {text.size()}, "1", meaning);
-    if (!text.empty()) target.write(text.data(), H5::PredType::NATIVE_UINT8);
+    H5::DataSet target =
+        dataset(name, H5::PredType::STD_U8LE, {text.size()}, usual_chunk({text.size()}), "1", meaning);
+    if (!text.empty()) {
+        write_values(target, text.data(), H5::PredType::NATIVE_UINT8, H5::DataSpace::ALL, H5::DataSpace::ALL);
+    }
 }
 
 void Hdf5Writer::attribute(const std::string& object, const std::string& name, std::string_view text) {
@@ -144,6 +209,46 @@ void Hdf5Writer::attribute(const std::string& object, const std::string& name, s
     group(object)
         .createAttribute(name, H5::PredType::STD_U64LE, H5::DataSpace(H5S_SCALAR))
         .write(H5::PredType::NATIVE_UINT64, &value);
+}
+
+void Hdf5Writer::flush() {
+    file_.flush(H5F_SCOPE_GLOBAL);
+}
+
+int Hdf5Writer::descriptor() const {
+    void* handle = nullptr;
+    const bool known = H5Fget_vfd_handle(file_.getId(), H5P_DEFAULT, &handle) >= 0;
+    return known ? *static_cast<const int*>(handle) : -1;
+}
+
+void Hdf5Writer::expect_size(std::uintmax_t bytes) {
+    rlimit limit = {};
+    const bool allowed = ::getrlimit(RLIMIT_FSIZE, &limit) != 0 || bytes <= limit.rlim_cur;
+    if (!allowed) errno = EFBIG;
+    if (allowed && ::fallocate(descriptor(), FALLOC_FL_KEEP_SIZE, 0, static_cast<off_t>(bytes)) == 0) {
+        has_room_ = true;
+    } else if (errno == ENOSPC || errno == EFBIG || errno == EDQUOT) {
+        const int reason = errno;
+        abandon();
+        throw Error(fmt::format("there is no room for its {:.3g} GB: {}", static_cast<double>(bytes) / 1e9,
+                                std::strerror(reason)));
+    }
+}
+
+void Hdf5Writer::abandon() noexcept {
+    const int nowhere = ::memfd_create("abandoned", MFD_CLOEXEC);
+    if (nowhere < 0) return;
+    ::dup2(nowhere, descriptor());
+    ::close(nowhere);
+}
+
+Hdf5Writer::~Hdf5Writer() {
+    try {
+        file_.close();
+        // Room beyond the file's end goes back to the disk.
+        if (has_room_) std::filesystem::resize_file(path_, std::filesystem::file_size(path_));
+    } catch (...) {  // the file was abandoned
+    }
 }
 
 Hdf5Reader::Hdf5Reader(const std::filesystem::path& file) : path_(file), file_(open_for_reading(file)) {}
@@ -206,13 +311,37 @@ std::vector<double> Hdf5Reader::doubles(const std::string& name,
     return read_all<double>(open(name, dimensions), H5::PredType::NATIVE_DOUBLE, H5T_FLOAT, path_, name);
 }
 
+namespace {
+
+void require_finite(const std::vector<double>& values, const std::filesystem::path& path,
+                    const std::string& name) {
+    if (std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); })) return;
+    throw Error(
+        fmt::format("{}: {} holds a value that is not finite; make the file again", path.string(), name));
+}
+
+}  // namespace
+
 std::vector<double> Hdf5Reader::finite_doubles(const std::string& name,
                                                const std::vector<hsize_t>& dimensions) const {
     std::vector<double> values = doubles(name, dimensions);
-    if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); })) {
-        throw Error(fmt::format("{}: {} holds a value that is not finite; make the file again",
-                                path_.string(), name));
+    require_finite(values, path_, name);
+    return values;
+}
+
+std::vector<double> Hdf5Reader::finite_block(const std::string& name, const std::vector<hsize_t>& offset,
+                                             const std::vector<hsize_t>& shape) const {
+    const H5::DataSet dataset = open(name, std::vector<hsize_t>(shape.size(), 0));
+    const H5::DataSpace memory(static_cast<int>(shape.size()), shape.data());
+    std::vector<double> values(static_cast<std::size_t>(memory.getSimpleExtentNpoints()));
+    try {
+        dataset.read(values.data(), H5::PredType::NATIVE_DOUBLE, memory, part_of(dataset, offset, shape));
+    } catch (const H5::Exception&) {
+        throw Error(
+            fmt::format("{}: {} is damaged (its checksum is wrong or it was cut short); make the file again",
+                        path_.string(), name));
     }
+    require_finite(values, path_, name);
     return values;
 }
 
@@ -236,6 +365,18 @@ std::vector<hsize_t> Hdf5Reader::shape(const std::string& name) const {
         return dimensions;
     } catch (const H5::Exception&) {
         throw Error(fmt::format("{}: {} is missing; make the file again", path_.string(), name));
+    }
+}
+
+void Hdf5Reader::require_shape(const std::string& name, const std::vector<hsize_t>& dimensions) const {
+    (void)open(name, dimensions);
+}
+
+bool Hdf5Reader::has_attribute(const std::string& object, const std::string& name) const {
+    try {
+        return file_.openGroup(object).attrExists(name);
+    } catch (const H5::Exception&) {
+        throw Error(fmt::format("{}: {} is missing; make the file again", path_.string(), object));
     }
 }
 
@@ -318,7 +459,13 @@ void write_hdf5(const std::filesystem::path& file, const std::function<void(Hdf5
     replace_file(file, [&](const std::filesystem::path& temporary) {
         try {
             Hdf5Writer writer(temporary);
-            fill(writer);
+            try {
+                fill(writer);
+                writer.flush();
+            } catch (...) {
+                writer.abandon();
+                throw;
+            }
         } catch (const H5::Exception& failure) {
             throw Error(
                 fmt::format("{}: cannot be written ({}); is the folder writable and the disk not full?",

@@ -19,6 +19,9 @@ namespace samara {
 class Hdf5Writer {
   public:
     explicit Hdf5Writer(const std::filesystem::path& file);
+    ~Hdf5Writer();
+    Hdf5Writer(const Hdf5Writer&) = delete;
+    Hdf5Writer& operator=(const Hdf5Writer&) = delete;
 
     /// Row-major values of the shape `dimensions`; `units` becomes the dataset's attribute of that name ("1"
     /// where the values have none), `meaning` its attribute "description".
@@ -26,6 +29,15 @@ class Hdf5Writer {
                const std::vector<hsize_t>& dimensions, std::string_view units, std::string_view meaning);
     void write(const std::string& name, const std::vector<std::int32_t>& values,
                const std::vector<hsize_t>& dimensions, std::string_view units, std::string_view meaning);
+    /// A dataset of doubles that is filled block by block: `dimensions` its shape, `chunk` that of the pieces
+    /// it is stored in. Blocks of whole chunks take the least time, and memory for one chunk.
+    void reserve(const std::string& name, const std::vector<hsize_t>& dimensions,
+                 const std::vector<hsize_t>& chunk, std::string_view units, std::string_view meaning);
+    /// Row-major values of a block of the shape `shape` at `offset` in a dataset that was reserved.
+    void write_block(const std::string& name, const std::vector<double>& values,
+                     const std::vector<hsize_t>& offset, const std::vector<hsize_t>& shape);
+    /// Cuts a reserved dataset to a smaller shape.
+    void shorten(const std::string& name, const std::vector<hsize_t>& dimensions);
     /// A text as a dataset of bytes (no limit on its length).
     void write_text(const std::string& name, std::string_view text, std::string_view meaning);
 
@@ -34,13 +46,29 @@ class Hdf5Writer {
     void attribute(const std::string& object, const std::string& name, std::int64_t value);
     void attribute(const std::string& object, const std::string& name, std::uint64_t value);
 
+    /// Keeps room on the disk for a file of this size, where the file system can. Throws Error where there is
+    /// not enough.
+    void expect_size(std::uintmax_t bytes);
+
+    /// Hands all that was written to the system; throws H5::Exception where the disk is full.
+    void flush();
+
+    /// Lets go of a file that cannot be written to its end: from here on nothing reaches the disk, so that
+    /// HDF5 can close it.
+    void abandon() noexcept;
+
   private:
+    void write_values(const H5::DataSet& dataset, const void* values, const H5::DataType& type,
+                      const H5::DataSpace& memory, const H5::DataSpace& place);
+    [[nodiscard]] int descriptor() const;
     H5::Group group(const std::string& name);
     H5::DataSet dataset(const std::string& name, const H5::DataType& type,
-                        const std::vector<hsize_t>& dimensions, std::string_view units,
-                        std::string_view meaning);
+                        const std::vector<hsize_t>& dimensions, const std::vector<hsize_t>& chunk,
+                        std::string_view units, std::string_view meaning);
 
+    std::filesystem::path path_;
     H5::H5File file_;
+    bool has_room_ = false;  ///< that must be given back
 };
 
 /// Reads one HDF5 file whole: every call checks shape and type, and throws Error with the file's name, the
@@ -56,6 +84,10 @@ class Hdf5Reader {
     /// doubles(), where a value that is not finite is an Error.
     [[nodiscard]] std::vector<double> finite_doubles(const std::string& name,
                                                      const std::vector<hsize_t>& dimensions) const;
+    /// finite_doubles() of the block of the shape `shape` at `offset`, which must lie within the dataset.
+    [[nodiscard]] std::vector<double> finite_block(const std::string& name,
+                                                   const std::vector<hsize_t>& offset,
+                                                   const std::vector<hsize_t>& shape) const;
     [[nodiscard]] std::vector<std::int32_t> integers(const std::string& name,
                                                      const std::vector<hsize_t>& dimensions) const;
     [[nodiscard]] std::string text(const std::string& name) const;
@@ -63,6 +95,9 @@ class Hdf5Reader {
     /// The names of the groups and datasets in a group, sorted.
     [[nodiscard]] std::vector<std::string> children(const std::string& group) const;
 
+    /// Throws Error where the dataset has not this shape.
+    void require_shape(const std::string& name, const std::vector<hsize_t>& dimensions) const;
+    [[nodiscard]] bool has_attribute(const std::string& object, const std::string& name) const;
     [[nodiscard]] std::string text_attribute(const std::string& object, const std::string& name) const;
     [[nodiscard]] double number_attribute(const std::string& object, const std::string& name) const;
     [[nodiscard]] std::int64_t integer_attribute(const std::string& object, const std::string& name) const;

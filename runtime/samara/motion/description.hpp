@@ -1,10 +1,11 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "samara/motion/measures.hpp"
+#include "samara/motion/ensemble.hpp"
 
 namespace samara {
 
@@ -13,14 +14,24 @@ namespace samara {
 /// none), rms_angular_speed rad/s, swings, turnovers, regime.
 nlohmann::json as_json(const Measures& measures);
 
+/// What the copies and runs of a body do, in SI units and radians: samples, mean_velocity [x, y, z],
+/// descent_speed with its _deviation and _error (standard error of the mean), mean_inclination,
+/// inclination_amplitude, frequency (null where there is none), frequency_deviation, rms_angular_speed,
+/// regime, regime_share, regime_confidence [from, to], regimes (counts by name), path_spread,
+/// path_spread_growth (null where nothing spreads), and landing (null where nothing landed): count, at_rest,
+/// mean [x, y, z], spread.
+nlohmann::json as_json(const BodyMeasures& measures);
+
+/// The same for people: lines that are indented by two spaces, each ended.
+std::string as_text(const BodyMeasures& measures);
+
 /// What a motion holds, as a JSON object: kind "motion", start and duration (s), frames, frame_rate (1/s),
-/// runs, gravity (m/s^2), seed, scene (its text), and bodies: for each its name, copies, triangles,
-/// center_of_mass (m, shape axes), body_hash, models, and its measures over all runs and copies:
-/// mean_velocity, descent_speed, descent_speed_deviation, inclination_amplitude, frequency,
-/// rms_angular_speed, regime, regime_share.
-nlohmann::json describe_motion(const Motion& motion);
+/// runs, gravity (m/s^2), ground (m; null without one), seed, scene (its text), and bodies: for each its
+/// name, copies, triangles, center_of_mass (m, shape axes), body_hash, models, and its measures over all runs
+/// and copies. `measures`: one for each body; the motion's poses are not looked at.
+nlohmann::json describe_motion(const Motion& motion, const std::vector<BodyMeasures>& measures);
 
 /// The same for people: a few lines, the last one ended too; without the scene's text.
-std::string describe_motion_text(const Motion& motion);
+std::string describe_motion_text(const Motion& motion, const std::vector<BodyMeasures>& measures);
 
 }  // namespace samara

@@ -1,7 +1,6 @@
 #include "samara/motion/measures.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -15,6 +14,7 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
 constexpr double rest_share = 1e-6;
+constexpr double touching = 1e-3;
 constexpr double steady_range = 5.0 * degree;
 constexpr double horizontal_band = 10.0 * degree;
 constexpr double exception_share = 0.1;
@@ -142,6 +142,19 @@ const char* name_of(Regime regime) {
     }
 }
 
+std::optional<int> landing_frame(const Motion& motion, const BodyMotion& body, int run, int copy) {
+    const ContactPoints& points = body.contact_points;
+    if (!motion.ground || points.bounding_radius == 0.0) return std::nullopt;
+    for (int frame = 0; frame < motion.frames(); ++frame) {
+        const Pose& pose = motion.pose(body, run, frame, copy);
+        const double height = pose.position.z() - *motion.ground;
+        if (height > points.bounding_radius * (1.0 + touching)) continue;
+        const Vector3d down = pose.orientation.conjugate() * -Vector3d::UnitZ();
+        if (height - reach(points, down) <= touching * points.bounding_radius) return frame;
+    }
+    return std::nullopt;
+}
+
 TimeWindow fall_of(const Motion& motion, const BodyMotion& body, int run, int copy) {
     double fastest = 0.0;
     double fastest_spin = 0.0;
@@ -161,6 +174,9 @@ TimeWindow fall_of(const Motion& motion, const BodyMotion& body, int run, int co
         }
     }
     if (last < 0) return {motion.times.front(), motion.times.back()};
+    if (const auto landing = landing_frame(motion, body, run, copy); landing && *landing > first) {
+        last = std::min(last, *landing - 1);
+    }
     return {motion.times[static_cast<std::size_t>(std::max(first - 1, 0))],
             motion.times[static_cast<std::size_t>(std::min(last + 1, motion.frames() - 1))]};
 }
@@ -206,40 +222,6 @@ Measures measure(const Motion& motion, const BodyMotion& body, int run, int copy
     measures.regime = regime_of(turnovers, count_plain_swings(minima, turnovers.times),
                                 measures.inclination_amplitude - percentile(inclinations, 5.0));
     return measures;
-}
-
-BodyMeasures measure_all(const Motion& motion, const BodyMotion& body) {
-    BodyMeasures all;
-    std::array<int, 4> falls{};
-    const int count = motion.runs * body.copies;
-    double squared_speeds = 0.0;
-    double squared_spins = 0.0;
-    double frequencies = 0.0;
-    int with_frequency = 0;
-    for (int run = 0; run < motion.runs; ++run) {
-        for (int copy = 0; copy < body.copies; ++copy) {
-            const Measures one = measure(motion, body, run, copy);
-            all.mean_velocity += one.mean_velocity / count;
-            all.descent_speed += one.descent_speed / count;
-            all.inclination_amplitude += one.inclination_amplitude / count;
-            squared_speeds += one.descent_speed * one.descent_speed;
-            squared_spins += one.rms_angular_speed * one.rms_angular_speed;
-            frequencies += one.frequency.value_or(0.0);
-            with_frequency += one.frequency.has_value() ? 1 : 0;
-            ++falls[static_cast<std::size_t>(one.regime)];
-        }
-    }
-    if (count > 1) {
-        const double variance =
-            (squared_speeds - count * all.descent_speed * all.descent_speed) / (count - 1);
-        all.descent_speed_deviation = std::sqrt(std::max(variance, 0.0));
-    }
-    all.rms_angular_speed = std::sqrt(squared_spins / count);
-    if (with_frequency > 0) all.frequency = frequencies / with_frequency;
-    const auto commonest = std::max_element(falls.begin(), falls.end());
-    all.regime = static_cast<Regime>(commonest - falls.begin());
-    all.regime_share = static_cast<double>(*commonest) / count;
-    return all;
 }
 
 }  // namespace samara

@@ -38,8 +38,12 @@ struct Measures {
     Regime regime = Regime::steady;
 };
 
-/// The body's fall: from the last frame before it moves to the first frame at which it rests again. A body
-/// that waits for its start or lies on the ground is not falling; it moves where its speed or angular speed
+/// The first frame at which a body touches the ground, to a thousandth of its bounding radius; nothing where
+/// it never does, or the motion has no ground.
+std::optional<int> landing_frame(const Motion& motion, const BodyMotion& body, int run, int copy);
+
+/// The body's fall: from the last frame before it moves to the first frame at which it rests again or touches
+/// the ground. A body that waits for its start is not falling; it moves where its speed or angular speed
 /// exceeds 1e-6 of their largest values. The whole recording where it never moves.
 TimeWindow fall_of(const Motion& motion, const BodyMotion& body, int run, int copy);
 
@@ -65,20 +69,5 @@ TimeWindow default_window(const Motion& motion, const BodyMotion& body, int run,
 /// Frames must be close enough to see the body turn: less than a quarter of a turn from one to the next.
 Measures measure(const Motion& motion, const BodyMotion& body, int run = 0, int copy = 0,
                  const std::optional<TimeWindow>& window = std::nullopt);
-
-/// What all copies and runs of a body do together, each in its own default window.
-struct BodyMeasures {
-    Vector3d mean_velocity = Vector3d::Zero();  ///< m/s, mean over copies and runs
-    double descent_speed = 0.0;                 ///< m/s, mean over copies and runs
-    double descent_speed_deviation = 0.0;       ///< m/s, standard deviation between them; 0 for a single one
-    double inclination_amplitude = 0.0;         ///< rad, mean over copies and runs
-    std::optional<double> frequency;            ///< Hz, mean over those that have one
-    double rms_angular_speed = 0.0;             ///< rad/s, root of the mean square
-    Regime regime = Regime::steady;             ///< the commonest; the first in the enumeration of equals
-    double regime_share = 1.0;                  ///< of the copies and runs that fall like that
-};
-
-/// measure() over all runs and copies of a body.
-BodyMeasures measure_all(const Motion& motion, const BodyMotion& body);
 
 }  // namespace samara

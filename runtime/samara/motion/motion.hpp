@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "samara/base/linear_algebra.hpp"
+#include "samara/body/contact_points.hpp"
 #include "samara/body/surface.hpp"
 #include "samara/motion/pose.hpp"
 
@@ -16,10 +18,11 @@ struct BodyMotion {
     Vector3d center_of_mass =
         Vector3d::Zero();  ///< m, shape axes: subtract R times this to place the shape's origin
     Vector3d shortest_axis =
-        Vector3d::UnitZ();  ///< principal axis of the shortest extent, shape axes: of the inclination
-    std::string body_hash;  ///< content hash of the body file that was flown
-    std::string models;     ///< in words: the loads, turbulence and defaults that were used
-    Surface surface;        ///< shape axes, so that a motion file can be shown by itself
+        Vector3d::UnitZ();         ///< principal axis of the shortest extent, shape axes: of the inclination
+    std::string body_hash;         ///< content hash of the body file that was flown
+    std::string models;            ///< in words: the loads, turbulence and defaults that were used
+    Surface surface;               ///< shape axes, so that a motion file can be shown by itself
+    ContactPoints contact_points;  ///< of the surface, where the motion has a ground
     int copies = 1;
     std::vector<Pose> poses;  ///< index ((run * frames) + frame) * copies + copy
 };
@@ -30,6 +33,7 @@ struct Motion {
     int runs = 1;
     double frame_rate = 60.0;  ///< frames per second
     Vector3d gravity = Vector3d(0.0, 0.0, -9.81);
+    std::optional<double> ground;  ///< m: the height of the ground, where there is one
     std::uint64_t seed = 1;
     std::string scene_text;  ///< the scene file as it was read
     std::vector<BodyMotion> bodies;

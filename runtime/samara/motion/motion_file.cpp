@@ -1,133 +1,21 @@
 #include "samara/motion/motion_file.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <set>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "samara/base/error.hpp"
-#include "samara/base/version.hpp"
 #include "samara/body/surface_file.hpp"
+#include "samara/motion/motion_rules.hpp"
+#include "samara/motion/motion_writer.hpp"
 
 namespace samara {
 namespace {
 
 constexpr std::int64_t format_version = 1;
-constexpr const char* kind = "motion";
-constexpr double unit_length_tolerance = 1e-6;
-
-/// Throws Error, naming `source`, where the motion breaks a rule of read_motion_file that a single dataset
-/// does not show.
-class Rules {
-  public:
-    explicit Rules(const std::filesystem::path& file) : file_(file.string()) {}
-
-    void check(const Motion& motion) const {
-        if (motion.times.empty()) fail("/time holds no frame");
-        if (motion.runs < 1) fail("it holds no run");
-        if (motion.bodies.empty()) fail("it holds no body");
-        if (!(motion.frame_rate > 0.0) || !std::isfinite(motion.frame_rate)) {
-            fail("frame_rate is not a positive number");
-        }
-        if (!motion.gravity.allFinite()) fail("/gravity holds a value that is not finite");
-        check_times(motion.times);
-        std::set<std::string> names;
-        for (const BodyMotion& body : motion.bodies) {
-            if (body.name.empty() || body.name.front() == '.' || body.name.find('/') != std::string::npos) {
-                fail(fmt::format("the body's name '{}' is empty, starts with a dot or holds a slash",
-                                 body.name));
-            }
-            if (!names.insert(body.name).second) fail(fmt::format("two bodies have the name {}", body.name));
-            check_body(motion, body);
-        }
-    }
-
-  private:
-    [[noreturn]] void fail(const std::string& what) const {
-        throw Error(fmt::format("{}: {}; simulate the scene again", file_, what));
-    }
-
-    void check_times(const std::vector<double>& times) const {
-        for (std::size_t i = 0; i < times.size(); ++i) {
-            if (!std::isfinite(times[i])) fail(fmt::format("/time row {} is not finite", i));
-            if (i > 0 && times[i] <= times[i - 1]) fail(fmt::format("/time does not ascend at row {}", i));
-        }
-    }
-
-    void check_body(const Motion& motion, const BodyMotion& body) const {
-        const auto place = [&](const char* what) { return fmt::format("/bodies/{} {}", body.name, what); };
-        if (body.copies < 1) fail(place("has no copy"));
-        const std::size_t rows = static_cast<std::size_t>(motion.runs) * motion.times.size();
-        if (body.poses.size() != rows * static_cast<std::size_t>(body.copies)) {
-            fail(place("has not one pose for each run, frame and copy"));
-        }
-        if (body.surface.corners.empty()) fail(place("has a surface without triangles"));
-        if (!body.center_of_mass.allFinite()) fail(place("has a centre of mass that is not finite"));
-        if (!is_one(body.shortest_axis.norm())) fail(place("has a shortest_axis that is no unit vector"));
-        for (const Pose& pose : body.poses) {
-            if (!pose.position.allFinite() || !pose.velocity.allFinite() ||
-                !pose.angular_velocity.allFinite()) {
-                fail(place("has a pose with a value that is not finite"));
-            }
-            if (!is_one(pose.orientation.norm()))
-                fail(place("has an orientation that is not of unit length"));
-        }
-    }
-
-    static bool is_one(double length) { return std::abs(length - 1.0) <= unit_length_tolerance; }
-
-    std::string file_;
-};
-
-template <typename Component>
-std::vector<double> column(const BodyMotion& body, std::size_t components, const Component& component) {
-    std::vector<double> values;
-    values.reserve(components * body.poses.size());
-    for (const Pose& pose : body.poses) {
-        const auto vector = component(pose);
-        values.insert(values.end(), vector.data(), vector.data() + components);
-    }
-    return values;
-}
-
-void write_body(Hdf5Writer& file, const Motion& motion, std::size_t index) {
-    const BodyMotion& body = motion.bodies[index];
-    const std::string group = "/bodies/" + body.name;
-    const std::vector<hsize_t> vectors = {static_cast<hsize_t>(motion.runs), motion.times.size(),
-                                          static_cast<hsize_t>(body.copies), 3};
-    std::vector<hsize_t> quaternions = vectors;
-    quaternions.back() = 4;
-    file.write(group + "/position", column(body, 3, [](const Pose& p) { return p.position; }), vectors, "m",
-               "of the centre of mass, world axes: run, frame, copy, component");
-    file.write(group + "/orientation",
-               column(body, 4,
-                      [](const Pose& p) {
-                          const Quaterniond& q = p.orientation;
-                          return Eigen::Vector4d(q.w(), q.x(), q.y(), q.z());
-                      }),
-               quaternions, "1", "unit quaternion w, x, y, z, body to world: run, frame, copy, component");
-    file.write(group + "/velocity", column(body, 3, [](const Pose& p) { return p.velocity; }), vectors, "m/s",
-               "of the centre of mass, world axes: run, frame, copy, component");
-    file.write(group + "/angular_velocity", column(body, 3, [](const Pose& p) { return p.angular_velocity; }),
-               vectors, "rad/s", "world axes: run, frame, copy, component");
-    file.write(group + "/center_of_mass", row_major(body.center_of_mass), {3}, "m",
-               "shape axes: position - R center_of_mass is the place of the shape file's origin");
-    file.write(group + "/shortest_axis", row_major(body.shortest_axis), {3}, "1",
-               "principal axis of the shortest extent, shape axes: the axis of the inclination");
-    write_surface(file, group + "/surface", body.surface);
-    file.attribute(group, "index", static_cast<std::int64_t>(index));
-    file.attribute(group, "body_hash", std::string_view(body.body_hash));
-    file.attribute(group, "models", std::string_view(body.models));
-}
-
-void read_vectors(const Hdf5Reader& file, const std::string& name, const std::vector<hsize_t>& dimensions,
-                  std::vector<Pose>& poses, Vector3d Pose::*member) {
-    const std::vector<double> values = file.finite_doubles(name, dimensions);
-    for (std::size_t i = 0; i < poses.size(); ++i) poses[i].*member = Vector3d(values.data() + 3 * i);
-}
+constexpr std::size_t read_bytes_at_once = 64U << 20U;
 
 /// Checks the shape that the file claims before memory for it is taken.
 std::vector<hsize_t> pose_dimensions(const Hdf5Reader& file, const std::string& name, std::size_t frames) {
@@ -143,24 +31,19 @@ std::vector<hsize_t> pose_dimensions(const Hdf5Reader& file, const std::string& 
     return shape;
 }
 
-BodyMotion read_body(const Hdf5Reader& file, const std::string& name, std::size_t frames, int& runs) {
+BodyMotion read_body_but_poses(const Hdf5Reader& file, const std::string& name, std::size_t frames,
+                               int& runs) {
     const std::string group = "/bodies/" + name;
     const std::vector<hsize_t> vectors = pose_dimensions(file, group + "/position", frames);
     std::vector<hsize_t> quaternions = vectors;
     quaternions.back() = 4;
+    file.require_shape(group + "/velocity", vectors);
+    file.require_shape(group + "/angular_velocity", vectors);
+    file.require_shape(group + "/orientation", quaternions);
     runs = static_cast<int>(vectors[0]);
     BodyMotion body;
     body.name = name;
     body.copies = static_cast<int>(vectors[2]);
-    body.poses.resize(vectors[0] * vectors[1] * vectors[2]);
-    read_vectors(file, group + "/position", vectors, body.poses, &Pose::position);
-    read_vectors(file, group + "/velocity", vectors, body.poses, &Pose::velocity);
-    read_vectors(file, group + "/angular_velocity", vectors, body.poses, &Pose::angular_velocity);
-    const std::vector<double> values = file.finite_doubles(group + "/orientation", quaternions);
-    for (std::size_t i = 0; i < body.poses.size(); ++i) {
-        const double* q = values.data() + 4 * i;
-        body.poses[i].orientation = Quaterniond(q[0], q[1], q[2], q[3]);
-    }
     body.center_of_mass = from_row_major<Vector3d>(file.finite_doubles(group + "/center_of_mass", {3}));
     body.shortest_axis = from_row_major<Vector3d>(file.finite_doubles(group + "/shortest_axis", {3}));
     body.surface = read_surface(file, group + "/surface");
@@ -169,11 +52,11 @@ BodyMotion read_body(const Hdf5Reader& file, const std::string& name, std::size_
     return body;
 }
 
-void read_bodies(const Hdf5Reader& file, Motion& motion) {
+void read_bodies_but_poses(const Hdf5Reader& file, Motion& motion) {
     std::vector<std::pair<std::int64_t, BodyMotion>> bodies;
     for (const std::string& name : file.children("/bodies")) {
         int runs = 0;
-        BodyMotion body = read_body(file, name, motion.times.size(), runs);
+        BodyMotion body = read_body_but_poses(file, name, motion.times.size(), runs);
         if (!bodies.empty() && runs != motion.runs) {
             throw Error(
                 fmt::format("{}: /bodies/{} has {} runs, the bodies before it {}; simulate the scene "
@@ -194,40 +77,100 @@ bool holds_motion(const Hdf5Reader& file) {
 
 }  // namespace
 
-void write_motion_file(const std::filesystem::path& path, const Motion& motion) {
-    Rules(path).check(motion);
-    write_hdf5(path, [&](Hdf5Writer& file) {
-        file.attribute("/", "format_version", format_version);
-        file.attribute("/", "samara_version", std::string_view(version));
-        file.attribute("/", "kind", std::string_view(kind));
-        file.attribute("/", "frame_rate", motion.frame_rate);
-        file.attribute("/", "seed", motion.seed);
-        file.write("/time", motion.times, {motion.times.size()}, "s", "of each frame");
-        file.write("/gravity", row_major(motion.gravity), {3}, "m/s^2", "world axes");
-        file.write_text("/scene", motion.scene_text, "the scene file as it was read");
-        for (std::size_t i = 0; i < motion.bodies.size(); ++i) write_body(file, motion, i);
-    });
-}
-
-Motion read_motion_file(const std::filesystem::path& path) {
-    const Hdf5Reader file(path);
-    if (!holds_motion(file)) {
+MotionReader::MotionReader(const std::filesystem::path& path) : file_(path) {
+    if (!holds_motion(file_)) {
         throw Error(fmt::format("{}: is an HDF5 file, but not a motion file; make one with 'samara simulate'",
                                 path.string()));
     }
-    if (const auto found = file.integer_attribute("/", "format_version"); found > format_version) {
+    if (const auto found = file_.integer_attribute("/", "format_version"); found > format_version) {
         throw Error(
             fmt::format("{}: was written by a newer version of samara (format {}, this one reads {}); update",
                         path.string(), found, format_version));
     }
-    Motion motion;
-    motion.times = file.finite_doubles("/time", {0});
-    motion.frame_rate = file.number_attribute("/", "frame_rate");
-    motion.seed = file.unsigned_attribute("/", "seed");
-    motion.gravity = from_row_major<Vector3d>(file.finite_doubles("/gravity", {3}));
-    motion.scene_text = file.text("/scene");
-    read_bodies(file, motion);
-    Rules(path).check(motion);
+    motion_.times = file_.finite_doubles("/time", {0});
+    motion_.frame_rate = file_.number_attribute("/", "frame_rate");
+    motion_.seed = file_.unsigned_attribute("/", "seed");
+    if (file_.has_attribute("/", "ground")) motion_.ground = file_.number_attribute("/", "ground");
+    motion_.gravity = from_row_major<Vector3d>(file_.finite_doubles("/gravity", {3}));
+    motion_.scene_text = file_.text("/scene");
+    read_bodies_but_poses(file_, motion_);
+    check_motion_but_poses(path, motion_);
+    if (!motion_.ground) return;
+    for (BodyMotion& body : motion_.bodies) {
+        body.contact_points = contact_points(body.surface, body.center_of_mass);
+    }
+}
+
+std::vector<Pose> MotionReader::poses(std::size_t body, const PoseBlock& block) const {
+    const std::string group = "/bodies/" + motion_.bodies[body].name;
+    const auto frames = static_cast<hsize_t>(motion_.frames());
+    const auto runs = static_cast<hsize_t>(block.runs);
+    const auto copies = static_cast<hsize_t>(block.copies);
+    std::vector<Pose> poses(runs * frames * copies);
+    const auto read = [&](const char* name, hsize_t components, const auto& put) {
+        const std::vector<double> values = file_.finite_block(
+            group + "/" + name,
+            {static_cast<hsize_t>(block.first_run), 0, static_cast<hsize_t>(block.first_copy), 0},
+            {runs, frames, copies, components});
+        for (std::size_t i = 0; i < poses.size(); ++i) put(poses[i], values.data() + components * i);
+    };
+    read("position", 3, [](Pose& pose, const double* v) { pose.position = Vector3d(v); });
+    read("orientation", 4,
+         [](Pose& pose, const double* q) { pose.orientation = Quaterniond(q[0], q[1], q[2], q[3]); });
+    read("velocity", 3, [](Pose& pose, const double* v) { pose.velocity = Vector3d(v); });
+    read("angular_velocity", 3, [](Pose& pose, const double* v) { pose.angular_velocity = Vector3d(v); });
+    check_poses(file_.path(), motion_.bodies[body].name, poses);
+    return poses;
+}
+
+void MotionReader::for_each_block(std::size_t body,
+                                  const std::function<void(const Motion&, const PoseBlock&)>& use) const {
+    const BodyMotion& all = motion_.bodies[body];
+    const std::size_t column = motion_.times.size() * sizeof(Pose);
+    const int columns = static_cast<int>(std::clamp<std::size_t>(read_bytes_at_once / column, 1, 1U << 20U));
+    Motion part = motion_;
+    part.bodies = {all};
+    const int copies = std::min(columns, all.copies);
+    const int runs = std::clamp(columns / copies, 1, motion_.runs);
+    for (int run = 0; run < motion_.runs; run += runs) {
+        for (int copy = 0; copy < all.copies; copy += copies) {
+            const PoseBlock block{run, std::min(runs, motion_.runs - run), copy,
+                                  std::min(copies, all.copies - copy)};
+            part.runs = block.runs;
+            part.bodies[0].copies = block.copies;
+            part.bodies[0].poses = poses(body, block);
+            use(part, block);
+        }
+    }
+}
+
+void write_motion_file(const std::filesystem::path& path, const Motion& motion) {
+    check_motion(path, motion);
+    write_motion_file(path, motion, [&](MotionWriter& writer) {
+        const std::size_t frames = motion.times.size();
+        const std::size_t block = frames_in_block(motion);
+        for (std::size_t first = 0; first < frames; first += block) {
+            const std::size_t count = std::min(block, frames - first);
+            for (std::size_t i = 0; i < motion.bodies.size(); ++i) {
+                const BodyMotion& body = motion.bodies[i];
+                const auto copies = static_cast<std::size_t>(body.copies);
+                std::vector<Pose> poses;
+                for (std::size_t run = 0; run < static_cast<std::size_t>(motion.runs); ++run) {
+                    const Pose* begin = &body.poses[(run * frames + first) * copies];
+                    poses.insert(poses.end(), begin, begin + count * copies);
+                }
+                writer.write(i, first, poses);
+            }
+        }
+    });
+}
+
+Motion read_motion_file(const std::filesystem::path& path) {
+    const MotionReader reader(path);
+    Motion motion = reader.motion();
+    for (std::size_t i = 0; i < motion.bodies.size(); ++i) {
+        motion.bodies[i].poses = reader.poses(i, {0, motion.runs, 0, motion.bodies[i].copies});
+    }
     return motion;
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 
+#include "samara/files/hdf5_file.hpp"
 #include "samara/motion/motion.hpp"
 
 namespace samara {
@@ -16,6 +18,34 @@ void write_motion_file(const std::filesystem::path& file, const Motion& motion);
 /// frame, a body, a run and a copy; times ascend; all values are finite; all arrays agree on runs, frames and
 /// copies; quaternions and axes have unit length to 1e-6; the surfaces hold triangles.
 Motion read_motion_file(const std::filesystem::path& file);
+
+/// Some copies in some runs of a body.
+struct PoseBlock {
+    int first_run = 0;
+    int runs = 1;
+    int first_copy = 0;
+    int copies = 1;
+};
+
+/// Reads a motion file in parts, for files larger than memory. Throws like read_motion_file, each part when
+/// it is read.
+class MotionReader {
+  public:
+    explicit MotionReader(const std::filesystem::path& file);
+
+    /// All but the poses.
+    [[nodiscard]] const Motion& motion() const { return motion_; }
+    /// The poses of a block at all frames, (run, frame, copy) in row-major order.
+    [[nodiscard]] std::vector<Pose> poses(std::size_t body, const PoseBlock& block) const;
+    /// Calls `use` for all copies and runs of a body, some 64 MB at a time: with a motion that holds them as
+    /// its one body, and with their place in the whole.
+    void for_each_block(std::size_t body,
+                        const std::function<void(const Motion& part, const PoseBlock& block)>& use) const;
+
+  private:
+    Hdf5Reader file_;
+    Motion motion_;
+};
 
 /// Whether the file is an HDF5 file that holds a motion; false also where it cannot be read.
 bool is_motion_file(const std::filesystem::path& file);

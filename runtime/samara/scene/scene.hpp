@@ -10,11 +10,18 @@
 
 namespace samara {
 
-/// The fluid: incompressible and Newtonian, at rest but for a uniform current.
+/// A uniform flow that swings: amplitude sin(2 pi t / period), world axes.
+struct Gust {
+    Vector3d amplitude = Vector3d::Zero();  ///< m/s
+    double period = 1.0;                    ///< s
+};
+
+/// The fluid: incompressible and Newtonian, at rest but for a uniform current and gust.
 struct Fluid {
     double density = 998.2;               ///< kg/m^3
     double viscosity = 1.002e-3;          ///< dynamic, Pa s
     Vector3d current = Vector3d::Zero();  ///< m/s, world axes
+    Gust gust = {};
 
     [[nodiscard]] double kinematic_viscosity() const { return viscosity / density; }
 };
@@ -73,6 +80,7 @@ struct Scene {
     double frame_rate = 60.0;  ///< frames per second
     std::uint64_t seed = 1;
     Vector3d gravity = Vector3d(0.0, 0.0, -9.81);  ///< m/s^2
+    std::optional<double> ground;                  ///< m: the height of level ground
     Fluid fluid;
     std::vector<SceneBody> bodies;
     std::string text;            ///< the file as it was read

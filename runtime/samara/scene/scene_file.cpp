@@ -56,6 +56,16 @@ Fluid read_fluid(TomlTable& table) {
     assign(fluid.density, density);
     assign(fluid.viscosity, viscosity);
     assign(fluid.current, table.vector("current"));
+    if (auto gust = table.table("gust")) {
+        const auto amplitude = gust->vector("amplitude");
+        const auto period = gust->number("period", positive_number);
+        if (!amplitude || !period) {
+            throw gust->fault(amplitude ? "period" : "amplitude",
+                              "is missing; a gust has an amplitude and a period");
+        }
+        fluid.gust = {.amplitude = *amplitude, .period = *period};
+        gust->finish();
+    }
     table.finish();
     return fluid;
 }
@@ -210,6 +220,7 @@ void read_settings(TomlTable& table, Scene& scene) {
         scene.seed = static_cast<std::uint64_t>(*seed);
     }
     assign(scene.gravity, table.vector("gravity"));
+    scene.ground = table.number("ground", any_number);
     if (scene.duration * scene.frame_rate > 1e8 || scene.duration / scene.step > 1e10) {
         throw table.fault("duration", "makes more than 1e8 frames or 1e10 steps; is a unit wrong?");
     }

@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "samara/body/body.hpp"
+#include "samara/dynamics/immersed_body.hpp"
 #include "samara/motion/motion.hpp"
 #include "samara/scene/scene.hpp"
+#include "samara/simulation/body_flight.hpp"
 
 namespace samara {
 
@@ -19,11 +21,46 @@ struct CastBody {
 
 /// What happened on the way, for the report.
 struct SimulationReport {
-    std::uint64_t steps = 0;  ///< of the scene's step, over all bodies, copies and runs
+    std::size_t frames = 0;    ///< that were flown
+    bool interrupted = false;  ///< whether `progress` ended the flight before the last frame
+    std::uint64_t steps = 0;   ///< of the scene's step, over all bodies, copies and runs
     std::uint64_t implicit_steps = 0;
     int most_substeps = 1;
-    double seconds = 0.0;                         ///< wall time of the stepping
-    std::vector<double> highest_reynolds_number;  ///< one for each body of the scene
+    std::uint64_t steps_at_limit = 0;  ///< steps that took the most substeps there may be
+    double seconds = 0.0;              ///< wall time of the stepping
+    std::vector<FlightReport> bodies;  ///< one for each body of the scene
+};
+
+/// Every body of a scene with every copy in `runs` runs that differ by their noise alone. Frames lie at whole
+/// multiples of 1/frame_rate and are interpolated from the steps, which they do not change. A body is held in
+/// place until its start.
+class Simulation {
+  public:
+    /// Takes the block's poses of body number `body` from frame `first_frame` on: (run, frame, copy) in
+    /// row-major order.
+    using Sink =
+        std::function<void(std::size_t body, std::size_t first_frame, const std::vector<Pose>& poses)>;
+    /// Told of (done, total) copies x runs x steps at every frame; false ends the flight at this frame.
+    using Progress = std::function<bool(double done, double total)>;
+
+    /// `cast[i]` is the body of scene.bodies[i]. `threads`: 0 for all cores; the poses are the same for any
+    /// number. Throws Error where a body lacks what the scene asks of it or starts below the ground.
+    Simulation(const Scene& scene, const std::vector<CastBody>& cast, int runs, int threads = 0);
+
+    /// The motion without its poses.
+    [[nodiscard]] const Motion& motion() const { return motion_; }
+
+    /// Flies from the first frame to the last, once. Blocks are those of frames_in_block(), so memory does
+    /// not grow with the number of frames.
+    SimulationReport fly(const Sink& sink, const Progress& progress);
+
+  private:
+    double done() const;
+
+    Motion motion_;
+    std::vector<ImmersedBody> bodies_;
+    std::vector<BodyFlight> flights_;
+    double total_steps_ = 0.0;
 };
 
 struct SimulationResult {
@@ -31,12 +68,8 @@ struct SimulationResult {
     SimulationReport report;
 };
 
-/// Flies every body of the scene with every copy in `runs` runs that differ by their noise alone. `cast[i]`
-/// is the body of scene.bodies[i]. Frames lie at whole multiples of 1/frame_rate and are interpolated from
-/// the steps, which they do not change. `progress` is called now and then with (done, total) copies x runs x
-/// steps; where it returns false the flight stops with an Error that says so. Throws Error where a body lacks
-/// what the scene asks of it.
+/// A simulation whose poses are all kept in memory. Throws Error also where `progress` ends it.
 SimulationResult simulate(const Scene& scene, const std::vector<CastBody>& cast, int runs,
-                          const std::function<bool(double done, double total)>& progress);
+                          const Simulation::Progress& progress, int threads = 0);
 
 }  // namespace samara

@@ -21,21 +21,19 @@ using BlockOf = FlightBlock<hn::TFromD<Tag>>;
 /// The lanes [first, first + N) of a block.
 template <class Tag>
 HWY_INLINE Flight<Lanes<Tag>> load_flight(Tag tag, const BlockOf<Tag>& block, std::size_t first) {
-    const auto field = [&](std::size_t i) HWY_ATTR {
-        return Lanes<Tag>(hn::Load(tag, block.numbers[i] + first));
-    };
+    const auto field = [&](std::size_t i)
+                           HWY_ATTR { return Lanes<Tag>(hn::Load(tag, block.numbers[i] + first)); };
     const auto triple = [&](std::size_t i) HWY_ATTR {
         return Triple<Lanes<Tag>>{field(i), field(i + 1), field(i + 2)};
     };
-    return {triple(0), {field(3), triple(4)}, triple(7), triple(10), triple(13), triple(16),
-            triple(19), triple(22)};
+    return {triple(0), {field(3), triple(4)}, triple(7), triple(10), triple(13), triple(16), triple(19),
+            triple(22)};
 }
 template <class Tag>
 HWY_INLINE void store_flight(Tag tag, const Flight<Lanes<Tag>>& flight, BlockOf<Tag>& block,
                              std::size_t first) {
-    const auto keep = [&](std::size_t i, Lanes<Tag> value) HWY_ATTR {
-        hn::Store(value.raw, tag, block.numbers[i] + first);
-    };
+    const auto keep = [&](std::size_t i, Lanes<Tag> value)
+                          HWY_ATTR { hn::Store(value.raw, tag, block.numbers[i] + first); };
     const auto keep_triple = [&](std::size_t i, const Triple<Lanes<Tag>>& value) HWY_ATTR {
         keep(i, value.x);
         keep(i + 1, value.y);
@@ -73,7 +71,8 @@ HWY_INLINE SixNormals<Lanes<Tag>> normals_of(Tag tag, const BlockOf<Tag>& block,
     const hn::Rebind<std::uint32_t, Tag> words;
     const auto low = hn::Set(words, static_cast<std::uint32_t>(step));
     const auto high = [&](NoiseStream stream) HWY_ATTR {
-        return hn::Set(words, static_cast<std::uint32_t>(step >> 32U) | (static_cast<std::uint32_t>(stream) << 16U));
+        return hn::Set(words,
+                       static_cast<std::uint32_t>(step >> 32U) | (static_cast<std::uint32_t>(stream) << 16U));
     };
     const auto key0 = hn::Load(words, block.noise[0] + first);
     const auto key1 = hn::Load(words, block.noise[1] + first);
@@ -86,15 +85,29 @@ HWY_INLINE SixNormals<Lanes<Tag>> normals_of(Tag tag, const BlockOf<Tag>& block,
                                    unit_interval(tag, b[0]), unit_interval(tag, b[1]));
 }
 
-/// Lets the bodies of the lanes near the ground touch it.
+/// The bodies that may touch the ground by the end of the next substep: no fewer than touch_ground() would
+/// find.
+template <class Tag>
+HWY_INLINE hn::Mask<Tag> near_ground(const kernel::Contact& contact, const Flight<Lanes<Tag>>& flight,
+                                     Lanes<Tag> substep) {
+    using V = Lanes<Tag>;
+    const V turning = root(dot(flight.angular_velocity, flight.angular_velocity));
+    const V speed = root(dot(flight.velocity, flight.velocity));
+    const V margin = V(2.001) * substep * (speed + V(contact.ground_speed) + V(contact.radius) * turning);
+    return flight.position.z - V(contact.reach) < margin + V(1e-5 * contact.radius);
+}
+
+/// Lets the bodies of the lanes touch the ground. `before`: the block before the substep.
 template <class Real>
-HWY_INLINE void meet_ground(const kernel::Contact& contact, FlightBlock<Real>& block, std::size_t first,
-                            std::size_t lanes, int substep, const Real* substeps, double time, double h) {
+void meet_ground(const kernel::Contact& contact, const FlightBlock<Real>& before, FlightBlock<Real>& block,
+                 std::size_t first, std::size_t lanes, int substep, const Real* substeps, double time,
+                 double h) {
     for (std::size_t lane = first; lane < std::min<std::size_t>(first + lanes, block.bodies); ++lane) {
         const double parts = static_cast<double>(substeps[lane - first]);
-        if (substep >= parts || block.numbers[2][lane] > static_cast<Real>(contact.reach)) continue;
+        if (substep >= parts) continue;
         BodyState state = state_of(block, lane);
-        contact.resolve(contact.context, time + (substep + 1) * (h / parts), h / parts, state);
+        contact.resolve(contact.context, time + (substep + 1) * (h / parts), h / parts,
+                        state_of(before, lane), state);
         keep_state(state, block, lane);
     }
 }
@@ -125,8 +138,8 @@ HWY_INLINE void advance_lanes(Tag tag, const FlightConstants<Real>& c, const ker
     using V = Lanes<Tag>;
     const std::size_t lanes = hn::Lanes(tag);
     const V h(task.time_step);
-    meet_turbulence(c, h, [&]() HWY_ATTR { return normals_of(tag, block, first, task.first_step + number); },
-                    flight);
+    meet_turbulence(
+        c, h, [&]() HWY_ATTR { return normals_of(tag, block, first, task.first_step + number); }, flight);
 
     HWY_ALIGN_MAX Real parts[hn::MaxLanes(Tag())];
     const V bodies(static_cast<double>(block.bodies) - static_cast<double>(first));
@@ -137,6 +150,7 @@ HWY_INLINE void advance_lanes(Tag tag, const FlightConstants<Real>& c, const ker
     for (std::size_t lane = 0; lane < lanes; ++lane) {
         const int taken = static_cast<int>(parts[lane]);
         report.implicit_steps += static_cast<std::uint64_t>(taken);
+        report.steps_at_limit += taken == most_substeps ? 1 : 0;
         most = std::max(most, taken);
     }
     report.most_substeps = std::max(report.most_substeps, most);
@@ -145,13 +159,17 @@ HWY_INLINE void advance_lanes(Tag tag, const FlightConstants<Real>& c, const ker
     const Vector3d& pull = task.gravities[number];
     const Triple<V> gravity{V(pull.x()), V(pull.y()), V(pull.z())};
     for (int i = 0; i < most; ++i) {
+        const Flight<V> previous = flight;
         Flight<V> next = flight;
         implicit_step(c, gravity, substep, next);
         flight = select_flight<Tag>(V(i) < substeps, next, flight);
         if (task.contact.resolve == nullptr) continue;
+        if (hn::AllFalse(tag, near_ground(task.contact, flight, substep))) continue;
+        FlightBlock<Real> before;
+        store_flight(tag, previous, before, first);
         store_flight(tag, flight, block, first);
-        const double begin = task.time + static_cast<double>(number) * task.time_step;
-        meet_ground(task.contact, block, first, lanes, i, parts, begin, task.time_step);
+        const double begin = step_time(task.start, task.time_step, task.first_step + number);
+        meet_ground(task.contact, before, block, first, lanes, i, parts, begin, task.time_step);
         flight = load_flight(tag, block, first);
     }
 }

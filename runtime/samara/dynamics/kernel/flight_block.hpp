@@ -13,8 +13,8 @@ struct alignas(64) FlightBlock {
     static constexpr std::size_t size = 16;
     static constexpr std::size_t fields = 25;
 
-    /// Position, orientation (w, x, y, z), angular velocity, velocity, seen velocity, seen rotation, acceleration
-    /// (angular, linear).
+    /// Position, orientation (w, x, y, z), angular velocity, velocity, seen velocity, seen rotation,
+    /// acceleration (angular, linear).
     Real numbers[fields][size];
     std::uint32_t noise[4][size];  ///< key (2), copy, run
     std::uint64_t bodies;          ///< lanes in use
@@ -35,7 +35,9 @@ BodyState state_of(const FlightBlock<Real>& block, std::size_t lane) noexcept {
 
 template <class Real>
 void keep_state(const BodyState& state, FlightBlock<Real>& block, std::size_t lane) noexcept {
-    const auto keep = [&](std::size_t i, double number) { block.numbers[i][lane] = static_cast<Real>(number); };
+    const auto keep = [&](std::size_t i, double number) {
+        block.numbers[i][lane] = static_cast<Real>(number);
+    };
     const Quaterniond& q = state.orientation;
     keep(3, q.w());
     keep(4, q.x());

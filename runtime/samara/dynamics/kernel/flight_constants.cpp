@@ -33,7 +33,8 @@ Principal principal(const Matrix3d& tensor) {
 
 template <class Real>
 void set_planes(const std::vector<double>& reynolds_numbers, DirectionTable<Real>& table) {
-    for (const double number : reynolds_numbers) table.logarithms.push_back(static_cast<Real>(std::log(number)));
+    for (const double number : reynolds_numbers)
+        table.logarithms.push_back(static_cast<Real>(std::log(number)));
     for (std::size_t i = 1; i < reynolds_numbers.size(); ++i) {
         table.inverse_differences.push_back(
             static_cast<Real>(1.0 / std::log(reynolds_numbers[i] / reynolds_numbers[i - 1])));
@@ -74,7 +75,8 @@ template <class Real>
 DirectionTable<Real> turbulence_table(const ImmersedBody& body) {
     const double scale = length_scale(body) / body.length;
     return direction_table<Real, 4>(*body.tables, [&](const LoadEntry& entry) {
-        return std::array<double, 4>{entry.turbulent_kinetic_energy, scale * entry.dissipation_rate, 0.0, 0.0};
+        return std::array<double, 4>{entry.turbulent_kinetic_energy, scale * entry.dissipation_rate, 0.0,
+                                     0.0};
     });
 }
 
@@ -88,8 +90,8 @@ DirectionTable<Real> area_table(const ImmersedBody& body) {
     table.logarithms = {Real{0}};
     const auto nodes = static_cast<std::size_t>(table.side) * static_cast<std::size_t>(table.side);
     for (std::size_t node = 0; node < nodes; ++node) {
-        const double area = body.coefficients.reference_area ? *body.coefficients.reference_area
-                                                             : body.projected_areas[node];
+        const double area =
+            body.coefficients.reference_area ? *body.coefficients.reference_area : body.projected_areas[node];
         table.rows.insert(table.rows.end(),
                           {static_cast<Real>(area / body.reference_area), 0, 0, 0, 0, 0, 0, 0});
     }

@@ -10,24 +10,27 @@
 #include "samara/dynamics/noise.hpp"
 #include "samara/dynamics/step.hpp"
 
-/// The step's formulas, compiled for every instruction set and chosen once at run time. In double precision each
-/// sum and product is rounded by itself, so that one body, or any number of them side by side, gives the same
-/// bytes on every instruction set.
+/// The step's formulas, compiled for every instruction set and chosen once at run time. In double precision
+/// each sum and product is rounded by itself, so that one body, or any number of them side by side, gives the
+/// same bytes on every instruction set.
 namespace samara::kernel {
 
 /// What is done with a body after each implicit step, where there is ground to meet.
 struct Contact {
-    /// Mends the state after a substep (s) that ended at a time (s, of the world).
-    using Resolve = void (*)(const void* context, double time, double substep, BodyState& state) noexcept;
+    /// Mends the state after a substep (s) that ended at a time (s, of the world) and began from `before`.
+    using Resolve = void (*)(const void* context, double time, double substep, const BodyState& before,
+                             BodyState& state) noexcept;
     Resolve resolve = nullptr;
     const void* context = nullptr;
-    double reach = 0.0;  ///< m, in the flow's frame: bodies whose centre is higher cannot touch
+    double reach = 0.0;   ///< m, in the flow's frame: bodies whose centre is higher do not touch the ground
+    double radius = 0.0;  ///< m: of the sphere about the centre that holds the body
+    double ground_speed = 0.0;  ///< m/s, at most
 };
 
 /// Steps for blocks to take.
 struct BlockSteps {
     const Vector3d* gravities = nullptr;  ///< m/s^2 in each step
-    double time = 0.0;                    ///< s, of the world, at the first step's beginning
+    double start = 0.0;                   ///< s, of the world: when step 0 began
     double time_step = 0.0;               ///< s
     std::uint64_t first_step = 0;
     std::uint64_t steps = 0;
@@ -37,6 +40,7 @@ struct BlockSteps {
 struct BlockReport {
     std::uint64_t implicit_steps = 0;
     int most_substeps = 1;
+    std::uint64_t steps_at_limit = 0;
 };
 
 BlockReport advance_blocks(const FlightConstants<double>& constants, const BlockSteps& steps,

@@ -58,14 +58,15 @@ void step_one(const FlightConstants<double>& c, const Vector3d& gravity, double 
 int begin_one(const FlightConstants<double>& c, double h, const Noise& noise, std::uint64_t step,
               BodyState& state) {
     Flight<double> flight = flight_of(state);
-    meet_turbulence(c, h, [&] { return normals_at(noise, step); }, flight);
+    meet_turbulence(
+        c, h, [&] { return normals_at(noise, step); }, flight);
     keep(flight, state);
     return static_cast<int>(substeps_of(c, h, flight));
 }
 
 void loads_of_one(const FlightConstants<double>& c, const Vector6d& velocity, Matrix6d& matrix) {
-    const LoadBlocks<double> blocks = load_blocks(c, triple_of(velocity.head<3>()),
-                                                  c.inverse_length * triple_of(velocity.tail<3>()));
+    const LoadBlocks<double> blocks =
+        load_blocks(c, triple_of(velocity.head<3>()), c.inverse_length * triple_of(velocity.tail<3>()));
     const auto keep_block = [&](const Square<double>& block, Eigen::Index row, Eigen::Index column,
                                 double scale) {
         matrix.block<3, 3>(row, column) << block.x.x, block.x.y, block.x.z, block.y.x, block.y.y, block.y.z,
@@ -142,7 +143,8 @@ Matrix6d load_matrix(const FlightConstants<double>& constants, const Vector6d& r
     return matrix;
 }
 
-TurbulenceLevel turbulence_level(const FlightConstants<double>& constants, const Vector3d& velocity) noexcept {
+TurbulenceLevel turbulence_level(const FlightConstants<double>& constants,
+                                 const Vector3d& velocity) noexcept {
     TurbulenceLevel level;
     HWY_DYNAMIC_DISPATCH(turbulence_of_one)(constants, velocity, level);
     return level;

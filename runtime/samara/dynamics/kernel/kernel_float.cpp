@@ -10,8 +10,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace samara::HWY_NAMESPACE {
 
-kernel::BlockReport advance_float_blocks(const FlightConstants<float>& constants, const kernel::BlockSteps& steps,
-                                         FlightBlock<float>* blocks, std::size_t count) {
+kernel::BlockReport advance_float_blocks(const FlightConstants<float>& constants,
+                                         const kernel::BlockSteps& steps, FlightBlock<float>* blocks,
+                                         std::size_t count) {
     return advance_all(constants, steps, blocks, count);
 }
 

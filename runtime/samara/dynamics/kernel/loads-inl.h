@@ -68,16 +68,15 @@ struct PressurePoint {
     Triple<V> arm, moment_along_force;
 };
 template <class V, class Real>
-HWY_INLINE PressurePoint<V> pressure_point(const FlightConstants<Real>& c, const Heading<V>& heading, V share) {
+HWY_INLINE PressurePoint<V> pressure_point(const FlightConstants<Real>& c, const Heading<V>& heading,
+                                           V share) {
     const TowCoefficients<V> tow = tow_coefficients<true>(c, heading);
     // In a steady tow the equations' left side holds the part (1 - kappa) of the Kirchhoff moment already.
-    const Triple<V> kirchhoff =
-        cross(broadcast<V>(c.added_mass) * heading.direction, heading.direction);
+    const Triple<V> kirchhoff = cross(broadcast<V>(c.added_mass) * heading.direction, heading.direction);
     const Triple<V> moment = tow.moment - V(c.kirchhoff_share) * kirchhoff;
     const V square = dot(tow.force, tow.force);
     const V scale = select(V(tiny<V>) < square, share / larger(V(tiny<V>), square), V(0.0));
-    return {scale * cross(tow.force, moment),
-            (V(c.tow_factor) * scale * dot(moment, tow.force)) * tow.force};
+    return {scale * cross(tow.force, moment), (V(c.tow_factor) * scale * dot(moment, tow.force)) * tow.force};
 }
 
 /// The tow's force at its point as -(drag + side x): the lift turns with the flow and does no work.
@@ -91,8 +90,7 @@ HWY_INLINE TowMatrix<V> tow_matrix(const FlightConstants<Real>& c, const Triple<
     const Heading<V> heading = heading_of(velocity);
     const Triple<V> force = tow_coefficients<false>(c, heading).force;
     const V scale = V(c.tow_factor) * heading.speed;
-    return {scale * larger(V(0.0), -dot(force, heading.direction)),
-            scale * cross(force, heading.direction)};
+    return {scale * larger(V(0.0), -dot(force, heading.direction)), scale * cross(force, heading.direction)};
 }
 
 /// The tow's matrix about the centroid, for a force that acts at the arm r.
@@ -140,8 +138,7 @@ HWY_INLINE LoadBlocks<V> load_blocks(const FlightConstants<Real>& c, const Tripl
     // The tow's moment fades as the tip speed outgrows the speed: a steady tow keeps it whole.
     const V share = (heading.speed * inverse) * (heading.speed * inverse);
     const PressurePoint<V> point = pressure_point(c, heading, share);
-    LoadBlocks<V> blocks =
-        moved_by_arm(tow_matrix(c, velocity + cross(omega, point.arm)), point.arm);
+    LoadBlocks<V> blocks = moved_by_arm(tow_matrix(c, velocity + cross(omega, point.arm)), point.arm);
 
     // What a turning body gains along the force it loses along its path, as a windmill does: workless.
     const Square<V> windmill = outer(point.moment_along_force, velocity);
@@ -159,11 +156,10 @@ HWY_INLINE LoadBlocks<V> load_blocks(const FlightConstants<Real>& c, const Tripl
     }
     const V below = larger(zero, one - V(c.reynolds_factor) * heading.speed * V(c.lowest_reynolds_inverse));
     const V creeping_drag = select(zero < V(c.lowest_reynolds_inverse), V(c.creeping_drag) * below, zero);
-    blocks.moment_by_turning =
-        plus_diagonal(blocks.moment_by_turning + combined * broadcast<V>(c.rotational_drag),
-                      V(c.creeping_turn));
-    blocks.force_by_velocity = plus_diagonal(
-        blocks.force_by_velocity + drag_share * broadcast<V>(c.drag_in_motion), creeping_drag);
+    blocks.moment_by_turning = plus_diagonal(
+        blocks.moment_by_turning + combined * broadcast<V>(c.rotational_drag), V(c.creeping_turn));
+    blocks.force_by_velocity =
+        plus_diagonal(blocks.force_by_velocity + drag_share * broadcast<V>(c.drag_in_motion), creeping_drag);
     return blocks;
 }
 

@@ -44,12 +44,24 @@ struct Lanes {
     }
 };
 
-HWY_INLINE double root(double a) { return std::sqrt(a); }
-HWY_INLINE double magnitude(double a) { return std::abs(a); }
-HWY_INLINE double whole_part(double a) { return std::floor(a); }
-HWY_INLINE double larger(double a, double b) { return a < b ? b : a; }
-HWY_INLINE double smaller(double a, double b) { return b < a ? b : a; }
-HWY_INLINE double select(bool condition, double a, double b) { return condition ? a : b; }
+HWY_INLINE double root(double a) {
+    return std::sqrt(a);
+}
+HWY_INLINE double magnitude(double a) {
+    return std::abs(a);
+}
+HWY_INLINE double whole_part(double a) {
+    return std::floor(a);
+}
+HWY_INLINE double larger(double a, double b) {
+    return a < b ? b : a;
+}
+HWY_INLINE double smaller(double a, double b) {
+    return b < a ? b : a;
+}
+HWY_INLINE double select(bool condition, double a, double b) {
+    return condition ? a : b;
+}
 
 template <class V>
 struct NumberTraits;
@@ -88,8 +100,8 @@ struct NumberTraits<Lanes<Tag>> {
     }
     static HWY_INLINE Lanes<Tag> mantissa(Lanes<Tag> x) {
         const Integers integers;
-        constexpr auto bits = static_cast<hn::TFromD<Integers>>(
-            (static_cast<hn::TFromD<Integers>>(1) << fraction_bits) - 1);
+        constexpr auto bits =
+            static_cast<hn::TFromD<Integers>>((static_cast<hn::TFromD<Integers>>(1) << fraction_bits) - 1);
         const auto fraction = hn::And(hn::BitCast(integers, x.raw), hn::Set(integers, bits));
         return hn::Or(hn::BitCast(Tag(), fraction), hn::Set(Tag(), Real{1}));
     }
@@ -114,11 +126,13 @@ using RealOf = typename NumberTraits<V>::Real;
 template <class V>
 inline constexpr bool in_single_precision = sizeof(RealOf<V>) == 4;
 
-/// A speed (1/s, lengths in body lengths) below which a direction has no meaning; its square is a normal number.
+/// A speed (1/s, lengths in body lengths) below which a direction has no meaning; its square is a normal
+/// number.
 template <class V>
 inline constexpr double tiny = in_single_precision<V> ? 1e-15 : 1e-140;
 
-/// c[first] + c[first + stride] x + ... in pairs (Estrin's scheme): a short chain, where Horner's rule is a long one.
+/// c[first] + c[first + stride] x + ... in pairs (Estrin's scheme): a short chain, where Horner's rule is a
+/// long one.
 template <int first, int stride, int N, class V>
 HWY_INLINE V polynomial_from(const double (&c)[N], V x) {
     if constexpr (first + stride >= N) {
@@ -172,9 +186,19 @@ HWY_INLINE V exponential_less_one(V x) {
         constexpr double c[] = {1.0, 1.0 / 2, 1.0 / 6, 1.0 / 24, 1.0 / 120, 1.0 / 720, 1.0 / 5040};
         series = y * polynomial(c, y);
     } else {
-        constexpr double c[] = {1.0,         1.0 / 2,      1.0 / 6,       1.0 / 24,       1.0 / 120,
-                                1.0 / 720,   1.0 / 5040,   1.0 / 40320,   1.0 / 362880,   1.0 / 3628800,
-                                1.0 / 39916800, 1.0 / 479001600, 1.0 / 6227020800};
+        constexpr double c[] = {1.0,
+                                1.0 / 2,
+                                1.0 / 6,
+                                1.0 / 24,
+                                1.0 / 120,
+                                1.0 / 720,
+                                1.0 / 5040,
+                                1.0 / 40320,
+                                1.0 / 362880,
+                                1.0 / 3628800,
+                                1.0 / 39916800,
+                                1.0 / 479001600,
+                                1.0 / 6227020800};
         series = y * polynomial(c, y);
     }
     const V power = NumberTraits<V>::power_of_two(n);

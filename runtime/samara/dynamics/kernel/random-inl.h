@@ -31,7 +31,8 @@ HWY_INLINE void normal_pair(V first, V second, V& a, V& b) {
     b = radius * sine;
 }
 
-/// Four words of one draw make the velocity's numbers and the first of the rotation's, two of another the rest.
+/// Four words of one draw make the velocity's numbers and the first of the rotation's, two of another the
+/// rest.
 template <class V>
 HWY_INLINE SixNormals<V> six_normals(const std::array<V, 4>& first, V fifth, V sixth) {
     SixNormals<V> n;
@@ -58,7 +59,8 @@ HWY_INLINE void wide_product(Words words, W a, std::uint32_t factor, W& high, W&
 #endif
 }
 
-/// Philox4x32-10 of counters and keys: Salmon, Moraes, Dror, Shaw, SC11; Random123's philox.h holds the constants.
+/// Philox4x32-10 of counters and keys: Salmon, Moraes, Dror, Shaw, SC11; Random123's philox.h holds the
+/// constants.
 template <class Words, class W = hn::Vec<Words>>
 HWY_INLINE std::array<W, 4> philox(Words words, std::array<W, 4> counter, W key0, W key1) {
     for (int round = 0; round < 10; ++round) {
@@ -68,8 +70,8 @@ HWY_INLINE std::array<W, 4> philox(Words words, std::array<W, 4> counter, W key0
         W low1;
         wide_product(words, counter[0], 0xD2511F53U, high0, low0);
         wide_product(words, counter[2], 0xCD9E8D57U, high1, low1);
-        counter = {hn::Xor(hn::Xor(high1, counter[1]), key0), low1,
-                   hn::Xor(hn::Xor(high0, counter[3]), key1), low0};
+        counter = {hn::Xor(hn::Xor(high1, counter[1]), key0), low1, hn::Xor(hn::Xor(high0, counter[3]), key1),
+                   low0};
         key0 = hn::Add(key0, hn::Set(words, 0x9E3779B9U));
         key1 = hn::Add(key1, hn::Set(words, 0xBB67AE85U));
     }

@@ -59,8 +59,8 @@ HWY_INLINE V stiffness(const FlightConstants<Real>& c, const LoadBlocks<V>& load
     return h * larger(turning, moving);
 }
 
-/// Solves the step's system with everything taken at the middle that the pass before found. Its unknowns are the
-/// velocities' changes: solving for the velocities themselves would drift by a rounding error a step.
+/// Solves the step's system with everything taken at the middle that the pass before found. Its unknowns are
+/// the velocities' changes: solving for the velocities themselves would drift by a rounding error a step.
 template <class V, class Real>
 HWY_INLINE void improve(const FlightConstants<Real>& c, const StepStart<V>& start, StepMiddle<V>& middle) {
     const Square<V> turning = broadcast<V>(c.inertia_turning);
@@ -69,14 +69,13 @@ HWY_INLINE void improve(const FlightConstants<Real>& c, const StepStart<V>& star
     middle.half_turn = (V(0.5) * start.h) * middle.omega;
     const Triple<V> gravity = turned_back(middle.half_turn, start.gravity);
     const Triple<V> angular_momentum = turning * middle.omega + coupling * middle.velocity;
-    const Triple<V> linear_momentum =
-        transposed_times(coupling, middle.omega) + moving * middle.velocity;
+    const Triple<V> linear_momentum = transposed_times(coupling, middle.omega) + moving * middle.velocity;
     Square<V> matrix_turning = turning;
     Square<V> matrix_coupling = coupling;
     Square<V> matrix_moving = moving;
     Square<V> matrix_back = transposed(coupling);
-    Triple<V> moment = cross(broadcast<V>(c.weight_moment), gravity) +
-                       cross(angular_momentum, start.omega) + cross(linear_momentum, start.velocity);
+    Triple<V> moment = cross(broadcast<V>(c.weight_moment), gravity) + cross(angular_momentum, start.omega) +
+                       cross(linear_momentum, start.velocity);
     Triple<V> force = V(c.weight) * gravity + cross(linear_momentum, start.omega);
     V step = V(0.5) * start.h;
     middle.theta = V(0.5);
@@ -117,10 +116,11 @@ HWY_INLINE void improve(const FlightConstants<Real>& c, const StepStart<V>& star
     middle.velocity = start.velocity + middle.velocity_change;
 }
 
-/// One implicit step over h under a gravity (world axes). The middle of the step is guessed by the acceleration of
-/// the step before; two passes make it good to second order and more.
+/// One implicit step over h under a gravity (world axes). The middle of the step is guessed by the
+/// acceleration of the step before; two passes make it good to second order and more.
 template <class V, class Real>
-HWY_INLINE void implicit_step(const FlightConstants<Real>& c, const Triple<V>& gravity, V h, Flight<V>& flight) {
+HWY_INLINE void implicit_step(const FlightConstants<Real>& c, const Triple<V>& gravity, V h,
+                              Flight<V>& flight) {
     const Square<V> to_world = rotation_matrix(flight.orientation);
     StepStart<V> start;
     start.h = h;
@@ -142,8 +142,7 @@ HWY_INLINE void implicit_step(const FlightConstants<Real>& c, const Triple<V>& g
     const V whole = V(1.0) / middle.theta;
     const Triple<V> middle_velocity = V(c.length) * middle.velocity - cross(middle.omega, arm);
     // The same turn that carried gravity: what gravity works is then what the height gives.
-    flight.position =
-        flight.position + h * (to_world * turned_back(-middle.half_turn, middle_velocity));
+    flight.position = flight.position + h * (to_world * turned_back(-middle.half_turn, middle_velocity));
     flight.orientation = turned_by(flight.orientation, middle.half_turn);
     const Triple<V> turning_change = whole * middle.omega_change;
     const Triple<V> velocity_change =

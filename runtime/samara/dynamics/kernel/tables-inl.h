@@ -19,8 +19,8 @@ struct Quad {
     V a, b, c, d;
 };
 
-/// A place in a table: the first of its four corners (its first number's index), the corners' weights, and the
-/// way from this plane to the next.
+/// A place in a table: the first of its four corners (its first number's index), the corners' weights, and
+/// the way from this plane to the next.
 template <class V>
 struct Place;
 
@@ -58,7 +58,8 @@ HWY_INLINE void keep_weight(Lanes<Tag> weight, int corner, Place<Lanes<Tag>>& pl
     hn::Store(weight.raw, Tag(), place.weights[corner]);
 }
 
-/// The place of a number along one axis of `cells` cells: its cell's index, and how far into it. NaN goes to 0.
+/// The place of a number along one axis of `cells` cells: its cell's index, and how far into it. NaN goes to
+/// 0.
 template <class V>
 HWY_INLINE V cell_of(V place, V last, V& fraction) {
     const V cell = smaller(last, larger(V(0.0), whole_part(place)));
@@ -96,8 +97,7 @@ HWY_INLINE void find_place(const DirectionTable<Real>& table, const Triple<V>& d
             const auto beyond = V(table.logarithms[i]) < logarithm_here;
             plane = select(beyond, V(static_cast<double>(i)), plane);
             place.plane_fraction =
-                select(beyond,
-                       (logarithm_here - V(table.logarithms[i])) * V(table.inverse_differences[i]),
+                select(beyond, (logarithm_here - V(table.logarithms[i])) * V(table.inverse_differences[i]),
                        place.plane_fraction);
         }
         place.plane_fraction = smaller(one, larger(zero, place.plane_fraction));
@@ -135,8 +135,8 @@ HWY_INLINE void keep_pieces(Piece piece, hn::Vec<Piece> sum, std::size_t number,
     hn::Store(sum, piece, rows + number);
 }
 #else
-/// The fields of rows that stand as transposed blocks: rows[i] holds, for each block b of lanes, the numbers of
-/// its i-th lane.
+/// The fields of rows that stand as transposed blocks: rows[i] holds, for each block b of lanes, the numbers
+/// of its i-th lane.
 template <class Tag>
 HWY_INLINE Quad<Lanes<Tag>> fields_of(const float* rows) {
     const Tag tag;
@@ -167,8 +167,8 @@ HWY_INLINE Quad<Lanes<Tag>> fields_of(const double* rows) {
             hn::InterleaveLower(tag, second0, second1), hn::InterleaveUpper(tag, second0, second1)};
 }
 
-/// Where the numbers of one lane go so that fields_of finds them: in blocks of the 128 bits within which Highway
-/// interleaves.
+/// Where the numbers of one lane go so that fields_of finds them: in blocks of the 128 bits within which
+/// Highway interleaves.
 template <class Real>
 HWY_INLINE Real* piece_of_lane(Real* rows, std::size_t lane, std::size_t lanes, std::size_t number) {
     constexpr std::size_t block = 16 / sizeof(Real);
