@@ -11,6 +11,7 @@
 #include "samara/dynamics/immersed_body.hpp"
 #include "samara/dynamics/loads.hpp"
 #include "samara/dynamics/step.hpp"
+#include "samara/simulation/world_pose.hpp"
 
 namespace samara {
 namespace {
@@ -31,53 +32,6 @@ Surroundings surroundings_of(const Scene& scene) {
     return {.gravity = scene.gravity, .current = scene.fluid.current};
 }
 
-/// The copy's own start: the scene's, or drawn around it from the seed.
-BodyState initial_state(const SceneBody& scene_body, const ImmersedBody& body, const Fluid& fluid,
-                        const Noise& noise) {
-    BodyState state;
-    state.orientation = scene_body.orientation;
-    Vector3d origin = scene_body.position;
-    if (scene_body.count > 1) {
-        const auto place = noise.uniforms(0, NoiseStream::start_position);
-        for (int axis = 0; axis < 3; ++axis) {
-            origin[axis] +=
-                (2.0 * place[static_cast<std::size_t>(axis)] - 1.0) * scene_body.spread_position[axis];
-        }
-        const auto axis = noise.normals(0, NoiseStream::start_angle);
-        const double angle = scene_body.spread_angle * place[3];
-        const Vector3d about(axis[0], axis[1], axis[2]);
-        state.orientation = Quaterniond(Eigen::AngleAxisd(angle, about.normalized())) * state.orientation;
-    }
-    state.position = origin + state.orientation * body.center_of_mass;
-    state.velocity << state.orientation.conjugate() * scene_body.angular_velocity,
-        state.orientation.conjugate() * (scene_body.velocity - fluid.current);
-    return state;
-}
-
-/// A state in the world's frame, after the current has carried it for `time_in_flight` seconds.
-Pose pose_of(const BodyState& state, const Fluid& fluid, double time_in_flight) {
-    return {.position = state.position + time_in_flight * fluid.current,
-            .orientation = state.orientation,
-            .velocity = state.orientation * state.velocity.tail<3>() + fluid.current,
-            .angular_velocity = state.orientation * state.velocity.head<3>()};
-}
-
-/// A pose between two, `fraction` from 0 to 1 of the time h between them: cubic in the position, so that it
-/// agrees with the velocities, and the shortest turn in the orientation.
-Pose interpolated(const Pose& before, const Pose& after, double fraction, double h) {
-    const double s = fraction;
-    const double r = 1.0 - s;
-    return {.position = r * r * (1.0 + 2.0 * s) * before.position + s * s * (3.0 - 2.0 * s) * after.position +
-                        s * r * r * h * before.velocity - s * s * r * h * after.velocity,
-            .orientation = before.orientation.slerp(s, after.orientation),
-            .velocity = r * before.velocity + s * after.velocity,
-            .angular_velocity = r * before.angular_velocity + s * after.angular_velocity};
-}
-
-void keep_sign_continuous(Quaterniond& orientation, const Quaterniond& before) {
-    if (orientation.dot(before) < 0.0) orientation.coeffs() = -orientation.coeffs();
-}
-
 /// The whole flight of one copy in one run.
 class Flight {
   public:
@@ -86,8 +40,9 @@ class Flight {
           scene_body_(scene_body),
           body_(body),
           noise_(noise),
-          state_(initial_state(scene_body, body, scene.fluid, noise)),
-          after_(pose_of(state_, scene.fluid, 0.0)),
+          surroundings_(surroundings_of(scene)),
+          state_(initial_state(scene_body, body.center_of_mass, surroundings_, noise)),
+          after_(pose_of(state_, surroundings_, scene_body.start)),
           before_(after_) {
         held_ = after_;
         held_.velocity.setZero();
@@ -111,22 +66,25 @@ class Flight {
     [[nodiscard]] double highest_reynolds_number() const { return reynolds_number(body_, highest_speed_); }
 
   private:
+    /// The world's time (s) that the steps have come to.
+    [[nodiscard]] double step_time() const {
+        return scene_body_.start + static_cast<double>(steps_) * scene_.step;
+    }
+
     void step() {
-        const StepResult result = advance(body_, surroundings_of(scene_),
-                                          scene_body_.start + static_cast<double>(steps_) * scene_.step,
-                                          scene_.step, state_, noise_, steps_);
+        const StepResult result =
+            advance(body_, surroundings_, step_time(), scene_.step, state_, noise_, steps_);
         state_ = result.state;
         if (!state_.velocity.allFinite() || !state_.position.allFinite()) {
             throw Error(fmt::format("body '{}' left the range of numbers at {:.4g} s; use a smaller step",
-                                    body_.name,
-                                    scene_body_.start + static_cast<double>(steps_) * scene_.step));
+                                    body_.name, step_time()));
         }
         ++steps_;
         implicit_steps_ += static_cast<std::uint64_t>(result.substeps);
         most_substeps_ = std::max(most_substeps_, result.substeps);
         highest_speed_ = std::max(highest_speed_, state_.velocity.tail<3>().norm());
         before_ = after_;
-        after_ = pose_of(state_, scene_.fluid, static_cast<double>(steps_) * scene_.step);
+        after_ = pose_of(state_, surroundings_, step_time());
         keep_sign_continuous(after_.orientation, before_.orientation);
     }
 
@@ -134,6 +92,7 @@ class Flight {
     const SceneBody& scene_body_;
     const ImmersedBody& body_;
     const Noise noise_;
+    const Surroundings surroundings_;
     BodyState state_;
     Pose after_;
     Pose before_;
