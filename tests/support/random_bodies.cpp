@@ -106,9 +106,11 @@ ImmersedBody RandomBodies::body() {
                               .center_of_pressure = size * vector()};
     }
     ImmersedBody result = make_immersed_body(body, given, water());
-    result.dynamic.transport = uniform(-2.0, 2.0);
+    result.dynamic.force_transport = uniform(-2.0, 2.0);
+    result.dynamic.moment_transport = uniform(-2.0, 2.0);
     result.dynamic.drag_in_motion = semidefinite(size * size * magnitude(0.01, 100.0));
     result.dynamic.rotational_drag = semidefinite(size * size * size * size * magnitude(0.01, 100.0));
+    prepare(result);
     return result;
 }
 
