@@ -13,7 +13,13 @@ if ldd "$work/installed/bin/samara" | grep -iE 'gmsh|openfoam'; then
   exit 1
 fi
 "$work/installed/bin/samara" --help | grep -q 'mesh .*(not installed)'
-cmake -S "$source_folder/tests/end-to-end/consumer" -B "$work/consumer" -G Ninja -DCMAKE_PREFIX_PATH="$work/installed"
+cmake -S "$source_folder/tests/end-to-end/consumer" -B "$work/consumer" -G Ninja -DCMAKE_PREFIX_PATH="$work/installed" \
+  -DEXAMPLES="$source_folder/docs/examples"
 cmake --build "$work/consumer"
 "$work/consumer/consumer"
+if "$work/consumer/fall" "$work/missing.body.h5" 2> "$work/fault"; then
+  echo "the example flew a body that is not there" >&2
+  exit 1
+fi
+grep -q '^fall: .*missing.body.h5' "$work/fault"
 rm -rf "$work"

@@ -1,9 +1,13 @@
 #include "samara/dynamics/langevin.hpp"
 
 #include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "samara/dynamics/step.hpp"
 #include "support/known_bodies.hpp"
 
 namespace samara {
@@ -59,6 +63,68 @@ TEST(SeenFluid, ForgetsAtTheRateOfTheTurbulence) {
     EXPECT_LT((covariance / variance - Matrix3d::Identity()).cwiseAbs().maxCoeff(), 0.03);
 }
 
+/// The correlation of the velocity with itself `lag` steps later, over a long flight.
+double correlation(const ImmersedBody& body, double h, std::size_t lag, int steps) {
+    const Noise noise(6, "correlation time", 0, 0);
+    std::vector<Vector3d> last(lag, Vector3d::Zero());
+    SeenFluid seen;
+    double product = 0.0;
+    double square = 0.0;
+    for (std::size_t step = 0; step < static_cast<std::size_t>(steps); ++step) {
+        seen = advance_seen_fluid(body, level, seen, h, noise, step);
+        Vector3d& before = last[step % lag];
+        product += seen.velocity.dot(before);
+        square += seen.velocity.squaredNorm();
+        before = seen.velocity;
+    }
+    return product / square;
+}
+
+TEST(SeenFluid, HasTheCorrelationTimeOfTheTurbulenceWhateverTheStep) {
+    const ImmersedBody body = test::ideal_ellipsoid();
+    for (const auto& [step_by_time_scale, lag] : {std::pair(0.25, 4), {0.5, 2}, {1.0, 1}, {2.0, 1}}) {
+        const double h = step_by_time_scale / seen_rate;
+        const double measured =
+            -lag * h / std::log(correlation(body, h, static_cast<std::size_t>(lag), 1'500'000));
+        EXPECT_NEAR(measured * seen_rate, 1.0, 0.01) << "a h = " << step_by_time_scale;
+    }
+    // Of a step of ten correlation times nothing is left but e^-10.
+    EXPECT_NEAR(correlation(body, 10.0 / seen_rate, 1, 400'000), std::exp(-10.0), 0.005);
+}
+
+TEST(SeenFluid, IsIsotropicInTheWorldAroundASpinningBody) {
+    ImmersedBody body = test::ideal_ellipsoid();
+    body.turbulence = Turbulence::constant;
+    body.turbulent_kinetic_energy = level.turbulent_kinetic_energy;
+    body.dissipation_rate = level.dissipation_rate;
+    const Noise noise(7, "spinning", 0, 0);
+    BodyState state = test::tumbling_state(0.0, 3.0);
+    Matrix3d velocity = Matrix3d::Zero();
+    Matrix3d rotation = Matrix3d::Zero();
+    constexpr std::uint64_t steps = 100'000;
+    for (std::uint64_t step = 0; step < steps; ++step) {
+        state = advance(body, {.gravity = Vector3d::Zero()}, 0.0, 0.4, state, noise, step).state;
+        velocity += state.seen_fluid.velocity * state.seen_fluid.velocity.transpose() / steps;
+        rotation += state.seen_fluid.angular_velocity * state.seen_fluid.angular_velocity.transpose() / steps;
+    }
+    const double variance = 2.0 / 3.0 * level.turbulent_kinetic_energy;
+    EXPECT_LT((velocity / variance - Matrix3d::Identity()).cwiseAbs().maxCoeff(), 0.02);
+    const Matrix3d scaled = body.length * body.length / variance * rotation;
+    EXPECT_LT((scaled - Matrix3d::Identity()).cwiseAbs().maxCoeff(), 0.02);
+}
+
+TEST(SeenFluid, RotatesTheFasterTheSmallerTheBody) {
+    // The fluid turns over the body's length: half the length, twice the rotation.
+    ImmersedBody body = test::ideal_ellipsoid();
+    const Noise noise(8, "length", 0, 0);
+    const SeenFluid large = advance_seen_fluid(body, level, {}, 0.1, noise, 0);
+    body.length *= 0.5;
+    const SeenFluid small = advance_seen_fluid(body, level, {}, 0.1, noise, 0);
+    EXPECT_LT((small.angular_velocity - 2.0 * large.angular_velocity).norm(),
+              1e-12 * small.angular_velocity.norm());
+    EXPECT_EQ(small.velocity, large.velocity);
+}
+
 TEST(SeenFluid, IsStillWithoutTurbulence) {
     const ImmersedBody body = test::ideal_ellipsoid();
     const SeenFluid before{Vector3d(1, 2, 3), Vector3d(4, 5, 6)};
@@ -82,6 +148,50 @@ TEST(BodyVelocity, DriftsAndDiffusesAsEquationEightSays) {
     // The balance of drift and diffusion: C_k epsilon / (2 rate), 0.506 k at C_k = 2.1.
     EXPECT_NEAR(mean_square / (2.1 * level.dissipation_rate / (2.0 * rate)), 1.0, 0.01);
     EXPECT_NEAR(mean_square / level.turbulent_kinetic_energy, 0.506, 0.01);
+}
+
+TEST(BodyVelocity, ForgetsAtTheRateOfEquationEight) {
+    const ImmersedBody body = test::ideal_ellipsoid();
+    const Noise noise(9, "eq8 time", 0, 0);
+    const double rate = (0.5 + 0.75 * 2.1) * 3.0;
+    for (const double step_by_time_scale : {0.5, 1.0, 2.0}) {
+        const double h = step_by_time_scale / rate;
+        Vector6d velocity = Vector6d::Zero();
+        double product = 0.0;
+        Matrix3d covariance = Matrix3d::Zero();
+        constexpr std::uint64_t steps = 1'000'000;
+        for (std::uint64_t step = 0; step < steps; ++step) {
+            const Vector6d next = advance_body_velocity(body, level, velocity, h, noise, step);
+            product += next.tail<3>().dot(velocity.tail<3>());
+            velocity = next;
+            covariance += velocity.tail<3>() * velocity.tail<3>().transpose();
+        }
+        EXPECT_NEAR(-std::log(product / covariance.trace()) / step_by_time_scale, 1.0, 0.01)
+            << "rate h = " << step_by_time_scale;
+        const double variance = covariance.trace() / 3.0;
+        EXPECT_LT((covariance / variance - Matrix3d::Identity()).cwiseAbs().maxCoeff(), 0.02);
+    }
+}
+
+TEST(BodyVelocity, ItsRotationDiffusesOverTheBodysLength) {
+    // C_k epsilon t / L^2 for each component after the time t, from rest, whatever the steps.
+    const ImmersedBody body = test::ideal_ellipsoid();
+    const double time = 0.4;
+    for (const std::uint64_t steps : {1U, 8U}) {
+        double mean_square = 0.0;
+        constexpr std::uint32_t copies = 60'000;
+        for (std::uint32_t copy = 0; copy < copies; ++copy) {
+            const Noise noise(10, "eq8 rotation", 0, copy);
+            Vector6d velocity = Vector6d::Zero();
+            for (std::uint64_t step = 0; step < steps; ++step) {
+                velocity = advance_body_velocity(body, level, velocity, time / static_cast<double>(steps),
+                                                 noise, step);
+            }
+            mean_square += velocity.head<3>().squaredNorm() / 3.0 / copies;
+        }
+        const double expected = 2.1 * level.dissipation_rate * time / (body.length * body.length);
+        EXPECT_NEAR(mean_square / expected, 1.0, 0.015) << steps << " steps";
+    }
 }
 
 TEST(TurbulenceLevel, OfATableScalesWithTheSpeed) {

@@ -8,16 +8,9 @@
 #include "samara/base/linear_algebra.hpp"
 #include "samara/body/contact_points.hpp"
 #include "samara/body/surface.hpp"
+#include "samara/motion/pose.hpp"
 
 namespace samara {
-
-/// The place and motion of one copy of a body at one frame.
-struct Pose {
-    Vector3d position = Vector3d::Zero();               ///< of the centre of mass (m, world)
-    Quaterniond orientation = Quaterniond::Identity();  ///< body to world
-    Vector3d velocity = Vector3d::Zero();               ///< of the centre of mass (m/s, world)
-    Vector3d angular_velocity = Vector3d::Zero();       ///< rad/s, world axes
-};
 
 /// One body of the scene with all its copies, runs and frames.
 struct BodyMotion {
@@ -51,10 +44,5 @@ struct Motion {
         return body.poses[row * static_cast<std::size_t>(body.copies) + static_cast<std::size_t>(copy)];
     }
 };
-
-/// The place of the shape file's origin (m, world) at a pose of the centre of mass.
-inline Vector3d shape_origin(const Pose& pose, const Vector3d& center_of_mass) {
-    return pose.position - pose.orientation * center_of_mass;
-}
 
 }  // namespace samara

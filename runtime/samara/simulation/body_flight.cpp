@@ -9,36 +9,12 @@
 #include "samara/base/error.hpp"
 #include "samara/base/parallel_for.hpp"
 #include "samara/dynamics/loads.hpp"
+#include "samara/simulation/world_pose.hpp"
 
 namespace samara {
 namespace {
 
 constexpr std::size_t poses_a_piece = 256;
-
-/// The copy's own start: the scene's, or drawn around it from the seed.
-BodyState initial_state(const SceneBody& scene_body, const ImmersedBody& body,
-                        const Surroundings& surroundings, const Noise& noise) {
-    BodyState state;
-    state.orientation = scene_body.orientation;
-    Vector3d origin = scene_body.position;
-    if (scene_body.count > 1) {
-        const auto place = noise.uniforms(0, NoiseStream::start_position);
-        for (int axis = 0; axis < 3; ++axis) {
-            origin[axis] +=
-                (2.0 * place[static_cast<std::size_t>(axis)] - 1.0) * scene_body.spread_position[axis];
-        }
-        const auto axis = noise.normals(0, NoiseStream::start_angle);
-        const double angle = scene_body.spread_angle * place[3];
-        const Vector3d about(axis[0], axis[1], axis[2]);
-        state.orientation = Quaterniond(Eigen::AngleAxisd(angle, about.normalized())) * state.orientation;
-    }
-    const double start = scene_body.start;
-    state.position =
-        origin + state.orientation * body.center_of_mass - flow_displacement(surroundings, start);
-    state.velocity << state.orientation.conjugate() * scene_body.angular_velocity,
-        state.orientation.conjugate() * (scene_body.velocity - flow_velocity(surroundings, start));
-    return state;
-}
 
 void require_above_ground(const ImmersedBody& body, const Surroundings& surroundings, double start,
                           const BodyState& state, std::size_t copy, std::size_t copies) {
@@ -54,27 +30,11 @@ void require_above_ground(const ImmersedBody& body, const Surroundings& surround
 }
 
 /// A state as a pose in the flow's frame.
-Pose pose_of(const BodyState& state) {
+Pose flow_pose(const BodyState& state) {
     return {.position = state.position,
             .orientation = state.orientation,
             .velocity = state.orientation * state.velocity.tail<3>(),
             .angular_velocity = state.orientation * state.velocity.head<3>()};
-}
-
-/// A pose between two, `fraction` from 0 to 1 of the time h between them: cubic in the position, so that it
-/// agrees with the velocities, and the shortest turn in the orientation.
-Pose interpolated(const Pose& before, const Pose& after, double fraction, double h) {
-    const double s = fraction;
-    const double r = 1.0 - s;
-    return {.position = r * r * (1.0 + 2.0 * s) * before.position + s * s * (3.0 - 2.0 * s) * after.position +
-                        s * r * r * h * before.velocity - s * s * r * h * after.velocity,
-            .orientation = before.orientation.slerp(s, after.orientation),
-            .velocity = r * before.velocity + s * after.velocity,
-            .angular_velocity = r * before.angular_velocity + s * after.angular_velocity};
-}
-
-void keep_sign_continuous(Quaterniond& orientation, const Quaterniond& before) {
-    if (orientation.dot(before) < 0.0) orientation.coeffs() = -orientation.coeffs();
 }
 
 }  // namespace
@@ -106,11 +66,11 @@ BodyFlight::BodyFlight(const Scene& scene, const SceneBody& scene_body, const Im
         const auto run = static_cast<std::uint32_t>(i / copies_);
         const auto copy = static_cast<std::uint32_t>(i % copies_);
         const Noise noise(scene.seed, scene_body.name, run, copy);
-        const BodyState state = initial_state(scene_body, body, surroundings_, noise);
+        const BodyState state = initial_state(scene_body, body.center_of_mass, surroundings_, noise);
         require_above_ground(body, surroundings_, start_, state, copy, copies_);
         batch_.set_noise(i, noise);
         batch_.set_state(i, state);
-        after_[i] = pose_of(state);
+        after_[i] = flow_pose(state);
         last_[i] = state.orientation;
     }
     before_ = after_;
@@ -178,7 +138,7 @@ void BodyFlight::note_poses() {
     parallel_for(batch_.size(), poses_a_piece, threads_, [&](std::size_t first, std::size_t end) {
         FlightReport piece;
         for (std::size_t i = first; i < end; ++i) {
-            after_[i] = pose_of(batch_.state(i));
+            after_[i] = flow_pose(batch_.state(i));
             const double reynolds = reynolds_number(body_, after_[i].velocity.norm());
             piece.highest_reynolds_number = std::max(piece.highest_reynolds_number, reynolds);
             if ((after_[i].velocity + flow).isZero(0.0)) continue;

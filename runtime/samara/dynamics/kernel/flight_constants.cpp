@@ -55,19 +55,26 @@ DirectionTable<Real> direction_table(const LoadTables& tables, const Row& row) {
     return result;
 }
 
+/// l: a power of two, near L.
+double length_scale(const ImmersedBody& body) {
+    return std::exp2(std::round(std::log2(body.length)));
+}
+
 template <class Real>
-DirectionTable<Real> load_table(const LoadTables& tables) {
-    return direction_table<Real, 8>(tables, [](const LoadEntry& entry) {
+DirectionTable<Real> load_table(const ImmersedBody& body) {
+    const double arm = body.length / length_scale(body);
+    return direction_table<Real, 8>(*body.tables, [&](const LoadEntry& entry) {
         const Vector3d& f = entry.force;
-        const Vector3d& m = entry.moment;
+        const Vector3d m = arm * entry.moment;
         return std::array<double, 8>{f.x(), f.y(), f.z(), 0.0, m.x(), m.y(), m.z(), 0.0};
     });
 }
 
 template <class Real>
-DirectionTable<Real> turbulence_table(const LoadTables& tables) {
-    return direction_table<Real, 4>(tables, [](const LoadEntry& entry) {
-        return std::array<double, 4>{entry.turbulent_kinetic_energy, entry.dissipation_rate, 0.0, 0.0};
+DirectionTable<Real> turbulence_table(const ImmersedBody& body) {
+    const double scale = length_scale(body) / body.length;
+    return direction_table<Real, 4>(*body.tables, [&](const LoadEntry& entry) {
+        return std::array<double, 4>{entry.turbulent_kinetic_energy, scale * entry.dissipation_rate, 0.0, 0.0};
     });
 }
 
@@ -75,6 +82,7 @@ DirectionTable<Real> turbulence_table(const LoadTables& tables) {
 template <class Real>
 DirectionTable<Real> area_table(const ImmersedBody& body) {
     DirectionTable<Real> table;
+    table.width = 8;
     table.side = body.coefficients.reference_area ? 3 : 2 * shadow_subdivisions + 1;
     table.to_map_axes = square<Real>(Matrix3d::Identity());
     table.logarithms = {Real{0}};
@@ -83,7 +91,7 @@ DirectionTable<Real> area_table(const ImmersedBody& body) {
         const double area = body.coefficients.reference_area ? *body.coefficients.reference_area
                                                              : body.projected_areas[node];
         table.rows.insert(table.rows.end(),
-                          {static_cast<Real>(area / body.reference_area), Real{0}, Real{0}, Real{0}});
+                          {static_cast<Real>(area / body.reference_area), 0, 0, 0, 0, 0, 0, 0});
     }
     return table;
 }
@@ -92,7 +100,7 @@ template <class Real>
 void set_inertia(const ImmersedBody& body, FlightConstants<Real>& c) {
     const Matrix6d from_centroid = body.to_centroid.inverse();
     const Matrix6d inertia = from_centroid.transpose() * body.inertia * from_centroid;
-    const double length = body.length;
+    const double length = length_scale(body);
     const double mass = inertia.bottomRightCorner<3, 3>().trace() / 3.0;
     const Matrix3d turning = inertia.topLeftCorner<3, 3>() / (mass * length * length);
     const Matrix3d moving = inertia.bottomRightCorner<3, 3>() / mass;
@@ -109,16 +117,21 @@ void set_inertia(const ImmersedBody& body, FlightConstants<Real>& c) {
 }
 
 template <class Real>
+Real reynolds_factor(const ImmersedBody& body) {
+    return static_cast<Real>(body.length * length_scale(body) * body.fluid_density / body.viscosity);
+}
+
+template <class Real>
 void set_loads(const ImmersedBody& body, FlightConstants<Real>& c) {
     const double mass = static_cast<double>(c.mass_scale);
-    const double length = body.length;
+    const double length = length_scale(body);
     const double half_density = 0.5 * body.fluid_density;
     const DynamicCoefficients& dynamic = body.dynamic;
     const double tow = half_density * body.reference_area * length / mass;
     const double transport = 0.5 * (dynamic.moment_transport + dynamic.force_transport);
     c.loads = body.loads;
     c.tow_factor = static_cast<Real>(tow);
-    c.reynolds_factor = static_cast<Real>(length * length * body.fluid_density / body.viscosity);
+    c.reynolds_factor = reynolds_factor<Real>(body);
     c.transport = static_cast<Real>(transport);
     c.working_transport = static_cast<Real>(0.5 * (dynamic.moment_transport - dynamic.force_transport));
     c.half_length = static_cast<Real>(dynamic.half_length / length);
@@ -132,13 +145,14 @@ void set_loads(const ImmersedBody& body, FlightConstants<Real>& c) {
     c.drag_roots = triple<Real>(drags.roots);
     c.turning_axes = square<Real>(turnings.axes);
     c.turning_roots = triple<Real>(turnings.roots);
-    const double creeping = std::numbers::pi * body.viscosity * length / mass;
-    c.creeping_turn = static_cast<Real>(creeping);
+    const double creeping = std::numbers::pi * body.viscosity * body.length / mass;
+    const double ratio = body.length / length;
+    c.creeping_turn = static_cast<Real>(creeping * ratio * ratio);
     c.creeping_drag = static_cast<Real>(3.0 * creeping);
     if (body.loads == Loads::table) {
         c.kirchhoff_share = static_cast<Real>((1.0 - transport) / tow);
         c.lowest_reynolds_inverse = static_cast<Real>(1.0 / body.tables->reynolds_numbers.front());
-        c.loads_by_direction = load_table<Real>(*body.tables);
+        c.loads_by_direction = load_table<Real>(body);
     } else {
         c.drag_coefficient = static_cast<Real>(body.coefficients.drag_coefficient);
         c.twice_lift_coefficient = static_cast<Real>(2.0 * body.coefficients.lift_coefficient);
@@ -153,8 +167,9 @@ void set_loads(const ImmersedBody& body, FlightConstants<Real>& c) {
 template <class Real>
 FlightConstants<Real> flight_constants(const ImmersedBody& body) {
     FlightConstants<Real> c;
-    c.length = static_cast<Real>(body.length);
-    c.inverse_length = static_cast<Real>(1.0 / body.length);
+    c.length = static_cast<Real>(length_scale(body));
+    c.inverse_length = static_cast<Real>(1.0 / length_scale(body));
+    c.inverse_eddy_length = static_cast<Real>(1.0 / body.length);
     c.center_of_buoyancy = triple<Real>(body.center_of_buoyancy);
     set_inertia(body, c);
     if (body.loads != Loads::none) set_loads(body, c);
@@ -163,9 +178,8 @@ FlightConstants<Real> flight_constants(const ImmersedBody& body) {
     c.turbulent_kinetic_energy = static_cast<Real>(body.turbulent_kinetic_energy);
     c.dissipation_rate = static_cast<Real>(body.dissipation_rate);
     if (body.turbulence == Turbulence::table) {
-        c.reynolds_factor =
-            static_cast<Real>(body.length * body.length * body.fluid_density / body.viscosity);
-        c.turbulence_by_direction = turbulence_table<Real>(*body.tables);
+        c.reynolds_factor = reynolds_factor<Real>(body);
+        c.turbulence_by_direction = turbulence_table<Real>(body);
     }
     return c;
 }

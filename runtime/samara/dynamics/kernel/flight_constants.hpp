@@ -24,33 +24,34 @@ struct DirectionTable {
     [[nodiscard]] int planes() const { return static_cast<int>(logarithms.size()); }
 };
 
-/// What the step needs of a body, worked out once. Body axes about the centroid; velocities are in body lengths L
-/// a second and masses over the mass m* (a third of the trace of K's linear block), so that all numbers are near
-/// one and single precision serves as well.
+/// What the step needs of a body, worked out once. Body axes about the centroid; lengths are in the power of two l
+/// (m) nearest to the body's L, so that they convert without rounding, and masses in m*, a third of the trace of
+/// K's linear block: all numbers are near one, and single precision serves as well.
 template <class Real>
 struct FlightConstants {
-    Real length = 1;                        ///< L (m)
+    Real length = 1;                        ///< l (m)
     Real inverse_length = 1;                ///< 1/m
+    Real inverse_eddy_length = 1;           ///< 1/L (1/m): the turbulence's rotation is its velocity over L
     Real mass_scale = 1;                    ///< m* (kg)
     Triple<Real> center_of_buoyancy{};      ///< m, from the centre of mass to the centroid
-    Square<Real> inertia_turning{};         ///< K's block of (omega, omega), over m* L^2
-    Square<Real> inertia_coupling{};        ///< of (omega, v), over m* L
+    Square<Real> inertia_turning{};         ///< K's block of (omega, omega), over m* l^2
+    Square<Real> inertia_coupling{};        ///< of (omega, v), over m* l
     Square<Real> inertia_moving{};          ///< of (v, v), over m*
     Triple<Real> inverse_turning{};         ///< one over the diagonals, for the drag's stiffness
     Triple<Real> inverse_moving{};
     Square<Real> added_mass{};              ///< rho_f M / m*
-    Real weight = 0;                        ///< (m - rho_f V) / (m* L): times gravity the force
-    Triple<Real> weight_moment{};           ///< m r / (m* L^2), r from the centroid to the centre of mass
+    Real weight = 0;                        ///< (m - rho_f V) / (m* l): times gravity the force
+    Triple<Real> weight_moment{};           ///< m r / (m* l^2), r from the centroid to the centre of mass
     Real munk_rate = 0;                     ///< times the speed: the rate at which the Munk moment turns the body
 
     Loads loads = Loads::none;
-    Real tow_factor = 0;                    ///< rho_f A L / (2 m*)
-    Real reynolds_factor = 0;               ///< L^2 / nu (s)
-    DirectionTable<Real> loads_by_direction;  ///< force, 0, moment, 0; or the area over A, 0, 0, 0
+    Real tow_factor = 0;                    ///< rho_f A l / (2 m*)
+    Real reynolds_factor = 0;               ///< L l / nu (s)
+    DirectionTable<Real> loads_by_direction;  ///< force, 0, moment L/l, 0; or the area over A and zeros
     Real drag_coefficient = 0;
     Real twice_lift_coefficient = 0;
     Triple<Real> normal{};
-    Triple<Real> center_of_pressure{};      ///< over L, from the centroid
+    Triple<Real> center_of_pressure{};      ///< over l, from the centroid
     Real kirchhoff_share = 0;               ///< (1 - kappa) over tow_factor
     Real lowest_reynolds_inverse = 0;       ///< of the table; 0: no Stokes resistance in translation
 
@@ -60,15 +61,15 @@ struct FlightConstants {
     Triple<Real> turning_roots{};           ///< roots of a third of its principal values
     Square<Real> drag_axes{};               ///< rows: principal axes of the drag in motion
     Triple<Real> drag_roots{};
-    Square<Real> drag_in_motion{};          ///< rho_f L C_m A / (2 m*)
-    Square<Real> rotational_drag{};         ///< rho_f C_w D / (2 m* L)
-    Real half_length = 0;                   ///< c / L
-    Real creeping_turn = 0;                 ///< pi mu L / m* (1/s)
+    Square<Real> drag_in_motion{};          ///< rho_f l C_m A / (2 m*)
+    Square<Real> rotational_drag{};         ///< rho_f C_w D / (2 m* l)
+    Real half_length = 0;                   ///< c / l
+    Real creeping_turn = 0;                 ///< pi mu L^3 / (m* l^2) (1/s)
     Real creeping_drag = 0;                 ///< 3 pi mu L / m* (1/s)
 
     Turbulence turbulence = Turbulence::none;
     Langevin langevin = Langevin::seen_fluid;
-    DirectionTable<Real> turbulence_by_direction;  ///< k, epsilon, 0, 0
+    DirectionTable<Real> turbulence_by_direction;  ///< k, epsilon l/L, 0, 0
     Real turbulent_kinetic_energy = 0;             ///< m^2/s^2, where constant
     Real dissipation_rate = 0;                     ///< m^2/s^3, where constant
 };

@@ -29,7 +29,8 @@ HWY_INLINE Level<V> turbulence_level(const FlightConstants<Real>& c, const Tripl
     const Heading<V> heading = heading_of(velocity);
     Place<V> place;
     find_place(c.turbulence_by_direction, heading.direction, V(c.reynolds_factor) * heading.speed, place);
-    const Quad<V> row = look_up(c.turbulence_by_direction, place, 0);
+    Quad<V> row;
+    look_up<1>(c.turbulence_by_direction, place, &row);
     const V square = (V(c.length) * heading.speed) * (V(c.length) * heading.speed);
     return {row.a * square, row.b * square * heading.speed};
 }
@@ -55,7 +56,7 @@ HWY_INLINE void advance_seen_fluid(const FlightConstants<Real>& c, const Level<V
     const V deviation = select(alive, root(larger(zero, variance)), zero);
     flight.seen_velocity = kept * flight.seen_velocity + deviation * normals.velocity;
     flight.seen_rotation =
-        kept * flight.seen_rotation + (deviation * V(c.inverse_length)) * normals.rotation;
+        kept * flight.seen_rotation + (deviation * V(c.inverse_eddy_length)) * normals.rotation;
 }
 
 template <class V, class Real>
@@ -68,7 +69,7 @@ HWY_INLINE void advance_body_velocity(const FlightConstants<Real>& c, const Leve
     const auto alive = zero < rate;
     const V variance = diffusion * (-lost * (V(2.0) + lost)) / (V(2.0) * select(alive, rate, V(1.0)));
     const V deviation = select(alive, root(larger(zero, variance)), zero);
-    const V turning = select(alive, root(larger(zero, diffusion * h)) * V(c.inverse_length), zero);
+    const V turning = select(alive, root(larger(zero, diffusion * h)) * V(c.inverse_eddy_length), zero);
     flight.angular_velocity = flight.angular_velocity + turning * normals.rotation;
     flight.velocity = (V(1.0) + lost) * flight.velocity + deviation * normals.velocity;
 }

@@ -51,15 +51,15 @@ HWY_INLINE TowCoefficients<V> tow_coefficients(const FlightConstants<Real>& c, c
     const V zero(0.0);
     Place<V> place;
     find_place(c.loads_by_direction, heading.direction, V(c.reynolds_factor) * heading.speed, place);
-    const Quad<V> first = look_up(c.loads_by_direction, place, 0);
+    Quad<V> numbers[2];
+    look_up<with_moment ? 2 : 1>(c.loads_by_direction, place, numbers);
+    const Triple<V> force{numbers[0].a, numbers[0].b, numbers[0].c};
     if (c.loads == Loads::coefficients) {
-        const Triple<V> force = coefficient_force(c, heading.direction, first.a);
-        return {force, cross(broadcast<V>(c.center_of_pressure), force)};
+        const Triple<V> of_area = coefficient_force(c, heading.direction, force.x);
+        return {of_area, cross(broadcast<V>(c.center_of_pressure), of_area)};
     }
-    const Triple<V> force{first.a, first.b, first.c};
-    if constexpr (!with_moment) return {force, {zero, zero, zero}};
-    const Quad<V> second = look_up(c.loads_by_direction, place, 4);
-    return {force, {second.a, second.b, second.c}};
+    if constexpr (with_moment) return {force, {numbers[1].a, numbers[1].b, numbers[1].c}};
+    return {force, {zero, zero, zero}};
 }
 
 /// Where the tow's force acts, and the part of its moment that no arm can give (over the speed squared).

@@ -35,14 +35,14 @@ template <class V>
 struct StepStart {
     V h;
     Triple<V> omega, velocity;
-    Triple<V> angular_momentum, linear_momentum;
     Triple<V> gravity, seen_rotation, seen_velocity;  // body axes
 };
 
-/// The velocities inside the step, and the turn they were found with.
+/// The velocities inside the step, how they differ from the start's, and the turn they were found with.
 template <class V>
 struct StepMiddle {
     Triple<V> omega, velocity;
+    Triple<V> omega_change, velocity_change;
     Triple<V> half_turn;
     V theta;
 };
@@ -59,7 +59,8 @@ HWY_INLINE V stiffness(const FlightConstants<Real>& c, const LoadBlocks<V>& load
     return h * larger(turning, moving);
 }
 
-/// Solves the step's system with everything taken at the middle that the pass before found.
+/// Solves the step's system with everything taken at the middle that the pass before found. Its unknowns are the
+/// velocities' changes: solving for the velocities themselves would drift by a rounding error a step.
 template <class V, class Real>
 HWY_INLINE void improve(const FlightConstants<Real>& c, const StepStart<V>& start, StepMiddle<V>& middle) {
     const Square<V> turning = broadcast<V>(c.inertia_turning);
@@ -74,8 +75,9 @@ HWY_INLINE void improve(const FlightConstants<Real>& c, const StepStart<V>& star
     Square<V> matrix_coupling = coupling;
     Square<V> matrix_moving = moving;
     Square<V> matrix_back = transposed(coupling);
-    Triple<V> moment = cross(broadcast<V>(c.weight_moment), gravity);
-    Triple<V> force = V(c.weight) * gravity;
+    Triple<V> moment = cross(broadcast<V>(c.weight_moment), gravity) +
+                       cross(angular_momentum, start.omega) + cross(linear_momentum, start.velocity);
+    Triple<V> force = V(c.weight) * gravity + cross(linear_momentum, start.omega);
     V step = V(0.5) * start.h;
     middle.theta = V(0.5);
     if (c.loads != Loads::none) {
@@ -91,26 +93,28 @@ HWY_INLINE void improve(const FlightConstants<Real>& c, const StepStart<V>& star
         matrix_coupling = matrix_coupling + step * loads.moment_by_velocity;
         matrix_back = matrix_back + step * loads.force_by_turning;
         matrix_moving = matrix_moving + step * loads.force_by_velocity;
-        moment = moment + loads.moment_by_turning * fluid_turning + loads.moment_by_velocity * fluid_velocity;
-        force = force + loads.force_by_turning * fluid_turning + loads.force_by_velocity * fluid_velocity;
+        const Triple<V> slip_turning = fluid_turning - start.omega;
+        const Triple<V> slip_velocity = fluid_velocity - start.velocity;
+        moment = moment + loads.moment_by_turning * slip_turning + loads.moment_by_velocity * slip_velocity;
+        force = force + loads.force_by_turning * slip_turning + loads.force_by_velocity * slip_velocity;
     }
     matrix_turning = plus_cross(matrix_turning, -step * angular_momentum);
     matrix_coupling = plus_cross(matrix_coupling, -step * linear_momentum);
     matrix_back = plus_cross(matrix_back, -step * linear_momentum);
-    const Triple<V> right_moment = start.angular_momentum + step * moment;
-    const Triple<V> right_force = start.linear_momentum + step * force;
 
     // The velocity is eliminated: its block, then what is left for the turning.
     const Square<V> factors = factorised(matrix_moving);
     const Square<V> columns = transposed(matrix_back);
     const Square<V> solutions{solved(factors, columns.x), solved(factors, columns.y),
                               solved(factors, columns.z)};
-    const Triple<V> rest = solved(factors, right_force);
+    const Triple<V> rest = solved(factors, step * force);
     const Square<V> left{matrix_turning.x - solutions * matrix_coupling.x,
                          matrix_turning.y - solutions * matrix_coupling.y,
                          matrix_turning.z - solutions * matrix_coupling.z};
-    middle.omega = solved(factorised(left), right_moment - matrix_coupling * rest);
-    middle.velocity = rest - transposed_times(solutions, middle.omega);
+    middle.omega_change = solved(factorised(left), step * moment - matrix_coupling * rest);
+    middle.velocity_change = rest - transposed_times(solutions, middle.omega_change);
+    middle.omega = start.omega + middle.omega_change;
+    middle.velocity = start.velocity + middle.velocity_change;
 }
 
 /// One implicit step over h under a gravity (world axes). The middle of the step is guessed by the acceleration of
@@ -122,10 +126,6 @@ HWY_INLINE void implicit_step(const FlightConstants<Real>& c, const Triple<V>& g
     start.h = h;
     start.omega = flight.angular_velocity;
     start.velocity = centroid_velocity(c, flight);
-    start.angular_momentum = broadcast<V>(c.inertia_turning) * start.omega +
-                             broadcast<V>(c.inertia_coupling) * start.velocity;
-    start.linear_momentum = transposed_times(broadcast<V>(c.inertia_coupling), start.omega) +
-                            broadcast<V>(c.inertia_moving) * start.velocity;
     start.gravity = transposed_times(to_world, gravity);
     start.seen_rotation = transposed_times(to_world, flight.seen_rotation);
     start.seen_velocity = V(c.inverse_length) * transposed_times(to_world, flight.seen_velocity);
@@ -145,13 +145,14 @@ HWY_INLINE void implicit_step(const FlightConstants<Real>& c, const Triple<V>& g
     flight.position =
         flight.position + h * (to_world * turned_back(-middle.half_turn, middle_velocity));
     flight.orientation = turned_by(flight.orientation, middle.half_turn);
-    flight.angular_velocity = start.omega + whole * (middle.omega - start.omega);
-    const Triple<V> velocity = start.velocity + whole * (middle.velocity - start.velocity);
-    const Triple<V> end_velocity = V(c.length) * velocity - cross(flight.angular_velocity, arm);
+    const Triple<V> turning_change = whole * middle.omega_change;
+    const Triple<V> velocity_change =
+        (V(c.length) * whole) * middle.velocity_change - cross(turning_change, arm);
     const V rate = V(1.0) / h;
-    flight.angular_acceleration = rate * (flight.angular_velocity - start.omega);
-    flight.acceleration = rate * (end_velocity - flight.velocity);
-    flight.velocity = end_velocity;
+    flight.angular_acceleration = rate * turning_change;
+    flight.acceleration = rate * velocity_change;
+    flight.angular_velocity = flight.angular_velocity + turning_change;
+    flight.velocity = flight.velocity + velocity_change;
 }
 
 /// The rate (1/s) at which the body turns, or would turn by its Munk moment.

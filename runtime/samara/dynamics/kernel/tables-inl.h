@@ -109,14 +109,18 @@ HWY_INLINE void find_place(const DirectionTable<Real>& table, const Triple<V>& d
     keep_weight(down * across, 3, place);
 }
 
-HWY_INLINE Quad<double> corners_sum(const double* numbers, std::ptrdiff_t right, std::ptrdiff_t down,
-                                    const Place<double>& place) {
+/// The first `quads` fours of numbers at the place's corners, weighted.
+template <int quads>
+HWY_INLINE void corners_sum(const double* numbers, std::ptrdiff_t right, std::ptrdiff_t down,
+                            const Place<double>& place, Quad<double>* sums) {
     const double* n = numbers + place.index;
     const auto sum = [&](int i) {
         return n[i] * place.weights[0] + n[i + right] * place.weights[1] + n[i + down] * place.weights[2] +
                n[i + down + right] * place.weights[3];
     };
-    return {sum(0), sum(1), sum(2), sum(3)};
+    for (int quad = 0; quad < quads; ++quad) {
+        sums[quad] = {sum(4 * quad), sum(4 * quad + 1), sum(4 * quad + 2), sum(4 * quad + 3)};
+    }
 }
 
 #if HWY_TARGET == HWY_SCALAR
@@ -125,9 +129,10 @@ HWY_INLINE Quad<Lanes<Tag>> fields_of(const Real* rows) {
     return {Lanes<Tag>(hn::Set(Tag(), rows[0])), Lanes<Tag>(hn::Set(Tag(), rows[1])),
             Lanes<Tag>(hn::Set(Tag(), rows[2])), Lanes<Tag>(hn::Set(Tag(), rows[3]))};
 }
-template <class Real>
-HWY_INLINE Real* piece_of_lane(Real* rows, std::size_t /*lane*/, std::size_t /*lanes*/, std::size_t number) {
-    return rows + number;
+template <class Piece, class Real = hn::TFromD<Piece>>
+HWY_INLINE void keep_pieces(Piece piece, hn::Vec<Piece> sum, std::size_t number, Real* rows,
+                            std::size_t /*lane*/, std::size_t /*lanes*/) {
+    hn::Store(sum, piece, rows + number);
 }
 #else
 /// The fields of rows that stand as transposed blocks: rows[i] holds, for each block b of lanes, the numbers of
@@ -171,44 +176,64 @@ HWY_INLINE Real* piece_of_lane(Real* rows, std::size_t lane, std::size_t lanes, 
     const std::size_t row = in_block * (4 / block) + number / block;
     return rows + row * lanes + (lane - in_block);
 }
+/// Keeps a lane's numbers from `number` on, a piece of 16 bytes at a time.
+template <class Piece, class Real = hn::TFromD<Piece>>
+HWY_INLINE void keep_pieces(Piece piece, hn::Vec<Piece> sum, std::size_t number, Real* rows, std::size_t lane,
+                            std::size_t lanes) {
+    constexpr std::size_t half = hn::MaxLanes(Piece()) / 2;
+    if constexpr (half * sizeof(Real) >= 16) {
+        const hn::Half<Piece> halves;
+        keep_pieces(halves, hn::LowerHalf(halves, sum), number, rows, lane, lanes);
+        keep_pieces(halves, hn::UpperHalf(halves, sum), number + half, rows, lane, lanes);
+    } else {
+        Real* quad = rows + number / 4 * (4 * lanes);
+        hn::Store(sum, piece, piece_of_lane(quad, lane, lanes, number % 4));
+    }
+}
+
 #endif
 
-template <class Tag, class Real = hn::TFromD<Tag>>
-HWY_INLINE Quad<Lanes<Tag>> corners_sum(const Real* numbers, std::ptrdiff_t right, std::ptrdiff_t down,
-                                        const Place<Lanes<Tag>>& place) {
-    const hn::CappedTag<Real, 16 / sizeof(Real)> piece;
+template <int quads, class Tag, class Real = hn::TFromD<Tag>>
+HWY_INLINE void corners_sum(const Real* numbers, std::ptrdiff_t right, std::ptrdiff_t down,
+                            const Place<Lanes<Tag>>& place, Quad<Lanes<Tag>>* sums) {
+    const hn::CappedTag<Real, std::size_t{4} * quads> piece;
+    constexpr std::size_t step = hn::MaxLanes(piece);
     const std::size_t lanes = hn::Lanes(Tag());
-    HWY_ALIGN_MAX Real rows[4 * hn::MaxLanes(Tag())];
+    HWY_ALIGN_MAX Real rows[quads * 4 * hn::MaxLanes(Tag())];
     for (std::size_t lane = 0; lane < lanes; ++lane) {
         const Real* n = numbers + place.index[lane];
         const auto w0 = hn::Set(piece, place.weights[0][lane]);
         const auto w1 = hn::Set(piece, place.weights[1][lane]);
         const auto w2 = hn::Set(piece, place.weights[2][lane]);
         const auto w3 = hn::Set(piece, place.weights[3][lane]);
-        for (std::size_t i = 0; i < 4; i += hn::Lanes(piece)) {
+        for (std::size_t i = 0; i < std::size_t{4} * quads; i += step) {
             auto sum = hn::Mul(hn::LoadU(piece, n + i), w0);
             sum = hn::Add(sum, hn::Mul(hn::LoadU(piece, n + i + right), w1));
             sum = hn::Add(sum, hn::Mul(hn::LoadU(piece, n + i + down), w2));
             sum = hn::Add(sum, hn::Mul(hn::LoadU(piece, n + i + down + right), w3));
-            hn::Store(sum, piece, piece_of_lane(rows, lane, lanes, i));
+            keep_pieces(piece, sum, i, rows, lane, lanes);
         }
     }
-    return fields_of<Tag>(rows);
+    for (std::size_t quad = 0; quad < quads; ++quad) sums[quad] = fields_of<Tag>(rows + quad * 4 * lanes);
 }
 
-/// The four numbers of the rows from `first` on, interpolated.
-template <class V, class Real>
-HWY_INLINE Quad<V> look_up(const DirectionTable<Real>& table, const Place<V>& place, int first) {
+/// The first `quads` fours of the rows' numbers, interpolated.
+template <int quads, class V, class Real>
+HWY_INLINE void look_up(const DirectionTable<Real>& table, const Place<V>& place, Quad<V>* result) {
     const std::ptrdiff_t right = table.width;
     const std::ptrdiff_t down = right * table.side;
-    const Real* numbers = table.rows.data() + first;
-    const Quad<V> here = corners_sum(numbers, right, down, place);
-    if (table.planes() < 2) return here;
-    const Quad<V> next = corners_sum(numbers + down * table.side, right, down, place);
+    const Real* numbers = table.rows.data();
+    corners_sum<quads>(numbers, right, down, place, result);
+    if (table.planes() < 2) return;
+    Quad<V> next[quads];
+    corners_sum<quads>(numbers + down * table.side, right, down, place, next);
     const V f = place.plane_fraction;
     const V g = V(1.0) - f;
-    return {g * here.a + f * next.a, g * here.b + f * next.b, g * here.c + f * next.c,
-            g * here.d + f * next.d};
+    for (int i = 0; i < quads; ++i) {
+        const Quad<V>& here = result[i];
+        result[i] = {g * here.a + f * next[i].a, g * here.b + f * next[i].b, g * here.c + f * next[i].c,
+                     g * here.d + f * next[i].d};
+    }
 }
 
 }  // namespace samara::HWY_NAMESPACE

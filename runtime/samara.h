@@ -1,0 +1,233 @@
+/* The C interface of samara: rigid bodies that fall, flutter and tumble through a fluid.
+ *
+ * For animation tools and game engines, in C99 and any language that calls C (docs/c-interface.md, with an
+ * example). SI units; angles in radians; world z is up; quaternions are (w, x, y, z) and turn the axes of the
+ * shape to the world's.
+ *
+ * Every function that can fail returns a samara_status and, where it is not SAMARA_OK, writes one line of
+ * text into `error`, a buffer of `error_size` bytes that may be null or too short (the text is then cut). A
+ * call that fails changes nothing, unless it says otherwise. No function throws, exits or writes to the
+ * terminal.
+ *
+ * There is no global state. Different objects may be used from different threads at the same time; one object
+ * may be read by several threads at the same time, but while a thread changes it no other may use it.
+ */
+#ifndef SAMARA_H
+#define SAMARA_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(__GNUC__)
+#define SAMARA_API __attribute__((visibility("default")))
+#else
+#define SAMARA_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The version of this header: it grows with every addition, and what was there stays as it was. */
+#define SAMARA_API_VERSION 1
+
+/* The SAMARA_API_VERSION of the library that is linked: at least that of the header, or functions may lack.
+ */
+SAMARA_API int samara_api_version(void);
+
+/* The version of samara, such as "0.1.0". */
+SAMARA_API const char* samara_version(void);
+
+typedef enum samara_status {
+    SAMARA_OK = 0,
+    SAMARA_INVALID_ARGUMENT = 1, /* a null pointer, an index or a number out of its range, a number that is
+                                    not finite, settings that contradict each other */
+    SAMARA_UNREADABLE_FILE = 2,  /* missing, cut short, damaged, of another kind, or from a newer samara */
+    SAMARA_MISSING_DATA = 3,     /* the body file lacks what the settings ask for */
+    SAMARA_TIME_PASSED = 4,      /* the simulation cannot go back */
+    SAMARA_FOREIGN_STATE = 5,    /* the bytes are no state of this simulation, or are damaged */
+    SAMARA_OUT_OF_RANGE = 6,     /* a body's motion left the range of numbers */
+    SAMARA_OUT_OF_MEMORY = 7,
+    SAMARA_INTERNAL_ERROR = 8 /* please report it */
+} samara_status;
+
+/* ---- Bodies ----------------------------------------------------------------------------------------------
+ */
+
+/* What a body file (NAME.body.h5) holds. */
+typedef struct samara_body samara_body;
+
+/* Reads a body file into *body, which samara_body_free frees. `file`: UTF-8. */
+SAMARA_API samara_status samara_body_load(const char* file, samara_body** body, char* error,
+                                          size_t error_size);
+
+/* Simulations that were given the body keep what they need of it. Null is allowed. */
+SAMARA_API void samara_body_free(samara_body* body);
+
+/* Of a null body the following return an empty text, or 0. Texts live as long as the body. */
+SAMARA_API const char* samara_body_name(const samara_body* body);
+SAMARA_API const char* samara_body_source(const samara_body* body); /* one line: the shape file it is from */
+SAMARA_API double samara_body_volume(const samara_body* body);      /* m^3 */
+SAMARA_API int samara_body_has_added_mass(const samara_body* body); /* without it the body cannot fly */
+SAMARA_API int samara_body_has_tables(const samara_body* body);     /* of loads and turbulence */
+
+/* The surface as flat triangles, to show the body. Curved triangles are cut into four. */
+SAMARA_API size_t samara_body_vertex_count(const samara_body* body);
+SAMARA_API size_t samara_body_triangle_count(const samara_body* body);
+
+/* Copies x, y, z (m, shape axes) of all vertices; `capacity` is the number of doubles in `coordinates`, at
+ * least 3 samara_body_vertex_count. */
+SAMARA_API samara_status samara_body_get_vertices(const samara_body* body, double* coordinates,
+                                                  size_t capacity, char* error, size_t error_size);
+
+/* Copies three vertex numbers for each triangle, counter-clockwise seen from outside; `capacity` is the
+ * number of entries in `corners`, at least 3 samara_body_triangle_count. */
+SAMARA_API samara_status samara_body_get_triangles(const samara_body* body, int32_t* corners, size_t capacity,
+                                                   char* error, size_t error_size);
+
+/* ---- Settings --------------------------------------------------------------------------------------------
+ */
+
+/* A simulation. Fill it with samara_default_settings, then change what differs: later versions may add
+ * members at the end, and `size` tells the library which ones are there. */
+typedef struct samara_settings {
+    size_t size;
+    double fluid_density;     /* kg/m^3; default: water at 20 degrees Celsius, 998.2 */
+    double fluid_viscosity;   /* dynamic, Pa s; default: 1.002e-3 */
+    double current[3];        /* m/s; uniform and steady */
+    double gust_amplitude[3]; /* m/s; the current swings by amplitude sin(2 pi t/period) */
+    double gust_period;       /* s */
+    double gravity[3];        /* m/s^2; default: 0, 0, -9.81 */
+    double step;     /* s; default: 0.002. The grid of the time steps, whatever times are asked for */
+    uint64_t seed;   /* of the noise; default: 1 */
+    uint32_t run;    /* another run of the same seed has other noise; default: 0 */
+    int32_t threads; /* for many bodies; 0: all cores; default: 1. Does not change the motion */
+} samara_settings;
+
+SAMARA_API samara_status samara_default_settings(samara_settings* settings, size_t size, char* error,
+                                                 size_t error_size);
+
+/* docs/theory.md says what each model is. */
+enum { SAMARA_LOADS_NONE = 0, SAMARA_LOADS_COEFFICIENTS = 1, SAMARA_LOADS_TABLE = 2 };
+enum {
+    SAMARA_TURBULENCE_NONE = 0,
+    SAMARA_TURBULENCE_CONSTANT = 1,
+    SAMARA_TURBULENCE_TABLE = 2,
+    SAMARA_TURBULENCE_AS_LOADS = 3 /* from the table where the loads are, else none */
+};
+enum { SAMARA_LANGEVIN_SEEN_FLUID = 0, SAMARA_LANGEVIN_BODY_VELOCITY = 1 };
+
+/* One kind of bodies in a simulation. Fill it with samara_default_kind; it has no default mass. */
+typedef struct samara_kind {
+    size_t size;
+    const char* name; /* keys the noise: letters, digits, - and _; default (null): the body file's name */
+    uint32_t count;   /* how many, which do not feel each other; default: 1 */
+
+    double density; /* kg/m^3, uniform. This, or mass; 0: not given */
+    double mass;    /* kg */
+    int32_t has_center_of_mass;
+    double center_of_mass[3]; /* m, shape axes, with `mass`; else the centroid of the volume */
+    double inertia[9]; /* kg m^2 about the centre of mass, shape axes, with `mass`; all 0: as if uniform */
+
+    double position[3];         /* where the shape's origin starts, m */
+    double orientation[4];      /* w, x, y, z; is normalised; default: 1, 0, 0, 0 */
+    double velocity[3];         /* of the centre of mass, m/s, world axes */
+    double angular_velocity[3]; /* rad/s, world axes */
+    double start;               /* s; held at rest until then */
+    double spread_position[3];  /* m: several start up to this far from `position` along each axis ... */
+    double spread_angle;        /* rad: ... and turned by up to this, drawn from the seed */
+
+    int32_t loads;                /* SAMARA_LOADS_...; default: TABLE */
+    double drag_coefficient;      /* with COEFFICIENTS, as all of the next five; default: 1 */
+    double lift_coefficient;      /* default: 0 */
+    double reference_area;        /* m^2; default (0): the area projected along the motion */
+    double normal[3];             /* shape axes; default (0, 0, 0): the axis of the shortest extent */
+    double center_of_pressure[3]; /* m from the centroid of the volume, shape axes */
+
+    int32_t turbulence;              /* SAMARA_TURBULENCE_...; default: AS_LOADS */
+    double turbulent_kinetic_energy; /* m^2/s^2, with CONSTANT */
+    double dissipation_rate;         /* m^2/s^3, with CONSTANT */
+    int32_t langevin;                /* SAMARA_LANGEVIN_...; default: SEEN_FLUID */
+} samara_kind;
+
+SAMARA_API samara_status samara_default_kind(samara_kind* kind, size_t size, char* error, size_t error_size);
+
+/* ---- Simulations -----------------------------------------------------------------------------------------
+ */
+
+typedef struct samara_simulation samara_simulation;
+
+/* An empty simulation at time 0 in *simulation, which samara_simulation_free frees. */
+SAMARA_API samara_status samara_simulation_create(const samara_settings* settings,
+                                                  samara_simulation** simulation, char* error,
+                                                  size_t error_size);
+
+SAMARA_API void samara_simulation_free(samara_simulation* simulation); /* null is allowed */
+
+/* Adds the bodies of a kind, before the first advance. Bodies are numbered from 0 in the order in which they
+ * are added; *first (may be null) is the number of the first new one. */
+SAMARA_API samara_status samara_simulation_add(samara_simulation* simulation, const samara_body* body,
+                                               const samara_kind* kind, size_t* first, char* error,
+                                               size_t error_size);
+
+/* Of a null simulation these return 0. */
+SAMARA_API size_t samara_simulation_count(const samara_simulation* simulation); /* bodies of all kinds */
+SAMARA_API double samara_simulation_time(const samara_simulation* simulation);  /* s */
+
+/* Moves all bodies to a time (s), not before the simulation's own: SAMARA_TIME_PASSED. The steps lie on a
+ * grid that `step` fixes, and poses in between are interpolated: asking at 24 or at 60 times a second, or at
+ * any times, gives the same motion to the last bit. SAMARA_OUT_OF_RANGE: the simulation has stopped, has no
+ * poses any more, and only samara_set_state brings it back. */
+SAMARA_API samara_status samara_advance_to(samara_simulation* simulation, double time, char* error,
+                                           size_t error_size);
+
+/* Place and motion of one body at the simulation's time: 13 doubles without gaps. */
+typedef struct samara_pose {
+    double position[3];         /* of the shape's origin, m, world */
+    double orientation[4];      /* w, x, y, z; shape axes to world; its sign is continuous in time */
+    double velocity[3];         /* of the centre of mass, m/s, world axes */
+    double angular_velocity[3]; /* rad/s, world axes */
+} samara_pose;
+
+/* Copies the poses of the bodies first ... first + count - 1. Pose i is at the address of `poses` plus i
+ * times `stride` bytes; 0: they lie one behind the other. */
+SAMARA_API samara_status samara_get_poses(const samara_simulation* simulation, size_t first, size_t count,
+                                          samara_pose* poses, size_t stride, char* error, size_t error_size);
+
+/* Puts bodies elsewhere at the simulation's time; orientations are normalised. A body keeps the turbulence
+ * that it feels. Inside a step the body moves on steadily to the step's end, where its flight goes on: the
+ * grid stays. Before the body's start it is where it will start from. */
+SAMARA_API samara_status samara_set_poses(samara_simulation* simulation, size_t first, size_t count,
+                                          const samara_pose* poses, size_t stride, char* error,
+                                          size_t error_size);
+
+/* The noise of all steps to come. */
+SAMARA_API samara_status samara_set_seed(samara_simulation* simulation, uint64_t seed, uint32_t run,
+                                         char* error, size_t error_size);
+
+/* The whole state as bytes: time, seed and all bodies. A simulation that is set to it goes on as this one
+ * does, to the last bit. It fits simulations with the same settings and kinds (threads, seed, run and where
+ * the kinds start may differ) of the same samara on machines with the same byte order. */
+SAMARA_API size_t samara_state_size(const samara_simulation* simulation); /* 0 for a null simulation */
+SAMARA_API samara_status samara_get_state(const samara_simulation* simulation, void* bytes, size_t size,
+                                          char* error, size_t error_size);
+SAMARA_API samara_status samara_set_state(samara_simulation* simulation, const void* bytes, size_t size,
+                                          char* error, size_t error_size);
+
+/* What the simulation did so far. Set `size` to sizeof(samara_report) before the call. */
+typedef struct samara_report {
+    size_t size;
+    uint64_t steps;                 /* of the grid, over all bodies */
+    uint64_t substeps;              /* implicit steps: bodies that turn fast take several in a step */
+    int32_t most_substeps;          /* that any body took in one step; 64 is the limit */
+    double highest_reynolds_number; /* relative to the undisturbed flow, at the ends of steps */
+} samara_report;
+
+SAMARA_API samara_status samara_get_report(const samara_simulation* simulation, samara_report* report,
+                                           char* error, size_t error_size);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

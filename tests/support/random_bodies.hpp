@@ -1,0 +1,37 @@
+#pragma once
+
+#include <random>
+
+#include "samara/dynamics/immersed_body.hpp"
+#include "samara/dynamics/step.hpp"
+
+namespace samara::test {
+
+/// Bodies as no shape would give them, to search for faults: any positive definite added mass with coupling,
+/// densities from a thousandth to a billion times water's, the centre of mass up to two body lengths away,
+/// tables that jump from node to node by up to a hundred times (some with drag against the motion that
+/// interpolation turns into thrust), coefficients, or no loads;
+/// any positive semidefinite dynamic coefficients.
+class RandomBodies {
+  public:
+    explicit RandomBodies(unsigned seed) : generator_(seed) {}
+
+    ImmersedBody body();
+    /// Speeds from 1e-4 to 1e3 m/s and rad/s, any orientation.
+    BodyState state();
+    /// Logarithmically even between the bounds.
+    double magnitude(double lowest, double highest);
+
+  private:
+    double uniform(double lowest, double highest);
+    Vector3d vector();
+    /// A A^T of a random matrix, between the condition numbers 1 and about 1e4.
+    template <int Size>
+    Eigen::Matrix<double, Size, Size> positive_definite();
+    Matrix3d semidefinite(double scale);
+    LoadTables tables(double length);
+
+    std::mt19937_64 generator_;
+};
+
+}  // namespace samara::test

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+namespace samara::test {
+
+/// One line of the table in docs/stability.md.
+struct StabilityRow {
+    std::string subject;  ///< the case, in words
+    std::string step;     ///< the time step, in words
+    std::string checked;  ///< what the figure measures
+    double bound;         ///< the figure must not be above it
+    double figure;
+};
+
+/// Expects the figure to be a number not above the bound, and records the line with the running test, from
+/// where tests/tools/stability_table.py takes it. To be called from the test's own thread.
+void expect_row(const StabilityRow& row);
+
+}  // namespace samara::test
