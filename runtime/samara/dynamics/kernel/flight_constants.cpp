@@ -109,10 +109,12 @@ void set_inertia(const ImmersedBody& body, FlightConstants<Real>& c) {
     c.mass_scale = static_cast<Real>(mass);
     c.inertia_turning = square<Real>(turning);
     c.inertia_coupling = square<Real>(inertia.topRightCorner<3, 3>() / (mass * length));
-    c.inertia_moving = square<Real>(moving);
+    c.directed_inertia = square<Real>(moving - Matrix3d::Identity());
     c.inverse_turning = triple<Real>(turning.diagonal().cwiseInverse());
     c.inverse_moving = triple<Real>(moving.diagonal().cwiseInverse());
-    c.added_mass = square<Real>(body.added_mass / mass);
+    const double isotropic = body.added_mass.trace() / (3.0 * mass);
+    c.isotropic_added_mass = static_cast<Real>(isotropic);
+    c.directed_added_mass = square<Real>(body.added_mass / mass - isotropic * Matrix3d::Identity());
     c.weight = static_cast<Real>((body.mass - body.fluid_density * body.volume) / (mass * length));
     c.weight_moment = triple<Real>(-body.mass / (mass * length * length) * body.center_of_buoyancy);
     c.munk_rate = static_cast<Real>(body.turning_scale * length);

@@ -36,10 +36,11 @@ struct FlightConstants {
     Triple<Real> center_of_buoyancy{};  ///< m, from the centre of mass to the centroid
     Square<Real> inertia_turning{};     ///< K's block of (omega, omega), over m* l^2
     Square<Real> inertia_coupling{};    ///< of (omega, v), over m* l
-    Square<Real> inertia_moving{};      ///< of (v, v), over m*
+    Square<Real> directed_inertia{};    ///< of (v, v), over m*, less the unit matrix: its trace is zero
     Triple<Real> inverse_turning{};     ///< one over the diagonals, for the drag's stiffness
     Triple<Real> inverse_moving{};
-    Square<Real> added_mass{};     ///< rho_f M / m*
+    Square<Real> directed_added_mass{};  ///< rho_f M / m* less its isotropic part
+    Real isotropic_added_mass = 0;       ///< a third of the trace of rho_f M / m*
     Real weight = 0;               ///< (m - rho_f V) / (m* l): times gravity the force
     Triple<Real> weight_moment{};  ///< m r / (m* l^2), r from the centroid to the centre of mass
     Real munk_rate = 0;            ///< times the speed: the rate at which the Munk moment turns the body

@@ -45,38 +45,73 @@ struct StepMiddle {
     Triple<V> omega_change, velocity_change;
     Triple<V> half_turn;
     V theta;
+    V stiffness;  // of the moving
 };
 
-/// How stiff the drag is: h max(D_ii / K_ii).
+/// How stiff the drag is: h max(D_ii / K_ii) of the turning and of the moving.
+template <class V>
+struct Stiffness {
+    V turning, moving;
+};
 template <class V, class Real>
-HWY_INLINE V stiffness(const FlightConstants<Real>& c, const LoadBlocks<V>& loads, V h) {
+HWY_INLINE Stiffness<V> stiffness(const FlightConstants<Real>& c, const LoadBlocks<V>& loads, V h) {
     const Triple<V> w = broadcast<V>(c.inverse_turning);
     const Triple<V> v = broadcast<V>(c.inverse_moving);
     const Square<V>& a = loads.moment_by_turning;
     const Square<V>& b = loads.force_by_velocity;
-    const V turning = larger(larger(a.x.x * w.x, a.y.y * w.y), a.z.z * w.z);
-    const V moving = larger(larger(b.x.x * v.x, b.y.y * v.y), b.z.z * v.z);
-    return h * larger(turning, moving);
+    return {h * larger(larger(a.x.x * w.x, a.y.y * w.y), a.z.z * w.z),
+            h * larger(larger(b.x.x * v.x, b.y.y * v.y), b.z.z * v.z)};
 }
 
-/// Solves the step's system with everything taken at the middle that the pass before found. Its unknowns are
-/// the velocities' changes: solving for the velocities themselves would drift by a rounding error a step.
-template <class V, class Real>
+/// The step's matrix by its blocks, ready to solve with.
+template <class V>
+struct StepMatrix {
+    Square<V> turning, coupling, back, moving;
+    Square<V> moving_factors, solutions, turning_factors;
+
+    /// Eliminates the velocity, whose block is factorised, and then what is left for the turning.
+    HWY_INLINE void factorise() {
+        moving_factors = factorised(moving);
+        const Square<V> columns = transposed(back);
+        solutions = {solved(moving_factors, columns.x), solved(moving_factors, columns.y),
+                     solved(moving_factors, columns.z)};
+        turning_factors = factorised(Square<V>{turning.x - solutions * coupling.x,
+                                               turning.y - solutions * coupling.y,
+                                               turning.z - solutions * coupling.z});
+    }
+    /// Adds the solution for a moment and a force.
+    HWY_INLINE void solve(const Triple<V>& moment, const Triple<V>& force, Triple<V>& omega,
+                          Triple<V>& velocity) const {
+        const Triple<V> rest = solved(moving_factors, force);
+        const Triple<V> turn = solved(turning_factors, moment - coupling * rest);
+        omega = omega + turn;
+        velocity = velocity + (rest - transposed_times(solutions, turn));
+    }
+};
+
+/// Solves the step's system with the loads and the transport taken at the middle that was found or guessed before.
+/// Its unknowns are the velocities' changes: solving for the velocities themselves would drift by a rounding error
+/// a step. `refined`: once more for what rounding left, since the elimination does not look for the best pivots.
+template <bool refined, class V, class Real>
 HWY_INLINE void improve(const FlightConstants<Real>& c, const StepStart<V>& start, StepMiddle<V>& middle) {
-    const Square<V> turning = broadcast<V>(c.inertia_turning);
     const Square<V> coupling = broadcast<V>(c.inertia_coupling);
-    const Square<V> moving = broadcast<V>(c.inertia_moving);
     middle.half_turn = (V(0.5) * start.h) * middle.omega;
     const Triple<V> gravity = turned_back(middle.half_turn, start.gravity);
-    const Triple<V> angular_momentum = turning * middle.omega + coupling * middle.velocity;
-    const Triple<V> linear_momentum = transposed_times(coupling, middle.omega) + moving * middle.velocity;
-    Square<V> matrix_turning = turning;
-    Square<V> matrix_coupling = coupling;
-    Square<V> matrix_moving = moving;
-    Square<V> matrix_back = transposed(coupling);
+    const Triple<V> angular_momentum =
+        broadcast<V>(c.inertia_turning) * middle.omega + coupling * middle.velocity;
+    // Of the linear momentum the part along the velocity (m* v, of which the unit is m*) acts as a force alone: as
+    // p x v its moment would vanish only where the v inside p and the one it acts on are parallel, and else spin
+    // even a sphere.
+    const Triple<V> momentum =
+        transposed_times(coupling, middle.omega) + broadcast<V>(c.directed_inertia) * middle.velocity;
+    StepMatrix<V> matrix;
+    matrix.turning = broadcast<V>(c.inertia_turning);
+    matrix.coupling = coupling;
+    matrix.back = transposed(coupling);
+    matrix.moving = plus_diagonal(broadcast<V>(c.directed_inertia), V(1.0));
     Triple<V> moment = cross(broadcast<V>(c.weight_moment), gravity) + cross(angular_momentum, start.omega) +
-                       cross(linear_momentum, start.velocity);
-    Triple<V> force = V(c.weight) * gravity + cross(linear_momentum, start.omega);
+                       cross(momentum, start.velocity);
+    Triple<V> force = V(c.weight) * gravity + cross(momentum, start.omega) - cross(middle.omega, start.velocity);
     V step = V(0.5) * start.h;
     middle.theta = V(0.5);
     if (c.loads != Loads::none) {
@@ -85,35 +120,41 @@ HWY_INLINE void improve(const FlightConstants<Real>& c, const StepStart<V>& star
         const Triple<V> fluid_velocity = turned_back(middle.half_turn, start.seen_velocity);
         const LoadBlocks<V> loads =
             load_blocks(c, middle.omega - fluid_turning, middle.velocity - fluid_velocity);
-        const V z = stiffness(c, loads, start.h);
+        const Stiffness<V> stiff = stiffness(c, loads, start.h);
+        const V z = larger(stiff.turning, stiff.moving);
         middle.theta = (V(3.0) + z) / (V(6.0) + z);
+        middle.stiffness = stiff.moving;
         step = middle.theta * start.h;
-        matrix_turning = matrix_turning + step * loads.moment_by_turning;
-        matrix_coupling = matrix_coupling + step * loads.moment_by_velocity;
-        matrix_back = matrix_back + step * loads.force_by_turning;
-        matrix_moving = matrix_moving + step * loads.force_by_velocity;
+        matrix.turning = matrix.turning + step * loads.moment_by_turning;
+        matrix.coupling = matrix.coupling + step * loads.moment_by_velocity;
+        matrix.back = matrix.back + step * loads.force_by_turning;
+        matrix.moving = matrix.moving + step * loads.force_by_velocity;
         const Triple<V> slip_turning = fluid_turning - start.omega;
         const Triple<V> slip_velocity = fluid_velocity - start.velocity;
         moment = moment + loads.moment_by_turning * slip_turning + loads.moment_by_velocity * slip_velocity;
         force = force + loads.force_by_turning * slip_turning + loads.force_by_velocity * slip_velocity;
     }
-    matrix_turning = plus_cross(matrix_turning, -step * angular_momentum);
-    matrix_coupling = plus_cross(matrix_coupling, -step * linear_momentum);
-    matrix_back = plus_cross(matrix_back, -step * linear_momentum);
+    matrix.turning = plus_cross(matrix.turning, -step * angular_momentum);
+    matrix.coupling = plus_cross(matrix.coupling, -step * momentum);
+    matrix.back = plus_cross(matrix.back, -step * momentum);
+    matrix.moving = plus_cross(matrix.moving, step * middle.omega);
+    matrix.factorise();
 
-    // The velocity is eliminated: its block, then what is left for the turning.
-    const Square<V> factors = factorised(matrix_moving);
-    const Square<V> columns = transposed(matrix_back);
-    const Square<V> solutions{solved(factors, columns.x), solved(factors, columns.y),
-                              solved(factors, columns.z)};
-    const Triple<V> rest = solved(factors, step * force);
-    const Square<V> left{matrix_turning.x - solutions * matrix_coupling.x,
-                         matrix_turning.y - solutions * matrix_coupling.y,
-                         matrix_turning.z - solutions * matrix_coupling.z};
-    middle.omega_change = solved(factorised(left), step * moment - matrix_coupling * rest);
-    middle.velocity_change = rest - transposed_times(solutions, middle.omega_change);
-    middle.omega = start.omega + middle.omega_change;
-    middle.velocity = start.velocity + middle.velocity_change;
+    const V zero(0.0);
+    const Triple<V> none{zero, zero, zero};
+    const Triple<V> right_moment = step * moment;
+    const Triple<V> right_force = step * force;
+    Triple<V> omega = none;
+    Triple<V> velocity = none;
+    matrix.solve(right_moment, right_force, omega, velocity);
+    if constexpr (refined) {
+        matrix.solve(right_moment - matrix.turning * omega - matrix.coupling * velocity,
+                     right_force - matrix.back * omega - matrix.moving * velocity, omega, velocity);
+    }
+    middle.omega_change = omega;
+    middle.velocity_change = velocity;
+    middle.omega = start.omega + omega;
+    middle.velocity = start.velocity + velocity;
 }
 
 /// One implicit step over h under a gravity (world axes). The middle of the step is guessed by the
@@ -136,8 +177,15 @@ HWY_INLINE void implicit_step(const FlightConstants<Real>& c, const Triple<V>& g
     middle.omega = start.omega + half * flight.angular_acceleration;
     middle.velocity = start.velocity + (half * V(c.inverse_length)) *
                                            (flight.acceleration + cross(flight.angular_acceleration, arm));
-    improve(c, start, middle);
-    improve(c, start, middle);
+    middle.stiffness = V(0.0);
+    const Triple<V> guess = middle.velocity;
+    improve<false>(c, start, middle);
+    // Where drag is stiff, one made from the speed alone would swing about the terminal speed: halfway to the guess
+    // lies Newton's root. Where it is not, the middle stays, of second order.
+    const V square = middle.stiffness * middle.stiffness;
+    const V back = V(0.5) * square / (V(36.0) + square);
+    middle.velocity = middle.velocity + back * (guess - middle.velocity);
+    improve<true>(c, start, middle);
 
     const V whole = V(1.0) / middle.theta;
     const Triple<V> middle_velocity = V(c.length) * middle.velocity - cross(middle.omega, arm);
