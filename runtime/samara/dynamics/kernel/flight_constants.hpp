@@ -41,9 +41,9 @@ struct FlightConstants {
     Triple<Real> inverse_moving{};
     Square<Real> directed_added_mass{};  ///< rho_f M / m* less its isotropic part
     Real isotropic_added_mass = 0;       ///< a third of the trace of rho_f M / m*
-    Real weight = 0;               ///< (m - rho_f V) / (m* l): times gravity the force
-    Triple<Real> weight_moment{};  ///< m r / (m* l^2), r from the centroid to the centre of mass
-    Real munk_rate = 0;            ///< times the speed: the rate at which the Munk moment turns the body
+    Real weight = 0;                     ///< (m - rho_f V) / (m* l): times gravity the force
+    Triple<Real> weight_moment{};        ///< m r / (m* l^2), r from the centroid to the centre of mass
+    Real munk_rate = 0;  ///< times the speed: the rate at which the Munk moment turns the body
 
     Loads loads = Loads::none;
     Real tow_factor = 0;                      ///< rho_f A l / (2 m*)

@@ -72,7 +72,8 @@ HWY_INLINE PressurePoint<V> pressure_point(const FlightConstants<Real>& c, const
                                            V share) {
     const TowCoefficients<V> tow = tow_coefficients<true>(c, heading);
     // In a steady tow the equations' left side holds the part (1 - kappa) of the Kirchhoff moment already.
-    const Triple<V> kirchhoff = cross(broadcast<V>(c.directed_added_mass) * heading.direction, heading.direction);
+    const Triple<V> kirchhoff =
+        cross(broadcast<V>(c.directed_added_mass) * heading.direction, heading.direction);
     const Triple<V> moment = tow.moment - V(c.kirchhoff_share) * kirchhoff;
     const V square = dot(tow.force, tow.force);
     const V scale = select(V(tiny<V>) < square, share / larger(V(tiny<V>), square), V(0.0));
@@ -143,8 +144,8 @@ HWY_INLINE LoadBlocks<V> load_blocks(const FlightConstants<Real>& c, const Tripl
     // What a turning body gains along the force it loses along its path, as a windmill does: workless.
     const Square<V> windmill = outer(point.moment_along_force, velocity);
     // kappa (omega x (M v), v x (M v)): workless.
-    // The isotropic part of M acts as a force alone: its moment v x v is none, and must not be made where D acts on
-    // another v than the one it was made with.
+    // The isotropic part of M acts as a force alone: its moment v x v is none, and must not be made where D
+    // acts on another v than the one it was made with.
     const Triple<V> momentum = broadcast<V>(c.directed_added_mass) * velocity;
     blocks.force_by_velocity = plus_cross(
         blocks.force_by_velocity, V((c.working_transport - c.transport) * c.isotropic_added_mass) * omega);

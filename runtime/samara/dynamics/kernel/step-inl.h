@@ -75,9 +75,9 @@ struct StepMatrix {
         const Square<V> columns = transposed(back);
         solutions = {solved(moving_factors, columns.x), solved(moving_factors, columns.y),
                      solved(moving_factors, columns.z)};
-        turning_factors = factorised(Square<V>{turning.x - solutions * coupling.x,
-                                               turning.y - solutions * coupling.y,
-                                               turning.z - solutions * coupling.z});
+        turning_factors =
+            factorised(Square<V>{turning.x - solutions * coupling.x, turning.y - solutions * coupling.y,
+                                 turning.z - solutions * coupling.z});
     }
     /// Adds the solution for a moment and a force.
     HWY_INLINE void solve(const Triple<V>& moment, const Triple<V>& force, Triple<V>& omega,
@@ -89,9 +89,10 @@ struct StepMatrix {
     }
 };
 
-/// Solves the step's system with the loads and the transport taken at the middle that was found or guessed before.
-/// Its unknowns are the velocities' changes: solving for the velocities themselves would drift by a rounding error
-/// a step. `refined`: once more for what rounding left, since the elimination does not look for the best pivots.
+/// Solves the step's system with the loads and the transport taken at the middle that was found or guessed
+/// before. Its unknowns are the velocities' changes: solving for the velocities themselves would drift by a
+/// rounding error a step. `refined`: once more for what rounding left, since the elimination does not look
+/// for the best pivots.
 template <bool refined, class V, class Real>
 HWY_INLINE void improve(const FlightConstants<Real>& c, const StepStart<V>& start, StepMiddle<V>& middle) {
     const Square<V> coupling = broadcast<V>(c.inertia_coupling);
@@ -99,9 +100,9 @@ HWY_INLINE void improve(const FlightConstants<Real>& c, const StepStart<V>& star
     const Triple<V> gravity = turned_back(middle.half_turn, start.gravity);
     const Triple<V> angular_momentum =
         broadcast<V>(c.inertia_turning) * middle.omega + coupling * middle.velocity;
-    // Of the linear momentum the part along the velocity (m* v, of which the unit is m*) acts as a force alone: as
-    // p x v its moment would vanish only where the v inside p and the one it acts on are parallel, and else spin
-    // even a sphere.
+    // Of the linear momentum the part along the velocity (m* v, of which the unit is m*) acts as a force
+    // alone: as p x v its moment would vanish only where the v inside p and the one it acts on are parallel,
+    // and else spin even a sphere.
     const Triple<V> momentum =
         transposed_times(coupling, middle.omega) + broadcast<V>(c.directed_inertia) * middle.velocity;
     StepMatrix<V> matrix;
@@ -111,7 +112,8 @@ HWY_INLINE void improve(const FlightConstants<Real>& c, const StepStart<V>& star
     matrix.moving = plus_diagonal(broadcast<V>(c.directed_inertia), V(1.0));
     Triple<V> moment = cross(broadcast<V>(c.weight_moment), gravity) + cross(angular_momentum, start.omega) +
                        cross(momentum, start.velocity);
-    Triple<V> force = V(c.weight) * gravity + cross(momentum, start.omega) - cross(middle.omega, start.velocity);
+    Triple<V> force =
+        V(c.weight) * gravity + cross(momentum, start.omega) - cross(middle.omega, start.velocity);
     V step = V(0.5) * start.h;
     middle.theta = V(0.5);
     if (c.loads != Loads::none) {
@@ -180,8 +182,8 @@ HWY_INLINE void implicit_step(const FlightConstants<Real>& c, const Triple<V>& g
     middle.stiffness = V(0.0);
     const Triple<V> guess = middle.velocity;
     improve<false>(c, start, middle);
-    // Where drag is stiff, one made from the speed alone would swing about the terminal speed: halfway to the guess
-    // lies Newton's root. Where it is not, the middle stays, of second order.
+    // Where drag is stiff, one made from the speed alone would swing about the terminal speed: halfway to the
+    // guess lies Newton's root. Where it is not, the middle stays, of second order.
     const V square = middle.stiffness * middle.stiffness;
     const V back = V(0.5) * square / (V(36.0) + square);
     middle.velocity = middle.velocity + back * (guess - middle.velocity);
