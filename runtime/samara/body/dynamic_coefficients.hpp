@@ -7,7 +7,8 @@
 namespace samara {
 
 /// What a body in rotation feels beyond the loads of a steady tow, body axes about the centroid of the volume
-/// (docs/theory, "Loads of a moving body"). M is the added mass, Q = c |omega| the tip speed, H = sqrt(|v|^2 + Q^2).
+/// (docs/theory, "Loads of a moving body"). M is the added mass, Q = c |omega| the tip speed and
+/// H = sqrt(|v|^2 + Q^2).
 struct DynamicCoefficients {
     /// k_c: separated flow adds the force k_c omega x (M v) to the potential flow's.
     double force_transport = 0.0;
