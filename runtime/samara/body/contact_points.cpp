@@ -160,8 +160,9 @@ ContactPoints contact_points(const Surface& surface, const Vector3d& center_of_m
     Eigen::VectorXd reaches(points.areas.size());
     bool has_round_sides = false;
     for_each_node([&](const Vector3d& direction) {
+        if (has_round_sides) return;
         reaches.noalias() = points.points * direction;
-        has_round_sides = has_round_sides || reach_of(result.corners, direction) < reaches.maxCoeff() - width;
+        has_round_sides = reach_of(result.corners, direction) < reaches.maxCoeff() - width;
     });
     if (!has_round_sides) return result;
     for_each_node([&](const Vector3d& direction) {

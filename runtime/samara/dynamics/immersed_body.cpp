@@ -11,6 +11,7 @@
 
 #include "samara/base/error.hpp"
 #include "samara/body/octahedral_map.hpp"
+#include "samara/dynamics/immersed_body_check.hpp"
 
 namespace samara {
 namespace {
@@ -86,6 +87,7 @@ ImmersedBody make_immersed_body(const Body& body, const SceneBody& scene_body, c
                                 scene_body.name, scene_body.shape.string()));
     }
     require_tables(body, scene_body);
+    require_sound(body, scene_body, fluid);
     const Mass mass = mass_of(body, scene_body.mass, scene_body.name);
 
     ImmersedBody result;
