@@ -78,14 +78,6 @@ bool is_finite(const BodyState& state) {
 
 }  // namespace
 
-double LiveSimulation::highest_reynolds_number(const Kind& kind) {
-    double highest_speed = 0.0;
-    for (std::size_t i = 0; i < kind.batch.size(); ++i) {
-        highest_speed = std::max(highest_speed, kind.batch.state(i).velocity.tail<3>().norm());
-    }
-    return reynolds_number(*kind.body, highest_speed);
-}
-
 LiveSimulation::LiveSimulation(const SimulationSettings& settings) : settings_(settings) {}
 
 std::size_t LiveSimulation::add(const Body& body, const std::string& hash, const SceneBody& given) {
@@ -174,7 +166,6 @@ void LiveSimulation::advance_to(double time) {
     time_ = time;
 }
 
-/// How many steps reach a time in a kind's flight (s), to rounding.
 std::uint64_t LiveSimulation::steps_until(double time_in_flight) const {
     const double reached = time_in_flight * (1.0 - 1e-12);
     auto steps = static_cast<std::uint64_t>(std::max(0.0, std::floor(reached / settings_.step)));
@@ -207,6 +198,14 @@ void LiveSimulation::require_finite(const Kind& kind) {
                                kind.first + i, kind.given.name, step_time(kind));
         throw Fault(SAMARA_OUT_OF_RANGE, stopped_);
     }
+}
+
+double LiveSimulation::highest_reynolds_number(const Kind& kind) {
+    double highest_speed = 0.0;
+    for (std::size_t i = 0; i < kind.batch.size(); ++i) {
+        highest_speed = std::max(highest_speed, kind.batch.state(i).velocity.tail<3>().norm());
+    }
+    return reynolds_number(*kind.body, highest_speed);
 }
 
 LiveReport LiveSimulation::report() const {

@@ -74,8 +74,11 @@ class LiveSimulation {
 
     [[nodiscard]] double step_time(const Kind& kind) const;
     [[nodiscard]] std::pair<const Kind*, std::size_t> find(std::size_t index) const;
+    /// How many steps reach a time in a kind's flight (s), to rounding.
     [[nodiscard]] std::uint64_t steps_until(double time_in_flight) const;
+    /// Steps on until the kind has taken `steps`.
     void step_to(Kind& kind, std::uint64_t steps);
+    /// Stops the simulation, with a Fault, where a body's motion left the range of numbers.
     void require_finite(const Kind& kind);
     [[nodiscard]] static double highest_reynolds_number(const Kind& kind);
     void key_noise(Kind& kind);
