@@ -56,8 +56,8 @@ struct StepStart {
     Triple<V> omega, velocity;
     Triple<V> gravity, seen_rotation, seen_velocity;  // body axes
     bool sees_fluid;
-    /// Whether the body turns by more than a radian: its system is then solved once more for what rounding left,
-    /// since the elimination does not look for the best pivots.
+    /// Whether the body turns by more than a radian: its system is then solved once more for what rounding
+    /// left, since the elimination does not look for the best pivots.
     typename NumberTraits<V>::Mask wild;
 };
 
@@ -98,9 +98,9 @@ struct StepMatrix {
         const Square<V> columns = transposed(back);
         solutions = {solved(moving_factors, columns.x), solved(moving_factors, columns.y),
                      solved(moving_factors, columns.z)};
-        turning_factors = factorised(Square<V>{turning.x - solutions * coupling.x,
-                                               turning.y - solutions * coupling.y,
-                                               turning.z - solutions * coupling.z});
+        turning_factors =
+            factorised(Square<V>{turning.x - solutions * coupling.x, turning.y - solutions * coupling.y,
+                                 turning.z - solutions * coupling.z});
     }
     [[nodiscard]] HWY_INLINE VelocityChange<V> solved_for(const Triple<V>& moment,
                                                           const Triple<V>& force) const {
@@ -117,17 +117,17 @@ struct HalfTurn {
     HWY_INLINE Triple<V> operator()(const Triple<V>& a) const { return turned_back(half_turn, a); }
 };
 
-/// Solves the step's system with the loads and the transport taken at the middle that was found or guessed before.
-/// Its unknowns are the velocities' changes: solving for the velocities themselves would drift by a rounding error
-/// a step.
+/// Solves the step's system with the loads and the transport taken at the middle that was found or guessed
+/// before. Its unknowns are the velocities' changes: solving for the velocities themselves would drift by a
+/// rounding error a step.
 template <class V, class Real>
 HWY_INLINE void improve(const FlightConstants<Real>& c, const StepStart<V>& start, StepMiddle<V>& middle) {
     middle.half_turn = (V(0.5) * start.h) * middle.omega;
     const HalfTurn<V> under_body{middle.half_turn};
     const Triple<V> gravity = under_body(start.gravity);
-    // Of the linear momentum the part along the velocity (m* v, of which the unit is m*) acts as a force alone: as
-    // p x v its moment would vanish only where the v inside p and the one it acts on are parallel, and else spin
-    // even a sphere.
+    // Of the linear momentum the part along the velocity (m* v, of which the unit is m*) acts as a force
+    // alone: as p x v its moment would vanish only where the v inside p and the one it acts on are parallel,
+    // and else spin even a sphere.
     Triple<V> angular_momentum = broadcast<V>(c.inertia_turning) * middle.omega;
     Triple<V> momentum = broadcast<V>(c.directed_inertia) * middle.velocity;
     if (c.coupled) {
@@ -197,8 +197,7 @@ HWY_INLINE void improve(const FlightConstants<Real>& c, const StepStart<V>& star
 /// What a step starts from. `gravity`: world axes.
 template <class V, class Real>
 HWY_INLINE StepStart<V> step_start(const FlightConstants<Real>& c, const Square<V>& to_world,
-                                   const Triple<V>& gravity, V h, bool sees_fluid,
-                                   const Flight<V>& flight) {
+                                   const Triple<V>& gravity, V h, bool sees_fluid, const Flight<V>& flight) {
     StepStart<V> start;
     start.h = h;
     start.omega = flight.angular_velocity;
@@ -215,8 +214,9 @@ HWY_INLINE StepStart<V> step_start(const FlightConstants<Real>& c, const Square<
     return start;
 }
 
-/// One implicit step over h under a gravity (world axes). Without `sees_fluid` the seen fluid is at rest. The middle of the step is guessed by the
-/// acceleration of the step before; two passes make it good to second order and more.
+/// One implicit step over h under a gravity (world axes). Without `sees_fluid` the seen fluid is at rest. The
+/// middle of the step is guessed by the acceleration of the step before; two passes make it good to second
+/// order and more.
 template <class V, class Real>
 HWY_INLINE void implicit_step(const FlightConstants<Real>& c, const Triple<V>& gravity, V h, bool sees_fluid,
                               Flight<V>& flight) {
