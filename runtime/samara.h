@@ -98,10 +98,12 @@ typedef struct samara_settings {
     double gust_amplitude[3]; /* m/s; the current swings by amplitude sin(2 pi t/period) */
     double gust_period;       /* s */
     double gravity[3];        /* m/s^2; default: 0, 0, -9.81 */
-    double step;     /* s; default: 0.002. The grid of the time steps, whatever times are asked for */
-    uint64_t seed;   /* of the noise; default: 1 */
-    uint32_t run;    /* another run of the same seed has other noise; default: 0 */
-    int32_t threads; /* for many bodies; 0: all cores; default: 1. Does not change the motion */
+    double step;        /* s; default: 0.002. The grid of the time steps, whatever times are asked for */
+    uint64_t seed;      /* of the noise; default: 1 */
+    uint32_t run;       /* another run of the same seed has other noise; default: 0 */
+    int32_t threads;    /* for many bodies; 0: all cores; default: 1. Does not change the motion */
+    int32_t has_ground; /* whether there is level ground, on which bodies settle; default: 0 */
+    double ground;      /* m: its height, with has_ground; a kind that starts below it is refused */
 } samara_settings;
 
 SAMARA_API samara_status samara_default_settings(samara_settings* settings, size_t size, char* error,
@@ -196,7 +198,8 @@ SAMARA_API samara_status samara_get_poses(const samara_simulation* simulation, s
 
 /* Puts bodies elsewhere at the simulation's time; orientations are normalised. A body keeps the turbulence
  * that it feels. Inside a step the body moves on steadily to the step's end, where its flight goes on: the
- * grid stays. Before the body's start it is where it will start from. */
+ * grid stays. Before the body's start it is where it will start from. What is below the ground is lifted
+ * onto it in the next step. */
 SAMARA_API samara_status samara_set_poses(samara_simulation* simulation, size_t first, size_t count,
                                           const samara_pose* poses, size_t stride, char* error,
                                           size_t error_size);
@@ -205,9 +208,9 @@ SAMARA_API samara_status samara_set_poses(samara_simulation* simulation, size_t 
 SAMARA_API samara_status samara_set_seed(samara_simulation* simulation, uint64_t seed, uint32_t run,
                                          char* error, size_t error_size);
 
-/* The whole state as bytes: time, seed and all bodies. A simulation that is set to it goes on as this one
- * does, to the last bit. It fits simulations with the same settings and kinds (threads, seed, run and where
- * the kinds start may differ) of the same samara on machines with the same byte order. */
+/* The whole state as bytes: time, seed, report and all bodies. A simulation that is set to it goes on as this
+ * one does, to the last bit. It fits simulations with the same settings and kinds (threads, seed, run and
+ * where the kinds start may differ) of the same samara on machines with the same byte order. */
 SAMARA_API size_t samara_state_size(const samara_simulation* simulation); /* 0 for a null simulation */
 SAMARA_API samara_status samara_get_state(const samara_simulation* simulation, void* bytes, size_t size,
                                           char* error, size_t error_size);
@@ -220,7 +223,7 @@ typedef struct samara_report {
     uint64_t steps;                 /* of the grid, over all bodies */
     uint64_t substeps;              /* implicit steps: bodies that turn fast take several in a step */
     int32_t most_substeps;          /* that any body took in one step; 64 is the limit */
-    double highest_reynolds_number; /* relative to the undisturbed flow, at the ends of steps */
+    double highest_reynolds_number; /* relative to the undisturbed flow: at every 32nd step, and now */
 } samara_report;
 
 SAMARA_API samara_status samara_get_report(const samara_simulation* simulation, samara_report* report,

@@ -112,6 +112,55 @@ void print_tables(const LoadTables& tables) {
     for (const auto& [key, value] : provenance.keys) print_row(("  " + key).c_str(), "{}", value);
 }
 
+std::string off_diagonal_in_words(const Matrix3d& tensor) {
+    return in_words(Vector3d(tensor(0, 1), tensor(1, 2), tensor(2, 0)));
+}
+
+void print_tensor(const char* name, const char* unit, const Matrix3d& tensor, const Matrix3d& errors) {
+    print_row(name, "{} +- {} {}", in_words(Vector3d(tensor.diagonal())),
+              in_words(Vector3d(errors.diagonal())), unit);
+    if (tensor.isDiagonal(1e-12) && errors.isDiagonal(1e-12)) return;
+    print_row("  xy, yz, zx", "{} +- {} {}", off_diagonal_in_words(tensor), off_diagonal_in_words(errors),
+              unit);
+}
+
+void print_dynamic(const IdentifiedCoefficients& dynamic) {
+    const auto& [values, errors] = dynamic;
+    fmt::print("Dynamic coefficients, +- standard errors (body axes, about the centroid)\n");
+    print_row("origin", "{}", values.origin);
+    print_row("transport", "force {:.3g} +- {:.2g}, moment {:.3g} +- {:.2g}", values.force_transport,
+              errors.force_transport, values.moment_transport, errors.moment_transport);
+    print_tensor("drag in motion", "m^2", values.drag_in_motion, errors.drag_in_motion);
+    print_tensor("rotational drag", "m^4", values.rotational_drag, errors.rotational_drag);
+    print_row("half-length", "{:.6g} m", values.half_length);
+}
+
+template <typename Matrix>
+nlohmann::json rows_of(const Matrix& matrix) {
+    nlohmann::json rows;
+    for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
+        std::vector<double> values;
+        for (Eigen::Index column = 0; column < matrix.cols(); ++column) values.push_back(matrix(row, column));
+        rows.push_back(values);
+    }
+    return rows;
+}
+
+nlohmann::json numbers_as_json(const DynamicCoefficients& numbers) {
+    return {{"force_transport", numbers.force_transport},
+            {"moment_transport", numbers.moment_transport},
+            {"drag_in_motion", rows_of(numbers.drag_in_motion)},
+            {"rotational_drag", rows_of(numbers.rotational_drag)}};
+}
+
+nlohmann::json dynamic_as_json(const IdentifiedCoefficients& dynamic) {
+    nlohmann::json result = numbers_as_json(dynamic.values);
+    result["half_length"] = dynamic.values.half_length;
+    result["origin"] = dynamic.values.origin;
+    result["standard_errors"] = numbers_as_json(dynamic.standard_errors);
+    return result;
+}
+
 nlohmann::json tables_as_json(const LoadTables& tables) {
     nlohmann::json result = {
         {"quality", tables.quality},
@@ -155,6 +204,11 @@ void print_body(const Body& body) {
     } else {
         fmt::print("No tables: 'samara bake' adds them\n");
     }
+    if (body.dynamic) {
+        print_dynamic(*body.dynamic);
+    } else {
+        fmt::print("No dynamic coefficients: 'samara simulate' uses defaults\n");
+    }
 }
 
 nlohmann::json body_as_json(const Body& body) {
@@ -172,21 +226,18 @@ nlohmann::json body_as_json(const Body& body) {
         {"symmetry", {{"kind", name_of(body.symmetry.kind)}, {"elements", body.symmetry.elements.size()}}},
         {"kirchhoff", nullptr},
         {"tables", nullptr},
+        {"dynamic_coefficients", nullptr},
     };
     if (body.symmetry.kind == Symmetry::Kind::axial) result["symmetry"]["axis"] = as_json(body.symmetry.axis);
     if (body.kirchhoff) {
-        nlohmann::json rows;
-        for (int row = 0; row < 6; ++row) {
-            const Vector6d values = body.kirchhoff->matrix.row(row);
-            rows.push_back(std::vector<double>(values.begin(), values.end()));
-        }
-        result["kirchhoff"] = {{"added_mass", rows},
+        result["kirchhoff"] = {{"added_mass", rows_of(body.kirchhoff->matrix)},
                                {"error_estimate", body.kirchhoff->error_estimate},
                                {"asymmetry", body.kirchhoff->asymmetry},
                                {"triangles", body.kirchhoff->triangles},
                                {"method", body.kirchhoff->method}};
     }
     if (body.tables) result["tables"] = tables_as_json(*body.tables);
+    if (body.dynamic) result["dynamic_coefficients"] = dynamic_as_json(*body.dynamic);
     return result;
 }
 

@@ -68,6 +68,40 @@ void double_batch(benchmark::State& state) {
     batch<Batch>(state, 1);
 }
 
+/// A million leaves of ten kinds (densities): a frame of 1/60 s in one step of each.
+void million_leaves(benchmark::State& state) {
+    constexpr std::size_t kinds = 10;
+    constexpr std::size_t leaves = 1'000'000 / kinds;
+    std::vector<ImmersedBody> bodies;
+    for (std::size_t kind = 0; kind < kinds; ++kind) {
+        Body shape = test::rubber_ellipsoid();
+        shape.tables = test::blunt_tables(shape, 4);
+        SceneBody given = test::scene_body(1050.0 + 50.0 * static_cast<double>(kind));
+        given.turbulence = Turbulence::table;
+        bodies.push_back(make_immersed_body(shape, given, Fluid{}));
+    }
+    std::vector<FloatBatch> batches;
+    for (std::size_t kind = 0; kind < kinds; ++kind) {
+        batches.emplace_back(bodies[kind], leaves);
+        for (std::size_t i = 0; i < leaves; ++i) {
+            batches[kind].set_state(i, test::tumbling_state(0.1, 0.001 * static_cast<double>(i % 1000)));
+            batches[kind].set_noise(
+                i, Noise(1, "leaf", static_cast<std::uint32_t>(kind), static_cast<std::uint32_t>(i)));
+        }
+    }
+    std::uint64_t step = 0;
+    std::uint64_t implicit_steps = 0;
+    while (state.KeepRunning()) {
+        for (FloatBatch& batch : batches) {
+            implicit_steps += batch.advance(Surroundings{}, 0.0, 1.0 / 60.0, step, 1, 0).implicit_steps;
+        }
+        ++step;
+    }
+    state.SetItemsProcessed(static_cast<std::int64_t>(step));
+    state.counters["substeps"] = static_cast<double>(implicit_steps) / static_cast<double>(step) / 1e6;
+}
+
+BENCHMARK(million_leaves)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(float_batch)->Arg(4096)->Arg(1'000'000)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(float_batch_on_all_cores)->Arg(1'000'000)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(double_batch)->Arg(4096)->Unit(benchmark::kMillisecond)->UseRealTime();

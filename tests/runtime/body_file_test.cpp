@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <random>
 #include <string>
 
@@ -29,6 +30,15 @@ void expect_equal(const LoadEntry& a, const LoadEntry& b) {
     EXPECT_EQ(a.dissipation_rate, b.dissipation_rate);
 }
 
+void expect_equal(const DynamicCoefficients& a, const DynamicCoefficients& b) {
+    EXPECT_EQ(a.force_transport, b.force_transport);
+    EXPECT_EQ(a.moment_transport, b.moment_transport);
+    EXPECT_EQ(a.drag_in_motion, b.drag_in_motion);
+    EXPECT_EQ(a.rotational_drag, b.rotational_drag);
+    EXPECT_EQ(a.half_length, b.half_length);
+    EXPECT_EQ(a.origin, b.origin);
+}
+
 void expect_equal(const Body& a, const Body& b) {
     EXPECT_EQ(a.name, b.name);
     EXPECT_EQ(a.source, b.source);
@@ -51,6 +61,11 @@ void expect_equal(const Body& a, const Body& b) {
         EXPECT_EQ(a.kirchhoff->asymmetry, b.kirchhoff->asymmetry);
         EXPECT_EQ(a.kirchhoff->triangles, b.kirchhoff->triangles);
         EXPECT_EQ(a.kirchhoff->method, b.kirchhoff->method);
+    }
+    ASSERT_EQ(a.dynamic.has_value(), b.dynamic.has_value());
+    if (a.dynamic) {
+        expect_equal(a.dynamic->values, b.dynamic->values);
+        expect_equal(a.dynamic->standard_errors, b.dynamic->standard_errors);
     }
     ASSERT_EQ(a.tables.has_value(), b.tables.has_value());
     if (!a.tables) return;
@@ -79,11 +94,12 @@ TEST(BodyFile, GivesBackTheBodyToTheLastBit) {
     expect_equal(read_body_file(folder / "a.body.h5"), body);
 }
 
-TEST(BodyFile, GivesBackABodyWithoutTensorAndTables) {
+TEST(BodyFile, GivesBackABodyWithoutTensorTablesAndCoefficients) {
     const test::TemporaryFolder folder;
     Body body = test::full_body();
     body.kirchhoff.reset();
     body.tables.reset();
+    body.dynamic.reset();
     body.surface.edge_nodes.clear();
     body.symmetry.kind = Symmetry::Kind::spherical;
     write_body_file(folder / "a.body.h5", body);
@@ -193,6 +209,47 @@ TEST(BodyFile, ValuesThatAreNotFiniteAreNamed) {
     body.tables->entries[4].force.x() = std::nan("");
     write_body_file(folder / "a.body.h5", body);
     EXPECT_THAT(fault_of(folder / "a.body.h5"), HasSubstr("/tables/force"));
+}
+
+TEST(BodyFile, DynamicCoefficientsThatAreNoneAreNamed) {
+    const test::TemporaryFolder folder;
+    const double infinity = std::numeric_limits<double>::infinity();
+    const auto refused = [&](const auto& spoil, const std::string& what) {
+        Body body = test::full_body();
+        spoil(*body.dynamic);
+        write_body_file(folder / "a.body.h5", body);
+        const std::string fault = fault_of(folder / "a.body.h5");
+        EXPECT_THAT(fault, AllOf(HasSubstr("a.body.h5"), HasSubstr("/dynamic_coefficients/" + what)));
+        EXPECT_EQ(fault.find('\n'), std::string::npos);
+    };
+    using Identified = IdentifiedCoefficients;
+    refused([&](Identified& c) { c.values.force_transport = std::nan(""); }, "force_transport is not finite");
+    refused([&](Identified& c) { c.values.moment_transport = infinity; }, "moment_transport is not finite");
+    refused([&](Identified& c) { c.values.half_length = 0.0; }, "half_length is not a positive");
+    refused([&](Identified& c) { c.values.half_length = infinity; }, "half_length is not a positive");
+    refused([&](Identified& c) { c.values.drag_in_motion(1, 1) = std::nan(""); }, "drag_in_motion");
+    refused([&](Identified& c) { c.values.drag_in_motion(0, 1) += 1e-3; }, "drag_in_motion is not symmetric");
+    refused([&](Identified& c) { c.values.drag_in_motion(2, 2) = -0.1; },
+            "drag_in_motion is not positive semidefinite");
+    refused([&](Identified& c) { c.values.rotational_drag(2, 0) = 0.002; },
+            "rotational_drag is not symmetric");
+    refused([&](Identified& c) { c.values.rotational_drag(0, 2) = c.values.rotational_drag(2, 0) = 0.01; },
+            "rotational_drag is not positive semidefinite");
+    refused([&](Identified& c) { c.standard_errors.force_transport = -1.0; }, "force_transport_error");
+    refused([&](Identified& c) { c.standard_errors.moment_transport = infinity; }, "moment_transport_error");
+    refused([&](Identified& c) { c.standard_errors.drag_in_motion(0, 1) = -0.1; }, "drag_in_motion_error");
+    refused([&](Identified& c) { c.standard_errors.rotational_drag(2, 2) = std::nan(""); },
+            "rotational_drag_error");
+}
+
+TEST(BodyFile, DynamicCoefficientsOfRankOneAndZeroAreAllowed) {
+    const test::TemporaryFolder folder;
+    Body body = test::full_body();
+    const Vector3d arm(0.1, 0.2, 0.3);
+    body.dynamic->values.drag_in_motion = arm * arm.transpose();
+    body.dynamic->values.rotational_drag.setZero();
+    write_body_file(folder / "a.body.h5", body);
+    expect_equal(read_body_file(folder / "a.body.h5"), body);
 }
 
 TEST(BodyFile, NothingIsLeftWhereTheFolderDoesNotExist) {

@@ -100,6 +100,13 @@ TEST(Door, ABodyFileWithNaNIsRefusedInOneLine) {
     body = baked_ball();
     body.surface.vertices[5].x() = not_a_number;
     check(body);
+    body = baked_ball();
+    body.dynamic = IdentifiedCoefficients{};
+    body.dynamic->values.half_length = not_a_number;
+    check(body);
+    body.dynamic->values.half_length = 0.04;
+    body.dynamic->values.drag_in_motion(0, 0) = not_a_number;
+    check(body);
     test::expect_row({fmt::format("NaN or infinity in {} body files", count), "-",
                       "files not refused with one line and status 1", 0.0, static_cast<double>(accepted)});
 }

@@ -131,6 +131,27 @@ TEST(InfoCommand, ShowsTablesAndTheirProvenance) {
     }
 }
 
+TEST(InfoCommand, ShowsDynamicCoefficientsWithTheirErrors) {
+    const test::TemporaryFolder folder;
+    const std::string file = (folder / "a.body.h5").string();
+    Body body = test::full_body();
+    write_body_file(file, body);
+    const test::ProgramRun outcome = samara(folder, {"info", file});
+    EXPECT_EQ(outcome.status, 0);
+    for (const char* part : {"identified from 3 falls", "force 0.7 +- 0.05, moment 0.8 +- 0.06",
+                             "(0.3, 0.2, 0.1) +- (0.007, 0.007, 0.007) m^2", "(0.01, 0.03, -0.02)"}) {
+        EXPECT_THAT(outcome.output, HasSubstr(part));
+    }
+    const nlohmann::json result = samara(folder, {"info", file, "--json"}).json()["dynamic_coefficients"];
+    EXPECT_EQ(result["moment_transport"], 0.8);
+    EXPECT_EQ(result["drag_in_motion"][0][2], -0.02);
+    EXPECT_EQ(result["standard_errors"]["rotational_drag"][1][1], 0.0008);
+    body.dynamic.reset();
+    write_body_file(file, body);
+    EXPECT_TRUE(samara(folder, {"info", file, "--json"}).json()["dynamic_coefficients"].is_null());
+    EXPECT_THAT(samara(folder, {"info", file}).output, HasSubstr("No dynamic coefficients"));
+}
+
 TEST(InfoCommand, ForeignHdf5GivesOneLine) {
     const test::TemporaryFolder folder;
     write_hdf5(folder / "a.h5", [](Hdf5Writer& file) {

@@ -60,6 +60,11 @@ TEST(Noise, TheMeanDescentOfASheetIsThatOfAFineStep) {
     expect_same_descent("paper sheet in air", test::immersed(test::paper_sheet(), 750.0, test::air()), 0.02);
 }
 
+TEST(Noise, TheMeanClimbOfABubbleIsThatOfAFineStep) {
+    expect_same_descent("air bubble of 1 mm in water",
+                        test::immersed(test::baked_sphere(0.0005), 1.204, test::water()), 0.05);
+}
+
 /// The root of the mean square of |omega| over a part of a flight, of which the steps are counted from the
 /// first.
 double rms_turning(const ImmersedBody& body, BodyState& state, std::uint64_t first, std::uint64_t steps) {

@@ -316,6 +316,19 @@ TEST(Simulation, ABodyWithoutTablesIsRefusedWithTheCommandThatMakesThem) {
     }
 }
 
+TEST(Simulation, SaysWhetherTheDynamicCoefficientsAreDefaultsOrOfTheBodyFile) {
+    const Scene scene = noisy_scene();
+    std::vector<CastBody> bodies = cast();
+    EXPECT_NE(Simulation(scene, bodies, 1).motion().bodies[0].models.find("by default"), std::string::npos);
+    IdentifiedCoefficients identified;
+    identified.values.half_length = 0.04;
+    identified.values.origin = "identified from 3 falls";
+    bodies[0].body.dynamic = identified;
+    const std::string models = Simulation(scene, bodies, 1).motion().bodies[0].models;
+    EXPECT_NE(models.find("identified from 3 falls"), std::string::npos) << models;
+    EXPECT_EQ(models.find("by default"), std::string::npos) << models;
+}
+
 TEST(Simulation, AnInertiaOfNoBodyIsRefused) {
     Scene scene = noisy_scene();
     scene.bodies[0].mass = {.density = {},

@@ -217,6 +217,19 @@ Body full_body() {
     kirchhoff.method = "boundary elements";
     body.kirchhoff = kirchhoff;
     body.tables = smooth_tables(2);
+    DynamicCoefficients dynamic;
+    dynamic.force_transport = 0.7;
+    dynamic.moment_transport = 0.8;
+    dynamic.drag_in_motion << 0.3, 0.01, -0.02, 0.01, 0.2, 0.03, -0.02, 0.03, 0.1;
+    dynamic.rotational_drag << 0.003, 0.0, 0.001, 0.0, 0.002, 0.0, 0.001, 0.0, 0.004;
+    dynamic.half_length = 0.41;
+    dynamic.origin = "identified from 3 falls";
+    DynamicCoefficients errors;
+    errors.force_transport = 0.05;
+    errors.moment_transport = 0.06;
+    errors.drag_in_motion = Matrix3d::Constant(0.007);
+    errors.rotational_drag = Matrix3d::Constant(0.0008);
+    body.dynamic = {.values = dynamic, .standard_errors = errors};
     return body;
 }
 

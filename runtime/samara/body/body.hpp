@@ -65,7 +65,7 @@ Matrix6d about_point(const Matrix6d& tensor, const Vector3d& old_point, const Ve
 /// The same tensor in axes turned by `rotation`: a vector a of the old axes is rotation * a in the new ones.
 Matrix6d in_rotated_axes(const Matrix6d& tensor, const Matrix3d& rotation);
 
-/// All that a body file holds. Each stage adds a part: mesh the first four, kirchhoff and convert one each.
+/// All that a body file holds. Each stage adds a part: mesh the first five, kirchhoff and convert one each.
 struct Body {
     std::string name;
     std::string source;  ///< how the surface was made, one line: the shape file's name and hash, the options
@@ -74,7 +74,7 @@ struct Body {
     Symmetry symmetry;
     std::optional<KirchhoffTensor> kirchhoff;
     std::optional<LoadTables> tables;
-    std::optional<IdentifiedCoefficients> dynamic;
+    std::optional<IdentifiedCoefficients> dynamic;  ///< of a body in rotation; without them, defaults
 };
 
 }  // namespace samara

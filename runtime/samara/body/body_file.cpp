@@ -7,6 +7,7 @@
 #include "samara/base/content_hash.hpp"
 #include "samara/base/error.hpp"
 #include "samara/base/version.hpp"
+#include "samara/body/dynamic_coefficients_file.hpp"
 #include "samara/body/surface_file.hpp"
 #include "samara/files/hdf5_file.hpp"
 
@@ -205,6 +206,7 @@ Body read_body_file(const std::filesystem::path& path) {
     body.symmetry = read_symmetry(file);
     if (file.has("/kirchhoff")) body.kirchhoff = read_kirchhoff(file);
     if (file.has("/tables")) body.tables = read_tables(file);
+    if (file.has("/dynamic_coefficients")) body.dynamic = read_dynamic_coefficients(file);
     return body;
 }
 
@@ -224,6 +226,7 @@ void write_body_file(const std::filesystem::path& path, const Body& body) {
         write_symmetry(file, body.symmetry);
         if (body.kirchhoff) write_kirchhoff(file, *body.kirchhoff);
         if (body.tables) write_tables(file, *body.tables);
+        if (body.dynamic) write_dynamic_coefficients(file, *body.dynamic);
     });
 }
 

@@ -122,14 +122,14 @@ WeightedPoints thinned(const std::vector<Vector3d>& vertices, const std::vector<
 /// The mean of the points near the farthest one, whose reaches along a direction are given, weighted by how
 /// near they are to it and by their area.
 Vector3d smoothed_extreme(const WeightedPoints& points, const Eigen::VectorXd& reaches, double width) {
-    const double farthest = reaches.maxCoeff();
     constexpr double vanishing = 12.0;  // widths
+    const double farthest = reaches.maxCoeff();
+    const double nearest = farthest - vanishing * width;
     double weights = 0.0;
     Vector3d sum = Vector3d::Zero();
     for (Eigen::Index i = 0; i < reaches.size(); ++i) {
-        const double below = (farthest - reaches[i]) / width;
-        if (below > vanishing) continue;
-        const double weight = points.areas[i] * std::exp(-below);
+        if (reaches[i] < nearest) continue;
+        const double weight = points.areas[i] * std::exp((reaches[i] - farthest) / width);
         weights += weight;
         sum += weight * points.points.row(i).transpose();
     }
@@ -160,8 +160,9 @@ ContactPoints contact_points(const Surface& surface, const Vector3d& center_of_m
     Eigen::VectorXd reaches(points.areas.size());
     bool has_round_sides = false;
     for_each_node([&](const Vector3d& direction) {
+        if (has_round_sides) return;
         reaches.noalias() = points.points * direction;
-        has_round_sides = has_round_sides || reach_of(result.corners, direction) < reaches.maxCoeff() - width;
+        has_round_sides = reach_of(result.corners, direction) < reaches.maxCoeff() - width;
     });
     if (!has_round_sides) return result;
     for_each_node([&](const Vector3d& direction) {

@@ -7,8 +7,8 @@
 namespace samara {
 
 /// What a body in rotation feels beyond the loads of a steady tow, body axes about the centroid of the volume
-/// (docs/theory, "Loads of a moving body"). M is the added mass, Q = c |omega| the tip speed and
-/// H = sqrt(|v|^2 + Q^2).
+/// (docs/theory, "Loads of a moving body"). M is the added mass, Q = c |omega| the tip speed, H = sqrt(|v|^2
+/// + Q^2).
 struct DynamicCoefficients {
     /// k_c: separated flow adds the force k_c omega x (M v) to the potential flow's.
     double force_transport = 0.0;
@@ -21,7 +21,7 @@ struct DynamicCoefficients {
     Matrix3d rotational_drag = Matrix3d::Zero();
     /// c (m): the body's half-length.
     double half_length = 0.0;
-    std::string origin;  ///< in words, for reports
+    std::string origin;  ///< where they come from, in words, for reports
 };
 
 /// Coefficients with the standard error of each.
@@ -29,5 +29,10 @@ struct IdentifiedCoefficients {
     DynamicCoefficients values;
     DynamicCoefficients standard_errors;  ///< without half-length and origin
 };
+
+/// What is wrong with the coefficients, such as "drag_in_motion is not symmetric": a number that is not
+/// finite, a tensor that is not symmetric and positive semidefinite, a half-length that is not positive.
+/// Empty where nothing is.
+std::string fault_of(const DynamicCoefficients& coefficients);
 
 }  // namespace samara

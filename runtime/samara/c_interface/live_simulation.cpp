@@ -14,6 +14,9 @@ namespace samara {
 namespace {
 
 constexpr double most_steps = 1e10;
+/// The bodies' speeds and whether they are numbers are looked at after every so many steps of the grid,
+/// whatever times are asked for.
+constexpr std::uint64_t steps_between_looks = 32;
 
 /// Says what the body lacks in the words of the C interface.
 void require_data(const Body& body, const SceneBody& kind) {
@@ -102,8 +105,9 @@ std::size_t LiveSimulation::add(const Body& body, const std::string& hash, const
         const Noise noise(settings_.seed, kind.name, settings_.run, static_cast<std::uint32_t>(i));
         const BodyState state =
             initial_state(kind, added.body->center_of_mass, settings_.surroundings, noise);
+        require_above_ground(*added.body, settings_.surroundings, kind.start, state, i, count);
         added.batch.set_state(i, state);
-        added.before[i] = pose_of(state, settings_.surroundings, kind.start);
+        added.before[i] = flow_pose(state);
     }
     key_noise(added);
     kinds_.push_back(std::move(added));
@@ -149,41 +153,69 @@ void LiveSimulation::advance_to(double time) {
     }
     has_begun_ = true;
     for (Kind& kind : kinds_) {
-        const double in_flight = (time - kind.given.start) * (1.0 - 1e-12);
-        while (static_cast<double>(kind.steps) * settings_.step < in_flight) advance_one_step(kind);
+        const std::uint64_t needed = steps_until(time - kind.given.start);
+        if (needed <= kind.steps) continue;
+        step_to(kind, needed - 1);
+        for (std::size_t i = 0; i < kind.batch.size(); ++i) {
+            kind.before[i] = flow_pose(kind.batch.state(i));
+            kind.before_time[i] = step_time(kind);
+        }
+        step_to(kind, needed);
+        require_finite(kind);
     }
     time_ = time;
 }
 
-void LiveSimulation::advance_one_step(Kind& kind) {
-    const double begin = step_time(kind);
-    for (std::size_t i = 0; i < kind.batch.size(); ++i) {
-        kind.before[i] = pose_of(kind.batch.state(i), settings_.surroundings, begin);
-        kind.before_time[i] = begin;
-    }
-    const BatchReport done =
-        kind.batch.advance(settings_.surroundings, kind.given.start, settings_.step, kind.steps, 1, settings_.threads);
-    ++kind.steps;
-    report_.steps += kind.batch.size();
-    report_.substeps += done.implicit_steps;
-    report_.most_substeps = std::max(report_.most_substeps, done.most_substeps);
-    look_at(kind);
+std::uint64_t LiveSimulation::steps_until(double time_in_flight) const {
+    const double reached = time_in_flight * (1.0 - 1e-12);
+    auto steps = static_cast<std::uint64_t>(std::max(0.0, std::floor(reached / settings_.step)));
+    while (static_cast<double>(steps) * settings_.step < reached) ++steps;
+    return steps;
 }
 
-/// Speeds for the report, and numbers that ran away.
-void LiveSimulation::look_at(const Kind& kind) {
+void LiveSimulation::step_to(Kind& kind, std::uint64_t steps) {
+    while (kind.steps < steps) {
+        const std::uint64_t next_look = (kind.steps / steps_between_looks + 1) * steps_between_looks;
+        const std::uint64_t end = std::min(steps, next_look);
+        const BatchReport done = kind.batch.advance(settings_.surroundings, kind.given.start, settings_.step,
+                                                    kind.steps, end - kind.steps, settings_.threads);
+        report_.steps += (end - kind.steps) * kind.batch.size();
+        report_.substeps += done.implicit_steps;
+        report_.most_substeps = std::max(report_.most_substeps, done.most_substeps);
+        kind.steps = end;
+        if (end == next_look) {
+            require_finite(kind);
+            report_.highest_reynolds_number =
+                std::max(report_.highest_reynolds_number, highest_reynolds_number(kind));
+        }
+    }
+}
+
+void LiveSimulation::require_finite(const Kind& kind) {
+    for (std::size_t i = 0; i < kind.batch.size(); ++i) {
+        if (is_finite(kind.batch.state(i))) continue;
+        stopped_ = fmt::format("body {} ('{}') left the range of numbers by {:.6g} s; use a smaller step",
+                               kind.first + i, kind.given.name, step_time(kind));
+        throw Fault(SAMARA_OUT_OF_RANGE, stopped_);
+    }
+}
+
+double LiveSimulation::highest_reynolds_number(const Kind& kind) {
     double highest_speed = 0.0;
     for (std::size_t i = 0; i < kind.batch.size(); ++i) {
-        const BodyState state = kind.batch.state(i);
-        if (!is_finite(state)) {
-            stopped_ = fmt::format("body {} ('{}') left the range of numbers at {:.6g} s; use a smaller step",
-                                   kind.first + i, kind.given.name, step_time(kind));
-            throw Fault(SAMARA_OUT_OF_RANGE, stopped_);
-        }
-        highest_speed = std::max(highest_speed, state.velocity.tail<3>().norm());
+        highest_speed = std::max(highest_speed, kind.batch.state(i).velocity.tail<3>().norm());
     }
-    report_.highest_reynolds_number =
-        std::max(report_.highest_reynolds_number, reynolds_number(*kind.body, highest_speed));
+    return reynolds_number(*kind.body, highest_speed);
+}
+
+LiveReport LiveSimulation::report() const {
+    LiveReport report = report_;
+    for (const Kind& kind : kinds_) {
+        if (kind.steps == 0) continue;
+        report.highest_reynolds_number =
+            std::max(report.highest_reynolds_number, highest_reynolds_number(kind));
+    }
+    return report;
 }
 
 std::pair<const LiveSimulation::Kind*, std::size_t> LiveSimulation::find(std::size_t index) const {
@@ -200,17 +232,17 @@ const Vector3d& LiveSimulation::center_of_mass(std::size_t index) const {
 Pose LiveSimulation::pose(std::size_t index) const {
     const auto [kind, i] = find(index);
     const double end = step_time(*kind);
-    const Pose after = pose_of(kind->batch.state(i), settings_.surroundings, end);
+    const Pose after = flow_pose(kind->batch.state(i));
     if (time_ < kind->given.start) {
-        return {.position = after.position,
-                .orientation = after.orientation,
-                .velocity = Vector3d::Zero(),
-                .angular_velocity = Vector3d::Zero()};
+        Pose held = in_world(after, settings_.surroundings, kind->given.start);
+        held.velocity.setZero();
+        held.angular_velocity.setZero();
+        return held;
     }
     const double duration = end - kind->before_time[i];
-    if (!(duration > 0.0)) return after;
+    if (!(duration > 0.0)) return in_world(after, settings_.surroundings, time_);
     const double fraction = std::clamp((time_ - kind->before_time[i]) / duration, 0.0, 1.0);
-    return interpolated(kind->before[i], after, fraction, duration);
+    return in_world(interpolated(kind->before[i], after, fraction, duration), settings_.surroundings, time_);
 }
 
 void LiveSimulation::set_pose(std::size_t index, const Pose& pose) {
@@ -218,18 +250,20 @@ void LiveSimulation::set_pose(std::size_t index, const Pose& pose) {
     Kind& kind = kinds_[static_cast<std::size_t>(found - kinds_.data())];
     const double end = step_time(kind);
     const double begin = std::min(std::max(time_, kind.given.start), end);
-    BodyState state = state_of(carried(pose, end - begin), settings_.surroundings, end);
+    const Pose in_flow_now = in_flow(pose, settings_.surroundings, begin);
+    BodyState state = state_of(carried(in_flow_now, end - begin));
     state.seen_fluid = kind.batch.state(i).seen_fluid;
-    kind.before[i] = pose;
+    kind.before[i] = in_flow_now;
     kind.before_time[i] = begin;
     kind.batch.set_state(i, state);
 }
 
 std::string LiveSimulation::fingerprint() const {
     const Surroundings& around = settings_.surroundings;
-    std::string all = fmt::format(
-        "{} {} {} {} {} {} {}\n", settings_.fluid.density, settings_.fluid.viscosity, text_of(around.current),
-        text_of(around.gust.amplitude), around.gust.period, text_of(around.gravity), settings_.step);
+    std::string all = fmt::format("{} {} {} {} {} {} ground {} {}\n", settings_.fluid.density,
+                                  settings_.fluid.viscosity, text_of(around.current),
+                                  text_of(around.gust.amplitude), around.gust.period, text_of(around.gravity),
+                                  around.ground ? fmt::format("{}", *around.ground) : "none", settings_.step);
     for (const Kind& kind : kinds_) all += kind.description;
     return all;
 }

@@ -30,12 +30,13 @@ class LiveSimulation {
 
     /// Adds all bodies of a kind, before the first advance, and returns the number of the first. `hash`: of
     /// the body file. Throws Fault where the body lacks what the kind asks for, where the name is taken, or
-    /// where the simulation has begun; Error where the inertia is not that of any body.
+    /// where the simulation has begun; Error where the inertia is not that of any body, or a body starts
+    /// below the ground.
     std::size_t add(const Body& body, const std::string& hash, const SceneBody& kind);
 
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
     [[nodiscard]] double time() const noexcept { return time_; }
-    [[nodiscard]] const LiveReport& report() const noexcept { return report_; }
+    [[nodiscard]] LiveReport report() const;
 
     /// Throws Fault where the simulation has stopped, since a body's motion left the range of numbers.
     void require_running() const;
@@ -67,14 +68,19 @@ class LiveSimulation {
         Batch batch;
         std::size_t first = 0;
         std::uint64_t steps = 0;
-        std::vector<Pose> before;         ///< where the bodies were last, at the times `before_time`
+        std::vector<Pose> before;         ///< in the flow's frame: where the bodies were at `before_time`
         std::vector<double> before_time;  ///< s
     };
 
     [[nodiscard]] double step_time(const Kind& kind) const;
     [[nodiscard]] std::pair<const Kind*, std::size_t> find(std::size_t index) const;
-    void advance_one_step(Kind& kind);
-    void look_at(const Kind& kind);
+    /// How many steps reach a time in a kind's flight (s), to rounding.
+    [[nodiscard]] std::uint64_t steps_until(double time_in_flight) const;
+    /// Steps on until the kind has taken `steps`.
+    void step_to(Kind& kind, std::uint64_t steps);
+    /// Stops the simulation, with a Fault, where a body's motion left the range of numbers.
+    void require_finite(const Kind& kind);
+    [[nodiscard]] static double highest_reynolds_number(const Kind& kind);
     void key_noise(Kind& kind);
     [[nodiscard]] std::string fingerprint() const;
 

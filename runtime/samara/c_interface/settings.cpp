@@ -16,7 +16,7 @@ namespace {
 constexpr std::uint32_t most_bodies_of_a_kind = 10'000'000;
 constexpr int most_threads = 1024;
 // Up to the last member that version 1 had.
-constexpr std::size_t first_settings_size = offsetof(samara_settings, threads) + sizeof(std::int32_t);
+constexpr std::size_t first_settings_size = offsetof(samara_settings, ground) + sizeof(double);
 constexpr std::size_t first_kind_size = offsetof(samara_kind, langevin) + sizeof(std::int32_t);
 
 [[noreturn]] void refuse(const char* member, const std::string& why) {
@@ -165,6 +165,7 @@ SimulationSettings read_settings(const samara_settings& settings) {
     result.surroundings.gust.amplitude = vector(given.gust_amplitude, "gust_amplitude");
     result.surroundings.gust.period = positive(given.gust_period, "gust_period");
     result.surroundings.gravity = vector(given.gravity, "gravity");
+    if (given.has_ground != 0) result.surroundings.ground = finite(given.ground, "ground");
     result.step = positive(given.step, "step");
     result.seed = given.seed;
     result.run = given.run;

@@ -211,7 +211,7 @@ samara_status samara_get_report(const samara_simulation* simulation, samara_repo
     return guarded(error, error_size, [&] {
         require(simulation, "simulation");
         require(report, "report");
-        const samara::LiveReport& live = simulation->live.report();
+        const samara::LiveReport live = simulation->live.report();
         samara_report filled{};
         filled.steps = live.steps;
         filled.substeps = live.substeps;

@@ -22,7 +22,7 @@ struct BatchReport {
 /// Many bodies of one kind that are stepped together, as many at a time as the machine's vectors hold. Each
 /// moves as advance() moves it alone, whatever its place in the batch, the number of threads and the way the
 /// steps are cut into calls: in double precision to the last bit; in single precision, for crowds, within
-/// what docs/stability states.
+/// what docs/theory states.
 template <class Real>
 class BasicBatch {
   public:

@@ -11,6 +11,7 @@
 
 #include "samara/base/error.hpp"
 #include "samara/body/octahedral_map.hpp"
+#include "samara/dynamics/immersed_body_check.hpp"
 
 namespace samara {
 namespace {
@@ -63,12 +64,19 @@ void require_tables(const Body& body, const SceneBody& scene_body) {
         scene_body.shape.string()));
 }
 
+/// projected_area() in all directions of the map, with each triangle's area vector worked out once.
 std::vector<double> projected_areas(const Surface& surface) {
     constexpr int side = 2 * shadow_subdivisions + 1;
+    Eigen::MatrixX3d area_vectors(static_cast<Eigen::Index>(surface.triangle_count()), 3);
+    for (std::size_t t = 0; t < surface.triangle_count(); ++t) {
+        area_vectors.row(static_cast<Eigen::Index>(t)) = area_vector(surface, t).transpose();
+    }
     std::vector<double> areas;
+    areas.reserve(std::size_t{side} * side);
     for (int row = 0; row < side; ++row) {
         for (int column = 0; column < side; ++column) {
-            areas.push_back(projected_area(surface, octahedral_node(shadow_subdivisions, row, column)));
+            const Vector3d direction = octahedral_node(shadow_subdivisions, row, column);
+            areas.push_back(0.5 * (area_vectors * direction).cwiseAbs().sum());
         }
     }
     return areas;
@@ -86,6 +94,7 @@ ImmersedBody make_immersed_body(const Body& body, const SceneBody& scene_body, c
                                 scene_body.name, scene_body.shape.string()));
     }
     require_tables(body, scene_body);
+    require_sound(body, scene_body, fluid);
     const Mass mass = mass_of(body, scene_body.mass, scene_body.name);
 
     ImmersedBody result;

@@ -56,8 +56,8 @@ inline constexpr int shadow_subdivisions = 16;
 void prepare(ImmersedBody& body);
 
 /// Puts body, mass and fluid together. Throws Error where the body file lacks what the scene asks of it (the
-/// Kirchhoff tensor; tables: the message names the command that bakes them), and where the inertia is not
-/// that of any body.
+/// Kirchhoff tensor; tables: the message names the command that bakes them), where a number is not finite or
+/// out of its range (the message names the member), and where the inertia is not that of any body.
 ImmersedBody make_immersed_body(const Body& body, const SceneBody& scene_body, const Fluid& fluid);
 
 }  // namespace samara

@@ -8,7 +8,9 @@ namespace samara {
 BodyState implicit_step(const ImmersedBody& body, const Vector3d& gravity, double time_step,
                         const BodyState& state) noexcept {
     BodyState result = state;
-    kernel::implicit_step(body.constants, gravity, time_step, result);
+    const SeenFluid& seen = state.seen_fluid;
+    const bool sees_fluid = !seen.velocity.isZero(0.0) || !seen.angular_velocity.isZero(0.0);
+    kernel::implicit_step(body.constants, gravity, time_step, sees_fluid, result);
     return result;
 }
 
@@ -21,7 +23,8 @@ StepResult advance(const ImmersedBody& body, const Surroundings& surroundings, d
     const double substep = time_step / result.substeps;
     for (int i = 0; i < result.substeps; ++i) {
         const BodyState before = result.state;
-        kernel::implicit_step(body.constants, gravity, substep, result.state);
+        kernel::implicit_step(body.constants, gravity, substep, body.turbulence != Turbulence::none,
+                              result.state);
         if (!surroundings.ground) continue;
         const double end = time + (i + 1) * substep;
         touch_ground(body, ground_in_flow(surroundings, end - substep, end), substep, before, result.state);

@@ -15,19 +15,7 @@ namespace samara {
 namespace {
 
 constexpr std::size_t poses_a_piece = 256;
-
-void require_above_ground(const ImmersedBody& body, const Surroundings& surroundings, double start,
-                          const BodyState& state, std::size_t copy, std::size_t copies) {
-    if (!surroundings.ground) return;
-    const Vector3d down = state.orientation.conjugate() * -Vector3d::UnitZ();
-    const double height = state.position.z() + flow_displacement(surroundings, start).z();
-    const double depth = *surroundings.ground - height + reach(body.contact_points, down);
-    if (depth <= 1e-6 * body.contact_points.bounding_radius) return;
-    throw Error(fmt::format(
-        "body '{}'{} starts {:.4g} m below the ground at {:g} m; start it higher, or "
-        "lower the ground",
-        body.name, copies > 1 ? fmt::format(", copy {},", copy) : "", depth, *surroundings.ground));
-}
+constexpr std::uint64_t most_steps_a_call = 4096;  // what a call keeps in memory grows with its steps
 
 }  // namespace
 
@@ -62,7 +50,7 @@ BodyFlight::BodyFlight(const Scene& scene, const SceneBody& scene_body, const Im
         require_above_ground(body, surroundings_, start_, state, copy, copies_);
         batch_.set_noise(i, noise);
         batch_.set_state(i, state);
-        after_[i] = pose_of(state, surroundings_, start_);
+        after_[i] = flow_pose(state);
         last_[i] = state.orientation;
     }
     before_ = after_;
@@ -81,7 +69,7 @@ void BodyFlight::fly_to(double time, Pose* poses, std::size_t run_stride) {
     parallel_for(batch_.size(), poses_a_piece, threads_, [&](std::size_t first, std::size_t end) {
         for (std::size_t i = first; i < end; ++i) {
             Pose& pose = poses[place(i)];
-            pose = interpolated(before_[i], after_[i], fraction, step_);
+            pose = in_world(interpolated(before_[i], after_[i], fraction, step_), surroundings_, time);
             keep_sign_continuous(pose.orientation, last_[i]);
             last_[i] = pose.orientation;
         }
@@ -110,24 +98,26 @@ void BodyFlight::step_to(double time_in_flight) {
 }
 
 void BodyFlight::advance(std::uint64_t steps) {
-    const BatchReport done = batch_.advance(surroundings_, start_, step_, steps_, steps, threads_);
-    steps_ += steps;
-    report_.steps += steps * batch_.size();
-    report_.batch.implicit_steps += done.implicit_steps;
-    report_.batch.steps_at_limit += done.steps_at_limit;
-    report_.batch.most_substeps = std::max(report_.batch.most_substeps, done.most_substeps);
+    const std::uint64_t end = steps_ + steps;
+    while (steps_ < end) {
+        const std::uint64_t now = std::min(end - steps_, most_steps_a_call);
+        const BatchReport done = batch_.advance(surroundings_, start_, step_, steps_, now, threads_);
+        steps_ += now;
+        report_.steps += now * batch_.size();
+        report_.batch.implicit_steps += done.implicit_steps;
+        report_.batch.steps_at_limit += done.steps_at_limit;
+        report_.batch.most_substeps = std::max(report_.batch.most_substeps, done.most_substeps);
+    }
 }
 
 void BodyFlight::note_poses() {
-    const double now = start_ + static_cast<double>(steps_) * step_;
-    const Vector3d flow = flow_velocity(surroundings_, now);
     const double lowest = body_.tables ? body_.tables->reynolds_numbers.front() : 0.0;
     std::mutex mutex;
     parallel_for(batch_.size(), poses_a_piece, threads_, [&](std::size_t first, std::size_t end) {
         FlightReport piece;
         for (std::size_t i = first; i < end; ++i) {
-            after_[i] = pose_of(batch_.state(i), surroundings_, now);
-            const double reynolds = reynolds_number(body_, (after_[i].velocity - flow).norm());
+            after_[i] = flow_pose(batch_.state(i));
+            const double reynolds = reynolds_number(body_, after_[i].velocity.norm());
             piece.highest_reynolds_number = std::max(piece.highest_reynolds_number, reynolds);
             if (after_[i].velocity.isZero(0.0)) continue;
             ++piece.moving;
@@ -142,10 +132,10 @@ void BodyFlight::note_poses() {
 }
 
 Pose BodyFlight::held(std::size_t index) const {
-    return {.position = after_[index].position,
-            .orientation = after_[index].orientation,
-            .velocity = Vector3d::Zero(),
-            .angular_velocity = Vector3d::Zero()};
+    Pose pose = in_world(after_[index], surroundings_, start_);
+    pose.velocity.setZero();
+    pose.angular_velocity.setZero();
+    return pose;
 }
 
 }  // namespace samara

@@ -17,7 +17,7 @@ struct FlightReport {
     std::uint64_t steps = 0;  ///< of the scene's step
     BatchReport batch;
     double highest_reynolds_number = 0.0;  ///< at the frames
-    std::uint64_t moving = 0;              ///< poses at the frames of bodies that move
+    std::uint64_t moving = 0;              ///< poses at the frames of bodies that move through the fluid
     std::uint64_t below_table = 0;         ///< those of them below the table's lowest Reynolds number
 };
 
@@ -53,7 +53,7 @@ class BodyFlight {
     int threads_;
     Batch batch_;
     std::uint64_t steps_ = 0;
-    std::vector<Pose> before_;  ///< one step before after_
+    std::vector<Pose> before_;  ///< one step before after_; both in the flow's frame
     std::vector<Pose> after_;
     std::vector<Quaterniond> last_;  ///< orientations at the last frame
     FlightReport report_;

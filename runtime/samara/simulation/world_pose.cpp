@@ -1,21 +1,38 @@
 #include "samara/simulation/world_pose.hpp"
 
+#include <fmt/format.h>
+
+#include "samara/base/error.hpp"
+
 namespace samara {
 
-Pose pose_of(const BodyState& state, const Surroundings& surroundings, double time) {
-    return {.position = state.position + flow_displacement(surroundings, time),
+Pose flow_pose(const BodyState& state) {
+    return {.position = state.position,
             .orientation = state.orientation,
-            .velocity = state.orientation * state.velocity.tail<3>() + flow_velocity(surroundings, time),
+            .velocity = state.orientation * state.velocity.tail<3>(),
             .angular_velocity = state.orientation * state.velocity.head<3>()};
 }
 
-BodyState state_of(const Pose& pose, const Surroundings& surroundings, double time) {
+Pose in_world(const Pose& in_flow, const Surroundings& surroundings, double time) {
+    Pose pose = in_flow;
+    pose.position += flow_displacement(surroundings, time);
+    pose.velocity += flow_velocity(surroundings, time);
+    return pose;
+}
+
+Pose in_flow(const Pose& in_world, const Surroundings& surroundings, double time) {
+    Pose pose = in_world;
+    pose.position -= flow_displacement(surroundings, time);
+    pose.velocity -= flow_velocity(surroundings, time);
+    return pose;
+}
+
+BodyState state_of(const Pose& in_flow) {
     BodyState state;
-    state.position = pose.position - flow_displacement(surroundings, time);
-    state.orientation = pose.orientation;
-    const Quaterniond to_body = pose.orientation.conjugate();
-    state.velocity << to_body * pose.angular_velocity,
-        to_body * (pose.velocity - flow_velocity(surroundings, time));
+    state.position = in_flow.position;
+    state.orientation = in_flow.orientation;
+    const Quaterniond to_body = in_flow.orientation.conjugate();
+    state.velocity << to_body * in_flow.angular_velocity, to_body * in_flow.velocity;
     return state;
 }
 
@@ -37,7 +54,20 @@ BodyState initial_state(const SceneBody& scene_body, const Vector3d& center_of_m
         pose.orientation = Quaterniond(Eigen::AngleAxisd(angle, about.normalized())) * pose.orientation;
     }
     pose.position += pose.orientation * center_of_mass;
-    return state_of(pose, surroundings, scene_body.start);
+    return state_of(in_flow(pose, surroundings, scene_body.start));
+}
+
+void require_above_ground(const ImmersedBody& body, const Surroundings& surroundings, double start,
+                          const BodyState& state, std::size_t copy, std::size_t copies) {
+    if (!surroundings.ground) return;
+    const Vector3d down = state.orientation.conjugate() * -Vector3d::UnitZ();
+    const double height = state.position.z() + flow_displacement(surroundings, start).z();
+    const double depth = *surroundings.ground - height + reach(body.contact_points, down);
+    if (depth <= 1e-6 * body.contact_points.bounding_radius) return;
+    throw Error(fmt::format(
+        "body '{}'{} starts {:.4g} m below the ground at {:g} m; start it higher, or "
+        "lower the ground",
+        body.name, copies > 1 ? fmt::format(", copy {},", copy) : "", depth, *surroundings.ground));
 }
 
 }  // namespace samara

@@ -161,7 +161,7 @@ HWY_INLINE void advance_lanes(Tag tag, const FlightConstants<Real>& c, const ker
     for (int i = 0; i < most; ++i) {
         const Flight<V> previous = flight;
         Flight<V> next = flight;
-        implicit_step(c, gravity, substep, next);
+        implicit_step(c, gravity, substep, c.turbulence != Turbulence::none, next);
         flight = select_flight<Tag>(V(i) < substeps, next, flight);
         if (task.contact.resolve == nullptr) continue;
         if (hn::AllFalse(tag, near_ground(task.contact, flight, substep))) continue;

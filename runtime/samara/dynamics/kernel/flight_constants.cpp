@@ -47,6 +47,7 @@ DirectionTable<Real> direction_table(const LoadTables& tables, const Row& row) {
     DirectionTable<Real> result;
     result.width = static_cast<int>(width);
     result.side = tables.map_size();
+    result.turned = !tables.axes.isIdentity(0.0);
     result.to_map_axes = square<Real>(tables.axes.transpose());
     set_planes(tables.reynolds_numbers, result);
     for (const LoadEntry& entry : tables.entries) {
@@ -108,6 +109,8 @@ void set_inertia(const ImmersedBody& body, FlightConstants<Real>& c) {
     const Matrix3d moving = inertia.bottomRightCorner<3, 3>() / mass;
     c.mass_scale = static_cast<Real>(mass);
     c.inertia_turning = square<Real>(turning);
+    c.off_center = !body.center_of_buoyancy.isZero(0.0);
+    c.coupled = !inertia.topRightCorner<3, 3>().isZero(0.0);
     c.inertia_coupling = square<Real>(inertia.topRightCorner<3, 3>() / (mass * length));
     c.directed_inertia = square<Real>(moving - Matrix3d::Identity());
     c.inverse_turning = triple<Real>(turning.diagonal().cwiseInverse());

@@ -16,6 +16,7 @@ template <class Real>
 struct DirectionTable {
     int width = 4;                          ///< numbers a node, a multiple of four
     int side = 3;                           ///< nodes a side of the map
+    bool turned = false;                    ///< whether the map's axes are not the body's
     Square<Real> to_map_axes{};             ///< body axes -> map axes
     std::vector<Real> logarithms;           ///< of the Reynolds numbers, ascending
     std::vector<Real> inverse_differences;  ///< between neighbours of them
@@ -33,6 +34,8 @@ struct FlightConstants {
     Real inverse_length = 1;            ///< 1/m
     Real inverse_eddy_length = 1;       ///< 1/L (1/m): the turbulence's rotation is its velocity over L
     Real mass_scale = 1;                ///< m* (kg)
+    bool off_center = false;            ///< whether the centre of mass is not the centroid
+    bool coupled = false;               ///< whether K has a block of (omega, v) about the centroid
     Triple<Real> center_of_buoyancy{};  ///< m, from the centre of mass to the centroid
     Square<Real> inertia_turning{};     ///< K's block of (omega, omega), over m* l^2
     Square<Real> inertia_coupling{};    ///< of (omega, v), over m* l

@@ -48,9 +48,9 @@ BlockReport advance_blocks(const FlightConstants<double>& constants, const Block
 BlockReport advance_blocks(const FlightConstants<float>& constants, const BlockSteps& steps,
                            FlightBlock<float>* blocks, std::size_t count) noexcept;
 
-/// implicit_step() of step.hpp.
+/// implicit_step() of step.hpp. Without `sees_fluid` the seen fluid is taken to be at rest.
 void implicit_step(const FlightConstants<double>& constants, const Vector3d& gravity, double h,
-                   BodyState& state) noexcept;
+                   bool sees_fluid, BodyState& state) noexcept;
 
 /// The Langevin update over the whole step; returns the number of parts that the step is cut into.
 int begin_step(const FlightConstants<double>& constants, double h, const Noise& noise, std::uint64_t step,

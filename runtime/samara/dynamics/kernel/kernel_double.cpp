@@ -49,9 +49,10 @@ kernel::BlockReport advance_double_blocks(const FlightConstants<double>& constan
     return advance_all(constants, steps, blocks, count);
 }
 
-void step_one(const FlightConstants<double>& c, const Vector3d& gravity, double h, BodyState& state) {
+void step_one(const FlightConstants<double>& c, const Vector3d& gravity, double h, bool sees_fluid,
+              BodyState& state) {
     Flight<double> flight = flight_of(state);
-    implicit_step(c, triple_of(gravity), h, flight);
+    implicit_step(c, triple_of(gravity), h, sees_fluid, flight);
     keep(flight, state);
 }
 
@@ -128,8 +129,8 @@ BlockReport advance_blocks(const FlightConstants<double>& constants, const Block
 }
 
 void implicit_step(const FlightConstants<double>& constants, const Vector3d& gravity, double h,
-                   BodyState& state) noexcept {
-    HWY_DYNAMIC_DISPATCH(step_one)(constants, gravity, h, state);
+                   bool sees_fluid, BodyState& state) noexcept {
+    HWY_DYNAMIC_DISPATCH(step_one)(constants, gravity, h, sees_fluid, state);
 }
 
 int begin_step(const FlightConstants<double>& constants, double h, const Noise& noise, std::uint64_t step,

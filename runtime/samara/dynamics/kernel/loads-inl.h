@@ -18,7 +18,7 @@ struct LoadBlocks {
     Square<V> moment_by_turning, moment_by_velocity, force_by_turning, force_by_velocity;
 };
 
-/// A velocity's length and direction (zero where it has none).
+/// A velocity's length and direction (shorter than one where it has none).
 template <class V>
 struct Heading {
     V speed;
@@ -27,8 +27,7 @@ struct Heading {
 template <class V>
 HWY_INLINE Heading<V> heading_of(const Triple<V>& velocity) {
     const V speed = root(dot(velocity, velocity));
-    const V inverse = select(V(tiny<V>) < speed, V(1.0) / larger(V(tiny<V>), speed), V(0.0));
-    return {speed, inverse * velocity};
+    return {speed, (V(1.0) / larger(V(tiny<V>), speed)) * velocity};
 }
 
 /// Eq. 5 in its regular form: what a body of that area feels in a tow, over the dynamic pressure.
@@ -76,7 +75,7 @@ HWY_INLINE PressurePoint<V> pressure_point(const FlightConstants<Real>& c, const
         cross(broadcast<V>(c.directed_added_mass) * heading.direction, heading.direction);
     const Triple<V> moment = tow.moment - V(c.kirchhoff_share) * kirchhoff;
     const V square = dot(tow.force, tow.force);
-    const V scale = select(V(tiny<V>) < square, share / larger(V(tiny<V>), square), V(0.0));
+    const V scale = share / larger(V(tiny<V>), square);
     return {scale * cross(tow.force, moment), (V(c.tow_factor) * scale * dot(moment, tow.force)) * tow.force};
 }
 
@@ -134,7 +133,7 @@ HWY_INLINE LoadBlocks<V> load_blocks(const FlightConstants<Real>& c, const Tripl
     const Heading<V> heading = heading_of(velocity);
     const V tip_speed = V(c.half_length) * root(dot(omega, omega));
     const V combined = root(heading.speed * heading.speed + tip_speed * tip_speed);
-    const V inverse = select(V(tiny<V>) < combined, one / larger(V(tiny<V>), combined), zero);
+    const V inverse = one / larger(V(tiny<V>), combined);
 
     // The tow's moment fades as the tip speed outgrows the speed: a steady tow keeps it whole.
     const V share = (heading.speed * inverse) * (heading.speed * inverse);

@@ -68,6 +68,8 @@ struct NumberTraits;
 template <>
 struct NumberTraits<double> {
     using Real = double;
+    using Mask = bool;
+    static HWY_INLINE bool any_of(bool condition) { return condition; }
     static HWY_INLINE double power_of_two(double n) {
         return std::bit_cast<double>((static_cast<std::int64_t>(n) + 1023) << 52);
     }
@@ -83,10 +85,12 @@ struct NumberTraits<double> {
 template <class Tag>
 struct NumberTraits<Lanes<Tag>> {
     using Real = hn::TFromD<Tag>;
+    using Mask = hn::Mask<Tag>;
     using Integers = hn::RebindToSigned<Tag>;
     static constexpr int fraction_bits = std::numeric_limits<Real>::digits - 1;
     static constexpr int bias = std::numeric_limits<Real>::max_exponent - 1;
 
+    static HWY_INLINE bool any_of(Mask condition) { return !hn::AllFalse(Tag(), condition); }
     static HWY_INLINE Lanes<Tag> power_of_two(Lanes<Tag> n) {
         const Integers integers;
         // The sum's last bits are n: its exponent field keeps them in place.

@@ -23,12 +23,31 @@ struct Flight {
     Triple<V> angular_acceleration, acceleration;
 };
 
-/// The velocity of the centroid, in body lengths a second.
+/// The velocity (or acceleration) of the centroid from that of the centre of mass: l is taken out of it.
+template <class V, class Real>
+HWY_INLINE Triple<V> to_centroid(const FlightConstants<Real>& c, const Triple<V>& turning,
+                                 const Triple<V>& velocity) {
+    if (!c.off_center) return V(c.inverse_length) * velocity;
+    return V(c.inverse_length) * (velocity + cross(turning, broadcast<V>(c.center_of_buoyancy)));
+}
+/// The reverse of to_centroid.
+template <class V, class Real>
+HWY_INLINE Triple<V> from_centroid(const FlightConstants<Real>& c, const Triple<V>& turning,
+                                   const Triple<V>& velocity) {
+    if (!c.off_center) return V(c.length) * velocity;
+    return V(c.length) * velocity - cross(turning, broadcast<V>(c.center_of_buoyancy));
+}
+
+/// The velocity of the centroid, in l a second.
 template <class V, class Real>
 HWY_INLINE Triple<V> centroid_velocity(const FlightConstants<Real>& c, const Flight<V>& flight) {
-    const Triple<V> arm = broadcast<V>(c.center_of_buoyancy);
-    return V(c.inverse_length) * (flight.velocity + cross(flight.angular_velocity, arm));
+    return to_centroid(c, flight.angular_velocity, flight.velocity);
 }
+
+template <class V>
+struct VelocityChange {
+    Triple<V> omega, velocity;
+};
 
 /// What the passes over one step share: its start.
 template <class V>
@@ -36,13 +55,17 @@ struct StepStart {
     V h;
     Triple<V> omega, velocity;
     Triple<V> gravity, seen_rotation, seen_velocity;  // body axes
+    bool sees_fluid;
+    /// Whether the body turns by more than a radian: its system is then solved once more for what rounding
+    /// left, since the elimination does not look for the best pivots.
+    typename NumberTraits<V>::Mask wild;
 };
 
 /// The velocities inside the step, how they differ from the start's, and the turn they were found with.
 template <class V>
 struct StepMiddle {
     Triple<V> omega, velocity;
-    Triple<V> omega_change, velocity_change;
+    VelocityChange<V> change;
     Triple<V> half_turn;
     V theta;
     V stiffness;  // of the moving
@@ -79,49 +102,64 @@ struct StepMatrix {
             factorised(Square<V>{turning.x - solutions * coupling.x, turning.y - solutions * coupling.y,
                                  turning.z - solutions * coupling.z});
     }
-    /// Adds the solution for a moment and a force.
-    HWY_INLINE void solve(const Triple<V>& moment, const Triple<V>& force, Triple<V>& omega,
-                          Triple<V>& velocity) const {
+    [[nodiscard]] HWY_INLINE VelocityChange<V> solved_for(const Triple<V>& moment,
+                                                          const Triple<V>& force) const {
         const Triple<V> rest = solved(moving_factors, force);
-        const Triple<V> turn = solved(turning_factors, moment - coupling * rest);
-        omega = omega + turn;
-        velocity = velocity + (rest - transposed_times(solutions, turn));
+        const Triple<V> omega = solved(turning_factors, moment - coupling * rest);
+        return {omega, rest - transposed_times(solutions, omega)};
     }
+};
+
+/// What stands still against the world while the body turns under it by half a step.
+template <class V>
+struct HalfTurn {
+    Triple<V> half_turn;
+    HWY_INLINE Triple<V> operator()(const Triple<V>& a) const { return turned_back(half_turn, a); }
 };
 
 /// Solves the step's system with the loads and the transport taken at the middle that was found or guessed
 /// before. Its unknowns are the velocities' changes: solving for the velocities themselves would drift by a
-/// rounding error a step. `refined`: once more for what rounding left, since the elimination does not look
-/// for the best pivots.
-template <bool refined, class V, class Real>
+/// rounding error a step.
+template <class V, class Real>
 HWY_INLINE void improve(const FlightConstants<Real>& c, const StepStart<V>& start, StepMiddle<V>& middle) {
-    const Square<V> coupling = broadcast<V>(c.inertia_coupling);
     middle.half_turn = (V(0.5) * start.h) * middle.omega;
-    const Triple<V> gravity = turned_back(middle.half_turn, start.gravity);
-    const Triple<V> angular_momentum =
-        broadcast<V>(c.inertia_turning) * middle.omega + coupling * middle.velocity;
+    const HalfTurn<V> under_body{middle.half_turn};
+    const Triple<V> gravity = under_body(start.gravity);
     // Of the linear momentum the part along the velocity (m* v, of which the unit is m*) acts as a force
     // alone: as p x v its moment would vanish only where the v inside p and the one it acts on are parallel,
     // and else spin even a sphere.
-    const Triple<V> momentum =
-        transposed_times(coupling, middle.omega) + broadcast<V>(c.directed_inertia) * middle.velocity;
+    Triple<V> angular_momentum = broadcast<V>(c.inertia_turning) * middle.omega;
+    Triple<V> momentum = broadcast<V>(c.directed_inertia) * middle.velocity;
+    if (c.coupled) {
+        const Square<V> coupling = broadcast<V>(c.inertia_coupling);
+        angular_momentum = angular_momentum + coupling * middle.velocity;
+        momentum = momentum + transposed_times(coupling, middle.omega);
+    }
     StepMatrix<V> matrix;
     matrix.turning = broadcast<V>(c.inertia_turning);
-    matrix.coupling = coupling;
-    matrix.back = transposed(coupling);
+    matrix.coupling = broadcast<V>(c.inertia_coupling);
+    matrix.back = transposed(matrix.coupling);
     matrix.moving = plus_diagonal(broadcast<V>(c.directed_inertia), V(1.0));
-    Triple<V> moment = cross(broadcast<V>(c.weight_moment), gravity) + cross(angular_momentum, start.omega) +
-                       cross(momentum, start.velocity);
+    Triple<V> moment = cross(angular_momentum, start.omega) + cross(momentum, start.velocity);
     Triple<V> force =
         V(c.weight) * gravity + cross(momentum, start.omega) - cross(middle.omega, start.velocity);
+    if (c.off_center) moment = moment + cross(broadcast<V>(c.weight_moment), gravity);
     V step = V(0.5) * start.h;
     middle.theta = V(0.5);
     if (c.loads != Loads::none) {
-        // The seen fluid is fixed in the world while the body turns under it by half the step.
-        const Triple<V> fluid_turning = turned_back(middle.half_turn, start.seen_rotation);
-        const Triple<V> fluid_velocity = turned_back(middle.half_turn, start.seen_velocity);
-        const LoadBlocks<V> loads =
-            load_blocks(c, middle.omega - fluid_turning, middle.velocity - fluid_velocity);
+        Triple<V> slip_turning = middle.omega;
+        Triple<V> slip_velocity = middle.velocity;
+        Triple<V> start_turning = start.omega;
+        Triple<V> start_velocity = start.velocity;
+        if (start.sees_fluid) {
+            const Triple<V> fluid_turning = under_body(start.seen_rotation);
+            const Triple<V> fluid_velocity = under_body(start.seen_velocity);
+            slip_turning = slip_turning - fluid_turning;
+            slip_velocity = slip_velocity - fluid_velocity;
+            start_turning = start_turning - fluid_turning;
+            start_velocity = start_velocity - fluid_velocity;
+        }
+        const LoadBlocks<V> loads = load_blocks(c, slip_turning, slip_velocity);
         const Stiffness<V> stiff = stiffness(c, loads, start.h);
         const V z = larger(stiff.turning, stiff.moving);
         middle.theta = (V(3.0) + z) / (V(6.0) + z);
@@ -131,10 +169,9 @@ HWY_INLINE void improve(const FlightConstants<Real>& c, const StepStart<V>& star
         matrix.coupling = matrix.coupling + step * loads.moment_by_velocity;
         matrix.back = matrix.back + step * loads.force_by_turning;
         matrix.moving = matrix.moving + step * loads.force_by_velocity;
-        const Triple<V> slip_turning = fluid_turning - start.omega;
-        const Triple<V> slip_velocity = fluid_velocity - start.velocity;
-        moment = moment + loads.moment_by_turning * slip_turning + loads.moment_by_velocity * slip_velocity;
-        force = force + loads.force_by_turning * slip_turning + loads.force_by_velocity * slip_velocity;
+        moment =
+            moment - (loads.moment_by_turning * start_turning + loads.moment_by_velocity * start_velocity);
+        force = force - (loads.force_by_turning * start_turning + loads.force_by_velocity * start_velocity);
     }
     matrix.turning = plus_cross(matrix.turning, -step * angular_momentum);
     matrix.coupling = plus_cross(matrix.coupling, -step * momentum);
@@ -142,61 +179,71 @@ HWY_INLINE void improve(const FlightConstants<Real>& c, const StepStart<V>& star
     matrix.moving = plus_cross(matrix.moving, step * middle.omega);
     matrix.factorise();
 
-    const V zero(0.0);
-    const Triple<V> none{zero, zero, zero};
     const Triple<V> right_moment = step * moment;
     const Triple<V> right_force = step * force;
-    Triple<V> omega = none;
-    Triple<V> velocity = none;
-    matrix.solve(right_moment, right_force, omega, velocity);
-    if constexpr (refined) {
-        matrix.solve(right_moment - matrix.turning * omega - matrix.coupling * velocity,
-                     right_force - matrix.back * omega - matrix.moving * velocity, omega, velocity);
+    VelocityChange<V> change = matrix.solved_for(right_moment, right_force);
+    if (NumberTraits<V>::any_of(start.wild)) {
+        const VelocityChange<V> more = matrix.solved_for(
+            right_moment - matrix.turning * change.omega - matrix.coupling * change.velocity,
+            right_force - matrix.back * change.omega - matrix.moving * change.velocity);
+        change.omega = select(start.wild, change.omega + more.omega, change.omega);
+        change.velocity = select(start.wild, change.velocity + more.velocity, change.velocity);
     }
-    middle.omega_change = omega;
-    middle.velocity_change = velocity;
-    middle.omega = start.omega + omega;
-    middle.velocity = start.velocity + velocity;
+    middle.change = change;
+    middle.omega = start.omega + change.omega;
+    middle.velocity = start.velocity + change.velocity;
 }
 
-/// One implicit step over h under a gravity (world axes). The middle of the step is guessed by the
-/// acceleration of the step before; two passes make it good to second order and more.
+/// What a step starts from. `gravity`: world axes.
 template <class V, class Real>
-HWY_INLINE void implicit_step(const FlightConstants<Real>& c, const Triple<V>& gravity, V h,
-                              Flight<V>& flight) {
-    const Square<V> to_world = rotation_matrix(flight.orientation);
+HWY_INLINE StepStart<V> step_start(const FlightConstants<Real>& c, const Square<V>& to_world,
+                                   const Triple<V>& gravity, V h, bool sees_fluid, const Flight<V>& flight) {
     StepStart<V> start;
     start.h = h;
     start.omega = flight.angular_velocity;
     start.velocity = centroid_velocity(c, flight);
     start.gravity = transposed_times(to_world, gravity);
-    start.seen_rotation = transposed_times(to_world, flight.seen_rotation);
-    start.seen_velocity = V(c.inverse_length) * transposed_times(to_world, flight.seen_velocity);
+    start.sees_fluid = sees_fluid;
+    if (sees_fluid) {
+        start.seen_rotation = transposed_times(to_world, flight.seen_rotation);
+        start.seen_velocity = V(c.inverse_length) * transposed_times(to_world, flight.seen_velocity);
+    }
+    const V munk_rate(c.munk_rate);
+    start.wild = V(1.0) < (h * h) * (dot(start.omega, start.omega) +
+                                     (munk_rate * munk_rate) * dot(start.velocity, start.velocity));
+    return start;
+}
 
-    const Triple<V> arm = broadcast<V>(c.center_of_buoyancy);
+/// One implicit step over h under a gravity (world axes). Without `sees_fluid` the seen fluid is at rest. The
+/// middle of the step is guessed by the acceleration of the step before; two passes make it good to second
+/// order and more.
+template <class V, class Real>
+HWY_INLINE void implicit_step(const FlightConstants<Real>& c, const Triple<V>& gravity, V h, bool sees_fluid,
+                              Flight<V>& flight) {
+    const Square<V> to_world = rotation_matrix(flight.orientation);
+    const StepStart<V> start = step_start(c, to_world, gravity, h, sees_fluid, flight);
     const V half = V(0.5) * h;
     StepMiddle<V> middle;
-    middle.omega = start.omega + half * flight.angular_acceleration;
-    middle.velocity = start.velocity + (half * V(c.inverse_length)) *
-                                           (flight.acceleration + cross(flight.angular_acceleration, arm));
     middle.stiffness = V(0.0);
+    middle.omega = start.omega + half * flight.angular_acceleration;
+    middle.velocity =
+        start.velocity + half * to_centroid(c, flight.angular_acceleration, flight.acceleration);
     const Triple<V> guess = middle.velocity;
-    improve<false>(c, start, middle);
+    improve(c, start, middle);
     // Where drag is stiff, one made from the speed alone would swing about the terminal speed: halfway to the
     // guess lies Newton's root. Where it is not, the middle stays, of second order.
     const V square = middle.stiffness * middle.stiffness;
     const V back = V(0.5) * square / (V(36.0) + square);
     middle.velocity = middle.velocity + back * (guess - middle.velocity);
-    improve<true>(c, start, middle);
+    improve(c, start, middle);
 
-    const V whole = V(1.0) / middle.theta;
-    const Triple<V> middle_velocity = V(c.length) * middle.velocity - cross(middle.omega, arm);
     // The same turn that carried gravity: what gravity works is then what the height gives.
+    const Triple<V> middle_velocity = from_centroid(c, middle.omega, middle.velocity);
     flight.position = flight.position + h * (to_world * turned_back(-middle.half_turn, middle_velocity));
     flight.orientation = turned_by(flight.orientation, middle.half_turn);
-    const Triple<V> turning_change = whole * middle.omega_change;
-    const Triple<V> velocity_change =
-        (V(c.length) * whole) * middle.velocity_change - cross(turning_change, arm);
+    const V whole = V(1.0) / middle.theta;
+    const Triple<V> turning_change = whole * middle.change.omega;
+    const Triple<V> velocity_change = from_centroid(c, turning_change, whole * middle.change.velocity);
     const V rate = V(1.0) / h;
     flight.angular_acceleration = rate * turning_change;
     flight.acceleration = rate * velocity_change;

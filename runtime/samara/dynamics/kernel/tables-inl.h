@@ -73,7 +73,7 @@ HWY_INLINE void find_place(const DirectionTable<Real>& table, const Triple<V>& d
                            Place<V>& place) {
     const V zero(0.0);
     const V one(1.0);
-    const Triple<V> d = broadcast<V>(table.to_map_axes) * direction;
+    const Triple<V> d = table.turned ? broadcast<V>(table.to_map_axes) * direction : direction;
     const V norm = larger(magnitude(d.x) + magnitude(d.y) + magnitude(d.z), V(tiny<V>));
     const V inverse = one / norm;
     const V x = d.x * inverse;
