@@ -126,7 +126,7 @@ TEST(Batch, DoesNotDependOnOrderNeighboursThreadsOrTheCuttingOfTime) {
     Batch others = started<double>(body, shuffled);
     FloatBatch other_floats = started<float>(body, shuffled);
     std::uint64_t done = 0;
-    for (const std::uint64_t steps : {1, 7, 16}) {
+    for (const std::uint64_t steps : {1U, 7U, 16U}) {
         others.advance(windy(), 0.0, h, done, steps, 2);
         other_floats.advance(windy(), 0.0, h, done, steps, 2);
         done += steps;

@@ -32,23 +32,8 @@ BodyState seeing_fluid(BodyState state) {
     return state;
 }
 
-/// Loads by coefficients with a given area: without the kinks that bilinear maps have.
-ImmersedBody smooth_body() {
-    SceneBody given = test::scene_body(0.0);
-    const Body shape = test::rubber_ellipsoid();
-    given.loads = Loads::coefficients;
-    given.coefficients = {.drag_coefficient = 0.8,
-                          .lift_coefficient = 0.4,
-                          .reference_area = 1e-3,
-                          .normal = Vector3d::UnitX(),
-                          .center_of_pressure = Vector3d(0.0, 0.003, -0.002)};
-    given.mass = {
-        .density = {}, .mass = 0.04, .center_of_mass = Vector3d(0.002, 0.001, -0.004), .inertia = {}};
-    return make_immersed_body(shape, given, Fluid{});
-}
-
 TEST(ReferenceStep, IsOfFourthOrderWithSmoothLoadsOffsetMassAndSeenFluid) {
-    const ImmersedBody body = smooth_body();
+    const ImmersedBody body = test::smooth_ellipsoid();
     const BodyState start = seeing_fluid(test::tumbling_state(0.3, 8.0));
     const double time = 0.5;
     const BodyState exact = flown(body, start, time, 2048);
@@ -85,7 +70,7 @@ TEST(ReferenceStep, IsOfSecondOrderAtLeastAcrossTheKinksOfATable) {
 }
 
 TEST(ReferenceStep, AgreesWithTheImplicitStepToItsSecondOrder) {
-    const ImmersedBody body = smooth_body();
+    const ImmersedBody body = test::smooth_ellipsoid();
     const BodyState start = seeing_fluid(test::tumbling_state(0.3, 8.0));
     const BodyState exact = flown(body, start, 0.5, 1024);
     double before = 0.0;

@@ -140,17 +140,7 @@ double missing_order(const ImmersedBody& body, double claimed, int fewest_steps,
 }
 
 TEST(Order, IsTwoOfTheImplicitStepAndFourOfTheReference) {
-    SceneBody given = test::scene_body(0.0);
-    const Body shape = test::rubber_ellipsoid();
-    given.loads = Loads::coefficients;
-    given.coefficients = {.drag_coefficient = 0.8,
-                          .lift_coefficient = 0.4,
-                          .reference_area = 1e-3,
-                          .normal = Vector3d::UnitX(),
-                          .center_of_pressure = Vector3d(0.0, 0.003, -0.002)};
-    given.mass = {
-        .density = {}, .mass = 0.04, .center_of_mass = Vector3d(0.002, 0.001, -0.004), .inertia = {}};
-    const ImmersedBody body = make_immersed_body(shape, given, Fluid{});
+    const ImmersedBody body = test::smooth_ellipsoid();
     test::expect_row({"full model with smooth loads", "2.5 to 0.6 ms",
                       "2 less the order of the implicit step", 0.1,
                       missing_order(body, 2.0, 200, [](const ImmersedBody& b, double h, const BodyState& s) {

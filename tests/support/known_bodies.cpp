@@ -89,6 +89,19 @@ ImmersedBody ideal_ellipsoid() {
     return make_immersed_body(rubber_ellipsoid(), given, Fluid{});
 }
 
+ImmersedBody smooth_ellipsoid() {
+    SceneBody given = scene_body(0.0);
+    given.loads = Loads::coefficients;
+    given.coefficients = {.drag_coefficient = 0.8,
+                          .lift_coefficient = 0.4,
+                          .reference_area = 1e-3,
+                          .normal = Vector3d::UnitX(),
+                          .center_of_pressure = Vector3d(0.0, 0.003, -0.002)};
+    given.mass = {
+        .density = {}, .mass = 0.04, .center_of_mass = Vector3d(0.002, 0.001, -0.004), .inertia = {}};
+    return make_immersed_body(rubber_ellipsoid(), given, Fluid{});
+}
+
 BodyState tumbling_state(double speed, double rate) {
     BodyState state;
     state.orientation = Quaterniond(0.8, 0.3, -0.4, 0.33).normalized();

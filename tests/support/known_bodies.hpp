@@ -28,6 +28,10 @@ ImmersedBody blunt_ellipsoid(const Vector3d& offset = Vector3d::Zero());
 /// The rubber ellipsoid in water without any loads.
 ImmersedBody ideal_ellipsoid();
 
+/// The rubber ellipsoid in water with loads by coefficients with a given area, without the kinks that
+/// bilinear maps have, and the centre of mass off the centroid.
+ImmersedBody smooth_ellipsoid();
+
 /// A state with different numbers everywhere: speeds of the order of `speed` (m/s), turning rates of `rate`
 /// (rad/s).
 BodyState tumbling_state(double speed, double rate);
