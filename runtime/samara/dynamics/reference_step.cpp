@@ -35,8 +35,8 @@ double energy_norm(const Matrix6d& inertia, const Vector6d& velocity) {
 /// The matrix of the simplified Newton method for the stages' velocities.
 Matrix12d newton_matrix(const Matrix6d& gradient, double h) {
     Matrix12d matrix = Matrix12d::Identity();
-    for (int i = 0; i < 2; ++i) {
-        for (int j = 0; j < 2; ++j) matrix.block<6, 6>(6 * i, 6 * j) -= h * gauss[i][j] * gradient;
+    for (Eigen::Index i = 0; i < 2; ++i) {
+        for (Eigen::Index j = 0; j < 2; ++j) matrix.block<6, 6>(6 * i, 6 * j) -= h * gauss[i][j] * gradient;
     }
     return matrix;
 }
