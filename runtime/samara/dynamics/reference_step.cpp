@@ -56,14 +56,14 @@ std::optional<Stages> solved_rates(const ImmersedBody& body, const EquationsOfMo
         Vector12d missing;
         for (std::size_t i = 0; i < 2; ++i) {
             next[i] = start + h * (gauss[i][0] * rates[0] + gauss[i][1] * rates[1]);
-            missing.segment<6>(6 * static_cast<int>(i)) = (next[i] - stages[i]).head<6>();
+            missing.segment<6>(6 * static_cast<Eigen::Index>(i)) = (next[i] - stages[i]).head<6>();
         }
         const Vector12d step = newton.solve(missing);
         double change = 0.0;
         double turned = 0.0;
         double scale = energy_norm(body.inertia, start.head<6>());
         for (std::size_t i = 0; i < 2; ++i) {
-            const Vector6d moved = step.segment<6>(6 * static_cast<int>(i));
+            const Vector6d moved = step.segment<6>(6 * static_cast<Eigen::Index>(i));
             next[i].head<6>() = stages[i].head<6>() + moved;
             change = std::max(change, energy_norm(body.inertia, moved));
             turned = std::max(turned, (next[i] - stages[i]).segment<4>(6).norm());
