@@ -95,6 +95,9 @@ TEST(Batch, InDoublePrecisionMovesEachBodyAsAdvanceDoesToTheLastBit) {
         constexpr std::size_t count = 37;
         Batch batch = started<double>(body, first(count));
         const BatchReport report = batch.advance(windy(), 0.5, h, 3, 50);
+        Batch alone = started<double>(body, first(1));
+        alone.advance(windy(), 0.5, h, 3, 50);
+        ASSERT_TRUE(same_bits(alone.state(0), batch.state(0)));
         std::uint64_t implicit_steps = 0;
         int most = 1;
         for (std::size_t i = 0; i < count; ++i) {

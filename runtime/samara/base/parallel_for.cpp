@@ -8,7 +8,9 @@
 namespace samara {
 
 int thread_count(int threads) {
-    return threads > 0 ? threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    // Asked once: the answer comes from a file of the system.
+    static const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    return threads > 0 ? threads : cores;
 }
 
 void parallel_for(std::size_t count, std::size_t piece, int threads,

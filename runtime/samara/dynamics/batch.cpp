@@ -1,8 +1,10 @@
 #include "samara/dynamics/batch.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <mutex>
+#include <type_traits>
 
 #include "samara/base/parallel_for.hpp"
 #include "samara/dynamics/ground_contact.hpp"
@@ -42,6 +44,23 @@ struct BatchGround {
                 .ground_speed = fastest};
     }
 };
+
+/// One body alone: to the same bits as in a vector of them, and sooner.
+BatchReport advance_alone(const ImmersedBody& body, const Surroundings& surroundings,
+                          const kernel::BlockSteps& task, FlightBlock<double>& block) noexcept {
+    const Noise noise(std::array{block.noise[0][0], block.noise[1][0], block.noise[2][0], block.noise[3][0]});
+    BatchReport report;
+    BodyState state = state_of(block, 0);
+    for (std::uint64_t step = task.first_step; step < task.first_step + task.steps; ++step) {
+        const StepResult result = advance(body, surroundings, task.start, task.time_step, state, noise, step);
+        state = result.state;
+        report.implicit_steps += static_cast<std::uint64_t>(result.substeps);
+        report.most_substeps = std::max(report.most_substeps, result.substeps);
+        report.steps_at_limit += result.substeps == most_substeps ? 1 : 0;
+    }
+    keep_state(state, block, 0);
+    return report;
+}
 
 }  // namespace
 
@@ -94,6 +113,9 @@ BatchReport BasicBatch<Real>::advance(const Surroundings& surroundings, double s
                                   .first_step = first_step,
                                   .steps = steps,
                                   .contact = ground.contact(start, time_step, first_step, steps)};
+    if constexpr (std::is_same_v<Real, double>) {
+        if (size_ == 1) return advance_alone(*body_, surroundings, task, blocks_.front());
+    }
     BatchReport report;
     std::mutex mutex;
     parallel_for(blocks_.size(), blocks_a_piece, threads, [&](std::size_t begin, std::size_t end) {

@@ -26,6 +26,10 @@ class Noise {
     /// Four independent numbers, uniform in (0, 1).
     [[nodiscard]] std::array<double, 4> uniforms(std::uint64_t step, NoiseStream stream) const noexcept;
 
+    /// The source with these words().
+    explicit Noise(const std::array<std::uint32_t, 4>& words) noexcept
+        : key_{words[0], words[1]}, run_(words[3]), copy_(words[2]) {}
+
     /// What the numbers are of: the key (two words), the copy and the run.
     [[nodiscard]] std::array<std::uint32_t, 4> words() const noexcept {
         return {key_[0], key_[1], copy_, run_};

@@ -74,7 +74,6 @@ Simulation::Simulation(const Scene& scene, const std::vector<CastBody>& cast, in
 }
 
 SimulationReport Simulation::fly(const Sink& sink, const Progress& progress) {
-    const auto start = std::chrono::steady_clock::now();
     SimulationReport report;
     const auto runs = static_cast<std::size_t>(motion_.runs);
     const std::size_t all = motion_.times.size();
@@ -87,11 +86,13 @@ SimulationReport Simulation::fly(const Sink& sink, const Progress& progress) {
         }
         std::size_t flown = 0;
         while (flown < planned && !report.interrupted) {
+            const auto start = std::chrono::steady_clock::now();
             for (std::size_t i = 0; i < flights_.size(); ++i) {
                 const auto copies = static_cast<std::size_t>(motion_.bodies[i].copies);
                 flights_[i].fly_to(motion_.times[report.frames + flown], &poses[i][flown * copies],
                                    planned * copies);
             }
+            report.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
             ++flown;
             report.interrupted = !progress(done(), total_steps_) && report.frames + flown < all;
         }
@@ -116,7 +117,6 @@ SimulationReport Simulation::fly(const Sink& sink, const Progress& progress) {
         report.most_substeps = std::max(report.most_substeps, body.batch.most_substeps);
         report.bodies.push_back(body);
     }
-    report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return report;
 }
 
