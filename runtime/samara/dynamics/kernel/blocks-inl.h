@@ -20,7 +20,7 @@ using BlockOf = FlightBlock<hn::TFromD<Tag>>;
 
 /// The lanes [first, first + N) of a block.
 template <class Tag>
-SAMARA_INLINE Flight<Lanes<Tag>> load_flight(Tag tag, const BlockOf<Tag>& block, std::size_t first) {
+HWY_INLINE Flight<Lanes<Tag>> load_flight(Tag tag, const BlockOf<Tag>& block, std::size_t first) {
     const auto field = [&](std::size_t i)
                            HWY_ATTR { return Lanes<Tag>(hn::Load(tag, block.numbers[i] + first)); };
     const auto triple = [&](std::size_t i) HWY_ATTR {
@@ -30,8 +30,8 @@ SAMARA_INLINE Flight<Lanes<Tag>> load_flight(Tag tag, const BlockOf<Tag>& block,
             triple(22)};
 }
 template <class Tag>
-SAMARA_INLINE void store_flight(Tag tag, const Flight<Lanes<Tag>>& flight, BlockOf<Tag>& block,
-                                std::size_t first) {
+HWY_INLINE void store_flight(Tag tag, const Flight<Lanes<Tag>>& flight, BlockOf<Tag>& block,
+                             std::size_t first) {
     const auto keep = [&](std::size_t i, Lanes<Tag> value)
                           HWY_ATTR { hn::Store(value.raw, tag, block.numbers[i] + first); };
     const auto keep_triple = [&](std::size_t i, const Triple<Lanes<Tag>>& value) HWY_ATTR {
@@ -51,8 +51,8 @@ SAMARA_INLINE void store_flight(Tag tag, const Flight<Lanes<Tag>>& flight, Block
 }
 
 template <class Tag>
-SAMARA_INLINE Flight<Lanes<Tag>> select_flight(hn::Mask<Tag> condition, const Flight<Lanes<Tag>>& a,
-                                               const Flight<Lanes<Tag>>& b) {
+HWY_INLINE Flight<Lanes<Tag>> select_flight(hn::Mask<Tag> condition, const Flight<Lanes<Tag>>& a,
+                                            const Flight<Lanes<Tag>>& b) {
     return {select(condition, a.position, b.position),
             {select(condition, a.orientation.w, b.orientation.w),
              select(condition, a.orientation.v, b.orientation.v)},
@@ -66,8 +66,8 @@ SAMARA_INLINE Flight<Lanes<Tag>> select_flight(hn::Mask<Tag> condition, const Fl
 
 /// The numbers that Noise::normals would give each lane.
 template <class Tag>
-SAMARA_INLINE SixNormals<Lanes<Tag>> normals_of(Tag tag, const BlockOf<Tag>& block, std::size_t first,
-                                                std::uint64_t step) {
+HWY_INLINE SixNormals<Lanes<Tag>> normals_of(Tag tag, const BlockOf<Tag>& block, std::size_t first,
+                                             std::uint64_t step) {
     const hn::Rebind<std::uint32_t, Tag> words;
     const auto low = hn::Set(words, static_cast<std::uint32_t>(step));
     const auto high = [&](NoiseStream stream) HWY_ATTR {
@@ -88,8 +88,8 @@ SAMARA_INLINE SixNormals<Lanes<Tag>> normals_of(Tag tag, const BlockOf<Tag>& blo
 /// The bodies that may touch the ground by the end of the next substep: no fewer than touch_ground() would
 /// find.
 template <class Tag>
-SAMARA_INLINE hn::Mask<Tag> near_ground(const kernel::Contact& contact, const Flight<Lanes<Tag>>& flight,
-                                        Lanes<Tag> substep) {
+HWY_INLINE hn::Mask<Tag> near_ground(const kernel::Contact& contact, const Flight<Lanes<Tag>>& flight,
+                                     Lanes<Tag> substep) {
     using V = Lanes<Tag>;
     const V turning = root(dot(flight.angular_velocity, flight.angular_velocity));
     const V speed = root(dot(flight.velocity, flight.velocity));
@@ -114,7 +114,7 @@ void meet_ground(const kernel::Contact& contact, const FlightBlock<Real>& before
 
 /// The Langevin update of one step. `draw` gives its random numbers.
 template <class V, class Real, class Draw>
-SAMARA_INLINE void meet_turbulence(const FlightConstants<Real>& c, V h, const Draw& draw, Flight<V>& flight) {
+HWY_INLINE void meet_turbulence(const FlightConstants<Real>& c, V h, const Draw& draw, Flight<V>& flight) {
     if (c.turbulence == Turbulence::none) {
         const V zero(0.0);
         flight.seen_velocity = {zero, zero, zero};
@@ -132,9 +132,9 @@ SAMARA_INLINE void meet_turbulence(const FlightConstants<Real>& c, V h, const Dr
 
 /// One step of the lanes [first, first + N) of a block; adds to the report.
 template <class Tag, class Real = hn::TFromD<Tag>>
-SAMARA_INLINE void advance_lanes(Tag tag, const FlightConstants<Real>& c, const kernel::BlockSteps& task,
-                                 std::uint64_t number, FlightBlock<Real>& block, std::size_t first,
-                                 Flight<Lanes<Tag>>& flight, kernel::BlockReport& report) {
+HWY_INLINE void advance_lanes(Tag tag, const FlightConstants<Real>& c, const kernel::BlockSteps& task,
+                              std::uint64_t number, FlightBlock<Real>& block, std::size_t first,
+                              Flight<Lanes<Tag>>& flight, kernel::BlockReport& report) {
     using V = Lanes<Tag>;
     const std::size_t lanes = hn::Lanes(tag);
     const V h(task.time_step);

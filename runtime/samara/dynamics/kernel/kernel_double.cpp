@@ -10,14 +10,14 @@
 HWY_BEFORE_NAMESPACE();
 namespace samara::HWY_NAMESPACE {
 
-SAMARA_INLINE Triple<double> triple_of(const Vector3d& v) {
+HWY_INLINE Triple<double> triple_of(const Vector3d& v) {
     return {v.x(), v.y(), v.z()};
 }
-SAMARA_INLINE Vector3d vector_of(const Triple<double>& t) {
+HWY_INLINE Vector3d vector_of(const Triple<double>& t) {
     return {t.x, t.y, t.z};
 }
 
-SAMARA_INLINE Flight<double> flight_of(const BodyState& state) {
+HWY_INLINE Flight<double> flight_of(const BodyState& state) {
     const Quaterniond& q = state.orientation;
     return {triple_of(state.position),
             {q.w(), {q.x(), q.y(), q.z()}},
@@ -28,7 +28,7 @@ SAMARA_INLINE Flight<double> flight_of(const BodyState& state) {
             triple_of(state.acceleration.head<3>()),
             triple_of(state.acceleration.tail<3>())};
 }
-SAMARA_INLINE void keep(const Flight<double>& flight, BodyState& state) {
+HWY_INLINE void keep(const Flight<double>& flight, BodyState& state) {
     const Turn<double>& q = flight.orientation;
     state.position = vector_of(flight.position);
     state.orientation = Quaterniond(q.w, q.v.x, q.v.y, q.v.z);
@@ -37,7 +37,7 @@ SAMARA_INLINE void keep(const Flight<double>& flight, BodyState& state) {
     state.acceleration << vector_of(flight.angular_acceleration), vector_of(flight.acceleration);
 }
 
-SAMARA_INLINE SixNormals<double> normals_at(const Noise& noise, std::uint64_t step) {
+HWY_INLINE SixNormals<double> normals_at(const Noise& noise, std::uint64_t step) {
     const std::array<double, 4> a = noise.uniforms(step, NoiseStream::seen_fluid);
     const std::array<double, 4> b = noise.uniforms(step, NoiseStream::seen_rotation);
     return six_normals<double>(a, b[0], b[1]);

@@ -22,7 +22,7 @@ struct Level {
 };
 
 template <class V, class Real>
-SAMARA_INLINE Level<V> turbulence_level(const FlightConstants<Real>& c, const Triple<V>& velocity) {
+HWY_INLINE Level<V> turbulence_level(const FlightConstants<Real>& c, const Triple<V>& velocity) {
     if (c.turbulence != Turbulence::table) {
         return {V(c.turbulent_kinetic_energy), V(c.dissipation_rate)};
     }
@@ -37,15 +37,15 @@ SAMARA_INLINE Level<V> turbulence_level(const FlightConstants<Real>& c, const Tr
 
 /// epsilon / k, zero where there is no turbulence.
 template <class V>
-SAMARA_INLINE V turbulence_rate(const Level<V>& level) {
+HWY_INLINE V turbulence_rate(const Level<V>& level) {
     const V least(in_single_precision<V> ? 1e-30 : 1e-200);
     return select(least < level.turbulent_kinetic_energy,
                   level.dissipation_rate / larger(least, level.turbulent_kinetic_energy), V(0.0));
 }
 
 template <class V, class Real>
-SAMARA_INLINE void advance_seen_fluid(const FlightConstants<Real>& c, const Level<V>& level, V h,
-                                      const SixNormals<V>& normals, Flight<V>& flight) {
+HWY_INLINE void advance_seen_fluid(const FlightConstants<Real>& c, const Level<V>& level, V h,
+                                   const SixNormals<V>& normals, Flight<V>& flight) {
     const V zero(0.0);
     const V decay = V(-0.75 * kolmogorov_constant) * turbulence_rate(level) * h;
     const V lost = exponential_less_one(decay);
@@ -60,8 +60,8 @@ SAMARA_INLINE void advance_seen_fluid(const FlightConstants<Real>& c, const Leve
 }
 
 template <class V, class Real>
-SAMARA_INLINE void advance_body_velocity(const FlightConstants<Real>& c, const Level<V>& level, V h,
-                                         const SixNormals<V>& normals, Flight<V>& flight) {
+HWY_INLINE void advance_body_velocity(const FlightConstants<Real>& c, const Level<V>& level, V h,
+                                      const SixNormals<V>& normals, Flight<V>& flight) {
     const V zero(0.0);
     const V rate = V(0.5 + 0.75 * kolmogorov_constant) * turbulence_rate(level);
     const V lost = exponential_less_one(-rate * h);

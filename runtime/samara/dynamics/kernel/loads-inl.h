@@ -25,15 +25,14 @@ struct Heading {
     Triple<V> direction;
 };
 template <class V>
-SAMARA_INLINE Heading<V> heading_of(const Triple<V>& velocity) {
+HWY_INLINE Heading<V> heading_of(const Triple<V>& velocity) {
     const V speed = root(dot(velocity, velocity));
     return {speed, (V(1.0) / larger(V(tiny<V>), speed)) * velocity};
 }
 
 /// Eq. 5 in its regular form: what a body of that area feels in a tow, over the dynamic pressure.
 template <class V, class Real>
-SAMARA_INLINE Triple<V> coefficient_force(const FlightConstants<Real>& c, const Triple<V>& direction,
-                                          V area) {
+HWY_INLINE Triple<V> coefficient_force(const FlightConstants<Real>& c, const Triple<V>& direction, V area) {
     const Triple<V> normal = broadcast<V>(c.normal);
     const V along = dot(direction, normal);
     const Triple<V> lift = (V(c.twice_lift_coefficient) * along) * (normal - along * direction);
@@ -47,7 +46,7 @@ struct TowCoefficients {
 };
 
 template <bool with_moment, class V, class Real>
-SAMARA_INLINE TowCoefficients<V> tow_coefficients(const FlightConstants<Real>& c, const Heading<V>& heading) {
+HWY_INLINE TowCoefficients<V> tow_coefficients(const FlightConstants<Real>& c, const Heading<V>& heading) {
     const V zero(0.0);
     Place<V> place;
     find_place(c.loads_by_direction, heading.direction, V(c.reynolds_factor) * heading.speed, place);
@@ -68,8 +67,8 @@ struct PressurePoint {
     Triple<V> arm, moment_along_force;
 };
 template <class V, class Real>
-SAMARA_INLINE PressurePoint<V> pressure_point(const FlightConstants<Real>& c, const Heading<V>& heading,
-                                              V share) {
+HWY_INLINE PressurePoint<V> pressure_point(const FlightConstants<Real>& c, const Heading<V>& heading,
+                                           V share) {
     const TowCoefficients<V> tow = tow_coefficients<true>(c, heading);
     // In a steady tow the equations' left side holds the part (1 - kappa) of the Kirchhoff moment already.
     const Triple<V> kirchhoff =
@@ -87,7 +86,7 @@ struct TowMatrix {
     Triple<V> side;
 };
 template <class V, class Real>
-SAMARA_INLINE TowMatrix<V> tow_matrix(const FlightConstants<Real>& c, const Triple<V>& velocity) {
+HWY_INLINE TowMatrix<V> tow_matrix(const FlightConstants<Real>& c, const Triple<V>& velocity) {
     const Heading<V> heading = heading_of(velocity);
     const Triple<V> force = tow_coefficients<false>(c, heading).force;
     const V scale = V(c.tow_factor) * heading.speed;
@@ -96,7 +95,7 @@ SAMARA_INLINE TowMatrix<V> tow_matrix(const FlightConstants<Real>& c, const Trip
 
 /// The tow's matrix about the centroid, for a force that acts at the arm r.
 template <class V>
-SAMARA_INLINE LoadBlocks<V> moved_by_arm(const TowMatrix<V>& tow, const Triple<V>& r) {
+HWY_INLINE LoadBlocks<V> moved_by_arm(const TowMatrix<V>& tow, const Triple<V>& r) {
     const V along = dot(r, tow.side);
     const Triple<V> drag_arm = tow.drag * r;
     return {plus_cross(plus_diagonal(-outer(drag_arm, r), dot(drag_arm, r)), along * r),
@@ -108,8 +107,8 @@ SAMARA_INLINE LoadBlocks<V> moved_by_arm(const TowMatrix<V>& tow, const Triple<V
 /// A symmetric block between turning and moving, each entry of which, in the principal axes of the two drags,
 /// is held below what these can pay for.
 template <class V, class Real>
-SAMARA_INLINE Square<V> paid_transport(const FlightConstants<Real>& c, const Triple<V>& momentum,
-                                       V turning_root, V drag_root) {
+HWY_INLINE Square<V> paid_transport(const FlightConstants<Real>& c, const Triple<V>& momentum, V turning_root,
+                                    V drag_root) {
     const Square<V> left = broadcast<V>(c.turning_axes);
     const Square<V> right = broadcast<V>(c.drag_axes);
     const Square<V> wanted =
@@ -127,8 +126,8 @@ SAMARA_INLINE Square<V> paid_transport(const FlightConstants<Real>& c, const Tri
 
 /// D at a velocity of the centroid relative to the fluid.
 template <class V, class Real>
-SAMARA_INLINE LoadBlocks<V> load_blocks(const FlightConstants<Real>& c, const Triple<V>& omega,
-                                        const Triple<V>& velocity) {
+HWY_INLINE LoadBlocks<V> load_blocks(const FlightConstants<Real>& c, const Triple<V>& omega,
+                                     const Triple<V>& velocity) {
     const V zero(0.0);
     const V one(1.0);
     const Heading<V> heading = heading_of(velocity);

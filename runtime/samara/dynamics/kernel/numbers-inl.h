@@ -25,41 +25,41 @@ struct Lanes {
     hn::Vec<Tag> raw;
 
     Lanes() = default;
-    SAMARA_INLINE Lanes(hn::Vec<Tag> value) : raw(value) {}
-    SAMARA_INLINE Lanes(double value) : raw(hn::Set(Tag(), static_cast<hn::TFromD<Tag>>(value))) {}
+    HWY_INLINE Lanes(hn::Vec<Tag> value) : raw(value) {}
+    HWY_INLINE Lanes(double value) : raw(hn::Set(Tag(), static_cast<hn::TFromD<Tag>>(value))) {}
 
-    friend SAMARA_INLINE Lanes operator+(Lanes a, Lanes b) { return hn::Add(a.raw, b.raw); }
-    friend SAMARA_INLINE Lanes operator-(Lanes a, Lanes b) { return hn::Sub(a.raw, b.raw); }
-    friend SAMARA_INLINE Lanes operator*(Lanes a, Lanes b) { return hn::Mul(a.raw, b.raw); }
-    friend SAMARA_INLINE Lanes operator/(Lanes a, Lanes b) { return hn::Div(a.raw, b.raw); }
-    friend SAMARA_INLINE Lanes operator-(Lanes a) { return hn::Neg(a.raw); }
-    friend SAMARA_INLINE hn::Mask<Tag> operator<(Lanes a, Lanes b) { return hn::Lt(a.raw, b.raw); }
-    friend SAMARA_INLINE Lanes root(Lanes a) { return hn::Sqrt(a.raw); }
-    friend SAMARA_INLINE Lanes magnitude(Lanes a) { return hn::Abs(a.raw); }
-    friend SAMARA_INLINE Lanes whole_part(Lanes a) { return hn::Floor(a.raw); }
-    friend SAMARA_INLINE Lanes larger(Lanes a, Lanes b) { return select(a < b, b, a); }
-    friend SAMARA_INLINE Lanes smaller(Lanes a, Lanes b) { return select(b < a, b, a); }
-    friend SAMARA_INLINE Lanes select(hn::Mask<Tag> condition, Lanes a, Lanes b) {
+    friend HWY_INLINE Lanes operator+(Lanes a, Lanes b) { return hn::Add(a.raw, b.raw); }
+    friend HWY_INLINE Lanes operator-(Lanes a, Lanes b) { return hn::Sub(a.raw, b.raw); }
+    friend HWY_INLINE Lanes operator*(Lanes a, Lanes b) { return hn::Mul(a.raw, b.raw); }
+    friend HWY_INLINE Lanes operator/(Lanes a, Lanes b) { return hn::Div(a.raw, b.raw); }
+    friend HWY_INLINE Lanes operator-(Lanes a) { return hn::Neg(a.raw); }
+    friend HWY_INLINE hn::Mask<Tag> operator<(Lanes a, Lanes b) { return hn::Lt(a.raw, b.raw); }
+    friend HWY_INLINE Lanes root(Lanes a) { return hn::Sqrt(a.raw); }
+    friend HWY_INLINE Lanes magnitude(Lanes a) { return hn::Abs(a.raw); }
+    friend HWY_INLINE Lanes whole_part(Lanes a) { return hn::Floor(a.raw); }
+    friend HWY_INLINE Lanes larger(Lanes a, Lanes b) { return select(a < b, b, a); }
+    friend HWY_INLINE Lanes smaller(Lanes a, Lanes b) { return select(b < a, b, a); }
+    friend HWY_INLINE Lanes select(hn::Mask<Tag> condition, Lanes a, Lanes b) {
         return hn::IfThenElse(condition, a.raw, b.raw);
     }
 };
 
-SAMARA_INLINE double root(double a) {
+HWY_INLINE double root(double a) {
     return std::sqrt(a);
 }
-SAMARA_INLINE double magnitude(double a) {
+HWY_INLINE double magnitude(double a) {
     return std::abs(a);
 }
-SAMARA_INLINE double whole_part(double a) {
+HWY_INLINE double whole_part(double a) {
     return std::floor(a);
 }
-SAMARA_INLINE double larger(double a, double b) {
+HWY_INLINE double larger(double a, double b) {
     return a < b ? b : a;
 }
-SAMARA_INLINE double smaller(double a, double b) {
+HWY_INLINE double smaller(double a, double b) {
     return b < a ? b : a;
 }
-SAMARA_INLINE double select(bool condition, double a, double b) {
+HWY_INLINE double select(bool condition, double a, double b) {
     return condition ? a : b;
 }
 
@@ -69,15 +69,15 @@ template <>
 struct NumberTraits<double> {
     using Real = double;
     using Mask = bool;
-    static SAMARA_INLINE bool any_of(bool condition) { return condition; }
-    static SAMARA_INLINE double power_of_two(double n) {
+    static HWY_INLINE bool any_of(bool condition) { return condition; }
+    static HWY_INLINE double power_of_two(double n) {
         return std::bit_cast<double>((static_cast<std::int64_t>(n) + 1023) << 52);
     }
     /// x = mantissa 2^exponent with the mantissa in [1, 2); x > 0 and normal.
-    static SAMARA_INLINE double exponent(double x) {
+    static HWY_INLINE double exponent(double x) {
         return static_cast<double>((std::bit_cast<std::int64_t>(x) >> 52) - 1023);
     }
-    static SAMARA_INLINE double mantissa(double x) {
+    static HWY_INLINE double mantissa(double x) {
         constexpr std::int64_t bits = (std::int64_t{1} << 52) - 1;
         return std::bit_cast<double>((std::bit_cast<std::int64_t>(x) & bits) | (std::int64_t{1023} << 52));
     }
@@ -90,19 +90,19 @@ struct NumberTraits<Lanes<Tag>> {
     static constexpr int fraction_bits = std::numeric_limits<Real>::digits - 1;
     static constexpr int bias = std::numeric_limits<Real>::max_exponent - 1;
 
-    static SAMARA_INLINE bool any_of(Mask condition) { return !hn::AllFalse(Tag(), condition); }
-    static SAMARA_INLINE Lanes<Tag> power_of_two(Lanes<Tag> n) {
+    static HWY_INLINE bool any_of(Mask condition) { return !hn::AllFalse(Tag(), condition); }
+    static HWY_INLINE Lanes<Tag> power_of_two(Lanes<Tag> n) {
         const Integers integers;
         // The sum's last bits are n: its exponent field keeps them in place.
         const auto whole = to_integers(n);
         return hn::BitCast(Tag(), hn::ShiftLeft<fraction_bits>(hn::Add(whole, hn::Set(integers, bias))));
     }
-    static SAMARA_INLINE Lanes<Tag> exponent(Lanes<Tag> x) {
+    static HWY_INLINE Lanes<Tag> exponent(Lanes<Tag> x) {
         const Integers integers;
         const auto field = hn::ShiftRight<fraction_bits>(hn::BitCast(integers, x.raw));
         return to_numbers(hn::Sub(field, hn::Set(integers, bias)));
     }
-    static SAMARA_INLINE Lanes<Tag> mantissa(Lanes<Tag> x) {
+    static HWY_INLINE Lanes<Tag> mantissa(Lanes<Tag> x) {
         const Integers integers;
         constexpr auto bits =
             static_cast<hn::TFromD<Integers>>((static_cast<hn::TFromD<Integers>>(1) << fraction_bits) - 1);
@@ -113,12 +113,12 @@ struct NumberTraits<Lanes<Tag>> {
   private:
     // Integers of small size by way of a large number's last bits: exact, and on every instruction set.
     static constexpr double large = 1.5 * static_cast<double>(std::int64_t{1} << fraction_bits);
-    static SAMARA_INLINE hn::Vec<Integers> to_integers(Lanes<Tag> n) {
+    static HWY_INLINE hn::Vec<Integers> to_integers(Lanes<Tag> n) {
         const Integers integers;
         const auto base = hn::BitCast(integers, Lanes<Tag>(large).raw);
         return hn::Sub(hn::BitCast(integers, (n + Lanes<Tag>(large)).raw), base);
     }
-    static SAMARA_INLINE Lanes<Tag> to_numbers(hn::Vec<Integers> n) {
+    static HWY_INLINE Lanes<Tag> to_numbers(hn::Vec<Integers> n) {
         const Integers integers;
         const auto base = hn::BitCast(integers, Lanes<Tag>(large).raw);
         return Lanes<Tag>(hn::BitCast(Tag(), hn::Add(n, base))) - Lanes<Tag>(large);
@@ -138,7 +138,7 @@ inline constexpr double tiny = in_single_precision<V> ? 1e-15 : 1e-140;
 /// c[first] + c[first + stride] x + ... in pairs (Estrin's scheme): a short chain, where Horner's rule is a
 /// long one.
 template <int first, int stride, int N, class V>
-SAMARA_INLINE V polynomial_from(const double (&c)[N], V x) {
+HWY_INLINE V polynomial_from(const double (&c)[N], V x) {
     if constexpr (first + stride >= N) {
         return V(c[first]);
     } else {
@@ -149,13 +149,13 @@ SAMARA_INLINE V polynomial_from(const double (&c)[N], V x) {
 }
 /// c[0] + c[1] x + ...
 template <int N, class V>
-SAMARA_INLINE V polynomial(const double (&c)[N], V x) {
+HWY_INLINE V polynomial(const double (&c)[N], V x) {
     return polynomial_from<0, 1>(c, x);
 }
 
 /// The natural logarithm of a positive normal number, to its last bits: twice the series of artanh.
 template <class V>
-SAMARA_INLINE V logarithm(V x) {
+HWY_INLINE V logarithm(V x) {
     using Traits = NumberTraits<V>;
     constexpr double ln2 = 0.693147180559945309417;
     const V m = Traits::mantissa(x);
@@ -178,7 +178,7 @@ SAMARA_INLINE V logarithm(V x) {
 
 /// exp(x) - 1 for x <= 0, accurate near zero: Taylor's series about the nearest multiple of ln 2.
 template <class V>
-SAMARA_INLINE V exponential_less_one(V x) {
+HWY_INLINE V exponential_less_one(V x) {
     constexpr double lowest = in_single_precision<V> ? -80.0 : -700.0;
     constexpr double ln2_high = in_single_precision<V> ? 0.693359375 : 0x1.62e42fee00000p-1;
     constexpr double ln2_low = in_single_precision<V> ? -2.12194440054690583e-4 : 1.90821492927058770002e-10;
@@ -211,7 +211,7 @@ SAMARA_INLINE V exponential_less_one(V x) {
 
 /// Cosine and sine of a turn's fraction u in [0, 1): of the angle 2 pi u.
 template <class V>
-SAMARA_INLINE void cosine_and_sine_of_turn(V u, V& cosine, V& sine) {
+HWY_INLINE void cosine_and_sine_of_turn(V u, V& cosine, V& sine) {
     const V quarters = u * V(4.0);
     const V n = whole_part(quarters + V(0.5));
     const V angle = (quarters - n) * V(1.57079632679489661923);

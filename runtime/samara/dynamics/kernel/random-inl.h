@@ -22,7 +22,7 @@ struct SixNormals {
 
 /// Two independent normal numbers of two that are uniform in (0, 1).
 template <class V>
-SAMARA_INLINE void normal_pair(V first, V second, V& a, V& b) {
+HWY_INLINE void normal_pair(V first, V second, V& a, V& b) {
     const V radius = root(larger(V(0.0), V(-2.0) * logarithm(first)));
     V cosine;
     V sine;
@@ -34,7 +34,7 @@ SAMARA_INLINE void normal_pair(V first, V second, V& a, V& b) {
 /// Four words of one draw make the velocity's numbers and the first of the rotation's, two of another the
 /// rest.
 template <class V>
-SAMARA_INLINE SixNormals<V> six_normals(const std::array<V, 4>& first, V fifth, V sixth) {
+HWY_INLINE SixNormals<V> six_normals(const std::array<V, 4>& first, V fifth, V sixth) {
     SixNormals<V> n;
     normal_pair(first[0], first[1], n.velocity.x, n.velocity.y);
     normal_pair(first[2], first[3], n.velocity.z, n.rotation.x);
@@ -44,7 +44,7 @@ SAMARA_INLINE SixNormals<V> six_normals(const std::array<V, 4>& first, V fifth, 
 
 /// The high and low halves of a product with a constant.
 template <class Words, class W = hn::Vec<Words>>
-SAMARA_INLINE void wide_product(Words words, W a, std::uint32_t factor, W& high, W& low) {
+HWY_INLINE void wide_product(Words words, W a, std::uint32_t factor, W& high, W& low) {
 #if HWY_TARGET == HWY_SCALAR
     const std::uint64_t product = std::uint64_t{hn::GetLane(a)} * factor;
     high = hn::Set(words, static_cast<std::uint32_t>(product >> 32U));
@@ -62,7 +62,7 @@ SAMARA_INLINE void wide_product(Words words, W a, std::uint32_t factor, W& high,
 /// Philox4x32-10 of counters and keys: Salmon, Moraes, Dror, Shaw, SC11; Random123's philox.h holds the
 /// constants.
 template <class Words, class W = hn::Vec<Words>>
-SAMARA_INLINE std::array<W, 4> philox(Words words, std::array<W, 4> counter, W key0, W key1) {
+HWY_INLINE std::array<W, 4> philox(Words words, std::array<W, 4> counter, W key0, W key1) {
     for (int round = 0; round < 10; ++round) {
         W high0;
         W low0;
@@ -80,7 +80,7 @@ SAMARA_INLINE std::array<W, 4> philox(Words words, std::array<W, 4> counter, W k
 
 /// (bits + 1/2) / 2^32; in single precision of the first 24 bits alone, and the last may round to 1.
 template <class Tag>
-SAMARA_INLINE Lanes<Tag> unit_interval(Tag tag, hn::Vec<hn::Rebind<std::uint32_t, Tag>> bits) {
+HWY_INLINE Lanes<Tag> unit_interval(Tag tag, hn::Vec<hn::Rebind<std::uint32_t, Tag>> bits) {
     const hn::Rebind<std::uint32_t, Tag> words;
     const hn::Rebind<std::int32_t, Tag> integers;
     if constexpr (sizeof(hn::TFromD<Tag>) == 4) {

@@ -25,22 +25,22 @@ struct Flight {
 
 /// The velocity (or acceleration) of the centroid from that of the centre of mass: l is taken out of it.
 template <class V, class Real>
-SAMARA_INLINE Triple<V> to_centroid(const FlightConstants<Real>& c, const Triple<V>& turning,
-                                    const Triple<V>& velocity) {
+HWY_INLINE Triple<V> to_centroid(const FlightConstants<Real>& c, const Triple<V>& turning,
+                                 const Triple<V>& velocity) {
     if (!c.off_center) return V(c.inverse_length) * velocity;
     return V(c.inverse_length) * (velocity + cross(turning, broadcast<V>(c.center_of_buoyancy)));
 }
 /// The reverse of to_centroid.
 template <class V, class Real>
-SAMARA_INLINE Triple<V> from_centroid(const FlightConstants<Real>& c, const Triple<V>& turning,
-                                      const Triple<V>& velocity) {
+HWY_INLINE Triple<V> from_centroid(const FlightConstants<Real>& c, const Triple<V>& turning,
+                                   const Triple<V>& velocity) {
     if (!c.off_center) return V(c.length) * velocity;
     return V(c.length) * velocity - cross(turning, broadcast<V>(c.center_of_buoyancy));
 }
 
 /// The velocity of the centroid, in l a second.
 template <class V, class Real>
-SAMARA_INLINE Triple<V> centroid_velocity(const FlightConstants<Real>& c, const Flight<V>& flight) {
+HWY_INLINE Triple<V> centroid_velocity(const FlightConstants<Real>& c, const Flight<V>& flight) {
     return to_centroid(c, flight.angular_velocity, flight.velocity);
 }
 
@@ -77,7 +77,7 @@ struct Stiffness {
     V turning, moving;
 };
 template <class V, class Real>
-SAMARA_INLINE Stiffness<V> stiffness(const FlightConstants<Real>& c, const LoadBlocks<V>& loads, V h) {
+HWY_INLINE Stiffness<V> stiffness(const FlightConstants<Real>& c, const LoadBlocks<V>& loads, V h) {
     const Triple<V> w = broadcast<V>(c.inverse_turning);
     const Triple<V> v = broadcast<V>(c.inverse_moving);
     const Square<V>& a = loads.moment_by_turning;
@@ -93,7 +93,7 @@ struct StepMatrix {
     Square<V> moving_factors, solutions, turning_factors;
 
     /// Eliminates the velocity, whose block is factorised, and then what is left for the turning.
-    SAMARA_INLINE void factorise() {
+    HWY_INLINE void factorise() {
         moving_factors = factorised(moving);
         const Square<V> columns = transposed(back);
         solutions = {solved(moving_factors, columns.x), solved(moving_factors, columns.y),
@@ -102,8 +102,8 @@ struct StepMatrix {
             factorised(Square<V>{turning.x - solutions * coupling.x, turning.y - solutions * coupling.y,
                                  turning.z - solutions * coupling.z});
     }
-    [[nodiscard]] SAMARA_INLINE VelocityChange<V> solved_for(const Triple<V>& moment,
-                                                             const Triple<V>& force) const {
+    [[nodiscard]] HWY_INLINE VelocityChange<V> solved_for(const Triple<V>& moment,
+                                                          const Triple<V>& force) const {
         const Triple<V> rest = solved(moving_factors, force);
         const Triple<V> omega = solved(turning_factors, moment - coupling * rest);
         return {omega, rest - transposed_times(solutions, omega)};
@@ -114,14 +114,14 @@ struct StepMatrix {
 template <class V>
 struct HalfTurn {
     Triple<V> half_turn;
-    SAMARA_INLINE Triple<V> operator()(const Triple<V>& a) const { return turned_back(half_turn, a); }
+    HWY_INLINE Triple<V> operator()(const Triple<V>& a) const { return turned_back(half_turn, a); }
 };
 
 /// Solves the step's system with the loads and the transport taken at the middle that was found or guessed
 /// before. Its unknowns are the velocities' changes: solving for the velocities themselves would drift by a
 /// rounding error a step.
 template <class V, class Real>
-SAMARA_INLINE void improve(const FlightConstants<Real>& c, const StepStart<V>& start, StepMiddle<V>& middle) {
+HWY_INLINE void improve(const FlightConstants<Real>& c, const StepStart<V>& start, StepMiddle<V>& middle) {
     middle.half_turn = (V(0.5) * start.h) * middle.omega;
     const HalfTurn<V> under_body{middle.half_turn};
     const Triple<V> gravity = under_body(start.gravity);
@@ -196,9 +196,8 @@ SAMARA_INLINE void improve(const FlightConstants<Real>& c, const StepStart<V>& s
 
 /// What a step starts from. `gravity`: world axes.
 template <class V, class Real>
-SAMARA_INLINE StepStart<V> step_start(const FlightConstants<Real>& c, const Square<V>& to_world,
-                                      const Triple<V>& gravity, V h, bool sees_fluid,
-                                      const Flight<V>& flight) {
+HWY_INLINE StepStart<V> step_start(const FlightConstants<Real>& c, const Square<V>& to_world,
+                                   const Triple<V>& gravity, V h, bool sees_fluid, const Flight<V>& flight) {
     StepStart<V> start;
     start.h = h;
     start.omega = flight.angular_velocity;
@@ -219,8 +218,8 @@ SAMARA_INLINE StepStart<V> step_start(const FlightConstants<Real>& c, const Squa
 /// middle of the step is guessed by the acceleration of the step before; two passes make it good to second
 /// order and more.
 template <class V, class Real>
-SAMARA_INLINE void implicit_step(const FlightConstants<Real>& c, const Triple<V>& gravity, V h,
-                                 bool sees_fluid, Flight<V>& flight) {
+HWY_INLINE void implicit_step(const FlightConstants<Real>& c, const Triple<V>& gravity, V h, bool sees_fluid,
+                              Flight<V>& flight) {
     const Square<V> to_world = rotation_matrix(flight.orientation);
     const StepStart<V> start = step_start(c, to_world, gravity, h, sees_fluid, flight);
     const V half = V(0.5) * h;
@@ -254,7 +253,7 @@ SAMARA_INLINE void implicit_step(const FlightConstants<Real>& c, const Triple<V>
 
 /// The rate (1/s) at which the body turns, or would turn by its Munk moment.
 template <class V, class Real>
-SAMARA_INLINE V turning_rate(const FlightConstants<Real>& c, const Flight<V>& flight) {
+HWY_INLINE V turning_rate(const FlightConstants<Real>& c, const Flight<V>& flight) {
     const Triple<V> velocity = centroid_velocity(c, flight);
     return root(dot(flight.angular_velocity, flight.angular_velocity)) +
            V(c.munk_rate) * root(dot(velocity, velocity));
@@ -263,7 +262,7 @@ SAMARA_INLINE V turning_rate(const FlightConstants<Real>& c, const Flight<V>& fl
 /// Into how many equal parts the step is cut: each turns the body by at most 0.3 rad, as far as the limit on
 /// their number allows.
 template <class V, class Real>
-SAMARA_INLINE V substeps_of(const FlightConstants<Real>& c, V h, const Flight<V>& flight) {
+HWY_INLINE V substeps_of(const FlightConstants<Real>& c, V h, const Flight<V>& flight) {
     const V turns = h * turning_rate(c, flight) * V(1.0 / 0.3);
     return -whole_part(-smaller(V(most_substeps), larger(V(1.0), turns)));
 }

@@ -38,11 +38,11 @@ struct Place<Lanes<Tag>> {
     Lanes<Tag> plane_fraction;
 };
 
-SAMARA_INLINE void keep_index(double index, Place<double>& place) {
+HWY_INLINE void keep_index(double index, Place<double>& place) {
     place.index = static_cast<std::int32_t>(index);
 }
 template <class Tag>
-SAMARA_INLINE void keep_index(Lanes<Tag> index, Place<Lanes<Tag>>& place) {
+HWY_INLINE void keep_index(Lanes<Tag> index, Place<Lanes<Tag>>& place) {
     const hn::Rebind<std::int32_t, Tag> integers;
     if constexpr (sizeof(hn::TFromD<Tag>) == 4) {
         hn::Store(hn::ConvertTo(integers, index.raw), integers, place.index);
@@ -50,18 +50,18 @@ SAMARA_INLINE void keep_index(Lanes<Tag> index, Place<Lanes<Tag>>& place) {
         hn::Store(hn::DemoteTo(integers, index.raw), integers, place.index);
     }
 }
-SAMARA_INLINE void keep_weight(double weight, int corner, Place<double>& place) {
+HWY_INLINE void keep_weight(double weight, int corner, Place<double>& place) {
     place.weights[corner] = weight;
 }
 template <class Tag>
-SAMARA_INLINE void keep_weight(Lanes<Tag> weight, int corner, Place<Lanes<Tag>>& place) {
+HWY_INLINE void keep_weight(Lanes<Tag> weight, int corner, Place<Lanes<Tag>>& place) {
     hn::Store(weight.raw, Tag(), place.weights[corner]);
 }
 
 /// The place of a number along one axis of `cells` cells: its cell's index, and how far into it. NaN goes to
 /// 0.
 template <class V>
-SAMARA_INLINE V cell_of(V place, V last, V& fraction) {
+HWY_INLINE V cell_of(V place, V last, V& fraction) {
     const V cell = smaller(last, larger(V(0.0), whole_part(place)));
     fraction = smaller(V(1.0), larger(V(0.0), place - cell));
     return cell;
@@ -69,8 +69,8 @@ SAMARA_INLINE V cell_of(V place, V last, V& fraction) {
 
 /// octahedral_map.hpp and load_tables.hpp say what this does.
 template <class V, class Real>
-SAMARA_INLINE void find_place(const DirectionTable<Real>& table, const Triple<V>& direction,
-                              V reynolds_number, Place<V>& place) {
+HWY_INLINE void find_place(const DirectionTable<Real>& table, const Triple<V>& direction, V reynolds_number,
+                           Place<V>& place) {
     const V zero(0.0);
     const V one(1.0);
     const Triple<V> d = table.turned ? broadcast<V>(table.to_map_axes) * direction : direction;
@@ -111,8 +111,8 @@ SAMARA_INLINE void find_place(const DirectionTable<Real>& table, const Triple<V>
 
 /// The first `quads` fours of numbers at the place's corners, weighted.
 template <int quads>
-SAMARA_INLINE void corners_sum(const double* numbers, std::ptrdiff_t right, std::ptrdiff_t down,
-                               const Place<double>& place, Quad<double>* sums) {
+HWY_INLINE void corners_sum(const double* numbers, std::ptrdiff_t right, std::ptrdiff_t down,
+                            const Place<double>& place, Quad<double>* sums) {
     const double* n = numbers + place.index;
     const auto sum = [&](int i) {
         return n[i] * place.weights[0] + n[i + right] * place.weights[1] + n[i + down] * place.weights[2] +
@@ -125,20 +125,20 @@ SAMARA_INLINE void corners_sum(const double* numbers, std::ptrdiff_t right, std:
 
 #if HWY_TARGET == HWY_SCALAR
 template <class Tag, class Real = hn::TFromD<Tag>>
-SAMARA_INLINE Quad<Lanes<Tag>> fields_of(const Real* rows) {
+HWY_INLINE Quad<Lanes<Tag>> fields_of(const Real* rows) {
     return {Lanes<Tag>(hn::Set(Tag(), rows[0])), Lanes<Tag>(hn::Set(Tag(), rows[1])),
             Lanes<Tag>(hn::Set(Tag(), rows[2])), Lanes<Tag>(hn::Set(Tag(), rows[3]))};
 }
 template <class Piece, class Real = hn::TFromD<Piece>>
-SAMARA_INLINE void keep_pieces(Piece piece, hn::Vec<Piece> sum, std::size_t number, Real* rows,
-                               std::size_t /*lane*/, std::size_t /*lanes*/) {
+HWY_INLINE void keep_pieces(Piece piece, hn::Vec<Piece> sum, std::size_t number, Real* rows,
+                            std::size_t /*lane*/, std::size_t /*lanes*/) {
     hn::Store(sum, piece, rows + number);
 }
 #else
 /// The fields of rows that stand as transposed blocks: rows[i] holds, for each block b of lanes, the numbers
 /// of its i-th lane.
 template <class Tag>
-SAMARA_INLINE Quad<Lanes<Tag>> fields_of(const float* rows) {
+HWY_INLINE Quad<Lanes<Tag>> fields_of(const float* rows) {
     const Tag tag;
     const hn::Repartition<std::uint64_t, Tag> pairs;
     const std::size_t n = hn::Lanes(tag);
@@ -156,7 +156,7 @@ SAMARA_INLINE Quad<Lanes<Tag>> fields_of(const float* rows) {
             hn::BitCast(tag, hn::InterleaveUpper(pairs, high01, high23))};
 }
 template <class Tag>
-SAMARA_INLINE Quad<Lanes<Tag>> fields_of(const double* rows) {
+HWY_INLINE Quad<Lanes<Tag>> fields_of(const double* rows) {
     const Tag tag;
     const std::size_t n = hn::Lanes(tag);
     const auto first0 = hn::Load(tag, rows);
@@ -170,7 +170,7 @@ SAMARA_INLINE Quad<Lanes<Tag>> fields_of(const double* rows) {
 /// Where the numbers of one lane go so that fields_of finds them: in blocks of the 128 bits within which
 /// Highway interleaves.
 template <class Real>
-SAMARA_INLINE Real* piece_of_lane(Real* rows, std::size_t lane, std::size_t lanes, std::size_t number) {
+HWY_INLINE Real* piece_of_lane(Real* rows, std::size_t lane, std::size_t lanes, std::size_t number) {
     constexpr std::size_t block = 16 / sizeof(Real);
     const std::size_t in_block = lane % block;
     const std::size_t row = in_block * (4 / block) + number / block;
@@ -178,8 +178,8 @@ SAMARA_INLINE Real* piece_of_lane(Real* rows, std::size_t lane, std::size_t lane
 }
 /// Keeps a lane's numbers from `number` on, a piece of 16 bytes at a time.
 template <class Piece, class Real = hn::TFromD<Piece>>
-SAMARA_INLINE void keep_pieces(Piece piece, hn::Vec<Piece> sum, std::size_t number, Real* rows,
-                               std::size_t lane, std::size_t lanes) {
+HWY_INLINE void keep_pieces(Piece piece, hn::Vec<Piece> sum, std::size_t number, Real* rows, std::size_t lane,
+                            std::size_t lanes) {
     constexpr std::size_t half = hn::MaxLanes(Piece()) / 2;
     if constexpr (half * sizeof(Real) >= 16) {
         const hn::Half<Piece> halves;
@@ -194,8 +194,8 @@ SAMARA_INLINE void keep_pieces(Piece piece, hn::Vec<Piece> sum, std::size_t numb
 #endif
 
 template <int quads, class Tag, class Real = hn::TFromD<Tag>>
-SAMARA_INLINE void corners_sum(const Real* numbers, std::ptrdiff_t right, std::ptrdiff_t down,
-                               const Place<Lanes<Tag>>& place, Quad<Lanes<Tag>>* sums) {
+HWY_INLINE void corners_sum(const Real* numbers, std::ptrdiff_t right, std::ptrdiff_t down,
+                            const Place<Lanes<Tag>>& place, Quad<Lanes<Tag>>* sums) {
     const hn::CappedTag<Real, std::size_t{4} * quads> piece;
     constexpr std::size_t step = hn::MaxLanes(piece);
     const std::size_t lanes = hn::Lanes(Tag());
@@ -219,7 +219,7 @@ SAMARA_INLINE void corners_sum(const Real* numbers, std::ptrdiff_t right, std::p
 
 /// The first `quads` fours of the rows' numbers, interpolated.
 template <int quads, class V, class Real>
-SAMARA_INLINE void look_up(const DirectionTable<Real>& table, const Place<V>& place, Quad<V>* result) {
+HWY_INLINE void look_up(const DirectionTable<Real>& table, const Place<V>& place, Quad<V>* result) {
     const std::ptrdiff_t right = table.width;
     const std::ptrdiff_t down = right * table.side;
     const Real* numbers = table.rows.data();
