@@ -54,9 +54,7 @@ BatchReport advance_alone(const ImmersedBody& body, const Surroundings& surround
     for (std::uint64_t step = task.first_step; step < task.first_step + task.steps; ++step) {
         const StepResult result = advance(body, surroundings, task.start, task.time_step, state, noise, step);
         state = result.state;
-        report.implicit_steps += static_cast<std::uint64_t>(result.substeps);
-        report.most_substeps = std::max(report.most_substeps, result.substeps);
-        report.steps_at_limit += result.substeps == most_substeps ? 1 : 0;
+        report.count(result.substeps);
     }
     keep_state(state, block, 0);
     return report;
@@ -119,12 +117,9 @@ BatchReport BasicBatch<Real>::advance(const Surroundings& surroundings, double s
     BatchReport report;
     std::mutex mutex;
     parallel_for(blocks_.size(), blocks_a_piece, threads, [&](std::size_t begin, std::size_t end) {
-        const kernel::BlockReport piece =
-            kernel::advance_blocks(constants_, task, &blocks_[begin], end - begin);
+        const BatchReport piece = kernel::advance_blocks(constants_, task, &blocks_[begin], end - begin);
         const std::lock_guard lock(mutex);
-        report.implicit_steps += piece.implicit_steps;
-        report.most_substeps = std::max(report.most_substeps, piece.most_substeps);
-        report.steps_at_limit += piece.steps_at_limit;
+        report.add(piece);
     });
     return report;
 }

@@ -12,13 +12,6 @@
 
 namespace samara {
 
-/// What a batch did in its steps.
-struct BatchReport {
-    std::uint64_t implicit_steps = 0;  ///< over all bodies
-    int most_substeps = 1;             ///< that any body took in one step
-    std::uint64_t steps_at_limit = 0;  ///< steps, over all bodies, that took samara::most_substeps
-};
-
 /// Many bodies of one kind that are stepped together, as many at a time as the machine's vectors hold. Each
 /// moves as advance() moves it alone, whatever its place in the batch, the number of threads and the way the
 /// steps are cut into calls: in double precision to the last bit; in single precision, for crowds, within

@@ -85,6 +85,7 @@ std::vector<double> projected_areas(const Surface& surface) {
 }  // namespace
 
 void prepare(ImmersedBody& body) {
+    body.inverse_inertia = body.inertia.inverse();
     body.constants = flight_constants<double>(body);
 }
 
@@ -115,7 +116,6 @@ ImmersedBody make_immersed_body(const Body& body, const SceneBody& scene_body, c
             "tensor with more triangles",
             scene_body.name));
     }
-    result.inverse_inertia = result.inertia.inverse();
     result.contact_points = contact_points(body.surface, mass.center);
     result.turning_scale = turning_scale(result.inertia, result.added_mass);
     result.length = reference_length(body.moments.surface_area);

@@ -28,7 +28,6 @@ struct ImmersedBody {
     Matrix6d inertia = Matrix6d::Identity();  ///< K = K_body + rho_f K_fluid, order (omega, v)
     Matrix6d to_centroid = Matrix6d::Identity();  ///< X: (omega, v) at the centre of mass -> at the centroid
     Matrix3d added_mass = Matrix3d::Zero();       ///< rho_f M (kg)
-    Matrix6d inverse_inertia = Matrix6d::Identity();
     ContactPoints contact_points;
     double length = 1.0;          ///< L = sqrt(S/pi) (m)
     double reference_area = 0.0;  ///< A = pi L^2/4 (m^2)
@@ -48,7 +47,9 @@ struct ImmersedBody {
     double dissipation_rate = 0.0;
     Langevin langevin = Langevin::seen_fluid;
 
-    FlightConstants<double> constants;  ///< of all the above, by prepare()
+    // Of all the above, by prepare().
+    Matrix6d inverse_inertia = Matrix6d::Identity();  ///< K^-1
+    FlightConstants<double> constants;
 };
 inline constexpr int shadow_subdivisions = 16;
 

@@ -104,9 +104,7 @@ void BodyFlight::advance(std::uint64_t steps) {
         const BatchReport done = batch_.advance(surroundings_, start_, step_, steps_, now, threads_);
         steps_ += now;
         report_.steps += now * batch_.size();
-        report_.batch.implicit_steps += done.implicit_steps;
-        report_.batch.steps_at_limit += done.steps_at_limit;
-        report_.batch.most_substeps = std::max(report_.batch.most_substeps, done.most_substeps);
+        report_.batch.add(done);
     }
 }
 

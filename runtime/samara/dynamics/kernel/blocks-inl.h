@@ -134,7 +134,7 @@ HWY_INLINE void meet_turbulence(const FlightConstants<Real>& c, V h, const Draw&
 template <class Tag, class Real = hn::TFromD<Tag>>
 HWY_INLINE void advance_lanes(Tag tag, const FlightConstants<Real>& c, const kernel::BlockSteps& task,
                               std::uint64_t number, FlightBlock<Real>& block, std::size_t first,
-                              Flight<Lanes<Tag>>& flight, kernel::BlockReport& report) {
+                              Flight<Lanes<Tag>>& flight, BatchReport& report) {
     using V = Lanes<Tag>;
     const std::size_t lanes = hn::Lanes(tag);
     const V h(task.time_step);
@@ -147,13 +147,12 @@ HWY_INLINE void advance_lanes(Tag tag, const FlightConstants<Real>& c, const ker
     const V substeps = used * substeps_of(c, h, flight);
     hn::Store(substeps.raw, tag, parts);
     int most = 0;
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const std::size_t used_lanes = std::min<std::size_t>(lanes, block.bodies - first);
+    for (std::size_t lane = 0; lane < used_lanes; ++lane) {
         const int taken = static_cast<int>(parts[lane]);
-        report.implicit_steps += static_cast<std::uint64_t>(taken);
-        report.steps_at_limit += taken == most_substeps ? 1 : 0;
+        report.count(taken);
         most = std::max(most, taken);
     }
-    report.most_substeps = std::max(report.most_substeps, most);
 
     const V substep = h / larger(V(1.0), substeps);
     const Vector3d& pull = task.gravities[number];
@@ -175,10 +174,10 @@ HWY_INLINE void advance_lanes(Tag tag, const FlightConstants<Real>& c, const ker
 }
 
 template <class Real>
-kernel::BlockReport advance_all(const FlightConstants<Real>& c, const kernel::BlockSteps& task,
-                                FlightBlock<Real>* blocks, std::size_t count) {
+BatchReport advance_all(const FlightConstants<Real>& c, const kernel::BlockSteps& task,
+                        FlightBlock<Real>* blocks, std::size_t count) {
     const hn::CappedTag<Real, FlightBlock<Real>::size> tag;
-    kernel::BlockReport report;
+    BatchReport report;
     for (FlightBlock<Real>* block = blocks; block != blocks + count; ++block) {
         for (std::size_t first = 0; first < block->bodies; first += hn::Lanes(tag)) {
             auto flight = load_flight(tag, *block, first);

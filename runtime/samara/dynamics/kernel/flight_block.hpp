@@ -1,11 +1,31 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
 #include "samara/dynamics/step.hpp"
 
 namespace samara {
+
+/// What bodies that are stepped together did.
+struct BatchReport {
+    std::uint64_t implicit_steps = 0;  ///< over all bodies
+    int most_substeps = 1;             ///< that any body took in one step
+    std::uint64_t steps_at_limit = 0;  ///< steps, over all bodies, that took samara::most_substeps
+
+    /// Counts one step of one body that was cut into `substeps`.
+    void count(int substeps) noexcept {
+        implicit_steps += static_cast<std::uint64_t>(substeps);
+        most_substeps = std::max(most_substeps, substeps);
+        steps_at_limit += substeps == samara::most_substeps ? 1 : 0;
+    }
+    void add(const BatchReport& other) noexcept {
+        implicit_steps += other.implicit_steps;
+        most_substeps = std::max(most_substeps, other.most_substeps);
+        steps_at_limit += other.steps_at_limit;
+    }
+};
 
 /// Up to 16 bodies that are stepped side by side: each field of their states is a row of lanes.
 template <class Real>

@@ -37,15 +37,9 @@ struct BlockSteps {
     Contact contact = {};
 };
 
-struct BlockReport {
-    std::uint64_t implicit_steps = 0;
-    int most_substeps = 1;
-    std::uint64_t steps_at_limit = 0;
-};
-
-BlockReport advance_blocks(const FlightConstants<double>& constants, const BlockSteps& steps,
+BatchReport advance_blocks(const FlightConstants<double>& constants, const BlockSteps& steps,
                            FlightBlock<double>* blocks, std::size_t count) noexcept;
-BlockReport advance_blocks(const FlightConstants<float>& constants, const BlockSteps& steps,
+BatchReport advance_blocks(const FlightConstants<float>& constants, const BlockSteps& steps,
                            FlightBlock<float>* blocks, std::size_t count) noexcept;
 
 /// implicit_step() of step.hpp. Without `sees_fluid` the seen fluid is taken to be at rest.

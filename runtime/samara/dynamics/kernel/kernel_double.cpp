@@ -43,9 +43,8 @@ HWY_INLINE SixNormals<double> normals_at(const Noise& noise, std::uint64_t step)
     return six_normals<double>(a, b[0], b[1]);
 }
 
-kernel::BlockReport advance_double_blocks(const FlightConstants<double>& constants,
-                                          const kernel::BlockSteps& steps, FlightBlock<double>* blocks,
-                                          std::size_t count) {
+BatchReport advance_double_blocks(const FlightConstants<double>& constants, const kernel::BlockSteps& steps,
+                                  FlightBlock<double>* blocks, std::size_t count) {
     return advance_all(constants, steps, blocks, count);
 }
 
@@ -123,7 +122,7 @@ HWY_EXPORT(one_normal_pair);
 
 namespace kernel {
 
-BlockReport advance_blocks(const FlightConstants<double>& constants, const BlockSteps& steps,
+BatchReport advance_blocks(const FlightConstants<double>& constants, const BlockSteps& steps,
                            FlightBlock<double>* blocks, std::size_t count) noexcept {
     return HWY_DYNAMIC_DISPATCH(advance_double_blocks)(constants, steps, blocks, count);
 }

@@ -10,9 +10,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace samara::HWY_NAMESPACE {
 
-kernel::BlockReport advance_float_blocks(const FlightConstants<float>& constants,
-                                         const kernel::BlockSteps& steps, FlightBlock<float>* blocks,
-                                         std::size_t count) {
+BatchReport advance_float_blocks(const FlightConstants<float>& constants, const kernel::BlockSteps& steps,
+                                 FlightBlock<float>* blocks, std::size_t count) {
     return advance_all(constants, steps, blocks, count);
 }
 
@@ -24,8 +23,8 @@ namespace samara {
 
 HWY_EXPORT(advance_float_blocks);
 
-kernel::BlockReport kernel::advance_blocks(const FlightConstants<float>& constants, const BlockSteps& steps,
-                                           FlightBlock<float>* blocks, std::size_t count) noexcept {
+BatchReport kernel::advance_blocks(const FlightConstants<float>& constants, const BlockSteps& steps,
+                                   FlightBlock<float>* blocks, std::size_t count) noexcept {
     return HWY_DYNAMIC_DISPATCH(advance_float_blocks)(constants, steps, blocks, count);
 }
 

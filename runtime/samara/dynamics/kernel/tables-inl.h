@@ -58,8 +58,7 @@ HWY_INLINE void keep_weight(Lanes<Tag> weight, int corner, Place<Lanes<Tag>>& pl
     hn::Store(weight.raw, Tag(), place.weights[corner]);
 }
 
-/// The place of a number along one axis of `cells` cells: its cell's index, and how far into it. NaN goes to
-/// 0.
+/// The cell of a place along one axis, from 0 to `last`, and how far into it the place lies. NaN goes to 0.
 template <class V>
 HWY_INLINE V cell_of(V place, V last, V& fraction) {
     const V cell = smaller(last, larger(V(0.0), whole_part(place)));
