@@ -67,7 +67,7 @@ void solve_and_convert(const BakeRequest& request, const Body& body, int jobs, B
     const BakePlan& plan = *result.preparation.plan;
     write_case_folder(folder, body, plan, templates);
     result.reused = count_solved(folder, plan);
-    solve_cases(folder, plan, jobs, templates);
+    result.left_out = solve_cases(folder, plan, jobs, templates);
     result.case_seconds = watch.lap();
 
     Progress progress("converting", "cases");

@@ -4,9 +4,11 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "converter/convert.hpp"
 #include "foam-cases/bake_plan.hpp"
+#include "foam-cases/case_farm.hpp"
 #include "samara/scene/scene.hpp"
 
 namespace samara {
@@ -33,7 +35,8 @@ struct BakePreparation {
 struct BakeResult {
     BakePreparation preparation;
     std::optional<Conversion> conversion;
-    std::size_t reused = 0;     ///< cases that an earlier bake had solved
+    std::size_t reused = 0;  ///< cases that an earlier bake had solved
+    std::vector<LeftOutCase> left_out;
     double mesh_seconds = 0.0;  ///< wall clock, as the next three
     double kirchhoff_seconds = 0.0;
     double case_seconds = 0.0;  ///< of the cases, their mesh included

@@ -161,7 +161,7 @@ BakePlan plan_bake(const Body& body, const BakeQuality& quality, double reynolds
         directions = std::move(more);
     }
     for (std::size_t i = 0; i < directions.size(); ++i) {
-        plan.cases.push_back({fmt::format("direction_{:02}", i), directions[i], reynolds_number});
+        plan.cases.push_back({fmt::format("direction_{:02}", i), directions[i], reynolds_number, "mesh"});
     }
     plan.quality.mesh = fitted_mesh(quality, body, plan.reference_length);
     plan.cells = estimated_cells(body, plan.quality.mesh);
@@ -183,7 +183,8 @@ nlohmann::json plan_json(const BakePlan& plan) {
         json["cases"].push_back(
             {{"name", entry.name},
              {"direction", {entry.direction.x(), entry.direction.y(), entry.direction.z()}},
-             {"reynolds_number", entry.reynolds_number}});
+             {"reynolds_number", entry.reynolds_number},
+             {"mesh", entry.mesh}});
     }
     return json;
 }

@@ -40,9 +40,10 @@ std::vector<std::string> bake_quality_names();
 
 /// One OpenFOAM case.
 struct BakeCase {
-    std::string name;        ///< also its folder's
-    Vector3d direction;      ///< of the body's velocity relative to the fluid, unit vector, case axes
-    double reynolds_number;  ///< U L / nu
+    std::string name;           ///< also its folder's
+    Vector3d direction;         ///< of the body's velocity relative to the fluid, unit vector, case axes
+    double reynolds_number;     ///< U L / nu
+    std::string mesh = "mesh";  ///< the folder of the mesh that it is solved on
 };
 
 /// The cases around one body. Case axes: x_case = axes^T (x_body - centroid) / L.

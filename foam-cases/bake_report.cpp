@@ -98,6 +98,10 @@ nlohmann::json bake_as_json(const BakeRequest& request, const BakeResult& result
                       {"entries", tables.entries.size()}};
     json["mesh"] = mesh_json(result.conversion->cases.front());
     json["reused_cases"] = result.reused;
+    json["left_out"] = nlohmann::json::array();
+    for (const LeftOutCase& failed : result.left_out) {
+        json["left_out"].push_back({{"name", failed.name}, {"reason", failed.reason}});
+    }
     return json;
 }
 
@@ -138,6 +142,9 @@ void print_result(const BakeRequest& request, const BakeResult& result) {
                    direction.x(), direction.y(), direction.z(), drag_coefficient(solved),
                    solved.sample.entry.turbulent_kinetic_energy, solved.sample.entry.dissipation_rate,
                    number_in(provenance_of(solved), "cpu_seconds"));
+    }
+    for (const LeftOutCase& failed : result.left_out) {
+        fmt::print("{:<14} left out: {}\n", failed.name, failed.reason);
     }
     const nlohmann::json mesh = mesh_json(cases.front());
     if (mesh.is_object()) {

@@ -99,7 +99,7 @@ void link_to_mesh(const fs::path& folder, const char* name) {
     fs::create_directory_symlink(target, link);
 }
 
-// Removes a record of success that belongs to other inputs, or that cannot be read.
+// Removes a record of success or failure that belongs to other inputs, or that cannot be read.
 void discard_stale(const fs::path& record, const std::string& hash) {
     if (!fs::exists(record)) return;
     const auto json = nlohmann::json::parse(read_bytes(record), nullptr, false);
@@ -126,6 +126,7 @@ std::string write_mesh_case(const fs::path& folder, const CaseFiles& template_fi
     // A mesh that was removed since is made again.
     const std::string needed = fs::exists(folder / "constant/polyMesh/cellZones") ? hash : "";
     discard_stale(folder / "mesh.json", needed);
+    discard_stale(folder / "failed.json", hash);
     write_files(folder, files);
     return hash;
 }
@@ -160,7 +161,7 @@ void write_case_folder(const fs::path& folder, const Body& body, const BakePlan&
 
     nlohmann::json json = plan_json(plan);
     const std::string of_mesh = write_mesh_case(folder / "mesh", template_files, body, plan);
-    json["mesh"]["inputs_hash"] = of_mesh;
+    json["meshes"].push_back({{"name", "mesh"}, {"inputs_hash", of_mesh}});
     for (std::size_t i = 0; i < plan.cases.size(); ++i) {
         const BakeCase& entry = plan.cases[i];
         CaseFiles files = template_files;
@@ -168,6 +169,7 @@ void write_case_folder(const fs::path& folder, const Body& body, const BakePlan&
         const std::string hash = content_hash(of_mesh + hash_of(files));
         json["cases"][i]["inputs_hash"] = hash;
         discard_stale(folder / entry.name / "provenance.json", hash);
+        discard_stale(folder / entry.name / "failed.json", hash);
         write_files(folder / entry.name, files);
         link_to_mesh(folder / entry.name, "polyMesh");
         link_to_mesh(folder / entry.name, "triSurface");
