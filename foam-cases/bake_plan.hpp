@@ -1,65 +1,49 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "converter/case_plan.hpp"
+#include "foam-cases/bake_quality.hpp"
 #include "samara/body/body.hpp"
 
 namespace samara {
 
-/// How the mesh around a body is made; lengths over L.
-struct FlowMesh {
-    int box_half_width = 10;
-    int background_cells = 20;                              ///< along each edge of the box
-    int surface_level = 4;                                  ///< each level halves the background cells
-    int layers = 3;                                         ///< of cells along the surface
-    std::vector<std::pair<double, int>> refinement_shells;  ///< (distance from the body, level), outwards
-};
-
-/// What --quality stands for.
-struct BakeQuality {
-    std::string name;
-    int least_subdivisions = 2;  ///< of the map of directions, whatever the cost
-    int most_subdivisions = 8;
-    int most_cases =
-        16;  ///< more subdivisions than the least are taken while the cases are no more than this
-    double background_cell = 1.0;  ///< edge over L
-    FlowMesh mesh;                 ///< for a compact body; a long one gets a wider box
-    int iterations = 200;
-    int averaged_iterations = 50;  ///< the last of them
-};
-
-/// The quality of that name; throws Error where there is none.
-BakeQuality bake_quality(const std::string& name);
-
-/// The names that bake_quality knows.
-std::vector<std::string> bake_quality_names();
-
-/// One OpenFOAM case.
-struct BakeCase {
-    std::string name;           ///< also its folder's
-    Vector3d direction;         ///< of the body's velocity relative to the fluid, unit vector, case axes
-    double reynolds_number;     ///< U L / nu
-    std::string mesh = "mesh";  ///< the folder of the mesh that it is solved on
+/// One OpenFOAM case of a bake.
+struct BakeCase : PlannedCase {
+    std::string start_from;  ///< the case whose solution it starts from; empty: from the undisturbed flow
 };
 
 /// The cases around one body. Case axes: x_case = axes^T (x_body - centroid) / L.
 struct BakePlan {
-    BakeQuality quality;  ///< its mesh fitted to the body
-    int subdivisions = 1;
+    BakeQuality quality;  ///< its meshes fitted to the body
+    int subdivisions = 1;        ///< of the stored map
+    int solved_subdivisions = 1; ///< of the map whose directions are solved; divides `subdivisions`
     double reference_length = 0.0;  ///< L (m)
     Matrix3d axes = Matrix3d::Identity();
+    std::vector<double> reynolds_numbers;  ///< the main one first
     std::vector<BakeCase> cases;
-    double cells = 0.0;        ///< of the mesh, an estimate
-    double cpu_seconds = 0.0;  ///< of the mesh and all cases on one core, an estimate
+    std::vector<double> cells;  ///< of each mesh, an estimate
+    double cpu_seconds = 0.0;   ///< of the meshes and all cases on one core, an estimate
 };
 
-/// The cases that the quality asks for: the directions that the body's symmetry leaves to solve, each at the
-/// Reynolds number.
+/// The largest Reynolds number at which the flow around a blunt body is still free of turbulence, so that the
+/// k-epsilon model does not hold: some 300 for a sphere's wake (Johnson & Patel, J. Fluid Mech. 378, 1999).
+/// Cases below it are laminar.
+inline constexpr double laminar_reynolds_number = 300.0;
+
+/// The closure of a case at the Reynolds number, where none is asked for: kEpsilon, or laminar.
+std::string closure_at(double reynolds_number);
+
+/// The cases that the quality asks for, around the main Reynolds number: the directions that the body's
+/// symmetry leaves to solve on every mesh, and those of a coarser map for further Reynolds numbers and
+/// closures.
 BakePlan plan_bake(const Body& body, const BakeQuality& quality, double reynolds_number);
+
+/// How many iterations the case will take, an estimate.
+double estimated_iterations(const BakePlan& plan, const BakeCase& entry);
 
 /// How many cells the mesh will have, within some 20 %: those of the background, the refined shells (their
 /// volumes as of a convex body's parallel bodies) and the layers.
