@@ -30,9 +30,17 @@ Vector3d as_vector(const nlohmann::json& values) {
     return {numbers[0], numbers[1], numbers[2]};
 }
 
+CasePurpose as_purpose(const std::string& word) {
+    if (word == "table") return CasePurpose::table;
+    if (word == "mesh") return CasePurpose::mesh;
+    if (word == "closure") return CasePurpose::closure;
+    throw Error(fmt::format("'purpose' is \"{}\", not table, mesh or closure", word));
+}
+
 PlannedCase as_case(const nlohmann::json& values) {
-    return {values.at("name").get<std::string>(), as_vector(values.at("direction")),
-            values.at("reynolds_number").get<double>()};
+    return {values.at("name").get<std::string>(),         as_vector(values.at("direction")),
+            values.at("reynolds_number").get<double>(),   values.value("mesh", "mesh"),
+            as_purpose(values.value("purpose", "table")), values.value("closure", "")};
 }
 
 CasePlan as_plan(const nlohmann::json& values) {
@@ -86,6 +94,8 @@ CasePlan read_case_plan(const std::filesystem::path& folder) {
         plan = as_plan(values);
     } catch (const nlohmann::json::exception& reason) {
         throw fault(file, fmt::format("an entry is missing or of the wrong kind ({})", reason.what()));
+    } catch (const Error& reason) {
+        throw fault(file, reason.what());
     }
     check(file, plan);
     return plan;

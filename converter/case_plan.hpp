@@ -8,11 +8,21 @@
 
 namespace samara {
 
+/// What a case is solved for.
+enum class CasePurpose {
+    table,   ///< its loads go into the table
+    mesh,    ///< as some table case, on another mesh: their difference estimates the table's mesh error
+    closure  ///< as some table case, with another closure: their difference estimates the closure's error
+};
+
 /// One OpenFOAM case of a plan. Nondimensional: the body's speed, L and the fluid's density are 1.
 struct PlannedCase {
-    std::string name;        ///< of its folder
-    Vector3d direction;      ///< unit vector: the body's velocity relative to the fluid, case axes
-    double reynolds_number;  ///< U L / nu
+    std::string name;           ///< of its folder
+    Vector3d direction;         ///< unit vector: the body's velocity relative to the fluid, case axes
+    double reynolds_number;     ///< U L / nu
+    std::string mesh = "mesh";  ///< the folder of its mesh, beside its own
+    CasePurpose purpose = CasePurpose::table;
+    std::string closure;  ///< kEpsilon, realizableKE, laminar, ...; empty: not said
 };
 
 /// plan.json of a folder of cases: what `samara bake` set out to solve.

@@ -177,7 +177,8 @@ std::vector<std::int64_t> shell_cells(const std::filesystem::path& folder) {
 
 SolvedCase reduce_case(const std::filesystem::path& folder, const PlannedCase& planned,
                        const std::vector<std::int64_t>& shell) {
-    SolvedCase solved{planned.name, planned.reynolds_number, {planned.direction, {}, {}}, {}};
+    SolvedCase solved{planned.name,    planned.reynolds_number, {planned.direction, {}, {}}, {}, planned.mesh,
+                      planned.purpose, planned.closure};
     solved.provenance = read_provenance(folder / "provenance.json");
     const FoamDictionary parameters(folder / "parameters");
     require_as_planned(folder, parameters, planned);

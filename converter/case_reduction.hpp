@@ -16,6 +16,9 @@ struct SolvedCase {
     double reynolds_number;
     DirectionSample sample;
     std::string provenance;  ///< the JSON object of its provenance.json
+    std::string mesh = "mesh";
+    CasePurpose purpose = CasePurpose::table;
+    std::string closure;  ///< empty: not said
 };
 
 /// Whether the case was solved and checked: it has a provenance.json.

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "converter/case_folder_reduction.hpp"
 #include "converter/table_filling.hpp"
 #include "samara/base/error.hpp"
 #include "samara/body/body_file.hpp"
@@ -24,32 +25,6 @@ void require_plan_of_body(const std::filesystem::path& folder, const CasePlan& p
                         "with 'samara bake'",
                         folder.string()));
     }
-}
-
-void require_all_solved(const std::filesystem::path& folder, const CasePlan& plan) {
-    const PlannedCase* first = nullptr;
-    int missing = 0;
-    for (const PlannedCase& planned : plan.cases) {
-        if (is_solved(folder / planned.name)) continue;
-        if (first == nullptr) first = &planned;
-        ++missing;
-    }
-    if (first == nullptr) return;
-    throw Error(
-        fmt::format("{}: the case {} is not solved ({} of {} are not); run 'samara bake' again, which "
-                    "goes on where it stopped",
-                    folder.string(), first->name, missing, plan.cases.size()));
-}
-
-std::vector<SolvedCase> reduce_cases(const std::filesystem::path& folder, const CasePlan& plan,
-                                     const std::function<void(std::size_t, std::size_t)>& progress) {
-    const std::vector<std::int64_t> shell = shell_cells(folder / "mesh");
-    std::vector<SolvedCase> cases;
-    for (const PlannedCase& planned : plan.cases) {
-        cases.push_back(reduce_case(folder / planned.name, planned, shell));
-        if (progress) progress(cases.size(), plan.cases.size());
-    }
-    return cases;
 }
 
 std::vector<double> reynolds_numbers(const CasePlan& plan) {
@@ -119,8 +94,7 @@ Conversion convert_folder(const std::filesystem::path& folder,
     Conversion conversion;
     conversion.body = read_body_file(folder / "body.body.h5");
     require_plan_of_body(folder, plan, conversion.body);
-    require_all_solved(folder, plan);
-    conversion.cases = reduce_cases(folder, plan, progress);
+    conversion.cases = reduce_folder(folder, plan, progress).cases;
     conversion.body.tables = make_tables(folder, plan, conversion.body.symmetry, conversion.cases);
     return conversion;
 }

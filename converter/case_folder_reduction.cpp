@@ -1,0 +1,67 @@
+#include "converter/case_folder_reduction.hpp"
+
+#include <map>
+#include <optional>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "samara/base/content_hash.hpp"
+#include "samara/base/error.hpp"
+
+namespace samara {
+namespace {
+
+/// The reason in a case's failed.json; nothing where there is none.
+std::optional<std::string> failure_of(const std::filesystem::path& folder) {
+    const std::filesystem::path file = folder / "failed.json";
+    if (is_solved(folder) || !std::filesystem::exists(file)) return std::nullopt;
+    try {
+        return nlohmann::json::parse(read_bytes(file)).at("reason").get<std::string>();
+    } catch (const nlohmann::json::exception& reason) {
+        throw Error(fmt::format("{}: has no text 'reason' ({}); remove it and run 'samara bake' again",
+                                file.string(), reason.what()));
+    }
+}
+
+Error not_solved(const std::filesystem::path& folder, const CasePlan& plan,
+                 const std::vector<std::string>& names) {
+    return Error(
+        fmt::format("{}: the case {} is not solved ({} of {} are not); run 'samara bake' again, which goes "
+                    "on where it stopped",
+                    folder.string(), names.front(), names.size(), plan.cases.size()));
+}
+
+}  // namespace
+
+FolderReduction reduce_folder(const std::filesystem::path& folder, const CasePlan& plan,
+                              const std::function<void(std::size_t, std::size_t)>& progress,
+                              UnsolvedCases unsolved) {
+    FolderReduction reduction;
+    std::vector<const PlannedCase*> solved;
+    std::vector<std::string> missing;
+    for (const PlannedCase& planned : plan.cases) {
+        if (is_solved(folder / planned.name)) {
+            solved.push_back(&planned);
+        } else if (const std::optional<std::string> reason = failure_of(folder / planned.name)) {
+            reduction.left_out.push_back({planned.name, *reason});
+        } else {
+            missing.push_back(planned.name);
+            reduction.left_out.push_back({planned.name, "is not solved yet"});
+        }
+    }
+    if (!missing.empty() && unsolved == UnsolvedCases::refuse) throw not_solved(folder, plan, missing);
+
+    std::map<std::string, std::vector<std::int64_t>> shells;
+    for (const PlannedCase* const planned : solved) {
+        auto shell = shells.find(planned->mesh);
+        if (shell == shells.end()) {
+            shell = shells.emplace(planned->mesh, shell_cells(folder / planned->mesh)).first;
+        }
+        reduction.cases.push_back(reduce_case(folder / planned->name, *planned, shell->second));
+        if (progress) progress(reduction.cases.size(), solved.size());
+    }
+    return reduction;
+}
+
+}  // namespace samara

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "converter/case_reduction.hpp"
+
+namespace samara {
+
+/// A case of the plan that gives nothing to the tables.
+struct LeftOut {
+    std::string name;
+    std::string reason;  ///< one line
+};
+
+/// What the cases of a folder give.
+struct FolderReduction {
+    std::vector<SolvedCase> cases;  ///< in the plan's order, case axes; of every purpose
+    std::vector<LeftOut> left_out;  ///< in the plan's order
+};
+
+/// What becomes of cases that are neither solved nor failed.
+enum class UnsolvedCases { refuse, leave_out };
+
+/// Reduces every case of the plan (reduce_case), each with the shell of the mesh that it names; a mesh is
+/// read once. A case with failed.json is left out with the reason that stands there. `progress` is told how
+/// many cases of how many are done. Throws Error where a case is damaged, and, unless `unsolved` says
+/// otherwise, where a case is neither solved nor failed (the message names the first).
+FolderReduction reduce_folder(const std::filesystem::path& folder, const CasePlan& plan,
+                              const std::function<void(std::size_t done, std::size_t total)>& progress = {},
+                              UnsolvedCases unsolved = UnsolvedCases::refuse);
+
+}  // namespace samara
