@@ -18,9 +18,9 @@ struct BakeCase : PlannedCase {
 
 /// The cases around one body. Case axes: x_case = axes^T (x_body - centroid) / L.
 struct BakePlan {
-    BakeQuality quality;  ///< its meshes fitted to the body
-    int subdivisions = 1;        ///< of the stored map
-    int solved_subdivisions = 1; ///< of the map whose directions are solved; divides `subdivisions`
+    BakeQuality quality;            ///< its meshes fitted to the body
+    int subdivisions = 1;           ///< of the stored map
+    int solved_subdivisions = 1;    ///< of the map whose directions are solved; divides `subdivisions`
     double reference_length = 0.0;  ///< L (m)
     Matrix3d axes = Matrix3d::Identity();
     std::vector<double> reynolds_numbers;  ///< the main one first
