@@ -10,9 +10,9 @@ namespace samara {
 struct FlowMesh {
     std::string name = "mesh";  ///< of its folder
     int box_half_width = 10;
-    double background_cell = 1.0;  ///< edge
-    int surface_level = 4;         ///< each level halves the background cells
-    int layers = 3;                ///< of cells along the surface
+    double background_cell = 1.0;                           ///< edge
+    int surface_level = 4;                                  ///< each level halves the background cells
+    int layers = 3;                                         ///< of cells along the surface
     std::vector<std::pair<double, int>> refinement_shells;  ///< (distance from the body, level), outwards
 
     /// Cells along each edge of the box.

@@ -86,6 +86,21 @@ bool is_settled(const fs::path& folder, const BakeCase& entry) {
            fs::exists(folder / entry.mesh / failure_record);
 }
 
+std::vector<const BakeCase*> unsettled_cases(const fs::path& folder, const BakePlan& plan) {
+    std::vector<const BakeCase*> cases;
+    for (const BakeCase& entry : plan.cases) {
+        if (!is_settled(folder, entry)) cases.push_back(&entry);
+    }
+    return cases;
+}
+
+// Whether an unsettled case was to start from one that is left out.
+bool waits_for_left_out_start(const fs::path& folder, const BakePlan& plan) {
+    return std::ranges::any_of(unsettled_cases(folder, plan), [&](const BakeCase* entry) {
+        return !entry->start_from.empty() && fs::exists(folder / entry->start_from / failure_record);
+    });
+}
+
 // Reports that cases are neither solved nor left out, or that all are left out: by the fault of the first
 // case, those before the others that nothing is known against but that they did not run to their end.
 [[noreturn]] void report_failure(const fs::path& folder, const BakePlan& plan) {
@@ -129,7 +144,7 @@ double last_iteration(const fs::path& case_folder) {
 }
 
 // How far a case has come, 0 to 1.
-double solved_share(const fs::path& case_folder, int iterations) {
+double solved_share(const fs::path& case_folder, double iterations) {
     if (is_solved(case_folder) || fs::exists(case_folder / failure_record)) return 1.0;
     return std::min(1.0, last_iteration(case_folder) / iterations);
 }
@@ -165,31 +180,34 @@ void require_solvers() {
 
 std::vector<LeftOutCase> solve_cases(const fs::path& folder, const BakePlan& plan, int jobs,
                                      const fs::path& templates) {
-    std::vector<const BakeCase*> to_solve;
-    for (const BakeCase& entry : plan.cases) {
-        if (!is_settled(folder, entry)) to_solve.push_back(&entry);
-    }
-    for (const BakeCase* entry : to_solve) fs::remove(folder / entry->name / check_log);
-
+    const std::vector<const BakeCase*> to_solve = unsettled_cases(folder, plan);
     if (!to_solve.empty()) {
+        for (const BakeCase* entry : to_solve) fs::remove(folder / entry->name / check_log);
         Progress progress("baking", "cases");
         const auto tick = [&] {
             double done = 0.0;
             for (const BakeCase* entry : to_solve) {
-                done += solved_share(folder / entry->name, plan.quality.iterations);
+                done += solved_share(folder / entry->name, estimated_iterations(plan, *entry));
             }
             progress.update(done, static_cast<double>(to_solve.size()));
         };
-        const auto status =
-            run_guarded({"snakemake", "--snakefile", (templates / "Snakefile").string(), "--directory",
-                         folder.string(), "--cores", fmt::format("{}", jobs), "--keep-going", "--nolock",
-                         "--ignore-incomplete", "--rerun-triggers", "mtime", "--quiet", "all"},
-                        folder / "log.snakemake", fs::current_path(), tick);
-        if (!status) {
-            throw Error(
-                fmt::format("interrupted: {} of {} cases are solved and kept in {}; the same command goes "
-                            "on from there",
-                            count_solved(folder, plan), plan.cases.size(), folder.string()));
+        // Where a case fails, snakemake gives up those that would start from it. The next pass starts them
+        // from the undisturbed flow.
+        for (std::size_t left = to_solve.size() + 1; left > unsettled_cases(folder, plan).size();) {
+            left = unsettled_cases(folder, plan).size();
+            if (left == 0) break;
+            const auto status =
+                run_guarded({"snakemake", "--snakefile", (templates / "Snakefile").string(), "--directory",
+                             folder.string(), "--cores", fmt::format("{}", jobs), "--keep-going", "--nolock",
+                             "--ignore-incomplete", "--rerun-triggers", "mtime", "--quiet", "all"},
+                            folder / "log.snakemake", fs::current_path(), tick);
+            if (!status) {
+                throw Error(
+                    fmt::format("interrupted: {} of {} cases are solved and kept in {}; the same command "
+                                "goes on from there",
+                                count_solved(folder, plan), plan.cases.size(), folder.string()));
+            }
+            if (!waits_for_left_out_start(folder, plan)) break;
         }
     }
     std::vector<LeftOutCase> left_out = left_out_cases(folder, plan);
