@@ -55,8 +55,4 @@ BakePreparation prepare_bake(const BakeRequest& request);
 BakeResult bake_body(const BakeRequest& request, const FarmOptions& farm,
                      const std::function<void(const BakePreparation&)>& planned);
 
-/// The largest Reynolds number at which the flow around a blunt body is still free of turbulence, so that the
-/// k-epsilon model does not hold: some 300 for a sphere's wake (Johnson & Patel, J. Fluid Mech. 378, 1999).
-inline constexpr double laminar_reynolds_number = 300.0;
-
 }  // namespace samara

@@ -233,8 +233,10 @@ double estimated_cells(const Body& body, const FlowMesh& mesh) {
     return cells + mesh.layers * pi / (surface_cell * surface_cell);
 }
 
-BakePlan plan_bake(const Body& body, const BakeQuality& quality, double reynolds_number) {
+BakePlan plan_bake(const Body& body, const BakeQuality& quality, double reynolds_number,
+                   const Inflow& inflow) {
     BakePlan plan;
+    plan.inflow = inflow;
     plan.quality = quality;
     plan.reference_length = reference_length(body.moments.surface_area);
     plan.axes = body.symmetry.axes;

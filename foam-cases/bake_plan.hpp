@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,21 @@
 #include "samara/body/body.hpp"
 
 namespace samara {
+
+/// Turbulence of the fluid far from the body.
+struct Inflow {
+    double intensity =
+        0.01;  ///< rms fluctuation over the flow's speed: next to still, yet k-epsilon wakes up
+    /// Of the large eddies, over L: epsilon = C_mu^(3/4) k^(3/2) / length. None: the eddy viscosity is the
+    /// fluid's own.
+    std::optional<double> length;
+};
+
+/// The paper's eq. 13: k = 3/2 U^2, that is an intensity of 1, and the edge of its grid's cells as length,
+/// which it does not give: here a quarter of L, as of 32 cells over 8 L.
+inline Inflow paper_inflow() {
+    return {1.0, 0.25};
+}
 
 /// One OpenFOAM case of a bake.
 struct BakeCase : PlannedCase {
@@ -23,6 +39,7 @@ struct BakePlan {
     int solved_subdivisions = 1;    ///< of the map whose directions are solved; divides `subdivisions`
     double reference_length = 0.0;  ///< L (m)
     Matrix3d axes = Matrix3d::Identity();
+    Inflow inflow;
     std::vector<double> reynolds_numbers;  ///< the main one first
     std::vector<BakeCase> cases;
     std::vector<double> cells;  ///< of each mesh, an estimate
@@ -40,7 +57,8 @@ std::string closure_at(double reynolds_number);
 /// The cases that the quality asks for, around the main Reynolds number: the directions that the body's
 /// symmetry leaves to solve on every mesh, and those of a coarser map for further Reynolds numbers and
 /// closures.
-BakePlan plan_bake(const Body& body, const BakeQuality& quality, double reynolds_number);
+BakePlan plan_bake(const Body& body, const BakeQuality& quality, double reynolds_number,
+                   const Inflow& inflow = {});
 
 /// How many iterations the case will take, an estimate.
 double estimated_iterations(const BakePlan& plan, const BakeCase& entry);

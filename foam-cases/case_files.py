@@ -39,12 +39,18 @@ def numbers(text):
     return [float(word) for word in re.findall(r"[-+]?(?:\d[\d.]*(?:[eE][-+]?\d+)?|nan|inf)", text)]
 
 
-def parameter(text, name):
+def word(text, name):
+    """The text of an entry of a case's file `parameters`."""
     match = re.search(rf"^{name}\s+([^;]+);", text, re.MULTILINE)
     if not match:
         raise Fault(f"parameters: has no entry {name}")
-    values = numbers(match.group(1))
-    return values if match.group(1).startswith("(") else values[0]
+    return match.group(1).strip()
+
+
+def parameter(text, name):
+    """The number, or the numbers in brackets, of an entry."""
+    value = word(text, name)
+    return numbers(value) if value.startswith("(") else numbers(value)[0]
 
 
 def check_ended(log, program):

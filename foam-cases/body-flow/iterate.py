@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/env -S python3 -B
 """Runs simpleFoam in rounds until the case is statistically stationary (stationarity.py).
 
     iterate.py      in the folder of the case, whose mesh is there
@@ -8,8 +8,8 @@ rounds.json holds what was done. A round that was cut short is done again from t
 that was killed ends with the same bytes as one that was not; where an input has changed, all starts afresh.
 
 Exit 0: rounds.json has the verdict "stationary", or "restless" where the last attempt came within ACCEPTED
-tolerances; its standard error then says how well it is known. Exit 1: one line says why. A case that failed for
-good leaves that line in failed.json.
+tolerances; its standard error then says how well it is known. Exit 1: one line says why; the verdict is "failed"
+where all attempts did, else something stopped the solver.
 """
 
 import glob
@@ -24,12 +24,13 @@ import sys
 
 from stationarity import Diverged, worst_quantity
 
-# Each attempt: what it is, its changes to the parameters, those of its first round, and whether it starts from the
-# undisturbed flow or goes on from what stands.
+# Each attempt: its changes to the parameters, those of its first round, and where it starts: as `startFrom` says,
+# from what stands, or from the undisturbed flow.
 ATTEMPTS = {
-    "as planned": ({}, {}, True),
-    "damped": ({"momentumRelaxation": "0.7", "turbulenceRelaxation": "0.5"}, {}, False),
-    "cautious": ({"momentumRelaxation": "0.5", "turbulenceRelaxation": "0.4"}, {"convection": "upwind"}, True),
+    "as planned": ({}, {}, "startFrom"),
+    "damped": ({"momentumRelaxation": "0.7", "turbulenceRelaxation": "0.5"}, {}, "what stands"),
+    "cautious": ({"momentumRelaxation": "0.5", "turbulenceRelaxation": "0.4",
+                  "gradient": "cellLimited Gauss linear 1"}, {"convection": "upwind"}, "undisturbed"),
 }
 AFTER_RESTLESSNESS = {"as planned": "damped", "damped": "cautious"}
 AFTER_DIVERGENCE = {"as planned": "cautious", "damped": "cautious"}
@@ -63,12 +64,19 @@ def parameter(name):
     return match.group(1).strip()
 
 
+def start_folder():
+    """The folder of the solved case to start from; None where there is none, or where it failed."""
+    folder = os.path.join("..", parameter("startFrom"))
+    return folder if os.path.exists(os.path.join(folder, "provenance.json")) else None
+
+
 def hash_of_inputs():
     """Of all that the solution depends on: the case's own files and the mesh."""
     own = ["parameters"] + [path for pattern in ("0.orig/*", "system/*", "constant/*") for path in glob.glob(pattern)]
     mesh = [os.path.join("constant/polyMesh", name) for name in MESH_FILES]
+    start = [os.path.join(start_folder(), "rounds.json")] if start_folder() else []
     total = hashlib.sha256()
-    for path in sorted(own) + mesh:
+    for path in sorted(own) + mesh + start:
         if os.path.isfile(path) and path != "system/round":
             with open(path, "rb") as file:
                 total.update(path.encode() + b"\0" + file.read() + b"\0")
@@ -90,15 +98,13 @@ def breakdown(log):
     return Fault(f"simpleFoam was stopped{where}, before its end{see}")
 
 
-def run_solver(log):
-    """Runs the solver for a round; returns its CPU seconds. Raises Diverged or Fault."""
+def run_program(words, log):
+    """Runs a program; returns its exit status and CPU seconds."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     with open(log, "w") as file:
-        status = subprocess.run(["./Allrun", "round"], stdout=file, stderr=subprocess.STDOUT, check=False).returncode
+        status = subprocess.run(words, stdout=file, stderr=subprocess.STDOUT, check=False).returncode
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    if status != 0:
-        raise breakdown(log)
-    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    return status, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
 class Rounds:
@@ -115,18 +121,18 @@ class Rounds:
             self.state = json.loads(read("rounds.json"))
         except (OSError, ValueError):
             self.state = {}
-        if self.state.get("inputs") != inputs:
+        if self.state.get("inputs") != inputs or self.state.get("verdict") == "failed":
             self.state = {"inputs": inputs, "verdict": None, "cpu_seconds": 0.0, "attempts": []}
             self.begin("as planned")
-        self.keep_whole_rounds()
+        else:
+            self.keep_whole_rounds()
 
     @property
     def attempt(self):
         return self.state["attempts"][-1]
 
     def begin(self, what):
-        afresh = ATTEMPTS[what][2]
-        first = 0 if afresh else self.attempt["iterations"]
+        first = self.attempt["iterations"] if ATTEMPTS[what][2] == "what stands" else 0
         self.state["attempts"].append({"what": what, "first": first, "iterations": first})
         write_json("rounds.json", self.state)
         self.keep_whole_rounds()
@@ -143,7 +149,18 @@ class Rounds:
         for path in glob.glob("processor*"):
             shutil.rmtree(path)
         if whole == 0:
-            shutil.copytree("0.orig", "0")
+            self.make_start()
+
+    def make_start(self):
+        """The folder 0: the undisturbed flow, or the solution of another case on this mesh."""
+        shutil.copytree("0.orig", "0")
+        source = start_folder() if ATTEMPTS[self.attempt["what"]][2] == "startFrom" else None
+        self.attempt["started_from"] = parameter("startFrom") if source else "undisturbed flow"
+        if source:
+            status, seconds = run_program(["./Allrun", "map", source], "log.mapFields")
+            self.state["cpu_seconds"] += seconds
+            if status != 0:
+                raise Fault(f"mapFields failed; see {os.path.abspath('log.mapFields')}")
 
     def run_round(self):
         """One more round, and what it says of the case: a verdict, the end of the attempt, or neither."""
@@ -154,8 +171,11 @@ class Rounds:
         end = attempt["iterations"] + self.round_iterations
         with open("system/round", "w") as file:
             file.write("// What this round has of its own; written by iterate.py\n")
-            file.write("".join(f"{name} {value};\n" for name, value in {"endTime": end, **changes}.items()))
-        self.state["cpu_seconds"] += run_solver("log.simpleFoam")
+            file.write("".join(f"{name} {value};\n" for name, value in {"endTime": end, "writeFormat": "binary", **changes}.items()))
+        status, seconds = run_program(["./Allrun", "round"], "log.simpleFoam")
+        self.state["cpu_seconds"] += seconds
+        if status != 0:
+            raise breakdown("log.simpleFoam")
         attempt["iterations"] = end
         unsteady, quantity, start = worst_quantity(".", attempt["first"], self.tolerance, self.turbulent)
         attempt["unsteadiness_over_tolerance"] = unsteady
@@ -204,9 +224,8 @@ def main():
         print(fault, file=sys.stderr)
         return 1
     if rounds.state["verdict"] == "failed":
-        reason = f"{rounds.attempt['end']} (after {len(rounds.state['attempts'])} attempts)"
-        write_json("failed.json", {"reason": reason, "attempts": rounds.state["attempts"]})
-        print(reason, file=sys.stderr)
+        print(f"{rounds.attempt['end']} (attempts: {', '.join(one['what'] for one in rounds.state['attempts'])})",
+              file=sys.stderr)
         return 1
     return 0
 
