@@ -51,10 +51,10 @@ std::filesystem::path case_folder_of(const std::filesystem::path& output);
 /// Meshes the body in a temporary folder and plans its cases; writes nothing else. Throws Error.
 BakePreparation prepare_bake(const BakeRequest& request);
 
-/// Meshes the body, computes its Kirchhoff tensor, solves its cases in case_folder_of(output), `jobs` at
-/// once, and writes the body file with its tables. What an earlier call solved on the same inputs is reused.
+/// Meshes the body, computes its Kirchhoff tensor, solves its cases in case_folder_of(output), and
+/// writes the body file with its tables. What an earlier call solved on the same inputs is reused.
 /// `planned` is told of the plan before anything long begins. Throws Error.
-BakeResult bake_body(const BakeRequest& request, int jobs,
+BakeResult bake_body(const BakeRequest& request, const FarmOptions& farm,
                      const std::function<void(const BakePreparation&)>& planned);
 
 }  // namespace samara

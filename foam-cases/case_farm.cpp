@@ -1,6 +1,7 @@
 #include "foam-cases/case_farm.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <functional>
@@ -12,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "converter/case_reduction.hpp"
+#include "foam-cases/cluster_jobs.hpp"
 #include "foam-cases/guarded_process.hpp"
 #include "samara/base/content_hash.hpp"
 #include "samara/base/error.hpp"
@@ -48,14 +50,19 @@ std::string with_paths_from_here(std::string line, const fs::path& folder, const
     return line;
 }
 
-// The line that a check left for the mesh or case.
+// What went wrong with the mesh or case: the line that its script left, or that its cluster's job left.
 std::string fault_of(const fs::path& folder, const std::string& name) {
     const std::string line = last_line(folder / name / check_log);
-    if (line.empty()) {
-        return fmt::format("{}: was not run; see {}", (folder / name).string(),
-                           (folder / "log.snakemake").string());
+    if (line.starts_with(name + ": ")) {
+        return fmt::format("{}/{}", folder.string(), with_paths_from_here(line, folder, name));
     }
-    return fmt::format("{}/{}", folder.string(), with_paths_from_here(line, folder, name));
+    const std::string of_job = last_line(folder / name / job_log);
+    if (of_job.find("error:") != std::string::npos) {
+        return fmt::format("{}: its cluster job ended early: {}; see {}", (folder / name).string(), of_job,
+                           (folder / name / job_log).string());
+    }
+    return fmt::format("{}: was not run to its end; see {}", (folder / name).string(),
+                       (folder / "log.snakemake").string());
 }
 
 // Why the mesh or case is left out; nothing where it is not.
@@ -84,21 +91,6 @@ std::vector<LeftOutCase> left_out_cases(const fs::path& folder, const BakePlan& 
 bool is_settled(const fs::path& folder, const BakeCase& entry) {
     return is_solved(folder / entry.name) || fs::exists(folder / entry.name / failure_record) ||
            fs::exists(folder / entry.mesh / failure_record);
-}
-
-std::vector<const BakeCase*> unsettled_cases(const fs::path& folder, const BakePlan& plan) {
-    std::vector<const BakeCase*> cases;
-    for (const BakeCase& entry : plan.cases) {
-        if (!is_settled(folder, entry)) cases.push_back(&entry);
-    }
-    return cases;
-}
-
-// Whether an unsettled case was to start from one that is left out.
-bool waits_for_left_out_start(const fs::path& folder, const BakePlan& plan) {
-    return std::ranges::any_of(unsettled_cases(folder, plan), [&](const BakeCase* entry) {
-        return !entry->start_from.empty() && fs::exists(folder / entry->start_from / failure_record);
-    });
 }
 
 // Reports that cases are neither solved nor left out, or that all are left out: by the fault of the first
@@ -143,10 +135,75 @@ double last_iteration(const fs::path& case_folder) {
     return last;
 }
 
-// How far a case has come, 0 to 1.
+// What a case costs beside others: iterations times cells.
+double estimated_work(const BakePlan& plan, const BakeCase& entry) {
+    const auto mesh = std::ranges::find(plan.quality.meshes, entry.mesh, &FlowMesh::name);
+    const auto index = static_cast<std::size_t>(mesh - plan.quality.meshes.begin());
+    return estimated_iterations(plan, entry) * (index < plan.cells.size() ? plan.cells[index] : 1.0);
+}
+
+// How far a case has come, 0 to 1, where it takes so many iterations.
 double solved_share(const fs::path& case_folder, double iterations) {
     if (is_solved(case_folder) || fs::exists(case_folder / failure_record)) return 1.0;
     return std::min(1.0, last_iteration(case_folder) / iterations);
+}
+
+std::vector<const BakeCase*> unsettled(const fs::path& folder, const BakePlan& plan) {
+    std::vector<const BakeCase*> cases;
+    for (const BakeCase& entry : plan.cases) {
+        if (!is_settled(folder, entry)) cases.push_back(&entry);
+    }
+    return cases;
+}
+
+bool waits_for_failed_start(const fs::path& folder, const BakePlan& plan) {
+    return std::ranges::any_of(unsettled(folder, plan), [&](const BakeCase* entry) {
+        const auto start = std::ranges::find(plan.cases, entry->start_from, &BakeCase::name);
+        return start != plan.cases.end() && !is_solved(folder / start->name) && is_settled(folder, *start);
+    });
+}
+
+// Runs Snakemake over the cases that are not settled, to its end. Throws Error on an interruption.
+void run_snakemake(const fs::path& folder, const BakePlan& plan, const FarmOptions& options,
+                   const fs::path& templates) {
+    const std::vector<const BakeCase*> to_solve = unsettled(folder, plan);
+    Progress progress("baking", "cases");
+    const auto tick = [&, last = std::chrono::steady_clock::time_point()]() mutable {
+        const auto now = std::chrono::steady_clock::now();
+        if (now - last < std::chrono::seconds(1)) return;
+        last = now;
+        double done = 0.0;
+        double total = 0.0;
+        for (const BakeCase* entry : to_solve) {
+            const double work = estimated_work(plan, *entry);
+            done += work * solved_share(folder / entry->name, estimated_iterations(plan, *entry));
+            total += work;
+        }
+        const auto cases = static_cast<double>(to_solve.size());
+        progress.update(cases * done / total, cases);
+    };
+    std::vector<std::string> words = {"snakemake",
+                                      "--snakefile",
+                                      (templates / "Snakefile").string(),
+                                      "--directory",
+                                      folder.string(),
+                                      "--keep-going",
+                                      "--nolock",
+                                      "--ignore-incomplete",
+                                      "--rerun-triggers",
+                                      "mtime",
+                                      "--quiet",
+                                      "all"};
+    const std::vector<std::string> where =
+        options.cluster.empty() ? std::vector<std::string>{"--cores", std::to_string(options.jobs)}
+                                : cluster_words(folder, options, templates);
+    words.insert(words.end(), where.begin(), where.end());
+    const auto status = run_guarded(words, folder / "log.snakemake", fs::current_path(), tick);
+    end_earlier_jobs(folder);
+    if (status) return;
+    throw Error(fmt::format(
+        "interrupted: {} of {} cases are solved and kept in {}; the same command goes on from there",
+        count_solved(folder, plan), plan.cases.size(), folder.string()));
 }
 
 }  // namespace
@@ -157,15 +214,17 @@ std::size_t count_solved(const fs::path& folder, const BakePlan& plan) {
                       [&](const BakeCase& entry) { return is_solved(folder / entry.name); }));
 }
 
-void require_solvers() {
+void require_solvers(const FarmOptions& options) {
     struct Need {
         const char* program;
         const char* package;
     };
-    constexpr Need needs[] = {{"simpleFoam", "openfoam"},
-                              {"snappyHexMesh", "openfoam"},
-                              {"snakemake", "snakemake"},
-                              {"python3", "python3"}};
+    std::vector<Need> needs = {{"snakemake", "snakemake"}, {"python3", "python3"}};
+    if (options.cluster.empty()) {
+        needs.insert(needs.begin(), {{"simpleFoam", "openfoam"}, {"snappyHexMesh", "openfoam"}});
+    } else {
+        needs.insert(needs.end(), {{"squeue", "slurm-client"}, {"scancel", "slurm-client"}});
+    }
     std::string missing;
     std::string packages;
     for (const Need& need : needs) {
@@ -178,37 +237,18 @@ void require_solvers() {
                             missing, packages));
 }
 
-std::vector<LeftOutCase> solve_cases(const fs::path& folder, const BakePlan& plan, int jobs,
+std::vector<LeftOutCase> solve_cases(const fs::path& folder, const BakePlan& plan, const FarmOptions& options,
                                      const fs::path& templates) {
-    const std::vector<const BakeCase*> to_solve = unsettled_cases(folder, plan);
-    if (!to_solve.empty()) {
-        for (const BakeCase* entry : to_solve) fs::remove(folder / entry->name / check_log);
-        Progress progress("baking", "cases");
-        const auto tick = [&] {
-            double done = 0.0;
-            for (const BakeCase* entry : to_solve) {
-                done += solved_share(folder / entry->name, estimated_iterations(plan, *entry));
-            }
-            progress.update(done, static_cast<double>(to_solve.size()));
-        };
-        // Where a case fails, snakemake gives up those that would start from it. The next pass starts them
-        // from the undisturbed flow.
-        for (std::size_t left = to_solve.size() + 1; left > unsettled_cases(folder, plan).size();) {
-            left = unsettled_cases(folder, plan).size();
-            if (left == 0) break;
-            const auto status =
-                run_guarded({"snakemake", "--snakefile", (templates / "Snakefile").string(), "--directory",
-                             folder.string(), "--cores", fmt::format("{}", jobs), "--keep-going", "--nolock",
-                             "--ignore-incomplete", "--rerun-triggers", "mtime", "--quiet", "all"},
-                            folder / "log.snakemake", fs::current_path(), tick);
-            if (!status) {
-                throw Error(
-                    fmt::format("interrupted: {} of {} cases are solved and kept in {}; the same command "
-                                "goes on from there",
-                                count_solved(folder, plan), plan.cases.size(), folder.string()));
-            }
-            if (!waits_for_left_out_start(folder, plan)) break;
-        }
+    end_earlier_jobs(folder);
+    for (const BakeCase& entry : plan.cases) {
+        if (!is_settled(folder, entry)) fs::remove(folder / entry.name / check_log);
+    }
+    // A case whose start failed starts afresh, which Snakemake knows of only when it begins once more.
+    std::size_t left = unsettled(folder, plan).size();
+    while (left > 0) {
+        run_snakemake(folder, plan, options, templates);
+        const std::size_t before = std::exchange(left, unsettled(folder, plan).size());
+        if (left == before || !waits_for_failed_start(folder, plan)) break;
     }
     std::vector<LeftOutCase> left_out = left_out_cases(folder, plan);
     const std::size_t solved = count_solved(folder, plan);

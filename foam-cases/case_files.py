@@ -60,9 +60,11 @@ def check_ended(log, program):
         return text
     times = re.findall(r"^Time = (\d+)", text, re.MULTILINE)
     where = f" at iteration {times[-1]}" if times else ""
-    fatal = re.search(r"FOAM FATAL[^\n]*\n(?:\s*\n)*([^\n]*)", text)
+    fatal = re.search(r"FOAM FATAL ([A-Z ]*ERROR)[^\n]*\n(?:\s*\n)*([^\n]*)", text)
     if fatal:
-        raise Fault(f"{program} failed{where}: {fatal.group(1).strip().rstrip('.')}; see {log}")
+        # Files that are missing or cannot be read say nothing against the case.
+        kind = Fault if "IO" in fatal.group(1) else Failure
+        raise kind(f"{program} failed{where}: {fatal.group(2).strip().rstrip('.')}; see {log}")
     if "Floating point exception" in text:
         raise Failure(f"{program} diverged (floating point exception){where}; see {log}")
     raise Fault(f"{program} was stopped{where}, before its end; see {log}")
