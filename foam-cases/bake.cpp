@@ -49,7 +49,9 @@ BakePreparation plan_of(const BakeRequest& request, const Body& body) {
     preparation.terminal_speed =
         terminal_speed(body, request.fluid, mass_of(request.mass, body), request.gravity);
     const double reynolds_number = terminal_reynolds_number(body, request.fluid, preparation.terminal_speed);
-    preparation.plan = plan_bake(body, request.quality, reynolds_number);
+    preparation.plan = request.probes > 0
+                           ? plan_probes(body, request.quality, reynolds_number, request.probes)
+                           : plan_bake(body, request.quality, reynolds_number, request.inflow);
     return preparation;
 }
 

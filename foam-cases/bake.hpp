@@ -24,6 +24,8 @@ struct BakeRequest {
     double gravity = 9.81;   ///< m/s^2
     BakeQuality quality;
     bool tables = true;  ///< false: mesh and Kirchhoff tensor alone
+    Inflow inflow;
+    int probes = 0;  ///< above 0: so many cases between the tables' nodes, written as CSV, in place of tables
 };
 
 /// What is known before anything is solved.

@@ -123,18 +123,19 @@ void choose_subdivisions(const Symmetry& symmetry, BakePlan& plan) {
     plan.subdivisions = solved * ((quality.table_subdivisions + solved - 1) / solved);
 }
 
-std::string case_name(std::size_t direction, const FlowMesh& mesh, const std::string& more = "") {
-    return fmt::format("direction_{:02}_{}{}", direction, mesh.name.substr(mesh.name.find('_') + 1), more);
+std::string case_name(const char* kind, std::size_t index, const FlowMesh& mesh) {
+    return fmt::format("{}_{:02}_{}", kind, index, mesh.name.substr(mesh.name.find('_') + 1));
 }
 
 // Adds the main cases of one direction, from the coarsest mesh to the finest, each started from the one
 // before.
-void add_ladder(std::size_t index, const Vector3d& direction, double reynolds_number, BakePlan& plan) {
+void add_ladder(const char* kind, std::size_t index, const Vector3d& direction, double reynolds_number,
+                BakePlan& plan) {
     const std::vector<FlowMesh>& meshes = plan.quality.meshes;
     std::string before;
     for (std::size_t i = 0; i < meshes.size(); ++i) {
         BakeCase entry;
-        entry.name = case_name(index, meshes[i]);
+        entry.name = case_name(kind, index, meshes[i]);
         entry.direction = direction;
         entry.reynolds_number = reynolds_number;
         entry.mesh = meshes[i].name;
@@ -184,7 +185,7 @@ void plan_cases(const Symmetry& symmetry, double main_reynolds_number, BakePlan&
     plan.reynolds_numbers = {main_reynolds_number};
     const std::vector<Vector3d> directions = required_directions(symmetry, plan.solved_subdivisions);
     for (std::size_t i = 0; i < directions.size(); ++i) {
-        add_ladder(i, directions[i], main_reynolds_number, plan);
+        add_ladder("direction", i, directions[i], main_reynolds_number, plan);
     }
     const std::vector<BakeCase> few = few_of(symmetry, plan);
     for (const double factor : quality.further_reynolds_numbers) {
@@ -204,6 +205,26 @@ void plan_cases(const Symmetry& symmetry, double main_reynolds_number, BakePlan&
             entry.purpose = CasePurpose::closure;
         };
         add_beside(few, "_" + closure, change, plan);
+    }
+}
+
+BakePlan plan_of_meshes(const Body& body, const BakeQuality& quality) {
+    BakePlan plan;
+    plan.quality = quality;
+    plan.reference_length = reference_length(body.moments.surface_area);
+    plan.axes = body.symmetry.axes;
+    for (FlowMesh& mesh : plan.quality.meshes) {
+        mesh = fitted_mesh(mesh, body, plan.reference_length);
+        plan.cells.push_back(estimated_cells(body, mesh));
+    }
+    return plan;
+}
+
+void estimate_cost(BakePlan& plan) {
+    for (const double cells : plan.cells) plan.cpu_seconds += seconds_per_cell_of_mesh * cells;
+    for (const BakeCase& entry : plan.cases) {
+        plan.cpu_seconds += seconds_per_case + seconds_per_cell_and_iteration * cells_of(plan, entry.mesh) *
+                                                   estimated_iterations(plan, entry);
     }
 }
 
@@ -245,24 +266,28 @@ double estimated_cells(const Body& body, const FlowMesh& mesh) {
 
 BakePlan plan_bake(const Body& body, const BakeQuality& quality, double reynolds_number,
                    const Inflow& inflow) {
-    BakePlan plan;
+    BakePlan plan = plan_of_meshes(body, quality);
     plan.inflow = inflow;
-    plan.quality = quality;
-    plan.reference_length = reference_length(body.moments.surface_area);
-    plan.axes = body.symmetry.axes;
-    for (FlowMesh& mesh : plan.quality.meshes) {
-        mesh = fitted_mesh(mesh, body, plan.reference_length);
-        plan.cells.push_back(estimated_cells(body, mesh));
-    }
     choose_subdivisions(body.symmetry, plan);
     plan_cases(body.symmetry, reynolds_number, plan);
-    for (std::size_t i = 0; i < plan.cells.size(); ++i) {
-        plan.cpu_seconds += seconds_per_cell_of_mesh * plan.cells[i];
+    estimate_cost(plan);
+    return plan;
+}
+
+BakePlan plan_probes(const Body& body, const BakeQuality& quality, double reynolds_number, int count) {
+    BakePlan plan = plan_of_meshes(body, quality);
+    plan.reynolds_numbers = {reynolds_number};
+    const auto fraction = [](double value) { return value - std::floor(value); };
+    for (int i = 0; i < count; ++i) {
+        const double z = 1.0 - 2.0 * fraction(0.5 + 0.7548776662466927 * i);
+        const double angle = 2.0 * std::numbers::pi * fraction(0.5 + 0.5698402909980532 * i);
+        const double radius = std::sqrt(1.0 - z * z);
+        const Vector3d direction(radius * std::cos(angle), radius * std::sin(angle), z);
+        const double decades = i % 3 == 2 ? fraction(0.6180339887498949 * i) : 0.0;
+        add_ladder("probe", static_cast<std::size_t>(i), direction.normalized(),
+                   rounded(reynolds_number * std::pow(10.0, -decades)), plan);
     }
-    for (const BakeCase& entry : plan.cases) {
-        plan.cpu_seconds += seconds_per_case + seconds_per_cell_and_iteration * cells_of(plan, entry.mesh) *
-                                                   estimated_iterations(plan, entry);
-    }
+    estimate_cost(plan);
     return plan;
 }
 

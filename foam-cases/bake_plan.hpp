@@ -60,6 +60,12 @@ std::string closure_at(double reynolds_number);
 BakePlan plan_bake(const Body& body, const BakeQuality& quality, double reynolds_number,
                    const Inflow& inflow = {});
 
+/// Cases between the tables' nodes, to hold the tables against: `count` directions spread evenly over the
+/// sphere by an additive recurrence (M. Roberts' R2 sequence), two of three at the main Reynolds number, the
+/// others between it and a tenth of it; each from the coarsest mesh of the quality to the finest. Depends on
+/// the body, the quality and the Reynolds number alone; more of them begin with the same ones.
+BakePlan plan_probes(const Body& body, const BakeQuality& quality, double reynolds_number, int count);
+
 /// How many iterations the case will take, an estimate.
 double estimated_iterations(const BakePlan& plan, const BakeCase& entry);
 

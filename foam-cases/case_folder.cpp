@@ -112,7 +112,8 @@ void remove_unplanned_cases(const fs::path& folder, const BakePlan& plan) {
     std::vector<fs::path> unplanned;
     for (const auto& entry : fs::directory_iterator(folder)) {
         const std::string name = entry.path().filename().string();
-        bool planned = !name.starts_with("direction_") && !name.starts_with("mesh");
+        bool planned =
+            !name.starts_with("direction_") && !name.starts_with("probe_") && !name.starts_with("mesh");
         for (const BakeCase& one : plan.cases) planned = planned || one.name == name || one.mesh == name;
         if (!planned) unplanned.push_back(entry.path());
     }

@@ -187,15 +187,16 @@ TEST_F(Bake, LeavesOutADivergedCaseAndNamesItsLogWhileTheOthersGoOn) {
     ASSERT_EQ(left_out.size(), 1u);
     EXPECT_EQ(left_out[0].name, "direction_01");
     EXPECT_THAT(left_out[0].reason, HasSubstr("simpleFoam diverged"));
-    EXPECT_THAT(left_out[0].reason, HasSubstr("see " + (cases_ / "direction_01/log.simpleFoam").string()));
+    EXPECT_THAT(left_out[0].reason,
+                HasSubstr("see " + (cases_ / "direction_01_coarse/log.simpleFoam").string()));
     EXPECT_THAT(left_out[0].reason, Not(HasSubstr("\n")));
     EXPECT_EQ(solved().size(), 5u);
-    EXPECT_TRUE(fs::exists(cases_ / "direction_01/log.simpleFoam"));
+    EXPECT_TRUE(fs::exists(cases_ / "direction_01_coarse/log.simpleFoam"));
 
     // It is not tried again, until its record is removed.
-    const auto before = fs::last_write_time(cases_ / "direction_01/log.simpleFoam");
+    const auto before = fs::last_write_time(cases_ / "direction_01_coarse/log.simpleFoam");
     EXPECT_EQ(solve_cases(cases_, plan, 2, templates).size(), 1u);
-    EXPECT_EQ(fs::last_write_time(cases_ / "direction_01/log.simpleFoam"), before);
+    EXPECT_EQ(fs::last_write_time(cases_ / "direction_01_coarse/log.simpleFoam"), before);
 }
 
 TEST_F(Bake, WithoutASingleSolvedCaseIsAnErrorThatNamesTheFirst) {
