@@ -29,6 +29,7 @@ struct BakeOptions {
     std::string fluid = "water";
     double density = 1200.0;
     int jobs = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 1024);
+    int ranks = 1;
     std::string cluster;
     std::string quality = "preview";
     bool dry_run = false;
@@ -138,7 +139,10 @@ int run(int argc, const char* const* argv) {
         terminal_drag_coefficient));
     return run_program(argc, argv, arguments, [&] {
         if (arguments.given("--cluster")) require_sbatch(options.cluster);
-        return run_requests(requests_for(options, arguments), options, arguments.json());
+        if (!arguments.given("--jobs")) options.jobs = std::max(1, options.jobs / options.ranks);
+        std::vector<BakeRequest> requests = requests_for(options, arguments);
+        for (BakeRequest& request : requests) request.ranks = options.ranks;
+        return run_requests(requests, options, arguments.json());
     });
 }
 

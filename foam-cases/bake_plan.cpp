@@ -296,6 +296,7 @@ nlohmann::json plan_json(const BakePlan& plan) {
     json["quality"] = plan.quality.name;
     json["subdivisions"] = plan.subdivisions;
     json["reference_length"] = plan.reference_length;
+    json["ranks"] = plan.ranks;
     for (int row = 0; row < 3; ++row) {
         json["axes"].push_back({plan.axes(row, 0), plan.axes(row, 1), plan.axes(row, 2)});
     }

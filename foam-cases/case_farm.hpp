@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "foam-cases/bake_plan.hpp"
+#include "samara/body/table_errors.hpp"
 
 namespace samara {
 
@@ -15,17 +16,11 @@ struct FarmOptions {
 };
 
 /// Throws Error naming every program that solving needs and that is not on PATH, with the Debian packages
-/// that bring them. On a cluster OpenFOAM need be on its nodes alone.
-void require_solvers(const FarmOptions& options);
+/// that bring them: on a cluster OpenFOAM need be on its nodes alone; `ranks` is of the plan.
+void require_solvers(const FarmOptions& options, int ranks);
 
 /// How many of the planned cases are solved.
 std::size_t count_solved(const std::filesystem::path& folder, const BakePlan& plan);
-
-/// A case without a solution: it failed after all its retries, or its mesh could not be made.
-struct LeftOutCase {
-    std::string name;
-    std::string reason;  ///< one line that names the log
-};
 
 /// Solves the cases of a folder written by write_case_folder that are not solved yet, with
 /// Snakemake; a case that fails leaves the others running. Progress goes to standard error. Returns the cases
