@@ -121,6 +121,10 @@ int run(int argc, const char* const* argv) {
     arguments.choice("--fluid", options.fluid, {"water", "air"}, "that the shape falls in, at 20 C");
     arguments.option("--density", options.density, "of the body (kg/m^3)", 1e-3, 1e6);
     arguments.option("--jobs", options.jobs, "cases solved at once", 1, 4096);
+    arguments.option("--ranks", options.ranks,
+                     "processes that share each case, by MPI: for cases too large for one core; the cases "
+                     "solved at once become fewer, unless --jobs says how many",
+                     1, 1024);
     arguments.option(
         "--cluster", options.cluster,
         "a command of Slurm that submits a job, as \"sbatch --partition=short\": solves each case "
