@@ -33,7 +33,8 @@ constexpr const char* mesh_files[] = {"Allrun",
 CaseFiles read_template(const fs::path& folder) {
     CaseFiles files;
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-        if (entry.is_regular_file()) {
+        // What Python compiled is no part of a case.
+        if (entry.is_regular_file() && entry.path().parent_path().filename() != "__pycache__") {
             files[fs::relative(entry.path(), folder)] = read_bytes(entry.path());
         }
     }
