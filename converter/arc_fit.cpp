@@ -156,10 +156,11 @@ LoadEntryError ArcFit::error_at(const std::vector<LoadEntryError>& errors, const
     return transformed_error(rooted(sum), place.frame);
 }
 
-/// The random walk's error of a straight line between two knots.
+/// As the error of a cubic where the loads have a kink: with the distance between the knots, none at the
+/// knots.
 double ArcFit::spread_at(double angle) const {
     const Interval interval = interval_of(angle);
-    return std::sqrt(2.0 * interval.fraction * (1.0 - interval.fraction) * interval.length);
+    return std::sqrt(interval.fraction * (1.0 - interval.fraction)) * interval.length;
 }
 
 double ArcFit::spread(const Vector3d& direction) const {

@@ -40,8 +40,9 @@ class DirectionFit {
     [[nodiscard]] LoadEntryError error_at(const std::vector<LoadEntryError>& errors,
                                           const Vector3d& direction) const;
 
-    /// How far a direction is from the samples: the standard deviation of the value's error if the quantity
-    /// were a random walk whose squared increments have the mean of the distance. 0 at the samples' images.
+    /// How far a direction is from the samples, 0 at their images: what the value's error there is taken to
+    /// be proportional to. Between scattered samples SphereInterpolation::spread, which falls with the square
+    /// root of the samples' distance; on an arc the distance itself, as the error at a kink does.
     [[nodiscard]] double spread(const Vector3d& direction) const;
 
     /// The same for a sample's direction and the other samples; 1 where there is no other.

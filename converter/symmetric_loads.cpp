@@ -135,6 +135,19 @@ AllowedComponents allowed_components(const Symmetry& symmetry, const Vector3d& d
             static_cast<int>(std::lround(allowed.moment.trace()))};
 }
 
+FreeComponents free_components(const Symmetry& symmetry, const Vector3d& direction) {
+    if (symmetry.kind == Symmetry::Kind::finite) return {Vector3d::Ones(), Vector3d::Ones()};
+    if (symmetry.kind == Symmetry::Kind::spherical) return {direction.cwiseAbs2(), Vector3d::Zero()};
+    const Vector3d axis = axial_arc(symmetry, 1).axis;
+    const Vector3d normal = axis.cross(direction);
+    // Around the axis itself the planes of all directions meet.
+    if (normal.norm() < direction_tolerance(symmetry)) {
+        return {Vector3d::Ones(), Vector3d::Ones() - axis.cwiseAbs2()};
+    }
+    const Vector3d across = normal.normalized().cwiseAbs2();
+    return {Vector3d::Ones() - across, across};
+}
+
 std::vector<LoadEntryError> keep_symmetric_part(const Symmetry& symmetry,
                                                 std::vector<DirectionSample>& samples) {
     std::vector<AllowedLoads> allowed;

@@ -35,6 +35,15 @@ struct AllowedComponents {
 };
 AllowedComponents allowed_components(const Symmetry& symmetry, const Vector3d& direction);
 
+/// Which components of force and moment the symmetry leaves free in the directions around one: the diagonals
+/// of the orthogonal projections onto what it allows there. All 1 for a finite symmetry; for a body of
+/// revolution the force lies in the plane of its axis and the direction, and the moment across it.
+struct FreeComponents {
+    Vector3d force;
+    Vector3d moment;
+};
+FreeComponents free_components(const Symmetry& symmetry, const Vector3d& direction);
+
 /// Takes from the samples of one Reynolds number what the body's symmetry forbids: the part of force and
 /// moment that changes under an element that leaves the direction as it is. What was taken away is a sample
 /// of the solution's error, since the true mean is zero: its root mean square per forbidden component is

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "converter/direction_sampling.hpp"
+#include "converter/mesh_transfer.hpp"
 #include "converter/model_errors.hpp"
 #include "converter/reynolds_fit.hpp"
 #include "samara/base/error.hpp"
@@ -36,10 +37,12 @@ LoadEntryError& of(SourceVariances& variances, ErrorSource source) {
     return variances[static_cast<std::size_t>(source)];
 }
 
-/// The error of each component and logarithm from figures that are the same for all components.
-LoadEntryError spread_out(const ErrorFigures& figures) {
-    return {Vector3d::Constant(figures.force), Vector3d::Constant(figures.moment),
-            figures.turbulent_kinetic_energy, figures.dissipation_rate};
+/// The variance of each component and logarithm from standard errors that are the same for all components
+/// that are free.
+LoadEntryError variance_of(const ErrorFigures& figures, const FreeComponents& free) {
+    return {figures.force * figures.force * free.force, figures.moment * figures.moment * free.moment,
+            figures.turbulent_kinetic_energy * figures.turbulent_kinetic_energy,
+            figures.dissipation_rate * figures.dissipation_rate};
 }
 
 /// The errors of k and epsilon over k and epsilon, as those of their logarithms are to first order.
@@ -78,6 +81,16 @@ std::vector<ReynoldsTable> symmetric_tables(const Symmetry& symmetry, std::vecto
     }
     if (tables.empty()) throw Error("has no solved case for the table");
     return tables;
+}
+
+/// That of most table cases; the lowest of equals.
+double main_reynolds_number(const std::vector<SolvedCase>& cases) {
+    std::map<double, int> counts;
+    for (const SolvedCase& solved : cases) {
+        if (solved.purpose == CasePurpose::table) ++counts[solved.reynolds_number];
+    }
+    const auto most = std::ranges::max_element(counts, {}, [](const auto& pair) { return pair.second; });
+    return most == counts.end() ? 0.0 : most->first;
 }
 
 void fit(std::vector<ReynoldsTable>& tables, const Symmetry& symmetry) {
@@ -127,7 +140,8 @@ void fill_nodes(ReynoldsTable& table, int subdivisions) {
 }
 
 /// What the interpolation leaves uncertain at the centre of a cell, as variances.
-LoadEntryError variance_in_cell(const ReynoldsTable& table, int subdivisions, int row, int column) {
+LoadEntryError variance_in_cell(const ReynoldsTable& table, const Symmetry& symmetry, int subdivisions,
+                                int row, int column) {
     const double middle = 0.5;
     const Vector3d center =
         octahedral_direction({(column + middle) / subdivisions - 1.0, (row + middle) / subdivisions - 1.0});
@@ -136,15 +150,17 @@ LoadEntryError variance_in_cell(const ReynoldsTable& table, int subdivisions, in
         bilinear = plus(bilinear, 0.25, table.nodes[node_index(subdivisions, row + down, column + right)]);
     }
     const LoadEntry lookup = plus(in_logarithms(bilinear), -1.0, in_logarithms(table.fit->at(center)));
-    return plus(squared(spread_out(table.fit->interpolation_error(center))), 1.0, squared(lookup));
+    return plus(variance_of(table.fit->interpolation_error(center), free_components(symmetry, center)), 1.0,
+                squared(lookup));
 }
 
 /// The mean variances of the cells around each node, row by row.
-std::vector<LoadEntryError> variances_around_nodes(const ReynoldsTable& table, int subdivisions) {
+std::vector<LoadEntryError> variances_around_nodes(const ReynoldsTable& table, const Symmetry& symmetry,
+                                                   int subdivisions) {
     std::vector<LoadEntryError> sums(table.nodes.size());
     std::vector<double> cells(table.nodes.size(), 0.0);
     for_each(subdivisions, 1, [&](int row, int column) {
-        const LoadEntryError variance = variance_in_cell(table, subdivisions, row, column);
+        const LoadEntryError variance = variance_in_cell(table, symmetry, subdivisions, row, column);
         for (const auto& [down, right] : {std::pair{0, 0}, {0, 1}, {1, 0}, {1, 1}}) {
             const std::size_t node = unique_node(subdivisions, row + down, column + right);
             sums[node] = plus(sums[node], 1.0, variance);
@@ -159,10 +175,12 @@ std::vector<LoadEntryError> variances_around_nodes(const ReynoldsTable& table, i
     return means;
 }
 
-LoadEntryError model_variance(const RelativeErrors& errors, const LoadEntry& entry, const LoadScale& scale) {
-    return squared(
-        spread_out({errors.force * scale.of_force(entry.force), errors.moment * scale.of_moment(entry.moment),
-                    errors.turbulent_kinetic_energy, errors.dissipation_rate}));
+LoadEntryError model_variance(const RelativeErrors& errors, const LoadEntry& entry, const LoadScale& scale,
+                              const FreeComponents& free) {
+    return variance_of(
+        {errors.force * scale.of_force(entry.force), errors.moment * scale.of_moment(entry.moment),
+         errors.turbulent_kinetic_energy, errors.dissipation_rate},
+        free);
 }
 
 /// What the whole tables' errors are made of.
@@ -171,9 +189,9 @@ struct ModelErrors {
     std::optional<RelativeErrors> closure;
 };
 
-std::vector<SourceVariances> source_variances(const ReynoldsTable& table, const ModelErrors& model,
-                                              int subdivisions) {
-    const std::vector<LoadEntryError> interpolation = variances_around_nodes(table, subdivisions);
+std::vector<SourceVariances> source_variances(const ReynoldsTable& table, const Symmetry& symmetry,
+                                              const ModelErrors& model, int subdivisions) {
+    const std::vector<LoadEntryError> interpolation = variances_around_nodes(table, symmetry, subdivisions);
     std::vector<SourceVariances> result(table.nodes.size());
     for_each(subdivisions, 0, [&](int row, int column) {
         const std::size_t node = node_index(subdivisions, row, column);
@@ -182,10 +200,12 @@ std::vector<SourceVariances> source_variances(const ReynoldsTable& table, const 
         of(variances, ErrorSource::tail) = squared(table.fit->error_at(table.tail, direction));
         of(variances, ErrorSource::symmetry) = squared(table.fit->error_at(table.asymmetry, direction));
         const LoadEntry& entry = table.nodes[node];
-        if (model.mesh) of(variances, ErrorSource::mesh) = model_variance(*model.mesh, entry, table.scale);
-        if (model.closure) {
-            of(variances, ErrorSource::closure) = model_variance(*model.closure, entry, table.scale);
-        }
+        const FreeComponents free = free_components(symmetry, direction);
+        const auto of_model = [&](const std::optional<RelativeErrors>& errors) {
+            return errors ? model_variance(*errors, entry, table.scale, free) : LoadEntryError{};
+        };
+        of(variances, ErrorSource::mesh) = of_model(model.mesh);
+        of(variances, ErrorSource::closure) = of_model(model.closure);
         of(variances, ErrorSource::interpolation) = interpolation[node];
     });
     return result;
@@ -251,6 +271,7 @@ ModelErrors errors_of_models(const Symmetry& symmetry, const std::vector<SolvedC
 }  // namespace
 
 void fill_tables(LoadTables& tables, const Symmetry& symmetry, std::vector<SolvedCase>& cases) {
+    transfer_to_main_mesh(cases, main_reynolds_number(cases));
     std::vector<ReynoldsTable> parts = symmetric_tables(symmetry, cases);
     fit(parts, symmetry);
     for (ReynoldsTable& part : parts) fill_nodes(part, tables.subdivisions);
@@ -258,7 +279,8 @@ void fill_tables(LoadTables& tables, const Symmetry& symmetry, std::vector<Solve
     Totals totals;
     for (const ReynoldsTable& part : parts) {
         tables.reynolds_numbers.push_back(part.reynolds_number);
-        const std::vector<SourceVariances> variances = source_variances(part, model, tables.subdivisions);
+        const std::vector<SourceVariances> variances =
+            source_variances(part, symmetry, model, tables.subdivisions);
         for (std::size_t node = 0; node < part.nodes.size(); ++node) {
             const LoadEntry& entry = part.nodes[node];
             LoadEntryError sum;

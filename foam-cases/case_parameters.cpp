@@ -79,10 +79,12 @@ Entries mesh_entries_of(const FlowMesh& mesh) {
 
 Entries model_entries(const BakeQuality& quality, const BakeCase& entry) {
     const bool laminar = entry.closure == "laminar";
-    Entries entries = {{"simulationType", laminar ? "laminar" : "RAS"},
-                       {"stationarity", fmt::format("{}", quality.stationarity)},
-                       {"mostIterations", fmt::format("{}", quality.most_iterations)},
-                       {"startFrom", entry.start_from.empty() ? "none" : entry.start_from}};
+    Entries entries = {
+        {"simulationType", laminar ? "laminar" : "RAS"},
+        {"stationarity", fmt::format("{}", quality.stationarity)},
+        {"mostIterations",
+         fmt::format("{}", entry.start_from.empty() ? quality.most_iterations : quality.most_iterations / 2)},
+        {"startFrom", entry.start_from.empty() ? "none" : entry.start_from}};
     if (!laminar) entries.emplace_back("closure", entry.closure);
     // A solution on a coarser mesh, or of a neighbouring model, is most of the way.
     if (!entry.start_from.empty()) entries.emplace_back("leastIterations", "100");

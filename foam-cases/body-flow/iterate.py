@@ -7,8 +7,8 @@ A case that does not settle, or diverges, is tried again in the ways of ATTEMPTS
 rounds.json holds what was done. A round that was cut short is done again from the last whole one, so that a case
 that was killed ends with the same bytes as one that was not; where an input has changed, all starts afresh.
 
-Exit 0: rounds.json has the verdict "stationary", or "restless" where the last attempt came within ACCEPTED
-tolerances; its standard error then says how well it is known. Exit 1: one line says why; the verdict is "failed"
+Exit 0: rounds.json has the verdict "stationary", or "restless" where an attempt ended within ACCEPTED tolerances
+(a wake that swings about a mean that stays); its standard error then says how well it is known. Exit 1: one line says why; the verdict is "failed"
 where all attempts did, else something stopped the solver.
 """
 
@@ -210,9 +210,8 @@ class Rounds:
                 self.after(str(cause), AFTER_DIVERGENCE)
                 continue
             if "end" in self.attempt:
-                within = self.attempt["unsteadiness_over_tolerance"] <= ACCEPTED
-                restful = self.attempt["what"] != "as planned" and within
-                self.after(self.attempt["end"], {} if restful else AFTER_RESTLESSNESS)
+                accepted = self.attempt["unsteadiness_over_tolerance"] <= ACCEPTED
+                self.after(self.attempt["end"], {} if accepted else AFTER_RESTLESSNESS)
 
 
 def main():

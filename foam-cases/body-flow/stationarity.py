@@ -16,7 +16,7 @@ TURBULENCE_TOLERANCES = 3.0
 BATCHES = 6
 # Loads below these are noise: coefficients over rho U^2 A/2 and rho U^2 A L/2.
 LEAST_FORCE = 0.1
-LEAST_MOMENT = 0.1
+LEAST_MOMENT = 0.2
 # The largest force coefficient that is no sign of divergence: a plate broadside has 2.5.
 LARGEST_FORCE = 20.0
 AREA_UNIT = math.pi / 8  # rho U^2 A/2 with rho = U = L = 1 and A = pi L^2/4
