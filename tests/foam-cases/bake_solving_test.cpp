@@ -135,7 +135,7 @@ TEST_F(Bake, LeavesOutADivergedCaseAndNamesItsLogWhileTheOthersGoOn) {
     const BakePlan plan = plan_bake(body, bake_quality("smoke"), 1e4);
     write_case_folder(cases_, body, plan, templates);
     make_diverging(cases_ / "direction_01");
-    const std::vector<LeftOutCase> left_out = solve_cases(cases_, plan, 2, templates);
+    const std::vector<LeftOutCase> left_out = solve_cases(cases_, plan, {2, ""}, templates);
     ASSERT_EQ(left_out.size(), 1u);
     EXPECT_EQ(left_out[0].name, "direction_01");
     EXPECT_THAT(left_out[0].reason, HasSubstr("simpleFoam diverged"));
@@ -147,7 +147,7 @@ TEST_F(Bake, LeavesOutADivergedCaseAndNamesItsLogWhileTheOthersGoOn) {
 
     // It is not tried again, until its record is removed.
     const auto before = fs::last_write_time(cases_ / "direction_01_coarse/log.simpleFoam");
-    EXPECT_EQ(solve_cases(cases_, plan, 2, templates).size(), 1u);
+    EXPECT_EQ(solve_cases(cases_, plan, {2, ""}, templates).size(), 1u);
     EXPECT_EQ(fs::last_write_time(cases_ / "direction_01_coarse/log.simpleFoam"), before);
 }
 
@@ -157,7 +157,7 @@ TEST_F(Bake, WithoutASingleSolvedCaseIsAnErrorThatNamesTheFirst) {
     write_case_folder(cases_, body, plan, templates);
     make_diverging(cases_ / "direction_00");
     try {
-        solve_cases(cases_, plan, 1, templates);
+        solve_cases(cases_, plan, {1, ""}, templates);
         FAIL() << "no error";
     } catch (const Error& fault) {
         EXPECT_THAT(fault.what(), HasSubstr("direction_00: simpleFoam diverged"));
