@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -33,11 +34,16 @@ Vector3d as_vector(const nlohmann::json& values) {
     return {numbers[0], numbers[1], numbers[2]};
 }
 
+constexpr std::array<std::pair<CasePurpose, const char*>, 4> purposes = {{{CasePurpose::table, "table"},
+                                                                          {CasePurpose::mesh, "mesh"},
+                                                                          {CasePurpose::closure, "closure"},
+                                                                          {CasePurpose::start, "start"}}};
+
 CasePurpose as_purpose(const std::string& word) {
-    if (word == "table") return CasePurpose::table;
-    if (word == "mesh") return CasePurpose::mesh;
-    if (word == "closure") return CasePurpose::closure;
-    throw Error(fmt::format("'purpose' is \"{}\", not table, mesh or closure", word));
+    for (const auto& [purpose, name] : purposes) {
+        if (word == name) return purpose;
+    }
+    throw Error(fmt::format("'purpose' is \"{}\", not table, mesh, closure or start", word));
 }
 
 Matrix3d as_matrix(const nlohmann::json& rows) {
@@ -138,6 +144,13 @@ void check(const CasePlan& plan) {
 }
 
 }  // namespace
+
+std::string name_of(CasePurpose purpose) {
+    for (const auto& [one, name] : purposes) {
+        if (one == purpose) return name;
+    }
+    return {};
+}
 
 CasePlan read_case_plan(const std::filesystem::path& folder) {
     const std::filesystem::path file = folder / "plan.json";

@@ -11,10 +11,14 @@ namespace samara {
 
 /// What a case is solved for.
 enum class CasePurpose {
-    table,   ///< its loads go into the table
-    mesh,    ///< as some table case, on another mesh: their difference estimates the table's mesh error
-    closure  ///< as some table case, with another closure: their difference estimates the closure's error
+    table,    ///< its loads go into the table
+    mesh,     ///< as some table case, on another mesh: their difference estimates the table's mesh error
+    closure,  ///< as some table case, with another closure: their difference estimates the closure's error
+    start     ///< only where a case on a finer mesh starts from
 };
+
+/// As plan.json words it: table, mesh, closure, start.
+std::string name_of(CasePurpose purpose);
 
 /// The body's scales in the units of a case; 1 where it is nondimensional, as those of `samara bake` are.
 struct CaseScales {

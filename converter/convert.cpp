@@ -1,13 +1,12 @@
 #include "converter/convert.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "converter/case_folder_reduction.hpp"
+#include "converter/plan_coverage.hpp"
 #include "converter/table_filling.hpp"
 #include "samara/base/error.hpp"
 #include "samara/body/body_file.hpp"
@@ -27,33 +26,6 @@ void require_plan_of_body(const std::filesystem::path& folder, const CasePlan& p
     }
 }
 
-std::vector<double> reynolds_numbers(const CasePlan& plan) {
-    std::set<double> numbers;
-    for (const PlannedCase& planned : plan.cases) numbers.insert(planned.reynolds_number);
-    return {numbers.begin(), numbers.end()};
-}
-
-/// Symmetrises the cases of one Reynolds number in place, and fills a map with them.
-FilledMap fill_reynolds_number(const std::filesystem::path& folder, const CasePlan& plan,
-                               const Symmetry& symmetry, double reynolds_number,
-                               std::vector<SolvedCase>& cases) {
-    std::vector<SolvedCase*> members;
-    std::vector<DirectionSample> samples;
-    for (SolvedCase& solved : cases) {
-        if (solved.reynolds_number != reynolds_number) continue;
-        members.push_back(&solved);
-        samples.push_back(solved.sample);
-    }
-    keep_symmetric_part(symmetry, samples);
-    for (std::size_t i = 0; i < members.size(); ++i) members[i]->sample = samples[i];
-    try {
-        return fill_map(symmetry, plan.subdivisions, samples);
-    } catch (const Error& fault) {
-        throw Error(fmt::format("{}: Reynolds number {:.6g}: {}; run 'samara bake' again",
-                                (folder / "plan.json").string(), reynolds_number, fault.what()));
-    }
-}
-
 std::string provenance_of(const std::vector<SolvedCase>& cases) {
     nlohmann::json list = nlohmann::json::array();
     for (const SolvedCase& solved : cases) {
@@ -67,22 +39,14 @@ std::string provenance_of(const std::vector<SolvedCase>& cases) {
     return list.dump();
 }
 
-LoadTables make_tables(const std::filesystem::path& folder, const CasePlan& plan, const Symmetry& symmetry,
-                       std::vector<SolvedCase>& cases) {
+LoadTables make_tables(const CasePlan& plan, const Symmetry& symmetry, std::vector<SolvedCase>& cases) {
     LoadTables tables;
     tables.reference_length = plan.reference_length;
     tables.subdivisions = plan.subdivisions;
     tables.axes = plan.axes;
     tables.quality = plan.quality;
-    tables.reynolds_numbers = reynolds_numbers(plan);
+    fill_tables(tables, symmetry, cases);
     tables.provenance = provenance_of(cases);
-    for (const double reynolds_number : tables.reynolds_numbers) {
-        const FilledMap map = fill_reynolds_number(folder, plan, symmetry, reynolds_number, cases);
-        for (std::size_t node = 0; node < map.entries.size(); ++node) {
-            tables.entries.push_back(transformed(map.entries[node], plan.axes));
-            tables.errors.push_back(transformed_error(map.errors[node], plan.axes));
-        }
-    }
     return tables;
 }
 
@@ -94,8 +58,16 @@ Conversion convert_folder(const std::filesystem::path& folder,
     Conversion conversion;
     conversion.body = read_body_file(folder / "body.body.h5");
     require_plan_of_body(folder, plan, conversion.body);
-    conversion.cases = reduce_folder(folder, plan, progress).cases;
-    conversion.body.tables = make_tables(folder, plan, conversion.body.symmetry, conversion.cases);
+    FolderReduction reduction = reduce_folder(folder, plan, progress);
+    try {
+        require_enough_directions(plan, conversion.body.symmetry, reduction);
+        conversion.cases = std::move(reduction.cases);
+        conversion.body.tables = make_tables(plan, conversion.body.symmetry, conversion.cases);
+    } catch (const Error& fault) {
+        throw Error(
+            fmt::format("{}: {}; run 'samara bake' again", (folder / "plan.json").string(), fault.what()));
+    }
+    conversion.body.tables->left_out = std::move(reduction.left_out);
     return conversion;
 }
 

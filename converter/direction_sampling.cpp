@@ -18,15 +18,6 @@ void require_subdivisions(int subdivisions) {
     if (subdivisions < 1) throw Error(fmt::format("a map cannot have {} subdivisions", subdivisions));
 }
 
-/// The index of node (row, column), the same for all nodes that are one direction.
-std::size_t unique_index(int subdivisions, int row, int column) {
-    const int last = 2 * subdivisions;
-    if (row == 0 || row == last) column = std::min(column, last - column);
-    if (column == 0 || column == last) row = std::min(row, last - row);
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(last + 1) +
-           static_cast<std::size_t>(column);
-}
-
 /// The index of the node in this direction, or nothing where it falls between nodes.
 std::optional<std::size_t> node_at(const Vector3d& direction, int subdivisions, double tolerance) {
     const Eigen::Vector2d place = octahedral_coordinates(direction);
@@ -37,7 +28,7 @@ std::optional<std::size_t> node_at(const Vector3d& direction, int subdivisions, 
     const int row = nearest(place.y());
     const int column = nearest(place.x());
     if ((octahedral_node(subdivisions, row, column) - direction).norm() > tolerance) return std::nullopt;
-    return unique_index(subdivisions, row, column);
+    return unique_node(subdivisions, row, column);
 }
 
 /// All nodes, row by row, the repeated ones too.
@@ -103,6 +94,14 @@ std::vector<Matrix3d> elements_in_map_axes(const Symmetry& symmetry) {
     return elements;
 }
 
+std::size_t unique_node(int subdivisions, int row, int column) {
+    const int last = 2 * subdivisions;
+    if (row == 0 || row == last) column = std::min(column, last - column);
+    if (column == 0 || column == last) row = std::min(row, last - row);
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(last + 1) +
+           static_cast<std::size_t>(column);
+}
+
 double AxialArc::step_angle() const {
     return (mirrored ? 0.5 : 1.0) * std::numbers::pi / steps;
 }
@@ -151,7 +150,7 @@ std::vector<NodeImage> node_images(const Symmetry& symmetry, int subdivisions) {
     std::vector<NodeImage> result;
     for (int row = 0; row <= 2 * subdivisions; ++row) {
         for (int column = 0; column <= 2 * subdivisions; ++column) {
-            result.push_back(*images[unique_index(subdivisions, row, column)]);
+            result.push_back(*images[unique_node(subdivisions, row, column)]);
         }
     }
     return result;

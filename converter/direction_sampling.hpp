@@ -38,6 +38,10 @@ AxialArc axial_arc(const Symmetry& symmetry, int subdivisions);
 /// symmetry do so exactly here.
 std::vector<Matrix3d> elements_in_map_axes(const Symmetry& symmetry);
 
+/// The index of node (row, column) among the (2 subdivisions + 1)^2 of the map; nodes that are one direction
+/// share the least.
+std::size_t unique_node(int subdivisions, int row, int column);
+
 /// How a node of the map follows from a required direction: node = element * source.
 struct NodeImage {
     Vector3d source;   ///< one of required_directions

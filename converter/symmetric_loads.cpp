@@ -79,7 +79,8 @@ void widen(Vector3d& error, double mean_square) {
 
 /// Does the work of keep_symmetric_part for the force or the moment.
 void keep_allowed(std::vector<DirectionSample>& samples, const std::vector<AllowedLoads>& allowed,
-                  Matrix3d AllowedLoads::*projection, Vector3d LoadEntry::*load) {
+                  Matrix3d AllowedLoads::*projection, Vector3d LoadEntry::*load,
+                  std::vector<LoadEntryError>& added) {
     std::vector<Forbidden> each;
     Forbidden all;
     for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -88,7 +89,9 @@ void keep_allowed(std::vector<DirectionSample>& samples, const std::vector<Allow
         all.components += each[i].components;
     }
     for (std::size_t i = 0; i < samples.size(); ++i) {
-        widen(samples[i].error.*load, each[i].components > 0.0 ? each[i].mean_square() : all.mean_square());
+        const double mean_square = each[i].components > 0.0 ? each[i].mean_square() : all.mean_square();
+        widen(samples[i].error.*load, mean_square);
+        (added[i].*load).setConstant(std::sqrt(mean_square));
     }
 }
 
@@ -109,14 +112,53 @@ LoadEntryError transformed_error(const LoadEntryError& error, const Matrix3d& ro
     return result;
 }
 
-void keep_symmetric_part(const Symmetry& symmetry, std::vector<DirectionSample>& samples) {
+LoadEntry plus(const LoadEntry& a, double factor, const LoadEntry& b) {
+    return {a.force + factor * b.force, a.moment + factor * b.moment,
+            a.turbulent_kinetic_energy + factor * b.turbulent_kinetic_energy,
+            a.dissipation_rate + factor * b.dissipation_rate};
+}
+
+LoadEntry squared(const LoadEntry& entry) {
+    return {entry.force.cwiseAbs2(), entry.moment.cwiseAbs2(),
+            entry.turbulent_kinetic_energy * entry.turbulent_kinetic_energy,
+            entry.dissipation_rate * entry.dissipation_rate};
+}
+
+LoadEntry rooted(const LoadEntry& squares) {
+    return {squares.force.cwiseSqrt(), squares.moment.cwiseSqrt(),
+            std::sqrt(squares.turbulent_kinetic_energy), std::sqrt(squares.dissipation_rate)};
+}
+
+AllowedComponents allowed_components(const Symmetry& symmetry, const Vector3d& direction) {
+    const AllowedLoads allowed = allowed_loads(symmetry, direction);
+    return {static_cast<int>(std::lround(allowed.force.trace())),
+            static_cast<int>(std::lround(allowed.moment.trace()))};
+}
+
+FreeComponents free_components(const Symmetry& symmetry, const Vector3d& direction) {
+    if (symmetry.kind == Symmetry::Kind::finite) return {Vector3d::Ones(), Vector3d::Ones()};
+    if (symmetry.kind == Symmetry::Kind::spherical) return {direction.cwiseAbs2(), Vector3d::Zero()};
+    const Vector3d axis = axial_arc(symmetry, 1).axis;
+    const Vector3d normal = axis.cross(direction);
+    // Around the axis itself the planes of all directions meet.
+    if (normal.norm() < direction_tolerance(symmetry)) {
+        return {Vector3d::Ones(), Vector3d::Ones() - axis.cwiseAbs2()};
+    }
+    const Vector3d across = normal.normalized().cwiseAbs2();
+    return {Vector3d::Ones() - across, across};
+}
+
+std::vector<LoadEntryError> keep_symmetric_part(const Symmetry& symmetry,
+                                                std::vector<DirectionSample>& samples) {
     std::vector<AllowedLoads> allowed;
     allowed.reserve(samples.size());
     for (const DirectionSample& sample : samples) {
         allowed.push_back(allowed_loads(symmetry, sample.direction));
     }
-    keep_allowed(samples, allowed, &AllowedLoads::force, &LoadEntry::force);
-    keep_allowed(samples, allowed, &AllowedLoads::moment, &LoadEntry::moment);
+    std::vector<LoadEntryError> added(samples.size());
+    keep_allowed(samples, allowed, &AllowedLoads::force, &LoadEntry::force, added);
+    keep_allowed(samples, allowed, &AllowedLoads::moment, &LoadEntry::moment, added);
+    return added;
 }
 
 }  // namespace samara

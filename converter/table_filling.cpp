@@ -1,189 +1,296 @@
 #include "converter/table_filling.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numbers>
+#include <map>
+#include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "converter/direction_sampling.hpp"
+#include "converter/mesh_transfer.hpp"
+#include "converter/model_errors.hpp"
+#include "converter/reynolds_fit.hpp"
 #include "samara/base/error.hpp"
 #include "samara/body/octahedral_map.hpp"
 
 namespace samara {
 namespace {
 
-const DirectionSample& sample_in(const Symmetry& symmetry, const std::vector<DirectionSample>& samples,
-                                 const Vector3d& direction) {
-    const auto found = std::find_if(samples.begin(), samples.end(), [&](const DirectionSample& sample) {
-        return (sample.direction - direction).norm() < direction_tolerance(symmetry);
-    });
-    if (found == samples.end()) {
-        throw Error(fmt::format("no case in the direction ({:.6g}, {:.6g}, {:.6g}), which the table needs",
-                                direction.x(), direction.y(), direction.z()));
-    }
-    return *found;
-}
-
-FilledMap fill_finite(const Symmetry& symmetry, int subdivisions,
-                      const std::vector<DirectionSample>& samples) {
-    FilledMap map;
-    for (const NodeImage& image : node_images(symmetry, subdivisions)) {
-        const DirectionSample& sample = sample_in(symmetry, samples, image.source);
-        map.entries.push_back(transformed(sample.entry, image.element));
-        map.errors.push_back(transformed_error(sample.error, image.element));
-    }
-    return map;
-}
-
-/// A right-handed frame whose first axis is `first` and whose third is perpendicular to `second`.
-Matrix3d frame(const Vector3d& first, const Vector3d& second) {
-    Matrix3d axes;
-    axes.col(0) = first;
-    axes.col(2) = first.cross(second).normalized();
-    axes.col(1) = axes.col(2).cross(first);
-    return axes;
-}
-
-/// What a map of quantities over the polar angle does at its ends: even ones have no slope there, odd ones
-/// are zero.
-enum class Parity { even, odd };
-
-/// Steffen's slope (per step) at a point between the differences to its two neighbours.
-double monotone_slope(double before, double after) {
-    if (before * after <= 0.0) return 0.0;
-    const double mean = 0.5 * (before + after);
-    return std::copysign(std::min({2.0 * std::abs(before), 2.0 * std::abs(after), std::abs(mean)}), mean);
-}
-
-/// The values at even steps of an angle as a function of the place counted in steps.
-double interpolated(const std::vector<double>& values, Parity at_start, Parity at_end, double place) {
-    const auto last = static_cast<int>(values.size()) - 1;
-    const auto value = [&](int i) {
-        if (i < 0) return (at_start == Parity::even ? 1.0 : -1.0) * values[static_cast<std::size_t>(-i)];
-        if (i <= last) return values[static_cast<std::size_t>(i)];
-        return (at_end == Parity::even ? 1.0 : -1.0) * values[static_cast<std::size_t>(2 * last - i)];
-    };
-    const auto slope = [&](int i) {
-        return monotone_slope(value(i) - value(i - 1), value(i + 1) - value(i));
-    };
-    const int step = std::clamp(static_cast<int>(place), 0, last - 1);
-    const double t = std::clamp(place - step, 0.0, 1.0);
-    const double s = 1.0 - t;
-    return s * s * (1.0 + 2.0 * t) * value(step) + t * t * (1.0 + 2.0 * s) * value(step + 1) +
-           s * t * (s * slope(step) - t * slope(step + 1));
-}
-
-/// The loads of a body of revolution over the polar angle. Vectors are in the frame of the axis, the
-/// direction across it towards the motion, and the normal of both.
-struct ArcLoads {
-    AxialArc arc;
-    std::vector<LoadEntry> entries;
-    std::vector<LoadEntryError> errors;
-
-    /// One of an entry's numbers, picked by `number`, at a place on the arc.
-    template <typename Number>
-    double at(double place, Parity at_pole, Parity at_mirror, Number number) const {
-        std::vector<double> values;
-        for (const LoadEntry& entry : entries) values.push_back(number(entry));
-        return interpolated(values, at_pole, arc.mirrored ? at_mirror : at_pole, place);
-    }
-
-    LoadEntry entry(double place) const {
-        LoadEntry result;
-        const auto even = Parity::even;
-        const auto odd = Parity::odd;
-        result.force[0] = at(place, even, odd, [](const LoadEntry& e) { return e.force[0]; });
-        result.force[1] = at(place, odd, even, [](const LoadEntry& e) { return e.force[1]; });
-        result.moment[2] = at(place, odd, odd, [](const LoadEntry& e) { return e.moment[2]; });
-        result.turbulent_kinetic_energy =
-            at(place, even, even, [](const LoadEntry& e) { return e.turbulent_kinetic_energy; });
-        result.dissipation_rate =
-            at(place, even, even, [](const LoadEntry& e) { return e.dissipation_rate; });
-        return result;
-    }
-
-    LoadEntryError error(double place) const {
-        const auto step = static_cast<std::size_t>(std::clamp(static_cast<int>(place), 0, arc.steps - 1));
-        const double t = place - static_cast<double>(step);
-        const LoadEntryError& before = errors[step];
-        const LoadEntryError& after = errors[step + 1];
-        LoadEntryError result;
-        result.force = (1.0 - t) * before.force + t * after.force;
-        result.moment = (1.0 - t) * before.moment + t * after.moment;
-        result.turbulent_kinetic_energy =
-            std::lerp(before.turbulent_kinetic_energy, after.turbulent_kinetic_energy, t);
-        result.dissipation_rate = std::lerp(before.dissipation_rate, after.dissipation_rate, t);
-        return result;
-    }
+/// The table cases of one Reynolds number, and what comes of them in map axes.
+struct ReynoldsTable {
+    double reynolds_number = 0.0;
+    std::vector<DirectionSample> samples;
+    std::vector<LoadEntryError> tail;
+    std::vector<LoadEntryError> asymmetry;
+    std::unique_ptr<ReynoldsFit> fit;
+    std::vector<LoadEntry> nodes;  ///< row by row
+    LoadScale scale;
 };
 
-ArcLoads arc_loads(const Symmetry& symmetry, int subdivisions, const std::vector<DirectionSample>& samples) {
-    ArcLoads loads{axial_arc(symmetry, subdivisions), {}, {}};
-    const Matrix3d to_frame = frame(loads.arc.axis, loads.arc.across).transpose();
-    for (int step = 0; step <= loads.arc.steps; ++step) {
-        const DirectionSample& sample = sample_in(symmetry, samples, loads.arc.direction(step));
-        loads.entries.push_back(transformed(sample.entry, to_frame));
-        loads.errors.push_back(transformed_error(sample.error, to_frame));
-    }
-    return loads;
+/// Variances by source, those of k and epsilon of their logarithms.
+using SourceVariances = std::array<LoadEntryError, error_source_count>;
+
+LoadEntryError& of(SourceVariances& variances, ErrorSource source) {
+    return variances[static_cast<std::size_t>(source)];
 }
 
-void fill_axial_node(const ArcLoads& loads, const Vector3d& node, FilledMap& map) {
-    const AxialArc& arc = loads.arc;
-    // Beyond the mirror the loads are those of its near side, seen along the axis turned round.
-    const double along = arc.axis.dot(node);
-    const Vector3d axis = arc.mirrored && along < 0.0 ? Vector3d(-arc.axis) : arc.axis;
-    const Vector3d normal = axis.cross(node);
-    const double angle = std::atan2(normal.norm(), axis.dot(node));
-    const Matrix3d axes = frame(axis, normal.norm() > 1e-9 ? node : arc.across);
-    const double place = std::min(angle / arc.step_angle(), static_cast<double>(arc.steps));
-    map.entries.push_back(transformed(loads.entry(place), axes));
-    map.errors.push_back(transformed_error(loads.error(place), axes));
+/// The variance of each component and logarithm from standard errors that are the same for all components
+/// that are free.
+LoadEntryError variance_of(const ErrorFigures& figures, const FreeComponents& free) {
+    return {figures.force * figures.force * free.force, figures.moment * figures.moment * free.moment,
+            figures.turbulent_kinetic_energy * figures.turbulent_kinetic_energy,
+            figures.dissipation_rate * figures.dissipation_rate};
 }
 
-FilledMap fill_axial(const Symmetry& symmetry, int subdivisions,
-                     const std::vector<DirectionSample>& samples) {
-    const ArcLoads loads = arc_loads(symmetry, subdivisions, samples);
-    FilledMap map;
-    for (int row = 0; row <= 2 * subdivisions; ++row) {
-        for (int column = 0; column <= 2 * subdivisions; ++column) {
-            fill_axial_node(loads, octahedral_node(subdivisions, row, column), map);
+/// The errors of k and epsilon over k and epsilon, as those of their logarithms are to first order.
+LoadEntryError relative_to(const LoadEntry& entry, LoadEntryError error) {
+    const bool turbulent = is_turbulent(entry);
+    error.turbulent_kinetic_energy =
+        turbulent ? error.turbulent_kinetic_energy / entry.turbulent_kinetic_energy : 0.0;
+    error.dissipation_rate = turbulent ? error.dissipation_rate / entry.dissipation_rate : 0.0;
+    return error;
+}
+
+/// Standard errors from variances, those of k and epsilon from their logarithms' to their own.
+LoadEntryError absolute(const LoadEntry& entry, const LoadEntryError& variance) {
+    LoadEntryError error = rooted(variance);
+    error.turbulent_kinetic_energy =
+        entry.turbulent_kinetic_energy * std::expm1(error.turbulent_kinetic_energy);
+    error.dissipation_rate = entry.dissipation_rate * std::expm1(error.dissipation_rate);
+    return error;
+}
+
+/// Takes from the cases of all purposes what the symmetry forbids; the table's, by ascending Reynolds number.
+std::vector<ReynoldsTable> symmetric_tables(const Symmetry& symmetry, std::vector<SolvedCase>& cases) {
+    std::map<std::pair<CasePurpose, double>, std::vector<SolvedCase*>> sets;
+    for (SolvedCase& solved : cases) sets[{solved.purpose, solved.reynolds_number}].push_back(&solved);
+    std::vector<ReynoldsTable> tables;
+    for (const auto& [key, members] : sets) {
+        ReynoldsTable table;
+        table.reynolds_number = key.second;
+        for (const SolvedCase* member : members) {
+            table.samples.push_back(member->sample);
+            table.tail.push_back(relative_to(member->sample.entry, member->sample.error));
         }
+        table.asymmetry = keep_symmetric_part(symmetry, table.samples);
+        for (std::size_t i = 0; i < members.size(); ++i) members[i]->sample = table.samples[i];
+        if (key.first == CasePurpose::table) tables.push_back(std::move(table));
     }
-    return map;
+    if (tables.empty()) throw Error("has no solved case for the table");
+    return tables;
 }
 
-FilledMap fill_spherical(const Symmetry& symmetry, int subdivisions,
-                         const std::vector<DirectionSample>& samples) {
-    const Vector3d solved = required_directions(symmetry, subdivisions).front();
-    const DirectionSample& sample = sample_in(symmetry, samples, solved);
-    FilledMap map;
-    for (int row = 0; row <= 2 * subdivisions; ++row) {
-        for (int column = 0; column <= 2 * subdivisions; ++column) {
-            const Vector3d node = octahedral_node(subdivisions, row, column);
-            const Matrix3d turn = Eigen::Quaterniond::FromTwoVectors(solved, node).toRotationMatrix();
-            map.entries.push_back(transformed(sample.entry, turn));
-            map.errors.push_back(transformed_error(sample.error, turn));
-            // Exactly along the direction, whatever the turn's rounding.
-            map.entries.back().force = sample.entry.force.dot(solved) * node;
-        }
+/// That of most table cases; the lowest of equals.
+double main_reynolds_number(const std::vector<SolvedCase>& cases) {
+    std::map<double, int> counts;
+    for (const SolvedCase& solved : cases) {
+        if (solved.purpose == CasePurpose::table) ++counts[solved.reynolds_number];
     }
-    return map;
+    const auto most = std::ranges::max_element(counts, {}, [](const auto& pair) { return pair.second; });
+    return most == counts.end() ? 0.0 : most->first;
+}
+
+void fit(std::vector<ReynoldsTable>& tables, const Symmetry& symmetry) {
+    const auto main = std::max_element(
+        tables.begin(), tables.end(),
+        [](const ReynoldsTable& a, const ReynoldsTable& b) { return a.samples.size() < b.samples.size(); });
+    const auto fit_one = [&](ReynoldsTable& table) {
+        try {
+            table.fit = std::make_unique<ReynoldsFit>(symmetry, table.samples, main->fit.get());
+        } catch (const Error& fault) {
+            throw Error(fmt::format("Reynolds number {:.6g}: {}", table.reynolds_number, fault.what()));
+        }
+    };
+    fit_one(*main);
+    for (ReynoldsTable& table : tables) {
+        if (&table != &*main) fit_one(table);
+    }
+}
+
+/// Calls visit(row, column) for the nodes of the map (one_less = 0) or its cells (1).
+template <typename Visit>
+void for_each(int subdivisions, int one_less, const Visit& visit) {
+    for (int row = 0; row <= 2 * subdivisions - one_less; ++row) {
+        for (int column = 0; column <= 2 * subdivisions - one_less; ++column) visit(row, column);
+    }
+}
+
+std::size_t node_index(int subdivisions, int row, int column) {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(2 * subdivisions + 1) +
+           static_cast<std::size_t>(column);
+}
+
+void fill_nodes(ReynoldsTable& table, int subdivisions) {
+    double force = 0.0;
+    double moment = 0.0;
+    double directions = 0.0;
+    for_each(subdivisions, 0, [&](int row, int column) {
+        const LoadEntry entry = table.fit->at(octahedral_node(subdivisions, row, column));
+        const std::size_t here = node_index(subdivisions, row, column);
+        table.nodes.push_back(entry);
+        if (unique_node(subdivisions, row, column) != here) return;
+        force += entry.force.squaredNorm();
+        moment += entry.moment.squaredNorm();
+        directions += 1.0;
+    });
+    table.scale = {std::sqrt(force / directions), std::sqrt(moment / directions)};
+}
+
+/// What the interpolation leaves uncertain at the centre of a cell, as variances.
+LoadEntryError variance_in_cell(const ReynoldsTable& table, const Symmetry& symmetry, int subdivisions,
+                                int row, int column) {
+    const double middle = 0.5;
+    const Vector3d center =
+        octahedral_direction({(column + middle) / subdivisions - 1.0, (row + middle) / subdivisions - 1.0});
+    LoadEntry bilinear;
+    for (const auto& [down, right] : {std::pair{0, 0}, {0, 1}, {1, 0}, {1, 1}}) {
+        bilinear = plus(bilinear, 0.25, table.nodes[node_index(subdivisions, row + down, column + right)]);
+    }
+    const LoadEntry lookup = plus(in_logarithms(bilinear), -1.0, in_logarithms(table.fit->at(center)));
+    return plus(variance_of(table.fit->interpolation_error(center), free_components(symmetry, center)), 1.0,
+                squared(lookup));
+}
+
+/// The mean variances of the cells around each node, row by row.
+std::vector<LoadEntryError> variances_around_nodes(const ReynoldsTable& table, const Symmetry& symmetry,
+                                                   int subdivisions) {
+    std::vector<LoadEntryError> sums(table.nodes.size());
+    std::vector<double> cells(table.nodes.size(), 0.0);
+    for_each(subdivisions, 1, [&](int row, int column) {
+        const LoadEntryError variance = variance_in_cell(table, symmetry, subdivisions, row, column);
+        for (const auto& [down, right] : {std::pair{0, 0}, {0, 1}, {1, 0}, {1, 1}}) {
+            const std::size_t node = unique_node(subdivisions, row + down, column + right);
+            sums[node] = plus(sums[node], 1.0, variance);
+            cells[node] += 1.0;
+        }
+    });
+    std::vector<LoadEntryError> means;
+    for_each(subdivisions, 0, [&](int row, int column) {
+        const std::size_t node = unique_node(subdivisions, row, column);
+        means.push_back(plus({}, 1.0 / cells[node], sums[node]));
+    });
+    return means;
+}
+
+LoadEntryError model_variance(const RelativeErrors& errors, const LoadEntry& entry, const LoadScale& scale,
+                              const FreeComponents& free) {
+    return variance_of(
+        {errors.force * scale.of_force(entry.force), errors.moment * scale.of_moment(entry.moment),
+         errors.turbulent_kinetic_energy, errors.dissipation_rate},
+        free);
+}
+
+/// What the whole tables' errors are made of.
+struct ModelErrors {
+    std::optional<RelativeErrors> mesh;
+    std::optional<RelativeErrors> closure;
+};
+
+std::vector<SourceVariances> source_variances(const ReynoldsTable& table, const Symmetry& symmetry,
+                                              const ModelErrors& model, int subdivisions) {
+    const std::vector<LoadEntryError> interpolation = variances_around_nodes(table, symmetry, subdivisions);
+    std::vector<SourceVariances> result(table.nodes.size());
+    for_each(subdivisions, 0, [&](int row, int column) {
+        const std::size_t node = node_index(subdivisions, row, column);
+        const Vector3d direction = octahedral_node(subdivisions, row, column);
+        SourceVariances& variances = result[node];
+        of(variances, ErrorSource::tail) = squared(table.fit->error_at(table.tail, direction));
+        of(variances, ErrorSource::symmetry) = squared(table.fit->error_at(table.asymmetry, direction));
+        const LoadEntry& entry = table.nodes[node];
+        const FreeComponents free = free_components(symmetry, direction);
+        const auto of_model = [&](const std::optional<RelativeErrors>& errors) {
+            return errors ? model_variance(*errors, entry, table.scale, free) : LoadEntryError{};
+        };
+        of(variances, ErrorSource::mesh) = of_model(model.mesh);
+        of(variances, ErrorSource::closure) = of_model(model.closure);
+        of(variances, ErrorSource::interpolation) = interpolation[node];
+    });
+    return result;
+}
+
+/// Squares summed over the whole tables: of the values, and of their errors by source.
+struct Totals {
+    LoadEntry values;
+    SourceVariances errors;
+};
+
+void add(Totals& totals, const LoadEntry& entry, const SourceVariances& variances) {
+    totals.values = plus(totals.values, 1.0, squared(entry));
+    for (std::size_t source = 0; source < variances.size(); ++source) {
+        totals.errors[source] = plus(totals.errors[source], 1.0, squared(absolute(entry, variances[source])));
+    }
+}
+
+double root_ratio(double squares, double of_squares) {
+    return of_squares > 0.0 ? std::sqrt(squares / of_squares) : 0.0;
+}
+
+std::vector<ErrorShare> shares_of(const Totals& totals, const ModelErrors& model, bool has_symmetry) {
+    std::vector<ErrorShare> shares;
+    for (std::size_t i = 0; i < error_source_count; ++i) {
+        const auto source = static_cast<ErrorSource>(i);
+        if (source == ErrorSource::mesh && !model.mesh) continue;
+        if (source == ErrorSource::closure && !model.closure) continue;
+        if (source == ErrorSource::symmetry && !has_symmetry) continue;
+        const LoadEntryError& error = totals.errors[i];
+        const LoadEntry& value = totals.values;
+        shares.push_back({source, root_ratio(error.force.sum(), value.force.sum()),
+                          root_ratio(error.moment.sum(), value.moment.sum()),
+                          root_ratio(error.turbulent_kinetic_energy, value.turbulent_kinetic_energy),
+                          root_ratio(error.dissipation_rate, value.dissipation_rate)});
+    }
+    return shares;
+}
+
+bool forbids_something(const Symmetry& symmetry, const std::vector<ReynoldsTable>& tables) {
+    return std::any_of(tables.begin(), tables.end(), [&](const ReynoldsTable& table) {
+        return std::any_of(table.samples.begin(), table.samples.end(), [&](const DirectionSample& sample) {
+            const AllowedComponents allowed = allowed_components(symmetry, sample.direction);
+            return allowed.force + allowed.moment < 6;
+        });
+    });
+}
+
+ModelErrors errors_of_models(const Symmetry& symmetry, const std::vector<SolvedCase>& cases,
+                             const std::vector<ReynoldsTable>& tables) {
+    std::vector<double> reynolds_numbers;
+    std::vector<LoadScale> scales;
+    for (const ReynoldsTable& table : tables) {
+        reynolds_numbers.push_back(table.reynolds_number);
+        scales.push_back(table.scale);
+    }
+    const auto errors = [&](CasePurpose purpose) {
+        return model_errors(purpose, symmetry, cases, reynolds_numbers, scales);
+    };
+    return {errors(CasePurpose::mesh), errors(CasePurpose::closure)};
 }
 
 }  // namespace
 
-FilledMap fill_map(const Symmetry& symmetry, int subdivisions, const std::vector<DirectionSample>& samples) {
-    switch (symmetry.kind) {
-        case Symmetry::Kind::spherical:
-            return fill_spherical(symmetry, subdivisions, samples);
-        case Symmetry::Kind::axial:
-            return fill_axial(symmetry, subdivisions, samples);
-        case Symmetry::Kind::finite:
-            break;
+void fill_tables(LoadTables& tables, const Symmetry& symmetry, std::vector<SolvedCase>& cases) {
+    transfer_to_main_mesh(cases, main_reynolds_number(cases));
+    std::vector<ReynoldsTable> parts = symmetric_tables(symmetry, cases);
+    fit(parts, symmetry);
+    for (ReynoldsTable& part : parts) fill_nodes(part, tables.subdivisions);
+    const ModelErrors model = errors_of_models(symmetry, cases, parts);
+    Totals totals;
+    for (const ReynoldsTable& part : parts) {
+        tables.reynolds_numbers.push_back(part.reynolds_number);
+        const std::vector<SourceVariances> variances =
+            source_variances(part, symmetry, model, tables.subdivisions);
+        for (std::size_t node = 0; node < part.nodes.size(); ++node) {
+            const LoadEntry& entry = part.nodes[node];
+            LoadEntryError sum;
+            for (const LoadEntryError& variance : variances[node]) sum = plus(sum, 1.0, variance);
+            tables.entries.push_back(transformed(entry, tables.axes));
+            tables.errors.push_back(transformed_error(absolute(entry, sum), tables.axes));
+            add(totals, entry, variances[node]);
+        }
     }
-    return fill_finite(symmetry, subdivisions, samples);
+    tables.error_sources = shares_of(totals, model, forbids_something(symmetry, parts));
 }
 
 }  // namespace samara

@@ -2,24 +2,30 @@
 
 #include <vector>
 
-#include "converter/symmetric_loads.hpp"
+#include "converter/case_reduction.hpp"
+#include "samara/body/body.hpp"
 
 namespace samara {
 
-/// The entries of all nodes of an octahedral map for one Reynolds number, row by row, in map axes.
-struct FilledMap {
-    std::vector<LoadEntry> entries;
-    std::vector<LoadEntryError> errors;
-};
-
-/// Fills every node of the map from samples in the required_directions of the same symmetry and subdivisions
-/// (in any order), already passed through keep_symmetric_part:
-///  - finite: the exact image of a sample (node_images);
-///  - axial: force along the axis and across it, moment, k and epsilon interpolated over the polar angle by
-///    monotone cubics that keep their parity at the axis and at the mirror (M. Steffen, A simple method for
-///    monotonic interpolation in one dimension, Astronomy and Astrophysics 239, 1990); errors linearly;
-///  - spherical: the drag of the one sample.
-/// Throws Error naming the direction that has no sample.
-FilledMap fill_map(const Symmetry& symmetry, int subdivisions, const std::vector<DirectionSample>& samples);
+/// Fills the tables (Reynolds numbers, entries, errors, error sources) over all directions from the solved
+/// table cases, with `subdivisions` and `axes` of the tables as they stand. The Reynolds number with most
+/// directions is the main one; the others may have any of its directions (ReynoldsFit).
+///
+/// In `cases` the loads that the symmetry forbids are taken from every case, and the table cases' errors are
+/// widened by them (keep_symmetric_part).
+///
+/// The error of an entry has five sources, in quadrature, for k and epsilon as errors of their logarithms,
+/// from which k's is k (exp(s) - 1):
+///  - tail: of the iterations;
+///  - symmetry: keep_symmetric_part;
+///  - mesh and closure: model_errors;
+///  - interpolation: since a table is used between its nodes, the mean square over the centres of the cells
+///    around the node, of the interpolation between samples (ReynoldsFit::interpolation_error) and of the
+///    difference that the bilinear lookup makes to it.
+/// Sources of which the cases say nothing are absent from error_sources: mesh and closure without such
+/// cases, symmetry where it forbids nothing.
+///
+/// Throws Error where there is no table case, or where a Reynolds number mixes laminar and turbulent ones.
+void fill_tables(LoadTables& tables, const Symmetry& symmetry, std::vector<SolvedCase>& cases);
 
 }  // namespace samara

@@ -80,7 +80,9 @@ TEST_F(Convert, GivesTheTailOfTheIterationsAsError) {
     EXPECT_NEAR(error.turbulent_kinetic_energy, relative * entry.turbulent_kinetic_energy, 1e-10);
     EXPECT_NEAR(error.dissipation_rate, relative * entry.dissipation_rate, 1e-10);
     const LoadTables& tables = *conversion.body.tables;
-    EXPECT_EQ(tables.errors[tables.index(0, 2, 4)].force, error.force);
+    ASSERT_EQ(tables.error_sources.front().source, ErrorSource::tail);
+    EXPECT_NEAR(tables.error_sources.front().turbulent_kinetic_energy, relative, 1e-5);
+    EXPECT_GT(tables.errors[tables.index(0, 2, 4)].force.x(), error.force.x());
 }
 
 TEST_F(Convert, TakesWhatSymmetryForbidsAsError) {
@@ -125,6 +127,30 @@ TEST_F(Convert, NamesTheFirstCaseThatIsNotSolved) {
               folder_.path().string() +
                   ": the case case_03 is not solved (2 of 12 are not); run 'samara bake' again, which goes "
                   "on where it stopped");
+}
+
+TEST_F(Convert, FillsADirectionThatCouldNotBeSolvedAndSaysSo) {
+    std::filesystem::remove(folder_.case_path(2) / "provenance.json");
+    folder_.write("case_02/failed.json", R"({"reason": "never settled"})");
+    const Conversion conversion = convert_folder(folder_.path());
+    EXPECT_EQ(conversion.cases.size(), 11U);
+    const LoadTables& tables = *conversion.body.tables;
+    ASSERT_EQ(tables.left_out.size(), 1U);
+    EXPECT_EQ(tables.left_out[0].name, "case_02");
+    EXPECT_EQ(tables.left_out[0].reason, "never settled");
+    const Vector3d lost = octahedral_node(2, 2, 3);
+    EXPECT_LT(test::difference(look_up(tables, lost, 1e3), box_law(lost, 1e3)), 0.5);
+}
+
+TEST_F(Convert, RefusesWhereMoreThanOneDirectionInFiveCouldNotBeSolved) {
+    for (const std::size_t index : {6U, 7U, 8U, 9U, 0U, 1U, 2U, 3U}) {
+        std::filesystem::remove(folder_.case_path(index) / "provenance.json");
+        folder_.write(folder_.names()[index] + "/failed.json", R"({"reason": "never settled"})");
+    }
+    EXPECT_EQ(fault(),
+              (folder_.path() / "plan.json").string() +
+                  ": 4 of the 6 directions at Reynolds number 1000 could not be solved, more than one "
+                  "in five; the first is case_00: never settled; run 'samara bake' again");
 }
 
 TEST_F(Convert, NamesTheCaseThatDiverged) {
@@ -177,9 +203,11 @@ TEST_F(Convert, RefusesAPlanOfAnotherBody) {
 
 TEST_F(Convert, NamesADirectionThatThePlanForgot) {
     nlohmann::json plan = nlohmann::json::parse(read_bytes(folder_.path() / "plan.json"));
-    plan["cases"].erase(7);
+    plan["cases"].erase(6);
+    plan["cases"].erase(0);
     folder_.write("plan.json", plan.dump());
-    EXPECT_THAT(fault(), HasSubstr("plan.json: Reynolds number 10000: no case in the direction (0.707107, "));
+    EXPECT_THAT(fault(),
+                HasSubstr("plan.json: Reynolds number 1000: no case in the direction (1, 0, 0), which"));
 }
 
 TEST_F(Convert, RefusesDamagedPlansInOneLine) {

@@ -11,35 +11,41 @@
 #include "samara/base/error.hpp"
 #include "samara/body/octahedral_map.hpp"
 #include "support/expect_error.hpp"
-#include "support/temporary_folder.hpp"
 #include "symmetry_groups.hpp"
+#include "table_cases.hpp"
 
 namespace samara {
 namespace {
 
 using Law = std::function<LoadEntry(const Vector3d&)>;
 
-std::vector<DirectionSample> solve(const Symmetry& symmetry, int n, const Law& law) {
-    std::vector<DirectionSample> samples;
-    for (const Vector3d& direction : required_directions(symmetry, n)) {
-        samples.push_back({direction, law(direction), {}});
-    }
-    keep_symmetric_part(symmetry, samples);
-    return samples;
+std::vector<SolvedCase> solve(const Symmetry& symmetry, int n, const Law& law, double reynolds_number = 1e4) {
+    return test::solved_cases(required_directions(symmetry, n), law, reynolds_number);
 }
 
-/// The largest difference from the law over all nodes of the map filled from the required directions.
-double largest_error(const Symmetry& symmetry, int n, const Law& law) {
-    const FilledMap map = fill_map(symmetry, n, solve(symmetry, n, law));
+/// The tables on a map with `stored` subdivisions, by cases in the directions of one with `n`.
+LoadTables filled(const Symmetry& symmetry, int n, const Law& law, int stored) {
+    std::vector<SolvedCase> cases = solve(symmetry, n, law);
+    return test::filled(symmetry, stored, cases);
+}
+
+/// The largest difference from the law over all nodes of the stored map.
+double largest_error(const Symmetry& symmetry, int n, const Law& law, int stored) {
+    const LoadTables map = filled(symmetry, n, law, stored);
     double largest = 0.0;
     std::size_t node = 0;
-    for (int row = 0; row <= 2 * n; ++row) {
-        for (int column = 0; column <= 2 * n; ++column) {
-            const LoadEntry exact = law(octahedral_node(n, row, column));
-            largest = std::max(largest, test::difference(map.entries.at(node++), exact));
+    for (int row = 0; row <= 2 * stored; ++row) {
+        for (int column = 0; column <= 2 * stored; ++column) {
+            const LoadEntry exact = law(octahedral_node(stored, row, column));
+            const LoadEntry found = transformed(map.entries.at(node++), map.axes.transpose());
+            largest = std::max(largest, test::difference(found, exact));
         }
     }
     return largest;
+}
+
+double largest_error(const Symmetry& symmetry, int n, const Law& law) {
+    return largest_error(symmetry, n, law, n);
 }
 
 Symmetry axial(int column, bool mirrored) {
@@ -103,9 +109,9 @@ TEST(FilledMap, HasEqualEntriesAtTheSeam) {
     constexpr int n = 4;
     constexpr std::size_t size = 2 * n + 1;
     for (const Symmetry& symmetry : {test::box_symmetry(), Symmetry{}, axial(0, true), axial(2, false)}) {
-        std::vector<DirectionSample> samples = solve(symmetry, n, test::BoxLaw{});
-        for (DirectionSample& sample : samples) sample.error.force = sample.direction.cwiseAbs();
-        const FilledMap map = fill_map(symmetry, n, samples);
+        std::vector<SolvedCase> cases = solve(symmetry, n, test::BoxLaw{});
+        for (SolvedCase& solved : cases) solved.sample.error.force = solved.sample.direction.cwiseAbs();
+        const LoadTables map = test::filled(symmetry, n, cases);
         for (std::size_t i = 0; i < size; ++i) {
             for (const std::size_t edge : {std::size_t{0}, size - 1}) {
                 const std::size_t here = edge * size + i;
@@ -139,7 +145,7 @@ TEST(FilledMap, OfABodyOfRevolutionIsExactAtTheAxisAndBroadside) {
         const Symmetry symmetry = axial(0, mirrored);
         const test::AxialLaw law{symmetry.axis, mirrored ? 0.0 : 1.0};
         constexpr int n = 3;
-        const FilledMap map = fill_map(symmetry, n, solve(symmetry, n, law));
+        const LoadTables map = filled(symmetry, n, law, n);
         for (const auto& [row, column] : {std::pair{3, 6}, {3, 0}, {3, 3}, {6, 3}, {0, 3}, {0, 0}}) {
             const LoadEntry exact = law(octahedral_node(n, row, column));
             const auto node = static_cast<std::size_t>(row) * (2 * n + 1) + static_cast<std::size_t>(column);
@@ -151,13 +157,14 @@ TEST(FilledMap, OfABodyOfRevolutionIsExactAtTheAxisAndBroadside) {
 TEST(FilledMap, OfABodyOfRevolutionNeverOvershootsItsSamples) {
     const Symmetry symmetry = axial(2, false);
     constexpr int n = 3;
-    std::vector<DirectionSample> samples = solve(symmetry, n, test::AxialLaw{symmetry.axis, 1.0});
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-        samples[i].entry.turbulent_kinetic_energy = i < 3 ? 1e-6 : 1.0;  // a jump, as where the wake detaches
+    std::vector<SolvedCase> cases = solve(symmetry, n, test::AxialLaw{symmetry.axis, 1.0});
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        // A jump, as where the wake detaches.
+        cases[i].sample.entry.turbulent_kinetic_energy = i < 3 ? 1e-6 : 1.0;
     }
-    for (const LoadEntry& entry : fill_map(symmetry, n, samples).entries) {
-        EXPECT_GE(entry.turbulent_kinetic_energy, 1e-6);
-        EXPECT_LE(entry.turbulent_kinetic_energy, 1.0);
+    for (const LoadEntry& entry : test::filled(symmetry, 2 * n, cases).entries) {
+        EXPECT_GE(entry.turbulent_kinetic_energy, 1e-6 * (1.0 - 1e-12));
+        EXPECT_LE(entry.turbulent_kinetic_energy, 1.0 + 1e-12);
     }
 }
 
@@ -168,11 +175,147 @@ TEST(FilledMap, OfASphereIsTheSameDragEverywhere) {
     EXPECT_LT(largest_error(sphere, 4, law), 1e-15);
 }
 
-TEST(FilledMap, NamesTheDirectionThatWasNotSolved) {
-    std::vector<DirectionSample> samples = solve(test::box_symmetry(), 2, test::BoxLaw{});
-    samples.erase(samples.begin());
-    const std::string message = test::error_of([&] { fill_map(test::box_symmetry(), 2, samples); });
-    EXPECT_EQ(message, "no case in the direction (1, 0, 0), which the table needs");
+TEST(FilledMap, PassesThroughTheCasesOfACoarserMap) {
+    for (const Symmetry& symmetry : {test::box_symmetry(), Symmetry{}}) {
+        const LoadTables map = filled(symmetry, 2, test::BoxLaw{}, 6);
+        for (int row = 0; row <= 12; row += 3) {
+            for (int column = 0; column <= 12; column += 3) {
+                const LoadEntry& entry = map.entries[map.index(0, row, column)];
+                EXPECT_LT(test::difference(entry, test::BoxLaw{}(octahedral_node(6, row, column))), 1e-13);
+            }
+        }
+    }
+}
+
+TEST(FilledMap, OfABodyOfRevolutionPassesThroughTheCasesOfACoarserArc) {
+    const Symmetry symmetry = axial(0, true);
+    const test::AxialLaw law{symmetry.axis};
+    const LoadTables map = filled(symmetry, 2, law, 8);
+    for (const Vector3d& direction : required_directions(symmetry, 2)) {
+        EXPECT_LT(test::difference(look_up(map, direction, 1e4), law(direction)), 1e-13);
+    }
+}
+
+/// Far from the directions' polynomials, and smooth.
+LoadEntry wavy_law(const Vector3d& d) {
+    LoadEntry entry = test::BoxLaw{}(d);
+    entry.force *= 1.0 + 0.3 * std::cos(3.0 * d.z() * d.z());
+    entry.moment *= std::exp(0.5 * d.x() * d.x());
+    return entry;
+}
+
+TEST(FilledMap, ConvergesToASmoothLawWithSecondOrderOrBetter) {
+    for (const Symmetry& symmetry : {test::box_symmetry(), Symmetry{}}) {
+        const double coarse = largest_error(symmetry, 2, wavy_law, 16);
+        const double fine = largest_error(symmetry, 8, wavy_law, 16);
+        EXPECT_LT(coarse, 0.5);
+        EXPECT_GT(std::log(coarse / fine) / std::log(4.0), 1.9);
+    }
+}
+
+/// The root mean square difference of looked-up force and moment from the law, over many directions.
+double lookup_error(const LoadTables& tables, const Law& law) {
+    double squares = 0.0;
+    constexpr int count = 400;
+    for (int i = 0; i < count; ++i) {
+        const Vector3d direction = test::spiral_direction(i, count);
+        const LoadEntry error = plus(look_up(tables, direction, 1e4), -1.0, law(direction));
+        squares += error.force.squaredNorm() + error.moment.squaredNorm();
+    }
+    return std::sqrt(squares / count);
+}
+
+TEST(FilledMap, OfAFinerMapThanWasSolvedIsNearerToTheLawThanABilinearLookup) {
+    const Symmetry box = test::box_symmetry();
+    EXPECT_LT(lookup_error(filled(box, 4, wavy_law, 16), wavy_law),
+              0.4 * lookup_error(filled(box, 4, wavy_law, 4), wavy_law));
+}
+
+TEST(FilledMap, HasTheBodysSymmetryBetweenTheCases) {
+    const Symmetry cube = test::cube_symmetry();
+    const Law law = [](const Vector3d& d) {
+        const Vector3d cubes = d.array().cube();
+        return LoadEntry{-d - 0.5 * cubes, d.cross(cubes), 0.01 + 0.02 * cubes.cwiseAbs().sum(), 0.02};
+    };
+    const LoadTables map = filled(cube, 2, law, 6);
+    for (int row = 0; row <= 12; ++row) {
+        for (int column = 0; column <= 12; ++column) {
+            const Vector3d node = octahedral_node(6, row, column);
+            const LoadEntry& entry = map.entries[map.index(0, row, column)];
+            for (const Matrix3d& element : cube.elements) {
+                const LoadEntry image = look_up(map, element * node, 1e4);
+                EXPECT_LT(test::difference(image, transformed(entry, element)), 1e-9);
+            }
+        }
+    }
+}
+
+TEST(FilledMap, KeepsTurbulencePositiveAndLaminarFlowWithoutAny) {
+    const auto steep = [](const Vector3d& d) {
+        LoadEntry entry = test::BoxLaw{}(d);
+        entry.turbulent_kinetic_energy = std::exp(-8.0 * d.x() * d.x());
+        return entry;
+    };
+    for (const LoadEntry& entry : filled(test::box_symmetry(), 2, steep, 8).entries) {
+        EXPECT_GT(entry.turbulent_kinetic_energy, 0.0);
+    }
+    const auto laminar = [](const Vector3d& d) {
+        const LoadEntry entry = test::BoxLaw{}(d);
+        return LoadEntry{entry.force, entry.moment, 0.0, 0.0};
+    };
+    const LoadTables map = filled(test::box_symmetry(), 2, laminar, 4);
+    for (std::size_t i = 0; i < map.entries.size(); ++i) {
+        EXPECT_EQ(map.entries[i].turbulent_kinetic_energy, 0.0);
+        EXPECT_EQ(map.errors[i].turbulent_kinetic_energy, 0.0);
+        EXPECT_GT(map.errors[i].force.norm(), 0.0);
+    }
+}
+
+TEST(FilledMap, RefusesAMixtureOfLaminarAndTurbulentCases) {
+    std::vector<SolvedCase> cases = solve(test::box_symmetry(), 2, test::BoxLaw{});
+    cases[1].sample.entry.turbulent_kinetic_energy = 0.0;
+    EXPECT_EQ(test::error_of([&] { test::filled(test::box_symmetry(), 2, cases); }),
+              "Reynolds number 10000: laminar and turbulent cases are mixed");
+}
+
+TEST(FilledMap, OfAnotherReynoldsNumberNeedsFewDirections) {
+    const Symmetry box = test::box_symmetry();
+    const auto slower = [](const Vector3d& d) {
+        LoadEntry entry = wavy_law(d);
+        entry.force *= 1.3;
+        entry.turbulent_kinetic_energy *= 0.5;
+        return entry;
+    };
+    std::vector<SolvedCase> cases = solve(box, 4, wavy_law, 1e4);
+    for (const SolvedCase& solved : solve(box, 2, slower, 1e3)) cases.push_back(solved);
+    const LoadTables map = test::filled(box, 4, cases);
+    EXPECT_EQ(map.reynolds_numbers, (std::vector<double>{1e3, 1e4}));
+    double largest = 0.0;
+    for (int row = 0; row <= 8; ++row) {
+        for (int column = 0; column <= 8; ++column) {
+            const Vector3d node = octahedral_node(4, row, column);
+            EXPECT_LT(test::difference(map.entries[map.index(1, row, column)], wavy_law(node)), 1e-13);
+            const LoadEntry& found = map.entries[map.index(0, row, column)];
+            EXPECT_NEAR(found.turbulent_kinetic_energy, slower(node).turbulent_kinetic_energy, 1e-4);
+            largest = std::max(largest, (found.force - slower(node).force).norm());
+        }
+    }
+    EXPECT_LT(largest, 0.08);  // of differences of up to 0.7
+}
+
+TEST(FilledMap, FillsACaseThatIsMissingFromTheOthersWithAWiderError) {
+    const Symmetry box = test::box_symmetry();
+    const LoadTables whole = filled(box, 4, wavy_law, 16);
+    std::vector<SolvedCase> cases = solve(box, 4, wavy_law);
+    const Vector3d lost = cases[3].sample.direction;
+    cases.erase(cases.begin() + 3);
+    const LoadTables map = test::filled(box, 16, cases);
+    const LoadEntry error = plus(look_up(map, lost, 1e4), -1.0, wavy_law(lost));
+    const LoadEntryError stated = look_up_error(map, lost, 1e4);
+    EXPECT_GT(error.force.norm(), 1e-6);
+    EXPECT_LT(error.force.norm(), 0.1);
+    EXPECT_LT(error.force.cwiseAbs().maxCoeff(), 2.0 * stated.force.maxCoeff());
+    EXPECT_GT(stated.force.x(), 1.3 * look_up_error(whole, lost, 1e4).force.x());
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "samara/base/version.hpp"
 #include "samara/body/dynamic_coefficients_file.hpp"
 #include "samara/body/surface_file.hpp"
+#include "samara/body/table_errors_file.hpp"
 #include "samara/files/hdf5_file.hpp"
 
 namespace samara {
@@ -146,6 +147,7 @@ void write_tables(Hdf5Writer& file, const LoadTables& tables) {
                "columns: the octahedral map's axes in body axes");
     write_entries(file, tables, tables.entries, "");
     write_entries(file, tables, tables.errors, "_error");
+    write_table_errors(file, tables);
     file.write_text("/tables/provenance", tables.provenance, "JSON: how each case was solved");
     file.attribute("/tables", "reference_length", tables.reference_length);
     file.attribute("/tables", "subdivisions", std::int64_t{tables.subdivisions});
@@ -174,6 +176,7 @@ LoadTables read_tables(const Hdf5Reader& file) {
     }
     tables.entries = read_entries(file, tables, "");
     tables.errors = read_entries(file, tables, "_error");
+    read_table_errors(file, tables);
     tables.provenance = file.text("/tables/provenance");
     return tables;
 }

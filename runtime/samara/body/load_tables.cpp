@@ -31,9 +31,9 @@ ReynoldsCell reynolds_cell(const std::vector<double>& reynolds_numbers, double r
             std::log(reynolds_number / *below) / std::log(*above / *below)};
 }
 
-}  // namespace
-
-LoadEntry look_up(const LoadTables& tables, const Vector3d& direction, double reynolds_number) noexcept {
+/// Interpolates entries or errors of the tables.
+LoadEntry interpolated(const LoadTables& tables, const std::vector<LoadEntry>& entries,
+                       const Vector3d& direction, double reynolds_number) noexcept {
     const OctahedralCell cell = octahedral_cell(tables.subdivisions, tables.axes.transpose() * direction);
     const ReynoldsCell reynolds = reynolds_cell(tables.reynolds_numbers, reynolds_number);
 
@@ -47,10 +47,21 @@ LoadEntry look_up(const LoadTables& tables, const Vector3d& direction, double re
                               (later != 0 ? reynolds.fraction : 1.0 - reynolds.fraction);
         if (weight == 0.0) continue;  // also keeps a table with one Reynolds number inside its bounds
         add_weighted(result,
-                     tables.entries[tables.index(reynolds.index + later, cell.row + up, cell.column + right)],
+                     entries[tables.index(reynolds.index + later, cell.row + up, cell.column + right)],
                      weight);
     }
     return result;
+}
+
+}  // namespace
+
+LoadEntry look_up(const LoadTables& tables, const Vector3d& direction, double reynolds_number) noexcept {
+    return interpolated(tables, tables.entries, direction, reynolds_number);
+}
+
+LoadEntryError look_up_error(const LoadTables& tables, const Vector3d& direction,
+                             double reynolds_number) noexcept {
+    return interpolated(tables, tables.errors, direction, reynolds_number);
 }
 
 }  // namespace samara

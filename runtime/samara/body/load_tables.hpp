@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "samara/base/linear_algebra.hpp"
+#include "samara/body/table_errors.hpp"
 
 namespace samara {
 
@@ -35,6 +36,8 @@ struct LoadTables {
     std::vector<LoadEntryError> errors;
     std::string quality;     ///< of the bake: smoke, preview, ...
     std::string provenance;  ///< JSON text: one object for each solved case (docs/file-formats)
+    std::vector<ErrorShare> error_sources;  ///< that `errors` hold; empty where the file does not say
+    std::vector<LeftOutCase> left_out;      ///< what the bake could not solve
 
     [[nodiscard]] int map_size() const { return 2 * subdivisions + 1; }
     [[nodiscard]] std::size_t index(int reynolds, int row, int column) const {
@@ -48,5 +51,9 @@ struct LoadTables {
 /// Re, held at the first and last Reynolds number. Never throws; tables must hold at least one Reynolds
 /// number.
 LoadEntry look_up(const LoadTables& tables, const Vector3d& direction, double reynolds_number) noexcept;
+
+/// The standard errors of look_up's values, themselves looked up in the same way.
+LoadEntryError look_up_error(const LoadTables& tables, const Vector3d& direction,
+                             double reynolds_number) noexcept;
 
 }  // namespace samara
