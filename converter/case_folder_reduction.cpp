@@ -1,6 +1,5 @@
 #include "converter/case_folder_reduction.hpp"
 
-#include <map>
 #include <optional>
 
 #include <fmt/format.h>
@@ -12,7 +11,7 @@
 namespace samara {
 namespace {
 
-/// The reason in a case's failed.json; nothing where there is none.
+/// The reason in a case's failed.json; nothing where there is none, or where the case was solved after all.
 std::optional<std::string> failure_of(const std::filesystem::path& folder) {
     const std::filesystem::path file = folder / "failed.json";
     if (is_solved(folder) || !std::filesystem::exists(file)) return std::nullopt;
@@ -41,10 +40,10 @@ FolderReduction reduce_folder(const std::filesystem::path& folder, const CasePla
     std::vector<const PlannedCase*> solved;
     std::vector<std::string> missing;
     for (const PlannedCase& planned : plan.cases) {
-        if (is_solved(folder / planned.name)) {
-            solved.push_back(&planned);
-        } else if (const std::optional<std::string> reason = failure_of(folder / planned.name)) {
+        if (const std::optional<std::string> reason = failure_of(folder / planned.name)) {
             reduction.left_out.push_back({planned.name, *reason});
+        } else if (plan.solved_by_user || is_solved(folder / planned.name)) {
+            solved.push_back(&planned);
         } else {
             missing.push_back(planned.name);
             reduction.left_out.push_back({planned.name, "is not solved yet"});
@@ -52,13 +51,9 @@ FolderReduction reduce_folder(const std::filesystem::path& folder, const CasePla
     }
     if (!missing.empty() && unsolved == UnsolvedCases::refuse) throw not_solved(folder, plan, missing);
 
-    std::map<std::string, std::vector<std::int64_t>> shells;
+    Shells shells;
     for (const PlannedCase* const planned : solved) {
-        auto shell = shells.find(planned->mesh);
-        if (shell == shells.end()) {
-            shell = shells.emplace(planned->mesh, shell_cells(folder / planned->mesh)).first;
-        }
-        reduction.cases.push_back(reduce_case(folder / planned->name, *planned, shell->second));
+        reduction.cases.push_back(reduce_case(folder, plan, *planned, shells));
         if (progress) progress(reduction.cases.size(), solved.size());
     }
     return reduction;

@@ -17,17 +17,18 @@ struct LeftOut {
 
 /// What the cases of a folder give.
 struct FolderReduction {
-    std::vector<SolvedCase> cases;  ///< in the plan's order, case axes; of every purpose
+    std::vector<SolvedCase> cases;  ///< in the plan's order, map axes; of every purpose
     std::vector<LeftOut> left_out;  ///< in the plan's order
 };
 
 /// What becomes of cases that are neither solved nor failed.
 enum class UnsolvedCases { refuse, leave_out };
 
-/// Reduces every case of the plan (reduce_case), each with the shell of the mesh that it names; a mesh is
-/// read once. A case with failed.json is left out with the reason that stands there. `progress` is told how
-/// many cases of how many are done. Throws Error where a case is damaged, and, unless `unsolved` says
-/// otherwise, where a case is neither solved nor failed (the message names the first).
+/// Reduces every case of the plan (reduce_case), each with the shell of the mesh FOLDER/MESH that it names,
+/// or of its own constant/polyMesh where there is no such folder; a mesh is read once. A case with
+/// failed.json is left out with the reason that stands there. `progress` is told how many cases of how many
+/// are done. Throws Error where a case is damaged, and, unless `unsolved` says otherwise, where a case is
+/// neither solved nor failed (the message names the first).
 FolderReduction reduce_folder(const std::filesystem::path& folder, const CasePlan& plan,
                               const std::function<void(std::size_t done, std::size_t total)>& progress = {},
                               UnsolvedCases unsolved = UnsolvedCases::refuse);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,33 +11,53 @@ namespace samara {
 
 /// What a case is solved for.
 enum class CasePurpose {
-    table,   ///< its loads go into the table
-    mesh,    ///< as some table case, on another mesh: their difference estimates the table's mesh error
-    closure  ///< as some table case, with another closure: their difference estimates the closure's error
+    table,    ///< its loads go into the table
+    mesh,     ///< as some table case, on another mesh: their difference estimates the table's mesh error
+    closure,  ///< as some table case, with another closure: their difference estimates the closure's error
+    start     ///< only where a case on a finer mesh starts from
 };
 
-/// One OpenFOAM case of a plan. Nondimensional: the body's speed, L and the fluid's density are 1.
+/// As plan.json words it: table, mesh, closure, start.
+std::string name_of(CasePurpose purpose);
+
+/// The body's scales in the units of a case; 1 where it is nondimensional, as those of `samara bake` are.
+struct CaseScales {
+    double length = 1.0;   ///< L
+    double speed = 1.0;    ///< U, of the body relative to the fluid
+    double density = 1.0;  ///< of the fluid, as the function object `forces` takes it (rhoInf)
+};
+
+/// One OpenFOAM case of a plan.
 struct PlannedCase {
     std::string name;           ///< of its folder
-    Vector3d direction;         ///< unit vector: the body's velocity relative to the fluid, case axes
+    Vector3d direction;         ///< unit vector: the body's velocity relative to the fluid, map axes
     double reynolds_number;     ///< U L / nu
     std::string mesh = "mesh";  ///< the folder of its mesh, beside its own
     CasePurpose purpose = CasePurpose::table;
-    std::string closure;  ///< kEpsilon, realizableKE, laminar, ...; empty: not said
+    std::string closure = {};  ///< kEpsilon, realizableKE, laminar, ...; empty: not said
+    CaseScales scales = {};
+    std::optional<double> averaging_start =
+        {};  ///< the first time that counts for means, where the plan says
 };
 
-/// plan.json of a folder of cases: what `samara bake` set out to solve.
+/// plan.json of a folder of cases (docs/file-formats): what `samara bake`, or the user, set out to solve.
 struct CasePlan {
-    std::string quality;      ///< smoke, preview, standard or high
-    int subdivisions = 1;     ///< of the octahedral map's edges
+    std::string quality;   ///< smoke, preview, standard or high; "user" where the user solved and says none
+    int subdivisions = 1;  ///< of the octahedral map's edges
     double reference_length;  ///< L (m)
-    Matrix3d axes;            ///< columns: the case axes, which are the map's, in body axes
+    Matrix3d axes;            ///< columns: the map's axes in body axes
+    Matrix3d case_axes;  ///< columns: the axes of the cases in body axes; those of the map for `samara bake`
+    bool solved_by_user = false;  ///< the cases need no provenance.json to count as solved
     std::vector<PlannedCase> cases;
+
+    /// Turns vectors in case axes into map axes.
+    [[nodiscard]] Matrix3d to_map_axes() const { return axes.transpose() * case_axes; }
 };
 
-/// Reads FOLDER/plan.json. Throws Error where there is none, where it is no JSON, or where an entry is
-/// missing or breaks a rule: axes that are no rotation, directions that are no unit vectors, numbers that are
-/// not positive, no cases, two of one name.
+/// Reads FOLDER/plan.json. Where the user solved the cases, quality, reference_length and axes may be absent:
+/// the last two are then those of FOLDER/body.body.h5. Throws Error where there is no plan, where it is no
+/// JSON, or where an entry is missing or breaks a rule: axes that are no rotation, directions that are no
+/// unit vectors, numbers that are not positive, no cases, two of one name, two of the same flow and purpose.
 CasePlan read_case_plan(const std::filesystem::path& folder);
 
 }  // namespace samara

@@ -15,6 +15,7 @@ class FoamDictionary {
     /// Reads the file, with or without a FoamFile header. Throws Error with file and line.
     explicit FoamDictionary(const std::filesystem::path& file);
 
+    [[nodiscard]] bool has(const std::string& name) const { return entries_.contains(name); }
     /// The entry's text. Throws Error where there is none.
     [[nodiscard]] const std::string& text(const std::string& name) const;
     /// The entry as a number. Throws Error where it is none.

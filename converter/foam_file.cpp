@@ -1,5 +1,6 @@
 #include "converter/foam_file.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <type_traits>
@@ -12,31 +13,53 @@
 namespace samara {
 namespace {
 
-/// Reads "LSB;label=32;scalar=64".
+std::string_view without_quotes(std::string_view text) {
+    const bool quoted = text.size() >= 2 && text.starts_with('"') && text.ends_with('"');
+    return quoted ? text.substr(1, text.size() - 2) : text;
+}
+
+/// Reads "LSB;label=32;scalar=64" of a binary file.
 void read_architecture(const FoamScanner& scanner, std::string_view words, FoamHeader& header) {
-    constexpr const char* own_order = std::endian::native == std::endian::little ? "LSB" : "MSB";
+    constexpr const char* other_order = std::endian::native == std::endian::little ? "MSB" : "LSB";
     const auto has = [&](std::string_view word) { return words.find(word) != std::string_view::npos; };
-    if (!has(own_order)) {
-        throw scanner.fault("is binary in another machine's byte order; run foamFormatConvert there first");
+    if (has(other_order)) {
+        throw scanner.fault(
+            "is binary in another machine's byte order; set 'writeFormat ascii' in system/controlDict there "
+            "and run foamFormatConvert");
     }
     header.label_bytes = has("label=64") ? 8 : 4;
     header.scalar_bytes = has("scalar=32") ? 4 : 8;
 }
 
+/// Passes over an entry's value: up to its semicolon, or a whole dictionary in braces.
+void skip_entry(FoamScanner& scanner) {
+    if (scanner.accept('{')) {
+        scanner.text_before('}');
+    } else {
+        scanner.text_before(';');
+    }
+}
+
+/// Versions differ in what else the header holds (arch, note, location, a dictionary meta) and in what they
+/// leave out.
 FoamHeader read_header(FoamScanner& scanner) {
     if (scanner.at_end() || scanner.peek() != 'F' || scanner.word() != "FoamFile") {
         throw scanner.fault("is not an OpenFOAM file: it does not begin with FoamFile");
     }
     FoamHeader header;
+    std::string architecture;
     scanner.expect('{');
     while (!scanner.accept('}')) {
         const std::string key(scanner.word());
-        const std::string value(scanner.word());
-        scanner.expect(';');
+        if (scanner.peek() == '{') {
+            skip_entry(scanner);
+            continue;
+        }
+        const std::string value(without_quotes(scanner.text_before(';')));
         if (key == "format") header.format = value;
         if (key == "class") header.class_name = value;
         if (key == "object") header.object = value;
-        if (key == "arch") read_architecture(scanner, value, header);
+        if (key == "arch") architecture = value;
     }
     if (header.format != "ascii" && header.format != "binary") {
         throw scanner.fault(
@@ -44,6 +67,7 @@ FoamHeader read_header(FoamScanner& scanner) {
                         "foamFormatConvert",
                         header.format));
     }
+    if (header.format == "binary") read_architecture(scanner, architecture, header);
     return header;
 }
 
@@ -131,15 +155,6 @@ std::vector<Value> read_list(FoamScanner& scanner, const FoamHeader& header) {
     return values;
 }
 
-/// Passes over an entry's value: up to its semicolon, or a whole dictionary in braces.
-void skip_entry(FoamScanner& scanner) {
-    if (scanner.accept('{')) {
-        scanner.text_before('}');
-    } else {
-        scanner.text_before(';');
-    }
-}
-
 template <typename Value>
 FoamField<Value> read_internal_field(FoamScanner& scanner, const FoamHeader& header) {
     FoamField<Value> field;
@@ -156,12 +171,18 @@ FoamField<Value> read_internal_field(FoamScanner& scanner, const FoamHeader& hea
     return field;
 }
 
+Error wrong_class(const FoamScanner& scanner, const FoamHeader& header, const std::string& wanted) {
+    return scanner.fault(fmt::format(
+        "holds a {}, not {}", header.class_name.empty() ? "thing of no class" : header.class_name, wanted));
+}
+
 template <typename Value>
 FoamField<Value> read_field(const std::filesystem::path& file, const std::string& class_name) {
     FoamScanner scanner(file);
     const FoamHeader header = read_header(scanner);
-    if (header.class_name != class_name && header.class_name != class_name + "::Internal") {
-        throw scanner.fault(fmt::format("holds a {}, not a {}", header.class_name, class_name));
+    // A field over the cells alone has the class of the field with "::Internal" after it.
+    if (header.class_name != class_name && !header.class_name.starts_with(class_name + "::")) {
+        throw wrong_class(scanner, header, "a " + class_name);
     }
     while (!scanner.at_end()) {
         const std::string_view key = scanner.word();
@@ -174,6 +195,21 @@ FoamField<Value> read_field(const std::filesystem::path& file, const std::string
         }
     }
     throw scanner.fault("has no internalField");
+}
+
+/// Reads "2 (4(0 1 2 3) 3(4 5 6))".
+FoamFaces read_plain_faces(FoamScanner& scanner, const FoamHeader& header) {
+    FoamFaces faces;
+    const std::int64_t count = scanner.integer();
+    scanner.expect('(');
+    faces.starts.push_back(0);
+    for (std::int64_t face = 0; face < count; ++face) {
+        const std::vector<std::int64_t> points = read_list<std::int64_t>(scanner, header);
+        faces.points.insert(faces.points.end(), points.begin(), points.end());
+        faces.starts.push_back(static_cast<std::int64_t>(faces.points.size()));
+    }
+    scanner.expect(')');
+    return faces;
 }
 
 }  // namespace
@@ -189,6 +225,10 @@ FoamField<Vector3d> read_vector_field(const std::filesystem::path& file) {
 std::vector<std::int64_t> read_cell_zone(const std::filesystem::path& file, const std::string& name) {
     FoamScanner scanner(file);
     const FoamHeader header = read_header(scanner);
+    if (header.class_name != "regIOobject" && header.class_name.find("Zone") == std::string::npos) {
+        throw wrong_class(scanner, header, "cell zones");
+    }
+    std::string others;
     const std::int64_t zones = scanner.integer();
     if (zones > 0) scanner.expect('(');
     for (std::int64_t zone = 0; zone < zones; ++zone) {
@@ -204,8 +244,45 @@ std::vector<std::int64_t> read_cell_zone(const std::filesystem::path& file, cons
             scanner.expect(';');
         }
         if (found == name) return cells;
+        others += (others.empty() ? " (it has: " : ", ") + found;
     }
-    throw scanner.fault(fmt::format("has no cell zone '{}'", name));
+    if (!others.empty()) others += ")";
+    throw scanner.fault(
+        fmt::format("has no cell zone '{}'{}; make it with topoSet (cellZoneSet)", name, others));
+}
+
+std::vector<std::int64_t> read_labels(const std::filesystem::path& file) {
+    FoamScanner scanner(file);
+    const FoamHeader header = read_header(scanner);
+    if (header.class_name != "labelList") throw wrong_class(scanner, header, "a labelList");
+    return read_list<std::int64_t>(scanner, header);
+}
+
+std::vector<Vector3d> read_points(const std::filesystem::path& file) {
+    FoamScanner scanner(file);
+    const FoamHeader header = read_header(scanner);
+    if (header.class_name != "vectorField") throw wrong_class(scanner, header, "a vectorField");
+    return read_list<Vector3d>(scanner, header);
+}
+
+FoamFaces read_faces(const std::filesystem::path& file) {
+    FoamScanner scanner(file);
+    const FoamHeader header = read_header(scanner);
+    FoamFaces faces;
+    if (header.class_name == "faceCompactList") {
+        faces.starts = read_list<std::int64_t>(scanner, header);
+        faces.points = read_list<std::int64_t>(scanner, header);
+    } else if (header.class_name == "faceList" && header.format == "ascii") {
+        faces = read_plain_faces(scanner, header);
+    } else {
+        throw wrong_class(scanner, header, "a faceList in ascii or a faceCompactList");
+    }
+    const bool ascending = std::is_sorted(faces.starts.begin(), faces.starts.end());
+    if (faces.starts.empty() || !ascending || faces.starts.front() != 0 ||
+        faces.starts.back() != static_cast<std::int64_t>(faces.points.size())) {
+        throw scanner.fault("its faces do not fit their points");
+    }
+    return faces;
 }
 
 }  // namespace samara

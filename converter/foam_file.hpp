@@ -11,11 +11,11 @@ namespace samara {
 
 /// The dictionary FoamFile at the top of every OpenFOAM file, as far as reading it needs it.
 struct FoamHeader {
-    std::string format;      ///< "ascii" or "binary"
-    std::string class_name;  ///< "volScalarField", ...
-    std::string object;      ///< the name of what the file holds
-    int label_bytes = 4;     ///< of a binary file's whole numbers
-    int scalar_bytes = 8;    ///< of a binary file's numbers
+    std::string format = "ascii";  ///< or "binary"
+    std::string class_name;        ///< "volScalarField", ...
+    std::string object;            ///< the name of what the file holds
+    int label_bytes = 4;           ///< of a binary file's whole numbers
+    int scalar_bytes = 8;          ///< of a binary file's numbers
 };
 
 /// The values of a field inside the mesh: one for each cell, or one for all.
@@ -29,9 +29,12 @@ struct FoamField {
     [[nodiscard]] bool covers(std::size_t cell) const { return uniform || cell < values.size(); }
 };
 
-/// The internalField of a volScalarField (or volScalarField::Internal) in the units of the file. ASCII, or
-/// binary of this machine's byte order. Throws Error with file and line where the file is not such a field,
-/// or is compressed (the message names the tool that unpacks it).
+// All files are read in ASCII and in binary of this machine's byte order, with labels of 32 or 64 and scalars
+// of 32 or 64 bits, compressed by gzip or not, with the headers of OpenFOAM v1912 to v2312 and 8 to 11.
+// Faults are Errors that name the file and the line.
+
+/// The internalField of a volScalarField (or volScalarField::Internal) in the units of the file; nothing
+/// after it is read. Throws Error where the file is no such field.
 FoamField<double> read_scalar_field(const std::filesystem::path& file);
 
 /// The same for a volVectorField.
@@ -39,5 +42,22 @@ FoamField<Vector3d> read_vector_field(const std::filesystem::path& file);
 
 /// The cells of the zone `name` of a cellZones file. Throws Error as above, and where it has no such zone.
 std::vector<std::int64_t> read_cell_zone(const std::filesystem::path& file, const std::string& name);
+
+/// A labelList: the file owner or neighbour of a mesh.
+std::vector<std::int64_t> read_labels(const std::filesystem::path& file);
+
+/// The file points of a mesh.
+std::vector<Vector3d> read_points(const std::filesystem::path& file);
+
+/// The faces of a mesh: face i has the points points[starts[i]] to points[starts[i + 1] - 1].
+struct FoamFaces {
+    std::vector<std::int64_t> starts;  ///< one more than there are faces
+    std::vector<std::int64_t> points;
+
+    [[nodiscard]] std::size_t size() const { return starts.size() - 1; }
+};
+
+/// The file faces of a mesh (faceList or faceCompactList).
+FoamFaces read_faces(const std::filesystem::path& file);
 
 }  // namespace samara

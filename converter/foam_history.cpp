@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <string_view>
 
 #include <fmt/format.h>
 
-#include "samara/base/content_hash.hpp"
+#include "converter/foam_bytes.hpp"
+#include "converter/time_folders.hpp"
 #include "samara/base/error.hpp"
 
 namespace samara {
@@ -33,57 +35,154 @@ std::string_view without_vector_brackets(std::string_view word) {
     return word;
 }
 
+void append_vector(std::vector<std::string>& names, const std::string& vector) {
+    for (const char* const axis : {"_x", "_y", "_z"}) names.push_back(vector + axis);
+}
+
+/// The names of columns in a heading such as "Time (total_x total_y total_z)", "Time volAverage(k)", or
+/// "Time forces(pressure viscous) moments(pressure viscous)", whose words in brackets are vectors.
 std::vector<std::string> column_names(std::string_view comment) {
     std::vector<std::string> names;
-    for (const std::string_view word : split(comment)) names.emplace_back(without_vector_brackets(word));
+    std::string group;  // "forces_" between its brackets
+    for (const std::string_view word : split(comment)) {
+        const std::size_t bracket = word.find('(');
+        const bool opens = bracket != std::string_view::npos && bracket > 0 && !word.ends_with(')');
+        if (opens) {
+            group = std::string(word.substr(0, bracket)) + "_";
+            append_vector(names, group + std::string(word.substr(bracket + 1)));
+        } else if (!group.empty()) {
+            const bool closes = word.ends_with(')');
+            append_vector(names, group + std::string(word.substr(0, word.size() - (closes ? 1 : 0))));
+            if (closes) group.clear();
+        } else {
+            names.emplace_back(without_vector_brackets(word));
+        }
+    }
     return names;
+}
+
+std::vector<double> numbers_in(std::string_view line) {
+    std::vector<double> row;
+    for (std::string_view word : split(line)) {
+        word = without_vector_brackets(word);
+        double value = 0.0;
+        const auto [rest, status] = std::from_chars(word.data(), word.data() + word.size(), value);
+        if (status == std::errc::invalid_argument || rest != word.data() + word.size()) {
+            throw Error(fmt::format("expected a number, found '{}'", word));
+        }
+        row.push_back(value);
+    }
+    return row;
+}
+
+void append_row(FoamHistory& history, std::vector<double> row) {
+    if (row.empty()) return;
+    if (row.size() != history.columns.size()) {
+        throw Error(fmt::format("has {} values for {} columns", row.size(), history.columns.size()));
+    }
+    if (!history.rows.empty() && !(row.front() > history.rows.back().front())) {
+        throw Error(fmt::format("the time {:.10g} comes after {:.10g}; times must ascend", row.front(),
+                                history.rows.back().front()));
+    }
+    history.rows.push_back(std::move(row));
+}
+
+/// As read_history, but a file without values is none of its concern.
+FoamHistory read_rows(const std::filesystem::path& file, CutLine cut_line) {
+    const FoamBytes bytes = read_foam_bytes(file);
+    const std::string_view text = bytes.text;
+    FoamHistory history{bytes.path, {}, {}};
+    int line_number = 0;
+    for (std::size_t start = 0; start < text.size();) {
+        const std::size_t end = text.find('\n', start);
+        const std::string_view line = text.substr(start, end - start);
+        const bool cut = end == std::string_view::npos;
+        start = cut ? text.size() : end + 1;
+        ++line_number;
+        try {
+            if (line.starts_with('#')) {
+                if (history.rows.empty()) history.columns = column_names(line.substr(1));
+            } else if (!cut) {
+                append_row(history, numbers_in(line));
+            } else if (cut_line == CutLine::refuse) {
+                throw Error(
+                    "ends within this line: the solver was stopped while it wrote; let it go on, or remove "
+                    "the line");
+            }
+        } catch (const Error& fault) {
+            throw Error(fmt::format("{}:{}: {}", bytes.path.string(), line_number, fault.what()));
+        }
+    }
+    return history;
+}
+
+void require_rows(const FoamHistory& history) {
+    if (history.rows.empty()) {
+        throw Error(fmt::format("{}: holds no values; the case was not solved", history.file.string()));
+    }
 }
 
 }  // namespace
 
-FoamHistory read_history(const std::filesystem::path& file) {
-    const std::string text = read_bytes(file);
-    FoamHistory history{file, {}, {}};
-    int line_number = 0;
-    const auto fault = [&](const std::string& what) {
-        return Error(fmt::format("{}:{}: {}", file.string(), line_number, what));
-    };
-    for (std::size_t start = 0; start < text.size();) {
-        const std::size_t end = std::min(text.find('\n', start), text.size());
-        const std::string_view line = std::string_view(text).substr(start, end - start);
-        start = end + 1;
-        ++line_number;
-        if (line.starts_with('#')) {
-            if (history.rows.empty()) history.columns = column_names(line.substr(1));
-            continue;
-        }
-        std::vector<double> row;
-        for (std::string_view word : split(line)) {
-            word = without_vector_brackets(word);
-            double value = 0.0;
-            const auto [rest, status] = std::from_chars(word.data(), word.data() + word.size(), value);
-            if (status == std::errc::invalid_argument || rest != word.data() + word.size()) {
-                throw fault(fmt::format("expected a number, found '{}'", word));
-            }
-            row.push_back(value);
-        }
-        if (row.empty()) continue;
-        if (row.size() != history.columns.size()) {
-            throw fault(fmt::format("has {} values for {} columns", row.size(), history.columns.size()));
-        }
-        history.rows.push_back(std::move(row));
-    }
-    if (history.rows.empty()) throw fault("holds no values; the case was not solved");
+FoamHistory read_history(const std::filesystem::path& file, CutLine cut_line) {
+    FoamHistory history = read_rows(file, cut_line);
+    require_rows(history);
     return history;
 }
 
-std::vector<double> FoamHistory::column(const std::string& name, double start) const {
+std::vector<std::filesystem::path> history_files(const std::filesystem::path& folder,
+                                                 const std::string& name) {
+    std::vector<std::filesystem::path> files;
+    for (const TimeFolder& run : time_folders(folder)) {
+        const std::string time = run.path.filename().string();
+        for (const std::string& file : {name + ".dat", name + "_" + time + ".dat"}) {
+            if (foam_file_exists(run.path / file)) files.push_back(run.path / file);
+        }
+    }
+    return files;
+}
+
+FoamHistory read_joined_history(const std::filesystem::path& folder, const std::string& name) {
+    const std::vector<std::filesystem::path> files = history_files(folder, name);
+    if (files.empty()) {
+        throw Error(
+            fmt::format("{}: has no {}.dat in any folder of a start time; the case was solved without "
+                        "the function object '{}', or not at all",
+                        folder.string(), name, folder.filename().string()));
+    }
+    FoamHistory joined;
+    for (const std::filesystem::path& file : files) {
+        FoamHistory part = read_rows(file, file == files.back() ? CutLine::refuse : CutLine::drop);
+        joined.file = part.file;
+        if (part.rows.empty()) continue;
+        if (!joined.rows.empty() && part.columns != joined.columns) {
+            throw Error(fmt::format("{}: its columns are not those of the runs before it", file.string()));
+        }
+        joined.columns = std::move(part.columns);
+        const double first = part.rows.front().front();
+        const auto later = [&](const std::vector<double>& row) { return row.front() >= first; };
+        joined.rows.erase(std::find_if(joined.rows.begin(), joined.rows.end(), later), joined.rows.end());
+        std::move(part.rows.begin(), part.rows.end(), std::back_inserter(joined.rows));
+    }
+    require_rows(joined);
+    return joined;
+}
+
+bool FoamHistory::has(const std::string& name) const {
+    return std::find(columns.begin(), columns.end(), name) != columns.end();
+}
+
+std::size_t FoamHistory::index(const std::string& name) const {
     const auto found = std::find(columns.begin(), columns.end(), name);
     if (found == columns.end()) throw Error(fmt::format("{}: has no column '{}'", file.string(), name));
-    const auto index = static_cast<std::size_t>(found - columns.begin());
+    return static_cast<std::size_t>(found - columns.begin());
+}
+
+std::vector<double> FoamHistory::column(const std::string& name, double start) const {
+    const std::size_t place = index(name);
     std::vector<double> values;
     for (const std::vector<double>& row : rows) {
-        if (row.front() >= start) values.push_back(row[index]);
+        if (row.front() >= start) values.push_back(row[place]);
     }
     return values;
 }

@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "samara/base/content_hash.hpp"
-
 namespace samara {
 namespace {
 
@@ -19,19 +17,11 @@ bool ends_word(char c) {
     return is_blank(c) || std::string_view("(){}[];\"").find(c) != std::string_view::npos;
 }
 
-std::string read_foam_bytes(const std::filesystem::path& file) {
-    const std::filesystem::path compressed = file.string() + ".gz";
-    if (!std::filesystem::exists(file) && std::filesystem::exists(compressed)) {
-        throw Error(fmt::format("{}: is compressed; unpack it with 'gunzip {}'", compressed.string(),
-                                compressed.string()));
-    }
-    return read_bytes(file);
-}
-
 }  // namespace
 
-FoamScanner::FoamScanner(std::filesystem::path file)
-    : path_(std::move(file)), text_(read_foam_bytes(path_)) {}
+FoamScanner::FoamScanner(const std::filesystem::path& file) : FoamScanner(read_foam_bytes(file)) {}
+
+FoamScanner::FoamScanner(FoamBytes bytes) : path_(std::move(bytes.path)), text_(std::move(bytes.text)) {}
 
 void FoamScanner::skip_comment() {
     const bool to_line_end = text_[place_ + 1] == '/';

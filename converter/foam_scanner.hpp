@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "converter/foam_bytes.hpp"
 #include "samara/base/error.hpp"
 
 namespace samara {
@@ -13,9 +14,10 @@ namespace samara {
 /// them are passed over. Every fault is an Error that names the file and the line.
 class FoamScanner {
   public:
-    /// Reads the file whole. Throws Error where it cannot be read, and where only a compressed copy exists.
-    explicit FoamScanner(std::filesystem::path file);
+    /// Reads the file, or its compressed copy, whole (read_foam_bytes).
+    explicit FoamScanner(const std::filesystem::path& file);
 
+    /// The file that was read.
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
     /// Whether nothing but blanks and comments is left.
     bool at_end();
@@ -39,6 +41,7 @@ class FoamScanner {
     [[nodiscard]] Error fault(std::string_view what) const;
 
   private:
+    explicit FoamScanner(FoamBytes bytes);
     void skip_blanks();
     void skip_comment();
     /// What stands at the place, in words for a message.

@@ -33,10 +33,16 @@ struct AllVariances {
     Variances dissipation_rate;
 };
 
-bool is_compared_with(const SolvedCase& table, const SolvedCase& other, double tolerance) {
-    if (table.purpose != CasePurpose::table || table.reynolds_number != other.reynolds_number) return false;
-    if ((table.sample.direction - other.sample.direction).norm() > tolerance) return false;
-    return other.purpose == CasePurpose::mesh ? table.closure == other.closure : table.mesh == other.mesh;
+/// Meshes are compared with the table's case, closures with the case of the table's closure on their mesh.
+bool is_base(const SolvedCase& base, CasePurpose purpose) {
+    return base.purpose == CasePurpose::table ||
+           (purpose == CasePurpose::closure && base.purpose == CasePurpose::mesh);
+}
+
+bool is_compared_with(const SolvedCase& base, const SolvedCase& other, double tolerance) {
+    if (base.reynolds_number != other.reynolds_number) return false;
+    if ((base.sample.direction - other.sample.direction).norm() > tolerance) return false;
+    return other.purpose == CasePurpose::mesh ? base.closure == other.closure : base.mesh == other.mesh;
 }
 
 /// The table's entry and those of the cases that are compared with it, in logarithms.
@@ -107,7 +113,7 @@ std::optional<RelativeErrors> model_errors(CasePurpose purpose, const Symmetry& 
                                            const std::vector<LoadScale>& scales) {
     AllVariances all;
     for (const SolvedCase& table : cases) {
-        if (table.purpose != CasePurpose::table) continue;
+        if (!is_base(table, purpose)) continue;
         const Group group = group_of(table, purpose, cases, direction_tolerance(symmetry));
         if (group.others.empty()) continue;
         add(all, group, variance_of(group, purpose), allowed_components(symmetry, table.sample.direction),

@@ -35,7 +35,8 @@ double mean(const std::vector<double>& series) {
 double standard_error(const std::vector<double>& series) {
     if (series.size() < 2) return 0.0;
     const auto batches = static_cast<std::size_t>(std::sqrt(static_cast<double>(series.size())));
-    return std::max(batch_error(series, std::max<std::size_t>(batches, 2)), batch_error(series, 2));
+    // The error by two batches is half the difference of their means.
+    return std::hypot(batch_error(series, std::max<std::size_t>(batches, 2)), batch_error(series, 2));
 }
 
 }  // namespace samara

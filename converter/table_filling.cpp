@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "converter/direction_sampling.hpp"
+#include "converter/mesh_transfer.hpp"
 #include "converter/model_errors.hpp"
 #include "converter/reynolds_fit.hpp"
 #include "samara/base/error.hpp"
@@ -80,6 +81,16 @@ std::vector<ReynoldsTable> symmetric_tables(const Symmetry& symmetry, std::vecto
     }
     if (tables.empty()) throw Error("has no solved case for the table");
     return tables;
+}
+
+/// That of most table cases; the lowest of equals.
+double main_reynolds_number(const std::vector<SolvedCase>& cases) {
+    std::map<double, int> counts;
+    for (const SolvedCase& solved : cases) {
+        if (solved.purpose == CasePurpose::table) ++counts[solved.reynolds_number];
+    }
+    const auto most = std::ranges::max_element(counts, {}, [](const auto& pair) { return pair.second; });
+    return most == counts.end() ? 0.0 : most->first;
 }
 
 void fit(std::vector<ReynoldsTable>& tables, const Symmetry& symmetry) {
@@ -260,6 +271,7 @@ ModelErrors errors_of_models(const Symmetry& symmetry, const std::vector<SolvedC
 }  // namespace
 
 void fill_tables(LoadTables& tables, const Symmetry& symmetry, std::vector<SolvedCase>& cases) {
+    transfer_to_main_mesh(cases, main_reynolds_number(cases));
     std::vector<ReynoldsTable> parts = symmetric_tables(symmetry, cases);
     fit(parts, symmetry);
     for (ReynoldsTable& part : parts) fill_nodes(part, tables.subdivisions);

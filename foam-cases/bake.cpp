@@ -9,6 +9,7 @@
 #include "foam-cases/body_preparation.hpp"
 #include "foam-cases/case_farm.hpp"
 #include "foam-cases/case_folder.hpp"
+#include "foam-cases/cluster_jobs.hpp"
 #include "foam-cases/folder_lock.hpp"
 #include "foam-cases/terminal_speed.hpp"
 #include "samara/base/error.hpp"
@@ -48,7 +49,9 @@ BakePreparation plan_of(const BakeRequest& request, const Body& body) {
     preparation.terminal_speed =
         terminal_speed(body, request.fluid, mass_of(request.mass, body), request.gravity);
     const double reynolds_number = terminal_reynolds_number(body, request.fluid, preparation.terminal_speed);
-    preparation.plan = plan_bake(body, request.quality, reynolds_number);
+    preparation.plan = request.probes > 0
+                           ? plan_probes(body, request.quality, reynolds_number, request.probes)
+                           : plan_bake(body, request.quality, reynolds_number, request.inflow);
     return preparation;
 }
 
@@ -59,15 +62,17 @@ Body named_body(const BakeRequest& request, const fs::path& folder) {
     return body;
 }
 
-void solve_and_convert(const BakeRequest& request, const Body& body, int jobs, BakeResult& result) {
+void solve_and_convert(const BakeRequest& request, const Body& body, const FarmOptions& farm,
+                       BakeResult& result) {
     const fs::path folder = case_folder_of(request.output);
     const fs::path templates = foam_cases_folder();
     const FolderLock lock(folder);
     Stopwatch watch;
     const BakePlan& plan = *result.preparation.plan;
+    end_earlier_jobs(folder);
     write_case_folder(folder, body, plan, templates);
     result.reused = count_solved(folder, plan);
-    solve_cases(folder, plan, jobs, templates);
+    result.left_out = solve_cases(folder, plan, farm, templates);
     result.case_seconds = watch.lap();
 
     Progress progress("converting", "cases");
@@ -89,12 +94,12 @@ BakePreparation prepare_bake(const BakeRequest& request) {
     return plan_of(request, named_body(request, folder.path()));
 }
 
-BakeResult bake_body(const BakeRequest& request, int jobs, const Planned& planned) {
+BakeResult bake_body(const BakeRequest& request, const FarmOptions& farm, const Planned& planned) {
     const TemporaryFolder temporary;
     const fs::path folder = case_folder_of(request.output);
     BakeResult result;
     Stopwatch watch;
-    if (request.tables) require_solvers();
+    if (request.tables) require_solvers(farm);
     Body body = named_body(request, temporary.path());
     result.preparation = plan_of(request, body);
     planned(result.preparation);
@@ -102,7 +107,7 @@ BakeResult bake_body(const BakeRequest& request, int jobs, const Planned& planne
     add_kirchhoff_tensor(body, folder / case_body_name, temporary.path());
     result.kirchhoff_seconds = watch.lap();
     if (request.tables) {
-        solve_and_convert(request, body, jobs, result);
+        solve_and_convert(request, body, farm, result);
     } else {
         write_body_file(request.output, body);
     }

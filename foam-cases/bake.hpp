@@ -4,9 +4,11 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "converter/convert.hpp"
 #include "foam-cases/bake_plan.hpp"
+#include "foam-cases/case_farm.hpp"
 #include "samara/scene/scene.hpp"
 
 namespace samara {
@@ -22,6 +24,8 @@ struct BakeRequest {
     double gravity = 9.81;   ///< m/s^2
     BakeQuality quality;
     bool tables = true;  ///< false: mesh and Kirchhoff tensor alone
+    Inflow inflow;
+    int probes = 0;  ///< above 0: so many cases between the tables' nodes, written as CSV, in place of tables
 };
 
 /// What is known before anything is solved.
@@ -33,7 +37,8 @@ struct BakePreparation {
 struct BakeResult {
     BakePreparation preparation;
     std::optional<Conversion> conversion;
-    std::size_t reused = 0;     ///< cases that an earlier bake had solved
+    std::size_t reused = 0;  ///< cases that an earlier bake had solved
+    std::vector<LeftOutCase> left_out;
     double mesh_seconds = 0.0;  ///< wall clock, as the next three
     double kirchhoff_seconds = 0.0;
     double case_seconds = 0.0;  ///< of the cases, their mesh included
@@ -46,14 +51,10 @@ std::filesystem::path case_folder_of(const std::filesystem::path& output);
 /// Meshes the body in a temporary folder and plans its cases; writes nothing else. Throws Error.
 BakePreparation prepare_bake(const BakeRequest& request);
 
-/// Meshes the body, computes its Kirchhoff tensor, solves its cases in case_folder_of(output), `jobs` at
-/// once, and writes the body file with its tables. What an earlier call solved on the same inputs is reused.
+/// Meshes the body, computes its Kirchhoff tensor, solves its cases in case_folder_of(output), and
+/// writes the body file with its tables. What an earlier call solved on the same inputs is reused.
 /// `planned` is told of the plan before anything long begins. Throws Error.
-BakeResult bake_body(const BakeRequest& request, int jobs,
+BakeResult bake_body(const BakeRequest& request, const FarmOptions& farm,
                      const std::function<void(const BakePreparation&)>& planned);
-
-/// The largest Reynolds number at which the flow around a blunt body is still free of turbulence, so that the
-/// k-epsilon model does not hold: some 300 for a sphere's wake (Johnson & Patel, J. Fluid Mech. 378, 1999).
-inline constexpr double laminar_reynolds_number = 300.0;
 
 }  // namespace samara

@@ -11,6 +11,7 @@
 
 #include "foam-cases/bake.hpp"
 #include "foam-cases/bake_report.hpp"
+#include "foam-cases/cluster_jobs.hpp"
 #include "foam-cases/terminal_speed.hpp"
 #include "samara/base/error.hpp"
 #include "samara/body/body_file.hpp"
@@ -28,6 +29,7 @@ struct BakeOptions {
     std::string fluid = "water";
     double density = 1200.0;
     int jobs = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 1024);
+    std::string cluster;
     std::string quality = "preview";
     bool dry_run = false;
 };
@@ -96,7 +98,8 @@ nlohmann::json run_requests(const std::vector<BakeRequest>& requests, const Bake
             one = bake_as_json(request, preparation);
         } else {
             if (request.output.has_parent_path()) fs::create_directories(request.output.parent_path());
-            const BakeResult result = bake_body(request, options.jobs, warn_of_laminar_flow);
+            const BakeResult result =
+                bake_body(request, {options.jobs, options.cluster}, warn_of_laminar_flow);
             if (!quiet) print_result(request, result);
             one = bake_as_json(request, result);
         }
@@ -117,6 +120,10 @@ int run(int argc, const char* const* argv) {
     arguments.choice("--fluid", options.fluid, {"water", "air"}, "that the shape falls in, at 20 C");
     arguments.option("--density", options.density, "of the body (kg/m^3)", 1e-3, 1e6);
     arguments.option("--jobs", options.jobs, "cases solved at once", 1, 4096);
+    arguments.option(
+        "--cluster", options.cluster,
+        "a command of Slurm that submits a job, as \"sbatch --partition=short\": solves each case "
+        "as a job there, --jobs of them at once; the output is in a folder that the nodes share");
     arguments.choice("--quality", options.quality, bake_quality_names(),
                      "smoke: seconds, for tests only; preview: about two minutes on two cores");
     arguments.flag("--dry-run", options.dry_run, "only say what would be solved and how long it would take");
@@ -130,6 +137,7 @@ int run(int argc, const char* const* argv) {
         "          samara bake scene.toml -o bodies",
         terminal_drag_coefficient));
     return run_program(argc, argv, arguments, [&] {
+        if (arguments.given("--cluster")) require_sbatch(options.cluster);
         return run_requests(requests_for(options, arguments), options, arguments.json());
     });
 }

@@ -15,28 +15,10 @@
 namespace samara {
 namespace {
 
-// Measured with simpleFoam v1912 on meshes of 6,000 to 21,000 cells; snappyHexMesh per cell of the result.
-constexpr double seconds_per_cell_and_iteration = 2.2e-6;
-constexpr double seconds_per_cell_of_mesh = 1.5e-4;
-
-BakeQuality smoke_quality() {
-    BakeQuality quality;
-    quality.name = "smoke";
-    quality.most_subdivisions = 2;
-    quality.background_cell = 2.0;
-    quality.mesh.layers = 2;
-    quality.mesh.refinement_shells = {{0.4, 4}, {1.2, 3}, {3.0, 2}, {5.0, 1}};
-    quality.iterations = 60;
-    quality.averaged_iterations = 20;
-    return quality;
-}
-
-BakeQuality preview_quality() {
-    BakeQuality quality;
-    quality.name = "preview";
-    quality.mesh.refinement_shells = {{0.2, 4}, {0.6, 3}, {1.5, 2}, {3.0, 1}};
-    return quality;
-}
+// Measured with simpleFoam v1912 on meshes of 6,000 to 58,000 cells; snappyHexMesh per cell of the result.
+constexpr double seconds_per_cell_and_iteration = 1.5e-6;
+constexpr double seconds_per_case = 1.0;  // starting programs, reading, writing
+constexpr double seconds_per_cell_of_mesh = 1.2e-4;
 
 double largest_distance_from_centroid(const Body& body) {
     double largest = 0.0;
@@ -82,45 +64,179 @@ double second_extent(const Body& body) {
 
 // A rod's surface is to have at least three cells across; snappyHexMesh would not see a thinner one. A sheet,
 // thin in one direction alone, needs no cells inside it.
-int surface_level_for(const BakeQuality& quality, double second_extent_over_length) {
+int surface_level_for(const FlowMesh& mesh, double second_extent_over_length) {
     constexpr int cells_across = 3;
     constexpr int most_further_levels = 3;
-    int level = quality.mesh.surface_level;
-    while (level < quality.mesh.surface_level + most_further_levels &&
-           cells_across * quality.background_cell > std::ldexp(second_extent_over_length, level)) {
+    int level = mesh.surface_level;
+    while (level < mesh.surface_level + most_further_levels &&
+           cells_across * mesh.background_cell > std::ldexp(second_extent_over_length, level)) {
         ++level;
     }
     return level;
 }
 
+// A wider box has background cells of twice the size; those that there were fill one more shell.
+void widen(FlowMesh& mesh, int box_half_width) {
+    const double shell = mesh.refinement_shells.back().first + 4.0 * mesh.background_cell;
+    for (auto& [distance, level] : mesh.refinement_shells) ++level;
+    mesh.refinement_shells.emplace_back(shell, 1);
+    ++mesh.surface_level;
+    mesh.background_cell *= 2.0;
+    mesh.box_half_width = box_half_width;
+}
+
 // The far boundary is to be at least ten L away, and four times the body's own reach.
-FlowMesh fitted_mesh(const BakeQuality& quality, const Body& body, double length) {
-    FlowMesh mesh = quality.mesh;
+FlowMesh fitted_mesh(FlowMesh mesh, const Body& body, double length) {
     const double reach = largest_distance_from_centroid(body) / length;
     const int needed = 2 * static_cast<int>(std::ceil(2.0 * reach));
-    mesh.box_half_width = std::max(mesh.box_half_width, needed);
-    mesh.background_cells =
-        static_cast<int>(std::lround(2.0 * mesh.box_half_width / quality.background_cell));
-    mesh.surface_level = surface_level_for(quality, second_extent(body) / length);
+    if (needed > mesh.box_half_width) widen(mesh, needed);
+    const int planned_level = mesh.surface_level;
+    mesh.surface_level = surface_level_for(mesh, second_extent(body) / length);
     // snappyHexMesh refines at a surface that its cells can see, and cells as large as the body do not see
     // it: so each level is reached through a shell, for the further ones of two cells' thickness.
-    for (int level = quality.mesh.surface_level + 1; level <= mesh.surface_level; ++level) {
-        const double thickness = 2.0 * quality.background_cell / std::ldexp(1.0, level);
+    for (int level = planned_level + 1; level <= mesh.surface_level; ++level) {
+        const double thickness = 2.0 * mesh.background_cell / std::ldexp(1.0, level);
         mesh.refinement_shells.insert(mesh.refinement_shells.begin(), {thickness, level});
     }
     return mesh;
 }
 
-}  // namespace
-
-std::vector<std::string> bake_quality_names() {
-    return {"smoke", "preview"};
+double cells_of(const BakePlan& plan, const std::string& mesh) {
+    for (std::size_t i = 0; i < plan.cells.size(); ++i) {
+        if (plan.quality.meshes[i].name == mesh) return plan.cells[i];
+    }
+    return 0.0;
 }
 
-BakeQuality bake_quality(const std::string& name) {
-    if (name == "smoke") return smoke_quality();
-    if (name == "preview") return preview_quality();
-    throw Error(fmt::format("there is no bake quality '{}'; choose smoke or preview", name));
+// The most subdivisions whose directions the quality affords, and a stored map whose nodes hold theirs.
+void choose_subdivisions(const Symmetry& symmetry, BakePlan& plan) {
+    const BakeQuality& quality = plan.quality;
+    plan.solved_subdivisions = quality.least_subdivisions;
+    // In multiples, so that the directions of the coarsest map are among them.
+    for (int finer = 2 * quality.least_subdivisions; finer <= quality.most_subdivisions;
+         finer += quality.least_subdivisions) {
+        const std::size_t directions = required_directions(symmetry, finer).size();
+        if (directions > static_cast<std::size_t>(quality.most_directions)) break;
+        plan.solved_subdivisions = finer;
+    }
+    const int solved = plan.solved_subdivisions;
+    plan.subdivisions = solved * ((quality.table_subdivisions + solved - 1) / solved);
+}
+
+std::string case_name(const char* kind, std::size_t index, const FlowMesh& mesh) {
+    return fmt::format("{}_{:02}_{}", kind, index, mesh.name.substr(mesh.name.find('_') + 1));
+}
+
+// Adds the main cases of one direction, from the coarsest mesh to the finest, each started from the one
+// before.
+void add_ladder(const char* kind, std::size_t index, const Vector3d& direction, double reynolds_number,
+                BakePlan& plan) {
+    const std::vector<FlowMesh>& meshes = plan.quality.meshes;
+    std::string before;
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+        BakeCase entry;
+        entry.name = case_name(kind, index, meshes[i]);
+        entry.direction = direction;
+        entry.reynolds_number = reynolds_number;
+        entry.mesh = meshes[i].name;
+        entry.closure = closure_at(reynolds_number);
+        entry.purpose = i + 1 == meshes.size()   ? CasePurpose::table
+                        : i + 2 == meshes.size() ? CasePurpose::mesh
+                                                 : CasePurpose::start;
+        entry.start_from = before;
+        before = entry.name;
+        plan.cases.push_back(entry);
+    }
+}
+
+// Adds a case beside each of `few`, which differs from it in what `change` does to it.
+template <typename Change>
+void add_beside(const std::vector<BakeCase>& few, const std::string& more, Change change, BakePlan& plan) {
+    for (const BakeCase& main : few) {
+        BakeCase entry = main;
+        entry.name = main.name + more;
+        entry.start_from = main.name;
+        change(entry);
+        plan.cases.push_back(entry);
+    }
+}
+
+double rounded(double reynolds_number) {
+    const double unit = std::pow(10.0, std::floor(std::log10(reynolds_number)) - 2.0);
+    return std::round(reynolds_number / unit) * unit;
+}
+
+// The main cases in the directions of the coarsest map on the mesh before the last.
+std::vector<BakeCase> few_of(const Symmetry& symmetry, const BakePlan& plan) {
+    const std::vector<FlowMesh>& meshes = plan.quality.meshes;
+    const std::string& mesh = meshes[meshes.size() < 2 ? 0 : meshes.size() - 2].name;
+    std::vector<BakeCase> few;
+    for (const Vector3d& direction : required_directions(symmetry, plan.quality.least_subdivisions)) {
+        const auto found = std::ranges::find_if(plan.cases, [&](const BakeCase& entry) {
+            return entry.mesh == mesh && (entry.direction - direction).norm() < direction_tolerance(symmetry);
+        });
+        if (found != plan.cases.end()) few.push_back(*found);
+    }
+    return few;
+}
+
+void plan_cases(const Symmetry& symmetry, double main_reynolds_number, BakePlan& plan) {
+    const BakeQuality& quality = plan.quality;
+    plan.reynolds_numbers = {main_reynolds_number};
+    const std::vector<Vector3d> directions = required_directions(symmetry, plan.solved_subdivisions);
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+        add_ladder("direction", i, directions[i], main_reynolds_number, plan);
+    }
+    const std::vector<BakeCase> few = few_of(symmetry, plan);
+    for (const double factor : quality.further_reynolds_numbers) {
+        const double reynolds_number = rounded(factor * main_reynolds_number);
+        plan.reynolds_numbers.push_back(reynolds_number);
+        const auto change = [&](BakeCase& entry) {
+            entry.reynolds_number = reynolds_number;
+            entry.closure = closure_at(reynolds_number);
+            entry.purpose = CasePurpose::table;
+        };
+        add_beside(few, fmt::format("_re_{}", reynolds_number), change, plan);
+    }
+    if (closure_at(main_reynolds_number) == "laminar") return;
+    for (const std::string& closure : quality.other_closures) {
+        const auto change = [&](BakeCase& entry) {
+            entry.closure = closure;
+            entry.purpose = CasePurpose::closure;
+        };
+        add_beside(few, "_" + closure, change, plan);
+    }
+}
+
+BakePlan plan_of_meshes(const Body& body, const BakeQuality& quality) {
+    BakePlan plan;
+    plan.quality = quality;
+    plan.reference_length = reference_length(body.moments.surface_area);
+    plan.axes = body.symmetry.axes;
+    for (FlowMesh& mesh : plan.quality.meshes) {
+        mesh = fitted_mesh(mesh, body, plan.reference_length);
+        plan.cells.push_back(estimated_cells(body, mesh));
+    }
+    return plan;
+}
+
+void estimate_cost(BakePlan& plan) {
+    for (const double cells : plan.cells) plan.cpu_seconds += seconds_per_cell_of_mesh * cells;
+    for (const BakeCase& entry : plan.cases) {
+        plan.cpu_seconds += seconds_per_case + seconds_per_cell_and_iteration * cells_of(plan, entry.mesh) *
+                                                   estimated_iterations(plan, entry);
+    }
+}
+
+}  // namespace
+
+std::string closure_at(double reynolds_number) {
+    return reynolds_number < laminar_reynolds_number ? "laminar" : "kEpsilon";
+}
+
+double estimated_iterations(const BakePlan& plan, const BakeCase& entry) {
+    // Means over the bakes in docs/bake.md.
+    return (entry.start_from.empty() ? 0.35 : 0.25) * plan.quality.most_iterations;
 }
 
 double estimated_cells(const Body& body, const FlowMesh& mesh) {
@@ -132,7 +248,7 @@ double estimated_cells(const Body& body, const FlowMesh& mesh) {
         return pi * distance + 2.0 * pi * width * distance * distance +
                4.0 / 3.0 * pi * distance * distance * distance;
     };
-    const double background_cell = 2.0 * mesh.box_half_width / mesh.background_cells;
+    const double background_cell = 2.0 * mesh.box_half_width / mesh.background_cells();
     const auto cells_per_volume = [&](int level) {
         return std::pow(std::ldexp(1.0, level) / background_cell, 3.0);
     };
@@ -147,27 +263,30 @@ double estimated_cells(const Body& body, const FlowMesh& mesh) {
     return cells + mesh.layers * pi / (surface_cell * surface_cell);
 }
 
-BakePlan plan_bake(const Body& body, const BakeQuality& quality, double reynolds_number) {
-    BakePlan plan;
-    plan.quality = quality;
-    plan.reference_length = reference_length(body.moments.surface_area);
-    plan.axes = body.symmetry.axes;
-    plan.subdivisions = quality.least_subdivisions;
-    std::vector<Vector3d> directions = required_directions(body.symmetry, plan.subdivisions);
-    for (int finer = plan.subdivisions + 1; finer <= quality.most_subdivisions; ++finer) {
-        std::vector<Vector3d> more = required_directions(body.symmetry, finer);
-        if (more.size() > static_cast<std::size_t>(quality.most_cases)) break;
-        plan.subdivisions = finer;
-        directions = std::move(more);
+BakePlan plan_bake(const Body& body, const BakeQuality& quality, double reynolds_number,
+                   const Inflow& inflow) {
+    BakePlan plan = plan_of_meshes(body, quality);
+    plan.inflow = inflow;
+    choose_subdivisions(body.symmetry, plan);
+    plan_cases(body.symmetry, reynolds_number, plan);
+    estimate_cost(plan);
+    return plan;
+}
+
+BakePlan plan_probes(const Body& body, const BakeQuality& quality, double reynolds_number, int count) {
+    BakePlan plan = plan_of_meshes(body, quality);
+    plan.reynolds_numbers = {reynolds_number};
+    const auto fraction = [](double value) { return value - std::floor(value); };
+    for (int i = 0; i < count; ++i) {
+        const double z = 1.0 - 2.0 * fraction(0.5 + 0.7548776662466927 * i);
+        const double angle = 2.0 * std::numbers::pi * fraction(0.5 + 0.5698402909980532 * i);
+        const double radius = std::sqrt(1.0 - z * z);
+        const Vector3d direction(radius * std::cos(angle), radius * std::sin(angle), z);
+        const double decades = i % 3 == 2 ? fraction(0.6180339887498949 * i) : 0.0;
+        add_ladder("probe", static_cast<std::size_t>(i), direction.normalized(),
+                   rounded(reynolds_number * std::pow(10.0, -decades)), plan);
     }
-    for (std::size_t i = 0; i < directions.size(); ++i) {
-        plan.cases.push_back({fmt::format("direction_{:02}", i), directions[i], reynolds_number});
-    }
-    plan.quality.mesh = fitted_mesh(quality, body, plan.reference_length);
-    plan.cells = estimated_cells(body, plan.quality.mesh);
-    plan.cpu_seconds =
-        plan.cells * (seconds_per_cell_of_mesh + seconds_per_cell_and_iteration * quality.iterations *
-                                                     static_cast<double>(plan.cases.size()));
+    estimate_cost(plan);
     return plan;
 }
 
@@ -179,11 +298,16 @@ nlohmann::json plan_json(const BakePlan& plan) {
     for (int row = 0; row < 3; ++row) {
         json["axes"].push_back({plan.axes(row, 0), plan.axes(row, 1), plan.axes(row, 2)});
     }
+    for (const FlowMesh& mesh : plan.quality.meshes) json["meshes"].push_back({{"name", mesh.name}});
     for (const BakeCase& entry : plan.cases) {
         json["cases"].push_back(
             {{"name", entry.name},
              {"direction", {entry.direction.x(), entry.direction.y(), entry.direction.z()}},
-             {"reynolds_number", entry.reynolds_number}});
+             {"reynolds_number", entry.reynolds_number},
+             {"mesh", entry.mesh},
+             {"purpose", name_of(entry.purpose)},
+             {"closure", entry.closure},
+             {"start_from", entry.start_from}});
     }
     return json;
 }

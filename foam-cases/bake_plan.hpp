@@ -1,64 +1,73 @@
 #pragma once
 
+#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "converter/case_plan.hpp"
+#include "foam-cases/bake_quality.hpp"
 #include "samara/body/body.hpp"
 
 namespace samara {
 
-/// How the mesh around a body is made; lengths over L.
-struct FlowMesh {
-    int box_half_width = 10;
-    int background_cells = 20;                              ///< along each edge of the box
-    int surface_level = 4;                                  ///< each level halves the background cells
-    int layers = 3;                                         ///< of cells along the surface
-    std::vector<std::pair<double, int>> refinement_shells;  ///< (distance from the body, level), outwards
+/// Turbulence of the fluid far from the body.
+struct Inflow {
+    double intensity =
+        0.01;  ///< rms fluctuation over the flow's speed: next to still, yet k-epsilon wakes up
+    /// Of the large eddies, over L: epsilon = C_mu^(3/4) k^(3/2) / length. None: the eddy viscosity is the
+    /// fluid's own.
+    std::optional<double> length;
 };
 
-/// What --quality stands for.
-struct BakeQuality {
-    std::string name;
-    int least_subdivisions = 2;  ///< of the map of directions, whatever the cost
-    int most_subdivisions = 8;
-    int most_cases =
-        16;  ///< more subdivisions than the least are taken while the cases are no more than this
-    double background_cell = 1.0;  ///< edge over L
-    FlowMesh mesh;                 ///< for a compact body; a long one gets a wider box
-    int iterations = 200;
-    int averaged_iterations = 50;  ///< the last of them
-};
+/// The paper's eq. 13: k = 3/2 U^2, that is an intensity of 1, and the edge of its grid's cells as length,
+/// which it does not give: here a quarter of L, as of 32 cells over 8 L.
+inline Inflow paper_inflow() {
+    return {1.0, 0.25};
+}
 
-/// The quality of that name; throws Error where there is none.
-BakeQuality bake_quality(const std::string& name);
-
-/// The names that bake_quality knows.
-std::vector<std::string> bake_quality_names();
-
-/// One OpenFOAM case.
-struct BakeCase {
-    std::string name;        ///< also its folder's
-    Vector3d direction;      ///< of the body's velocity relative to the fluid, unit vector, case axes
-    double reynolds_number;  ///< U L / nu
+/// One OpenFOAM case of a bake.
+struct BakeCase : PlannedCase {
+    std::string start_from;  ///< the case whose solution it starts from; empty: from the undisturbed flow
 };
 
 /// The cases around one body. Case axes: x_case = axes^T (x_body - centroid) / L.
 struct BakePlan {
-    BakeQuality quality;  ///< its mesh fitted to the body
-    int subdivisions = 1;
+    BakeQuality quality;            ///< its meshes fitted to the body
+    int subdivisions = 1;           ///< of the stored map
+    int solved_subdivisions = 1;    ///< of the map whose directions are solved; divides `subdivisions`
     double reference_length = 0.0;  ///< L (m)
     Matrix3d axes = Matrix3d::Identity();
+    Inflow inflow;
+    std::vector<double> reynolds_numbers;  ///< the main one first
     std::vector<BakeCase> cases;
-    double cells = 0.0;        ///< of the mesh, an estimate
-    double cpu_seconds = 0.0;  ///< of the mesh and all cases on one core, an estimate
+    std::vector<double> cells;  ///< of each mesh, an estimate
+    double cpu_seconds = 0.0;   ///< of the meshes and all cases on one core, an estimate
 };
 
-/// The cases that the quality asks for: the directions that the body's symmetry leaves to solve, each at the
-/// Reynolds number.
-BakePlan plan_bake(const Body& body, const BakeQuality& quality, double reynolds_number);
+/// The largest Reynolds number at which the flow around a blunt body is still free of turbulence, so that the
+/// k-epsilon model does not hold: some 300 for a sphere's wake (Johnson & Patel, J. Fluid Mech. 378, 1999).
+/// Cases below it are laminar.
+inline constexpr double laminar_reynolds_number = 300.0;
+
+/// The closure of a case at the Reynolds number, where none is asked for: kEpsilon, or laminar.
+std::string closure_at(double reynolds_number);
+
+/// The cases that the quality asks for, around the main Reynolds number: the directions that the body's
+/// symmetry leaves to solve on every mesh, and those of a coarser map for further Reynolds numbers and
+/// closures.
+BakePlan plan_bake(const Body& body, const BakeQuality& quality, double reynolds_number,
+                   const Inflow& inflow = {});
+
+/// Cases between the tables' nodes, to hold the tables against: `count` directions spread evenly over the
+/// sphere by an additive recurrence (M. Roberts' R2 sequence), two of three at the main Reynolds number, the
+/// others between it and a tenth of it; each from the coarsest mesh of the quality to the finest. Depends on
+/// the body, the quality and the Reynolds number alone; more of them begin with the same ones.
+BakePlan plan_probes(const Body& body, const BakeQuality& quality, double reynolds_number, int count);
+
+/// How many iterations the case will take, an estimate.
+double estimated_iterations(const BakePlan& plan, const BakeCase& entry);
 
 /// How many cells the mesh will have, within some 20 %: those of the background, the refined shells (their
 /// volumes as of a convex body's parallel bodies) and the layers.

@@ -6,6 +6,7 @@
 #include <string>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "samara/base/vector_json.hpp"
@@ -53,7 +54,7 @@ nlohmann::json base_json(const BakeRequest& request, const BakePreparation& prep
     json["cases_folder"] = case_folder_of(request.output).string();
     json["quality"] = plan.quality.name;
     json["terminal_speed"] = preparation.terminal_speed;
-    json["reynolds_numbers"] = {reynolds_number_of(plan)};
+    json["reynolds_numbers"] = plan.reynolds_numbers;
     json["reference_length"] = plan.reference_length;
     json["subdivisions"] = plan.subdivisions;
     return json;
@@ -76,7 +77,7 @@ nlohmann::json bake_as_json(const BakeRequest& request, const BakePreparation& p
                                  {"direction", as_json(entry.direction)},
                                  {"reynolds_number", entry.reynolds_number}});
     }
-    json["estimated_cells"] = std::round(preparation.plan->cells);
+    for (const double cells : preparation.plan->cells) json["estimated_cells"].push_back(std::round(cells));
     json["estimated_cpu_seconds"] = std::round(preparation.plan->cpu_seconds);
     return json;
 }
@@ -98,6 +99,10 @@ nlohmann::json bake_as_json(const BakeRequest& request, const BakeResult& result
                       {"entries", tables.entries.size()}};
     json["mesh"] = mesh_json(result.conversion->cases.front());
     json["reused_cases"] = result.reused;
+    json["left_out"] = nlohmann::json::array();
+    for (const LeftOutCase& failed : result.left_out) {
+        json["left_out"].push_back({{"name", failed.name}, {"reason", failed.reason}});
+    }
     return json;
 }
 
@@ -116,8 +121,8 @@ void print_preparation(const BakeRequest& request, const BakePreparation& prepar
                    entry.direction.y(), entry.direction.z());
     }
     const double at_once = std::min<double>(jobs, static_cast<double>(plan.cases.size()));
-    fmt::print("about {:.0f} cells each, {:.0f} CPU seconds in all, {:.0f} s with {} jobs\n", plan.cells,
-               plan.cpu_seconds, plan.cpu_seconds / at_once, jobs);
+    fmt::print("meshes of about {:.0f} cells, {:.0f} CPU seconds in all, {:.0f} s with {} jobs\n",
+               fmt::join(plan.cells, ", "), plan.cpu_seconds, plan.cpu_seconds / at_once, jobs);
 }
 
 void print_result(const BakeRequest& request, const BakeResult& result) {
@@ -138,6 +143,9 @@ void print_result(const BakeRequest& request, const BakeResult& result) {
                    direction.x(), direction.y(), direction.z(), drag_coefficient(solved),
                    solved.sample.entry.turbulent_kinetic_energy, solved.sample.entry.dissipation_rate,
                    number_in(provenance_of(solved), "cpu_seconds"));
+    }
+    for (const LeftOutCase& failed : result.left_out) {
+        fmt::print("{:<14} left out: {}\n", failed.name, failed.reason);
     }
     const nlohmann::json mesh = mesh_json(cases.front());
     if (mesh.is_object()) {

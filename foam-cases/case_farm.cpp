@@ -1,12 +1,19 @@
 #include "foam-cases/case_farm.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <cstdlib>
 #include <fstream>
+#include <functional>
+#include <optional>
 #include <sstream>
+#include <utility>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "converter/case_reduction.hpp"
+#include "foam-cases/cluster_jobs.hpp"
 #include "foam-cases/guarded_process.hpp"
 #include "samara/base/content_hash.hpp"
 #include "samara/base/error.hpp"
@@ -18,6 +25,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* mesh_record = "mesh.json";
+constexpr const char* failure_record = "failed.json";
+constexpr const char* check_log = "log.check";  // what a check says, in its last line
+
 std::string last_line(const fs::path& file) {
     if (!fs::exists(file)) return {};
     std::istringstream lines(read_bytes(file));
@@ -28,41 +39,171 @@ std::string last_line(const fs::path& file) {
     return last;
 }
 
-// The line that check_case.py left for the mesh or case, its paths taken from here.
-std::string fault_of(const fs::path& folder, const std::string& name) {
-    std::string line = last_line(folder / name / "log.check");
-    if (line.empty()) {
-        return fmt::format("{}: was not run; see {}", (folder / name).string(),
-                           (folder / "log.snakemake").string());
-    }
+// Paths inside the folder of cases, as its scripts name them, are given as seen from here.
+std::string with_paths_from_here(std::string line, const fs::path& folder, const std::string& name) {
     const std::string inside = " " + name + "/";
     const std::string outside = fmt::format(" {}/{}/", folder.string(), name);
     for (std::size_t at = line.find(inside); at != std::string::npos;
          at = line.find(inside, at + outside.size())) {
         line.replace(at, inside.size(), outside);
     }
-    return fmt::format("{}/{}", folder.string(), line);
+    return line;
 }
 
+// What went wrong with the mesh or case: the line that its script left, or that its cluster's job left.
+std::string fault_of(const fs::path& folder, const std::string& name) {
+    const std::string line = last_line(folder / name / check_log);
+    if (line.starts_with(name + ": ")) {
+        return fmt::format("{}/{}", folder.string(), with_paths_from_here(line, folder, name));
+    }
+    const std::string of_job = last_line(folder / name / job_log);
+    if (of_job.find("error:") != std::string::npos) {
+        return fmt::format("{}: its cluster job ended early: {}; see {}", (folder / name).string(), of_job,
+                           (folder / name / job_log).string());
+    }
+    return fmt::format("{}: was not run to its end; see {}", (folder / name).string(),
+                       (folder / "log.snakemake").string());
+}
+
+// Why the mesh or case is left out; nothing where it is not.
+std::optional<std::string> failure_of(const fs::path& folder, const std::string& name) {
+    const fs::path record = folder / name / failure_record;
+    if (!fs::exists(record)) return std::nullopt;
+    const auto json = nlohmann::json::parse(read_bytes(record), nullptr, false);
+    const std::string reason = json.is_object() ? json.value("reason", "") : "";
+    if (reason.empty()) return fmt::format("failed; see {}", (folder / name / check_log).string());
+    return with_paths_from_here(reason, folder, name);
+}
+
+std::vector<LeftOutCase> left_out_cases(const fs::path& folder, const BakePlan& plan) {
+    std::vector<LeftOutCase> left_out;
+    for (const BakeCase& entry : plan.cases) {
+        if (is_solved(folder / entry.name)) continue;
+        if (const auto reason = failure_of(folder, entry.name)) {
+            left_out.push_back({entry.name, *reason});
+        } else if (const auto of_mesh = failure_of(folder, entry.mesh)) {
+            left_out.push_back({entry.name, fmt::format("its mesh {} failed: {}", entry.mesh, *of_mesh)});
+        }
+    }
+    return left_out;
+}
+
+bool is_settled(const fs::path& folder, const BakeCase& entry) {
+    return is_solved(folder / entry.name) || fs::exists(folder / entry.name / failure_record) ||
+           fs::exists(folder / entry.mesh / failure_record);
+}
+
+// Reports that cases are neither solved nor left out, or that all are left out: by the fault of the first
+// case, those before the others that nothing is known against but that they did not run to their end.
 [[noreturn]] void report_failure(const fs::path& folder, const BakePlan& plan) {
-    if (!fs::exists(folder / "mesh/mesh.json")) throw Error(fault_of(folder, "mesh"));
-    const std::size_t failed = plan.cases.size() - count_solved(folder, plan);
-    if (failed == 0) {
+    std::vector<const BakeCase*> failed;
+    for (const BakeCase& entry : plan.cases) {
+        if (!is_solved(folder / entry.name)) failed.push_back(&entry);
+    }
+    if (failed.empty()) {
         throw Error(fmt::format("snakemake failed; see {}", (folder / "log.snakemake").string()));
     }
-    const auto first = std::find_if(plan.cases.begin(), plan.cases.end(),
-                                    [&](const BakeCase& entry) { return !is_solved(folder / entry.name); });
+    const auto rank = [&](const BakeCase* entry) {
+        return std::pair(is_settled(folder, *entry), !fs::exists(folder / entry->name / check_log));
+    };
+    const BakeCase& first = **std::ranges::min_element(failed, std::less<>(), rank);
+    if (!fs::exists(folder / first.mesh / mesh_record)) throw Error(fault_of(folder, first.mesh));
     throw Error(fmt::format("{} ({} of {} cases failed; the solved ones are kept for the next run)",
-                            fault_of(folder, first->name), failed, plan.cases.size()));
+                            fault_of(folder, first.name), failed.size(), plan.cases.size()));
 }
 
-/// How far a case has come, 0 to 1: a line of its history of forces for each iteration.
-double solved_share(const fs::path& case_folder, int iterations) {
-    if (is_solved(case_folder)) return 1.0;
-    std::ifstream history(case_folder / "postProcessing/forces/0/force.dat");
-    int lines = 0;
-    for (std::string line; std::getline(history, line);) lines += line.starts_with('#') ? 0 : 1;
-    return std::min(1.0, static_cast<double>(lines) / iterations);
+// The iteration at which the last line of the last round's history of forces stands; 0 where there is none.
+double last_iteration(const fs::path& case_folder) {
+    double last_round = -1.0;
+    fs::path history;
+    std::error_code none;
+    for (const auto& round : fs::directory_iterator(case_folder / "postProcessing/forces", none)) {
+        const double start = std::strtod(round.path().filename().c_str(), nullptr);
+        if (start <= last_round) continue;
+        last_round = start;
+        history = round.path() / "force.dat";
+    }
+    std::ifstream file(history, std::ios::binary | std::ios::ate);
+    if (!file) return std::max(0.0, last_round);
+    constexpr std::streamoff more_than_a_line = 1024;
+    file.seekg(std::max<std::streamoff>(0, file.tellg() - more_than_a_line));
+    double last = std::max(0.0, last_round);
+    // The first line may have lost its start; one without its end is still being written.
+    for (std::string line; std::getline(file, line) && !file.eof();) {
+        if (!line.starts_with('#')) last = std::strtod(line.c_str(), nullptr);
+    }
+    return last;
+}
+
+// What a case costs beside others: iterations times cells.
+double estimated_work(const BakePlan& plan, const BakeCase& entry) {
+    const auto mesh = std::ranges::find(plan.quality.meshes, entry.mesh, &FlowMesh::name);
+    const auto index = static_cast<std::size_t>(mesh - plan.quality.meshes.begin());
+    return estimated_iterations(plan, entry) * (index < plan.cells.size() ? plan.cells[index] : 1.0);
+}
+
+// How far a case has come, 0 to 1, where it takes so many iterations.
+double solved_share(const fs::path& case_folder, double iterations) {
+    if (is_solved(case_folder) || fs::exists(case_folder / failure_record)) return 1.0;
+    return std::min(1.0, last_iteration(case_folder) / iterations);
+}
+
+std::vector<const BakeCase*> unsettled(const fs::path& folder, const BakePlan& plan) {
+    std::vector<const BakeCase*> cases;
+    for (const BakeCase& entry : plan.cases) {
+        if (!is_settled(folder, entry)) cases.push_back(&entry);
+    }
+    return cases;
+}
+
+bool waits_for_failed_start(const fs::path& folder, const BakePlan& plan) {
+    return std::ranges::any_of(unsettled(folder, plan), [&](const BakeCase* entry) {
+        const auto start = std::ranges::find(plan.cases, entry->start_from, &BakeCase::name);
+        return start != plan.cases.end() && !is_solved(folder / start->name) && is_settled(folder, *start);
+    });
+}
+
+// Runs Snakemake over the cases that are not settled, to its end. Throws Error on an interruption.
+void run_snakemake(const fs::path& folder, const BakePlan& plan, const FarmOptions& options,
+                   const fs::path& templates) {
+    const std::vector<const BakeCase*> to_solve = unsettled(folder, plan);
+    Progress progress("baking", "cases");
+    const auto tick = [&, last = std::chrono::steady_clock::time_point()]() mutable {
+        const auto now = std::chrono::steady_clock::now();
+        if (now - last < std::chrono::seconds(1)) return;
+        last = now;
+        double done = 0.0;
+        double total = 0.0;
+        for (const BakeCase* entry : to_solve) {
+            const double work = estimated_work(plan, *entry);
+            done += work * solved_share(folder / entry->name, estimated_iterations(plan, *entry));
+            total += work;
+        }
+        const auto cases = static_cast<double>(to_solve.size());
+        progress.update(cases * done / total, cases);
+    };
+    std::vector<std::string> words = {"snakemake",
+                                      "--snakefile",
+                                      (templates / "Snakefile").string(),
+                                      "--directory",
+                                      folder.string(),
+                                      "--keep-going",
+                                      "--nolock",
+                                      "--ignore-incomplete",
+                                      "--rerun-triggers",
+                                      "mtime",
+                                      "--quiet",
+                                      "all"};
+    const std::vector<std::string> where =
+        options.cluster.empty() ? std::vector<std::string>{"--cores", std::to_string(options.jobs)}
+                                : cluster_words(folder, options, templates);
+    words.insert(words.end(), where.begin(), where.end());
+    const auto status = run_guarded(words, folder / "log.snakemake", fs::current_path(), tick);
+    end_earlier_jobs(folder);
+    if (status) return;
+    throw Error(fmt::format(
+        "interrupted: {} of {} cases are solved and kept in {}; the same command goes on from there",
+        count_solved(folder, plan), plan.cases.size(), folder.string()));
 }
 
 }  // namespace
@@ -73,15 +214,17 @@ std::size_t count_solved(const fs::path& folder, const BakePlan& plan) {
                       [&](const BakeCase& entry) { return is_solved(folder / entry.name); }));
 }
 
-void require_solvers() {
+void require_solvers(const FarmOptions& options) {
     struct Need {
         const char* program;
         const char* package;
     };
-    constexpr Need needs[] = {{"simpleFoam", "openfoam"},
-                              {"snappyHexMesh", "openfoam"},
-                              {"snakemake", "snakemake"},
-                              {"python3", "python3"}};
+    std::vector<Need> needs = {{"snakemake", "snakemake"}, {"python3", "python3"}};
+    if (options.cluster.empty()) {
+        needs.insert(needs.begin(), {{"simpleFoam", "openfoam"}, {"snappyHexMesh", "openfoam"}});
+    } else {
+        needs.insert(needs.end(), {{"squeue", "slurm-client"}, {"scancel", "slurm-client"}});
+    }
     std::string missing;
     std::string packages;
     for (const Need& need : needs) {
@@ -94,33 +237,23 @@ void require_solvers() {
                             missing, packages));
 }
 
-void solve_cases(const fs::path& folder, const BakePlan& plan, int jobs, const fs::path& templates) {
-    const std::size_t solved_before = count_solved(folder, plan);
-    const std::size_t to_solve = plan.cases.size() - solved_before;
-    if (to_solve == 0 && fs::exists(folder / "mesh/mesh.json")) return;
-    Progress progress("baking", "cases");
-    const auto tick = [&] {
-        double done = -static_cast<double>(solved_before);
-        for (const BakeCase& entry : plan.cases) {
-            done += solved_share(folder / entry.name, plan.quality.iterations);
-        }
-        progress.update(done, static_cast<double>(to_solve));
-    };
+std::vector<LeftOutCase> solve_cases(const fs::path& folder, const BakePlan& plan, const FarmOptions& options,
+                                     const fs::path& templates) {
+    end_earlier_jobs(folder);
     for (const BakeCase& entry : plan.cases) {
-        if (!is_solved(folder / entry.name)) fs::remove(folder / entry.name / "log.check");
+        if (!is_settled(folder, entry)) fs::remove(folder / entry.name / check_log);
     }
-    const auto status =
-        run_guarded({"snakemake", "--snakefile", (templates / "Snakefile").string(), "--directory",
-                     folder.string(), "--cores", fmt::format("{}", jobs), "--keep-going", "--nolock",
-                     "--ignore-incomplete", "--rerun-triggers", "mtime", "--quiet", "all"},
-                    folder / "log.snakemake", fs::current_path(), tick);
-    if (!status) {
-        throw Error(
-            fmt::format("interrupted: {} of {} cases are solved and kept in {}; the same command goes "
-                        "on from there",
-                        count_solved(folder, plan), plan.cases.size(), folder.string()));
+    // A case whose start failed starts afresh, which Snakemake knows of only when it begins once more.
+    std::size_t left = unsettled(folder, plan).size();
+    while (left > 0) {
+        run_snakemake(folder, plan, options, templates);
+        const std::size_t before = std::exchange(left, unsettled(folder, plan).size());
+        if (left == before || !waits_for_failed_start(folder, plan)) break;
     }
-    if (*status != 0 || count_solved(folder, plan) < plan.cases.size()) report_failure(folder, plan);
+    std::vector<LeftOutCase> left_out = left_out_cases(folder, plan);
+    const std::size_t solved = count_solved(folder, plan);
+    if (solved == 0 || solved + left_out.size() < plan.cases.size()) report_failure(folder, plan);
+    return left_out;
 }
 
 }  // namespace samara

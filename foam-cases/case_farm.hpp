@@ -1,23 +1,39 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "foam-cases/bake_plan.hpp"
 
 namespace samara {
 
+/// Where and how cases are solved.
+struct FarmOptions {
+    int jobs = 1;         ///< cases at once
+    std::string cluster;  ///< the command that submits a job to Slurm, "sbatch ..."; empty: on this machine
+};
+
 /// Throws Error naming every program that solving needs and that is not on PATH, with the Debian packages
-/// that bring them.
-void require_solvers();
+/// that bring them. On a cluster OpenFOAM need be on its nodes alone.
+void require_solvers(const FarmOptions& options);
 
 /// How many of the planned cases are solved.
 std::size_t count_solved(const std::filesystem::path& folder, const BakePlan& plan);
 
-/// Solves the cases of a folder written by write_case_folder that are not solved yet, `jobs` at once, with
-/// Snakemake; a case that fails leaves the others running. Progress goes to standard error. Throws Error
-/// where the mesh or a case failed (naming the first, its log, and how many), where the user interrupted it,
-/// and where another program is at work in the folder. Solved cases stay: the next call goes on from there.
-void solve_cases(const std::filesystem::path& folder, const BakePlan& plan, int jobs,
-                 const std::filesystem::path& templates);
+/// A case without a solution: it failed after all its retries, or its mesh could not be made.
+struct LeftOutCase {
+    std::string name;
+    std::string reason;  ///< one line that names the log
+};
+
+/// Solves the cases of a folder written by write_case_folder that are not solved yet, with
+/// Snakemake; a case that fails leaves the others running. Progress goes to standard error. Returns the cases
+/// that failed (they have a failed.json, or their mesh has) while others are solved. Throws Error where no
+/// case could be solved, where one is neither solved nor failed because a program was killed or the disk is
+/// full (naming the first, its log, and how many), and where the user interrupted it. Solved cases stay: the
+/// next call goes on from there.
+std::vector<LeftOutCase> solve_cases(const std::filesystem::path& folder, const BakePlan& plan,
+                                     const FarmOptions& options, const std::filesystem::path& templates);
 
 }  // namespace samara

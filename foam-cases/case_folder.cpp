@@ -1,5 +1,6 @@
 #include "foam-cases/case_folder.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -32,7 +33,8 @@ constexpr const char* mesh_files[] = {"Allrun",
 CaseFiles read_template(const fs::path& folder) {
     CaseFiles files;
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-        if (entry.is_regular_file()) {
+        // What Python compiled is no part of a case.
+        if (entry.is_regular_file() && entry.path().parent_path().filename() != "__pycache__") {
             files[fs::relative(entry.path(), folder)] = read_bytes(entry.path());
         }
     }
@@ -90,16 +92,16 @@ void write_files(const fs::path& folder, const CaseFiles& files) {
     }
 }
 
-void link_to_mesh(const fs::path& folder, const char* name) {
+void link_to_mesh(const fs::path& folder, const std::string& mesh, const char* name) {
     const fs::path link = folder / "constant" / name;
-    const fs::path target = fs::path("../../mesh/constant") / name;
+    const fs::path target = fs::path("../..") / mesh / "constant" / name;
     std::error_code none;
     if (fs::is_symlink(link) && fs::read_symlink(link, none) == target) return;
     fs::remove_all(link);
     fs::create_directory_symlink(target, link);
 }
 
-// Removes a record of success that belongs to other inputs, or that cannot be read.
+// Removes a record of success or failure that belongs to other inputs, or that cannot be read.
 void discard_stale(const fs::path& record, const std::string& hash) {
     if (!fs::exists(record)) return;
     const auto json = nlohmann::json::parse(read_bytes(record), nullptr, false);
@@ -110,22 +112,26 @@ void remove_unplanned_cases(const fs::path& folder, const BakePlan& plan) {
     std::vector<fs::path> unplanned;
     for (const auto& entry : fs::directory_iterator(folder)) {
         const std::string name = entry.path().filename().string();
-        bool planned = !name.starts_with("direction_");
-        for (const BakeCase& one : plan.cases) planned = planned || one.name == name;
+        bool planned =
+            !name.starts_with("direction_") && !name.starts_with("probe_") && !name.starts_with("mesh");
+        for (const BakeCase& one : plan.cases) planned = planned || one.name == name || one.mesh == name;
         if (!planned) unplanned.push_back(entry.path());
     }
     for (const fs::path& path : unplanned) fs::remove_all(path);
 }
 
-std::string write_mesh_case(const fs::path& folder, const CaseFiles& template_files, const Body& body,
-                            const BakePlan& plan) {
+// The first case of a mesh stands for it: parameters hold what its mesh needs.
+std::string write_mesh_case(const fs::path& folder, const CaseFiles& template_files, const std::string& stl,
+                            const BakePlan& plan, const FlowMesh& mesh) {
     CaseFiles files = template_files;
-    files["parameters"] = case_parameters(files.at("parameters"), plan, plan.cases.front());
-    files["constant/triSurface/body.stl"] = case_surface_stl(body, plan);
+    const BakeCase& first = *std::ranges::find(plan.cases, mesh.name, &BakeCase::mesh);
+    files["parameters"] = case_parameters(files.at("parameters"), plan, first);
+    files["constant/triSurface/body.stl"] = stl;
     const std::string hash = mesh_hash(files);
     // A mesh that was removed since is made again.
     const std::string needed = fs::exists(folder / "constant/polyMesh/cellZones") ? hash : "";
     discard_stale(folder / "mesh.json", needed);
+    discard_stale(folder / "failed.json", hash);
     write_files(folder, files);
     return hash;
 }
@@ -159,18 +165,26 @@ void write_case_folder(const fs::path& folder, const Body& body, const BakePlan&
     remove_unplanned_cases(folder, plan);
 
     nlohmann::json json = plan_json(plan);
-    const std::string of_mesh = write_mesh_case(folder / "mesh", template_files, body, plan);
-    json["mesh"]["inputs_hash"] = of_mesh;
+    const std::string stl = case_surface_stl(body, plan);
+    std::map<std::string, std::string> hashes;  // of the inputs, by the name of the mesh or case
+    for (std::size_t i = 0; i < plan.quality.meshes.size(); ++i) {
+        const FlowMesh& mesh = plan.quality.meshes[i];
+        hashes[mesh.name] = write_mesh_case(folder / mesh.name, template_files, stl, plan, mesh);
+        json["meshes"][i]["inputs_hash"] = hashes[mesh.name];
+    }
     for (std::size_t i = 0; i < plan.cases.size(); ++i) {
         const BakeCase& entry = plan.cases[i];
         CaseFiles files = template_files;
         files["parameters"] = case_parameters(files.at("parameters"), plan, entry);
-        const std::string hash = content_hash(of_mesh + hash_of(files));
+        const std::string start = entry.start_from.empty() ? "" : hashes.at(entry.start_from);
+        const std::string hash = content_hash(hashes.at(entry.mesh) + start + hash_of(files));
+        hashes[entry.name] = hash;
         json["cases"][i]["inputs_hash"] = hash;
         discard_stale(folder / entry.name / "provenance.json", hash);
+        discard_stale(folder / entry.name / "failed.json", hash);
         write_files(folder / entry.name, files);
-        link_to_mesh(folder / entry.name, "polyMesh");
-        link_to_mesh(folder / entry.name, "triSurface");
+        link_to_mesh(folder / entry.name, entry.mesh, "polyMesh");
+        link_to_mesh(folder / entry.name, entry.mesh, "triSurface");
     }
     write_plan(folder / "plan.json", json);
 }

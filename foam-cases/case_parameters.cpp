@@ -1,5 +1,7 @@
 #include "foam-cases/case_parameters.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -13,8 +15,8 @@ namespace {
 
 using Entries = std::vector<std::pair<std::string, std::string>>;
 
-constexpr const char* mesh_entries[] = {"boxHalfWidth", "backgroundCells", "surfaceLevel",
-                                        "layers",       "pointInFluid",    "refinementShells"};
+constexpr const char* mesh_entries[] = {"boxHalfWidth",   "backgroundCells", "surfaceLevel",    "layers",
+                                        "layerThickness", "pointInFluid",    "refinementShells"};
 
 // C_mu of the k-epsilon model (Launder & Spalding 1974).
 constexpr double c_mu = 0.09;
@@ -45,35 +47,47 @@ ValueRange find_value(const std::string& text, const std::string& name) {
     throw Error(fmt::format("the case template's file parameters has no entry '{}'; restore it", name));
 }
 
-Entries flow_entries(const BakeCase& entry) {
+Entries flow_entries(const Inflow& inflow, const BakeCase& entry) {
     const double viscosity = 1.0 / entry.reynolds_number;
-    const double k = 1.5 * inflow_intensity * inflow_intensity;
-    const double eddy_viscosity = inflow_viscosity_ratio * viscosity;
+    const double k = 1.5 * inflow.intensity * inflow.intensity;
+    const double epsilon =
+        inflow.length ? std::pow(c_mu, 0.75) * std::pow(k, 1.5) / *inflow.length : c_mu * k * k / viscosity;
     return {{"direction", foam_vector(entry.direction)},
             {"flowVelocity", foam_vector(-entry.direction)},
             {"reynoldsNumber", fmt::format("{}", entry.reynolds_number)},
             {"viscosity", fmt::format("{}", viscosity)},
             {"inflowK", fmt::format("{:.6g}", k)},
-            {"inflowEpsilon", fmt::format("{:.6g}", c_mu * k * k / eddy_viscosity)},
-            {"inflowNut", fmt::format("{:.6g}", eddy_viscosity)}};
+            {"inflowEpsilon", fmt::format("{:.6g}", epsilon)},
+            {"inflowNut", fmt::format("{:.6g}", c_mu * k * k / epsilon)}};
 }
 
-Entries mesh_and_iteration_entries(const BakeQuality& quality) {
-    const FlowMesh& mesh = quality.mesh;
+Entries mesh_entries_of(const FlowMesh& mesh) {
     const double corner = mesh.box_half_width;
     std::string shells;
     for (const auto& [distance, level] : mesh.refinement_shells) {
         shells += fmt::format("{}({} {})", shells.empty() ? "" : " ", distance, level);
     }
     return {{"boxHalfWidth", fmt::format("{}", mesh.box_half_width)},
-            {"backgroundCells", fmt::format("{}", mesh.background_cells)},
+            {"backgroundCells", fmt::format("{}", mesh.background_cells())},
             {"surfaceLevel", fmt::format("{}", mesh.surface_level)},
             {"layers", fmt::format("{}", mesh.layers)},
             {"pointInFluid",
              fmt::format("({:.3f} {:.3f} {:.3f})", corner - 0.783, corner - 0.681, corner - 0.577)},
-            {"refinementShells", "(" + shells + ")"},
-            {"iterations", fmt::format("{}", quality.iterations)},
-            {"averagingStart", fmt::format("{}", quality.iterations - quality.averaged_iterations + 1)}};
+            {"refinementShells", "(" + shells + ")"}};
+}
+
+Entries model_entries(const BakeQuality& quality, const BakeCase& entry) {
+    const bool laminar = entry.closure == "laminar";
+    Entries entries = {
+        {"simulationType", laminar ? "laminar" : "RAS"},
+        {"stationarity", fmt::format("{}", quality.stationarity)},
+        {"mostIterations",
+         fmt::format("{}", entry.start_from.empty() ? quality.most_iterations : quality.most_iterations / 2)},
+        {"startFrom", entry.start_from.empty() ? "none" : entry.start_from}};
+    if (!laminar) entries.emplace_back("closure", entry.closure);
+    // A solution on a coarser mesh, or of a neighbouring model, is most of the way.
+    if (!entry.start_from.empty()) entries.emplace_back("leastIterations", "100");
+    return entries;
 }
 
 void replace_values(std::string& text, const Entries& entries) {
@@ -86,9 +100,11 @@ void replace_values(std::string& text, const Entries& entries) {
 }  // namespace
 
 std::string case_parameters(const std::string& template_text, const BakePlan& plan, const BakeCase& entry) {
+    const FlowMesh& mesh = *std::ranges::find(plan.quality.meshes, entry.mesh, &FlowMesh::name);
     std::string text = template_text;
-    replace_values(text, flow_entries(entry));
-    replace_values(text, mesh_and_iteration_entries(plan.quality));
+    replace_values(text, flow_entries(plan.inflow, entry));
+    replace_values(text, mesh_entries_of(mesh));
+    replace_values(text, model_entries(plan.quality, entry));
     return text;
 }
 

@@ -142,12 +142,6 @@ TEST_F(FoamFile, OtherMachinesBinaryIsRefused) {
     EXPECT_THAT(test::error_of([&] { read_scalar_field(k); }), HasSubstr("foamFormatConvert"));
 }
 
-TEST_F(FoamFile, CompressedFilesNameTheirRemedy) {
-    const auto file = folder_.file("kMean.gz", "\x1f\x8b");
-    EXPECT_EQ(test::error_of([&] { read_scalar_field(folder_.path() / "kMean"); }),
-              file.string() + ": is compressed; unpack it with 'gunzip " + file.string() + "'");
-}
-
 TEST_F(FoamFile, FaultsNameFileAndLine) {
     EXPECT_THAT(fault_in("internalField nonuniform List<scalar> \n3\n(\n1\n2\n)\n;"),
                 EndsWith(":21: the list should have 3 values, but ends after 2"));
@@ -207,7 +201,8 @@ TEST_F(FoamFile, ZonesAreFoundByName) {
                                       "cellLabels      List<label> 2(1 9);\n}\n)\n");
     EXPECT_THAT(read_cell_zone(file, "shell"), ElementsAre(1, 9));
     EXPECT_THAT(read_cell_zone(file, "wake"), ElementsAre(5, 6, 7));
-    EXPECT_THAT(test::error_of([&] { read_cell_zone(file, "hull"); }), HasSubstr("has no cell zone 'hull'"));
+    EXPECT_THAT(test::error_of([&] { read_cell_zone(file, "hull"); }),
+                HasSubstr("has no cell zone 'hull' (it has: wake, shell); make it with topoSet"));
     EXPECT_THAT(test::error_of(
                     [&] { read_cell_zone(folder_.file("none", header("regIOobject") + "0()\n"), "shell"); }),
                 HasSubstr("has no cell zone 'shell'"));

@@ -23,7 +23,7 @@ std::string foam_header(const std::string& class_name, const std::string& object
 }
 
 /// The part of a history's value beside its mean: large before the averaging starts, then one that
-/// alternates and has no mean over 11 iterations.
+/// alternates and has no mean over 11 iterations, and is nothing at the last.
 double transient(int iteration) {
     if (iteration < averaging_start) return 1.0 / iteration;
     if (iteration == iterations) return 0.0;
@@ -125,17 +125,24 @@ void SolvedFolder::write_case(const std::string& name, const Vector3d& direction
                               const LoadEntry& entry) const {
     const std::filesystem::path folder = name;
     write(folder / "parameters",
-          fmt::format("direction ({:.17g} {:.17g} {:.17g});\nreynoldsNumber {:.17g};\naveragingStart {};\n",
-                      direction.x(), direction.y(), direction.z(), reynolds_number, averaging_start));
+          fmt::format("direction ({:.17g} {:.17g} {:.17g});\nreynoldsNumber {:.17g};\n", direction.x(),
+                      direction.y(), direction.z(), reynolds_number));
     write(folder / "postProcessing/forces/0/force.dat", load_history(std::numbers::pi / 8.0 * entry.force));
     write(folder / "postProcessing/forces/0/moment.dat", load_history(std::numbers::pi / 8.0 * entry.moment));
     write(folder / "postProcessing/shell/0/volFieldValue.dat", shell_history(entry));
     write(folder / "0/k", foam_header("volScalarField", "k") + "internalField uniform 1;\n");
-    write(folder / "20/kMean", field("kMean", entry.turbulent_kinetic_energy));
-    write(folder / "20/epsilonMean", field("epsilonMean", entry.dissipation_rate));
+    write(folder / "20/k", field("k", entry.turbulent_kinetic_energy));
+    write(folder / "20/epsilon", field("epsilon", entry.dissipation_rate));
     write(folder / "20/V",
           foam_header("volScalarField::Internal", "V") + "value nonuniform List<scalar> 5(7 1 2 7 3);\n");
-    write(folder / "provenance.json", R"({"closure": "kEpsilon", "cells": 5})");
+    write(folder / "provenance.json",
+          fmt::format(R"({{"closure": "kEpsilon", "cells": 5, "averaging_start": {}}})", averaging_start));
+}
+
+void SolvedFolder::change_plan(const std::function<void(nlohmann::json&)>& change) const {
+    nlohmann::json plan = nlohmann::json::parse(read_bytes(path() / "plan.json"));
+    change(plan);
+    write("plan.json", plan.dump(2));
 }
 
 void SolvedFolder::replace(const std::filesystem::path& name, const std::string& from,

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "samara/body/body.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -29,6 +31,8 @@ class SolvedFolder {
     void write(const std::filesystem::path& name, std::string_view text) const {
         static_cast<void>(folder_.file(name, text));
     }
+    /// Writes plan.json anew as `change` makes it.
+    void change_plan(const std::function<void(nlohmann::json&)>& change) const;
     /// A file of the folder with the first `from` in it made `to`.
     void replace(const std::filesystem::path& name, const std::string& from, const std::string& to) const;
 

@@ -37,12 +37,13 @@ void write(const fs::path& path, const std::string& text) {
     std::ofstream(path) << text;
 }
 
-// Stands for a solve: writes the records that check_case.py writes at its end.
+// Stands for a solve: writes the records that the checks write at its end.
 void pretend_solved(const fs::path& folder) {
     const auto plan = nlohmann::json::parse(read_bytes(folder / "plan.json"));
-    fs::create_directories(folder / "mesh/constant/polyMesh");
-    write(folder / "mesh/constant/polyMesh/cellZones", "zones");
-    write(folder / "mesh/mesh.json", nlohmann::json({{"inputs_hash", plan["mesh"]["inputs_hash"]}}).dump());
+    fs::create_directories(folder / "mesh_coarse/constant/polyMesh");
+    write(folder / "mesh_coarse/constant/polyMesh/cellZones", "zones");
+    write(folder / "mesh_coarse/mesh.json",
+          nlohmann::json({{"inputs_hash", plan["meshes"][0]["inputs_hash"]}}).dump());
     for (const auto& entry : plan["cases"]) {
         write(folder / entry["name"].get<std::string>() / "provenance.json",
               nlohmann::json({{"inputs_hash", entry["inputs_hash"]}}).dump());
@@ -56,7 +57,7 @@ class CaseFolder : public testing::Test {
     const test::TemporaryFolder temporary_;
     const fs::path folder_ = temporary_.path() / "body.cases";
 
-    [[nodiscard]] bool mesh_is_made() const { return fs::exists(folder_ / "mesh/mesh.json"); }
+    [[nodiscard]] bool mesh_is_made() const { return fs::exists(folder_ / "mesh_coarse/mesh.json"); }
     [[nodiscard]] bool first_is_solved() const {
         return fs::exists(folder_ / plan_.cases[0].name / "provenance.json");
     }
@@ -71,7 +72,7 @@ TEST_F(CaseFolder, HoldsAPlainCaseForEachDirectionOnOneMesh) {
         EXPECT_NE(fs::status(one / "Allrun").permissions() & fs::perms::owner_exec, fs::perms::none);
         const fs::path link = one / "constant/polyMesh";
         EXPECT_EQ((link.parent_path() / fs::read_symlink(link)).lexically_normal(),
-                  folder_ / "mesh/constant/polyMesh");
+                  folder_ / "mesh_coarse/constant/polyMesh");
         const std::string parameters = read_bytes(one / "parameters");
         std::istringstream numbers(entry_of(parameters, "flowVelocity").substr(1));
         Vector3d flow;
@@ -121,7 +122,7 @@ TEST_F(CaseFolder, MakesEverythingAgainForAnotherBody) {
 TEST_F(CaseFolder, MakesTheMeshAgainWhereItWasRemoved) {
     write_case_folder(folder_, body_, plan_, templates);
     pretend_solved(folder_);
-    fs::remove_all(folder_ / "mesh/constant/polyMesh");
+    fs::remove_all(folder_ / "mesh_coarse/constant/polyMesh");
     write_case_folder(folder_, body_, plan_, templates);
     EXPECT_FALSE(mesh_is_made());
 }
@@ -135,12 +136,30 @@ TEST_F(CaseFolder, PutsBackAFileThatWasChangedByHand) {
     EXPECT_EQ(read_bytes(schemes), before);
 }
 
+TEST_F(CaseFolder, SolvesAgainWhatStartsFromACaseWhoseInputsChanged) {
+    const BakePlan before = plan_bake(body_, bake_quality("preview"), 1e4);
+    write_case_folder(folder_, body_, before, templates);
+    const auto hash_of = [&](const std::string& name) {
+        const auto plan = nlohmann::json::parse(read_bytes(folder_ / "plan.json"));
+        for (const auto& entry : plan["cases"]) {
+            if (entry["name"] == name) return entry["inputs_hash"].get<std::string>();
+        }
+        return std::string();
+    };
+    const std::string medium = hash_of("direction_00_medium");
+    ASSERT_NE(medium, "");
+    BakePlan changed = before;
+    changed.quality.meshes.front().layers += 1;
+    write_case_folder(folder_, body_, changed, templates);
+    EXPECT_NE(hash_of("direction_00_medium"), medium);
+}
+
 TEST_F(CaseFolder, LosesCasesThatAreNoLongerPlanned) {
     write_case_folder(folder_, body_, plan_, templates);
     const Body ball = test::sphere(0.01);
     write_case_folder(folder_, ball, smoke_of(ball), templates);
-    EXPECT_TRUE(fs::exists(folder_ / "direction_00"));
-    EXPECT_FALSE(fs::exists(folder_ / "direction_01"));
+    EXPECT_TRUE(fs::exists(folder_ / "direction_00_coarse"));
+    EXPECT_FALSE(fs::exists(folder_ / "direction_01_coarse"));
 }
 
 TEST(CaseSurface, IsInUnitsOfLAboutTheCentroidInCaseAxes) {
@@ -191,14 +210,33 @@ TEST(CaseSurface, FollowsTheEdgeNodesOfCurvedTriangles) {
     EXPECT_EQ(facets, 4 * flat);
 }
 
-TEST(CaseParameters, GiveTheInflowTheStatedIntensityAndEddyViscosity) {
+double number_in(const std::string& parameters, const std::string& name) {
+    return std::stod(entry_of(parameters, name));
+}
+
+TEST(CaseParameters, GiveTheInflowTheStatedIntensityAndTheFluidsViscosity) {
     const BakePlan plan = smoke_of(test::sphere(0.01), 2000.0);
     const std::string text =
         case_parameters(read_bytes(templates / "body-flow/parameters"), plan, plan.cases[0]);
-    const double k = std::stod(entry_of(text, "inflowK"));
-    const double epsilon = std::stod(entry_of(text, "inflowEpsilon"));
-    EXPECT_NEAR(std::sqrt(2.0 / 3.0 * k), inflow_intensity, 1e-8);
-    EXPECT_NEAR(0.09 * k * k / epsilon, inflow_viscosity_ratio / 2000.0, 1e-8);
+    const double k = number_in(text, "inflowK");
+    EXPECT_NEAR(std::sqrt(2.0 / 3.0 * k), Inflow().intensity, 1e-8);
+    EXPECT_NEAR(0.09 * k * k / number_in(text, "inflowEpsilon"), 1.0 / 2000.0, 1e-8);
+    EXPECT_NEAR(number_in(text, "inflowNut"), 1.0 / 2000.0, 1e-8);
+}
+
+TEST(CaseParameters, GiveThePapersInflow) {
+    const BakePlan plan = plan_bake(test::sphere(0.01), bake_quality("smoke"), 2000.0, paper_inflow());
+    const std::string text =
+        case_parameters(read_bytes(templates / "body-flow/parameters"), plan, plan.cases[0]);
+    EXPECT_NEAR(number_in(text, "inflowK"), 1.5, 1e-8);
+    EXPECT_NEAR(number_in(text, "inflowEpsilon"), std::pow(0.09, 0.75) * std::pow(1.5, 1.5) / 0.25, 1e-5);
+}
+
+TEST(CaseParameters, MakeALaminarCaseBelowTheStatedReynoldsNumber) {
+    const BakePlan plan = smoke_of(test::sphere(0.01), 100.0);
+    const std::string text =
+        case_parameters(read_bytes(templates / "body-flow/parameters"), plan, plan.cases[0]);
+    EXPECT_EQ(entry_of(text, "simulationType"), "laminar");
 }
 
 TEST(CaseParameters, KeepWhatTheTemplateSaysBeside) {

@@ -22,7 +22,13 @@ std::string read_bytes(const std::filesystem::path& file) {
         throw Error(
             fmt::format("{}: cannot be read; check that the file exists and may be opened", file.string()));
     }
-    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+    std::error_code unknown;  // of pipes, whose size nobody knows
+    const std::uintmax_t size = std::filesystem::file_size(file, unknown);
+    std::string bytes(unknown ? 0 : size, '\0');
+    stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    bytes.resize(static_cast<std::size_t>(stream.gcount()));
+    bytes.append(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
+    return bytes;
 }
 
 std::string file_content_hash(const std::filesystem::path& file) {

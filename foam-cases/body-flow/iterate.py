@@ -1,0 +1,233 @@
+#!/usr/bin/env -S python3 -B
+"""Runs simpleFoam in rounds until the case is statistically stationary (stationarity.py).
+
+    iterate.py      in the folder of the case, whose mesh is there
+
+A case that does not settle, or diverges, is tried again in the ways of ATTEMPTS, and fails after the last.
+rounds.json holds what was done. A round that was cut short is done again from the last whole one, so that a case
+that was killed ends with the same bytes as one that was not; where an input has changed, all starts afresh.
+
+Exit 0: rounds.json has the verdict "stationary", or "restless" where an attempt ended within ACCEPTED tolerances
+(a wake that swings about a mean that stays); its standard error then says how well it is known. Exit 1: one line says why; the verdict is "failed"
+where all attempts did, else something stopped the solver.
+"""
+
+import glob
+import hashlib
+import json
+import os
+import re
+import resource
+import shutil
+import subprocess
+import sys
+
+from stationarity import Diverged, worst_quantity
+
+# Each attempt: its changes to the parameters, those of its first round, and where it starts: as `startFrom` says,
+# from what stands, or from the undisturbed flow.
+ATTEMPTS = {
+    "as planned": ({}, {}, "startFrom"),
+    "damped": ({"momentumRelaxation": "0.7", "turbulenceRelaxation": "0.5"}, {}, "what stands"),
+    "cautious": ({"momentumRelaxation": "0.5", "turbulenceRelaxation": "0.4",
+                  "gradient": "cellLimited Gauss linear 1"}, {"convection": "upwind"}, "undisturbed"),
+}
+AFTER_RESTLESSNESS = {"as planned": "damped", "damped": "cautious"}
+AFTER_DIVERGENCE = {"as planned": "cautious", "damped": "cautious"}
+ACCEPTED = 3.0
+MESH_FILES = ("points", "faces", "owner", "neighbour", "boundary")
+
+
+class Fault(Exception):
+    """What is wrong, in one line for the user."""
+
+
+def read(path):
+    with open(path, errors="replace") as file:
+        return file.read()
+
+
+def write_json(path, content):
+    """Writes the file whole, or not at all."""
+    with open(path + ".part", "w") as file:
+        json.dump(content, file, indent=2)
+        file.write("\n")
+        file.flush()
+        os.fsync(file.fileno())
+    os.replace(path + ".part", path)
+
+
+def parameter(name):
+    match = re.search(rf"^{name}\s+([^;]+);", read("parameters"), re.MULTILINE)
+    if not match:
+        raise Fault(f"parameters: has no entry {name}; restore it")
+    return match.group(1).strip()
+
+
+def start_folder():
+    """The folder of the solved case to start from; None where there is none, or where it failed."""
+    folder = os.path.join("..", parameter("startFrom"))
+    return folder if os.path.exists(os.path.join(folder, "provenance.json")) else None
+
+
+def hash_of_inputs():
+    """Of all that the solution depends on: the case's own files and the mesh."""
+    own = ["parameters"] + [path for pattern in ("0.orig/*", "system/*", "constant/*") for path in glob.glob(pattern)]
+    mesh = [os.path.join("constant/polyMesh", name) for name in MESH_FILES]
+    start = [os.path.join(start_folder(), "rounds.json")] if start_folder() else []
+    total = hashlib.sha256()
+    for path in sorted(own) + mesh + start:
+        if os.path.isfile(path) and path != "system/round":
+            with open(path, "rb") as file:
+                total.update(path.encode() + b"\0" + file.read() + b"\0")
+    return total.hexdigest()
+
+
+def breakdown(log):
+    """The exception for a solver that did not reach its end: Diverged where its iterations broke down."""
+    text = read(log)
+    times = re.findall(r"^Time = (\d+)", text, re.MULTILINE)
+    where = f" at iteration {times[-1]}" if times else ""
+    see = f"; see {os.path.abspath(log)}"
+    fatal = re.search(r"FOAM FATAL ([A-Z ]*ERROR)[^\n]*\n(?:\s*\n)*([^\n]*)", text)
+    if fatal:
+        kind = Diverged if times and "IO" not in fatal.group(1) else Fault
+        return kind(f"simpleFoam failed{where}: {fatal.group(2).strip().rstrip('.')}{see}")
+    if "Floating point exception" in text:
+        return Diverged(f"simpleFoam diverged (floating point exception){where}{see}")
+    return Fault(f"simpleFoam was stopped{where}, before its end{see}")
+
+
+def run_program(words, log):
+    """Runs a program; returns its exit status and CPU seconds."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    with open(log, "w") as file:
+        status = subprocess.run(words, stdout=file, stderr=subprocess.STDOUT, check=False).returncode
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return status, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
+class Rounds:
+    """What was done, and so from where to go on."""
+
+    def __init__(self):
+        self.round_iterations = int(parameter("roundIterations"))
+        self.most_iterations = int(parameter("mostIterations"))
+        self.least_iterations = int(parameter("leastIterations"))
+        self.tolerance = float(parameter("stationarity"))
+        self.turbulent = parameter("simulationType") != "laminar"
+        inputs = hash_of_inputs()
+        try:
+            self.state = json.loads(read("rounds.json"))
+        except (OSError, ValueError):
+            self.state = {}
+        if self.state.get("inputs") != inputs or self.state.get("verdict") == "failed":
+            self.state = {"inputs": inputs, "verdict": None, "cpu_seconds": 0.0, "attempts": []}
+            self.begin("as planned")
+        else:
+            self.keep_whole_rounds()
+
+    @property
+    def attempt(self):
+        return self.state["attempts"][-1]
+
+    def begin(self, what):
+        first = self.attempt["iterations"] if ATTEMPTS[what][2] == "what stands" else 0
+        self.state["attempts"].append({"what": what, "first": first, "iterations": first})
+        write_json("rounds.json", self.state)
+        self.keep_whole_rounds()
+
+    def keep_whole_rounds(self):
+        """Removes the fields of all but the last whole round, and the histories of later ones."""
+        whole = self.attempt["iterations"]
+        for path in glob.glob("[0-9]*"):
+            if re.fullmatch(r"[\d.]+", path) and (float(path) not in (0, whole) or whole == 0):
+                shutil.rmtree(path)
+        for path in glob.glob("postProcessing/*/*"):
+            if float(os.path.basename(path)) >= whole:
+                shutil.rmtree(path)
+        for path in glob.glob("processor*"):
+            shutil.rmtree(path)
+        if whole == 0:
+            self.make_start()
+
+    def make_start(self):
+        """The folder 0: the undisturbed flow, or the solution of another case on this mesh."""
+        shutil.copytree("0.orig", "0")
+        source = start_folder() if ATTEMPTS[self.attempt["what"]][2] == "startFrom" else None
+        self.attempt["started_from"] = parameter("startFrom") if source else "undisturbed flow"
+        if source:
+            status, seconds = run_program(["./Allrun", "map", source], "log.mapFields")
+            self.state["cpu_seconds"] += seconds
+            if status != 0:
+                raise Fault(f"mapFields failed; see {os.path.abspath('log.mapFields')}")
+
+    def run_round(self):
+        """One more round, and what it says of the case: a verdict, the end of the attempt, or neither."""
+        attempt = self.attempt
+        changes, first_changes, _ = ATTEMPTS[attempt["what"]]
+        if attempt["iterations"] == attempt["first"]:
+            changes = changes | first_changes
+        end = attempt["iterations"] + self.round_iterations
+        with open("system/round", "w") as file:
+            file.write("// What this round has of its own; written by iterate.py\n")
+            file.write("".join(f"{name} {value};\n" for name, value in {"endTime": end, "writeFormat": "binary", **changes}.items()))
+        status, seconds = run_program(["./Allrun", "round"], "log.simpleFoam")
+        self.state["cpu_seconds"] += seconds
+        if status != 0:
+            raise breakdown("log.simpleFoam")
+        attempt["iterations"] = end
+        unsteady, quantity, start = worst_quantity(".", attempt["first"], self.tolerance, self.turbulent)
+        attempt["unsteadiness_over_tolerance"] = unsteady
+        attempt["worst_quantity"] = quantity
+        self.state["averaging_start"] = start
+        done = end - attempt["first"]
+        if unsteady <= 1.0 and done >= self.least_iterations:
+            self.state["verdict"] = "stationary"
+        elif done >= self.most_iterations:
+            attempt["end"] = f"the {quantity} did not settle: {unsteady:.2g} times its tolerance of {self.tolerance:g}"
+        write_json("rounds.json", self.state)
+        self.keep_whole_rounds()
+
+    def after(self, cause, following):
+        """Goes on to the next attempt, or ends."""
+        self.attempt["end"] = cause
+        following = following.get(self.attempt["what"])
+        if following:
+            self.begin(following)
+        elif self.attempt.get("unsteadiness_over_tolerance", ACCEPTED + 1) <= ACCEPTED:
+            self.state["verdict"] = "restless"
+        else:
+            self.state["verdict"] = "failed"
+        write_json("rounds.json", self.state)
+
+    def run(self):
+        while self.state["verdict"] is None:
+            try:
+                self.run_round()
+            except Diverged as cause:
+                self.attempt.pop("unsteadiness_over_tolerance", None)
+                self.after(str(cause), AFTER_DIVERGENCE)
+                continue
+            if "end" in self.attempt:
+                accepted = self.attempt["unsteadiness_over_tolerance"] <= ACCEPTED
+                self.after(self.attempt["end"], {} if accepted else AFTER_RESTLESSNESS)
+
+
+def main():
+    os.chdir(os.path.dirname(os.path.abspath(__file__)))
+    try:
+        rounds = Rounds()
+        rounds.run()
+    except (Fault, OSError) as fault:
+        print(fault, file=sys.stderr)
+        return 1
+    if rounds.state["verdict"] == "failed":
+        print(f"{rounds.attempt['end']} (attempts: {', '.join(one['what'] for one in rounds.state['attempts'])})",
+              file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

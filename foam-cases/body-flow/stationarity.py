@@ -1,0 +1,90 @@
+"""Whether a case has become statistically stationary, judged by what the tables are made of.
+
+Force, moment, k and epsilon over the shell are watched, not residuals: that of the pressure settles long before k
+does, and never does where the wake oscillates. The last half of the iterations is the window over which means are
+taken. A quantity is stationary when half the difference between the means of the window's two halves (a drift) and
+the standard error from six batches (an oscillation) are both within the tolerance.
+"""
+
+import glob
+import math
+import os
+import re
+
+# k and epsilon settle later than forces and are less certain in any case: their tolerance over that of forces.
+TURBULENCE_TOLERANCES = 3.0
+BATCHES = 6
+# Loads below these are noise: coefficients over rho U^2 A/2 and rho U^2 A L/2.
+LEAST_FORCE = 0.1
+LEAST_MOMENT = 0.2
+# The largest force coefficient that is no sign of divergence: a plate broadside has 2.5.
+LARGEST_FORCE = 20.0
+AREA_UNIT = math.pi / 8  # rho U^2 A/2 with rho = U = L = 1 and A = pi L^2/4
+
+NUMBER = re.compile(r"[-+]?(?:\d[\d.]*(?:[eE][-+]?\d+)?|nan|inf)")
+
+
+class Diverged(Exception):
+    """The iterations went to nonsense."""
+
+
+def history(folder, name, file):
+    """The rows [iteration, values...] of a function object over all rounds; a later round counts where two overlap."""
+    rows = []
+    starts = {float(os.path.basename(path)): path
+              for path in glob.glob(os.path.join(folder, "postProcessing", name, "*"))}
+    for start, path in sorted(starts.items()):
+        rows = [row for row in rows if row[0] <= start]
+        with open(os.path.join(path, file), errors="replace") as lines:
+            rows += [[float(word) for word in NUMBER.findall(line)] for line in lines if not line.startswith("#")]
+    return [row for row in rows if row]
+
+
+def mean(values):
+    return math.fsum(values) / len(values)
+
+
+def unsteadiness(values):
+    """The larger of the drift and the standard error from batches."""
+    half = len(values) // 2
+    drift = abs(mean(values[half:]) - mean(values[:half])) / 2
+    length = len(values) // BATCHES
+    batches = [mean(values[i * length:(i + 1) * length]) for i in range(BATCHES)]
+    center = mean(batches)
+    squares = math.fsum((batch - center) ** 2 for batch in batches)
+    return max(drift, math.sqrt(squares / (BATCHES * (BATCHES - 1))))
+
+
+def worst_quantity(folder, first, tolerance, turbulent):
+    """(unsteadiness over tolerance, its quantity, first iteration of the window) of the worst quantity.
+
+    `first`: the iteration after which the present settings were used. Raises Diverged where the values are not
+    finite, not positive (k, epsilon) or absurd."""
+    forces = history(folder, "forces", "force.dat")
+    moments = history(folder, "forces", "moment.dat")
+    shell = history(folder, "shell", "volFieldValue.dat") if turbulent else []
+    if not forces or not moments or (turbulent and not shell):
+        raise Diverged("nothing was written")
+    for row in forces + moments + shell:
+        if not all(map(math.isfinite, row)):
+            raise Diverged(f"a value at iteration {row[0]:g} is not finite")
+    last = forces[-1][0]
+    start = int(first + (last - first) // 2 + 1)
+
+    def window(rows, column, unit=1.0):
+        return [row[column] / unit for row in rows if row[0] >= start]
+
+    weights = {}
+    for name, rows, least in (("force", forces, LEAST_FORCE), ("moment", moments, LEAST_MOMENT)):
+        components = [window(rows, i, AREA_UNIT) for i in (1, 2, 3)]
+        scale = max(least, math.hypot(*map(mean, components)))
+        if scale > LARGEST_FORCE:
+            raise Diverged(f"the {name} coefficient reached {scale:.3g}")
+        weights[name] = math.hypot(*map(unsteadiness, components)) / (tolerance * scale)
+    for i, name in enumerate(("k", "epsilon") if turbulent else (), 1):
+        values = window(shell, i)
+        if mean(values) <= 0.0:
+            raise Diverged(f"{name} in the shell is not positive")
+        weights[name] = unsteadiness(values) / (TURBULENCE_TOLERANCES * tolerance * mean(values))
+    worst = max(weights, key=weights.get)
+    return weights[worst], worst, start

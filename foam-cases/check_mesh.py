@@ -1,0 +1,84 @@
+"""Judges a mesh from the files that OpenFOAM left behind: checkMesh's verdict, and how much of the body is there."""
+
+import math
+import os
+import re
+
+from case_files import Failure, check_ended, cpu_seconds, read
+from patch_area import patch_area
+
+PROGRAMS = ("surfaceFeatureExtract", "blockMesh", "snappyHexMesh", "topoSet", "checkMesh")
+# The mesh's share of the body's surface. A thin sheet whose rim is lost has 0.87 to 0.90, a good mesh of a curved
+# thin shell 0.97; flat faces on a slender rod of eight cells around 0.95.
+GOOD_AREA = (0.93, 1.05)
+# Where no remedy gives a good mesh, the best of those is taken that miss no more than this.
+USABLE_AREA = (0.85, 1.2)
+# Faults of a mesh on which a solver's result means nothing, as checkMesh words them.
+FATAL_FAULTS = ("zero or negative", "open cells", "Boundary openness", "incorrectly oriented", "Number of regions")
+
+
+def is_within(value, bounds):
+    return bounds[0] <= value <= bounds[1]
+
+
+class Judgement:
+    """What is known of a mesh. `faults` is empty for a good one, `fatal` for one that can be solved on."""
+
+    def __init__(self):
+        self.faults = []
+        self.fatal = []
+        self.area = 0.0
+        self.seconds = 0.0
+        self.facts = {}
+
+    @property
+    def misses_surface(self):
+        return not is_within(self.area, GOOD_AREA)
+
+    @property
+    def verdict(self):
+        return "; ".join(self.fatal + [fault for fault in self.faults if fault not in self.fatal]) or "ok"
+
+
+def judge_cells(judgement, folder, text):
+    shell = re.search(r"^\s*shell\s+(\d+)", text, re.MULTILINE)
+    cells = re.search(r"^\s+cells:\s+(\d+)", text, re.MULTILINE)
+    orthogonality = re.search(r"non-orthogonality Max: ([\d.]+) average: ([\d.]+)", text)
+    judgement.facts = {
+        "cells": int(cells.group(1)) if cells else 0,
+        "shell_cells": int(shell.group(1)) if shell else 0,
+        "max_non_orthogonality": float(orthogonality.group(1)) if orthogonality else None,
+        "mean_non_orthogonality": float(orthogonality.group(2)) if orthogonality else None,
+        "body_area_over_true_area": judgement.area,
+    }
+    judgement.faults += [line.strip(" *").rstrip(".") for line in text.splitlines() if line.startswith(" ***")]
+    judgement.fatal += [fault for fault in judgement.faults if any(word in fault for word in FATAL_FAULTS)]
+    if judgement.facts["shell_cells"] == 0:
+        judgement.fatal.append("no cell lies from 0.05 L to 0.25 L of the body")
+
+
+def judge_surface(judgement):
+    share = f"{100 * judgement.area:.0f} % of the body's surface is in the mesh"
+    if not is_within(judgement.area, USABLE_AREA):
+        judgement.fatal.append(share)
+    elif judgement.misses_surface:
+        judgement.faults.append(share)
+
+
+def judge(folder):
+    """Judges the mesh in constant/polyMesh. Raises Fault where a program was stopped before its end."""
+    judgement = Judgement()
+    text = ""
+    try:
+        for program in PROGRAMS:
+            text = check_ended(os.path.join(folder, "log." + program), program)
+            finished = re.findall(r"Finished meshing in = ([\d.]+) s", text)
+            judgement.seconds += float(finished[-1]) if finished else cpu_seconds(text)
+    except Failure as failure:
+        judgement.fatal.append(str(failure))
+        return judgement
+    # The surface's area is pi L^2 by the definition of L, the unit of length.
+    judgement.area = patch_area(os.path.join(folder, "constant", "polyMesh"), "body") / math.pi
+    judge_cells(judgement, folder, text)
+    judge_surface(judgement)
+    return judgement

@@ -1,0 +1,111 @@
+#!/usr/bin/env python3
+"""Judges a solution from the files that OpenFOAM left behind.
+
+    check_solution.py FOLDER   writes FOLDER/provenance.json where the solution holds
+
+Else exit 1 with one line that says what is wrong and names the log; where the flow diverged or did not converge
+(not where the solver was only stopped) also FOLDER/failed.json with that reason. provenance.json is written last
+and whole, so that its existence means success. The folder above holds plan.json, whose hash of the case's inputs
+it repeats.
+"""
+
+import json
+import math
+import os
+import re
+import sys
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "body-flow"))
+from case_files import Failure, Fault, input_hash, parameter, read, run_on_folder, word, write_json  # noqa: E402
+from stationarity import AREA_UNIT, history  # noqa: E402
+
+def mean_and_deviation(rows, columns):
+    means, deviations = [], []
+    for column in columns:
+        values = [row[column] for row in rows]
+        mean = math.fsum(values) / len(values)
+        means.append(mean)
+        deviations.append(math.sqrt(math.fsum((value - mean) ** 2 for value in values) / len(values)))
+    return means, deviations
+
+
+def final_residuals(log_text, log):
+    """The initial residuals of the last iteration."""
+    last = log_text.rfind("\nTime = ")
+    found = {}
+    for field, value in re.findall(r"Solving for (\w+), Initial residual = (\S+?),", log_text[last:]):
+        found.setdefault(field, float(value))
+    if not found:
+        raise Fault(f"no residual in {log}")
+    return found
+
+
+def check_solution(folder):
+    rounds_path = os.path.join(folder, "rounds.json")
+    if not os.path.exists(rounds_path):
+        raise Fault("was stopped before its first round; run again to go on")
+    rounds = json.loads(read(rounds_path))
+    log = os.path.join(folder, "log.simpleFoam")
+    last = rounds["attempts"][-1]
+    if rounds["verdict"] == "failed":
+        raise Failure(f"{last['end']} (attempts: {', '.join(one['what'] for one in rounds['attempts'])})")
+    if rounds["verdict"] is None:
+        raise Fault(stopping_fault(folder, log))
+    text = read(log)
+    parameters = read(os.path.join(folder, "parameters"))
+    start = rounds["averaging_start"]
+    turbulent = word(parameters, "simulationType") != "laminar"
+
+    def window(name, file):
+        return [row[1:] for row in history(folder, name, file) if row[0] >= start]
+
+    forces = window("forces", "force.dat")
+    force, force_deviation = mean_and_deviation(forces, range(3))
+    moment, moment_deviation = mean_and_deviation(window("forces", "moment.dat"), range(3))
+    flow = parameter(parameters, "flowVelocity")
+    drag = math.fsum(f * u for f, u in zip(force, flow)) / AREA_UNIT
+    if drag <= 0.0:
+        raise Failure(f"diverged: the drag coefficient is {drag:.3g}, not positive; see {log}")
+
+    mesh_path = os.path.join(os.path.realpath(os.path.join(folder, "constant", "polyMesh")), "..", "..", "mesh.json")
+    build = re.search(r"^Build\s*:\s*(.*)$", text, re.MULTILINE)
+    record = {
+        "case": os.path.basename(os.path.abspath(folder)),
+        "openfoam": build.group(1).strip() if build else "",
+        "closure": word(parameters, "closure") if turbulent else "laminar",
+        "convection": word(parameters, "convection"),
+        "gradient": word(parameters, "gradient"),
+        "direction": parameter(parameters, "direction"),
+        "reynolds_number": parameter(parameters, "reynoldsNumber"),
+        "inflow": {"k": parameter(parameters, "inflowK"), "epsilon": parameter(parameters, "inflowEpsilon"),
+                   "eddy_viscosity": parameter(parameters, "inflowNut")},
+        "verdict": rounds["verdict"],
+        "attempts": rounds["attempts"],
+        "iterations": last["iterations"],
+        "averaging_start": start,
+        "averaged_iterations": len(forces),
+        "final_residuals": final_residuals(text, log),
+        "drag_coefficient": drag,
+        "force": force,
+        "force_deviation": force_deviation,
+        "moment": moment,
+        "moment_deviation": moment_deviation,
+        "mesh": json.loads(read(mesh_path)) if os.path.exists(mesh_path) else None,
+        "cpu_seconds": rounds["cpu_seconds"],
+        "inputs_hash": input_hash(folder),
+    }
+    if turbulent:
+        shell, deviation = mean_and_deviation(window("shell", "volFieldValue.dat"), range(2))
+        record["shell"] = {"k": shell[0], "epsilon": shell[1],
+                           "k_deviation": deviation[0], "epsilon_deviation": deviation[1]}
+    write_json(os.path.join(folder, "provenance.json"), record)
+
+
+def stopping_fault(folder, log):
+    """Why the rounds stopped without a verdict: what iterate.py said last."""
+    said = [line for line in read(os.path.join(folder, "log.Allrun")).splitlines() if line.strip()]
+    return said[-1] if said and not said[-1].startswith("Running") else f"was stopped before its end; see {log}"
+
+
+if __name__ == "__main__":
+    sys.exit(run_on_folder(sys.argv, __doc__, check_solution))
