@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,8 @@ namespace samara {
 /// `axes` are the cases' axes in body axes. Numbers have the digits that give them back exactly.
 std::string samples_csv(const std::vector<SolvedCase>& cases, const Matrix3d& axes);
 
-/// "table", "mesh" or "closure".
-const char* purpose_word(CasePurpose purpose);
+/// The cases of a table that samples_csv wrote, in body axes. Throws Error with file and line where a row has
+/// another number of columns, or a word for a number.
+std::vector<SolvedCase> read_samples_csv(const std::filesystem::path& file);
 
 }  // namespace samara
