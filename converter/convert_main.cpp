@@ -1,20 +1,26 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "converter/case_folder_reduction.hpp"
 #include "converter/convert.hpp"
+#include "converter/samples_csv.hpp"
 #include "samara/base/error.hpp"
 #include "samara/base/vector_json.hpp"
 #include "samara/body/body_file.hpp"
 #include "samara/command/arguments.hpp"
 #include "samara/command/progress.hpp"
+#include "samara/files/replace_file.hpp"
 
 namespace samara {
 namespace {
+
+using CaseProgress = std::function<void(std::size_t done, std::size_t total)>;
 
 /// What people look at first in one solved case. Coefficients on A = pi L^2 / 4, the moment's also on L.
 struct Summary {
@@ -48,12 +54,27 @@ Summary summary_of(const DirectionSample& sample) {
             error_of_length(sample.error.moment, sample.entry.moment)};
 }
 
+const char* name_of(CasePurpose purpose) {
+    switch (purpose) {
+        case CasePurpose::mesh:
+            return "mesh";
+        case CasePurpose::closure:
+            return "closure";
+        case CasePurpose::table:
+            break;
+    }
+    return "table";
+}
+
 nlohmann::json case_as_json(const SolvedCase& solved) {
     const auto& [direction, entry, error] = solved.sample;
     const Summary summary = summary_of(solved.sample);
     return {{"name", solved.name},
             {"direction", as_json(direction)},
             {"reynolds_number", solved.reynolds_number},
+            {"purpose", name_of(solved.purpose)},
+            {"mesh", solved.mesh},
+            {"closure", solved.closure},
             {"drag_coefficient", summary.drag},
             {"drag_coefficient_error", summary.drag_error},
             {"force", as_json(entry.force)},
@@ -72,6 +93,17 @@ nlohmann::json conversion_as_json(const Conversion& conversion, const std::strin
     for (int row = 0; row < 3; ++row) axes.push_back(as_json(Vector3d(tables.axes.row(row))));
     nlohmann::json cases = nlohmann::json::array();
     for (const SolvedCase& solved : conversion.cases) cases.push_back(case_as_json(solved));
+    nlohmann::json sources = nlohmann::json::object();
+    for (const ErrorShare& share : tables.error_sources) {
+        sources[name_of(share.source)] = {{"force", share.force},
+                                          {"moment", share.moment},
+                                          {"turbulent_kinetic_energy", share.turbulent_kinetic_energy},
+                                          {"dissipation_rate", share.dissipation_rate}};
+    }
+    nlohmann::json left_out = nlohmann::json::array();
+    for (const LeftOutCase& one : tables.left_out) {
+        left_out.push_back({{"name", one.name}, {"reason", one.reason}});
+    }
     return {{"body", conversion.body.name},
             {"output", output},
             {"quality", tables.quality},
@@ -80,7 +112,9 @@ nlohmann::json conversion_as_json(const Conversion& conversion, const std::strin
             {"axes", axes},
             {"reynolds_numbers", tables.reynolds_numbers},
             {"nodes", tables.entries.size()},
-            {"cases", cases}};
+            {"cases", cases},
+            {"error_sources", sources},
+            {"left_out", left_out}};
 }
 
 /// "0.4231 +- 0.002", with as many digits as the error deserves.
@@ -91,25 +125,62 @@ std::string with_error(double value, double error) {
     return fmt::format("{:.{}f} +- {:.{}f}", value, decimals, error, decimals);
 }
 
+void print_errors(const LoadTables& tables) {
+    fmt::print(
+        "\nThe errors above are those of the iterations and of the symmetry. Of the tables, root mean "
+        "square\nstandard errors by source, over the quantity's own:\n");
+    for (const ErrorShare& share : tables.error_sources) {
+        fmt::print("  {:<14} force {:.2g} %, moment {:.2g} %, k {:.2g} %, epsilon {:.2g} %\n",
+                   name_of(share.source), 100.0 * share.force, 100.0 * share.moment,
+                   100.0 * share.turbulent_kinetic_energy, 100.0 * share.dissipation_rate);
+    }
+    for (const LeftOutCase& one : tables.left_out) {
+        fmt::print("Left out and filled from the others: {}: {}\n", one.name, one.reason);
+    }
+}
+
 void print_cases(const Conversion& conversion) {
     const LoadTables& tables = *conversion.body.tables;
     fmt::print("{}: L = {:.6g} m, quality {}, {} solved cases -> {} table nodes\n\n", conversion.body.name,
                tables.reference_length, tables.quality, conversion.cases.size(), tables.entries.size());
     const auto row = [](const auto&... cells) {
-        fmt::print("{:<26} {:>9} {:>20} {:>20} {:>20} {:>24} {:>24}\n", cells...);
+        fmt::print("{:<26} {:<8} {:>9} {:>20} {:>20} {:>20} {:>24} {:>24}\n", cells...);
     };
-    row("direction (table axes)", "Re", "drag", "lift", "moment", "k/U^2", "epsilon L/U^3");
+    row("direction (table axes)", "for", "Re", "drag", "lift", "moment", "k/U^2", "epsilon L/U^3");
     for (const SolvedCase& solved : conversion.cases) {
         const auto& [direction, entry, error] = solved.sample;
         const Summary summary = summary_of(solved.sample);
         row(fmt::format("({:.4f}, {:.4f}, {:.4f})", direction.x(), direction.y(), direction.z()),
-            fmt::format("{:.5g}", solved.reynolds_number), with_error(summary.drag, summary.drag_error),
-            with_error(summary.lift, summary.lift_error), with_error(summary.moment, summary.moment_error),
+            name_of(solved.purpose), fmt::format("{:.5g}", solved.reynolds_number),
+            with_error(summary.drag, summary.drag_error), with_error(summary.lift, summary.lift_error),
+            with_error(summary.moment, summary.moment_error),
             with_error(entry.turbulent_kinetic_energy, error.turbulent_kinetic_energy),
             with_error(entry.dissipation_rate, error.dissipation_rate));
     }
-    fmt::print(
-        "\nErrors are standard errors of the iterations and of the symmetry; not of mesh and closure.\n");
+    print_errors(tables);
+}
+
+/// The folder's solved cases as a table of numbers.
+nlohmann::json write_samples(const std::string& cases, const std::string& output, bool print,
+                             const CaseProgress& progress) {
+    const CasePlan plan = read_case_plan(cases);
+    const FolderReduction reduction = reduce_folder(cases, plan, progress, UnsolvedCases::leave_out);
+    replace_file_with(output, samples_csv(reduction.cases, plan.axes));
+    nlohmann::json left_out = nlohmann::json::array();
+    for (const LeftOutCase& left : reduction.left_out) {
+        left_out.push_back({{"name", left.name}, {"reason", left.reason}});
+        if (print) fmt::print("left out: {}: {}\n", left.name, left.reason);
+    }
+    if (print) fmt::print("{}: {} solved cases of {}\n", output, reduction.cases.size(), plan.cases.size());
+    return {{"output", output}, {"cases", reduction.cases.size()}, {"left_out", left_out}};
+}
+
+nlohmann::json write_tables(const std::string& cases, const std::string& output, bool print,
+                            const CaseProgress& progress) {
+    const Conversion conversion = convert_folder(cases, progress);
+    write_body_file(output, conversion.body);
+    if (print) print_cases(conversion);
+    return conversion_as_json(conversion, output);
 }
 
 int run(int argc, const char* const* argv) {
@@ -117,23 +188,29 @@ int run(int argc, const char* const* argv) {
     std::string output;
     Arguments arguments("samara-convert",
                         "Turns solved OpenFOAM cases into the load and turbulence tables of a body file");
-    arguments.positional("CASES", cases, "the folder NAME.cases that 'samara bake' made");
-    arguments.required_option("-o,--output", output, "the body file to write, NAME.body.h5");
+    arguments.positional("CASES", cases, "the folder NAME.cases that 'samara bake' made, or one of your own");
+    arguments.required_option("-o,--output", output,
+                              "the body file to write, NAME.body.h5; or NAME.csv for the cases one by one");
     arguments.footer(
         "Reads plan.json, body.body.h5 and every solved case, and writes the body with /tables: force and\n"
         "moment coefficients, k/U^2 and epsilon L/U^3 over all directions, each with its standard error.\n"
+        "NAME.csv: one row for every solved case, before symmetry and tables, in body axes.\n"
+        "docs/bake.md says what a folder of cases that you solved yourself must hold.\n"
         "Example: samara convert rubber.cases -o rubber.body.h5");
     return run_program(argc, argv, arguments, [&] {
-        if (!is_body_file_name(output)) {
-            throw Error(fmt::format("{}: the output is a body file; name it NAME.body.h5", output));
+        const bool samples = output.ends_with(".csv");
+        if (!samples && !is_body_file_name(output)) {
+            throw Error(
+                fmt::format("{}: the output is a body file or a table of cases; name it NAME.body.h5 "
+                            "or NAME.csv",
+                            output));
         }
-        Progress progress("converting", "cases");
-        const Conversion conversion = convert_folder(cases, [&](std::size_t done, std::size_t total) {
-            progress.update(static_cast<double>(done), static_cast<double>(total));
-        });
-        write_body_file(output, conversion.body);
-        if (!arguments.json()) print_cases(conversion);
-        return conversion_as_json(conversion, output);
+        Progress bar("converting", "cases");
+        const CaseProgress progress = [&](std::size_t done, std::size_t total) {
+            bar.update(static_cast<double>(done), static_cast<double>(total));
+        };
+        return samples ? write_samples(cases, output, !arguments.json(), progress)
+                       : write_tables(cases, output, !arguments.json(), progress);
     });
 }
 

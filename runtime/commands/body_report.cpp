@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/provenance_summary.hpp"
+#include "commands/table_errors_report.hpp"
 #include "samara/base/vector_json.hpp"
 
 namespace samara {
@@ -95,6 +96,21 @@ void print_kirchhoff(const KirchhoffTensor& kirchhoff) {
     print_row("method", "{}, {} triangles", kirchhoff.method, kirchhoff.triangles);
 }
 
+void print_table_errors(const LoadTables& tables) {
+    if (tables.error_sources.empty()) {
+        print_row("standard errors hold", "{}", error_sources_in_words(tables));
+    } else {
+        fmt::print("  {:<26}{:>10}{:>10}{:>10}{:>10}\n", "standard error (rms) from", "force", "moment", "k",
+                   "epsilon");
+    }
+    for (const ErrorShare& share : tables.error_sources) {
+        fmt::print("    {:<24}{:>8.2g} %{:>8.2g} %{:>8.2g} %{:>8.2g} %\n", name_of(share.source),
+                   100.0 * share.force, 100.0 * share.moment, 100.0 * share.turbulent_kinetic_energy,
+                   100.0 * share.dissipation_rate);
+    }
+    for (const LeftOutCase& one : tables.left_out) print_row("left out", "{}: {}", one.name, one.reason);
+}
+
 void print_tables(const LoadTables& tables) {
     fmt::print("Tables\n");
     print_row("quality", "{}", tables.quality);
@@ -107,6 +123,7 @@ void print_tables(const LoadTables& tables) {
         print_row(range.name, "up to {:.3g} ({}), standard error {:.2g} to {:.2g}", range.largest,
                   range.scale, range.least_error, range.most_error);
     }
+    print_table_errors(tables);
     const ProvenanceSummary provenance = summarise_provenance(tables.provenance);
     print_row("cases", "{}", provenance.cases);
     for (const auto& [key, value] : provenance.keys) print_row(("  " + key).c_str(), "{}", value);
@@ -174,6 +191,18 @@ nlohmann::json tables_as_json(const LoadTables& tables) {
                                         {"least_error", range.least_error},
                                         {"most_error", range.most_error},
                                         {"unit", range.scale}};
+    }
+    result["error_sources"] = nlohmann::json::object();
+    for (const ErrorShare& share : tables.error_sources) {
+        result["error_sources"][name_of(share.source)] = {
+            {"force", share.force},
+            {"moment", share.moment},
+            {"turbulent_kinetic_energy", share.turbulent_kinetic_energy},
+            {"dissipation_rate", share.dissipation_rate}};
+    }
+    result["left_out"] = nlohmann::json::array();
+    for (const LeftOutCase& one : tables.left_out) {
+        result["left_out"].push_back({{"name", one.name}, {"reason", one.reason}});
     }
     result["provenance"] = nlohmann::json::parse(tables.provenance, nullptr, false);
     if (result["provenance"].is_discarded()) result["provenance"] = nullptr;

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <csignal>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/commands.hpp"
+#include "commands/table_errors_report.hpp"
 #include "samara/base/content_hash.hpp"
 #include "samara/base/error.hpp"
 #include "samara/base/vector_json.hpp"
@@ -139,7 +141,7 @@ SimulationReport fly(Simulation& simulation, const std::string& output) {
 }
 
 nlohmann::json body_result(const MotionReader& file, std::size_t index, const BodyMeasures& measures,
-                           const FlightReport& report) {
+                           const FlightReport& report, const std::optional<LoadTables>& tables) {
     const BodyMotion& body = file.motion().bodies[index];
     nlohmann::json result = as_json(measures);
     result["name"] = body.name;
@@ -148,6 +150,7 @@ nlohmann::json body_result(const MotionReader& file, std::size_t index, const Bo
     result["final_position"] = as_json(file.poses(index, {}).back().position);
     result["highest_reynolds_number"] = report.highest_reynolds_number;
     result["share_below_table"] = share_below_table(report);
+    result["table_errors"] = table_errors_as_json(tables, report.table_errors);
     return result;
 }
 
@@ -167,6 +170,10 @@ nlohmann::json run(const Request& request, const Arguments& arguments) {
     std::signal(SIGTERM, SIG_DFL);
     for (std::size_t i = 0; i < cast.size(); ++i) {
         warn_of_reynolds_numbers(scene.bodies[i], cast[i].body, report.bodies[i]);
+        for (const std::string& warning :
+             table_error_warnings(scene.bodies[i].name, report.bodies[i].table_errors)) {
+            note(warning);
+        }
     }
     warn_of_substeps(report);
 
@@ -176,10 +183,11 @@ nlohmann::json run(const Request& request, const Arguments& arguments) {
         measure_file(file, request.threads, [&](double done, double total) { progress.update(done, total); });
     nlohmann::json bodies = nlohmann::json::array();
     for (std::size_t i = 0; i < measures.size(); ++i) {
-        bodies.push_back(body_result(file, i, measures[i], report.bodies[i]));
+        bodies.push_back(body_result(file, i, measures[i], report.bodies[i], cast[i].body.tables));
         if (arguments.json()) continue;
         const BodyMotion& body = file.motion().bodies[i];
-        fmt::print("{}\n{}  {}\n", body.name, as_text(measures[i]), body.models);
+        fmt::print("{}\n{}  {}\n{}", body.name, as_text(measures[i]), body.models,
+                   table_errors_as_text(cast[i].body.tables, report.bodies[i].table_errors));
     }
     const auto steps = static_cast<double>(report.steps);
     const double nanoseconds = steps > 0.0 ? 1e9 * report.seconds / steps : 0.0;

@@ -30,6 +30,14 @@ void expect_equal(const LoadEntry& a, const LoadEntry& b) {
     EXPECT_EQ(a.dissipation_rate, b.dissipation_rate);
 }
 
+void expect_equal(const ErrorShare& a, const ErrorShare& b) {
+    EXPECT_EQ(a.source, b.source);
+    EXPECT_EQ(a.force, b.force);
+    EXPECT_EQ(a.moment, b.moment);
+    EXPECT_EQ(a.turbulent_kinetic_energy, b.turbulent_kinetic_energy);
+    EXPECT_EQ(a.dissipation_rate, b.dissipation_rate);
+}
+
 void expect_equal(const DynamicCoefficients& a, const DynamicCoefficients& b) {
     EXPECT_EQ(a.force_transport, b.force_transport);
     EXPECT_EQ(a.moment_transport, b.moment_transport);
@@ -75,6 +83,15 @@ void expect_equal(const Body& a, const Body& b) {
     EXPECT_EQ(a.tables->reynolds_numbers, b.tables->reynolds_numbers);
     EXPECT_EQ(a.tables->quality, b.tables->quality);
     EXPECT_EQ(a.tables->provenance, b.tables->provenance);
+    ASSERT_EQ(a.tables->error_sources.size(), b.tables->error_sources.size());
+    for (std::size_t i = 0; i < a.tables->error_sources.size(); ++i) {
+        expect_equal(a.tables->error_sources[i], b.tables->error_sources[i]);
+    }
+    ASSERT_EQ(a.tables->left_out.size(), b.tables->left_out.size());
+    for (std::size_t i = 0; i < a.tables->left_out.size(); ++i) {
+        EXPECT_EQ(a.tables->left_out[i].name, b.tables->left_out[i].name);
+        EXPECT_EQ(a.tables->left_out[i].reason, b.tables->left_out[i].reason);
+    }
     ASSERT_EQ(a.tables->entries.size(), b.tables->entries.size());
     ASSERT_EQ(a.tables->errors.size(), b.tables->errors.size());
     for (std::size_t i = 0; i < a.tables->entries.size(); ++i) {
@@ -281,6 +298,16 @@ TEST(BodyFile, SurfaceHashKnowsEveryVertexAndTriangle) {
     Surface turned = body.surface;
     std::swap(turned.corners[0][0], turned.corners[0][1]);
     EXPECT_NE(surface_hash(turned), hash);
+}
+
+TEST(BodyFile, OfTablesWithoutErrorSourcesReadsAsOneThatDoesNotSay) {
+    const test::TemporaryFolder folder;
+    Body body = test::full_body();
+    body.tables->error_sources.clear();
+    body.tables->left_out.clear();
+    write_body_file(folder / "a.body.h5", body);
+    EXPECT_FALSE(Hdf5Reader(folder / "a.body.h5").has("/tables/error_sources"));
+    expect_equal(read_body_file(folder / "a.body.h5"), body);
 }
 
 }  // namespace

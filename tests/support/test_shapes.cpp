@@ -217,6 +217,9 @@ Body full_body() {
     kirchhoff.method = "boundary elements";
     body.kirchhoff = kirchhoff;
     body.tables = smooth_tables(2);
+    body.tables->error_sources = {{ErrorSource::tail, 0.01, 0.02, 0.03, 0.04},
+                                  {ErrorSource::interpolation, 0.05, 0.06, 0.07, 0.08}};
+    body.tables->left_out = {{"direction_07", "never settled"}};
     DynamicCoefficients dynamic;
     dynamic.force_transport = 0.7;
     dynamic.moment_transport = 0.8;

@@ -41,7 +41,8 @@ BodyFlight::BodyFlight(const Scene& scene, const SceneBody& scene_body, const Im
       threads_(threads),
       batch_(body, static_cast<std::size_t>(runs) * copies_),
       after_(batch_.size()),
-      last_(batch_.size()) {
+      last_(batch_.size()),
+      errors_met_(batch_.size()) {
     for (std::size_t i = 0; i < batch_.size(); ++i) {
         const auto run = static_cast<std::uint32_t>(i / copies_);
         const auto copy = static_cast<std::uint32_t>(i % copies_);
@@ -69,7 +70,9 @@ void BodyFlight::fly_to(double time, Pose* poses, std::size_t run_stride) {
     parallel_for(batch_.size(), poses_a_piece, threads_, [&](std::size_t first, std::size_t end) {
         for (std::size_t i = first; i < end; ++i) {
             Pose& pose = poses[place(i)];
-            pose = in_world(interpolated(before_[i], after_[i], fraction, step_), surroundings_, time);
+            const Pose in_flow = interpolated(before_[i], after_[i], fraction, step_);
+            errors_met_[i].add(table_errors_met(body_, in_flow));
+            pose = in_world(in_flow, surroundings_, time);
             keep_sign_continuous(pose.orientation, last_[i]);
             last_[i] = pose.orientation;
         }
@@ -127,6 +130,12 @@ void BodyFlight::note_poses() {
         report_.moving += piece.moving;
         report_.below_table += piece.below_table;
     });
+}
+
+FlightReport BodyFlight::report() const {
+    FlightReport report = report_;
+    for (const TableErrorsMet& met : errors_met_) report.table_errors.add(met);
+    return report;
 }
 
 Pose BodyFlight::held(std::size_t index) const {

@@ -6,6 +6,7 @@
 #include "samara/dynamics/batch.hpp"
 #include "samara/motion/motion.hpp"
 #include "samara/scene/scene.hpp"
+#include "samara/simulation/table_errors_met.hpp"
 
 namespace samara {
 
@@ -19,6 +20,7 @@ struct FlightReport {
     double highest_reynolds_number = 0.0;  ///< at the frames
     std::uint64_t moving = 0;              ///< poses at the frames of bodies that move through the fluid
     std::uint64_t below_table = 0;         ///< those of them below the table's lowest Reynolds number
+    TableErrorsMet table_errors;           ///< at the frames asked for
 };
 
 /// The share of the poses of bodies that move that lie below the table's lowest Reynolds number.
@@ -37,7 +39,9 @@ class BodyFlight {
     /// range of numbers.
     void fly_to(double time, Pose* poses, std::size_t run_stride);
 
-    [[nodiscard]] const FlightReport& report() const { return report_; }
+    [[nodiscard]] FlightReport report() const;
+    /// Steps flown so far, over copies and runs.
+    [[nodiscard]] std::uint64_t steps() const { return report_.steps; }
 
   private:
     void step_to(double time_in_flight);
@@ -55,7 +59,8 @@ class BodyFlight {
     std::uint64_t steps_ = 0;
     std::vector<Pose> before_;  ///< one step before after_; both in the flow's frame
     std::vector<Pose> after_;
-    std::vector<Quaterniond> last_;  ///< orientations at the last frame
+    std::vector<Quaterniond> last_;           ///< orientations at the last frame
+    std::vector<TableErrorsMet> errors_met_;  ///< each body's own, so that the sum has one order
     FlightReport report_;
 };
 

@@ -110,7 +110,7 @@ SimulationReport Simulation::fly(const Sink& sink, const Progress& progress) {
         report.frames += flown;
     }
     for (const BodyFlight& flight : flights_) {
-        const FlightReport& body = flight.report();
+        const FlightReport body = flight.report();
         report.steps += body.steps;
         report.implicit_steps += body.batch.implicit_steps;
         report.steps_at_limit += body.batch.steps_at_limit;
@@ -122,7 +122,7 @@ SimulationReport Simulation::fly(const Sink& sink, const Progress& progress) {
 
 double Simulation::done() const {
     double steps = 0.0;
-    for (const BodyFlight& flight : flights_) steps += static_cast<double>(flight.report().steps);
+    for (const BodyFlight& flight : flights_) steps += static_cast<double>(flight.steps());
     return steps;
 }
 

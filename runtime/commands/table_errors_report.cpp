@@ -1,0 +1,71 @@
+#include "commands/table_errors_report.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace samara {
+namespace {
+
+constexpr double doubtful = 0.3;
+
+bool used_tables(const std::optional<LoadTables>& tables, const TableErrorsMet& met) {
+    return tables && met.forces + met.turbulent_kinetic_energies > 0;
+}
+
+std::vector<std::string_view> source_names(const LoadTables& tables) {
+    if (tables.error_sources.empty()) return {name_of(ErrorSource::tail), name_of(ErrorSource::symmetry)};
+    std::vector<std::string_view> names;
+    for (const ErrorShare& share : tables.error_sources) names.emplace_back(name_of(share.source));
+    return names;
+}
+
+}  // namespace
+
+std::string error_sources_in_words(const LoadTables& tables) {
+    return fmt::format("{}", fmt::join(source_names(tables), ", "));
+}
+
+std::string table_errors_as_text(const std::optional<LoadTables>& tables, const TableErrorsMet& met) {
+    if (!used_tables(tables, met)) return {};
+    std::string text = "  the tables' standard error along the flight:";
+    if (met.forces > 0) text += fmt::format(" {:.2g} % of the force", 100.0 * met.mean_force());
+    if (met.forces > 0 && met.turbulent_kinetic_energies > 0) text += ",";
+    if (met.turbulent_kinetic_energies > 0) {
+        text += fmt::format(" {:.2g} % of k", 100.0 * met.mean_turbulent_kinetic_energy());
+    }
+    text += fmt::format("\n  it holds: {}\n", error_sources_in_words(*tables));
+    if (!tables->left_out.empty()) {
+        text += fmt::format("  {} of the tables' cases could not be solved ('samara info' names them)\n",
+                            tables->left_out.size());
+    }
+    return text;
+}
+
+nlohmann::json table_errors_as_json(const std::optional<LoadTables>& tables, const TableErrorsMet& met) {
+    if (!used_tables(tables, met)) return nullptr;
+    nlohmann::json result = {{"force", nullptr}, {"turbulent_kinetic_energy", nullptr}};
+    if (met.forces > 0) result["force"] = met.mean_force();
+    if (met.turbulent_kinetic_energies > 0) {
+        result["turbulent_kinetic_energy"] = met.mean_turbulent_kinetic_energy();
+    }
+    result["sources"] = source_names(*tables);
+    result["left_out"] = nlohmann::json::array();
+    for (const LeftOutCase& one : tables->left_out) result["left_out"].push_back(one.name);
+    return result;
+}
+
+std::vector<std::string> table_error_warnings(const std::string& body, const TableErrorsMet& met) {
+    std::vector<std::string> warnings;
+    const auto warn = [&](const char* quantity, double error) {
+        if (error <= doubtful) return;
+        warnings.push_back(
+            fmt::format("the tables of '{}' are uncertain by {:.0f} % of {} along its flight "
+                        "(standard error); bake it with a higher quality",
+                        body, 100.0 * error, quantity));
+    };
+    warn("the force", met.mean_force());
+    warn("k", met.mean_turbulent_kinetic_energy());
+    return warnings;
+}
+
+}  // namespace samara

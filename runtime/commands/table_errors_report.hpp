@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "samara/body/load_tables.hpp"
+#include "samara/simulation/table_errors_met.hpp"
+
+namespace samara {
+
+/// "tail, symmetry, interpolation": the sources that the tables' standard errors hold; "tail and symmetry"
+/// for tables from before sources were written.
+std::string error_sources_in_words(const LoadTables& tables);
+
+/// Lines of at most 100 characters about the tables' errors as a flight met them, each with its line feed;
+/// empty where the flight used no tables.
+std::string table_errors_as_text(const std::optional<LoadTables>& tables, const TableErrorsMet& met);
+
+/// The same as JSON: `force` and `turbulent_kinetic_energy` (means over the flight, relative; null where the
+/// flight did not use them), `sources`, `left_out`; null where the flight used no tables.
+nlohmann::json table_errors_as_json(const std::optional<LoadTables>& tables, const TableErrorsMet& met);
+
+/// A sentence for each mean error above 30 %.
+std::vector<std::string> table_error_warnings(const std::string& body, const TableErrorsMet& met);
+
+}  // namespace samara

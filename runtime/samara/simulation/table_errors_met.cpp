@@ -1,0 +1,52 @@
+#include "samara/simulation/table_errors_met.hpp"
+
+#include "samara/dynamics/loads.hpp"
+
+namespace samara {
+namespace {
+
+double mean(double sum, std::uint64_t count) {
+    return count == 0 ? 0.0 : sum / static_cast<double>(count);
+}
+
+}  // namespace
+
+void TableErrorsMet::add(const TableErrorsMet& other) {
+    force += other.force;
+    turbulent_kinetic_energy += other.turbulent_kinetic_energy;
+    forces += other.forces;
+    turbulent_kinetic_energies += other.turbulent_kinetic_energies;
+}
+
+double TableErrorsMet::mean_force() const {
+    return mean(force, forces);
+}
+
+double TableErrorsMet::mean_turbulent_kinetic_energy() const {
+    return mean(turbulent_kinetic_energy, turbulent_kinetic_energies);
+}
+
+TableErrorsMet table_errors_met(const ImmersedBody& body, const Pose& in_flow) noexcept {
+    TableErrorsMet met;
+    if (!body.tables || body.tables->errors.size() != body.tables->entries.size()) return met;
+    const Quaterniond to_body = in_flow.orientation.conjugate();
+    const Vector3d velocity =
+        to_body * in_flow.velocity + (to_body * in_flow.angular_velocity).cross(body.center_of_buoyancy);
+    const double speed = velocity.norm();
+    if (!(speed > 0.0)) return met;
+    const Vector3d direction = velocity / speed;
+    const double reynolds = reynolds_number(body, speed);
+    const LoadEntry entry = look_up(*body.tables, direction, reynolds);
+    const LoadEntryError error = look_up_error(*body.tables, direction, reynolds);
+    if (body.loads == Loads::table && entry.force.norm() > 0.0) {
+        met.force = error.force.norm() / entry.force.norm();
+        met.forces = 1;
+    }
+    if (body.turbulence == Turbulence::table && entry.turbulent_kinetic_energy > 0.0) {
+        met.turbulent_kinetic_energy = error.turbulent_kinetic_energy / entry.turbulent_kinetic_energy;
+        met.turbulent_kinetic_energies = 1;
+    }
+    return met;
+}
+
+}  // namespace samara

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+
+#include "samara/dynamics/immersed_body.hpp"
+#include "samara/motion/pose.hpp"
+
+namespace samara {
+
+/// The standard errors of a body's tables as it met them along its flight: sums over poses.
+struct TableErrorsMet {
+    double force = 0.0;                     ///< of the force, over the force
+    double turbulent_kinetic_energy = 0.0;  ///< of k, over k
+    std::uint64_t forces = 0;               ///< poses that the sums are over: without those at rest
+    std::uint64_t turbulent_kinetic_energies = 0;
+
+    void add(const TableErrorsMet& other);
+    [[nodiscard]] double mean_force() const;                     ///< 0 where there is none
+    [[nodiscard]] double mean_turbulent_kinetic_energy() const;  ///< 0 where there is none
+};
+
+/// What one pose (in the flow's frame) adds: the tables' errors looked up at the velocity of the centroid
+/// relative to the mean current. Of the force where loads come from tables, of k where turbulence does;
+/// nothing for a body at rest or tables without errors.
+TableErrorsMet table_errors_met(const ImmersedBody& body, const Pose& in_flow) noexcept;
+
+}  // namespace samara
