@@ -29,12 +29,13 @@ constexpr const char* mesh_record = "mesh.json";
 constexpr const char* failure_record = "failed.json";
 constexpr const char* check_log = "log.check";  // what a check says, in its last line
 
-std::string last_line(const fs::path& file) {
+// The last line that holds the text; empty where there is none.
+std::string last_line(const fs::path& file, const std::string& text = "") {
     if (!fs::exists(file)) return {};
     std::istringstream lines(read_bytes(file));
     std::string last;
     for (std::string line; std::getline(lines, line);) {
-        if (!line.empty()) last = line;
+        if (!line.empty() && line.find(text) != std::string::npos) last = line;
     }
     return last;
 }
@@ -56,8 +57,8 @@ std::string fault_of(const fs::path& folder, const std::string& name) {
     if (line.starts_with(name + ": ")) {
         return fmt::format("{}/{}", folder.string(), with_paths_from_here(line, folder, name));
     }
-    const std::string of_job = last_line(folder / name / job_log);
-    if (of_job.find("error:") != std::string::npos) {
+    const std::string of_job = last_line(folder / name / job_log, "slurmstepd: error:");
+    if (!of_job.empty()) {
         return fmt::format("{}: its cluster job ended early: {}; see {}", (folder / name).string(), of_job,
                            (folder / name / job_log).string());
     }

@@ -1,5 +1,6 @@
 // Real OpenFOAM runs at smoke quality: what is solved again, and what a kill leaves behind.
 
+#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
@@ -48,7 +49,6 @@ std::vector<pid_t> processes(const std::string& program, const fs::path& folder)
 
 class Farm : public test::BakeFolder {
   protected:
-    // An ellipsoid of revolution has the fewest cases beside a sphere.
     const fs::path body_ = write_body(test::ellipsoid({0.01, 0.02, 0.04}));
     const std::string words_ = fmt::format("{} -o out.body.h5 --quality smoke --json", body_.string());
 
@@ -141,6 +141,11 @@ TEST_F(Farm, SolvesAgainOnlyWhatDependsOnTheInputThatChanged) {
     EXPECT_EQ(changed_meshes().size(), 0u);
     EXPECT_EQ(changed_cases(), 6u);
 
+    // A lighter body that rises as fast as the other falls, at the same Reynolds number.
+    EXPECT_EQ(baked(" --density 796.4", environment), first);
+    EXPECT_EQ(changed_meshes().size(), 0u);
+    EXPECT_EQ(changed_cases(), 0u);
+
     // Another density falls at another Reynolds number.
     EXPECT_NE(baked(" --density 1300", environment), first);
     EXPECT_EQ(changed_meshes().size(), 0u);
@@ -151,6 +156,24 @@ TEST_F(Farm, SolvesAgainOnlyWhatDependsOnTheInputThatChanged) {
     EXPECT_EQ(baked("", environment), first);
     EXPECT_EQ(changed_meshes().size(), 1u);
     EXPECT_EQ(changed_cases(), 6u);
+}
+
+TEST_F(Farm, OnTwoProcessesGivesTheLoadsOfOneWithinAPercent) {
+    ASSERT_EQ(bake(words_).status, 0);
+    const LoadTables one = *read_body_file(output_).tables;
+    const auto before = solved();
+    const test::ProgramRun run = bake(words_ + " --ranks 2");
+    ASSERT_EQ(run.status, 0) << run.fault;
+    const LoadTables two = *read_body_file(output_).tables;
+    EXPECT_EQ(names_of_newer(solved(), before).size(), 6u);
+    EXPECT_EQ(made("mesh.json").size(), 1u);
+    EXPECT_THAT(read_bytes(cases_ / "direction_00_coarse/log.simpleFoam"), HasSubstr("nProcs : 2"));
+    EXPECT_FALSE(fs::exists(cases_ / "direction_00_coarse/processor0"));
+    double largest = 0.0;
+    for (const LoadEntry& entry : one.entries) largest = std::max(largest, entry.force.norm());
+    for (std::size_t i = 0; i < one.entries.size(); ++i) {
+        EXPECT_LT((one.entries[i].force - two.entries[i].force).norm(), 0.01 * largest);
+    }
 }
 
 }  // namespace
