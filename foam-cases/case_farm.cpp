@@ -57,7 +57,7 @@ std::string fault_of(const fs::path& folder, const std::string& name) {
     if (line.starts_with(name + ": ")) {
         return fmt::format("{}/{}", folder.string(), with_paths_from_here(line, folder, name));
     }
-    const std::string of_job = last_line(folder / name / job_log, "slurmstepd: error:");
+    const std::string of_job = last_line(folder / name / job_log, "slurmstepd");
     if (!of_job.empty()) {
         return fmt::format("{}: its cluster job ended early: {}; see {}", (folder / name).string(), of_job,
                            (folder / name / job_log).string());

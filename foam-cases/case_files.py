@@ -65,7 +65,8 @@ def check_ended(log, program):
         # Files that are missing or cannot be read say nothing against the case.
         kind = Fault if "IO" in fatal.group(1) else Failure
         raise kind(f"{program} failed{where}: {fatal.group(2).strip().rstrip('.')}; see {log}")
-    if "Floating point exception" in text:
+    # The signal's handler, in the stack that OpenFOAM prints; its banner speaks of floating point exceptions too.
+    if "sigFpe::sigHandler" in text:
         raise Failure(f"{program} diverged (floating point exception){where}; see {log}")
     raise Fault(f"{program} was stopped{where}, before its end; see {log}")
 

@@ -93,7 +93,8 @@ def breakdown(log):
     if fatal:
         kind = Diverged if times and "IO" not in fatal.group(1) else Fault
         return kind(f"simpleFoam failed{where}: {fatal.group(2).strip().rstrip('.')}{see}")
-    if "Floating point exception" in text:
+    # The signal's handler, in the stack that OpenFOAM prints; its banner speaks of floating point exceptions too.
+    if "sigFpe::sigHandler" in text:
         return Diverged(f"simpleFoam diverged (floating point exception){where}{see}")
     return Fault(f"simpleFoam was stopped{where}, before its end{see}")
 
