@@ -40,6 +40,7 @@ FolderReduction reduce_folder(const std::filesystem::path& folder, const CasePla
     std::vector<const PlannedCase*> solved;
     std::vector<std::string> missing;
     for (const PlannedCase& planned : plan.cases) {
+        if (planned.purpose == CasePurpose::start) continue;
         if (const std::optional<std::string> reason = failure_of(folder / planned.name)) {
             reduction.left_out.push_back({planned.name, *reason});
         } else if (plan.solved_by_user || is_solved(folder / planned.name)) {

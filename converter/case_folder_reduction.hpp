@@ -9,16 +9,10 @@
 
 namespace samara {
 
-/// A case of the plan that gives nothing to the tables.
-struct LeftOut {
-    std::string name;
-    std::string reason;  ///< one line
-};
-
 /// What the cases of a folder give.
 struct FolderReduction {
-    std::vector<SolvedCase> cases;  ///< in the plan's order, map axes; of every purpose
-    std::vector<LeftOut> left_out;  ///< in the plan's order
+    std::vector<SolvedCase> cases;      ///< in the plan's order, map axes; of every purpose but start
+    std::vector<LeftOutCase> left_out;  ///< of the same
 };
 
 /// What becomes of cases that are neither solved nor failed.

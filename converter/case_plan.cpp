@@ -39,13 +39,6 @@ constexpr std::array<std::pair<CasePurpose, const char*>, 4> purposes = {{{CaseP
                                                                           {CasePurpose::closure, "closure"},
                                                                           {CasePurpose::start, "start"}}};
 
-CasePurpose as_purpose(const std::string& word) {
-    for (const auto& [purpose, name] : purposes) {
-        if (word == name) return purpose;
-    }
-    throw Error(fmt::format("'purpose' is \"{}\", not table, mesh, closure or start", word));
-}
-
 Matrix3d as_matrix(const nlohmann::json& rows) {
     Matrix3d matrix;
     for (int row = 0; row < 3; ++row) matrix.row(row) = as_vector(rows.at(static_cast<std::size_t>(row)));
@@ -62,7 +55,7 @@ PlannedCase as_case(const nlohmann::json& values, const CasePlan& plan, const Ca
                         values.at("reynolds_number").get<double>()};
     planned.direction = plan.to_map_axes() * planned.direction;
     planned.mesh = values.value("mesh", planned.mesh);
-    planned.purpose = as_purpose(values.value("purpose", "table"));
+    planned.purpose = purpose_of(values.value("purpose", "table"));
     planned.closure = values.value("closure", planned.closure);
     planned.scales = as_scales(values, scales);
     if (values.contains("averaging_start")) planned.averaging_start = values["averaging_start"].get<double>();
@@ -144,6 +137,13 @@ void check(const CasePlan& plan) {
 }
 
 }  // namespace
+
+CasePurpose purpose_of(const std::string& name) {
+    for (const auto& [purpose, word] : purposes) {
+        if (word == name) return purpose;
+    }
+    throw Error(fmt::format("'purpose' is \"{}\", not table, mesh, closure or start", name));
+}
 
 std::string name_of(CasePurpose purpose) {
     for (const auto& [one, name] : purposes) {

@@ -20,6 +20,9 @@ enum class CasePurpose {
 /// As plan.json words it: table, mesh, closure, start.
 std::string name_of(CasePurpose purpose);
 
+/// The purpose of that name; throws Error where there is none.
+CasePurpose purpose_of(const std::string& name);
+
 /// The body's scales in the units of a case; 1 where it is nondimensional, as those of `samara bake` are.
 struct CaseScales {
     double length = 1.0;   ///< L

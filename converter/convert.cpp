@@ -68,9 +68,7 @@ Conversion convert_folder(const std::filesystem::path& folder,
         throw Error(
             fmt::format("{}: {}; run 'samara bake' again", (folder / "plan.json").string(), fault.what()));
     }
-    for (const LeftOut& left_out : reduction.left_out) {
-        conversion.body.tables->left_out.push_back({left_out.name, left_out.reason});
-    }
+    conversion.body.tables->left_out = std::move(reduction.left_out);
     return conversion;
 }
 

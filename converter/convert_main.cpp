@@ -1,20 +1,26 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "converter/case_folder_reduction.hpp"
 #include "converter/convert.hpp"
+#include "converter/samples_csv.hpp"
 #include "samara/base/error.hpp"
 #include "samara/base/vector_json.hpp"
 #include "samara/body/body_file.hpp"
 #include "samara/command/arguments.hpp"
 #include "samara/command/progress.hpp"
+#include "samara/files/replace_file.hpp"
 
 namespace samara {
 namespace {
+
+using CaseProgress = std::function<void(std::size_t done, std::size_t total)>;
 
 /// What people look at first in one solved case. Coefficients on A = pi L^2 / 4, the moment's also on L.
 struct Summary {
@@ -55,6 +61,8 @@ nlohmann::json case_as_json(const SolvedCase& solved) {
             {"direction", as_json(direction)},
             {"reynolds_number", solved.reynolds_number},
             {"purpose", name_of(solved.purpose)},
+            {"mesh", solved.mesh},
+            {"closure", solved.closure},
             {"drag_coefficient", summary.drag},
             {"drag_coefficient_error", summary.drag_error},
             {"force", as_json(entry.force)},
@@ -140,28 +148,57 @@ void print_cases(const Conversion& conversion) {
     print_errors(tables);
 }
 
+/// The folder's solved cases as a table of numbers.
+nlohmann::json write_samples(const std::string& cases, const std::string& output, bool print,
+                             const CaseProgress& progress) {
+    const CasePlan plan = read_case_plan(cases);
+    const FolderReduction reduction = reduce_folder(cases, plan, progress, UnsolvedCases::leave_out);
+    replace_file_with(output, samples_csv(reduction.cases, plan.axes));
+    nlohmann::json left_out = nlohmann::json::array();
+    for (const LeftOutCase& left : reduction.left_out) {
+        left_out.push_back({{"name", left.name}, {"reason", left.reason}});
+        if (print) fmt::print("left out: {}: {}\n", left.name, left.reason);
+    }
+    if (print) fmt::print("{}: {} solved cases of {}\n", output, reduction.cases.size(), plan.cases.size());
+    return {{"output", output}, {"cases", reduction.cases.size()}, {"left_out", left_out}};
+}
+
+nlohmann::json write_tables(const std::string& cases, const std::string& output, bool print,
+                            const CaseProgress& progress) {
+    const Conversion conversion = convert_folder(cases, progress);
+    write_body_file(output, conversion.body);
+    if (print) print_cases(conversion);
+    return conversion_as_json(conversion, output);
+}
+
 int run(int argc, const char* const* argv) {
     std::string cases;
     std::string output;
     Arguments arguments("samara-convert",
                         "Turns solved OpenFOAM cases into the load and turbulence tables of a body file");
-    arguments.positional("CASES", cases, "the folder NAME.cases that 'samara bake' made");
-    arguments.required_option("-o,--output", output, "the body file to write, NAME.body.h5");
+    arguments.positional("CASES", cases, "the folder NAME.cases that 'samara bake' made, or one of your own");
+    arguments.required_option("-o,--output", output,
+                              "the body file to write, NAME.body.h5; or NAME.csv for the cases one by one");
     arguments.footer(
         "Reads plan.json, body.body.h5 and every solved case, and writes the body with /tables: force and\n"
         "moment coefficients, k/U^2 and epsilon L/U^3 over all directions, each with its standard error.\n"
+        "NAME.csv: one row for every solved case, before symmetry and tables, in body axes.\n"
+        "docs/bake.md says what a folder of cases that you solved yourself must hold.\n"
         "Example: samara convert rubber.cases -o rubber.body.h5");
     return run_program(argc, argv, arguments, [&] {
-        if (!is_body_file_name(output)) {
-            throw Error(fmt::format("{}: the output is a body file; name it NAME.body.h5", output));
+        const bool samples = output.ends_with(".csv");
+        if (!samples && !is_body_file_name(output)) {
+            throw Error(
+                fmt::format("{}: the output is a body file or a table of cases; name it NAME.body.h5 "
+                            "or NAME.csv",
+                            output));
         }
-        Progress progress("converting", "cases");
-        const Conversion conversion = convert_folder(cases, [&](std::size_t done, std::size_t total) {
-            progress.update(static_cast<double>(done), static_cast<double>(total));
-        });
-        write_body_file(output, conversion.body);
-        if (!arguments.json()) print_cases(conversion);
-        return conversion_as_json(conversion, output);
+        Progress bar("converting", "cases");
+        const CaseProgress progress = [&](std::size_t done, std::size_t total) {
+            bar.update(static_cast<double>(done), static_cast<double>(total));
+        };
+        return samples ? write_samples(cases, output, !arguments.json(), progress)
+                       : write_tables(cases, output, !arguments.json(), progress);
     });
 }
 

@@ -106,8 +106,8 @@ FoamHistory read_rows(const std::filesystem::path& file, CutLine cut_line) {
                 append_row(history, numbers_in(line));
             } else if (cut_line == CutLine::refuse) {
                 throw Error(
-                    "ends within this line: the solver was stopped while it wrote; let it go on, or remove "
-                    "the line");
+                    "ends within this line, as where the solver was stopped while it wrote; let it go on, or "
+                    "remove the line");
             }
         } catch (const Error& fault) {
             throw Error(fmt::format("{}:{}: {}", bytes.path.string(), line_number, fault.what()));

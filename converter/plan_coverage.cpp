@@ -49,12 +49,12 @@ void require_enough_directions(const CasePlan& plan, const Symmetry& symmetry,
                         main.front()->reynolds_number, missing->x(), missing->y(), missing->z()));
     }
     std::set<std::string> left_out;
-    for (const LeftOut& one : reduction.left_out) left_out.insert(one.name);
+    for (const LeftOutCase& one : reduction.left_out) left_out.insert(one.name);
     const auto lost = std::count_if(main.begin(), main.end(),
                                     [&](const PlannedCase* one) { return left_out.contains(one->name); });
     if (5 * lost > static_cast<std::ptrdiff_t>(main.size())) {
-        const LeftOut& first =
-            *std::find_if(reduction.left_out.begin(), reduction.left_out.end(), [&](const LeftOut& one) {
+        const LeftOutCase& first =
+            *std::find_if(reduction.left_out.begin(), reduction.left_out.end(), [&](const LeftOutCase& one) {
                 return std::any_of(main.begin(), main.end(),
                                    [&](const PlannedCase* planned) { return planned->name == one.name; });
             });

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "converter/case_folder_reduction.hpp"
+#include "converter/samples_csv.hpp"
 #include "foam-cases/body_preparation.hpp"
 #include "foam-cases/case_farm.hpp"
 #include "foam-cases/case_folder.hpp"
@@ -15,6 +17,7 @@
 #include "samara/base/error.hpp"
 #include "samara/body/body_file.hpp"
 #include "samara/command/progress.hpp"
+#include "samara/files/replace_file.hpp"
 #include "samara/files/temporary_folder.hpp"
 
 namespace samara {
@@ -76,17 +79,25 @@ void solve_and_convert(const BakeRequest& request, const Body& body, const FarmO
     result.case_seconds = watch.lap();
 
     Progress progress("converting", "cases");
-    result.conversion = convert_folder(folder, [&](std::size_t done, std::size_t total) {
+    const auto tell = [&](std::size_t done, std::size_t total) {
         progress.update(static_cast<double>(done), static_cast<double>(total));
-    });
-    write_body_file(request.output, result.conversion->body);
+    };
+    if (request.probes > 0) {
+        const FolderReduction reduction = reduce_folder(folder, read_case_plan(folder), tell);
+        result.probes = reduction.cases.size();
+        replace_file_with(request.output, samples_csv(reduction.cases, plan.axes));
+    } else {
+        result.conversion = convert_folder(folder, tell);
+        write_body_file(request.output, result.conversion->body);
+    }
     result.conversion_seconds = watch.lap();
 }
 
 }  // namespace
 
 fs::path case_folder_of(const fs::path& output) {
-    return output.parent_path() / (body_name_of(output) + ".cases");
+    const std::string name = is_body_file_name(output) ? body_name_of(output) : output.stem().string();
+    return output.parent_path() / (name + ".cases");
 }
 
 BakePreparation prepare_bake(const BakeRequest& request) {

@@ -37,6 +37,7 @@ struct BakePreparation {
 struct BakeResult {
     BakePreparation preparation;
     std::optional<Conversion> conversion;
+    std::size_t probes = 0;  ///< rows of the table of cases, where probes were asked for
     std::size_t reused = 0;  ///< cases that an earlier bake had solved
     std::vector<LeftOutCase> left_out;
     double mesh_seconds = 0.0;  ///< wall clock, as the next three
@@ -45,7 +46,7 @@ struct BakeResult {
     double conversion_seconds = 0.0;
 };
 
-/// The folder of cases of an output file: NAME.cases beside NAME.body.h5.
+/// The folder of cases of an output file: NAME.cases beside NAME.body.h5, or beside NAME.csv.
 std::filesystem::path case_folder_of(const std::filesystem::path& output);
 
 /// Meshes the body in a temporary folder and plans its cases; writes nothing else. Throws Error.

@@ -31,11 +31,23 @@ struct BakeOptions {
     int jobs = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 1024);
     std::string cluster;
     std::string quality = "preview";
+    std::string inflow = "still";
+    int probes = 0;
     bool dry_run = false;
 };
 
+void take_options(const BakeOptions& options, BakeRequest& request) {
+    request.quality = bake_quality(options.quality);
+    if (options.inflow == "paper") request.inflow = paper_inflow();
+    request.probes = options.probes;
+}
+
 BakeRequest request_for_shape(const BakeOptions& options) {
-    if (!is_body_file_name(options.output)) {
+    if (options.probes > 0 && fs::path(options.output).extension() != ".csv") {
+        throw Error(
+            fmt::format("{}: the output of --probes is a table of cases; name it NAME.csv", options.output));
+    }
+    if (options.probes == 0 && !is_body_file_name(options.output)) {
         throw Error(fmt::format("{}: the output is a body file; name it NAME.body.h5", options.output));
     }
     BakeRequest request;
@@ -43,7 +55,7 @@ BakeRequest request_for_shape(const BakeOptions& options) {
     request.output = options.output;
     request.fluid = *fluid_preset(options.fluid);
     request.mass.density = options.density;
-    request.quality = bake_quality(options.quality);
+    take_options(options, request);
     return request;
 }
 
@@ -59,7 +71,7 @@ std::vector<BakeRequest> requests_for_scene(const BakeOptions& options) {
         request.fluid = scene.fluid;
         request.mass = body.mass;
         request.gravity = scene.gravity.norm();
-        request.quality = bake_quality(options.quality);
+        take_options(options, request);
         request.tables = body.loads == Loads::table || body.turbulence == Turbulence::table;
         requests.push_back(request);
     }
@@ -77,6 +89,9 @@ std::vector<BakeRequest> requests_for(const BakeOptions& options, const Argument
             throw Error(fmt::format("{}: the scene says of which fluid and density its bodies are; drop {}",
                                     options.input, option));
         }
+    }
+    if (options.probes > 0) {
+        throw Error(fmt::format("{}: --probes takes a shape or a body file, not a scene", options.input));
     }
     if (is_body_file_name(options.output)) {
         throw Error(
@@ -124,8 +139,16 @@ int run(int argc, const char* const* argv) {
         "--cluster", options.cluster,
         "a command of Slurm that submits a job, as \"sbatch --partition=short\": solves each case "
         "as a job there, --jobs of them at once; the output is in a folder that the nodes share");
-    arguments.choice("--quality", options.quality, bake_quality_names(),
-                     "smoke: seconds, for tests only; preview: about two minutes on two cores");
+    arguments.choice(
+        "--quality", options.quality, bake_quality_names(),
+        "smoke: seconds, for tests only; preview: two minutes on two cores; standard: three meshes "
+        "and Reynolds numbers; high: four meshes, three closures");
+    arguments.choice("--inflow", options.inflow, {"still", "paper"},
+                     "turbulence of the fluid around: still: 1 % intensity; paper: its eq. 13, 100 %");
+    arguments.option("--probes", options.probes,
+                     "instead of tables: so many cases between the tables' nodes, to hold tables against; "
+                     "the output is NAME.csv",
+                     1, 1000);
     arguments.flag("--dry-run", options.dry_run, "only say what would be solved and how long it would take");
     arguments.footer(fmt::format(
         "The tables are made at the Reynolds number of the terminal speed, estimated with a drag "

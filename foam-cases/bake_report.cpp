@@ -89,6 +89,7 @@ nlohmann::json bake_as_json(const BakeRequest& request, const BakeResult& result
                        {"kirchhoff", result.kirchhoff_seconds},
                        {"cases", result.case_seconds},
                        {"convert", result.conversion_seconds}};
+    json["probes"] = result.probes;
     if (!result.conversion) return json;
     for (const SolvedCase& solved : result.conversion->cases) json["cases"].push_back(case_as_json(solved));
     const LoadTables& tables = *result.conversion->body.tables;
@@ -126,6 +127,11 @@ void print_preparation(const BakeRequest& request, const BakePreparation& prepar
 }
 
 void print_result(const BakeRequest& request, const BakeResult& result) {
+    if (result.probes > 0) {
+        fmt::print("{}: {} cases, in {:.0f} s; they are kept in {}\n", request.output.string(), result.probes,
+                   result.case_seconds, case_folder_of(request.output).string());
+        return;
+    }
     if (!result.conversion) {
         fmt::print("{}: mesh and Kirchhoff tensor; the scene asks for no tables\n", request.output.string());
         return;

@@ -21,12 +21,6 @@ void require_solvers(const FarmOptions& options);
 /// How many of the planned cases are solved.
 std::size_t count_solved(const std::filesystem::path& folder, const BakePlan& plan);
 
-/// A case without a solution: it failed after all its retries, or its mesh could not be made.
-struct LeftOutCase {
-    std::string name;
-    std::string reason;  ///< one line that names the log
-};
-
 /// Solves the cases of a folder written by write_case_folder that are not solved yet, with
 /// Snakemake; a case that fails leaves the others running. Progress goes to standard error. Returns the cases
 /// that failed (they have a failed.json, or their mesh has) while others are solved. Throws Error where no

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "gzip.hpp"
 #include "samara/base/error.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
@@ -137,9 +138,85 @@ TEST_F(FoamFile, BinaryOfOtherWidths) {
 }
 
 TEST_F(FoamFile, OtherMachinesBinaryIsRefused) {
-    const auto k =
-        folder_.file("k", header("volScalarField", "binary", "    arch \"MSB;label=32;scalar=64\";\n"));
-    EXPECT_THAT(test::error_of([&] { read_scalar_field(k); }), HasSubstr("foamFormatConvert"));
+    const std::string arch = "    arch \"MSB;label=32;scalar=64\";\n";
+    const auto k = folder_.file("k", header("volScalarField", "binary", arch));
+    EXPECT_THAT(test::error_of([&] { read_scalar_field(k); }),
+                HasSubstr("k:12: is binary in another machine's byte order; set 'writeFormat ascii' in "
+                          "system/controlDict there and run foamFormatConvert"));
+    const auto text =
+        folder_.file("k", header("volScalarField", "ascii", arch) + "internalField uniform 3;\n");
+    EXPECT_EQ(read_scalar_field(text)[0], 3.0);
+}
+
+TEST_F(FoamFile, CompressedFilesAreReadAsTheyStand) {
+    const std::string text = header("volScalarField") + "internalField uniform 3;\n";
+    static_cast<void>(folder_.file("k.gz", test::gzipped(text)));
+    EXPECT_EQ(read_scalar_field(folder_.path() / "k")[0], 3.0);
+    static_cast<void>(folder_.file("k.gz", test::gzipped(text + "internalField")));
+    static_cast<void>(
+        folder_.file("epsilon.gz", test::gzipped(header("volScalarField") + "internalField x;")));
+    EXPECT_THAT(test::error_of([&] { read_scalar_field(folder_.path() / "epsilon"); }),
+                HasSubstr("epsilon.gz:14: expected 'uniform' or 'nonuniform', found 'x'"));
+}
+
+TEST_F(FoamFile, HeadersOfManyVersionsAreUnderstood) {
+    const auto read = [&](const std::string& head, const std::string& body) {
+        return read_scalar_field(folder_.file("k", head + body)).values;
+    };
+    const std::string text = "dimensions [0 2 -2 0 0 0 0];\ninternalField nonuniform List<scalar> 2(1 2);\n";
+    // v2106: the architecture in text files, too; v2212: a dictionary of other things; 9: no version, no
+    // location; 10: no format.
+    for (const char* const head :
+         {"FoamFile\n{\n    version 2.0;\n    format ascii;\n    arch \"LSB;label=32;scalar=64\";\n    class "
+          "volScalarField;\n    location \"200\";\n    object k;\n}\n",
+          "FoamFile\n{\n    version 2;\n    format ascii;\n    class volScalarField;\n    meta { a (1 2); b "
+          "{ c "
+          "\"}\"; } }\n    object k;\n}\n",
+          "FoamFile\n{\n    format ascii;\n    class volScalarField;\n    note \"nCells: 2; of {some} "
+          "(kind\";\n "
+          "   object k;\n}\n",
+          "FoamFile { class volScalarField; location \"200\"; object k; }\n"}) {
+        EXPECT_THAT(read(head, text), ElementsAre(1.0, 2.0)) << head;
+    }
+    const std::string binary = "internalField nonuniform List<scalar> 2(" + raw<double>({1.0, 2.0}) + ");\n";
+    EXPECT_THAT(read("FoamFile { version 2.0; format binary; class volScalarField; object k; }\n", binary),
+                ElementsAre(1.0, 2.0));
+}
+
+TEST_F(FoamFile, FacesOfBothKinds) {
+    const auto expect_two = [&](const std::filesystem::path& file) {
+        const FoamFaces faces = read_faces(file);
+        EXPECT_EQ(faces.size(), 2U);
+        EXPECT_THAT(faces.starts, ElementsAre(0, 4, 7));
+        EXPECT_THAT(faces.points, ElementsAre(0, 1, 2, 3, 7, 5, 6));
+    };
+    expect_two(folder_.file("faces", header("faceList") + "\n2\n(\n4(0 1 2 3)\n3(7 5 6)\n)\n"));
+    expect_two(
+        folder_.file("faces", header("faceCompactList") + "3(0 4 7)\n\n7\n(\n0\n1\n2\n3\n7\n5\n6\n)\n"));
+    expect_two(folder_.file("faces", header("faceCompactList", "binary") + "\n3\n(" +
+                                         raw<std::int32_t>({0, 4, 7}) + ")\n\n7\n(" +
+                                         raw<std::int32_t>({0, 1, 2, 3, 7, 5, 6}) + ")\n"));
+    const auto fault = [&](const std::string& text) {
+        const auto file = folder_.file("faces", text);
+        return test::error_of([&] { read_faces(file); });
+    };
+    EXPECT_THAT(fault(header("faceCompactList") + "3(0 4 9)\n3(0 1 2)\n"),
+                HasSubstr("its faces do not fit their points"));
+    EXPECT_THAT(fault(header("labelList") + "0()\n"), HasSubstr("holds a labelList, not a faceList"));
+}
+
+TEST_F(FoamFile, LabelsAndPoints) {
+    EXPECT_THAT(read_labels(folder_.file("owner", header("labelList") + "3(0 0 5)\n")), ElementsAre(0, 0, 5));
+    EXPECT_THAT(read_points(folder_.file("points", header("vectorField") + "1((1 2 3))\n")),
+                ElementsAre(Vector3d(1, 2, 3)));
+    const auto other = folder_.file("points", header("labelList") + "1(0)\n");
+    EXPECT_THAT(test::error_of([&] { read_points(other); }),
+                HasSubstr("holds a labelList, not a vectorField"));
+    const auto field = folder_.file("owner", header("volScalarField") + "internalField uniform 1;\n");
+    EXPECT_THAT(test::error_of([&] { read_labels(field); }),
+                HasSubstr("holds a volScalarField, not a labelList"));
+    EXPECT_THAT(test::error_of([&] { read_cell_zone(field, "shell"); }),
+                HasSubstr("holds a volScalarField, not cell zones"));
 }
 
 TEST_F(FoamFile, FaultsNameFileAndLine) {

@@ -59,5 +59,81 @@ TEST(FoamHistory, FaultsNameFileAndLine) {
     EXPECT_THAT(fault(""), EndsWith("holds no values; the case was not solved"));
 }
 
+TEST(FoamHistory, ReadsTheLayoutOfTheFoundation) {
+    const test::TemporaryFolder folder;
+    const FoamHistory history = read_history(folder.file(
+        "forces.dat",
+        "# Forces\n# CofR                : (0 0 0)\n# Time                forces(pressure viscous)\t"
+        "moments(pressure viscous)\n1                   \t((1 2 3) (0.1 0.2 0.3))\t((4 5 6) (-1 -2 "
+        "-3e-1))\n"));
+    EXPECT_THAT(
+        history.columns,
+        ElementsAre("Time", "forces_pressure_x", "forces_pressure_y", "forces_pressure_z", "forces_viscous_x",
+                    "forces_viscous_y", "forces_viscous_z", "moments_pressure_x", "moments_pressure_y",
+                    "moments_pressure_z", "moments_viscous_x", "moments_viscous_y", "moments_viscous_z"));
+    EXPECT_THAT(history.rows.at(0), ElementsAre(1, 1, 2, 3, 0.1, 0.2, 0.3, 4, 5, 6, -1, -2, -0.3));
+}
+
+TEST(FoamHistory, TimesMustAscend) {
+    const test::TemporaryFolder folder;
+    const auto file = folder.file("force.dat", "# Time a\n1 2\n3 2\n3 5\n");
+    EXPECT_THAT(test::error_of([&] { read_history(file); }),
+                EndsWith("force.dat:4: the time 3 comes after 3; times must ascend"));
+}
+
+/// A function object's folder with the history `rows` of each start time.
+class JoinedHistory : public testing::Test {
+  protected:
+    void write(const std::string& file, const std::string& rows) {
+        static_cast<void>(folder_.file("shell/" + file, "# Time a\n" + rows));
+    }
+    std::vector<double> values() const {
+        return read_joined_history(folder_.path() / "shell", "f").column("a", 0.0);
+    }
+    std::string fault() const {
+        return test::error_of([&] { values(); });
+    }
+
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(JoinedHistory, FollowsTheStartTimesAsNumbers) {
+    write("0/f.dat", "1 10\n2 20\n");
+    write("100/f.dat", "101 1010\n");
+    write("20/f.dat", "21 210\n");
+    write("notes/f.dat", "1 0\n");
+    EXPECT_THAT(values(), ElementsAre(10, 20, 210, 1010));
+}
+
+TEST_F(JoinedHistory, LaterRunsReplaceWhatTheyDoAnew) {
+    write("0/f.dat", "1 10\n2 20\n3 30\n4 40\n5 5");
+    write("2/f.dat", "3 31\n");
+    write("2/f_2.dat", "");
+    EXPECT_THAT(values(), ElementsAre(10, 20, 31));
+    write("2/f_2.dat", "3 32\n4 42\n");
+    EXPECT_THAT(values(), ElementsAre(10, 20, 32, 42));
+}
+
+TEST_F(JoinedHistory, IsRefusedWhereItsEndIsCutInALine) {
+    write("0/f.dat", "1 10\n2 20\n");
+    write("2/f.dat", "3 31\n4 4");
+    EXPECT_THAT(
+        fault(),
+        EndsWith(
+            "shell/2/f.dat:3: ends within this line, as where the solver was stopped while it wrote; let "
+            "it go on, or remove the line"));
+}
+
+TEST_F(JoinedHistory, SaysWhatIsMissing) {
+    EXPECT_THAT(fault(),
+                EndsWith("shell: has no f.dat in any folder of a start time; the case was solved without "
+                         "the function object 'shell', or not at all"));
+    write("0/f.dat", "");
+    EXPECT_THAT(fault(), EndsWith("shell/0/f.dat: holds no values; the case was not solved"));
+    write("0/f.dat", "1 2\n");
+    static_cast<void>(folder_.file("shell/1/f.dat", "# Time b a\n2 1 2\n"));
+    EXPECT_THAT(fault(), EndsWith("shell/1/f.dat: its columns are not those of the runs before it"));
+}
+
 }  // namespace
 }  // namespace samara

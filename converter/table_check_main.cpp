@@ -1,0 +1,93 @@
+// The program samara-check-tables: a body's tables against solved cases that they were not made from.
+
+#include <cstdio>
+#include <string>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "converter/samples_csv.hpp"
+#include "converter/table_check.hpp"
+#include "samara/base/error.hpp"
+#include "samara/base/vector_json.hpp"
+#include "samara/body/body_file.hpp"
+#include "samara/command/arguments.hpp"
+
+namespace samara {
+namespace {
+
+nlohmann::json as_json(const QuantityCheck& check) {
+    return {{"error", check.error}, {"stated", check.stated}, {"within_two", check.within_two}};
+}
+
+nlohmann::json as_json(const TableCheck& check) {
+    nlohmann::json json = {{"force", as_json(check.force)},
+                           {"moment", as_json(check.moment)},
+                           {"turbulent_kinetic_energy", as_json(check.turbulent_kinetic_energy)},
+                           {"dissipation_rate", as_json(check.dissipation_rate)},
+                           {"within_two", check.within_two}};
+    for (const CheckedCase& one : check.cases) {
+        json["cases"].push_back({{"name", one.name},
+                                 {"direction", as_json(one.direction)},
+                                 {"reynolds_number", one.reynolds_number},
+                                 {"force", as_json(one.value.force)},
+                                 {"force_difference", as_json(one.difference.force)},
+                                 {"force_error", as_json(one.stated.force)},
+                                 {"moment_difference", as_json(one.difference.moment)},
+                                 {"moment_error", as_json(one.stated.moment)}});
+    }
+    return json;
+}
+
+void print_row(const char* name, const QuantityCheck& check) {
+    fmt::print("{:<10} {:10.1f} {:10.1f} {:12.0f}\n", name, 100.0 * check.error, 100.0 * check.stated,
+               100.0 * check.within_two);
+}
+
+void print_check(const TableCheck& check) {
+    fmt::print("{:<14} {:>26} {:>8} {:>9} {:>9} {:>9}\n", "case", "moving along", "Reynolds", "|F|", "off by",
+               "stated");
+    for (const CheckedCase& one : check.cases) {
+        fmt::print("{:<14} ({:7.4f} {:7.4f} {:7.4f}) {:8.0f} {:9.4f} {:9.4f} {:9.4f}\n", one.name,
+                   one.direction.x(), one.direction.y(), one.direction.z(), one.reynolds_number,
+                   one.value.force.norm(), one.difference.force.norm(), one.stated.force.norm());
+    }
+    fmt::print("\n{:<10} {:>10} {:>10} {:>12}\n", "", "error %", "stated %", "within two %");
+    print_row("force", check.force);
+    print_row("moment", check.moment);
+    print_row("k", check.turbulent_kinetic_energy);
+    print_row("epsilon", check.dissipation_rate);
+    fmt::print("{:.0f} % of all differences are within two stated standard errors\n",
+               100.0 * check.within_two);
+}
+
+int run(int argc, const char* const* argv) {
+    std::string body_file;
+    std::string cases;
+    Arguments arguments("samara-check-tables",
+                        "Holds a body's tables against solved cases that they were not made from");
+    arguments.positional("BODY", body_file, "NAME.body.h5 with tables");
+    arguments.positional(
+        "CASES", cases, "a table of cases (.csv), of 'samara bake --probes' or 'samara convert -o NAME.csv'");
+    arguments.footer(
+        "Error and stated standard error are root mean squares over the cases: of force and moment over\n"
+        "those of the cases' values; of k and epsilon as logarithms.\n"
+        "Example: samara bake ball.geo -o probes.csv --quality high --probes 20\n"
+        "         samara check-tables ball.body.h5 probes.csv");
+    return run_program(argc, argv, arguments, [&] {
+        const Body body = read_body_file(body_file);
+        if (!body.tables) {
+            throw Error(fmt::format("{}: has no tables; make them with 'samara bake'", body_file));
+        }
+        const TableCheck check = check_tables(*body.tables, read_samples_csv(cases));
+        if (!arguments.json()) print_check(check);
+        return as_json(check);
+    });
+}
+
+}  // namespace
+}  // namespace samara
+
+int main(int argc, char** argv) {
+    return samara::run(argc, argv);
+}
