@@ -55,6 +55,7 @@ BakePreparation plan_of(const BakeRequest& request, const Body& body) {
     preparation.plan = request.probes > 0
                            ? plan_probes(body, request.quality, reynolds_number, request.probes)
                            : plan_bake(body, request.quality, reynolds_number, request.inflow);
+    preparation.plan->ranks = request.ranks;
     return preparation;
 }
 
@@ -110,7 +111,7 @@ BakeResult bake_body(const BakeRequest& request, const FarmOptions& farm, const 
     const fs::path folder = case_folder_of(request.output);
     BakeResult result;
     Stopwatch watch;
-    if (request.tables) require_solvers(farm);
+    if (request.tables) require_solvers(farm, request.ranks);
     Body body = named_body(request, temporary.path());
     result.preparation = plan_of(request, body);
     planned(result.preparation);

@@ -25,6 +25,7 @@ struct BakeRequest {
     BakeQuality quality;
     bool tables = true;  ///< false: mesh and Kirchhoff tensor alone
     Inflow inflow;
+    int ranks = 1;   ///< processes that share each case, by MPI
     int probes = 0;  ///< above 0: so many cases between the tables' nodes, written as CSV, in place of tables
 };
 

@@ -29,6 +29,7 @@ struct BakeOptions {
     std::string fluid = "water";
     double density = 1200.0;
     int jobs = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 1024);
+    int ranks = 1;
     std::string cluster;
     std::string quality = "preview";
     std::string inflow = "still";
@@ -135,6 +136,10 @@ int run(int argc, const char* const* argv) {
     arguments.choice("--fluid", options.fluid, {"water", "air"}, "that the shape falls in, at 20 C");
     arguments.option("--density", options.density, "of the body (kg/m^3)", 1e-3, 1e6);
     arguments.option("--jobs", options.jobs, "cases solved at once", 1, 4096);
+    arguments.option("--ranks", options.ranks,
+                     "processes that share each case, by MPI: for cases too large for one core; the cases "
+                     "solved at once become fewer, unless --jobs says how many",
+                     1, 1024);
     arguments.option(
         "--cluster", options.cluster,
         "a command of Slurm that submits a job, as \"sbatch --partition=short\": solves each case "
@@ -161,7 +166,10 @@ int run(int argc, const char* const* argv) {
         terminal_drag_coefficient));
     return run_program(argc, argv, arguments, [&] {
         if (arguments.given("--cluster")) require_sbatch(options.cluster);
-        return run_requests(requests_for(options, arguments), options, arguments.json());
+        if (!arguments.given("--jobs")) options.jobs = std::max(1, options.jobs / options.ranks);
+        std::vector<BakeRequest> requests = requests_for(options, arguments);
+        for (BakeRequest& request : requests) request.ranks = options.ranks;
+        return run_requests(requests, options, arguments.json());
     });
 }
 

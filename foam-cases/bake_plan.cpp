@@ -75,21 +75,20 @@ int surface_level_for(const FlowMesh& mesh, double second_extent_over_length) {
     return level;
 }
 
-// A wider box has background cells of twice the size; those that there were fill one more shell.
-void widen(FlowMesh& mesh, int box_half_width) {
+// Twice the box, of as many background cells; those that there were fill one more shell.
+void widen(FlowMesh& mesh) {
     const double shell = mesh.refinement_shells.back().first + 4.0 * mesh.background_cell;
     for (auto& [distance, level] : mesh.refinement_shells) ++level;
     mesh.refinement_shells.emplace_back(shell, 1);
     ++mesh.surface_level;
     mesh.background_cell *= 2.0;
-    mesh.box_half_width = box_half_width;
+    mesh.box_half_width *= 2;
 }
 
 // The far boundary is to be at least ten L away, and four times the body's own reach.
 FlowMesh fitted_mesh(FlowMesh mesh, const Body& body, double length) {
     const double reach = largest_distance_from_centroid(body) / length;
-    const int needed = 2 * static_cast<int>(std::ceil(2.0 * reach));
-    if (needed > mesh.box_half_width) widen(mesh, needed);
+    while (mesh.box_half_width < 4.0 * reach) widen(mesh);
     const int planned_level = mesh.surface_level;
     mesh.surface_level = surface_level_for(mesh, second_extent(body) / length);
     // snappyHexMesh refines at a surface that its cells can see, and cells as large as the body do not see
@@ -295,6 +294,7 @@ nlohmann::json plan_json(const BakePlan& plan) {
     json["quality"] = plan.quality.name;
     json["subdivisions"] = plan.subdivisions;
     json["reference_length"] = plan.reference_length;
+    json["ranks"] = plan.ranks;
     for (int row = 0; row < 3; ++row) {
         json["axes"].push_back({plan.axes(row, 0), plan.axes(row, 1), plan.axes(row, 2)});
     }

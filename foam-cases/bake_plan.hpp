@@ -40,6 +40,7 @@ struct BakePlan {
     double reference_length = 0.0;  ///< L (m)
     Matrix3d axes = Matrix3d::Identity();
     Inflow inflow;
+    int ranks = 1;                         ///< processes that share each case
     std::vector<double> reynolds_numbers;  ///< the main one first
     std::vector<BakeCase> cases;
     std::vector<double> cells;  ///< of each mesh, an estimate

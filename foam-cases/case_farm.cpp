@@ -195,8 +195,9 @@ void run_snakemake(const fs::path& folder, const BakePlan& plan, const FarmOptio
                                       "--quiet",
                                       "all"};
     const std::vector<std::string> where =
-        options.cluster.empty() ? std::vector<std::string>{"--cores", std::to_string(options.jobs)}
-                                : cluster_words(folder, options, templates);
+        options.cluster.empty()
+            ? std::vector<std::string>{"--cores", std::to_string(options.jobs * plan.ranks)}
+            : cluster_words(folder, options, templates);
     words.insert(words.end(), where.begin(), where.end());
     const auto status = run_guarded(words, folder / "log.snakemake", fs::current_path(), tick);
     end_earlier_jobs(folder);
@@ -214,7 +215,7 @@ std::size_t count_solved(const fs::path& folder, const BakePlan& plan) {
                       [&](const BakeCase& entry) { return is_solved(folder / entry.name); }));
 }
 
-void require_solvers(const FarmOptions& options) {
+void require_solvers(const FarmOptions& options, int ranks) {
     struct Need {
         const char* program;
         const char* package;
@@ -222,6 +223,7 @@ void require_solvers(const FarmOptions& options) {
     std::vector<Need> needs = {{"snakemake", "snakemake"}, {"python3", "python3"}};
     if (options.cluster.empty()) {
         needs.insert(needs.begin(), {{"simpleFoam", "openfoam"}, {"snappyHexMesh", "openfoam"}});
+        if (ranks > 1) needs.push_back({"mpirun", "openmpi-bin"});
     } else {
         needs.insert(needs.end(), {{"squeue", "slurm-client"}, {"scancel", "slurm-client"}});
     }

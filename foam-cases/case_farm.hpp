@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "foam-cases/bake_plan.hpp"
+#include "samara/body/table_errors.hpp"
 
 namespace samara {
 
@@ -15,8 +16,8 @@ struct FarmOptions {
 };
 
 /// Throws Error naming every program that solving needs and that is not on PATH, with the Debian packages
-/// that bring them. On a cluster OpenFOAM need be on its nodes alone.
-void require_solvers(const FarmOptions& options);
+/// that bring them: on a cluster OpenFOAM need be on its nodes alone; `ranks` is of the plan.
+void require_solvers(const FarmOptions& options, int ranks);
 
 /// How many of the planned cases are solved.
 std::size_t count_solved(const std::filesystem::path& folder, const BakePlan& plan);

@@ -1,6 +1,7 @@
 #include "foam-cases/case_parameters.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string_view>
 #include <utility>
@@ -90,6 +91,24 @@ Entries model_entries(const BakeQuality& quality, const BakeCase& entry) {
     return entries;
 }
 
+// As even as can be, the most along x.
+std::array<int, 3> ranks_along_axes(int ranks) {
+    std::array<int, 3> best = {ranks, 1, 1};
+    for (int z = 1; z * z * z <= ranks; ++z) {
+        for (int y = z; ranks % z == 0 && z * y * y <= ranks; ++y) {
+            if (ranks / z % y != 0) continue;
+            const int x = ranks / z / y;
+            if (x - z <= best[0] - best[2]) best = {x, y, z};
+        }
+    }
+    return best;
+}
+
+Entries process_entries(int ranks) {
+    const auto [x, y, z] = ranks_along_axes(ranks);
+    return {{"ranks", fmt::format("{}", ranks)}, {"ranksAlong", fmt::format("({} {} {})", x, y, z)}};
+}
+
 void replace_values(std::string& text, const Entries& entries) {
     for (const auto& [name, value] : entries) {
         const auto [begin, end] = find_value(text, name);
@@ -105,6 +124,7 @@ std::string case_parameters(const std::string& template_text, const BakePlan& pl
     replace_values(text, flow_entries(plan.inflow, entry));
     replace_values(text, mesh_entries_of(mesh));
     replace_values(text, model_entries(plan.quality, entry));
+    replace_values(text, process_entries(plan.ranks));
     return text;
 }
 

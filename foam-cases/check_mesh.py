@@ -10,7 +10,7 @@ from patch_area import patch_area
 PROGRAMS = ("surfaceFeatureExtract", "blockMesh", "snappyHexMesh", "topoSet", "checkMesh")
 # The mesh's share of the body's surface. A thin sheet whose rim is lost has 0.87 to 0.90, a good mesh of a curved
 # thin shell 0.97; flat faces on a slender rod of eight cells around 0.95.
-GOOD_AREA = (0.93, 1.05)
+GOOD_AREA = (0.92, 1.05)
 # Where no remedy gives a good mesh, the best of those is taken that miss no more than this.
 USABLE_AREA = (0.85, 1.2)
 # Faults of a mesh on which a solver's result means nothing, as checkMesh words them.
@@ -32,8 +32,13 @@ class Judgement:
         self.facts = {}
 
     @property
+    def is_good(self):
+        return not self.faults and not self.fatal
+
+    @property
     def misses_surface(self):
-        return not is_within(self.area, GOOD_AREA)
+        """Whether that is what is wrong; not where there is no mesh at all."""
+        return bool(self.facts) and not is_within(self.area, GOOD_AREA)
 
     @property
     def verdict(self):

@@ -42,26 +42,35 @@ def finer_background(plan):
     return {"backgroundCells": round(1.1 * plan["backgroundCells"])}
 
 
+def more_levels(plan, count):
+    """Smaller cells along the surface, two deep at each level, so that snappyHexMesh finds what it missed."""
+    cell = 2 * plan["boxHalfWidth"] / plan["backgroundCells"]
+    finest = plan["surfaceLevel"] + count
+    shells = [f"({2 * cell / 2 ** level:.6g} {level})" for level in range(finest, plan["surfaceLevel"], -1)]
+    return {"surfaceLevel": finest, "refinementShells": f"({' '.join(shells)} {plan['refinementShells'][1:]}"}
+
+
 def one_more_level(plan):
-    """Cells of half the size along the surface, two deep, so that snappyHexMesh finds what it missed."""
-    level = plan["surfaceLevel"] + 1
-    distance = 2 * 2 * plan["boxHalfWidth"] / plan["backgroundCells"] / 2 ** level
-    return {"surfaceLevel": level, "refinementShells": f"(({distance:.6g} {level}) {plan['refinementShells'][1:]}"}
+    return more_levels(plan, 1)
 
 
-def one_more_level_without_layers(plan):
-    return {**one_more_level(plan), **no_layers(plan)}
+def two_more_levels(plan):
+    return more_levels(plan, 2)
 
 
-# In the order in which they are tried: those that cost the fewest cells and the least accuracy first. Those of the
-# layers are of no use to a mesh that misses a part of the surface.
-REMEDIES = {
-    "thinner layers": (thinner_layers, False),
-    "one layer": (one_layer, False),
-    "finer background": (finer_background, True),
-    "one more surface level": (one_more_level, True),
-    "no layers": (no_layers, False),
-    "one more surface level without layers": (one_more_level_without_layers, True),
+# In the order in which they are tried: those that cost the fewest cells and the least accuracy first. For meshes that
+# miss a part of the surface, and for those with other faults.
+REMEDIES_OF_SURFACE = {
+    "finer background": finer_background,
+    "one more surface level": one_more_level,
+    "two more surface levels": two_more_levels,
+}
+REMEDIES_OF_CELLS = {
+    "thinner layers": thinner_layers,
+    "one layer": one_layer,
+    "finer background": finer_background,
+    "one more surface level": one_more_level,
+    "no layers": no_layers,
 }
 
 
@@ -105,15 +114,13 @@ def attempt(folder, remedy, entries):
 
 
 def attempts_until_good(folder):
-    """[remedy, entries, judgement] of each attempt; the last of a good mesh, where there is one."""
+    """(remedy, entries, judgement) of each attempt; the last is of a good mesh, where there is one."""
     plan = planned(folder)
     attempts = [("as planned", {}, attempt(folder, "as planned", {}))]
-    misses_surface = attempts[0][2].misses_surface and attempts[0][2].facts
-    for remedy, (change, adds_surface) in REMEDIES.items():
-        if not attempts[-1][2].faults and not attempts[-1][2].fatal:
+    remedies = REMEDIES_OF_SURFACE if attempts[0][2].misses_surface else REMEDIES_OF_CELLS
+    for remedy, change in remedies.items():
+        if attempts[-1][2].is_good:
             break
-        if misses_surface and not adds_surface:
-            continue
         entries = change(plan)
         attempts.append((remedy, entries, attempt(folder, remedy, entries)))
     return attempts

@@ -16,14 +16,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "bake_folder.hpp"
 #include "foam-cases/case_farm.hpp"
 #include "foam-cases/case_folder.hpp"
 #include "samara/base/content_hash.hpp"
 #include "samara/base/error.hpp"
 #include "samara/body/body_file.hpp"
 #include "samara/command/subprocess.hpp"
-#include "support/program_run.hpp"
-#include "support/temporary_folder.hpp"
 #include "test_bodies.hpp"
 
 namespace samara {
@@ -33,56 +32,9 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
 
-const fs::path program = fs::path(SAMARA_PROGRAMS) / "samara-bake";
 const fs::path templates = fs::path(SAMARA_SOURCE_DIRECTORY) / "foam-cases";
 
-class Bake : public testing::Test {
-  protected:
-    const test::TemporaryFolder temporary_;
-    const fs::path folder_ = temporary_.path();
-    const fs::path output_ = folder_ / "out.body.h5";
-    const fs::path cases_ = folder_ / "out.cases";
-
-    fs::path write_body(const Body& body) {
-        const fs::path file = folder_ / (body.name + ".body.h5");
-        write_body_file(file, body);
-        return file;
-    }
-
-    /// `words`: the command line without the program, words parted by spaces.
-    test::ProgramRun bake(const std::string& words, const std::string& environment = "") const {
-        std::istringstream stream(words);
-        std::vector<std::string> list = {"samara-bake"};
-        for (std::string word; stream >> word;) list.push_back(word);
-        return test::run_program_in(temporary_, list, environment);
-    }
-
-    [[nodiscard]] std::map<std::string, fs::file_time_type> solved() const {
-        std::map<std::string, fs::file_time_type> found;
-        if (!fs::exists(cases_)) return found;
-        for (const auto& entry : fs::directory_iterator(cases_)) {
-            const fs::path record = entry.path() / "provenance.json";
-            if (fs::exists(record)) found[entry.path().filename()] = fs::last_write_time(record);
-        }
-        return found;
-    }
-
-    // Starts a bake of the ellipsoid and waits until the first of its cases is solved.
-    pid_t start_until_first_case(const fs::path& body) {
-        const pid_t child = ::fork();
-        if (child == 0) {
-            const std::string log = (folder_ / "stderr").string();
-            if (std::freopen(log.c_str(), "w", stderr) == nullptr) ::_exit(1);
-            ::execl(program.c_str(), program.c_str(), body.c_str(), "-o", output_.c_str(), "--quality",
-                    "smoke", "--jobs", "1", nullptr);
-            ::_exit(1);
-        }
-        for (int i = 0; i < 3000 && solved().empty(); ++i) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(20));
-        }
-        return child;
-    }
-};
+class Bake : public test::BakeFolder {};
 
 TEST_F(Bake, OfAnEllipsoidGivesTablesAndReusesThemWhenRunAgain) {
     const fs::path file = write_body(test::ellipsoid({0.01, 0.02, 0.04}));
@@ -183,7 +135,7 @@ TEST_F(Bake, LeavesOutADivergedCaseAndNamesItsLogWhileTheOthersGoOn) {
     const BakePlan plan = plan_bake(body, bake_quality("smoke"), 1e4);
     write_case_folder(cases_, body, plan, templates);
     make_diverging(cases_ / "direction_01");
-    const std::vector<LeftOutCase> left_out = solve_cases(cases_, plan, 2, templates);
+    const std::vector<LeftOutCase> left_out = solve_cases(cases_, plan, {2, ""}, templates);
     ASSERT_EQ(left_out.size(), 1u);
     EXPECT_EQ(left_out[0].name, "direction_01");
     EXPECT_THAT(left_out[0].reason, HasSubstr("simpleFoam diverged"));
@@ -195,7 +147,7 @@ TEST_F(Bake, LeavesOutADivergedCaseAndNamesItsLogWhileTheOthersGoOn) {
 
     // It is not tried again, until its record is removed.
     const auto before = fs::last_write_time(cases_ / "direction_01_coarse/log.simpleFoam");
-    EXPECT_EQ(solve_cases(cases_, plan, 2, templates).size(), 1u);
+    EXPECT_EQ(solve_cases(cases_, plan, {2, ""}, templates).size(), 1u);
     EXPECT_EQ(fs::last_write_time(cases_ / "direction_01_coarse/log.simpleFoam"), before);
 }
 
@@ -205,7 +157,7 @@ TEST_F(Bake, WithoutASingleSolvedCaseIsAnErrorThatNamesTheFirst) {
     write_case_folder(cases_, body, plan, templates);
     make_diverging(cases_ / "direction_00");
     try {
-        solve_cases(cases_, plan, 1, templates);
+        solve_cases(cases_, plan, {1, ""}, templates);
         FAIL() << "no error";
     } catch (const Error& fault) {
         EXPECT_THAT(fault.what(), HasSubstr("direction_00: simpleFoam diverged"));
