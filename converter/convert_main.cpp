@@ -60,7 +60,7 @@ nlohmann::json case_as_json(const SolvedCase& solved) {
     return {{"name", solved.name},
             {"direction", as_json(direction)},
             {"reynolds_number", solved.reynolds_number},
-            {"purpose", purpose_word(solved.purpose)},
+            {"purpose", name_of(solved.purpose)},
             {"mesh", solved.mesh},
             {"closure", solved.closure},
             {"drag_coefficient", summary.drag},
@@ -128,7 +128,7 @@ nlohmann::json write_samples(const std::string& cases, const std::string& output
     const FolderReduction reduction = reduce_folder(cases, plan, progress, UnsolvedCases::leave_out);
     replace_file_with(output, samples_csv(reduction.cases, plan.axes));
     nlohmann::json left_out = nlohmann::json::array();
-    for (const LeftOut& left : reduction.left_out) {
+    for (const LeftOutCase& left : reduction.left_out) {
         left_out.push_back({{"name", left.name}, {"reason", left.reason}});
         if (print) fmt::print("left out: {}: {}\n", left.name, left.reason);
     }

@@ -30,16 +30,11 @@ std::string columns(const LoadEntry& entry) {
 
 }  // namespace
 
-const char* purpose_word(CasePurpose purpose) {
-    if (purpose == CasePurpose::mesh) return "mesh";
-    return purpose == CasePurpose::closure ? "closure" : "table";
-}
-
 std::string samples_csv(const std::vector<SolvedCase>& cases, const Matrix3d& axes) {
     std::string text = heading;
     for (const SolvedCase& solved : cases) {
         const auto& [direction, entry, error] = solved.sample;
-        text += fmt::format("{},{},{},{},{},{},{},{}\n", quoted(solved.name), purpose_word(solved.purpose),
+        text += fmt::format("{},{},{},{},{},{},{},{}\n", quoted(solved.name), name_of(solved.purpose),
                             quoted(solved.mesh), quoted(solved.closure), columns(Vector3d(axes * direction)),
                             solved.reynolds_number, columns(transformed(entry, axes)),
                             columns(transformed_error(error, axes)));

@@ -13,7 +13,4 @@ namespace samara {
 /// `axes` are the cases' axes in body axes. Numbers have the digits that give them back exactly.
 std::string samples_csv(const std::vector<SolvedCase>& cases, const Matrix3d& axes);
 
-/// "table", "mesh" or "closure".
-const char* purpose_word(CasePurpose purpose);
-
 }  // namespace samara
