@@ -11,16 +11,26 @@
 namespace samara {
 namespace {
 
-/// The reason in a case's failed.json; nothing where there is none, or where the case was solved after all.
-std::optional<std::string> failure_of(const std::filesystem::path& folder) {
+/// The reason in the failed.json of a case or mesh; nothing where there is none.
+std::optional<std::string> reason_in(const std::filesystem::path& folder) {
     const std::filesystem::path file = folder / "failed.json";
-    if (is_solved(folder) || !std::filesystem::exists(file)) return std::nullopt;
+    if (!std::filesystem::exists(file)) return std::nullopt;
     try {
         return nlohmann::json::parse(read_bytes(file)).at("reason").get<std::string>();
     } catch (const nlohmann::json::exception& reason) {
         throw Error(fmt::format("{}: has no text 'reason' ({}); remove it and run 'samara bake' again",
                                 file.string(), reason.what()));
     }
+}
+
+/// Why the case has failed, by itself or for want of its mesh; nothing where it has not, or was solved after
+/// all.
+std::optional<std::string> failure_of(const std::filesystem::path& folder, const PlannedCase& planned) {
+    if (is_solved(folder / planned.name)) return std::nullopt;
+    if (std::optional<std::string> reason = reason_in(folder / planned.name)) return reason;
+    const std::optional<std::string> reason = reason_in(folder / planned.mesh);
+    if (!reason) return std::nullopt;
+    return fmt::format("its mesh {} could not be made: {}", planned.mesh, *reason);
 }
 
 Error not_solved(const std::filesystem::path& folder, const CasePlan& plan,
@@ -41,7 +51,7 @@ FolderReduction reduce_folder(const std::filesystem::path& folder, const CasePla
     std::vector<std::string> missing;
     for (const PlannedCase& planned : plan.cases) {
         if (planned.purpose == CasePurpose::start) continue;
-        if (const std::optional<std::string> reason = failure_of(folder / planned.name)) {
+        if (const std::optional<std::string> reason = failure_of(folder, planned)) {
             reduction.left_out.push_back({planned.name, *reason});
         } else if (plan.solved_by_user || is_solved(folder / planned.name)) {
             solved.push_back(&planned);

@@ -39,8 +39,7 @@ struct PlannedCase {
     CasePurpose purpose = CasePurpose::table;
     std::string closure = {};  ///< kEpsilon, realizableKE, laminar, ...; empty: not said
     CaseScales scales = {};
-    std::optional<double> averaging_start =
-        {};  ///< the first time that counts for means, where the plan says
+    std::optional<double> averaging_start = {};  ///< the first time that counts, where the plan says
 };
 
 /// plan.json of a folder of cases (docs/file-formats): what `samara bake`, or the user, set out to solve.

@@ -32,6 +32,7 @@ std::string provenance_of(const std::vector<SolvedCase>& cases) {
         nlohmann::json entry = nlohmann::json::parse(solved.provenance);
         const Vector3d& direction = solved.sample.direction;
         entry["name"] = solved.name;
+        entry["purpose"] = name_of(solved.purpose);
         entry["direction"] = {direction.x(), direction.y(), direction.z()};
         entry["reynolds_number"] = solved.reynolds_number;
         list.push_back(std::move(entry));

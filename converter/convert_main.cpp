@@ -54,18 +54,6 @@ Summary summary_of(const DirectionSample& sample) {
             error_of_length(sample.error.moment, sample.entry.moment)};
 }
 
-const char* name_of(CasePurpose purpose) {
-    switch (purpose) {
-        case CasePurpose::mesh:
-            return "mesh";
-        case CasePurpose::closure:
-            return "closure";
-        case CasePurpose::table:
-            break;
-    }
-    return "table";
-}
-
 nlohmann::json case_as_json(const SolvedCase& solved) {
     const auto& [direction, entry, error] = solved.sample;
     const Summary summary = summary_of(solved.sample);

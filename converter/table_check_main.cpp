@@ -16,15 +16,15 @@
 namespace samara {
 namespace {
 
-nlohmann::json as_json(const QuantityCheck& check) {
+nlohmann::json quantity_as_json(const QuantityCheck& check) {
     return {{"error", check.error}, {"stated", check.stated}, {"within_two", check.within_two}};
 }
 
-nlohmann::json as_json(const TableCheck& check) {
-    nlohmann::json json = {{"force", as_json(check.force)},
-                           {"moment", as_json(check.moment)},
-                           {"turbulent_kinetic_energy", as_json(check.turbulent_kinetic_energy)},
-                           {"dissipation_rate", as_json(check.dissipation_rate)},
+nlohmann::json check_as_json(const TableCheck& check) {
+    nlohmann::json json = {{"force", quantity_as_json(check.force)},
+                           {"moment", quantity_as_json(check.moment)},
+                           {"turbulent_kinetic_energy", quantity_as_json(check.turbulent_kinetic_energy)},
+                           {"dissipation_rate", quantity_as_json(check.dissipation_rate)},
                            {"within_two", check.within_two}};
     for (const CheckedCase& one : check.cases) {
         json["cases"].push_back({{"name", one.name},
@@ -81,7 +81,7 @@ int run(int argc, const char* const* argv) {
         }
         const TableCheck check = check_tables(*body.tables, read_samples_csv(cases));
         if (!arguments.json()) print_check(check);
-        return as_json(check);
+        return check_as_json(check);
     });
 }
 

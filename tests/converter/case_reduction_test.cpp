@@ -99,6 +99,19 @@ TEST_F(CaseReduction, LeavesOutWhatFailed) {
     EXPECT_THAT(fault(), HasSubstr("case_02/failed.json: has no text 'reason'"));
 }
 
+TEST_F(CaseReduction, LeavesOutTheCasesOfAMeshThatFailed) {
+    folder_.change_plan([](json& plan) {
+        plan["cases"][1]["purpose"] = "mesh";
+        plan["cases"][1]["mesh"] = "mesh_coarse";
+    });
+    std::filesystem::remove(folder_.case_path(1) / "provenance.json");
+    folder_.write("mesh_coarse/failed.json", R"({"reason": "has no layers"})");
+    const FolderReduction reduction = reduce_folder(folder_.path(), read_case_plan(folder_.path()));
+    EXPECT_EQ(reduction.cases.size(), 5U);
+    ASSERT_EQ(reduction.left_out.size(), 1U);
+    EXPECT_EQ(reduction.left_out[0].reason, "its mesh mesh_coarse could not be made: has no layers");
+}
+
 TEST_F(CaseReduction, RefusesWhatIsNotSolvedUnlessToldOtherwise) {
     std::filesystem::remove(folder_.case_path(4) / "provenance.json");
     EXPECT_THAT(fault(), HasSubstr("the case case_04 is not solved (1 of 6 are not)"));
@@ -231,7 +244,7 @@ TEST_F(CaseReduction, RefusesTheSameCaseTwice) {
                 HasSubstr("plan.json: the cases case_02 and twin are of the same direction, Reynolds number "
                           "and purpose"));
     folder_.change_plan([](json& plan) { plan["cases"].back()["purpose"] = "twin"; });
-    EXPECT_THAT(fault(), HasSubstr("plan.json: 'purpose' is \"twin\", not table, mesh or closure"));
+    EXPECT_THAT(fault(), HasSubstr("plan.json: 'purpose' is \"twin\", not table, mesh, closure or start"));
     folder_.change_plan([](json& plan) {
         plan["cases"].erase(plan["cases"].size() - 1);
         plan["solved_by"] = "nobody";
