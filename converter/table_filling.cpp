@@ -13,6 +13,7 @@
 #include "converter/mesh_transfer.hpp"
 #include "converter/model_errors.hpp"
 #include "converter/reynolds_fit.hpp"
+#include "converter/reynolds_interpolation.hpp"
 #include "samara/base/error.hpp"
 #include "samara/body/octahedral_map.hpp"
 
@@ -206,7 +207,7 @@ std::vector<SourceVariances> source_variances(const ReynoldsTable& table, const 
         };
         of(variances, ErrorSource::mesh) = of_model(model.mesh);
         of(variances, ErrorSource::closure) = of_model(model.closure);
-        of(variances, ErrorSource::interpolation) = interpolation[node];
+        of(variances, ErrorSource::interpolation) = plus(interpolation[node], 1.0, between_reynolds_numbers);
     });
     return result;
 }
@@ -268,6 +269,16 @@ ModelErrors errors_of_models(const Symmetry& symmetry, const std::vector<SolvedC
     return {errors(CasePurpose::mesh), errors(CasePurpose::closure)};
 }
 
+LoadEntryError variance_between(const std::vector<ReynoldsTable>& tables) {
+    std::vector<double> reynolds_numbers;
+    std::vector<std::vector<LoadEntry>> nodes;
+    for (const ReynoldsTable& table : tables) {
+        reynolds_numbers.push_back(table.reynolds_number);
+        nodes.push_back(table.nodes);
+    }
+    return reynolds_interpolation_variance(reynolds_numbers, nodes);
+}
+
 }  // namespace
 
 void fill_tables(LoadTables& tables, const Symmetry& symmetry, std::vector<SolvedCase>& cases) {
@@ -276,6 +287,7 @@ void fill_tables(LoadTables& tables, const Symmetry& symmetry, std::vector<Solve
     fit(parts, symmetry);
     for (ReynoldsTable& part : parts) fill_nodes(part, tables.subdivisions);
     const ModelErrors model = errors_of_models(symmetry, cases, parts);
+    const LoadEntryError between = variance_between(parts);
     Totals totals;
     for (const ReynoldsTable& part : parts) {
         tables.reynolds_numbers.push_back(part.reynolds_number);

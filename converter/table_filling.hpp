@@ -21,7 +21,8 @@ namespace samara {
 ///  - mesh and closure: model_errors;
 ///  - interpolation: since a table is used between its nodes, the mean square over the centres of the cells
 ///    around the node, of the interpolation between samples (ReynoldsFit::interpolation_error) and of the
-///    difference that the bilinear lookup makes to it.
+///    difference that the bilinear lookup makes to it; and that between Reynolds numbers
+///    (reynolds_interpolation_variance).
 /// Sources of which the cases say nothing are absent from error_sources: mesh and closure without such
 /// cases, symmetry where it forbids nothing.
 ///

@@ -77,6 +77,7 @@ void solve_and_convert(const BakeRequest& request, const Body& body, const FarmO
     write_case_folder(folder, body, plan, templates);
     result.reused = count_solved(folder, plan);
     result.left_out = solve_cases(folder, plan, farm, templates);
+    result.cpu_seconds = spent_cpu_seconds(folder, plan);
     result.case_seconds = watch.lap();
 
     Progress progress("converting", "cases");

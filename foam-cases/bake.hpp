@@ -41,6 +41,7 @@ struct BakeResult {
     std::size_t probes = 0;  ///< rows of the table of cases, where probes were asked for
     std::size_t reused = 0;  ///< cases that an earlier bake had solved
     std::vector<LeftOutCase> left_out;
+    double cpu_seconds = 0.0;   ///< of all meshes and cases (spent_cpu_seconds)
     double mesh_seconds = 0.0;  ///< wall clock, as the next three
     double kirchhoff_seconds = 0.0;
     double case_seconds = 0.0;  ///< of the cases, their mesh included

@@ -109,13 +109,13 @@ nlohmann::json run_requests(const std::vector<BakeRequest>& requests, const Bake
         nlohmann::json one;
         if (options.dry_run) {
             const BakePreparation preparation = prepare_bake(request);
-            warn_of_laminar_flow(preparation);
+            note_laminar_flow(preparation);
             if (!quiet) print_preparation(request, preparation, options.jobs);
             one = bake_as_json(request, preparation);
         } else {
             if (request.output.has_parent_path()) fs::create_directories(request.output.parent_path());
-            const BakeResult result =
-                bake_body(request, {options.jobs, options.cluster}, warn_of_laminar_flow);
+            const BakeResult result = bake_body(request, {options.jobs, options.cluster}, note_laminar_flow);
+            warn_of_left_out_cases(request, result);
             if (!quiet) print_result(request, result);
             one = bake_as_json(request, result);
         }

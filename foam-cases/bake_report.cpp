@@ -65,6 +65,22 @@ nlohmann::json mesh_json(const SolvedCase& solved) {
     return provenance.is_object() ? provenance.value("mesh", nlohmann::json()) : nlohmann::json();
 }
 
+// The records of the meshes that the cases were solved on, coarsest first.
+std::vector<nlohmann::json> meshes_of(const std::vector<SolvedCase>& cases) {
+    std::vector<nlohmann::json> meshes;
+    for (const SolvedCase& solved : cases) {
+        const nlohmann::json mesh = mesh_json(solved);
+        if (mesh.is_object() && std::ranges::find(meshes, mesh) == meshes.end()) meshes.push_back(mesh);
+    }
+    std::ranges::sort(meshes, {}, [](const nlohmann::json& mesh) { return mesh.value("cells", 0); });
+    return meshes;
+}
+
+std::string remedy_of(const nlohmann::json& mesh) {
+    const std::string remedy = mesh.value("remedy", "as planned");
+    return remedy == "as planned" ? "" : fmt::format(" (remedy: {})", remedy);
+}
+
 }  // namespace
 
 nlohmann::json bake_as_json(const BakeRequest& request, const BakePreparation& preparation) {
@@ -85,6 +101,7 @@ nlohmann::json bake_as_json(const BakeRequest& request, const BakePreparation& p
 nlohmann::json bake_as_json(const BakeRequest& request, const BakeResult& result) {
     nlohmann::json json = base_json(request, result.preparation);
     json["cases"] = nlohmann::json::array();
+    json["cpu_seconds"] = result.cpu_seconds;
     json["seconds"] = {{"mesh", result.mesh_seconds},
                        {"kirchhoff", result.kirchhoff_seconds},
                        {"cases", result.case_seconds},
@@ -98,7 +115,7 @@ nlohmann::json bake_as_json(const BakeRequest& request, const BakeResult& result
                       {"reynolds_numbers", tables.reynolds_numbers},
                       {"reference_length", tables.reference_length},
                       {"entries", tables.entries.size()}};
-    json["mesh"] = mesh_json(result.conversion->cases.front());
+    json["meshes"] = meshes_of(result.conversion->cases);
     json["reused_cases"] = result.reused;
     json["left_out"] = nlohmann::json::array();
     for (const LeftOutCase& failed : result.left_out) {
@@ -138,38 +155,42 @@ void print_result(const BakeRequest& request, const BakeResult& result) {
     }
     const BakePlan& plan = *result.preparation.plan;
     const auto& cases = result.conversion->cases;
-    fmt::print("{}: quality {}, {} cases at Reynolds number {:.0f}", request.output.string(),
-               plan.quality.name, cases.size(), reynolds_number_of(plan));
+    fmt::print("{}: quality {}, {} cases at Reynolds numbers {}", request.output.string(), plan.quality.name,
+               plan.cases.size(), fmt::join(plan.reynolds_numbers, ", "));
     if (result.reused > 0) fmt::print(", {} of them solved before", result.reused);
-    fmt::print("\n{:<14} {:>26} {:>8} {:>10} {:>12} {:>7}\n", "case", "moving along", "drag", "k/U^2",
+    fmt::print("\n{:<28} {:>26} {:>8} {:>10} {:>13} {:>7}\n", "case", "moving along", "drag", "k/U^2",
                "epsilon L/U^3", "CPU s");
     for (const SolvedCase& solved : cases) {
         const Vector3d& direction = solved.sample.direction;
-        fmt::print("{:<14} ({:7.4f} {:7.4f} {:7.4f}) {:8.3f} {:10.5f} {:13.5f} {:7.1f}\n", solved.name,
+        fmt::print("{:<28} ({:7.4f} {:7.4f} {:7.4f}) {:8.3f} {:10.5f} {:13.5f} {:7.1f}\n", solved.name,
                    direction.x(), direction.y(), direction.z(), drag_coefficient(solved),
                    solved.sample.entry.turbulent_kinetic_energy, solved.sample.entry.dissipation_rate,
                    number_in(provenance_of(solved), "cpu_seconds"));
     }
-    for (const LeftOutCase& failed : result.left_out) {
-        fmt::print("{:<14} left out: {}\n", failed.name, failed.reason);
-    }
-    const nlohmann::json mesh = mesh_json(cases.front());
-    if (mesh.is_object()) {
-        fmt::print("{} cells, checkMesh: {}\n", mesh.value("cells", 0), mesh.value("verdict", "unknown"));
+    for (const nlohmann::json& mesh : meshes_of(cases)) {
+        fmt::print("{} cells, checkMesh: {}{}\n", mesh.value("cells", 0), mesh.value("verdict", "unknown"),
+                   remedy_of(mesh));
     }
     fmt::print(
-        "surface {:.1f} s, Kirchhoff tensor {:.1f} s, cases {:.1f} s, tables {:.1f} s; the cases are in {}\n",
-        result.mesh_seconds, result.kirchhoff_seconds, result.case_seconds, result.conversion_seconds,
-        case_folder_of(request.output).string());
+        "surface {:.1f} s, Kirchhoff tensor {:.1f} s, cases {:.1f} s ({:.0f} CPU s in all), tables {:.1f} s; "
+        "the cases are in {}\n",
+        result.mesh_seconds, result.kirchhoff_seconds, result.case_seconds, result.cpu_seconds,
+        result.conversion_seconds, case_folder_of(request.output).string());
 }
 
-void warn_of_laminar_flow(const BakePreparation& preparation) {
+void note_laminar_flow(const BakePreparation& preparation) {
     if (!preparation.plan || reynolds_number_of(*preparation.plan) >= laminar_reynolds_number) return;
-    fmt::print(
-        stderr,
-        "samara-bake: warning: at Reynolds number {:.3g} the flow is laminar (below {:.0f}), but the cases "
-        "use a turbulence model: take their drag and turbulence with care\n",
-        reynolds_number_of(*preparation.plan), laminar_reynolds_number);
+    fmt::print(stderr,
+               "samara-bake: note: at Reynolds number {:.3g}, below {:.0f}, the flow is taken as laminar: "
+               "loads, but no turbulence\n",
+               reynolds_number_of(*preparation.plan), laminar_reynolds_number);
+}
+
+void warn_of_left_out_cases(const BakeRequest& request, const BakeResult& result) {
+    for (const LeftOutCase& failed : result.left_out) {
+        fmt::print(stderr, "samara-bake: warning: {}: left out after its retries: {}\n",
+                   (case_folder_of(request.output) / failed.name).string(), failed.reason);
+    }
 }
 
 }  // namespace samara

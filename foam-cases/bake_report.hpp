@@ -15,6 +15,9 @@ void print_preparation(const BakeRequest& request, const BakePreparation& prepar
 void print_result(const BakeRequest& request, const BakeResult& result);
 
 /// One line on standard error where the Reynolds number is below laminar_reynolds_number.
-void warn_of_laminar_flow(const BakePreparation& preparation);
+void note_laminar_flow(const BakePreparation& preparation);
+
+/// One line on standard error for each case that was left out.
+void warn_of_left_out_cases(const BakeRequest& request, const BakeResult& result);
 
 }  // namespace samara

@@ -216,6 +216,18 @@ std::size_t count_solved(const fs::path& folder, const BakePlan& plan) {
                       [&](const BakeCase& entry) { return is_solved(folder / entry.name); }));
 }
 
+double spent_cpu_seconds(const fs::path& folder, const BakePlan& plan) {
+    const auto seconds_in = [](const fs::path& record) {
+        if (!fs::exists(record)) return 0.0;
+        const auto json = nlohmann::json::parse(read_bytes(record), nullptr, false);
+        return json.is_object() ? json.value("cpu_seconds", 0.0) : 0.0;
+    };
+    double sum = 0.0;
+    for (const FlowMesh& mesh : plan.quality.meshes) sum += seconds_in(folder / mesh.name / mesh_record);
+    for (const BakeCase& entry : plan.cases) sum += seconds_in(folder / entry.name / "provenance.json");
+    return sum;
+}
+
 void require_solvers(const FarmOptions& options, int ranks) {
     struct Need {
         const char* program;
