@@ -191,7 +191,9 @@ struct ModelErrors {
 };
 
 std::vector<SourceVariances> source_variances(const ReynoldsTable& table, const Symmetry& symmetry,
-                                              const ModelErrors& model, int subdivisions) {
+                                              const ModelErrors& model,
+                                              const LoadEntryError& between_reynolds_numbers,
+                                              int subdivisions) {
     const std::vector<LoadEntryError> interpolation = variances_around_nodes(table, symmetry, subdivisions);
     std::vector<SourceVariances> result(table.nodes.size());
     for_each(subdivisions, 0, [&](int row, int column) {
@@ -292,7 +294,7 @@ void fill_tables(LoadTables& tables, const Symmetry& symmetry, std::vector<Solve
     for (const ReynoldsTable& part : parts) {
         tables.reynolds_numbers.push_back(part.reynolds_number);
         const std::vector<SourceVariances> variances =
-            source_variances(part, symmetry, model, tables.subdivisions);
+            source_variances(part, symmetry, model, between, tables.subdivisions);
         for (std::size_t node = 0; node < part.nodes.size(); ++node) {
             const LoadEntry& entry = part.nodes[node];
             LoadEntryError sum;
