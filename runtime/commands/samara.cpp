@@ -40,7 +40,7 @@ void print_help() {
     for (const Command& command : commands) {
         const bool installed = command.run != nullptr ||
                                samara::find_program(fmt::format("samara-{}", command.name)).has_value();
-        fmt::print("  {:<11}{}{}\n", command.name, command.does, installed ? "" : " (not installed)");
+        fmt::print("  {:<13}{}{}\n", command.name, command.does, installed ? "" : " (not installed)");
     }
 }
 

@@ -12,6 +12,8 @@ namespace samara::test {
 /// An empty folder for one test, removed at its end.
 class TemporaryFolder : public samara::TemporaryFolder {
   public:
+    TemporaryFolder() {}  // NOLINT(modernize-use-equals-default): a const one needs a constructor of its own
+
     /// Writes a file in the folder, with the folders on its way, and returns its path.
     [[nodiscard]] std::filesystem::path file(const std::filesystem::path& name, std::string_view text) const {
         const std::filesystem::path target = path() / name;
