@@ -17,8 +17,11 @@ class Variances {
         degrees_ += degrees;
     }
     [[nodiscard]] bool empty() const { return degrees_ == 0; }
-    [[nodiscard]] double widened_root() const {
-        return empty() ? 0.0 : student_widening(degrees_) * std::sqrt(sum_ / degrees_);
+    /// The root of their mean; for closures widened for the small number of directions.
+    [[nodiscard]] double root(CasePurpose purpose) const {
+        if (empty()) return 0.0;
+        const double widening = purpose == CasePurpose::closure ? student_widening(degrees_) : 1.0;
+        return widening * std::sqrt(sum_ / degrees_);
     }
 
   private:
@@ -120,9 +123,9 @@ std::optional<RelativeErrors> model_errors(CasePurpose purpose, const Symmetry& 
             scale_at(table.reynolds_number, reynolds_numbers, scales));
     }
     if (all.force.empty()) return std::nullopt;
-    const double force = all.force.widened_root();
-    return RelativeErrors{force, all.moment.empty() ? force : all.moment.widened_root(),
-                          all.turbulent_kinetic_energy.widened_root(), all.dissipation_rate.widened_root()};
+    const double force = all.force.root(purpose);
+    return RelativeErrors{force, all.moment.empty() ? force : all.moment.root(purpose),
+                          all.turbulent_kinetic_energy.root(purpose), all.dissipation_rate.root(purpose)};
 }
 
 }  // namespace samara

@@ -38,9 +38,10 @@ using RelativeErrors = ErrorFigures;
 /// have chosen: the table's standard error is the sample's standard deviation over the closures, which for
 /// two is their difference over the square root of 2.
 ///
-/// Both are root mean squares over the directions and the components that the symmetry allows there, widened
-/// for the small number of directions (student_widening). Where it allows no moment in any of the directions,
-/// the force's fraction stands for the moment's.
+/// Both are root mean squares over the directions and the components that the symmetry allows there; the
+/// closures' is widened for the small number of directions (student_widening), the meshes' is not: to take
+/// the whole difference is a guard already. Where it allows no moment in any of the directions, the force's
+/// fraction stands for the moment's.
 std::optional<RelativeErrors> model_errors(CasePurpose purpose, const Symmetry& symmetry,
                                            const std::vector<SolvedCase>& cases,
                                            const std::vector<double>& reynolds_numbers,

@@ -1,5 +1,6 @@
 // samara info: what a file holds, its units and its provenance.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,8 @@
 
 #include "commands/body_report.hpp"
 #include "commands/commands.hpp"
+#include "commands/table_lookup_report.hpp"
+#include "commands/vector_words.hpp"
 #include "samara/base/error.hpp"
 #include "samara/body/body_file.hpp"
 #include "samara/command/arguments.hpp"
@@ -52,19 +55,49 @@ nlohmann::json report(const std::string& path, bool json) {
     throw Error(fmt::format("{}: is an HDF5 file, but neither a body nor a motion of samara's", path));
 }
 
+Vector3d parse_direction(const std::string& text) {
+    const std::optional<Vector3d> direction = vector_of_words(text);
+    if (direction && direction->norm() > 0.0) return direction->normalized();
+    throw Error(
+        fmt::format("--direction: '{}' is no direction; give x,y,z in shape axes, such as 0,0,-1", text));
+}
+
+/// What the tables of a body say in one direction.
+nlohmann::json report_lookup(const std::string& path, const std::string& words, double reynolds_number,
+                             bool json) {
+    const Vector3d direction = parse_direction(words);
+    const Body body = read_body_file(path);
+    if (!body.tables) throw Error(fmt::format("{}: has no tables; make them with 'samara bake'", path));
+    const double at = reynolds_number > 0.0 ? reynolds_number : body.tables->reynolds_numbers.back();
+    if (!json) print_lookup(*body.tables, direction, at);
+    return lookup_as_json(*body.tables, direction, at);
+}
+
 }  // namespace
 
 int info_command(int argc, const char* const* argv) {
     std::string file;
+    std::string direction;
+    double reynolds_number = 0.0;
     Arguments arguments("samara info", "What a body or motion file holds, its units and its provenance.");
     arguments.positional("FILE", file, "body file (.body.h5) or motion file (.h5)");
+    arguments.option("--direction", direction,
+                     "x,y,z: instead, what a body's tables say where it moves that way (shape axes)");
+    arguments.option("--reynolds-number", reynolds_number, "U L/nu, with --direction; the tables' last", 1e-9,
+                     1e12);
     arguments.footer(
         "JSON of a motion: kind, start, duration (s), frames, frame_rate, runs, gravity, seed, scene, bodies "
         "with their\n"
         "measures. Of a body: kind, name, source, triangles, order, volume (m^3), centroid (m), surface_area "
         "(m^2),\n"
         "principal_extents (m, shortest first), symmetry, kirchhoff and tables (null where there are none).");
-    return run_program(argc, argv, arguments, [&] { return report(file, arguments.json()); });
+    return run_program(argc, argv, arguments, [&] {
+        if (!direction.empty()) return report_lookup(file, direction, reynolds_number, arguments.json());
+        if (arguments.given("--reynolds-number")) {
+            throw Error("--reynolds-number: belongs to --direction; give both");
+        }
+        return report(file, arguments.json());
+    });
 }
 
 }  // namespace samara

@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <string>
 #include <utility>
@@ -11,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/commands.hpp"
+#include "commands/vector_words.hpp"
 #include "samara/base/error.hpp"
 #include "samara/base/vector_json.hpp"
 #include "samara/body/body_file.hpp"
@@ -36,15 +36,9 @@ struct Request {
     std::string about;
 };
 
-/// "x,y,z" as a vector.
 Vector3d parse_point(const std::string& text) {
-    Vector3d point;
-    int end = 0;
-    const int found = std::sscanf(text.c_str(), "%lf,%lf,%lf%n", &point.x(), &point.y(), &point.z(), &end);
-    if (found != 3 || static_cast<std::size_t>(end) != text.size() || !point.allFinite()) {
-        throw Error(fmt::format("--about: '{}' is no point; give x,y,z in metres, such as 0,0,-0.01", text));
-    }
-    return point;
+    if (const auto point = vector_of_words(text)) return *point;
+    throw Error(fmt::format("--about: '{}' is no point; give x,y,z in metres, such as 0,0,-0.01", text));
 }
 
 void print_matrix(const Matrix6d& matrix) {

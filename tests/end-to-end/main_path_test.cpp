@@ -177,7 +177,7 @@ TEST(BadInput, AnUnknownCommandOrOptionIsNamedInOneLine) {
 TEST(Help, OfEveryCommandWorks) {
     const test::TemporaryFolder folder;
     for (const char* command :
-         {"mesh", "kirchhoff", "bake", "convert", "simulate", "export", "plot", "info"}) {
+         {"mesh", "kirchhoff", "bake", "convert", "check-tables", "simulate", "export", "plot", "info"}) {
         const auto help = run_program_in(folder, {"samara", command, "--help"});
         EXPECT_EQ(help.status, 0) << help.fault;
         EXPECT_THAT(help.output, HasSubstr("--json")) << command;
