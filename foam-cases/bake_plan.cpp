@@ -195,7 +195,7 @@ void plan_cases(const Symmetry& symmetry, double main_reynolds_number, BakePlan&
             entry.closure = closure_at(reynolds_number);
             entry.purpose = CasePurpose::table;
         };
-        add_beside(few, fmt::format("_re_{}", reynolds_number), change, plan);
+        add_beside(few, fmt::format("_re_{:.6g}", reynolds_number), change, plan);
     }
     if (closure_at(main_reynolds_number) == "laminar") return;
     for (const std::string& closure : quality.other_closures) {

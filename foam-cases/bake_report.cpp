@@ -155,8 +155,8 @@ void print_result(const BakeRequest& request, const BakeResult& result) {
     }
     const BakePlan& plan = *result.preparation.plan;
     const auto& cases = result.conversion->cases;
-    fmt::print("{}: quality {}, {} cases at Reynolds numbers {}", request.output.string(), plan.quality.name,
-               plan.cases.size(), fmt::join(plan.reynolds_numbers, ", "));
+    fmt::print("{}: quality {}, {} cases at Reynolds numbers {:.6g}", request.output.string(),
+               plan.quality.name, plan.cases.size(), fmt::join(plan.reynolds_numbers, ", "));
     if (result.reused > 0) fmt::print(", {} of them solved before", result.reused);
     fmt::print("\n{:<28} {:>26} {:>8} {:>10} {:>13} {:>7}\n", "case", "moving along", "drag", "k/U^2",
                "epsilon L/U^3", "CPU s");

@@ -1,6 +1,7 @@
 // Real OpenFOAM runs at smoke quality, through the program as a user calls it.
 
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
@@ -191,6 +192,20 @@ TEST_F(Bake, SaysWhereTheFlowIsTakenAsLaminar) {
     const test::ProgramRun run = bake(fmt::format("{} -o out.body.h5 --dry-run", file.string()));
     EXPECT_EQ(run.status, 0);
     EXPECT_THAT(run.fault, HasSubstr("the flow is taken as laminar"));
+}
+
+TEST_F(Bake, OfASmallSphereIsLaminarAndHasItsMeasuredDrag) {
+    const fs::path file = write_body(test::sphere(0.0005));
+    const test::ProgramRun run = bake(fmt::format("{} -o out.body.h5 --quality smoke --json", file.string()));
+    ASSERT_EQ(run.status, 0) << run.fault;
+    const nlohmann::json json = run.json();
+    const double reynolds_number = json["reynolds_numbers"][0];
+    ASSERT_LT(reynolds_number, 300.0);
+    // Clift & Gauvin (1971); their correlation's own error is 6 %.
+    const double measured = 24.0 / reynolds_number * (1.0 + 0.15 * std::pow(reynolds_number, 0.687)) +
+                            0.42 / (1.0 + 42500.0 * std::pow(reynolds_number, -1.16));
+    EXPECT_NEAR(json["cases"][0]["drag_coefficient"].get<double>(), measured, 0.1 * measured);
+    EXPECT_EQ(json["cases"][0]["turbulent_kinetic_energy"], 0.0);
 }
 
 TEST_F(Bake, RefusesABodyAsDenseAsTheFluid) {
