@@ -50,6 +50,7 @@ BakeQuality preview_quality() {
 BakeQuality standard_quality() {
     BakeQuality quality;
     quality.name = "standard";
+    quality.stationarity = 0.01;
     quality.meshes = {coarse_mesh(), medium_mesh(), fine_mesh()};
     quality.further_reynolds_numbers = {0.1, 0.3};
     return quality;

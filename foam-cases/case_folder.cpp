@@ -101,11 +101,11 @@ void link_to_mesh(const fs::path& folder, const std::string& mesh, const char* n
     fs::create_directory_symlink(target, link);
 }
 
-// Removes a record of success or failure that belongs to other inputs, or that cannot be read.
-void discard_stale(const fs::path& record, const std::string& hash) {
-    if (!fs::exists(record)) return;
+// Removes a record that belongs to other inputs, or that cannot be read; says whether it did.
+bool discard_stale(const fs::path& record, const std::string& hash) {
+    if (!fs::exists(record)) return false;
     const auto json = nlohmann::json::parse(read_bytes(record), nullptr, false);
-    if (!json.is_object() || json.value("inputs_hash", "") != hash) fs::remove(record);
+    return (!json.is_object() || json.value("inputs_hash", "") != hash) && fs::remove(record);
 }
 
 void remove_unplanned_cases(const fs::path& folder, const BakePlan& plan) {
@@ -180,8 +180,10 @@ void write_case_folder(const fs::path& folder, const Body& body, const BakePlan&
         const std::string hash = content_hash(hashes.at(entry.mesh) + start + hash_of(files));
         hashes[entry.name] = hash;
         json["cases"][i]["inputs_hash"] = hash;
-        discard_stale(folder / entry.name / "provenance.json", hash);
-        discard_stale(folder / entry.name / "failed.json", hash);
+        const bool solved_before = discard_stale(folder / entry.name / "provenance.json", hash);
+        const bool failed_before = discard_stale(folder / entry.name / "failed.json", hash);
+        // Its histories would pass for progress.
+        if (solved_before || failed_before) fs::remove_all(folder / entry.name / "postProcessing");
         write_files(folder / entry.name, files);
         link_to_mesh(folder / entry.name, entry.mesh, "polyMesh");
         link_to_mesh(folder / entry.name, entry.mesh, "triSurface");

@@ -8,8 +8,8 @@ set xlabel "CPU seconds of the bake"
 set grid xtics ytics lc rgb "#e4e4e4" lt 1 lw 0.8
 set border 3 lc rgb "#6b6b6b"
 set tics nomirror textcolor rgb "#1a1a1a"
-set yrange [0.01:3]
-set ytics (".01" 0.01, ".03" 0.03, ".1" 0.1, ".3" 0.3, "1" 1, "3" 3)
+set yrange [0.02:4]
+set ytics (".03" 0.03, ".1" 0.1, ".3" 0.3, "1" 1, "3" 3)
 
 bodies = "ellipsoid sheet"
 array title_of[3] = ["force", "moment", "k (natural logarithm)"]
