@@ -59,6 +59,18 @@ void expect_tow_reproduces_tables(const Body& body) {
     }
 }
 
+/// Runs words that must be refused: exit 1, one line that holds `expected`, and no output file.
+void expect_refusal(const test::TemporaryFolder& folder, const std::vector<std::string>& words,
+                    const std::string& expected) {
+    const auto run = run_program_in(folder, words);
+    EXPECT_EQ(run.status, 1) << run.fault;
+    EXPECT_TRUE(is_one_line(run.fault)) << run.fault;
+    EXPECT_THAT(run.fault, HasSubstr(expected));
+    EXPECT_EQ(run.output, "");
+    EXPECT_FALSE(std::filesystem::exists(folder / "out.h5"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "out.body.h5"));
+}
+
 TEST(MainPath, AShapeBecomesABakedBodyThatFallsAndLeavesForOtherTools) {
     const test::TemporaryFolder folder;
     write_scene(folder, shapes + "ellipsoid.geo");
@@ -115,6 +127,12 @@ TEST(MainPath, AShapeBecomesABakedBodyThatFallsAndLeavesForOtherTools) {
         EXPECT_EQ(info.status, 0) << info.fault;
         EXPECT_TRUE(info.json().is_object());
     }
+    const auto lookup =
+        run_program_in(folder, {"samara", "info", "bodies/rubber.body.h5", "--direction", "1,0,0", "--json"});
+    ASSERT_EQ(lookup.status, 0) << lookup.fault;
+    EXPECT_GT(lookup.json()["drag_coefficient"].get<double>(), 0.5);
+    EXPECT_GT(lookup.json()["drag_coefficient_error"].get<double>(), 0.0);
+    expect_refusal(folder, {"samara", "info", "bodies/rubber.body.h5", "--direction", "up"}, "no direction");
 }
 
 TEST(MainPath, ARawShapeFliesWithCoefficientsAndWithoutABake) {
@@ -123,18 +141,6 @@ TEST(MainPath, ARawShapeFliesWithCoefficientsAndWithoutABake) {
     const auto fall = run_program_in(folder, {"samara", "simulate", "scene.toml", "-o", "fall.h5", "--json"});
     ASSERT_EQ(fall.status, 0) << fall.fault;
     EXPECT_GT(fall.json()["bodies"][0]["mean_descent_speed"].get<double>(), 0.05);
-}
-
-/// Runs words that must be refused: exit 1, one line that holds `expected`, and no output file.
-void expect_refusal(const test::TemporaryFolder& folder, const std::vector<std::string>& words,
-                    const std::string& expected) {
-    const auto run = run_program_in(folder, words);
-    EXPECT_EQ(run.status, 1) << run.fault;
-    EXPECT_TRUE(is_one_line(run.fault)) << run.fault;
-    EXPECT_THAT(run.fault, HasSubstr(expected));
-    EXPECT_EQ(run.output, "");
-    EXPECT_FALSE(std::filesystem::exists(folder / "out.h5"));
-    EXPECT_FALSE(std::filesystem::exists(folder / "out.body.h5"));
 }
 
 TEST(BadInput, OfASceneIsNamedInOneLine) {
