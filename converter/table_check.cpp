@@ -14,7 +14,6 @@ class Sum {
         differences_ += difference * difference;
         stated_ += stated * stated;
         scales_ += scale * scale;
-        count_ += 1.0;
     }
     void count_component(double difference, double stated) {
         components_ += 1.0;
@@ -32,7 +31,6 @@ class Sum {
     double differences_ = 0.0;
     double stated_ = 0.0;
     double scales_ = 0.0;
-    double count_ = 0.0;
     double within_ = 0.0;
     double components_ = 0.0;
 };

@@ -170,9 +170,10 @@ class Rounds:
         if attempt["iterations"] == attempt["first"]:
             changes = changes | first_changes
         end = attempt["iterations"] + self.round_iterations
+        entries = {"endTime": end, "writeFormat": "binary", **changes}
         with open("system/round", "w") as file:
             file.write("// What this round has of its own; written by iterate.py\n")
-            file.write("".join(f"{name} {value};\n" for name, value in {"endTime": end, "writeFormat": "binary", **changes}.items()))
+            file.write("".join(f"{name} {value};\n" for name, value in entries.items()))
         status, seconds = run_program(["./Allrun", "round"], "log.simpleFoam")
         self.state["cpu_seconds"] += seconds
         if status != 0:
@@ -204,15 +205,16 @@ class Rounds:
 
     def run(self):
         while self.state["verdict"] is None:
+            # An attempt that had ended before a kill is not gone on with.
+            if "end" in self.attempt:
+                accepted = self.attempt["unsteadiness_over_tolerance"] <= ACCEPTED
+                self.after(self.attempt["end"], {} if accepted else AFTER_RESTLESSNESS)
+                continue
             try:
                 self.run_round()
             except Diverged as cause:
                 self.attempt.pop("unsteadiness_over_tolerance", None)
                 self.after(str(cause), AFTER_DIVERGENCE)
-                continue
-            if "end" in self.attempt:
-                accepted = self.attempt["unsteadiness_over_tolerance"] <= ACCEPTED
-                self.after(self.attempt["end"], {} if accepted else AFTER_RESTLESSNESS)
 
 
 def main():
