@@ -145,10 +145,10 @@ void print_dynamic(const IdentifiedCoefficients& dynamic) {
     const auto& [values, errors] = dynamic;
     fmt::print("Dynamic coefficients, +- standard errors (body axes, about the centroid)\n");
     print_row("origin", "{}", values.origin);
-    print_row("transport", "force {:.3g} +- {:.2g}, moment {:.3g} +- {:.2g}", values.force_transport,
-              errors.force_transport, values.moment_transport, errors.moment_transport);
-    print_tensor("drag in motion", "m^2", values.drag_in_motion, errors.drag_in_motion);
-    print_tensor("rotational drag", "m^4", values.rotational_drag, errors.rotational_drag);
+    print_row("turning transport", "{:.3g} +- {:.2g}", values.rotational_transport, errors.rotational_transport);
+    for (const TensorOfMotion& tensor : tensors_of_motion) {
+        print_tensor(tensor.title, tensor.unit, values.*tensor.member, errors.*tensor.member);
+    }
     print_row("half-length", "{:.6g} m", values.half_length);
 }
 
@@ -164,10 +164,9 @@ nlohmann::json rows_of(const Matrix& matrix) {
 }
 
 nlohmann::json numbers_as_json(const DynamicCoefficients& numbers) {
-    return {{"force_transport", numbers.force_transport},
-            {"moment_transport", numbers.moment_transport},
-            {"drag_in_motion", rows_of(numbers.drag_in_motion)},
-            {"rotational_drag", rows_of(numbers.rotational_drag)}};
+    nlohmann::json json = {{"rotational_transport", numbers.rotational_transport}};
+    for (const TensorOfMotion& tensor : tensors_of_motion) json[tensor.name] = rows_of(numbers.*tensor.member);
+    return json;
 }
 
 nlohmann::json dynamic_as_json(const IdentifiedCoefficients& dynamic) {

@@ -22,40 +22,38 @@ Matrix3d read_tensor(const Hdf5Reader& file, const char* name, const char* name_
 /// The numbers that values and standard errors have in common.
 DynamicCoefficients read_numbers(const Hdf5Reader& file, const char* name_end) {
     DynamicCoefficients numbers;
-    numbers.force_transport = file.number_attribute(group, fmt::format("force_transport{}", name_end));
-    numbers.moment_transport = file.number_attribute(group, fmt::format("moment_transport{}", name_end));
-    numbers.drag_in_motion = read_tensor(file, "drag_in_motion", name_end);
-    numbers.rotational_drag = read_tensor(file, "rotational_drag", name_end);
+    numbers.rotational_transport = file.number_attribute(group, fmt::format("rotational_transport{}", name_end));
+    for (const TensorOfMotion& tensor : tensors_of_motion) {
+        numbers.*tensor.member = read_tensor(file, tensor.name, name_end);
+    }
     return numbers;
 }
 
-void write_numbers(Hdf5Writer& file, const DynamicCoefficients& numbers, const char* name_end,
-                   const char* drag_meaning, const char* turning_meaning) {
-    file.write(place("drag_in_motion", name_end), row_major(numbers.drag_in_motion), {3, 3}, "m^2",
-               drag_meaning);
-    file.write(place("rotational_drag", name_end), row_major(numbers.rotational_drag), {3, 3}, "m^4",
-               turning_meaning);
-    file.attribute(group, fmt::format("force_transport{}", name_end), numbers.force_transport);
-    file.attribute(group, fmt::format("moment_transport{}", name_end), numbers.moment_transport);
+void write_numbers(Hdf5Writer& file, const DynamicCoefficients& numbers, const char* name_end) {
+    for (const TensorOfMotion& tensor : tensors_of_motion) {
+        const bool is_value = *name_end == '\0';
+        file.write(place(tensor.name, name_end), row_major(numbers.*tensor.member), {3, 3}, tensor.unit,
+                   is_value ? tensor.meaning : "standard error of the tensor of the same name");
+    }
+    file.attribute(group, fmt::format("rotational_transport{}", name_end), numbers.rotational_transport);
 }
 
 /// A standard error that is none; empty where all are.
 std::string fault_of_errors(const DynamicCoefficients& errors) {
-    if (!(errors.force_transport >= 0.0) || !std::isfinite(errors.force_transport))
-        return "force_transport_error";
-    if (!(errors.moment_transport >= 0.0) || !std::isfinite(errors.moment_transport))
-        return "moment_transport_error";
-    if (errors.drag_in_motion.minCoeff() < 0.0) return "drag_in_motion_error";
-    if (errors.rotational_drag.minCoeff() < 0.0) return "rotational_drag_error";
+    if (!(errors.rotational_transport >= 0.0) || !std::isfinite(errors.rotational_transport)) {
+        return "rotational_transport_error";
+    }
+    for (const TensorOfMotion& tensor : tensors_of_motion) {
+        if ((errors.*tensor.member).minCoeff() < 0.0) return std::string(tensor.name) + "_error";
+    }
     return {};
 }
 
 }  // namespace
 
 void write_dynamic_coefficients(Hdf5Writer& file, const IdentifiedCoefficients& coefficients) {
-    constexpr const char* error = "standard error of the tensor of the same name";
-    write_numbers(file, coefficients.values, "", "C_m A, body axes", "C_w D about the centroid, body axes");
-    write_numbers(file, coefficients.standard_errors, "_error", error, error);
+    write_numbers(file, coefficients.values, "");
+    write_numbers(file, coefficients.standard_errors, "_error");
     file.attribute(group, "half_length", coefficients.values.half_length);
     file.attribute(group, "origin", std::string_view(coefficients.values.origin));
 }

@@ -7,6 +7,7 @@ namespace {
 
 // Chosen on a free fall of the 1:2:4 ellipsoid in OpenFOAM; docs/theory gives its figures and what they miss.
 constexpr double default_transport = 0.75;
+constexpr double default_rotational_transport = 1.0;
 constexpr double default_drag_in_motion = 2.0;
 constexpr double default_rotational_drag = 1.3;
 
@@ -43,8 +44,10 @@ DynamicCoefficients rotational_drag_alone(const Body& body) {
 
 DynamicCoefficients default_dynamic_coefficients(const Body& body) {
     DynamicCoefficients coefficients = rotational_drag_alone(body);
-    coefficients.force_transport = default_transport;
-    coefficients.moment_transport = default_transport;
+    if (body.kirchhoff) {
+        coefficients.transport = default_transport * body.kirchhoff->matrix.bottomRightCorner<3, 3>();
+    }
+    coefficients.rotational_transport = default_rotational_transport;
     const Matrix3d axes = principal_axes(body.moments);
     for (int i = 0; i < 3; ++i) {
         const Vector3d axis = axes.col(i);

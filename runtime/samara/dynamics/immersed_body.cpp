@@ -110,6 +110,8 @@ ImmersedBody make_immersed_body(const Body& body, const SceneBody& scene_body, c
     const Matrix6d fluid_inertia = fluid.density * body.kirchhoff->matrix;
     result.own_inertia = mass.inertia;
     result.added_mass = fluid_inertia.bottomRightCorner<3, 3>();
+    result.added_inertia = fluid_inertia.topLeftCorner<3, 3>();
+    result.added_coupling = fluid_inertia.topRightCorner<3, 3>();
     result.inertia = body_inertia(mass) + result.to_centroid.transpose() * fluid_inertia * result.to_centroid;
     if (Eigen::LLT<Matrix6d>(result.inertia).info() != Eigen::Success) {
         throw Error(fmt::format(

@@ -29,6 +29,8 @@ struct ImmersedBody {
     Matrix6d inertia = Matrix6d::Identity();  ///< K = K_body + rho_f K_fluid, order (omega, v)
     Matrix6d to_centroid = Matrix6d::Identity();  ///< X: (omega, v) at the centre of mass -> at the centroid
     Matrix3d added_mass = Matrix3d::Zero();       ///< rho_f M (kg)
+    Matrix3d added_inertia = Matrix3d::Zero();    ///< rho_f K_fluid's block of (omega, omega), about the centroid
+    Matrix3d added_coupling = Matrix3d::Zero();   ///< of (omega, v)
     ContactPoints contact_points;
     double length = 1.0;          ///< L = sqrt(S/pi) (m)
     double reference_area = 0.0;  ///< A = pi L^2/4 (m^2)

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/Eigenvalues>
-
 #include "samara/dynamics/immersed_body.hpp"
 
 namespace samara {
@@ -19,16 +17,6 @@ Triple<Real> triple(const Vector3d& v) {
 template <class Real>
 Square<Real> square(const Matrix3d& m) {
     return {triple<Real>(m.row(0)), triple<Real>(m.row(1)), triple<Real>(m.row(2))};
-}
-
-/// Principal axes (rows) of a symmetric tensor, and the roots of its values.
-struct Principal {
-    Matrix3d axes;
-    Vector3d roots;
-};
-Principal principal(const Matrix3d& tensor) {
-    const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(tensor);
-    return {solver.eigenvectors().transpose(), solver.eigenvalues().cwiseMax(0.0).cwiseSqrt()};
 }
 
 template <class Real>
@@ -115,9 +103,6 @@ void set_inertia(const ImmersedBody& body, FlightConstants<Real>& c) {
     c.directed_inertia = square<Real>(moving - Matrix3d::Identity());
     c.inverse_turning = triple<Real>(turning.diagonal().cwiseInverse());
     c.inverse_moving = triple<Real>(moving.diagonal().cwiseInverse());
-    const double isotropic = body.added_mass.trace() / (3.0 * mass);
-    c.isotropic_added_mass = static_cast<Real>(isotropic);
-    c.directed_added_mass = square<Real>(body.added_mass / mass - isotropic * Matrix3d::Identity());
     c.weight = static_cast<Real>((body.mass - body.fluid_density * body.volume) / (mass * length));
     c.weight_moment = triple<Real>(-body.mass / (mass * length * length) * body.center_of_buoyancy);
     c.munk_rate = static_cast<Real>(body.turning_scale * length);
@@ -128,6 +113,28 @@ Real reynolds_factor(const ImmersedBody& body) {
     return static_cast<Real>(body.length * length_scale(body) * body.fluid_density / body.viscosity);
 }
 
+/// Less its isotropic part.
+Matrix3d directed(const Matrix3d& tensor) {
+    return tensor - tensor.trace() / 3.0 * Matrix3d::Identity();
+}
+
+template <class Real>
+void set_transport(const ImmersedBody& body, double mass, double length, FlightConstants<Real>& c) {
+    const DynamicCoefficients& dynamic = body.dynamic;
+    const Matrix3d transport = body.fluid_density / mass * dynamic.transport;
+    c.isotropic_transport = static_cast<Real>(transport.trace() / 3.0);
+    c.directed_transport = square<Real>(directed(transport));
+    const double share = dynamic.rotational_transport / mass;
+    c.turning_transport = dynamic.rotational_transport != 0.0;
+    c.transport_turning = square<Real>(share / (length * length) * body.added_inertia);
+    c.transport_coupling = square<Real>(share / length * body.added_coupling);
+    const double reach = dynamic.half_length / length;
+    const double wake = body.fluid_density / (mass * length);
+    c.has_wake = !dynamic.wake_by_velocity.isZero(0.0) || !dynamic.wake_by_turning.isZero(0.0);
+    c.wake_by_velocity = square<Real>(wake * dynamic.wake_by_velocity);
+    c.wake_by_turning = square<Real>(wake * reach * reach * dynamic.wake_by_turning);
+}
+
 template <class Real>
 void set_loads(const ImmersedBody& body, FlightConstants<Real>& c) {
     const double mass = static_cast<double>(c.mass_scale);
@@ -135,29 +142,22 @@ void set_loads(const ImmersedBody& body, FlightConstants<Real>& c) {
     const double half_density = 0.5 * body.fluid_density;
     const DynamicCoefficients& dynamic = body.dynamic;
     const double tow = half_density * body.reference_area * length / mass;
-    const double transport = 0.5 * (dynamic.moment_transport + dynamic.force_transport);
     c.loads = body.loads;
     c.tow_factor = static_cast<Real>(tow);
     c.reynolds_factor = reynolds_factor<Real>(body);
-    c.transport = static_cast<Real>(transport);
-    c.working_transport = static_cast<Real>(0.5 * (dynamic.moment_transport - dynamic.force_transport));
     c.half_length = static_cast<Real>(dynamic.half_length / length);
     const Matrix3d drag = half_density * length / mass * dynamic.drag_in_motion;
     const Matrix3d turning = half_density / (mass * length) * dynamic.rotational_drag;
     c.drag_in_motion = square<Real>(drag);
     c.rotational_drag = square<Real>(turning);
-    const Principal drags = principal(drag / 3.0);
-    const Principal turnings = principal(turning / 3.0);
-    c.drag_axes = square<Real>(drags.axes);
-    c.drag_roots = triple<Real>(drags.roots);
-    c.turning_axes = square<Real>(turnings.axes);
-    c.turning_roots = triple<Real>(turnings.roots);
+    set_transport(body, mass, length, c);
     const double creeping = std::numbers::pi * body.viscosity * body.length / mass;
     const double ratio = body.length / length;
     c.creeping_turn = static_cast<Real>(creeping * ratio * ratio);
     c.creeping_drag = static_cast<Real>(3.0 * creeping);
     if (body.loads == Loads::table) {
-        c.kirchhoff_share = static_cast<Real>((1.0 - transport) / tow);
+        c.potential_transport =
+            square<Real>(directed(body.added_mass - body.fluid_density * dynamic.transport) / (mass * tow));
         c.lowest_reynolds_inverse = static_cast<Real>(1.0 / body.tables->reynolds_numbers.front());
         c.loads_by_direction = load_table<Real>(body);
     } else {

@@ -42,8 +42,6 @@ struct FlightConstants {
     Square<Real> directed_inertia{};    ///< of (v, v), over m*, less the unit matrix: its trace is zero
     Triple<Real> inverse_turning{};     ///< one over the diagonals, for the drag's stiffness
     Triple<Real> inverse_moving{};
-    Square<Real> directed_added_mass{};  ///< rho_f M / m* less its isotropic part
-    Real isotropic_added_mass = 0;       ///< a third of the trace of rho_f M / m*
     Real weight = 0;                     ///< (m - rho_f V) / (m* l): times gravity the force
     Triple<Real> weight_moment{};        ///< m r / (m* l^2), r from the centroid to the centre of mass
     Real munk_rate = 0;  ///< times the speed: the rate at which the Munk moment turns the body
@@ -56,15 +54,17 @@ struct FlightConstants {
     Real twice_lift_coefficient = 0;
     Triple<Real> normal{};
     Triple<Real> center_of_pressure{};  ///< over l, from the centroid
-    Real kirchhoff_share = 0;           ///< (1 - kappa) over tow_factor
     Real lowest_reynolds_inverse = 0;   ///< of the table; 0: no Stokes resistance in translation
 
-    Real transport = 0;            ///< kappa
-    Real working_transport = 0;    ///< delta
-    Square<Real> turning_axes{};   ///< rows: principal axes of the rotational drag
-    Triple<Real> turning_roots{};  ///< roots of a third of its principal values
-    Square<Real> drag_axes{};      ///< rows: principal axes of the drag in motion
-    Triple<Real> drag_roots{};
+    Square<Real> potential_transport{};  ///< rho_f (M - T) / m* over tow_factor, less its isotropic part
+    Square<Real> directed_transport{};   ///< rho_f T / m* less its isotropic part
+    Real isotropic_transport = 0;        ///< a third of the trace of rho_f T / m*
+    bool turning_transport = false;      ///< whether the next two are not zero
+    Square<Real> transport_turning{};    ///< t rho_f K_fluid's block of (omega, omega), over m* l^2
+    Square<Real> transport_coupling{};   ///< of (omega, v), over m* l
+    bool has_wake = false;               ///< whether the next two are not zero
+    Square<Real> wake_by_velocity{};     ///< rho_f N_v / (m* l)
+    Square<Real> wake_by_turning{};      ///< rho_f c^2 N_w / (m* l^3)
     Square<Real> drag_in_motion{};   ///< rho_f l C_m A / (2 m*)
     Square<Real> rotational_drag{};  ///< rho_f C_w D / (2 m* l)
     Real half_length = 0;            ///< c / l

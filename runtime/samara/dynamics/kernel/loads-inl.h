@@ -7,6 +7,7 @@
 #define SAMARA_LOADS_INL_H
 #endif
 
+#include "samara/body/dynamic_coefficients.hpp"
 #include "samara/dynamics/kernel/tables-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -70,10 +71,10 @@ template <class V, class Real>
 HWY_INLINE PressurePoint<V> pressure_point(const FlightConstants<Real>& c, const Heading<V>& heading,
                                            V share) {
     const TowCoefficients<V> tow = tow_coefficients<true>(c, heading);
-    // In a steady tow the equations' left side holds the part (1 - kappa) of the Kirchhoff moment already.
+    // In a steady tow the transport below leaves this part of the Kirchhoff moment that the equations' left side holds.
     const Triple<V> kirchhoff =
-        cross(broadcast<V>(c.directed_added_mass) * heading.direction, heading.direction);
-    const Triple<V> moment = tow.moment - V(c.kirchhoff_share) * kirchhoff;
+        cross(broadcast<V>(c.potential_transport) * heading.direction, heading.direction);
+    const Triple<V> moment = tow.moment - kirchhoff;
     const V square = dot(tow.force, tow.force);
     const V scale = share / larger(V(tiny<V>), square);
     return {scale * cross(tow.force, moment), (V(c.tow_factor) * scale * dot(moment, tow.force)) * tow.force};
@@ -104,26 +105,6 @@ HWY_INLINE LoadBlocks<V> moved_by_arm(const TowMatrix<V>& tow, const Triple<V>& 
             scaling_and_cross(tow.drag, tow.side)};
 }
 
-/// A symmetric block between turning and moving, each entry of which, in the principal axes of the two drags,
-/// is held below what these can pay for.
-template <class V, class Real>
-HWY_INLINE Square<V> paid_transport(const FlightConstants<Real>& c, const Triple<V>& momentum, V turning_root,
-                                    V drag_root) {
-    const Square<V> left = broadcast<V>(c.turning_axes);
-    const Square<V> right = broadcast<V>(c.drag_axes);
-    const Square<V> wanted =
-        left * (scaling_and_cross(V(0.0), V(c.working_transport) * momentum) * transposed(right));
-    const Triple<V> w = turning_root * broadcast<V>(c.turning_roots);
-    const Triple<V> d = drag_root * broadcast<V>(c.drag_roots);
-    const auto held = [&](V entry, V most) HWY_ATTR { return larger(-most, smaller(most, entry)); };
-    const auto held_row = [&](const Triple<V>& row, V root_of_row) HWY_ATTR {
-        return Triple<V>{held(row.x, root_of_row * d.x), held(row.y, root_of_row * d.y),
-                         held(row.z, root_of_row * d.z)};
-    };
-    const Square<V> paid{held_row(wanted.x, w.x), held_row(wanted.y, w.y), held_row(wanted.z, w.z)};
-    return transposed(left) * (paid * right);
-}
-
 /// D at a velocity of the centroid relative to the fluid.
 template <class V, class Real>
 HWY_INLINE LoadBlocks<V> load_blocks(const FlightConstants<Real>& c, const Triple<V>& omega,
@@ -133,31 +114,39 @@ HWY_INLINE LoadBlocks<V> load_blocks(const FlightConstants<Real>& c, const Tripl
     const Heading<V> heading = heading_of(velocity);
     const V tip_speed = V(c.half_length) * root(dot(omega, omega));
     const V combined = root(heading.speed * heading.speed + tip_speed * tip_speed);
-    const V inverse = one / larger(V(tiny<V>), combined);
+    const V speed_square = heading.speed * heading.speed;
+    const V tip_square = tip_speed * tip_speed;
 
-    // The tow's moment fades as the tip speed outgrows the speed: a steady tow keeps it whole.
-    const V share = (heading.speed * inverse) * (heading.speed * inverse);
+    // The tow's moment stays until the body does nothing but turn: a steady tow keeps it whole.
+    const V share = speed_square / larger(V(tiny<V>), speed_square + V(motion_onset) * tip_square);
     const PressurePoint<V> point = pressure_point(c, heading, share);
     LoadBlocks<V> blocks = moved_by_arm(tow_matrix(c, velocity + cross(omega, point.arm)), point.arm);
 
     // What a turning body gains along the force it loses along its path, as a windmill does: workless.
     const Square<V> windmill = outer(point.moment_along_force, velocity);
-    // kappa (omega x (M v), v x (M v)): workless.
-    // The isotropic part of M acts as a force alone: its moment v x v is none, and must not be made where D
+    // (omega x P, v x P), with the momentum P: workless.
+    // The isotropic part of T acts as a force alone: its moment v x v is none, and must not be made where D
     // acts on another v than the one it was made with.
-    const Triple<V> momentum = broadcast<V>(c.directed_added_mass) * velocity;
-    blocks.force_by_velocity = plus_cross(
-        blocks.force_by_velocity, V((c.working_transport - c.transport) * c.isotropic_added_mass) * omega);
-    const Triple<V> transport = V(c.transport) * momentum;
-    blocks.moment_by_velocity = plus_cross(blocks.moment_by_velocity - windmill, transport);
-    blocks.force_by_turning = plus_cross(blocks.force_by_turning + transposed(windmill), transport);
-
-    const V drag_share = tip_speed * inverse * tip_speed;
-    if (c.working_transport != 0) {
-        const Square<V> working = paid_transport(c, momentum, root(combined), root(drag_share));
-        blocks.moment_by_velocity = blocks.moment_by_velocity + working;
-        blocks.force_by_turning = blocks.force_by_turning + transposed(working);
+    blocks.force_by_velocity = plus_cross(blocks.force_by_velocity, -V(c.isotropic_transport) * omega);
+    Triple<V> momentum = broadcast<V>(c.directed_transport) * velocity;
+    if (c.turning_transport) {
+        const Square<V> coupling = broadcast<V>(c.transport_coupling);
+        momentum = momentum + transposed_times(coupling, omega);
+        blocks.moment_by_turning =
+            plus_cross(blocks.moment_by_turning,
+                       broadcast<V>(c.transport_turning) * omega + coupling * velocity);
     }
+    if (c.has_wake) {
+        const V inverse = one / larger(V(tiny<V>), combined);
+        blocks.moment_by_turning = plus_cross(
+            blocks.moment_by_turning, inverse * (cross(velocity, broadcast<V>(c.wake_by_velocity) * velocity) +
+                                                 cross(omega, broadcast<V>(c.wake_by_turning) * omega)));
+    }
+    blocks.moment_by_velocity = plus_cross(blocks.moment_by_velocity - windmill, momentum);
+    blocks.force_by_turning = plus_cross(blocks.force_by_turning + transposed(windmill), momentum);
+
+    const V drag_share =
+        combined * (tip_square / larger(V(tiny<V>), V(motion_onset) * speed_square + tip_square));
     const V below = larger(zero, one - V(c.reynolds_factor) * heading.speed * V(c.lowest_reynolds_inverse));
     const V creeping_drag = select(zero < V(c.lowest_reynolds_inverse), V(c.creeping_drag) * below, zero);
     blocks.moment_by_turning = plus_diagonal(
