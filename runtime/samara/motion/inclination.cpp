@@ -46,6 +46,10 @@ std::vector<double> inclination_series(const Motion& motion, const BodyMotion& b
 
 double percentile(std::vector<double> values, double percent) {
     std::sort(values.begin(), values.end());
+    return percentile_of_sorted(values, percent);
+}
+
+double percentile_of_sorted(const std::vector<double>& values, double percent) {
     const double place = percent / 100.0 * static_cast<double>(values.size() - 1);
     const auto below = static_cast<std::size_t>(place);
     const std::size_t above = std::min(below + 1, values.size() - 1);

@@ -21,6 +21,9 @@ std::vector<double> inclination_series(const Motion& motion, const BodyMotion& b
 /// must not be empty.
 double percentile(std::vector<double> values, double percent);
 
+/// The same of values that ascend.
+double percentile_of_sorted(const std::vector<double>& values, double percent);
+
 /// How deep a minimum of the inclination must be to count (rad), in a series of these inclinations: a tenth
 /// of the range from the 5th to the 95th percentile, and at least one degree.
 double required_prominence(const std::vector<double>& inclinations);

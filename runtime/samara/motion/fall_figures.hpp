@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+
+#include "samara/motion/estimate.hpp"
+#include "samara/motion/fall_record.hpp"
+#include "samara/motion/spectrum.hpp"
+
+namespace samara {
+
+/// What falls are compared by.
+enum class Figure {
+    descent_speed,          ///< m/s
+    frequency,              ///< Hz, from the minima of the inclination
+    spectral_frequency,     ///< Hz, from the spectrum: see swing_spectrum()
+    inclination_amplitude,  ///< rad, 95th percentile
+    mean_inclination,       ///< rad
+    rms_angular_speed,      ///< rad/s
+    path_spread,            ///< m, rms horizontal distance from the release over the window
+    drift_speed,            ///< m/s, horizontal mean velocity over the window, whatever its direction
+};
+inline constexpr std::size_t figure_count = 8;
+
+/// The percentages of the quantiles by which distributions of the inclination are compared.
+inline constexpr std::array<double, 5> quantile_percents = {5.0, 25.0, 50.0, 75.0, 95.0};
+
+/// The share of the time that the inclination spends in each of equal intervals from 0 to pi/2.
+inline constexpr std::size_t inclination_bins = 180;
+using InclinationHistogram = std::array<double, inclination_bins>;
+
+/// The figures of one fall over its window, with the errors that the fall's own swings tell. Where both ends
+/// of a figure's range are the same motion over and over, its error is zero; where the window shows too few
+/// swings, there is none.
+struct FallFigures {
+    std::array<std::optional<Estimate>, figure_count> figures;
+    std::array<Estimate, quantile_percents.size()> inclination_quantiles;  ///< rad
+    std::vector<InclinationHistogram> histograms;  ///< s in each interval, one for each piece of the window
+    Spectrum spectrum;                             ///< swing_spectrum() of the window
+    std::size_t pieces = 0;                        ///< independent ones, see pieces_of()
+};
+
+/// `segment` (s): of the spectrum.
+FallFigures fall_figures(const FallRecord& record, double segment);
+
+/// The spectrum of cos^2 of the inclination, the squared vertical component of the shortest axis, over half
+/// its frequency (Hz): so that a flutter from side to side and a tumbling have their peak at the frequency of
+/// Measures, whichever way the body is turned about the vertical. cos^2 is smooth where the folded
+/// inclination has corners. `segment` (s): see power_spectrum(). Over the window, without the frames left
+/// out.
+Spectrum swing_spectrum(const FallRecord& record, double segment, const LeftOut& left_out = {});
+
+}  // namespace samara
