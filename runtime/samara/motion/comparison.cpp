@@ -67,6 +67,12 @@ double segment_of(const FallChoice& motion, const FallChoice& reference, const T
     return length;
 }
 
+/// The error of an estimate in a comparison: that of a single fall is at least what several falls scatter by.
+std::optional<double> error_beside(const Estimate& one, const Estimate& other) {
+    if (one.deviation || !other.deviation) return one.error;
+    return std::max(one.error.value_or(0.0), *other.deviation);
+}
+
 FigureComparison compare_turn(const std::optional<TurningPoint>& motion,
                               const std::optional<TurningPoint>& reference, Estimate TurningPoint::*figure) {
     return compare_figure(motion ? std::optional((*motion).*figure) : std::nullopt,
@@ -123,8 +129,10 @@ FigureComparison compare_figure(const std::optional<Estimate>& motion,
     const double magnitude = std::abs(reference->value);
     result.difference = motion->value - reference->value;
     if (magnitude > 0.0) result.relative = *result.difference / magnitude;
-    if (motion->error && reference->error) {
-        result.difference_error = std::hypot(*motion->error, *reference->error);
+    const auto motion_error = error_beside(*motion, *reference);
+    const auto reference_error = error_beside(*reference, *motion);
+    if (motion_error && reference_error) {
+        result.difference_error = std::hypot(*motion_error, *reference_error);
         if (*result.difference_error > 0.0) {
             result.in_errors = std::abs(*result.difference) / *result.difference_error;
         }

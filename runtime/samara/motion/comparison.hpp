@@ -37,7 +37,7 @@ struct FigureComparison {
     std::optional<Estimate> motion;
     std::optional<Estimate> reference;
     std::optional<double> difference;        ///< motion - reference
-    std::optional<double> difference_error;  ///< standard error, both errors combined
+    std::optional<double> difference_error;  ///< standard error: see compare_figure()
     std::optional<double> relative;          ///< difference over the reference's magnitude
     std::optional<double> in_errors;         ///< the difference's magnitude over its standard error
     std::optional<Verdict> verdict;          ///< where there is a tolerance for the figure
@@ -80,8 +80,10 @@ struct Comparison {
 Comparison compare(const FallChoice& motion, const FallChoice& reference, const ComparisonSettings& settings,
                    const std::function<void(double done, double total)>& progress);
 
-/// One figure of two: the tolerance's limit is `tolerance` of the reference's magnitude, `least_limit` at
-/// least; no verdict where it is not given.
+/// One figure of two. Where one is of a single fall and the other of several, the error of the single one
+/// counts as no less than the deviation of the others: its own swings may tell too little. The tolerance's
+/// limit is `tolerance` of the reference's magnitude, `least_limit` at least; no verdict where it is not
+/// given.
 FigureComparison compare_figure(const std::optional<Estimate>& motion,
                                 const std::optional<Estimate>& reference,
                                 const std::optional<double>& tolerance = {}, double least_limit = 0.0);

@@ -18,17 +18,18 @@ struct FigureWords {
     const char* key;
     const char* words;
     double scale;
+    bool relative;  // whether the text gives the difference in per cent
 };
 
 constexpr std::array<FigureWords, figure_count> figure_words = {{
-    {"descent_speed", "descent speed (m/s)", 1.0},
-    {"frequency", "frequency (Hz)", 1.0},
-    {"spectral_frequency", "  by the spectrum's peak", 1.0},
-    {"inclination_amplitude", "amplitude (degrees)", degrees},
-    {"mean_inclination", "mean inclination (degrees)", degrees},
-    {"rms_angular_speed", "rms angular speed (rad/s)", 1.0},
-    {"path_spread", "path spread (m)", 1.0},
-    {"drift_speed", "drift speed (m/s)", 1.0},
+    {"descent_speed", "descent speed (m/s)", 1.0, true},
+    {"frequency", "frequency (Hz)", 1.0, true},
+    {"spectral_frequency", "  by the spectrum's peak", 1.0, true},
+    {"inclination_amplitude", "amplitude (degrees)", degrees, true},
+    {"mean_inclination", "mean inclination (degrees)", degrees, false},
+    {"rms_angular_speed", "rms angular speed (rad/s)", 1.0, true},
+    {"path_spread", "path spread (m)", 1.0, false},
+    {"drift_speed", "drift speed (m/s)", 1.0, false},
 }};
 
 json or_null(const std::optional<double>& value) {
@@ -92,8 +93,13 @@ std::string estimate_text(const std::optional<Estimate>& estimate, double scale)
     return estimate ? with_error(*estimate, scale) : "-";
 }
 
-std::string difference_text(const FigureComparison& figure) {
-    if (!figure.relative) return "";
+/// "-4.1 +- 1.2 %", or in the figure's own unit.
+std::string difference_text(const FigureComparison& figure, double scale, bool relative) {
+    if (!figure.difference) return "";
+    if (!relative || !figure.relative) {
+        const std::string text = with_error({*figure.difference, figure.difference_error, {}}, scale);
+        return *figure.difference > 0.0 ? '+' + text : text;
+    }
     std::string text = fmt::format("{:+.1f}", 100.0 * *figure.relative);
     if (figure.difference_error) {
         text +=
@@ -112,9 +118,10 @@ std::string verdict_text(const FigureComparison& figure) {
     return fmt::format("{}{} (limit {:.0f} %)", words, figure.verdict->certain ? "" : "?", share);
 }
 
-std::string figure_row(const std::string& what, const FigureComparison& figure, double scale) {
+std::string figure_row(const std::string& what, const FigureComparison& figure, double scale,
+                       bool relative = false) {
     return row(what, estimate_text(figure.motion, scale), estimate_text(figure.reference, scale),
-               difference_text(figure), verdict_text(figure));
+               difference_text(figure, scale, relative), verdict_text(figure));
 }
 
 std::string distribution_text(const Comparison& all) {
@@ -126,8 +133,9 @@ std::string distribution_text(const Comparison& all) {
     const DistributionDistance& distance = all.distribution;
     text += fmt::format("  distributions apart by {:.3f}", distance.distance);
     if (distance.by_chance) {
-        text += fmt::format("; by chance {:.3f}, in 95 % of cases below {:.3f} (p = {:.3f})",
-                            *distance.by_chance, *distance.chance_limit, *distance.probability);
+        text += fmt::format("; {} by chance {:.3f}, 95 % of them below {:.3f} (p = {:.3f})",
+                            distance.by_falls ? "runs" : "swings", *distance.by_chance,
+                            *distance.chance_limit, *distance.probability);
     }
     return text + '\n';
 }
@@ -185,7 +193,8 @@ json as_json(const Comparison& all) {
               {"distance", all.distribution.distance},
               {"distance_by_chance", or_null(all.distribution.by_chance)},
               {"distance_by_chance_limit", or_null(all.distribution.chance_limit)},
-              {"probability", or_null(all.distribution.probability)}}},
+              {"probability", or_null(all.distribution.probability)},
+              {"chance_between", all.distribution.by_falls ? "falls" : "swings"}}},
             {"first_swing",
              {{"minimum_time", as_json(swing.minimum_time)},
               {"minimum_inclination", as_json(swing.minimum_inclination)},
@@ -205,7 +214,8 @@ std::string as_text(const Comparison& all) {
     text += row("regime", regime_text(all.motion), regime_text(all.reference), "",
                 all.regimes_agree ? "agrees" : "differs");
     for (std::size_t i = 0; i < figure_count; ++i) {
-        text += figure_row(figure_words[i].words, all.figures[i], figure_words[i].scale);
+        const FigureWords& words = figure_words[i];
+        text += figure_row(words.words, all.figures[i], words.scale, words.relative);
     }
     text += distribution_text(all) + first_swing_text(all);
     for (const std::string& note : all.notes) text += "note: " + note + '\n';

@@ -4,45 +4,53 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
-#include <utility>
 
 #include "samara/motion/inclination.hpp"
 
 namespace samara {
 namespace {
 
-constexpr std::size_t swings_left_out = 2;
 constexpr std::size_t fewest_pieces = 3;
+constexpr std::size_t most_left_out = 16;
 constexpr std::size_t most_stretches = 64;
 
-/// What of a piece adds up.
+/// What of a piece adds up: integrals over time.
 struct Sums {
-    double duration = 0.0;            // s
-    Vector3d way = Vector3d::Zero();  // m
-    double inclination = 0.0;         // rad s
-    double squared_spin = 0.0;        // rad^2/s
+    double duration = 0.0;                     // s
+    double time = 0.0;                         // s^2, of the time
+    Vector3d displacement = Vector3d::Zero();  // m, of the velocity
+    Vector3d way = Vector3d::Zero();           // m s, of the way since the release
+    double inclination = 0.0;                  // rad s
+    double squared_spin = 0.0;                 // rad^2/s
 };
 
 Sums& operator+=(Sums& sum, const Sums& other) {
     sum.duration += other.duration;
+    sum.time += other.time;
+    sum.displacement += other.displacement;
     sum.way += other.way;
     sum.inclination += other.inclination;
     sum.squared_spin += other.squared_spin;
     return sum;
 }
 
-double integral(const FallRecord& record, const std::vector<double>& series, const Piece& piece) {
-    double sum = 0.0;
+/// By the trapezoidal rule.
+Sums sums_of(const FallRecord& record, const Piece& piece) {
+    Sums sums;
+    sums.displacement = record.ways[piece.end - 1] - record.ways[piece.begin];
     for (std::size_t i = piece.begin + 1; i < piece.end; ++i) {
-        sum += 0.5 * (record.times[i] - record.times[i - 1]) * (series[i - 1] + series[i]);
+        const double half = 0.5 * (record.times[i] - record.times[i - 1]);
+        sums.duration += 2.0 * half;
+        sums.time += half * (record.times[i - 1] + record.times[i]);
+        sums.way += half * (record.ways[i - 1] + record.ways[i]);
+        sums.inclination += half * (record.inclinations[i - 1] + record.inclinations[i]);
+        sums.squared_spin += half * (record.squared_spins[i - 1] + record.squared_spins[i]);
     }
-    return sum;
+    return sums;
 }
 
-Sums sums_of(const FallRecord& record, const Piece& piece) {
-    return {record.times[piece.end - 1] - record.times[piece.begin],
-            record.ways[piece.end - 1] - record.ways[piece.begin],
-            integral(record, record.inclinations, piece), integral(record, record.squared_spins, piece)};
+Vector3d horizontal(const FallRecord& record, const Vector3d& vector) {
+    return vector - vector.dot(record.down) * record.down;
 }
 
 InclinationHistogram histogram_of(const FallRecord& record, const Piece& piece) {
@@ -61,13 +69,11 @@ class Jackknife {
     Jackknife(const FallRecord& record, const Pieces& pieces) : record_(record), pieces_(pieces) {
         for (const Piece& piece : pieces.pieces) {
             sums_.push_back(sums_of(record, piece));
-            total_ += sums_.back();
         }
         const std::size_t count = pieces.pieces.size();
         if (count < fewest_pieces) return;
-        left_out_ = count > swings_left_out + 1 ? swings_left_out : 1;
-        left_out_ = std::max(left_out_, count / most_stretches);
-        stride_ = std::max<std::size_t>(1, left_out_ / swings_left_out);
+        left_out_ = std::clamp<std::size_t>((count + 1) / 3, 1, most_left_out);
+        stride_ = std::max<std::size_t>(1, count / most_stretches);
     }
 
     /// The error of a figure that `without` gives for the pieces [begin, end) left out; nothing where there
@@ -91,30 +97,32 @@ class Jackknife {
         return {pieces_.pieces[begin].begin, pieces_.pieces[end - 1].end};
     }
 
-    /// m^2/s: how the variance of the horizontal way grows with time, summed over both directions.
+    /// m^2/s: how the variance of the horizontal way in a direction grows with time: by the
+    /// ways from period to period, each taken between the mean places of a period, two pieces, so that the
+    /// swing from side to side does not count.
     [[nodiscard]] std::optional<double> spreading() const {
-        if (left_out_ == 0) return std::nullopt;
-        std::vector<double> norths;
-        std::vector<double> easts;
-        const auto [north, east] = horizontal_axes(record_.down);
-        for (std::size_t i = 0; i + left_out_ <= sums_.size(); i += stride_) {
-            const Vector3d rest = sums_without(i, i + left_out_).way;
-            norths.push_back(rest.dot(north));
-            easts.push_back(rest.dot(east));
+        if (sums_.size() < fewest_pieces + 1) return std::nullopt;
+        std::vector<Sums> periods;
+        for (std::size_t i = 1; i < sums_.size(); ++i) {
+            periods.push_back(sums_[i - 1]);
+            periods.back() += sums_[i];
         }
-        const auto count = static_cast<double>(sums_.size());
-        const double scale = count / (count - static_cast<double>(left_out_));
-        return scale * scale *
-               (std::pow(jackknife_error(norths, sums_.size(), left_out_), 2) +
-                std::pow(jackknife_error(easts, sums_.size(), left_out_), 2)) /
-               total_.duration;
+        const auto place = [&](std::size_t i) -> Vector3d { return periods[i].way / periods[i].duration; };
+        const auto time = [&](std::size_t i) { return periods[i].time / periods[i].duration; };
+        const std::size_t steps = periods.size() - 1;
+        const std::size_t lag = std::min(left_out_, steps - 1);
+        const Vector3d drift = (place(steps) - place(0)) / (time(steps) - time(0));
+        double squares = 0.0;
+        double durations = 0.0;
+        for (std::size_t i = 0; i + lag <= steps; ++i) {
+            const double duration = time(i + lag) - time(i);
+            squares += horizontal(record_, place(i + lag) - place(i) - duration * drift).squaredNorm();
+            durations += duration;
+        }
+        return 0.5 * squares / durations * static_cast<double>(steps) / static_cast<double>(steps - lag);
     }
 
   private:
-    static std::pair<Vector3d, Vector3d> horizontal_axes(const Vector3d& down) {
-        const Vector3d north = down.unitOrthogonal();
-        return {north, down.cross(north)};
-    }
     [[nodiscard]] Sums sums_without(std::size_t begin, std::size_t end) const {
         Sums rest;
         for (std::size_t i = 0; i < sums_.size(); ++i) {
@@ -126,7 +134,6 @@ class Jackknife {
     const FallRecord& record_;
     const Pieces& pieces_;
     std::vector<Sums> sums_;
-    Sums total_;
     std::size_t left_out_ = 0;
     std::size_t stride_ = 1;
 };
@@ -199,16 +206,12 @@ std::optional<Estimate> spectral_frequency_of(const FallRecord& record, double s
         {}};
 }
 
-double horizontal_length(const FallRecord& record, const Vector3d& way) {
-    return (way - way.dot(record.down) * record.down).norm();
-}
-
 Estimate path_spread_of(const FallRecord& record, const Jackknife& jackknife) {
     const Piece window = window_frames(record);
     double sum = 0.0;
     double times = 0.0;
     for (std::size_t i = window.begin; i < window.end; ++i) {
-        sum += std::pow(horizontal_length(record, record.ways[i]), 2);
+        sum += std::pow(horizontal(record, record.ways[i]).norm(), 2);
         times += record.times[i];
     }
     const auto count = static_cast<double>(window.end - window.begin);
@@ -219,7 +222,7 @@ Estimate path_spread_of(const FallRecord& record, const Jackknife& jackknife) {
 
 Estimate drift_speed_of(const FallRecord& record, const Jackknife& jackknife) {
     const Measures& measures = record.measures;
-    Estimate drift{horizontal_length(record, measures.mean_velocity), {}, {}};
+    Estimate drift{horizontal(record, measures.mean_velocity).norm(), {}, {}};
     const double duration = measures.window.end - measures.window.begin;
     if (const auto rate = jackknife.spreading()) drift.error = std::sqrt(*rate / duration);
     return drift;
@@ -258,10 +261,11 @@ FallFigures fall_figures(const FallRecord& record, double segment) {
     const auto set = [&](Figure figure, const std::optional<Estimate>& estimate) {
         result.figures[static_cast<std::size_t>(figure)] = estimate;
     };
-    set(Figure::descent_speed,
-        Estimate{measures.descent_speed,
-                 jackknife.error_of_sums([&](const Sums& s) { return s.way.dot(record.down) / s.duration; }),
-                 {}});
+    set(Figure::descent_speed, Estimate{measures.descent_speed,
+                                        jackknife.error_of_sums([&](const Sums& s) {
+                                            return s.displacement.dot(record.down) / s.duration;
+                                        }),
+                                        {}});
     set(Figure::frequency, frequency_of(record, pieces, jackknife));
     set(Figure::spectral_frequency, spectral_frequency_of(record, segment, result, jackknife));
     set(Figure::inclination_amplitude, result.inclination_quantiles.back());

@@ -25,12 +25,16 @@ inline constexpr std::size_t figure_count = 8;
 inline constexpr std::array<double, 5> quantile_percents = {5.0, 25.0, 50.0, 75.0, 95.0};
 
 /// The share of the time that the inclination spends in each of equal intervals from 0 to pi/2.
-inline constexpr std::size_t inclination_bins = 180;
+inline constexpr std::size_t inclination_bins = 90;
 using InclinationHistogram = std::array<double, inclination_bins>;
 
-/// The figures of one fall over its window, with the errors that the fall's own swings tell. Where both ends
-/// of a figure's range are the same motion over and over, its error is zero; where the window shows too few
-/// swings, there is none.
+/// The figures of one fall over its window, with the errors that the fall's own swings tell: by the jackknife
+/// with a third of the swings left out at a time, 16 at most, since swings that follow one another are alike.
+/// No error where the window shows fewer than three swings.
+///
+/// Falls whose amplitude comes and goes over many swings scatter more than a short record of one can tell: on
+/// 300 falls of an ellipsoid in its own turbulence the errors were 0.55 to 0.7 times the scatter between
+/// falls for windows of 5 to 11 swings, 0.75 times for 30.
 struct FallFigures {
     std::array<std::optional<Estimate>, figure_count> figures;
     std::array<Estimate, quantile_percents.size()> inclination_quantiles;  ///< rad

@@ -112,7 +112,7 @@ class Gathering {
         for (std::size_t q = 0; q < quantile_percents.size(); ++q) {
             quantiles_[q].push_back(one.inclination_quantiles[q]);
         }
-        set_.histograms.insert(set_.histograms.end(), one.histograms.begin(), one.histograms.end());
+        set_.histograms.push_back(std::move(one.histograms));
         set_.pieces += one.pieces;
         add_power(set_.spectrum, one.spectrum);
     }

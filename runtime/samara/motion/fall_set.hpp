@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "samara/motion/distribution_distance.hpp"
 #include "samara/motion/ensemble.hpp"
 #include "samara/motion/fall_figures.hpp"
 #include "samara/motion/first_swing.hpp"
@@ -54,16 +55,16 @@ struct FallSet {
     int distinct = 0;  ///< of them, to a ten-millionth of the way: the rest repeat these and do not count
     std::array<std::optional<Estimate>, figure_count> figures;
     std::array<Estimate, quantile_percents.size()> inclination_quantiles;
-    std::vector<InclinationHistogram> histograms;  ///< of all pieces
-    Spectrum spectrum;                             ///< mean
-    std::size_t pieces = 0;                        ///< independent ones in all
-    std::array<int, 4> regime_counts = {};         ///< in the enumeration's order
-    Regime regime = Regime::steady;                ///< the commonest
-    FirstSwing first_swing;                        ///< means over the falls that show its turning points
-    std::optional<Estimate> path_distance;         ///< m, from the path given, see measure_falls()
-    FallRecord example;                            ///< the first fall
-    std::vector<FallRecord> more;                  ///< some of the others, for pictures
-    std::vector<Vector3d> mean_ways;               ///< m, at the example's times
+    PieceHistograms histograms;             ///< of all pieces
+    Spectrum spectrum;                      ///< mean
+    std::size_t pieces = 0;                 ///< independent ones in all
+    std::array<int, 4> regime_counts = {};  ///< in the enumeration's order
+    Regime regime = Regime::steady;         ///< the commonest
+    FirstSwing first_swing;                 ///< means over the falls that show its turning points
+    std::optional<Estimate> path_distance;  ///< m, from the path given, see measure_falls()
+    FallRecord example;                     ///< the first fall
+    std::vector<FallRecord> more;           ///< some of the others, for pictures
+    std::vector<Vector3d> mean_ways;        ///< m, at the example's times
 };
 
 /// `path`: of another motion, and until when (s since the release) the distance from it is measured.
