@@ -12,6 +12,8 @@
 #include "samara/command/arguments.hpp"
 #include "samara/command/progress.hpp"
 #include "samara/motion/comparison_report.hpp"
+#include "samara/plot/comparison_plot.hpp"
+#include "samara/plot/gnuplot.hpp"
 
 namespace samara {
 namespace {
@@ -89,6 +91,7 @@ FallChoice choice_of(const std::string& input, const MotionReader& file, const s
 nlohmann::json run(const Request& request, const Arguments& arguments) {
     ComparisonSettings settings = request.settings;
     settings.window = window_of_words(request.window);
+    if (!request.output.empty()) require_picture_format(request.output);
     const MotionReader motion(request.motion);
     const MotionReader reference(request.reference);
     const std::string body = common_body(request, motion.motion(), reference.motion());
@@ -100,6 +103,12 @@ nlohmann::json run(const Request& request, const Arguments& arguments) {
                                           [&](double done, double total) { progress.update(done, total); });
     if (!arguments.json()) fmt::print("{}", as_text(comparison));
     nlohmann::json result = as_json(comparison);
+    if (!request.output.empty()) {
+        plot_comparison(request.output, comparison, std::filesystem::path(request.motion).filename(),
+                        std::filesystem::path(request.reference).filename());
+        result["output"] = request.output;
+        if (!arguments.json()) fmt::print("picture: {}\n", request.output);
+    }
     result["motion"]["file"] = request.motion;
     result["reference"]["file"] = request.reference;
     return result;
@@ -114,6 +123,8 @@ int compare_command(int argc, const char* const* argv) {
     constexpr int most = 1'000'000'000;
     arguments.positional("MOTION", request.motion, "motion file, from 'samara simulate'");
     arguments.positional("REFERENCE", request.reference, "motion file that it is held against");
+    arguments.option("-o,--output", request.output,
+                     "picture to write: .png (2000 x 1300 pixels) or .svg; none where it is not given");
     arguments.option("--body", request.body,
                      "the body to compare; by default the only one in each file, or of the same name");
     arguments.option("--window", request.window,

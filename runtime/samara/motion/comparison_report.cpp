@@ -108,20 +108,22 @@ std::string difference_text(const FigureComparison& figure, double scale, bool r
     return text + " %";
 }
 
-std::string verdict_text(const FigureComparison& figure) {
+std::string verdict_text(const FigureComparison& figure, double scale) {
     if (!figure.verdict) {
         return figure.in_errors ? fmt::format("{:.1f} standard errors", *figure.in_errors) : "";
     }
     const char* words = figure.verdict->agrees ? "agrees" : "differs";
     if (!figure.motion || !figure.reference) return words;
-    const double share = 100.0 * figure.verdict->limit / std::abs(figure.reference->value);
-    return fmt::format("{}{} (limit {:.0f} %)", words, figure.verdict->certain ? "" : "?", share);
+    const double share = figure.verdict->limit / std::abs(figure.reference->value);
+    return fmt::format("{}{} (limit {})", words, figure.verdict->certain ? "" : "?",
+                       share < 1.0 ? fmt::format("{:.0f} %", 100.0 * share)
+                                   : fmt::format("{:.3g}", scale * figure.verdict->limit));
 }
 
 std::string figure_row(const std::string& what, const FigureComparison& figure, double scale,
                        bool relative = false) {
     return row(what, estimate_text(figure.motion, scale), estimate_text(figure.reference, scale),
-               difference_text(figure, scale, relative), verdict_text(figure));
+               difference_text(figure, scale, relative), verdict_text(figure, scale));
 }
 
 std::string distribution_text(const Comparison& all) {

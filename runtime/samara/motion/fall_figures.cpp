@@ -193,17 +193,20 @@ std::optional<Estimate> frequency_of(const FallRecord& record, const Pieces& pie
 
 std::optional<Estimate> spectral_frequency_of(const FallRecord& record, double segment,
                                               const FallFigures& figures, const Jackknife& jackknife) {
-    const auto peak = peak_frequency(figures.spectrum);
-    if (!record.measures.frequency || !peak) return std::nullopt;
+    if (!record.measures.frequency) return std::nullopt;
+    const double lowest = 0.5 * *record.measures.frequency;
+    const auto peak = peak_frequency(figures.spectrum, lowest);
+    if (!peak) return std::nullopt;
     const std::size_t first = window_frames(record).begin;
-    return Estimate{
-        *peak,
-        jackknife.error([&](std::size_t begin, std::size_t end) {
-            const Piece piece = jackknife.frames(begin, end);
-            return peak_frequency(swing_spectrum(record, segment, {piece.begin - first, piece.end - first}))
-                .value_or(*peak);
-        }),
-        {}};
+    return Estimate{*peak,
+                    jackknife.error([&](std::size_t begin, std::size_t end) {
+                        const Piece piece = jackknife.frames(begin, end);
+                        return peak_frequency(
+                                   swing_spectrum(record, segment, {piece.begin - first, piece.end - first}),
+                                   lowest)
+                            .value_or(*peak);
+                    }),
+                    {}};
 }
 
 Estimate path_spread_of(const FallRecord& record, const Jackknife& jackknife) {

@@ -12,7 +12,7 @@ namespace samara {
 enum class Figure {
     descent_speed,          ///< m/s
     frequency,              ///< Hz, from the minima of the inclination
-    spectral_frequency,     ///< Hz, from the spectrum: see swing_spectrum()
+    spectral_frequency,     ///< Hz, highest peak of swing_spectrum() above half the frequency
     inclination_amplitude,  ///< rad, 95th percentile
     mean_inclination,       ///< rad
     rms_angular_speed,      ///< rad/s

@@ -69,8 +69,8 @@ Spectrum power_spectrum(const std::vector<double>& values, double time_step, std
     return spectrum;
 }
 
-std::optional<double> peak_frequency(const Spectrum& spectrum) {
-    const auto first = static_cast<std::ptrdiff_t>(std::ceil(spectrum.resolution / spectrum.step));
+std::optional<double> peak_frequency(const Spectrum& spectrum, double lowest) {
+    const auto first = std::max<std::ptrdiff_t>(1, std::lround(lowest / spectrum.step));
     if (first + 1 >= static_cast<std::ptrdiff_t>(spectrum.power.size())) return std::nullopt;
     const auto highest = std::max_element(spectrum.power.begin() + first, spectrum.power.end());
     if (!(*highest > 0.0)) return std::nullopt;

@@ -28,9 +28,9 @@ struct LeftOut {
 Spectrum power_spectrum(const std::vector<double>& values, double time_step, std::size_t segment,
                         const LeftOut& left_out = {});
 
-/// The frequency (Hz) of the highest power above the lowest frequency that the record resolves, between the
-/// steps by a parabola through the power's logarithm; nothing where there is no power.
-std::optional<double> peak_frequency(const Spectrum& spectrum);
+/// The frequency (Hz) of the highest power at `lowest` (Hz) and above, between the steps by a parabola
+/// through the power's logarithm; nothing where there is no power.
+std::optional<double> peak_frequency(const Spectrum& spectrum, double lowest);
 
 /// Adds up spectra of the same step and length; an empty sum takes the first.
 void add_power(Spectrum& sum, const Spectrum& one);
