@@ -98,7 +98,7 @@ TEST_F(CompareCommand, DrawsAPngOfTheStatedSizeAndAnSvgWithItsText) {
     ASSERT_EQ(run({"motion.h5", "reference.h5", "-o", "picture.svg"}).status, 0);
     const std::string svg = read_bytes(folder_ / "picture.svg");
     for (const char* text : {"</svg>", "agrees with the reference", "Inclination", "Spectrum",
-                             "motion.h5 (2 falls)", "reference.h5", "Share of time below"}) {
+                             "motion.h5 (2 falls)", "reference.h5", "Time below"}) {
         EXPECT_THAT(svg, HasSubstr(text));
     }
 }

@@ -21,8 +21,10 @@ using ::testing::AnyOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 
-Motion flutter(double frequency, double amplitude, double speed, double duration = 6.0) {
-    return test::motion_of([=](double t) { return test::flutter(t, frequency, amplitude, speed); }, duration);
+Motion flutter(double frequency, double amplitude, double speed, double duration = 6.0,
+               double frame_rate = 60.0) {
+    return test::motion_of([=](double t) { return test::flutter(t, frequency, amplitude, speed); }, duration,
+                           frame_rate);
 }
 
 /// Irregular flutters as runs of one motion.
@@ -72,8 +74,8 @@ TEST(Comparison, OfAMotionWithItselfShowsNoDifference) {
 
 // The window of 4 s holds whole swings of both.
 TEST(Comparison, ShowsByHowMuchFluttersOfKnownFiguresDiffer) {
-    const Comparison comparison =
-        compare_motions(flutter(1.375, 40.0 * degree, 0.198), flutter(1.25, 32.0 * degree, 0.22));
+    const Comparison comparison = compare_motions(flutter(1.375, 40.0 * degree, 0.198, 6.0, 240.0),
+                                                  flutter(1.25, 32.0 * degree, 0.22, 6.0, 240.0));
     EXPECT_NEAR(figure(comparison, Figure::frequency).relative.value(), 0.1, 2e-3);
     EXPECT_NEAR(figure(comparison, Figure::spectral_frequency).relative.value(), 0.1, 0.01);
     EXPECT_NEAR(figure(comparison, Figure::descent_speed).relative.value(), -0.1, 1e-9);
@@ -151,6 +153,7 @@ TEST(Comparison, OtherRegimesDiffer) {
     const Comparison comparison = compare_motions(tumbling, flutter(1.3, 0.6, 0.2));
     EXPECT_FALSE(comparison.regimes_agree);
     EXPECT_FALSE(comparison.agrees);
+    EXPECT_TRUE(comparison.certain);
     EXPECT_EQ(figure(comparison, Figure::descent_speed).verdict->agrees, true);
 }
 
@@ -176,6 +179,14 @@ TEST(Comparison, RefusesOtherGravityAndFramesTooFarApartAndSingleFrames) {
                 HasSubstr("motion.h5: 'ellipsoid' turns by up to 95 degrees from one frame to the next"));
     const Motion single = test::motion_of([](double) { return Pose{}; }, 0.0);
     EXPECT_THAT(error_of([&] { compare_motions(motion, single); }), HasSubstr("is a single frame"));
+}
+
+TEST(Comparison, IsCertainOnlyWhereTheErrorsAllowIt) {
+    const Motion motion = flutter(1.3, 0.6, 0.2);
+    EXPECT_TRUE(compare_motions(motion, motion).certain);
+    EXPECT_FALSE(compare_motions(flutter(1.3, 0.6, 0.2, 1.0), flutter(1.3, 0.6, 0.2, 1.0)).certain);
+    const Comparison faster = compare_motions(flutter(1.3, 0.6, 0.3), motion);
+    EXPECT_TRUE(!faster.agrees && faster.certain);
 }
 
 TEST(FigureComparison, AgreesWithinTheToleranceAndIsCertainTwoErrorsFromIt) {

@@ -89,6 +89,20 @@ void compare_first_swings(Comparison& all) {
     all.first_swing.maximum_inclination = compare_turn(a.maximum, b.maximum, &TurningPoint::inclination);
 }
 
+void judge(Comparison& all) {
+    all.regimes_agree = all.motion.regime == all.reference.regime;
+    all.agrees = all.regimes_agree;
+    bool all_certain = true;
+    bool surely_differs = !all.regimes_agree;
+    for (const FigureComparison& figure : all.figures) {
+        if (!figure.verdict) continue;
+        all.agrees = all.agrees && figure.verdict->agrees;
+        all_certain = all_certain && figure.verdict->certain;
+        surely_differs = surely_differs || (!figure.verdict->agrees && figure.verdict->certain);
+    }
+    all.certain = all.agrees ? all_certain : surely_differs;
+}
+
 void compare_figures(Comparison& all, const Tolerances& tolerances) {
     for (std::size_t i = 0; i < figure_count; ++i) {
         std::optional<double> tolerance;
@@ -107,11 +121,7 @@ void compare_figures(Comparison& all, const Tolerances& tolerances) {
             compare_figure(all.motion.inclination_quantiles[q], all.reference.inclination_quantiles[q]);
     }
     all.distribution = distribution_distance(all.motion.histograms, all.reference.histograms);
-    all.regimes_agree = all.motion.regime == all.reference.regime;
-    all.agrees = all.regimes_agree &&
-                 std::all_of(all.figures.begin(), all.figures.end(), [](const FigureComparison& figure) {
-                     return !figure.verdict || figure.verdict->agrees;
-                 });
+    judge(all);
 }
 
 }  // namespace

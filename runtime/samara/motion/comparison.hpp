@@ -70,6 +70,7 @@ struct Comparison {
     FirstSwingComparison first_swing;
     bool regimes_agree = false;
     bool agrees = false;             ///< all verdicts, and the regimes
+    bool certain = false;            ///< whether that would hold without the verdicts that are not certain
     std::vector<std::string> notes;  ///< what to know before trusting the figures, a sentence each
 };
 

@@ -158,7 +158,7 @@ std::string first_swing_text(const Comparison& all) {
     return text;
 }
 
-bool is_uncertain(const Comparison& all) {
+bool has_doubts(const Comparison& all) {
     return std::any_of(all.figures.begin(), all.figures.end(), [](const FigureComparison& figure) {
         return figure.verdict && !figure.verdict->certain;
     });
@@ -207,6 +207,7 @@ json as_json(const Comparison& all) {
               {"way_fallen", or_null(swing.way_fallen)}}},
             {"regimes_agree", all.regimes_agree},
             {"agrees", all.agrees},
+            {"certain", all.certain},
             {"notes", all.notes}};
 }
 
@@ -222,9 +223,9 @@ std::string as_text(const Comparison& all) {
     text += distribution_text(all) + first_swing_text(all);
     for (const std::string& note : all.notes) text += "note: " + note + '\n';
     text += all.agrees ? "the motion agrees with the reference" : "the motion differs from the reference";
-    if (is_uncertain(all)) {
-        text += "; ?: the limit is less than two standard errors away, or they are not known";
-    }
+    if (!all.certain) text += ", but not for certain";
+    if (has_doubts(all))
+        text += " (?: the limit is less than two standard errors away, or these are not known)";
     return text + '\n';
 }
 

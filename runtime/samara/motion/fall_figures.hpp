@@ -33,8 +33,8 @@ using InclinationHistogram = std::array<double, inclination_bins>;
 /// No error where the window shows fewer than three swings.
 ///
 /// Falls whose amplitude comes and goes over many swings scatter more than a short record of one can tell: on
-/// 300 falls of an ellipsoid in its own turbulence the errors were 0.55 to 0.7 times the scatter between
-/// falls for windows of 5 to 11 swings, 0.75 times for 30.
+/// 300 falls of an ellipsoid in its own turbulence the errors were 0.5 to 0.7 times the scatter between falls
+/// for windows of 5 to 11 swings, 0.7 to 0.9 times for 30.
 struct FallFigures {
     std::array<std::optional<Estimate>, figure_count> figures;
     std::array<Estimate, quantile_percents.size()> inclination_quantiles;  ///< rad

@@ -206,20 +206,16 @@ PanelText distribution_panel(const Comparison& comparison, const Box& box) {
     const Gap gap = widest_gap(motion, reference);
     text.plots = place_frame(box) + axis("x", {0.0, 90.0}, 30.0) + axis("y", {0.0, 100.0}, 25.0);
     text.plots += x_title("inclination (°)", box);
-    std::string right;
+    std::string right = fmt::format("apart by {:.0f} %", 100.0 * comparison.distribution.distance);
     if (comparison.distribution.probability) {
-        right = fmt::format("p = {:.2g}", *comparison.distribution.probability);
+        right += fmt::format(", p = {:.2g}", *comparison.distribution.probability);
     }
-    text.plots += header("Share of time below (%)", right, box);
+    text.plots += header("Time below (%)", right, box);
     if (gap.angle > 0.0) {
         text.plots += fmt::format(
             "set arrow from {0:.9g},{1:.9g} to {0:.9g},{2:.9g} heads size screen 0.006,25 front lc rgb "
             "'#333333' lw 2\n",
             gap.angle, gap.motion, gap.reference);
-        text.plots += fmt::format(
-            "set label 99 '{:.0f} %' at first {:.9g},{:.9g} left offset character 0.8,0 tc rgb '#333333' "
-            "front\n",
-            100.0 * comparison.distribution.distance, gap.angle, 0.5 * (gap.motion + gap.reference));
     }
     text.plots += "plot " + line("$motion_distribution", motion_color, 3.0) + ", " +
                   line("$reference_distribution", reference_color, 3.0) + '\n' + end_panel();

@@ -17,6 +17,7 @@ constexpr double right_edge = canvas::width - 45.0;
 constexpr double lower_top = 500.0;
 constexpr double upper_bottom = 715.0;
 constexpr double middle_gap = 110.0;
+constexpr std::size_t longest_name = 32;
 
 std::string per_cent(const char* what, const FigureComparison& figure) {
     if (!figure.relative) return "";
@@ -29,8 +30,11 @@ std::string per_cent(const char* what, const FigureComparison& figure) {
     return text + " %";
 }
 
+/// The name, its end where it is too long for the title.
 std::string falls_of(const std::string& name, const FallSet& set) {
-    return set.distinct == 1 ? name : fmt::format("{} ({} falls)", name, set.distinct);
+    const std::string shown =
+        name.size() <= longest_name ? name : "…" + name.substr(name.size() - longest_name);
+    return set.distinct == 1 ? shown : fmt::format("{} ({} falls)", shown, set.distinct);
 }
 
 std::string title_of(const Comparison& all, const std::string& motion, const std::string& reference) {
@@ -40,6 +44,7 @@ std::string title_of(const Comparison& all, const std::string& motion, const std
                  ? std::string(name_of(all.motion.regime))
                  : fmt::format("{} against {}", name_of(all.motion.regime), name_of(all.reference.regime));
     title += all.agrees ? ", agrees with the reference" : ", differs from the reference";
+    if (!all.certain) title += " (not certain)";
     std::string below;
     for (const std::string& part : {per_cent("descent", figure(Figure::descent_speed)),
                                     per_cent("frequency", figure(Figure::frequency)),
