@@ -75,6 +75,28 @@ std::vector<double> numbers_in(std::string_view line) {
     return row;
 }
 
+/// A heading may name a vector by one word, as that of sixDoFRigidBodyState does: where the first row has as many
+/// numbers and brackets around three as there are names, the names of the latter become three.
+void name_components(std::vector<std::string>& columns, std::string_view row) {
+    std::vector<std::string> named;
+    std::size_t column = 0;
+    bool in_brackets = false;
+    for (const std::string_view word : split(row)) {
+        const bool opens = word.starts_with('(') && !word.ends_with(')');
+        if (!in_brackets) {
+            if (column == columns.size()) return;
+            const std::string& name = columns[column++];
+            if (opens) {
+                append_vector(named, name);
+            } else {
+                named.push_back(name);
+            }
+        }
+        in_brackets = (in_brackets || opens) && !word.ends_with(')');
+    }
+    if (column == columns.size()) columns = std::move(named);
+}
+
 void append_row(FoamHistory& history, std::vector<double> row) {
     if (row.empty()) return;
     if (row.size() != history.columns.size()) {
@@ -103,6 +125,7 @@ FoamHistory read_rows(const std::filesystem::path& file, CutLine cut_line) {
             if (line.starts_with('#')) {
                 if (history.rows.empty()) history.columns = column_names(line.substr(1));
             } else if (!cut) {
+                if (history.rows.empty()) name_components(history.columns, line);
                 append_row(history, numbers_in(line));
             } else if (cut_line == CutLine::refuse) {
                 throw Error(

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "converter/direction_sampling.hpp"
+#include "foam-cases/fall_plan.hpp"
 #include "samara/base/error.hpp"
 #include "samara/body/octahedral_map.hpp"
 
@@ -98,13 +99,6 @@ FlowMesh fitted_mesh(FlowMesh mesh, const Body& body, double length) {
         mesh.refinement_shells.insert(mesh.refinement_shells.begin(), {thickness, level});
     }
     return mesh;
-}
-
-double cells_of(const BakePlan& plan, const std::string& mesh) {
-    for (std::size_t i = 0; i < plan.cells.size(); ++i) {
-        if (plan.quality.meshes[i].name == mesh) return plan.cells[i];
-    }
-    return 0.0;
 }
 
 // The most subdivisions whose directions the quality affords, and a stored map whose nodes hold theirs.
@@ -207,6 +201,8 @@ void plan_cases(const Symmetry& symmetry, double main_reynolds_number, BakePlan&
     }
 }
 
+}  // namespace
+
 BakePlan plan_of_meshes(const Body& body, const BakeQuality& quality) {
     BakePlan plan;
     plan.quality = quality;
@@ -221,13 +217,18 @@ BakePlan plan_of_meshes(const Body& body, const BakeQuality& quality) {
 
 void estimate_cost(BakePlan& plan) {
     for (const double cells : plan.cells) plan.cpu_seconds += seconds_per_cell_of_mesh * cells;
-    for (const BakeCase& entry : plan.cases) {
-        plan.cpu_seconds += seconds_per_case + seconds_per_cell_and_iteration * cells_of(plan, entry.mesh) *
-                                                   estimated_iterations(plan, entry);
+    for (const BakeCase& entry : plan.cases) plan.cpu_seconds += estimated_seconds(plan, entry);
+    for (const FreeFall& fall : plan.falls) {
+        plan.cpu_seconds += estimated_fall_seconds(fall, cells_of(plan, fall.mesh));
     }
 }
 
-}  // namespace
+double cells_of(const BakePlan& plan, const std::string& mesh) {
+    for (std::size_t i = 0; i < plan.cells.size(); ++i) {
+        if (plan.quality.meshes[i].name == mesh) return plan.cells[i];
+    }
+    return 0.0;
+}
 
 std::string closure_at(double reynolds_number) {
     return reynolds_number < laminar_reynolds_number ? "laminar" : "kEpsilon";
@@ -236,6 +237,11 @@ std::string closure_at(double reynolds_number) {
 double estimated_iterations(const BakePlan& plan, const BakeCase& entry) {
     // Means over the bakes in docs/bake.md.
     return (entry.start_from.empty() ? 0.35 : 0.25) * plan.quality.most_iterations;
+}
+
+double estimated_seconds(const BakePlan& plan, const BakeCase& entry) {
+    return seconds_per_case + seconds_per_cell_and_iteration * cells_of(plan, entry.mesh) *
+                                  estimated_iterations(plan, entry);
 }
 
 double estimated_cells(const Body& body, const FlowMesh& mesh) {
@@ -299,6 +305,10 @@ nlohmann::json plan_json(const BakePlan& plan) {
         json["axes"].push_back({plan.axes(row, 0), plan.axes(row, 1), plan.axes(row, 2)});
     }
     for (const FlowMesh& mesh : plan.quality.meshes) json["meshes"].push_back({{"name", mesh.name}});
+    json["cases"] = nlohmann::json::array();
+    for (const FreeFall& fall : plan.falls) {
+        json["falls"].push_back({{"name", fall.name}, {"mesh", fall.mesh}});
+    }
     for (const BakeCase& entry : plan.cases) {
         json["cases"].push_back(
             {{"name", entry.name},

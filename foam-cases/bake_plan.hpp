@@ -7,6 +7,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "converter/case_plan.hpp"
+#include "converter/free_fall.hpp"
 #include "foam-cases/bake_quality.hpp"
 #include "samara/body/body.hpp"
 
@@ -43,6 +44,7 @@ struct BakePlan {
     int ranks = 1;                         ///< processes that share each case
     std::vector<double> reynolds_numbers;  ///< the main one first
     std::vector<BakeCase> cases;
+    std::vector<FreeFall> falls;  ///< each on one of the meshes
     std::vector<double> cells;  ///< of each mesh, an estimate
     double cpu_seconds = 0.0;   ///< of the meshes and all cases on one core, an estimate
 };
@@ -67,12 +69,24 @@ BakePlan plan_bake(const Body& body, const BakeQuality& quality, double reynolds
 /// the body, the quality and the Reynolds number alone; more of them begin with the same ones.
 BakePlan plan_probes(const Body& body, const BakeQuality& quality, double reynolds_number, int count);
 
+/// A plan without cases on the quality's meshes, fitted to the body.
+BakePlan plan_of_meshes(const Body& body, const BakeQuality& quality);
+
+/// Works out the CPU seconds of all that is planned.
+void estimate_cost(BakePlan& plan);
+
 /// How many iterations the case will take, an estimate.
 double estimated_iterations(const BakePlan& plan, const BakeCase& entry);
+
+/// CPU seconds that the case will take, an estimate.
+double estimated_seconds(const BakePlan& plan, const BakeCase& entry);
 
 /// How many cells the mesh will have, within some 20 %: those of the background, the refined shells (their
 /// volumes as of a convex body's parallel bodies) and the layers.
 double estimated_cells(const Body& body, const FlowMesh& mesh);
+
+/// The estimated number of cells of a mesh of the plan.
+double cells_of(const BakePlan& plan, const std::string& mesh);
 
 /// The content of plan.json, without the hashes of the inputs.
 nlohmann::json plan_json(const BakePlan& plan);

@@ -14,6 +14,7 @@
 
 #include "converter/case_reduction.hpp"
 #include "foam-cases/cluster_jobs.hpp"
+#include "foam-cases/fall_plan.hpp"
 #include "foam-cases/guarded_process.hpp"
 #include "samara/base/content_hash.hpp"
 #include "samara/base/error.hpp"
@@ -28,6 +29,28 @@ namespace fs = std::filesystem;
 constexpr const char* mesh_record = "mesh.json";
 constexpr const char* failure_record = "failed.json";
 constexpr const char* check_log = "log.check";  // what a check says, in its last line
+
+// A case or a fall, as the farm sees it.
+struct Job {
+    std::string name;
+    std::string mesh;
+    std::string start_from;
+    double end;      // the iteration or the time at which it will end, an estimate for cases
+    double seconds;  // CPU seconds, an estimate
+};
+
+std::vector<Job> jobs_of(const BakePlan& plan) {
+    std::vector<Job> jobs;
+    for (const BakeCase& entry : plan.cases) {
+        jobs.push_back({entry.name, entry.mesh, entry.start_from, estimated_iterations(plan, entry),
+                        estimated_seconds(plan, entry)});
+    }
+    for (const FreeFall& fall : plan.falls) {
+        jobs.push_back({fall.name, fall.mesh, "", fall.duration,
+                        estimated_fall_seconds(fall, cells_of(plan, fall.mesh))});
+    }
+    return jobs;
+}
 
 // The last line that holds the text; empty where there is none.
 std::string last_line(const fs::path& file, const std::string& text = "") {
@@ -78,7 +101,7 @@ std::optional<std::string> failure_of(const fs::path& folder, const std::string&
 
 std::vector<LeftOutCase> left_out_cases(const fs::path& folder, const BakePlan& plan) {
     std::vector<LeftOutCase> left_out;
-    for (const BakeCase& entry : plan.cases) {
+    for (const Job& entry : jobs_of(plan)) {
         if (is_solved(folder / entry.name)) continue;
         if (const auto reason = failure_of(folder, entry.name)) {
             left_out.push_back({entry.name, *reason});
@@ -89,7 +112,7 @@ std::vector<LeftOutCase> left_out_cases(const fs::path& folder, const BakePlan& 
     return left_out;
 }
 
-bool is_settled(const fs::path& folder, const BakeCase& entry) {
+bool is_settled(const fs::path& folder, const Job& entry) {
     return is_solved(folder / entry.name) || fs::exists(folder / entry.name / failure_record) ||
            fs::exists(folder / entry.mesh / failure_record);
 }
@@ -97,23 +120,24 @@ bool is_settled(const fs::path& folder, const BakeCase& entry) {
 // Reports that cases are neither solved nor left out, or that all are left out: by the fault of the first
 // case, those before the others that nothing is known against but that they did not run to their end.
 [[noreturn]] void report_failure(const fs::path& folder, const BakePlan& plan) {
-    std::vector<const BakeCase*> failed;
-    for (const BakeCase& entry : plan.cases) {
+    const std::vector<Job> jobs = jobs_of(plan);
+    std::vector<const Job*> failed;
+    for (const Job& entry : jobs) {
         if (!is_solved(folder / entry.name)) failed.push_back(&entry);
     }
     if (failed.empty()) {
         throw Error(fmt::format("snakemake failed; see {}", (folder / "log.snakemake").string()));
     }
-    const auto rank = [&](const BakeCase* entry) {
+    const auto rank = [&](const Job* entry) {
         return std::pair(is_settled(folder, *entry), !fs::exists(folder / entry->name / check_log));
     };
-    const BakeCase& first = **std::ranges::min_element(failed, std::less<>(), rank);
+    const Job& first = **std::ranges::min_element(failed, std::less<>(), rank);
     if (!fs::exists(folder / first.mesh / mesh_record)) throw Error(fault_of(folder, first.mesh));
     throw Error(fmt::format("{} ({} of {} cases failed; the solved ones are kept for the next run)",
-                            fault_of(folder, first.name), failed.size(), plan.cases.size()));
+                            fault_of(folder, first.name), failed.size(), jobs.size()));
 }
 
-// The iteration at which the last line of the last round's history of forces stands; 0 where there is none.
+// The iteration or time at which the last line of the last round's history of forces stands; 0 where there is none.
 double last_iteration(const fs::path& case_folder) {
     double last_round = -1.0;
     fs::path history;
@@ -136,38 +160,30 @@ double last_iteration(const fs::path& case_folder) {
     return last;
 }
 
-// What a case costs beside others: iterations times cells.
-double estimated_work(const BakePlan& plan, const BakeCase& entry) {
-    const auto mesh = std::ranges::find(plan.quality.meshes, entry.mesh, &FlowMesh::name);
-    const auto index = static_cast<std::size_t>(mesh - plan.quality.meshes.begin());
-    return estimated_iterations(plan, entry) * (index < plan.cells.size() ? plan.cells[index] : 1.0);
-}
-
-// How far a case has come, 0 to 1, where it takes so many iterations.
-double solved_share(const fs::path& case_folder, double iterations) {
+// How far a case has come, 0 to 1, where it takes so many iterations or so long.
+double solved_share(const fs::path& case_folder, double end) {
     if (is_solved(case_folder) || fs::exists(case_folder / failure_record)) return 1.0;
-    return std::min(1.0, last_iteration(case_folder) / iterations);
+    return std::min(1.0, last_iteration(case_folder) / end);
 }
 
-std::vector<const BakeCase*> unsettled(const fs::path& folder, const BakePlan& plan) {
-    std::vector<const BakeCase*> cases;
-    for (const BakeCase& entry : plan.cases) {
-        if (!is_settled(folder, entry)) cases.push_back(&entry);
-    }
-    return cases;
+std::vector<Job> unsettled(const fs::path& folder, const BakePlan& plan) {
+    std::vector<Job> jobs = jobs_of(plan);
+    std::erase_if(jobs, [&](const Job& entry) { return is_settled(folder, entry); });
+    return jobs;
 }
 
 bool waits_for_failed_start(const fs::path& folder, const BakePlan& plan) {
-    return std::ranges::any_of(unsettled(folder, plan), [&](const BakeCase* entry) {
-        const auto start = std::ranges::find(plan.cases, entry->start_from, &BakeCase::name);
-        return start != plan.cases.end() && !is_solved(folder / start->name) && is_settled(folder, *start);
+    const std::vector<Job> jobs = jobs_of(plan);
+    return std::ranges::any_of(unsettled(folder, plan), [&](const Job& entry) {
+        const auto start = std::ranges::find(jobs, entry.start_from, &Job::name);
+        return start != jobs.end() && !is_solved(folder / start->name) && is_settled(folder, *start);
     });
 }
 
 // Runs Snakemake over the cases that are not settled, to its end. Throws Error on an interruption.
 void run_snakemake(const fs::path& folder, const BakePlan& plan, const FarmOptions& options,
                    const fs::path& templates) {
-    const std::vector<const BakeCase*> to_solve = unsettled(folder, plan);
+    const std::vector<Job> to_solve = unsettled(folder, plan);
     Progress progress("baking", "cases");
     const auto tick = [&, last = std::chrono::steady_clock::time_point()]() mutable {
         const auto now = std::chrono::steady_clock::now();
@@ -175,10 +191,9 @@ void run_snakemake(const fs::path& folder, const BakePlan& plan, const FarmOptio
         last = now;
         double done = 0.0;
         double total = 0.0;
-        for (const BakeCase* entry : to_solve) {
-            const double work = estimated_work(plan, *entry);
-            done += work * solved_share(folder / entry->name, estimated_iterations(plan, *entry));
-            total += work;
+        for (const Job& entry : to_solve) {
+            done += entry.seconds * solved_share(folder / entry.name, entry.end);
+            total += entry.seconds;
         }
         const auto cases = static_cast<double>(to_solve.size());
         progress.update(cases * done / total, cases);
@@ -205,15 +220,14 @@ void run_snakemake(const fs::path& folder, const BakePlan& plan, const FarmOptio
     if (status) return;
     throw Error(fmt::format(
         "interrupted: {} of {} cases are solved and kept in {}; the same command goes on from there",
-        count_solved(folder, plan), plan.cases.size(), folder.string()));
+        count_solved(folder, plan), jobs_of(plan).size(), folder.string()));
 }
 
 }  // namespace
 
 std::size_t count_solved(const fs::path& folder, const BakePlan& plan) {
-    return static_cast<std::size_t>(
-        std::count_if(plan.cases.begin(), plan.cases.end(),
-                      [&](const BakeCase& entry) { return is_solved(folder / entry.name); }));
+    return static_cast<std::size_t>(std::ranges::count_if(
+        jobs_of(plan), [&](const Job& entry) { return is_solved(folder / entry.name); }));
 }
 
 double spent_cpu_seconds(const fs::path& folder, const BakePlan& plan) {
@@ -224,7 +238,7 @@ double spent_cpu_seconds(const fs::path& folder, const BakePlan& plan) {
     };
     double sum = 0.0;
     for (const FlowMesh& mesh : plan.quality.meshes) sum += seconds_in(folder / mesh.name / mesh_record);
-    for (const BakeCase& entry : plan.cases) sum += seconds_in(folder / entry.name / "provenance.json");
+    for (const Job& entry : jobs_of(plan)) sum += seconds_in(folder / entry.name / "provenance.json");
     return sum;
 }
 
@@ -235,7 +249,7 @@ void require_solvers(const FarmOptions& options, int ranks) {
     };
     std::vector<Need> needs = {{"snakemake", "snakemake"}, {"python3", "python3"}};
     if (options.cluster.empty()) {
-        needs.insert(needs.begin(), {{"simpleFoam", "openfoam"}, {"snappyHexMesh", "openfoam"}});
+        needs.insert(needs.begin(), {{"simpleFoam", "openfoam"}, {"pimpleFoam", "openfoam"}, {"snappyHexMesh", "openfoam"}});
         if (ranks > 1) needs.push_back({"mpirun", "openmpi-bin"});
     } else {
         needs.insert(needs.end(), {{"squeue", "slurm-client"}, {"scancel", "slurm-client"}});
@@ -255,7 +269,7 @@ void require_solvers(const FarmOptions& options, int ranks) {
 std::vector<LeftOutCase> solve_cases(const fs::path& folder, const BakePlan& plan, const FarmOptions& options,
                                      const fs::path& templates) {
     end_earlier_jobs(folder);
-    for (const BakeCase& entry : plan.cases) {
+    for (const Job& entry : jobs_of(plan)) {
         if (!is_settled(folder, entry)) fs::remove(folder / entry.name / check_log);
     }
     // A case whose start failed starts afresh, which Snakemake knows of only when it begins once more.
@@ -267,7 +281,7 @@ std::vector<LeftOutCase> solve_cases(const fs::path& folder, const BakePlan& pla
     }
     std::vector<LeftOutCase> left_out = left_out_cases(folder, plan);
     const std::size_t solved = count_solved(folder, plan);
-    if (solved == 0 || solved + left_out.size() < plan.cases.size()) report_failure(folder, plan);
+    if (solved == 0 || solved + left_out.size() < jobs_of(plan).size()) report_failure(folder, plan);
     return left_out;
 }
 

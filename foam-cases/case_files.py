@@ -84,7 +84,7 @@ def input_hash(folder):
         return ""
     plan = json.loads(read(path))
     name = os.path.basename(os.path.abspath(folder))
-    for entry in plan.get("meshes", []) + plan["cases"]:
+    for entry in plan.get("meshes", []) + plan["cases"] + plan.get("falls", []):
         if entry["name"] == name:
             return entry.get("inputs_hash", "")
     return ""

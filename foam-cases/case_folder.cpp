@@ -20,6 +20,10 @@ namespace samara {
 namespace {
 
 namespace fs = std::filesystem;
+// What a fall's case has from the flow's: the fluid and its turbulence.
+constexpr const char* shared_files[] = {"0.orig/k", "0.orig/epsilon", "0.orig/nut", "constant/transportProperties",
+                                        "constant/turbulenceProperties"};
+
 using CaseFiles = std::map<fs::path, std::string>;  // content by the path inside a case
 
 // What the mesh depends on beside the parameters of the mesh.
@@ -113,19 +117,19 @@ void remove_unplanned_cases(const fs::path& folder, const BakePlan& plan) {
     for (const auto& entry : fs::directory_iterator(folder)) {
         const std::string name = entry.path().filename().string();
         bool planned =
-            !name.starts_with("direction_") && !name.starts_with("probe_") && !name.starts_with("mesh");
-        for (const BakeCase& one : plan.cases) planned = planned || one.name == name || one.mesh == name;
+            !name.starts_with("direction_") && !name.starts_with("probe_") && !name.starts_with("fall_") && !name.starts_with("mesh");
+        for (const FlowMesh& mesh : plan.quality.meshes) planned = planned || mesh.name == name;
+        for (const BakeCase& one : plan.cases) planned = planned || one.name == name;
+        for (const FreeFall& fall : plan.falls) planned = planned || fall.name == name;
         if (!planned) unplanned.push_back(entry.path());
     }
     for (const fs::path& path : unplanned) fs::remove_all(path);
 }
 
-// The first case of a mesh stands for it: parameters hold what its mesh needs.
 std::string write_mesh_case(const fs::path& folder, const CaseFiles& template_files, const std::string& stl,
-                            const BakePlan& plan, const FlowMesh& mesh) {
+                            const FlowMesh& mesh) {
     CaseFiles files = template_files;
-    const BakeCase& first = *std::ranges::find(plan.cases, mesh.name, &BakeCase::mesh);
-    files["parameters"] = case_parameters(files.at("parameters"), plan, first);
+    files["parameters"] = mesh_case_parameters(files.at("parameters"), mesh);
     files["constant/triSurface/body.stl"] = stl;
     const std::string hash = mesh_hash(files);
     // A mesh that was removed since is made again.
@@ -134,6 +138,30 @@ std::string write_mesh_case(const fs::path& folder, const CaseFiles& template_fi
     discard_stale(folder / "failed.json", hash);
     write_files(folder, files);
     return hash;
+}
+
+void write_case(const fs::path& folder, const CaseFiles& files, const std::string& mesh, const std::string& hash) {
+    const bool solved_before = discard_stale(folder / "provenance.json", hash);
+    const bool failed_before = discard_stale(folder / "failed.json", hash);
+    // Its histories would pass for progress.
+    if (solved_before || failed_before) fs::remove_all(folder / "postProcessing");
+    write_files(folder, files);
+    link_to_mesh(folder, mesh, "polyMesh");
+}
+
+void write_falls(const fs::path& folder, const BakePlan& plan, const CaseFiles& body_flow, const fs::path& templates,
+                 const std::map<std::string, std::string>& mesh_hashes, nlohmann::json& json) {
+    const CaseFiles fall_template = read_template(templates / "free-fall");
+    for (std::size_t i = 0; i < plan.falls.size(); ++i) {
+        const FreeFall& fall = plan.falls[i];
+        CaseFiles files = fall_template;
+        for (const char* name : shared_files) files[name] = body_flow.at(name);
+        files["parameters"] = fall_parameters(files.at("parameters"), plan, fall);
+        files["fall.json"] = free_fall_json(fall);
+        const std::string hash = content_hash(mesh_hashes.at(fall.mesh) + hash_of(files));
+        json[i]["inputs_hash"] = hash;
+        write_case(folder / fall.name, files, fall.mesh, hash);
+    }
 }
 
 }  // namespace
@@ -169,7 +197,7 @@ void write_case_folder(const fs::path& folder, const Body& body, const BakePlan&
     std::map<std::string, std::string> hashes;  // of the inputs, by the name of the mesh or case
     for (std::size_t i = 0; i < plan.quality.meshes.size(); ++i) {
         const FlowMesh& mesh = plan.quality.meshes[i];
-        hashes[mesh.name] = write_mesh_case(folder / mesh.name, template_files, stl, plan, mesh);
+        hashes[mesh.name] = write_mesh_case(folder / mesh.name, template_files, stl, mesh);
         json["meshes"][i]["inputs_hash"] = hashes[mesh.name];
     }
     for (std::size_t i = 0; i < plan.cases.size(); ++i) {
@@ -180,14 +208,10 @@ void write_case_folder(const fs::path& folder, const Body& body, const BakePlan&
         const std::string hash = content_hash(hashes.at(entry.mesh) + start + hash_of(files));
         hashes[entry.name] = hash;
         json["cases"][i]["inputs_hash"] = hash;
-        const bool solved_before = discard_stale(folder / entry.name / "provenance.json", hash);
-        const bool failed_before = discard_stale(folder / entry.name / "failed.json", hash);
-        // Its histories would pass for progress.
-        if (solved_before || failed_before) fs::remove_all(folder / entry.name / "postProcessing");
-        write_files(folder / entry.name, files);
-        link_to_mesh(folder / entry.name, entry.mesh, "polyMesh");
+        write_case(folder / entry.name, files, entry.mesh, hash);
         link_to_mesh(folder / entry.name, entry.mesh, "triSurface");
     }
+    if (!plan.falls.empty()) write_falls(folder, plan, template_files, templates, hashes, json["falls"]);
     write_plan(folder / "plan.json", json);
 }
 

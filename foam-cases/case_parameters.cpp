@@ -48,18 +48,59 @@ ValueRange find_value(const std::string& text, const std::string& name) {
     throw Error(fmt::format("the case template's file parameters has no entry '{}'; restore it", name));
 }
 
-Entries flow_entries(const Inflow& inflow, const BakeCase& entry) {
-    const double viscosity = 1.0 / entry.reynolds_number;
+Entries fluid_entries(const Inflow& inflow, double reynolds_number) {
+    const double viscosity = 1.0 / reynolds_number;
     const double k = 1.5 * inflow.intensity * inflow.intensity;
     const double epsilon =
         inflow.length ? std::pow(c_mu, 0.75) * std::pow(k, 1.5) / *inflow.length : c_mu * k * k / viscosity;
-    return {{"direction", foam_vector(entry.direction)},
-            {"flowVelocity", foam_vector(-entry.direction)},
-            {"reynoldsNumber", fmt::format("{}", entry.reynolds_number)},
+    return {{"reynoldsNumber", fmt::format("{}", reynolds_number)},
             {"viscosity", fmt::format("{}", viscosity)},
             {"inflowK", fmt::format("{:.6g}", k)},
             {"inflowEpsilon", fmt::format("{:.6g}", epsilon)},
             {"inflowNut", fmt::format("{:.6g}", c_mu * k * k / epsilon)}};
+}
+
+Entries flow_entries(const BakeCase& entry) {
+    return {{"direction", foam_vector(entry.direction)}, {"flowVelocity", foam_vector(-entry.direction)}};
+}
+
+std::string foam_tensor(const Matrix3d& matrix) {
+    std::string text = "(";
+    for (int row = 0; row < 3; ++row) {
+        text += fmt::format("{}{} {} {}", row == 0 ? "" : "  ", matrix(row, 0) + 0.0, matrix(row, 1) + 0.0,
+                            matrix(row, 2) + 0.0);
+    }
+    return text + ")";
+}
+
+// So far up that the pull from there does not change while the body falls by some hundred lengths.
+constexpr double anchor_height = 1e7;
+
+Entries body_entries(const FreeFall& fall) {
+    const double gravity = fall.gravity.norm();
+    const Vector3d up = gravity > 0.0 ? Vector3d(-fall.gravity / gravity) : Vector3d::UnitZ();
+    const Vector3d spin = fall.principal_moments.cwiseProduct(fall.principal_axes.transpose() * fall.angular_velocity);
+    return {{"mass", fmt::format("{}", fall.mass)},
+            {"centreOfMass", foam_vector(fall.center_of_mass)},
+            {"momentsOfInertia", foam_vector(fall.principal_moments)},
+            {"principalAxes", foam_tensor(fall.principal_axes)},
+            {"startVelocity", foam_vector(fall.velocity)},
+            {"startAngularMomentum", foam_vector(spin)},
+            {"gravity", foam_vector(fall.gravity)},
+            {"buoyancyAnchor", foam_vector(anchor_height * up)},
+            {"buoyancyStiffness", fmt::format("{}", fall.volume * gravity / anchor_height)}};
+}
+
+Entries step_entries(const FreeFall& fall) {
+    return {{"timeStep", fmt::format("{}", fall.time_step)},
+            {"duration", fmt::format("{}", fall.duration)},
+            {"outerCorrectors", fmt::format("{}", fall.outer_correctors)},
+            {"accelerationRelaxation", fmt::format("{:.4g}", fall.acceleration_relaxation)}};
+}
+
+Entries closure_entries(const std::string& closure) {
+    if (closure == "laminar") return {{"simulationType", "laminar"}};
+    return {{"simulationType", "RAS"}, {"closure", closure}};
 }
 
 Entries mesh_entries_of(const FlowMesh& mesh) {
@@ -78,14 +119,11 @@ Entries mesh_entries_of(const FlowMesh& mesh) {
 }
 
 Entries model_entries(const BakeQuality& quality, const BakeCase& entry) {
-    const bool laminar = entry.closure == "laminar";
     Entries entries = {
-        {"simulationType", laminar ? "laminar" : "RAS"},
         {"stationarity", fmt::format("{}", quality.stationarity)},
         {"mostIterations",
          fmt::format("{}", entry.start_from.empty() ? quality.most_iterations : quality.most_iterations / 2)},
         {"startFrom", entry.start_from.empty() ? "none" : entry.start_from}};
-    if (!laminar) entries.emplace_back("closure", entry.closure);
     // A solution on a coarser mesh, or of a neighbouring model, is most of the way.
     if (!entry.start_from.empty()) entries.emplace_back("leastIterations", "100");
     return entries;
@@ -121,10 +159,27 @@ void replace_values(std::string& text, const Entries& entries) {
 std::string case_parameters(const std::string& template_text, const BakePlan& plan, const BakeCase& entry) {
     const FlowMesh& mesh = *std::ranges::find(plan.quality.meshes, entry.mesh, &FlowMesh::name);
     std::string text = template_text;
-    replace_values(text, flow_entries(plan.inflow, entry));
+    replace_values(text, flow_entries(entry));
+    replace_values(text, fluid_entries(plan.inflow, entry.reynolds_number));
     replace_values(text, mesh_entries_of(mesh));
+    replace_values(text, closure_entries(entry.closure));
     replace_values(text, model_entries(plan.quality, entry));
     replace_values(text, process_entries(plan.ranks));
+    return text;
+}
+
+std::string fall_parameters(const std::string& template_text, const BakePlan& plan, const FreeFall& fall) {
+    std::string text = template_text;
+    replace_values(text, fluid_entries(plan.inflow, fall.reynolds_number));
+    replace_values(text, body_entries(fall));
+    replace_values(text, closure_entries(fall.closure));
+    replace_values(text, step_entries(fall));
+    return text;
+}
+
+std::string mesh_case_parameters(const std::string& template_text, const FlowMesh& mesh) {
+    std::string text = template_text;
+    replace_values(text, mesh_entries_of(mesh));
     return text;
 }
 

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "converter/free_fall.hpp"
 #include "foam-cases/bake_plan.hpp"
 
 namespace samara {
@@ -10,7 +11,11 @@ namespace samara {
 /// comments and further entries stay. Throws Error where the template lacks an entry.
 std::string case_parameters(const std::string& template_text, const BakePlan& plan, const BakeCase& entry);
 
-/// The entries of a file `parameters` that the mesh depends on.
+/// The same of a fall's case.
+std::string fall_parameters(const std::string& template_text, const BakePlan& plan, const FreeFall& fall);
+
+/// The file `parameters` of a case that only makes a mesh, and its entries that the mesh depends on.
+std::string mesh_case_parameters(const std::string& template_text, const FlowMesh& mesh);
 std::string mesh_parameters_of(const std::string& parameters);
 
 }  // namespace samara

@@ -223,7 +223,7 @@ TEST(DistributionDistance, ByChanceIsExceededAsOftenAsItsProbabilitySays) {
         PieceHistograms sides[2];
         for (unsigned side = 0; side < 2; ++side) {
             const Motion motion = test::irregular_flutter(1000 + 2 * pair + side, 8.0);
-            const FallRecord record = fall_record(motion, motion.bodies[0], 0, 0, {1.0, 8.0});
+            const FallSeries record = fall_series(motion, motion.bodies[0], 0, 0, {1.0, 8.0});
             sides[side] = {fall_figures(record, 7.0).histograms};
         }
         const DistributionDistance distance = distribution_distance(sides[0], sides[1]);

@@ -15,8 +15,8 @@ namespace {
 
 using test::degree;
 
-FallRecord record_of(const Motion& motion, double begin, double end) {
-    return fall_record(motion, motion.bodies[0], 0, 0, {begin, end});
+FallSeries record_of(const Motion& motion, double begin, double end) {
+    return fall_series(motion, motion.bodies[0], 0, 0, {begin, end});
 }
 
 FallFigures figures_of(const Motion& motion, double begin, double end) {
@@ -168,14 +168,14 @@ TEST(FirstSwing, PathsThatPartAtASpeedAreApartByItsRms) {
     EXPECT_NEAR(distance, 0.3 * 0.5 / std::sqrt(3.0), 1e-3);
 }
 
-TEST(FallRecord, CountsFromTheReleaseOfABodyThatWaits) {
+TEST(FallSeries, CountsFromTheReleaseOfABodyThatWaits) {
     const auto late = [](double t) {
         if (t < 1.0) return Pose{Vector3d(1.0, 2.0, 3.0)};
         Pose pose = test::flutter(t - 1.0, 1.3, 40.0 * degree, 0.2);
         pose.position += Vector3d(1.0, 2.0, 3.0);
         return pose;
     };
-    const FallRecord record = record_of(test::motion_of(late, 5.0), 1.0, 4.0);
+    const FallSeries record = record_of(test::motion_of(late, 5.0), 1.0, 4.0);
     EXPECT_NEAR(record.release, 1.0, 0.02);
     EXPECT_EQ(record.times.front(), 0.0);
     EXPECT_TRUE(record.ways.front().isZero());

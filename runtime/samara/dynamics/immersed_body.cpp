@@ -108,6 +108,7 @@ ImmersedBody make_immersed_body(const Body& body, const SceneBody& scene_body, c
     result.center_of_buoyancy = body.moments.centroid - mass.center;
     result.to_centroid.block<3, 3>(3, 0) = -skew(result.center_of_buoyancy);
     const Matrix6d fluid_inertia = fluid.density * body.kirchhoff->matrix;
+    result.own_inertia = mass.inertia;
     result.added_mass = fluid_inertia.bottomRightCorner<3, 3>();
     result.inertia = body_inertia(mass) + result.to_centroid.transpose() * fluid_inertia * result.to_centroid;
     if (Eigen::LLT<Matrix6d>(result.inertia).info() != Eigen::Success) {

@@ -25,6 +25,7 @@ struct ImmersedBody {
     Vector3d center_of_mass = Vector3d::Zero();  ///< m, shape axes from the shape's origin
     Vector3d center_of_buoyancy =
         Vector3d::Zero();                     ///< m, from the centre of mass to the centroid of the volume
+    Matrix3d own_inertia = Matrix3d::Identity();  ///< of the body alone about the centre of mass (kg m^2)
     Matrix6d inertia = Matrix6d::Identity();  ///< K = K_body + rho_f K_fluid, order (omega, v)
     Matrix6d to_centroid = Matrix6d::Identity();  ///< X: (omega, v) at the centre of mass -> at the centroid
     Matrix3d added_mass = Matrix3d::Zero();       ///< rho_f M (kg)

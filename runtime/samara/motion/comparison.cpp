@@ -53,7 +53,7 @@ Measures first_measures(const FallChoice& choice, const TimeWindow& window) {
     first.copy = choice.copy.value_or(0);
     Measures measures;
     for_each_fall(first, [&](const Motion& part, int run, int copy) {
-        measures = fall_record(part, part.bodies[0], run, copy, window).measures;
+        measures = fall_series(part, part.bodies[0], run, copy, window).measures;
     });
     return measures;
 }
@@ -178,7 +178,7 @@ Comparison compare(const FallChoice& motion, const FallChoice& reference, const 
     const auto count = [&] { progress(++done, total); };
     all.reference = measure_falls(reference, window, std::nullopt, count);
     all.first_swing.end = end_of(all.reference.first_swing);
-    FallRecord path = all.reference.example;
+    FallSeries path = all.reference.example;
     path.ways = all.reference.mean_ways;
     if (all.first_swing.end) {
         *all.first_swing.end = std::min(

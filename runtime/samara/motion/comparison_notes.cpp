@@ -59,8 +59,8 @@ void note_side(Notes& notes, const char* which, const FallChoice& choice, const 
 }
 
 void note_starts(Notes& notes, const Comparison& all) {
-    const FallRecord& a = all.motion.example;
-    const FallRecord& b = all.reference.example;
+    const FallSeries& a = all.motion.example;
+    const FallSeries& b = all.reference.example;
     const double angle = std::acos(std::clamp(std::abs(a.axes.front().dot(b.axes.front())), 0.0, 1.0));
     if (angle <= same_start) return;
     notes.push_back(fmt::format(

@@ -35,7 +35,7 @@ Sums& operator+=(Sums& sum, const Sums& other) {
 }
 
 /// By the trapezoidal rule.
-Sums sums_of(const FallRecord& record, const Piece& piece) {
+Sums sums_of(const FallSeries& record, const Piece& piece) {
     Sums sums;
     sums.displacement = record.ways[piece.end - 1] - record.ways[piece.begin];
     for (std::size_t i = piece.begin + 1; i < piece.end; ++i) {
@@ -49,11 +49,11 @@ Sums sums_of(const FallRecord& record, const Piece& piece) {
     return sums;
 }
 
-Vector3d horizontal(const FallRecord& record, const Vector3d& vector) {
+Vector3d horizontal(const FallSeries& record, const Vector3d& vector) {
     return vector - vector.dot(record.down) * record.down;
 }
 
-InclinationHistogram histogram_of(const FallRecord& record, const Piece& piece) {
+InclinationHistogram histogram_of(const FallSeries& record, const Piece& piece) {
     InclinationHistogram histogram{};
     for (std::size_t i = piece.begin + 1; i < piece.end; ++i) {
         const double angle = 0.5 * (record.inclinations[i - 1] + record.inclinations[i]);
@@ -66,7 +66,7 @@ InclinationHistogram histogram_of(const FallRecord& record, const Piece& piece) 
 /// The record with one stretch of neighbouring pieces left out at a time.
 class Jackknife {
   public:
-    Jackknife(const FallRecord& record, const Pieces& pieces) : record_(record), pieces_(pieces) {
+    Jackknife(const FallSeries& record, const Pieces& pieces) : record_(record), pieces_(pieces) {
         for (const Piece& piece : pieces.pieces) {
             sums_.push_back(sums_of(record, piece));
         }
@@ -131,7 +131,7 @@ class Jackknife {
         return rest;
     }
 
-    const FallRecord& record_;
+    const FallSeries& record_;
     const Pieces& pieces_;
     std::vector<Sums> sums_;
     std::size_t left_out_ = 0;
@@ -139,7 +139,7 @@ class Jackknife {
 };
 
 /// The frames of the window, [begin, end).
-Piece window_frames(const FallRecord& record) {
+Piece window_frames(const FallSeries& record) {
     const double slack = 1e-9 * std::max(1.0, record.duration());
     const auto begin =
         std::lower_bound(record.times.begin(), record.times.end(), record.measures.window.begin - slack);
@@ -153,7 +153,7 @@ struct Frame {
     std::size_t index;
 };
 
-std::array<Estimate, quantile_percents.size()> quantiles_of(const FallRecord& record,
+std::array<Estimate, quantile_percents.size()> quantiles_of(const FallSeries& record,
                                                             const Jackknife& jackknife) {
     std::vector<Frame> frames;
     const Piece window = window_frames(record);
@@ -178,7 +178,7 @@ std::array<Estimate, quantile_percents.size()> quantiles_of(const FallRecord& re
     return quantiles;
 }
 
-std::optional<Estimate> frequency_of(const FallRecord& record, const Pieces& pieces,
+std::optional<Estimate> frequency_of(const FallSeries& record, const Pieces& pieces,
                                      const Jackknife& jackknife) {
     if (!record.measures.frequency) return std::nullopt;
     Estimate frequency{*record.measures.frequency, {}, {}};
@@ -191,7 +191,7 @@ std::optional<Estimate> frequency_of(const FallRecord& record, const Pieces& pie
     return frequency;
 }
 
-std::optional<Estimate> spectral_frequency_of(const FallRecord& record, double segment,
+std::optional<Estimate> spectral_frequency_of(const FallSeries& record, double segment,
                                               const FallFigures& figures, const Jackknife& jackknife) {
     if (!record.measures.frequency) return std::nullopt;
     const double lowest = 0.5 * *record.measures.frequency;
@@ -209,7 +209,7 @@ std::optional<Estimate> spectral_frequency_of(const FallRecord& record, double s
                     {}};
 }
 
-Estimate path_spread_of(const FallRecord& record, const Jackknife& jackknife) {
+Estimate path_spread_of(const FallSeries& record, const Jackknife& jackknife) {
     const Piece window = window_frames(record);
     double sum = 0.0;
     double times = 0.0;
@@ -223,7 +223,7 @@ Estimate path_spread_of(const FallRecord& record, const Jackknife& jackknife) {
     return spread;
 }
 
-Estimate drift_speed_of(const FallRecord& record, const Jackknife& jackknife) {
+Estimate drift_speed_of(const FallSeries& record, const Jackknife& jackknife) {
     const Measures& measures = record.measures;
     Estimate drift{horizontal(record, measures.mean_velocity).norm(), {}, {}};
     const double duration = measures.window.end - measures.window.begin;
@@ -233,7 +233,7 @@ Estimate drift_speed_of(const FallRecord& record, const Jackknife& jackknife) {
 
 }  // namespace
 
-Spectrum swing_spectrum(const FallRecord& record, double segment, const LeftOut& left_out) {
+Spectrum swing_spectrum(const FallSeries& record, double segment, const LeftOut& left_out) {
     const Piece window = window_frames(record);
     std::vector<double> squares;
     for (std::size_t i = window.begin; i < window.end; ++i) {
@@ -250,7 +250,7 @@ Spectrum swing_spectrum(const FallRecord& record, double segment, const LeftOut&
     return spectrum;
 }
 
-FallFigures fall_figures(const FallRecord& record, double segment) {
+FallFigures fall_figures(const FallSeries& record, double segment) {
     const Measures& measures = record.measures;
     const Pieces pieces = pieces_of(record);
     const Jackknife jackknife(record, pieces);

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "samara/motion/estimate.hpp"
-#include "samara/motion/fall_record.hpp"
+#include "samara/motion/fall_series.hpp"
 #include "samara/motion/spectrum.hpp"
 
 namespace samara {
@@ -44,13 +44,13 @@ struct FallFigures {
 };
 
 /// `segment` (s): of the spectrum.
-FallFigures fall_figures(const FallRecord& record, double segment);
+FallFigures fall_figures(const FallSeries& record, double segment);
 
 /// The spectrum of cos^2 of the inclination, the squared vertical component of the shortest axis, over half
 /// its frequency (Hz): so that a flutter from side to side and a tumbling have their peak at the frequency of
 /// Measures, whichever way the body is turned about the vertical. cos^2 is smooth where the folded
 /// inclination has corners. `segment` (s): see power_spectrum(). Over the window, without the frames left
 /// out.
-Spectrum swing_spectrum(const FallRecord& record, double segment, const LeftOut& left_out = {});
+Spectrum swing_spectrum(const FallSeries& record, double segment, const LeftOut& left_out = {});
 
 }  // namespace samara

@@ -18,7 +18,7 @@ constexpr double same_way = 1e-7;
 /// What two falls share only if they are the same.
 using Mark = std::array<long long, 4>;
 
-Mark mark_of(const FallRecord& record) {
+Mark mark_of(const FallSeries& record) {
     const Vector3d& way = record.ways.back();
     const double scale = same_way * std::max(way.norm(), 1e-300);
     return {std::llround(way.x() / scale), std::llround(way.y() / scale), std::llround(way.z() / scale),
@@ -59,10 +59,10 @@ using Estimates = std::vector<Estimate>;
 /// Gathers falls; FallSet is what it comes to.
 class Gathering {
   public:
-    Gathering(const FallWindow& window, const std::optional<std::pair<const FallRecord*, double>>& path)
+    Gathering(const FallWindow& window, const std::optional<std::pair<const FallSeries*, double>>& path)
         : window_(window), path_(path) {}
 
-    void add(FallRecord&& record) {
+    void add(FallSeries&& record) {
         ++set_.falls;
         if (!marks_.insert(mark_of(record)).second) return;
         add_figures(record);
@@ -104,7 +104,7 @@ class Gathering {
         Estimates inclinations;
     };
 
-    void add_figures(const FallRecord& record) {
+    void add_figures(const FallSeries& record) {
         FallFigures one = fall_figures(record, window_.segment);
         for (std::size_t i = 0; i < figure_count; ++i) {
             if (one.figures[i]) figures_[i].push_back(*one.figures[i]);
@@ -117,7 +117,7 @@ class Gathering {
         add_power(set_.spectrum, one.spectrum);
     }
 
-    void add_first_swing(const FallRecord& record) {
+    void add_first_swing(const FallSeries& record) {
         const FirstSwing swing = first_swing(record);
         const auto add_turn = [](Turns& turns, const std::optional<TurningPoint>& point) {
             if (!point) return;
@@ -134,7 +134,7 @@ class Gathering {
     }
 
     FallWindow window_;
-    std::optional<std::pair<const FallRecord*, double>> path_;
+    std::optional<std::pair<const FallSeries*, double>> path_;
     FallSet set_;
     std::set<Mark> marks_;
     std::array<Estimates, figure_count> figures_;
@@ -184,11 +184,11 @@ FallLengths fall_lengths(const FallChoice& choice) {
 }
 
 FallSet measure_falls(const FallChoice& choice, const FallWindow& window,
-                      const std::optional<std::pair<const FallRecord*, double>>& path,
+                      const std::optional<std::pair<const FallSeries*, double>>& path,
                       const std::function<void()>& progress) {
     Gathering gathering(window, path);
     for_each_fall(choice, [&](const Motion& part, int run, int copy) {
-        gathering.add(fall_record(part, part.bodies[0], run, copy, window.window));
+        gathering.add(fall_series(part, part.bodies[0], run, copy, window.window));
         progress();
     });
     return gathering.result();

@@ -62,14 +62,14 @@ struct FallSet {
     Regime regime = Regime::steady;         ///< the commonest
     FirstSwing first_swing;                 ///< means over the falls that show its turning points
     std::optional<Estimate> path_distance;  ///< m, from the path given, see measure_falls()
-    FallRecord example;                     ///< the first fall
-    std::vector<FallRecord> more;           ///< some of the others, for pictures
+    FallSeries example;                     ///< the first fall
+    std::vector<FallSeries> more;           ///< some of the others, for pictures
     std::vector<Vector3d> mean_ways;        ///< m, at the example's times
 };
 
 /// `path`: of another motion, and until when (s since the release) the distance from it is measured.
 FallSet measure_falls(const FallChoice& choice, const FallWindow& window,
-                      const std::optional<std::pair<const FallRecord*, double>>& path,
+                      const std::optional<std::pair<const FallSeries*, double>>& path,
                       const std::function<void()>& progress);
 
 }  // namespace samara

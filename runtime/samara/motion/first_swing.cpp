@@ -11,7 +11,7 @@ namespace {
 
 /// The turning point at a time between frames. Its time lies anywhere within a frame's length, its
 /// inclination differs from that of the nearest frame by no more than half of what the next frame's does.
-TurningPoint turning_point(const FallRecord& record, double time, bool is_minimum) {
+TurningPoint turning_point(const FallSeries& record, double time, bool is_minimum) {
     const auto after = std::lower_bound(record.times.begin() + 1, record.times.end() - 1, time);
     const auto i = static_cast<std::size_t>(after - record.times.begin());
     const auto& angles = record.inclinations;
@@ -27,7 +27,7 @@ TurningPoint turning_point(const FallRecord& record, double time, bool is_minimu
 
 }  // namespace
 
-FirstSwing first_swing(const FallRecord& record) {
+FirstSwing first_swing(const FallSeries& record) {
     if (record.times.size() < 3) return {};
     const double prominence = required_prominence(record.inclinations);
     std::vector<double> complements;
@@ -45,7 +45,7 @@ std::optional<double> end_of(const FirstSwing& swing) {
     return std::max(swing.minimum->time.value, swing.maximum->time.value);
 }
 
-double path_distance(const FallRecord& fall, const FallRecord& reference, double end) {
+double path_distance(const FallSeries& fall, const FallSeries& reference, double end) {
     double sum = 0.0;
     double count = 0.0;
     for (std::size_t i = 0; i < reference.times.size() && reference.times[i] <= end; ++i) {

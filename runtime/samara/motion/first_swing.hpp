@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "samara/motion/estimate.hpp"
-#include "samara/motion/fall_record.hpp"
+#include "samara/motion/fall_series.hpp"
 
 namespace samara {
 
@@ -20,7 +20,7 @@ struct FirstSwing {
     std::optional<TurningPoint> maximum;
 };
 
-FirstSwing first_swing(const FallRecord& record);
+FirstSwing first_swing(const FallSeries& record);
 
 /// When the first swing is over (s since the release): at the later of its turning points; nothing where one
 /// of them is missing.
@@ -28,6 +28,6 @@ std::optional<double> end_of(const FirstSwing& swing);
 
 /// The root of the mean square distance (m) between two falls until `end` (s since the release), both laid on
 /// their release points: at the frames of the second, in world axes.
-double path_distance(const FallRecord& fall, const FallRecord& reference, double end);
+double path_distance(const FallSeries& fall, const FallSeries& reference, double end);
 
 }  // namespace samara

@@ -35,7 +35,7 @@ std::string line(const std::string& block, unsigned color, double width) {
     return fmt::format("{} using 1:2 with lines lc rgb '#{:06x}' lw {} notitle", block, color, width);
 }
 
-void add_inclination(std::string& data, const std::string& block, const FallRecord& fall, double end) {
+void add_inclination(std::string& data, const std::string& block, const FallSeries& fall, double end) {
     fmt::memory_buffer rows;
     auto out = std::back_inserter(rows);
     fmt::format_to(out, "{} << EOD\n", block);
@@ -140,15 +140,15 @@ PanelText inclination_panel(const Comparison& comparison, const Box& box) {
     std::string plot;
     double steepest = 0.0;
     int blocks = 0;
-    const auto add = [&](const FallRecord& fall, unsigned color, double width) {
+    const auto add = [&](const FallSeries& fall, unsigned color, double width) {
         const std::string block = fmt::format("$inclination{}", blocks);
         add_inclination(text.data, block, fall, end);
         plot += (blocks++ == 0 ? "plot " : ", ") + line(block, color, width);
         steepest = std::max(steepest,
                             degrees * *std::max_element(fall.inclinations.begin(), fall.inclinations.end()));
     };
-    for (const FallRecord& fall : comparison.motion.more) add(fall, faint_motion_color, 1.0);
-    for (const FallRecord& fall : comparison.reference.more) add(fall, faint_reference_color, 1.0);
+    for (const FallSeries& fall : comparison.motion.more) add(fall, faint_motion_color, 1.0);
+    for (const FallSeries& fall : comparison.reference.more) add(fall, faint_reference_color, 1.0);
     add(comparison.motion.example, motion_color, 3.0);
     add(comparison.reference.example, reference_color, 3.0);
 

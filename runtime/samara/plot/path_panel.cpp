@@ -17,7 +17,7 @@ constexpr std::size_t most_points = 4000;
 
 /// A fall with its place among the lines that are drawn.
 struct Line {
-    const FallRecord* fall;
+    const FallSeries* fall;
     unsigned color;
     double width;
 };
@@ -25,8 +25,8 @@ struct Line {
 /// Faint ones first, so that the strong lie on top.
 std::vector<Line> lines_of(const Comparison& all) {
     std::vector<Line> lines;
-    for (const FallRecord& fall : all.motion.more) lines.push_back({&fall, faint_motion_color, 1.2});
-    for (const FallRecord& fall : all.reference.more) lines.push_back({&fall, faint_reference_color, 1.2});
+    for (const FallSeries& fall : all.motion.more) lines.push_back({&fall, faint_motion_color, 1.2});
+    for (const FallSeries& fall : all.reference.more) lines.push_back({&fall, faint_reference_color, 1.2});
     lines.push_back({&all.motion.example, motion_color, 3.0});
     lines.push_back({&all.reference.example, reference_color, 3.0});
     return lines;
@@ -36,7 +36,7 @@ std::string data_of(const std::vector<Line>& lines, double end) {
     fmt::memory_buffer data;
     auto out = std::back_inserter(data);
     for (std::size_t line = 0; line < lines.size(); ++line) {
-        const FallRecord& fall = *lines[line].fall;
+        const FallSeries& fall = *lines[line].fall;
         fmt::format_to(out, "$way{} << EOD\n", line);
         const std::size_t stride = 1 + fall.times.size() / most_points;
         for (std::size_t i = 0; i < fall.times.size() && fall.times[i] <= end; i += stride) {

@@ -7,7 +7,7 @@
 namespace samara {
 
 /// One fall as series over the time since the release, which is the begin of fall_of().
-struct FallRecord {
+struct FallSeries {
     double release = 0.0;               ///< s, in the motion's time
     std::vector<double> times;          ///< s since the release, ascending from 0
     std::vector<Vector3d> ways;         ///< m, world: of the centre of mass since the release
@@ -22,11 +22,11 @@ struct FallRecord {
 
 /// The fall of one copy in one run. `window` (s since the release): what is measured; it is given the frames
 /// in it. Throws Error like measure().
-FallRecord fall_record(const Motion& motion, const BodyMotion& body, int run, int copy,
+FallSeries fall_series(const Motion& motion, const BodyMotion& body, int run, int copy,
                        const TimeWindow& window);
 
 /// The way at a time since the release (m, world), linear between the frames and held beyond them.
-Vector3d way_at(const FallRecord& record, double time);
+Vector3d way_at(const FallSeries& record, double time);
 
 /// A stretch of a record's frames, [begin, end), the last of which is the first of the next stretch.
 struct Piece {
@@ -44,6 +44,6 @@ struct Pieces {
 /// The pieces of the window's frames: a swing each, from one minimum of the inclination to the next, with
 /// what is left at either end of the window added to its neighbour. Eight equal lengths of time for a steady
 /// fall. None for a fall that swings but shows fewer than two swings, and for fewer frames than pieces.
-Pieces pieces_of(const FallRecord& record);
+Pieces pieces_of(const FallSeries& record);
 
 }  // namespace samara

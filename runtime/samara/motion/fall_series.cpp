@@ -1,4 +1,4 @@
-#include "samara/motion/fall_record.hpp"
+#include "samara/motion/fall_series.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t steady_pieces = 8;
 
 /// The first frame at or after a time.
-std::size_t frame_at(const FallRecord& record, double time) {
+std::size_t frame_at(const FallSeries& record, double time) {
     const double slack = 1e-9 * std::max(1.0, record.duration());
     const auto place = std::lower_bound(record.times.begin(), record.times.end(), time - slack);
     return std::min(static_cast<std::size_t>(place - record.times.begin()), record.times.size() - 1);
@@ -28,10 +28,10 @@ std::vector<Piece> between(const std::vector<std::size_t>& cuts) {
 
 }  // namespace
 
-FallRecord fall_record(const Motion& motion, const BodyMotion& body, int run, int copy,
+FallSeries fall_series(const Motion& motion, const BodyMotion& body, int run, int copy,
                        const TimeWindow& window) {
     const TimeWindow fall = fall_of(motion, body, run, copy);
-    FallRecord record;
+    FallSeries record;
     record.release = fall.begin;
     record.down = down_direction(motion.gravity);
     Vector3d start = Vector3d::Zero();
@@ -53,7 +53,7 @@ FallRecord fall_record(const Motion& motion, const BodyMotion& body, int run, in
     return record;
 }
 
-Vector3d way_at(const FallRecord& record, double time) {
+Vector3d way_at(const FallSeries& record, double time) {
     const auto after = std::upper_bound(record.times.begin(), record.times.end(), time);
     if (after == record.times.begin()) return record.ways.front();
     if (after == record.times.end()) return record.ways.back();
@@ -62,7 +62,7 @@ Vector3d way_at(const FallRecord& record, double time) {
     return record.ways[i - 1] + share * (record.ways[i] - record.ways[i - 1]);
 }
 
-Pieces pieces_of(const FallRecord& record) {
+Pieces pieces_of(const FallSeries& record) {
     const TimeWindow& window = record.measures.window;
     const std::size_t first = frame_at(record, window.begin);
     const std::size_t last = frame_at(record, window.end);

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "converter/free_fall.hpp"
+
+namespace samara {
+
+/// The body and the fluid's hold on it at the end of one step of a free fall, in the units and axes of its case.
+struct FallSample {
+    double time = 0.0;
+    Vector3d position = Vector3d::Zero();          ///< of the centre of mass
+    Matrix3d turn = Matrix3d::Identity();          ///< since the start
+    Vector3d velocity = Vector3d::Zero();          ///< of the centre of mass
+    Vector3d angular_velocity = Vector3d::Zero();
+    Vector3d force = Vector3d::Zero();   ///< of the fluid, without buoyancy
+    Vector3d moment = Vector3d::Zero();  ///< about the centre of mass
+};
+
+/// A free fall that was solved.
+struct FallRecord {
+    FreeFall fall;
+    std::vector<FallSample> samples;  ///< times ascend
+};
+
+/// Reads fall.json and what the function objects `state` and `forces` wrote in the fall's folder. Throws Error
+/// where a file is missing or damaged.
+FallRecord read_fall_record(const std::filesystem::path& folder);
+
+/// How far the momenta of a fall are from what the loads, weight and buoyancy give, over the loads: root mean
+/// squares, without the first half of a time unit, in which the start's jolt dies away. About the size of the
+/// solver's error in time; a solver that drops the gyroscopic term, or a fall that blows up, shows in it.
+struct FallBalance {
+    double force = 0.0;
+    double moment = 0.0;  ///< over that of the fluid or, where it is larger, of the gyroscopic term
+};
+FallBalance balance_of(const FallRecord& record);
+
+}  // namespace samara

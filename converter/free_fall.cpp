@@ -1,0 +1,109 @@
+#include "converter/free_fall.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "samara/base/content_hash.hpp"
+#include "samara/base/error.hpp"
+#include "samara/base/vector_json.hpp"
+
+namespace samara {
+namespace {
+
+nlohmann::json rows_of(const Matrix3d& matrix) {
+    nlohmann::json rows = nlohmann::json::array();
+    for (int row = 0; row < 3; ++row) rows.push_back(as_json(matrix.row(row)));
+    return rows;
+}
+
+Vector3d as_vector(const nlohmann::json& values) {
+    const auto numbers = values.get<std::array<double, 3>>();
+    return {numbers[0], numbers[1], numbers[2]};
+}
+
+Matrix3d as_matrix(const nlohmann::json& rows) {
+    Matrix3d matrix;
+    for (int row = 0; row < 3; ++row) matrix.row(row) = as_vector(rows.at(static_cast<std::size_t>(row)));
+    return matrix;
+}
+
+FreeFall as_fall(const nlohmann::json& json) {
+    FreeFall fall;
+    fall.name = json.at("name").get<std::string>();
+    fall.mesh = json.at("mesh").get<std::string>();
+    fall.closure = json.at("closure").get<std::string>();
+    fall.reynolds_number = json.at("reynolds_number").get<double>();
+    fall.length = json.at("length").get<double>();
+    fall.speed = json.at("speed").get<double>();
+    fall.fluid_density = json.at("fluid_density").get<double>();
+    fall.axes = as_matrix(json.at("axes"));
+    fall.volume = json.at("volume").get<double>();
+    fall.mass = json.at("mass").get<double>();
+    fall.center_of_mass = as_vector(json.at("center_of_mass"));
+    fall.principal_axes = as_matrix(json.at("principal_axes"));
+    fall.principal_moments = as_vector(json.at("principal_moments"));
+    fall.gravity = as_vector(json.at("gravity"));
+    fall.velocity = as_vector(json.at("velocity"));
+    fall.angular_velocity = as_vector(json.at("angular_velocity"));
+    fall.duration = json.at("duration").get<double>();
+    fall.time_step = json.at("time_step").get<double>();
+    fall.outer_correctors = json.at("outer_correctors").get<int>();
+    fall.acceleration_relaxation = json.at("acceleration_relaxation").get<double>();
+    return fall;
+}
+
+void check(const FreeFall& fall) {
+    const auto require = [](bool holds, const char* what) {
+        if (!holds) throw Error(fmt::format("'{}' is not positive", what));
+    };
+    require(fall.length > 0.0, "length");
+    require(fall.speed > 0.0, "speed");
+    require(fall.fluid_density > 0.0, "fluid_density");
+    require(fall.volume > 0.0, "volume");
+    require(fall.mass > 0.0, "mass");
+    require(fall.time_step > 0.0, "time_step");
+    require(fall.duration > 0.0, "duration");
+}
+
+}  // namespace
+
+std::string free_fall_json(const FreeFall& fall) {
+    const nlohmann::ordered_json json = {{"name", fall.name},
+                                         {"mesh", fall.mesh},
+                                         {"closure", fall.closure},
+                                         {"reynolds_number", fall.reynolds_number},
+                                         {"length", fall.length},
+                                         {"speed", fall.speed},
+                                         {"fluid_density", fall.fluid_density},
+                                         {"axes", rows_of(fall.axes)},
+                                         {"volume", fall.volume},
+                                         {"mass", fall.mass},
+                                         {"center_of_mass", as_json(fall.center_of_mass)},
+                                         {"principal_axes", rows_of(fall.principal_axes)},
+                                         {"principal_moments", as_json(fall.principal_moments)},
+                                         {"gravity", as_json(fall.gravity)},
+                                         {"velocity", as_json(fall.velocity)},
+                                         {"angular_velocity", as_json(fall.angular_velocity)},
+                                         {"duration", fall.duration},
+                                         {"time_step", fall.time_step},
+                                         {"outer_correctors", fall.outer_correctors},
+                                         {"acceleration_relaxation", fall.acceleration_relaxation}};
+    return json.dump(2) + "\n";
+}
+
+FreeFall read_free_fall(const std::filesystem::path& folder) {
+    const std::filesystem::path file = folder / "fall.json";
+    try {
+        if (!std::filesystem::exists(file)) throw Error("is not there");
+        FreeFall fall = as_fall(nlohmann::json::parse(read_bytes(file)));
+        check(fall);
+        return fall;
+    } catch (const nlohmann::json::exception& reason) {
+        throw Error(fmt::format("{}: an entry is missing or of the wrong kind ({}); make the case again",
+                                file.string(), reason.what()));
+    } catch (const Error& reason) {
+        throw Error(fmt::format("{}: {}; make the case again", file.string(), reason.what()));
+    }
+}
+
+}  // namespace samara

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+
+#include "converter/free_fall.hpp"
+#include "foam-cases/bake_plan.hpp"
+#include "samara/dynamics/immersed_body.hpp"
+#include "samara/dynamics/step.hpp"
+
+namespace samara {
+
+/// Steps of free falls over L/U: at twice that, momenta are kept to 3 to 6 % and the descent of a swinging
+/// ellipsoid is off by 5 %, at this to 1 to 3 % and 1 % (docs/validate.md).
+inline constexpr double fall_time_step = 0.01;
+
+/// The largest of the fluid's inertia over the body's own, over all ways to move and turn: what makes a solver that
+/// takes flow and motion in turn unstable, and so sets how much of a new acceleration it may take.
+double largest_inertia_ratio(const ImmersedBody& body);
+
+/// A free fall of the body from a state, over `duration` (s), under a gravity (m/s^2, world axes). `speed` (m/s): of
+/// the case's units, about that at which it falls. The body's added mass must be there.
+FreeFall plan_fall(const Body& body, const ImmersedBody& immersed, const BodyState& start, const Vector3d& gravity,
+                   double speed, double duration);
+
+/// A plan with no case but the fall, on the mesh of those of all qualities whose number of cells around the body is
+/// nearest to `cells`, as a ratio.
+BakePlan plan_single_fall(const Body& body, double cells, FreeFall fall);
+
+/// CPU seconds of a fall on a mesh of so many cells, an estimate.
+double estimated_fall_seconds(const FreeFall& fall, double cells);
+
+}  // namespace samara

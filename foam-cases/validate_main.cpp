@@ -1,0 +1,112 @@
+// The program samara-validate: a scene by full CFD, as a motion file.
+
+#include <filesystem>
+#include <string>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "foam-cases/cluster_jobs.hpp"
+#include "foam-cases/validate.hpp"
+#include "samara/base/error.hpp"
+#include "samara/command/arguments.hpp"
+#include "samara/motion/description.hpp"
+#include "samara/scene/scene_file.hpp"
+
+namespace samara {
+namespace {
+
+struct ValidateOptions {
+    std::string scene;
+    std::string output;
+    double cells = 20'000.0;
+    double step = 1.0;
+    std::string cluster;
+    bool dry_run = false;
+};
+
+nlohmann::json as_json(const BakePlan& plan) {
+    const FreeFall& fall = plan.falls.front();
+    return {{"mesh", fall.mesh},
+            {"estimated_cells", plan.cells.front()},
+            {"reynolds_number", fall.reynolds_number},
+            {"closure", fall.closure},
+            {"time_step", fall.time_step * fall.time_unit()},
+            {"steps", fall.duration / fall.time_step},
+            {"acceleration_relaxation", fall.acceleration_relaxation},
+            {"estimated_cpu_seconds", plan.cpu_seconds}};
+}
+
+void print_plan(const BakePlan& plan) {
+    const FreeFall& fall = plan.falls.front();
+    fmt::print("{} cells, {:.0f} steps of {:.3g} ms, Reynolds number {:.3g}, {}: about {:.0f} CPU s\n",
+               fmt::format("{:.0f}", plan.cells.front()), fall.duration / fall.time_step,
+               1e3 * fall.time_step * fall.time_unit(), fall.reynolds_number, fall.closure, plan.cpu_seconds);
+}
+
+void warn_of_imbalance(const FallBalance& balance) {
+    if (balance.force <= doubtful_imbalance && balance.moment <= doubtful_imbalance) return;
+    fmt::print(stderr,
+               "samara validate: note: the momenta do not balance the loads (force {:.0f} %, moment {:.0f} %): the "
+               "fall is doubtful; halve its step with --step 0.5\n",
+               100.0 * balance.force, 100.0 * balance.moment);
+}
+
+nlohmann::json run_validation(const ValidateOptions& options, bool quiet) {
+    ValidationRequest request;
+    request.scene = read_scene_file(options.scene);
+    request.output = options.output;
+    request.cells = options.cells;
+    request.time_step = options.step * fall_time_step;
+    if (options.dry_run) {
+        const BakePlan plan = prepare_validation(request);
+        if (!quiet) print_plan(plan);
+        return as_json(plan);
+    }
+    if (request.output.has_parent_path()) std::filesystem::create_directories(request.output.parent_path());
+    const ValidationResult result = validate_scene(request, {1, options.cluster}, [](const BakePlan&) {});
+    warn_of_imbalance(result.balance);
+    const BodyMeasures measures = measure_all(result.motion, result.motion.bodies.front());
+    nlohmann::json json = as_json(result.plan);
+    json["output"] = options.output;
+    json["reused"] = result.reused;
+    json["cpu_seconds"] = result.cpu_seconds;
+    json["balance"] = {{"force", result.balance.force}, {"moment", result.balance.moment}};
+    json["body"] = as_json(measures);
+    if (!quiet) {
+        fmt::print("{}\n{}  momenta balance to {:.1f} % (force) and {:.1f} % (moment)\n{:.0f} CPU s{} -> {}\n",
+                   result.motion.bodies.front().name, as_text(measures), 100.0 * result.balance.force,
+                   100.0 * result.balance.moment, result.cpu_seconds, result.reused ? " earlier" : "", options.output);
+    }
+    return json;
+}
+
+int run(int argc, const char* const* argv) {
+    ValidateOptions options;
+    Arguments arguments("samara-validate", "Solves a scene by full CFD: the yardstick for samara simulate");
+    arguments.positional("SCENE", options.scene, "scene file (.toml) of one body");
+    arguments.required_option("-o,--output", options.output, "motion file to write (.h5)");
+    arguments.option("--cells", options.cells,
+                     "of the mesh, about: that of 6,000, 20,000, 60,000 or 200,000 that is nearest", 1e3, 1e7);
+    arguments.option("--step", options.step, "over the step that the fall gets of itself", 0.05, 4.0);
+    arguments.option("--cluster", options.cluster,
+                     "a command of Slurm that submits a job: solves the fall as a job there");
+    arguments.flag("--dry-run", options.dry_run, "only say what would be solved and how long it would take");
+    arguments.footer(
+        "The fall is solved by OpenFOAM (pimpleFoam, six degrees of freedom, k-epsilon) in the folder NAME.cases\n"
+        "beside the output: a plain case that can be looked at. An interrupted fall goes on when the command is\n"
+        "run again. The scene's loads and turbulence are not used, for they are what is solved.\n"
+        "Compare with the runtime's motion: samara compare motion.h5 reference.h5\n"
+        "Needs OpenFOAM and Snakemake (Debian: apt install openfoam snakemake).\n");
+    return run_program(argc, argv, arguments, [&] {
+        if (arguments.given("--cluster")) require_sbatch(options.cluster);
+        return run_validation(options, arguments.json());
+    });
+}
+
+}  // namespace
+}  // namespace samara
+
+int main(int argc, char** argv) {
+    return samara::run(argc, argv);
+}
