@@ -7,6 +7,7 @@
 
 #include "irregular_flutter.hpp"
 #include "samara/motion/comparison_report.hpp"
+#include "samara/motion/inclination.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 #include "synthetic_motion.hpp"
@@ -187,6 +188,31 @@ TEST(Comparison, IsCertainOnlyWhereTheErrorsAllowIt) {
     EXPECT_FALSE(compare_motions(flutter(1.3, 0.6, 0.2, 1.0), flutter(1.3, 0.6, 0.2, 1.0)).certain);
     const Comparison faster = compare_motions(flutter(1.3, 0.6, 0.3), motion);
     EXPECT_TRUE(!faster.agrees && faster.certain);
+}
+
+TEST(Comparison, OfASphereOrACubeJudgesTheDescentSpeedAlone) {
+    for (const Surface& surface : {test::ellipsoid_surface({0.02, 0.02, 0.02}, 2), test::cube_surface()}) {
+        Motion motion = test::motion_of([](double t) { return test::tumble(t, 3.0, 0.2); }, 6.0);
+        Motion reference = test::motion_of([](double t) { return test::tumble(t, 0.01, 0.21); }, 6.0);
+        motion.bodies[0].surface = surface;
+        reference.bodies[0].surface = surface;
+        const Comparison comparison = compare_motions(motion, reference);
+        EXPECT_FALSE(comparison.judges_inclination);
+        EXPECT_TRUE(comparison.agrees);
+        EXPECT_FALSE(comparison.regimes_agree);
+        EXPECT_FALSE(figure(comparison, Figure::inclination_amplitude).verdict.has_value());
+        EXPECT_TRUE(figure(comparison, Figure::descent_speed).verdict->agrees);
+        EXPECT_THAT(comparison.notes, Contains(HasSubstr("only the descent speed is judged")));
+    }
+}
+
+TEST(Inclination, OfAnEllipsoidWithAxesThatDifferByAFewPerCentHasAShortestAxis) {
+    BodyMotion body;
+    body.surface = test::ellipsoid_surface({0.0103, 0.01, 0.0102}, 3);
+    for (Vector3d& vertex : body.surface.vertices) vertex += Vector3d(0.3, -0.2, 0.1);
+    EXPECT_TRUE(has_shortest_axis(body));
+    body.surface = test::ellipsoid_surface({0.01, 0.01, 0.01}, 1);
+    EXPECT_FALSE(has_shortest_axis(body));
 }
 
 TEST(FigureComparison, AgreesWithinTheToleranceAndIsCertainTwoErrorsFromIt) {

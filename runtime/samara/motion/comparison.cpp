@@ -8,6 +8,7 @@
 
 #include "samara/base/error.hpp"
 #include "samara/motion/comparison_notes.hpp"
+#include "samara/motion/inclination.hpp"
 
 namespace samara {
 namespace {
@@ -91,9 +92,9 @@ void compare_first_swings(Comparison& all) {
 
 void judge(Comparison& all) {
     all.regimes_agree = all.motion.regime == all.reference.regime;
-    all.agrees = all.regimes_agree;
+    all.agrees = all.regimes_agree || !all.judges_inclination;
     bool all_certain = true;
-    bool surely_differs = !all.regimes_agree;
+    bool surely_differs = !all.agrees;
     for (const FigureComparison& figure : all.figures) {
         if (!figure.verdict) continue;
         all.agrees = all.agrees && figure.verdict->agrees;
@@ -108,8 +109,9 @@ void compare_figures(Comparison& all, const Tolerances& tolerances) {
         std::optional<double> tolerance;
         double least_limit = 0.0;
         if (static_cast<Figure>(i) == Figure::descent_speed) tolerance = tolerances.descent_speed;
-        if (static_cast<Figure>(i) == Figure::frequency) tolerance = tolerances.frequency;
-        if (static_cast<Figure>(i) == Figure::inclination_amplitude) {
+        if (all.judges_inclination && static_cast<Figure>(i) == Figure::frequency)
+            tolerance = tolerances.frequency;
+        if (all.judges_inclination && static_cast<Figure>(i) == Figure::inclination_amplitude) {
             tolerance = tolerances.inclination_amplitude;
             least_limit = degree;
         }
@@ -166,6 +168,7 @@ Comparison compare(const FallChoice& motion, const FallChoice& reference, const 
     Comparison all;
     all.motion_body = motion.of_body().name;
     all.reference_body = reference.of_body().name;
+    all.judges_inclination = has_shortest_axis(motion.of_body()) && has_shortest_axis(reference.of_body());
     all.motion_lengths = fall_lengths(motion);
     all.reference_lengths = fall_lengths(reference);
     require_length(motion, all.motion_lengths);

@@ -68,8 +68,10 @@ struct Comparison {
     std::array<FigureComparison, quantile_percents.size()> quantiles;  ///< of the inclination (rad)
     DistributionDistance distribution;
     FirstSwingComparison first_swing;
+    bool judges_inclination = true;  ///< false for bodies without a shortest axis, such as spheres: then only
+                                     ///< the descent speed has a verdict
     bool regimes_agree = false;
-    bool agrees = false;             ///< all verdicts, and the regimes
+    bool agrees = false;             ///< all verdicts and, where the inclination is judged, the regimes
     bool certain = false;            ///< whether that would hold without the verdicts that are not certain
     std::vector<std::string> notes;  ///< what to know before trusting the figures, a sentence each
 };

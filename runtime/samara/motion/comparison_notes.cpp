@@ -84,7 +84,12 @@ std::vector<std::string> comparison_notes(const FallChoice& motion, const FallCh
                                           const Comparison& comparison) {
     Notes notes;
     note_shapes(notes, motion, reference);
-    note_starts(notes, comparison);
+    if (!comparison.judges_inclination) {
+        notes.push_back(
+            "no axis of the body is shorter than the others: the inclination is that of an axis chosen by "
+            "chance, and only the descent speed is judged");
+    }
+    if (comparison.judges_inclination) note_starts(notes, comparison);
     note_lengths(notes, comparison);
     note_side(notes, "motion", motion, comparison.motion);
     note_side(notes, "reference", reference, comparison.reference);

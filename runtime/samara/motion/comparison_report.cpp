@@ -205,6 +205,7 @@ json as_json(const Comparison& all) {
               {"end", or_null(swing.end)},
               {"path_distance", as_json(swing.path_distance)},
               {"way_fallen", or_null(swing.way_fallen)}}},
+            {"judges_inclination", all.judges_inclination},
             {"regimes_agree", all.regimes_agree},
             {"agrees", all.agrees},
             {"certain", all.certain},
@@ -215,7 +216,9 @@ std::string as_text(const Comparison& all) {
     std::string text = row(fmt::format("{:.3g} s to {:.3g} s of fall", all.window.begin, all.window.end),
                            "motion", "reference", "difference", "");
     text += row("regime", regime_text(all.motion), regime_text(all.reference), "",
-                all.regimes_agree ? "agrees" : "differs");
+                !all.judges_inclination ? ""
+                : all.regimes_agree     ? "agrees"
+                                        : "differs");
     for (std::size_t i = 0; i < figure_count; ++i) {
         const FigureWords& words = figure_words[i];
         text += figure_row(words.words, all.figures[i], words.scale, words.relative);

@@ -14,6 +14,10 @@ Vector3d down_direction(const Vector3d& gravity);
 /// it is measured from the world's vertical.
 double inclination(const Motion& motion, const BodyMotion& body, const Pose& pose);
 
+/// Whether the body has a shortest axis: false for a sphere or a cube, whose surface spreads alike in all
+/// directions, to 1 % of its extent. Then the inclination is that of an axis chosen by chance.
+bool has_shortest_axis(const BodyMotion& body);
+
 /// The inclination (rad) at every frame of one copy in one run.
 std::vector<double> inclination_series(const Motion& motion, const BodyMotion& body, int run, int copy);
 

@@ -40,7 +40,7 @@ std::string falls_of(const std::string& name, const FallSet& set) {
 std::string title_of(const Comparison& all, const std::string& motion, const std::string& reference) {
     const auto figure = [&](Figure which) { return all.figures[static_cast<std::size_t>(which)]; };
     std::string title = all.motion_body + ": ";
-    title += all.regimes_agree
+    title += all.regimes_agree || !all.judges_inclination
                  ? std::string(name_of(all.motion.regime))
                  : fmt::format("{} against {}", name_of(all.motion.regime), name_of(all.reference.regime));
     title += all.agrees ? ", agrees with the reference" : ", differs from the reference";
