@@ -16,7 +16,7 @@ namespace {
 constexpr double degrees = 180.0 / std::numbers::pi;
 constexpr double most_swings = 24.0;
 constexpr std::size_t most_points = 8000;
-constexpr double least_power = 1e-6;  // 1/Hz: less is no swing that could be seen
+constexpr double least_power = 1e-6;  // 1/Hz: less is no swing that can be seen
 
 std::optional<Estimate> figure_of(const FallSet& set, Figure figure) {
     return set.figures[static_cast<std::size_t>(figure)];
