@@ -149,7 +149,10 @@ void set_loads(const ImmersedBody& body, FlightConstants<Real>& c) {
     const Matrix3d drag = half_density * length / mass * dynamic.drag_in_motion;
     const Matrix3d turning = half_density / (mass * length) * dynamic.rotational_drag;
     c.drag_in_motion = square<Real>(drag);
+    c.drag_in_spin = square<Real>(half_density * length / mass * dynamic.drag_in_spin);
     c.rotational_drag = square<Real>(turning);
+    c.rotational_drag_in_spin = square<Real>(half_density / (mass * length) * dynamic.rotational_drag_in_spin);
+    c.tow_fading = static_cast<Real>(dynamic.tow_fading);
     set_transport(body, mass, length, c);
     const double creeping = std::numbers::pi * body.viscosity * body.length / mass;
     const double ratio = body.length / length;

@@ -118,7 +118,7 @@ HWY_INLINE LoadBlocks<V> load_blocks(const FlightConstants<Real>& c, const Tripl
     const V tip_square = tip_speed * tip_speed;
 
     // The tow's moment stays until the body does nothing but turn: a steady tow keeps it whole.
-    const V share = speed_square / larger(V(tiny<V>), speed_square + V(motion_onset) * tip_square);
+    const V share = speed_square / larger(V(tiny<V>), speed_square + V(c.tow_fading) * tip_square);
     const PressurePoint<V> point = pressure_point(c, heading, share);
     LoadBlocks<V> blocks = moved_by_arm(tow_matrix(c, velocity + cross(omega, point.arm)), point.arm);
 
@@ -136,8 +136,8 @@ HWY_INLINE LoadBlocks<V> load_blocks(const FlightConstants<Real>& c, const Tripl
             plus_cross(blocks.moment_by_turning,
                        broadcast<V>(c.transport_turning) * omega + coupling * velocity);
     }
+    const V inverse = one / larger(V(tiny<V>), combined);
     if (c.has_wake) {
-        const V inverse = one / larger(V(tiny<V>), combined);
         blocks.moment_by_turning = plus_cross(
             blocks.moment_by_turning, inverse * (cross(velocity, broadcast<V>(c.wake_by_velocity) * velocity) +
                                                  cross(omega, broadcast<V>(c.wake_by_turning) * omega)));
@@ -145,14 +145,19 @@ HWY_INLINE LoadBlocks<V> load_blocks(const FlightConstants<Real>& c, const Tripl
     blocks.moment_by_velocity = plus_cross(blocks.moment_by_velocity - windmill, momentum);
     blocks.force_by_turning = plus_cross(blocks.force_by_turning + transposed(windmill), momentum);
 
+    const V spin_share = tip_square * inverse;
     const V drag_share =
         combined * (tip_square / larger(V(tiny<V>), V(motion_onset) * speed_square + tip_square));
     const V below = larger(zero, one - V(c.reynolds_factor) * heading.speed * V(c.lowest_reynolds_inverse));
     const V creeping_drag = select(zero < V(c.lowest_reynolds_inverse), V(c.creeping_drag) * below, zero);
     blocks.moment_by_turning = plus_diagonal(
-        blocks.moment_by_turning + combined * broadcast<V>(c.rotational_drag), V(c.creeping_turn));
+        blocks.moment_by_turning + combined * broadcast<V>(c.rotational_drag) +
+            spin_share * broadcast<V>(c.rotational_drag_in_spin),
+        V(c.creeping_turn));
     blocks.force_by_velocity =
-        plus_diagonal(blocks.force_by_velocity + drag_share * broadcast<V>(c.drag_in_motion), creeping_drag);
+        plus_diagonal(blocks.force_by_velocity + drag_share * broadcast<V>(c.drag_in_motion) +
+                          spin_share * broadcast<V>(c.drag_in_spin),
+                      creeping_drag);
     return blocks;
 }
 
