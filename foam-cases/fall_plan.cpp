@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <Eigen/Eigenvalues>
+#include <fmt/format.h>
 
 namespace samara {
 namespace {
@@ -28,6 +29,9 @@ void take_inertia(const Matrix3d& inertia, FreeFall& fall) {
     if (fall.principal_axes.determinant() < 0.0) fall.principal_axes.col(0) *= -1.0;
     fall.principal_moments = solver.eigenvalues();
 }
+
+// Where gravity points at the start, along the principal axes from the shortest extent to the longest.
+constexpr double start_directions[][3] = {{-0.64, 0.5, 0.58}, {-0.85, -0.45, 0.27}, {-0.35, 0.8, -0.48}};
 
 }  // namespace
 
@@ -67,6 +71,35 @@ FreeFall plan_fall(const Body& body, const ImmersedBody& immersed, const BodySta
     fall.acceleration_relaxation =
         std::min(most_relaxation, share_of_stable_relaxation * 2.0 / (1.0 + largest_inertia_ratio(immersed)));
     return fall;
+}
+
+BodyState identification_start(const Body& body, int index) {
+    const auto& direction = start_directions[static_cast<std::size_t>(index) % std::size(start_directions)];
+    const Vector3d gravity =
+        principal_axes(body.moments) * Vector3d(direction[0], direction[1], direction[2]).normalized();
+    BodyState start;
+    start.orientation = Quaterniond::FromTwoVectors(gravity, -Vector3d::UnitZ());
+    return start;
+}
+
+void add_falls(const Body& body, const Fluid& fluid, const MassSpecification& mass, double gravity, double speed,
+               BakePlan& plan) {
+    SceneBody scene_body;
+    scene_body.name = body.name;
+    scene_body.mass = mass;
+    scene_body.loads = Loads::none;
+    scene_body.turbulence = Turbulence::none;
+    const ImmersedBody immersed = make_immersed_body(body, scene_body, fluid);
+    const double duration = identification_fall_duration * plan.reference_length / speed;
+    for (int i = 0; i < plan.quality.falls; ++i) {
+        FreeFall fall = plan_fall(body, immersed, identification_start(body, i), gravity * -Vector3d::UnitZ(), speed,
+                                  duration);
+        fall.name = fmt::format("fall_{:02}", i);
+        fall.mesh = plan.quality.meshes.at(plan.quality.fall_mesh).name;
+        plan.falls.push_back(fall);
+    }
+    plan.cpu_seconds = 0.0;
+    estimate_cost(plan);
 }
 
 BakePlan plan_single_fall(const Body& body, double cells, FreeFall fall) {

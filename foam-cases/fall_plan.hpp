@@ -22,6 +22,17 @@ double largest_inertia_ratio(const ImmersedBody& body);
 FreeFall plan_fall(const Body& body, const ImmersedBody& immersed, const BodyState& start, const Vector3d& gravity,
                    double speed, double duration);
 
+/// How long a fall that coefficients are identified from lasts, over L/U: some six swings.
+inline constexpr double identification_fall_duration = 30.0;
+
+/// The states from rest from which such falls start, each in its way oblique to all of the body's principal axes, so
+/// that none of its motions is left out. `index`: of the fall.
+BodyState identification_start(const Body& body, int index);
+
+/// Adds the quality's falls to a plan, of a body with that mass in the fluid, under a gravity of that size (m/s^2).
+void add_falls(const Body& body, const Fluid& fluid, const MassSpecification& mass, double gravity, double speed,
+               BakePlan& plan);
+
 /// A plan with no case but the fall, on the mesh of those of all qualities whose number of cells around the body is
 /// nearest to `cells`, as a ratio.
 BakePlan plan_single_fall(const Body& body, double cells, FreeFall fall);

@@ -39,10 +39,10 @@ void expect_equal(const ErrorShare& a, const ErrorShare& b) {
 }
 
 void expect_equal(const DynamicCoefficients& a, const DynamicCoefficients& b) {
-    EXPECT_EQ(a.force_transport, b.force_transport);
-    EXPECT_EQ(a.moment_transport, b.moment_transport);
-    EXPECT_EQ(a.drag_in_motion, b.drag_in_motion);
-    EXPECT_EQ(a.rotational_drag, b.rotational_drag);
+    EXPECT_EQ(a.rotational_transport, b.rotational_transport);
+    for (const TensorOfMotion& tensor : tensors_of_motion) {
+        EXPECT_EQ(a.*tensor.member, b.*tensor.member) << tensor.name;
+    }
     EXPECT_EQ(a.half_length, b.half_length);
     EXPECT_EQ(a.origin, b.origin);
 }
@@ -240,31 +240,57 @@ TEST(BodyFile, DynamicCoefficientsThatAreNoneAreNamed) {
         EXPECT_EQ(fault.find('\n'), std::string::npos);
     };
     using Identified = IdentifiedCoefficients;
-    refused([&](Identified& c) { c.values.force_transport = std::nan(""); }, "force_transport is not finite");
-    refused([&](Identified& c) { c.values.moment_transport = infinity; }, "moment_transport is not finite");
+    refused([&](Identified& c) { c.values.rotational_transport = std::nan(""); },
+            "rotational_transport is not finite");
     refused([&](Identified& c) { c.values.half_length = 0.0; }, "half_length is not a positive");
     refused([&](Identified& c) { c.values.half_length = infinity; }, "half_length is not a positive");
-    refused([&](Identified& c) { c.values.drag_in_motion(1, 1) = std::nan(""); }, "drag_in_motion");
-    refused([&](Identified& c) { c.values.drag_in_motion(0, 1) += 1e-3; }, "drag_in_motion is not symmetric");
     refused([&](Identified& c) { c.values.drag_in_motion(2, 2) = -0.1; },
             "drag_in_motion is not positive semidefinite");
-    refused([&](Identified& c) { c.values.rotational_drag(2, 0) = 0.002; },
-            "rotational_drag is not symmetric");
     refused([&](Identified& c) { c.values.rotational_drag(0, 2) = c.values.rotational_drag(2, 0) = 0.01; },
             "rotational_drag is not positive semidefinite");
-    refused([&](Identified& c) { c.standard_errors.force_transport = -1.0; }, "force_transport_error");
-    refused([&](Identified& c) { c.standard_errors.moment_transport = infinity; }, "moment_transport_error");
-    refused([&](Identified& c) { c.standard_errors.drag_in_motion(0, 1) = -0.1; }, "drag_in_motion_error");
-    refused([&](Identified& c) { c.standard_errors.rotational_drag(2, 2) = std::nan(""); },
-            "rotational_drag_error");
+    for (const TensorOfMotion& tensor : tensors_of_motion) {
+        const std::string name = tensor.name;
+        refused([&](Identified& c) { (c.values.*tensor.member)(1, 1) = infinity; }, name);
+        refused([&](Identified& c) { (c.values.*tensor.member)(0, 1) += 1e-3; }, name + " is not symmetric");
+        refused([&](Identified& c) { (c.standard_errors.*tensor.member)(0, 1) = -0.1; }, name + "_error");
+        refused([&](Identified& c) { (c.standard_errors.*tensor.member)(2, 2) = std::nan(""); },
+                name + "_error");
+    }
+    refused([&](Identified& c) { c.standard_errors.rotational_transport = -1.0; },
+            "rotational_transport_error");
+    refused([&](Identified& c) { c.standard_errors.rotational_transport = infinity; },
+            "rotational_transport_error");
 }
 
-TEST(BodyFile, DynamicCoefficientsOfRankOneAndZeroAreAllowed) {
+TEST(BodyFile, DynamicCoefficientsOfAnEarlierFormAreRefusedWithARemedy) {
+    const test::TemporaryFolder folder;
+    Body body = test::full_body();
+    body.dynamic.reset();
+    write_body_file(folder / "a.body.h5", body);
+    {
+        H5::H5File file((folder / "a.body.h5").string(), H5F_ACC_RDWR);
+        const H5::Group group = file.createGroup("/dynamic_coefficients");
+        const double value = 0.75;
+        for (const char* name : {"force_transport", "moment_transport"}) {
+            group.createAttribute(name, H5::PredType::NATIVE_DOUBLE, H5::DataSpace())
+                .write(H5::PredType::NATIVE_DOUBLE, &value);
+        }
+    }
+    const std::string fault = fault_of(folder / "a.body.h5");
+    EXPECT_THAT(fault, AllOf(HasSubstr("a.body.h5: /dynamic_coefficients is of an earlier form"),
+                             HasSubstr("remove the group to fly with defaults")));
+    EXPECT_EQ(fault.find('\n'), std::string::npos);
+}
+
+TEST(BodyFile, DynamicCoefficientsOfRankOneAndZeroAndIndefiniteWhereTheyMayAreAllowed) {
     const test::TemporaryFolder folder;
     Body body = test::full_body();
     const Vector3d arm(0.1, 0.2, 0.3);
     body.dynamic->values.drag_in_motion = arm * arm.transpose();
     body.dynamic->values.rotational_drag.setZero();
+    body.dynamic->values.transport = Vector3d(-0.1, 0.2, 0.0).asDiagonal();
+    body.dynamic->values.rotational_transport = -0.3;
+    body.dynamic->values.wake_by_velocity = Vector3d(1.0, -2.0, 0.0).asDiagonal();
     write_body_file(folder / "a.body.h5", body);
     expect_equal(read_body_file(folder / "a.body.h5"), body);
 }

@@ -105,8 +105,14 @@ TEST(Door, ABodyFileWithNaNIsRefusedInOneLine) {
     body.dynamic->values.half_length = not_a_number;
     check(body);
     body.dynamic->values.half_length = 0.04;
-    body.dynamic->values.drag_in_motion(0, 0) = not_a_number;
+    body.dynamic->values.rotational_transport = not_a_number;
     check(body);
+    body.dynamic->values.rotational_transport = 1.0;
+    for (const TensorOfMotion& tensor : tensors_of_motion) {
+        (body.dynamic->values.*tensor.member)(0, 0) = not_a_number;
+        check(body);
+        (body.dynamic->values.*tensor.member)(0, 0) = 0.0;
+    }
     test::expect_row({fmt::format("NaN or infinity in {} body files", count), "-",
                       "files not refused with one line and status 1", 0.0, static_cast<double>(accepted)});
 }

@@ -68,7 +68,8 @@ TEST(TableLoads, AreHeldAboveTheTableAndTendToStokesBelowIt) {
 }
 
 TEST(Loads, NeverMakeEnergyInStillFluid) {
-    ImmersedBody table = test::blunt_ellipsoid();
+    const ImmersedBody table = test::blunt_ellipsoid();
+    const ImmersedBody lopsided = test::lopsided_body();
     ImmersedBody coefficients = table;
     coefficients.loads = Loads::coefficients;
     coefficients.coefficients.lift_coefficient = 3.0;
@@ -80,137 +81,13 @@ TEST(Loads, NeverMakeEnergyInStillFluid) {
         Vector6d motion;
         const double rate = std::pow(10.0, i % 7 - 3);
         motion << rate * random_vector(generator), 0.2 * random_vector(generator);
-        for (const ImmersedBody* body : {&table, &coefficients}) {
+        for (const ImmersedBody* body : {&table, &lopsided, &coefficients}) {
             const Matrix6d matrix = load_matrix(*body, motion);
             const Matrix6d symmetric = 0.5 * (matrix + matrix.transpose());
             const Vector6d eigenvalues = Eigen::SelfAdjointEigenSolver<Matrix6d>(symmetric).eigenvalues();
             EXPECT_GE(eigenvalues.minCoeff(), -1e-13 * eigenvalues.maxCoeff());
         }
     }
-}
-
-/// A full tensor, positive semidefinite, of full rank or of the rank given.
-Matrix3d random_semidefinite(std::mt19937& generator, double scale, int rank = 3) {
-    Matrix3d tensor = Matrix3d::Zero();
-    for (int i = 0; i < rank; ++i) {
-        const Vector3d column = random_vector(generator);
-        tensor += scale * column * column.transpose();
-    }
-    return tensor;
-}
-
-/// The blunt ellipsoid with these transport coefficients, and its drags in rotation scaled.
-ImmersedBody with_transport(ImmersedBody body, double force_transport, double moment_transport,
-                            double drag_factor) {
-    body.dynamic.force_transport = force_transport;
-    body.dynamic.moment_transport = moment_transport;
-    body.dynamic.drag_in_motion *= drag_factor;
-    body.dynamic.rotational_drag *= drag_factor;
-    prepare(body);
-    return body;
-}
-
-Vector6d random_motion(std::mt19937& generator, double rate) {
-    Vector6d motion;
-    motion << rate * random_vector(generator), 0.2 * random_vector(generator);
-    return motion;
-}
-
-TEST(Transport, OfDifferentCoefficientsNeverMakesEnergyWhateverTheDrags) {
-    std::mt19937 generator(3);
-    std::uniform_real_distribution<double> coefficient(-3.0, 3.0);
-    ImmersedBody body = test::blunt_ellipsoid();
-    double most_work = 0.0;
-    for (int i = 0; i < 3000; ++i) {
-        const double scale = std::pow(10.0, i % 9 - 6);
-        body.dynamic.drag_in_motion = random_semidefinite(generator, 1e-3 * scale, 1 + i % 3);
-        body.dynamic.rotational_drag = random_semidefinite(generator, 1e-6 * scale, 1 + i / 3 % 3);
-        const double force = coefficient(generator);
-        const double moment = coefficient(generator);
-        const ImmersedBody working = with_transport(body, force, moment, 1.0);
-        const double mean = 0.5 * (force + moment);
-        const ImmersedBody workless = with_transport(body, mean, mean, 1.0);
-        const Vector6d motion = random_motion(generator, std::pow(10.0, i % 7 - 3));
-        const Matrix6d matrix = load_matrix(working, motion);
-        const Matrix6d symmetric = 0.5 * (matrix + matrix.transpose());
-        const Vector6d eigenvalues = Eigen::SelfAdjointEigenSolver<Matrix6d>(symmetric).eigenvalues();
-        EXPECT_GE(eigenvalues.minCoeff(), -1e-13 * eigenvalues.maxCoeff());
-        const Matrix6d working_part = matrix - load_matrix(workless, motion);
-        most_work =
-            std::max(most_work, std::abs(motion.dot(working_part * motion)) / motion.dot(symmetric * motion));
-    }
-    EXPECT_GT(most_work, 0.05);  // it is there
-}
-
-TEST(Transport, DoesTheWorkOfTheDifferenceWhereDragIsPlentifulAndNoneWithoutDrag) {
-    std::mt19937 generator(4);
-    constexpr double force = 0.3;
-    constexpr double moment = 0.8;
-    constexpr double mean = 0.5 * (force + moment);
-    ImmersedBody body = test::blunt_ellipsoid();
-    body.dynamic.drag_in_motion = 1e-3 * Matrix3d::Identity() + random_semidefinite(generator, 1e-3);
-    body.dynamic.rotational_drag = 1e-6 * Matrix3d::Identity() + random_semidefinite(generator, 1e-6);
-    const ImmersedBody plentiful = with_transport(body, force, moment, 1e3);
-    const ImmersedBody plentiful_workless = with_transport(body, mean, mean, 1e3);
-    const ImmersedBody scarce = with_transport(body, force, moment, 0.0);
-    const ImmersedBody scarce_workless = with_transport(body, mean, mean, 0.0);
-    for (int i = 0; i < 300; ++i) {
-        const Vector6d motion = random_motion(generator, 30.0);
-        const Vector3d omega = motion.head<3>();
-        const Vector3d v = motion.tail<3>();
-        const Vector3d momentum = body.added_mass * v;
-        const Matrix6d part = load_matrix(plentiful, motion) - load_matrix(plentiful_workless, motion);
-        const double scale = omega.norm() * v.norm() * momentum.norm();
-        EXPECT_NEAR(-motion.dot(part * motion), (moment - force) * omega.dot(v.cross(momentum)),
-                    1e-9 * scale);
-        // The mean itself does no work, so that without drag nothing is left.
-        const Matrix6d none = load_matrix(scarce, motion) - load_matrix(scarce_workless, motion);
-        EXPECT_NEAR(motion.dot(none * motion), 0.0, 1e-13 * scale);
-    }
-}
-
-TEST(Transport, GivesTheForceAndTheMomentOfItsCoefficientsWhereDragIsPlentiful) {
-    std::mt19937 generator(5);
-    const ImmersedBody body = test::blunt_ellipsoid();
-    const ImmersedBody with = with_transport(body, 0.3, 0.8, 1e4);
-    const ImmersedBody without = with_transport(body, 0.55, 0.55, 1e4);
-    for (int i = 0; i < 300; ++i) {
-        const Vector6d motion = random_motion(generator, 30.0);
-        const Vector3d omega = motion.head<3>();
-        const Vector3d v = motion.tail<3>();
-        const Vector3d momentum = body.added_mass * v;
-        const Vector6d part = -(load_matrix(with, motion) - load_matrix(without, motion)) * motion;
-        EXPECT_LT((part.tail<3>() - (0.3 - 0.55) * omega.cross(momentum)).norm(),
-                  1e-7 * omega.norm() * momentum.norm());
-        EXPECT_LT((part.head<3>() - (0.8 - 0.55) * v.cross(momentum)).norm(),
-                  1e-7 * v.norm() * momentum.norm());
-    }
-}
-
-TEST(Transport, OfDifferentCoefficientsLeavesTheSteadyTowAsItIsTabulated) {
-    const ImmersedBody body = test::blunt_ellipsoid();
-    std::mt19937 generator(6);
-    for (int i = 0; i < 200; ++i) {
-        const ImmersedBody other = with_transport(body, 0.1 * (i % 20), 1.3 - 0.1 * (i % 7), 1.0);
-        const Vector3d direction = random_vector(generator).normalized();
-        const double reynolds = std::pow(10.0, 3.0 + 2.0 * i / 199.0);
-        const double speed = reynolds * body.viscosity / (body.fluid_density * body.length);
-        const LoadEntry entry = look_up(*body.tables, direction, reynolds);
-        const double pressure = 0.5 * body.fluid_density * speed * speed * body.reference_area;
-        const Vector6d load = tow(other, speed * direction);
-        EXPECT_LT((load.tail<3>() - pressure * entry.force).norm(), 1e-12 * pressure);
-        EXPECT_LT((load.head<3>() - pressure * body.length * entry.moment).norm(),
-                  1e-12 * pressure * body.length);
-    }
-}
-
-TEST(Loads, AreFiniteAndVanishAtRest) {
-    const ImmersedBody body = test::blunt_ellipsoid();
-    const Matrix6d at_rest = load_matrix(body, Vector6d::Zero());
-    EXPECT_TRUE(at_rest.allFinite());
-    Vector6d faint = Vector6d::Constant(1e-300);
-    EXPECT_TRUE(load_matrix(body, faint).allFinite());
-    EXPECT_LT((load_matrix(body, Vector6d::Constant(1e-12)) - at_rest).norm(), 1e-9);
 }
 
 TEST(CoefficientLoads, HaveNoSingularityNorJumpAndDoNotSeeTheSignOfTheNormal) {
@@ -249,17 +126,6 @@ TEST(CoefficientLoads, TakeTheProjectedAreaWhereNoneIsGiven) {
     const double broadside = std::numbers::pi * 0.02 * 0.04;
     const double force = -tow_force(immersed, Vector3d::UnitX()).x();
     EXPECT_NEAR(force / (0.5 * 998.2 * broadside), 1.0, 0.01);
-}
-
-TEST(DynamicCoefficients, RotationalDragOfASphereIsZeroAndOfAnEllipsoidFollowsItsAxes) {
-    const Body sphere = test::exact_sphere(0.1);
-    const Matrix3d none = rotational_drag_tensor(sphere.surface, sphere.moments.centroid);
-    EXPECT_LT(none.norm(), 3e-4 * std::pow(0.1, 4));  // flat triangles are not quite tangent to the sphere
-    const Body ellipsoid = test::rubber_ellipsoid();
-    const Matrix3d tensor = rotational_drag_tensor(ellipsoid.surface, ellipsoid.moments.centroid);
-    EXPECT_GT(tensor(1, 1), tensor(0, 0));  // about y the long axis sweeps broadside
-    EXPECT_GT(tensor(0, 0), 0.0);
-    EXPECT_LT((tensor - Matrix3d(tensor.diagonal().asDiagonal())).norm(), 1e-9 * tensor.norm());
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "samara/dynamics/batch.hpp"
 #include "samara/dynamics/reference_step.hpp"
 #include "support/hard_bodies.hpp"
 #include "support/known_bodies.hpp"
@@ -83,6 +84,19 @@ TEST(Passivity, RandomBodiesNeverGainEnergyWithSubsteps) {
 
 TEST(Passivity, RandomBodiesNeverGainEnergyWithTheReference) {
     expect_passive(", reference", 13, 500, 2, 1e-10, reference);
+}
+
+TEST(Passivity, RandomBodiesNeverGainEnergyInSinglePrecision) {
+    // Rounding a state to single precision changes its energy by as much.
+    expect_passive(", single precision", 14, 2'000, 5, 1e-5,
+                   [](const ImmersedBody& body, double h, const BodyState& state) {
+                       FloatBatch batch(body, 1);
+                       batch.set_state(0, state);
+                       Surroundings still;
+                       still.gravity.setZero();
+                       batch.advance(still, 0.0, h, 0, 1);
+                       return batch.state(0);
+                   });
 }
 
 TEST(Passivity, AHollowBodyNeverGainsEnergy) {

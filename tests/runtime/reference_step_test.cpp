@@ -46,7 +46,7 @@ TEST(ReferenceStep, IsOfFourthOrderWithSmoothLoadsOffsetMassAndSeenFluid) {
 }
 
 TEST(ReferenceStep, IsOfFourthOrderWithinOneCellOfATable) {
-    const ImmersedBody body = test::blunt_ellipsoid(Vector3d(0.002, 0.001, -0.004));
+    const ImmersedBody body = test::lopsided_body(Vector3d(0.002, 0.001, -0.004));
     const BodyState start = seeing_fluid(test::tumbling_state(0.2, 5.0));
     const double time = 0.02;
     const BodyState exact = flown(body, start, time, 128);
@@ -151,7 +151,7 @@ TEST(ReferenceStep, LeavesABodyAtRestWithoutWeightAtRest) {
 }
 
 TEST(EquationsOfMotion, TheirGradientIsThatOfTheirAcceleration) {
-    const ImmersedBody body = test::blunt_ellipsoid(Vector3d(0.002, 0.001, -0.004));
+    const ImmersedBody body = test::lopsided_body(Vector3d(0.002, 0.001, -0.004));
     const BodyState state = seeing_fluid(test::tumbling_state(0.2, 5.0));
     const EquationsOfMotion equations(body, gravity, state.seen_fluid);
     const MotionVector motion = motion_vector(state);

@@ -21,6 +21,13 @@ Body exact_body(const Surface& surface, const Vector3d& added_mass, const Vector
     return body;
 }
 
+ImmersedBody immersed_off_center(const Body& body, const Vector3d& offset) {
+    SceneBody given = scene_body(1200.0);
+    given.mass = {
+        .density = {}, .mass = 1200.0 * body.moments.volume, .center_of_mass = offset, .inertia = {}};
+    return make_immersed_body(body, given, Fluid{});
+}
+
 }  // namespace
 
 Body rubber_ellipsoid() {
@@ -77,10 +84,35 @@ SceneBody scene_body(double density) {
 ImmersedBody blunt_ellipsoid(const Vector3d& offset) {
     Body body = rubber_ellipsoid();
     body.tables = blunt_tables(body, 4);
-    SceneBody given = scene_body(1200.0);
-    given.mass = {
-        .density = {}, .mass = 1200.0 * body.moments.volume, .center_of_mass = offset, .inertia = {}};
-    return make_immersed_body(body, given, Fluid{});
+    return immersed_off_center(body, offset);
+}
+
+Body lopsided_shape() {
+    Body body = rubber_ellipsoid();
+    Matrix6d& tensor = body.kirchhoff->matrix;
+    tensor.topRightCorner<3, 3>() << 3.0, 1.0, -2.0, 1.5, -4.0, 2.0, 0.5, -1.0, 2.5;
+    tensor.topRightCorner<3, 3>() *= 1e-8;
+    tensor.bottomLeftCorner<3, 3>() = tensor.topRightCorner<3, 3>().transpose();
+    body.tables = blunt_tables(body, 4);
+    DynamicCoefficients dynamic;
+    dynamic.transport << 40.0, 5.0, -3.0, 5.0, 11.0, 2.0, -3.0, 2.0, -4.0;
+    dynamic.transport *= 1e-6;
+    dynamic.rotational_transport = 0.7;
+    dynamic.drag_in_motion << 3.0, 0.4, 0.2, 0.4, 1.0, -0.1, 0.2, -0.1, 0.7;
+    dynamic.drag_in_motion *= 1e-3;
+    dynamic.rotational_drag << 0.5, 0.1, 0.0, 0.1, 1.5, -0.2, 0.0, -0.2, 0.3;
+    dynamic.rotational_drag *= 1e-6;
+    dynamic.wake_by_velocity << -0.6, 0.2, 0.1, 0.2, 0.9, -0.3, 0.1, -0.3, 0.2;
+    dynamic.wake_by_velocity *= 1e-6;
+    dynamic.wake_by_turning << 0.4, -0.1, 0.2, -0.1, -0.7, 0.1, 0.2, 0.1, 0.5;
+    dynamic.wake_by_turning *= 1e-6;
+    dynamic.half_length = 0.04;
+    body.dynamic = {.values = dynamic, .standard_errors = {}};
+    return body;
+}
+
+ImmersedBody lopsided_body(const Vector3d& offset) {
+    return immersed_off_center(lopsided_shape(), offset);
 }
 
 ImmersedBody ideal_ellipsoid() {

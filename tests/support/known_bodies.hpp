@@ -25,6 +25,13 @@ SceneBody scene_body(double density);
 /// The rubber ellipsoid with blunt_tables, in water at density 1200, centre of mass moved by `offset` (m).
 ImmersedBody blunt_ellipsoid(const Vector3d& offset = Vector3d::Zero());
 
+/// The rubber ellipsoid with a coupling of turning and moving in its Kirchhoff tensor, blunt_tables, and full
+/// tensors as dynamic coefficients of all kinds: no term of the loads vanishes or is aligned with another.
+Body lopsided_shape();
+
+/// The lopsided shape in water at density 1200, centre of mass moved by `offset` (m).
+ImmersedBody lopsided_body(const Vector3d& offset = Vector3d::Zero());
+
 /// The rubber ellipsoid in water without any loads.
 ImmersedBody ideal_ellipsoid();
 

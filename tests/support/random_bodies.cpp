@@ -43,6 +43,26 @@ Matrix3d RandomBodies::semidefinite(double scale) {
     }
 }
 
+Matrix3d RandomBodies::symmetric(double scale) {
+    if (uniform(0.0, 1.0) < 0.25) return Matrix3d::Zero();
+    Matrix3d factor;
+    for (double& entry : factor.reshaped()) entry = uniform(-1.0, 1.0);
+    return scale * (factor + factor.transpose());
+}
+
+DynamicCoefficients RandomBodies::coefficients(double size) {
+    const double area = size * size;
+    DynamicCoefficients result;
+    result.transport = symmetric(area * size * magnitude(0.01, 100.0));
+    result.rotational_transport = uniform(-2.0, 2.0);
+    result.drag_in_motion = semidefinite(area * magnitude(0.01, 100.0));
+    result.rotational_drag = semidefinite(area * area * magnitude(0.01, 100.0));
+    result.wake_by_velocity = symmetric(area * area * magnitude(0.01, 100.0));
+    result.wake_by_turning = symmetric(area * area * magnitude(0.01, 100.0));
+    result.half_length = size * magnitude(0.1, 10.0);
+    return result;
+}
+
 LoadTables RandomBodies::tables(double length) {
     LoadTables result;
     result.reference_length = length;
@@ -106,10 +126,7 @@ ImmersedBody RandomBodies::body() {
                               .center_of_pressure = size * vector()};
     }
     ImmersedBody result = make_immersed_body(body, given, water());
-    result.dynamic.force_transport = uniform(-2.0, 2.0);
-    result.dynamic.moment_transport = uniform(-2.0, 2.0);
-    result.dynamic.drag_in_motion = semidefinite(size * size * magnitude(0.01, 100.0));
-    result.dynamic.rotational_drag = semidefinite(size * size * size * size * magnitude(0.01, 100.0));
+    result.dynamic = coefficients(size);
     prepare(result);
     return result;
 }

@@ -11,7 +11,7 @@ namespace samara::test {
 /// densities from a thousandth to a billion times water's, the centre of mass up to two body lengths away,
 /// tables that jump from node to node by up to a hundred times (some with drag against the motion that
 /// interpolation turns into thrust), coefficients, or no loads;
-/// any positive semidefinite dynamic coefficients.
+/// dynamic coefficients of any size and sign, drags positive semidefinite.
 class RandomBodies {
   public:
     explicit RandomBodies(unsigned seed) : generator_(seed) {}
@@ -28,7 +28,11 @@ class RandomBodies {
     /// A A^T of a random matrix, between the condition numbers 1 and about 1e4.
     template <int Size>
     Eigen::Matrix<double, Size, Size> positive_definite();
+    /// Of rank zero, one or three.
     Matrix3d semidefinite(double scale);
+    /// Zero or, as a rule, indefinite.
+    Matrix3d symmetric(double scale);
+    DynamicCoefficients coefficients(double size);
     LoadTables tables(double length);
 
     std::mt19937_64 generator_;

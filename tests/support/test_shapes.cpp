@@ -221,17 +221,21 @@ Body full_body() {
                                   {ErrorSource::interpolation, 0.05, 0.06, 0.07, 0.08}};
     body.tables->left_out = {{"direction_07", "never settled"}};
     DynamicCoefficients dynamic;
-    dynamic.force_transport = 0.7;
-    dynamic.moment_transport = 0.8;
+    dynamic.transport << 0.05, 0.004, -0.003, 0.004, 0.02, 0.001, -0.003, 0.001, -0.006;
+    dynamic.rotational_transport = 0.8;
     dynamic.drag_in_motion << 0.3, 0.01, -0.02, 0.01, 0.2, 0.03, -0.02, 0.03, 0.1;
     dynamic.rotational_drag << 0.003, 0.0, 0.001, 0.0, 0.002, 0.0, 0.001, 0.0, 0.004;
+    dynamic.wake_by_velocity << -0.02, 0.0, 0.0, 0.0, 0.03, 0.0, 0.0, 0.0, 0.0;
+    dynamic.wake_by_turning << 0.001, 0.0005, 0.0, 0.0005, -0.002, 0.0, 0.0, 0.0, 0.003;
     dynamic.half_length = 0.41;
     dynamic.origin = "identified from 3 falls";
     DynamicCoefficients errors;
-    errors.force_transport = 0.05;
-    errors.moment_transport = 0.06;
+    errors.transport = Matrix3d::Constant(0.0004);
+    errors.rotational_transport = 0.06;
     errors.drag_in_motion = Matrix3d::Constant(0.007);
     errors.rotational_drag = Matrix3d::Constant(0.0008);
+    errors.wake_by_velocity = Vector3d(0.001, 0.002, 0.003).asDiagonal();
+    errors.wake_by_turning = Matrix3d::Constant(0.0001);
     body.dynamic = {.values = dynamic, .standard_errors = errors};
     return body;
 }

@@ -22,7 +22,8 @@ Matrix3d read_tensor(const Hdf5Reader& file, const char* name, const char* name_
 /// The numbers that values and standard errors have in common.
 DynamicCoefficients read_numbers(const Hdf5Reader& file, const char* name_end) {
     DynamicCoefficients numbers;
-    numbers.rotational_transport = file.number_attribute(group, fmt::format("rotational_transport{}", name_end));
+    numbers.rotational_transport =
+        file.number_attribute(group, fmt::format("rotational_transport{}", name_end));
     numbers.tow_fading = file.number_attribute(group, fmt::format("tow_fading{}", name_end));
     for (const TensorOfMotion& tensor : tensors_of_motion) {
         numbers.*tensor.member = read_tensor(file, tensor.name, name_end);
@@ -62,6 +63,12 @@ void write_dynamic_coefficients(Hdf5Writer& file, const IdentifiedCoefficients& 
 }
 
 IdentifiedCoefficients read_dynamic_coefficients(const Hdf5Reader& file) {
+    if (file.has_attribute(group, "force_transport")) {
+        throw Error(
+            fmt::format("{}: {} is of an earlier form, which this version does not fly; remove the group "
+                        "to fly with defaults",
+                        file.path().string(), group));
+    }
     IdentifiedCoefficients coefficients{.values = read_numbers(file, ""),
                                         .standard_errors = read_numbers(file, "_error")};
     coefficients.values.half_length = file.number_attribute(group, "half_length");

@@ -24,13 +24,13 @@ struct ImmersedBody {
     double viscosity = 0.0;                      ///< dynamic, Pa s
     Vector3d center_of_mass = Vector3d::Zero();  ///< m, shape axes from the shape's origin
     Vector3d center_of_buoyancy =
-        Vector3d::Zero();                     ///< m, from the centre of mass to the centroid of the volume
+        Vector3d::Zero();  ///< m, from the centre of mass to the centroid of the volume
     Matrix3d own_inertia = Matrix3d::Identity();  ///< of the body alone about the centre of mass (kg m^2)
-    Matrix6d inertia = Matrix6d::Identity();  ///< K = K_body + rho_f K_fluid, order (omega, v)
+    Matrix6d inertia = Matrix6d::Identity();      ///< K = K_body + rho_f K_fluid, order (omega, v)
     Matrix6d to_centroid = Matrix6d::Identity();  ///< X: (omega, v) at the centre of mass -> at the centroid
     Matrix3d added_mass = Matrix3d::Zero();       ///< rho_f M (kg)
-    Matrix3d added_inertia = Matrix3d::Zero();    ///< rho_f K_fluid's block of (omega, omega), about the centroid
-    Matrix3d added_coupling = Matrix3d::Zero();   ///< of (omega, v)
+    Matrix3d added_inertia = Matrix3d::Zero();    ///< rho_f J, K_fluid's block of (omega, omega) (kg m^2)
+    Matrix3d added_coupling = Matrix3d::Zero();   ///< rho_f C, its block of (omega, v) (kg m)
     ContactPoints contact_points;
     double length = 1.0;          ///< L = sqrt(S/pi) (m)
     double reference_area = 0.0;  ///< A = pi L^2/4 (m^2)

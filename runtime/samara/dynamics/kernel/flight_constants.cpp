@@ -120,14 +120,18 @@ Matrix3d directed(const Matrix3d& tensor) {
 
 template <class Real>
 void set_transport(const ImmersedBody& body, double mass, double length, FlightConstants<Real>& c) {
-    const DynamicCoefficients& dynamic = body.dynamic;
-    const Matrix3d transport = body.fluid_density / mass * dynamic.transport;
+    const Matrix3d transport = body.fluid_density / mass * body.dynamic.transport;
     c.isotropic_transport = static_cast<Real>(transport.trace() / 3.0);
     c.directed_transport = square<Real>(directed(transport));
-    const double share = dynamic.rotational_transport / mass;
-    c.turning_transport = dynamic.rotational_transport != 0.0;
-    c.transport_turning = square<Real>(share / (length * length) * body.added_inertia);
-    c.transport_coupling = square<Real>(share / length * body.added_coupling);
+    const double share = body.dynamic.rotational_transport / mass;
+    c.transports_turning = share != 0.0;
+    c.turning_transport = square<Real>(share / (length * length) * body.added_inertia);
+    c.coupling_transport = square<Real>(share / length * body.added_coupling);
+}
+
+template <class Real>
+void set_wake(const ImmersedBody& body, double mass, double length, FlightConstants<Real>& c) {
+    const DynamicCoefficients& dynamic = body.dynamic;
     const double reach = dynamic.half_length / length;
     const double wake = body.fluid_density / (mass * length);
     c.has_wake = !dynamic.wake_by_velocity.isZero(0.0) || !dynamic.wake_by_turning.isZero(0.0);
@@ -146,14 +150,14 @@ void set_loads(const ImmersedBody& body, FlightConstants<Real>& c) {
     c.tow_factor = static_cast<Real>(tow);
     c.reynolds_factor = reynolds_factor<Real>(body);
     c.half_length = static_cast<Real>(dynamic.half_length / length);
-    const Matrix3d drag = half_density * length / mass * dynamic.drag_in_motion;
-    const Matrix3d turning = half_density / (mass * length) * dynamic.rotational_drag;
-    c.drag_in_motion = square<Real>(drag);
+    c.drag_in_motion = square<Real>(half_density * length / mass * dynamic.drag_in_motion);
     c.drag_in_spin = square<Real>(half_density * length / mass * dynamic.drag_in_spin);
-    c.rotational_drag = square<Real>(turning);
-    c.rotational_drag_in_spin = square<Real>(half_density / (mass * length) * dynamic.rotational_drag_in_spin);
+    c.rotational_drag = square<Real>(half_density / (mass * length) * dynamic.rotational_drag);
+    c.rotational_drag_in_spin =
+        square<Real>(half_density / (mass * length) * dynamic.rotational_drag_in_spin);
     c.tow_fading = static_cast<Real>(dynamic.tow_fading);
     set_transport(body, mass, length, c);
+    set_wake(body, mass, length, c);
     const double creeping = std::numbers::pi * body.viscosity * body.length / mass;
     const double ratio = body.length / length;
     c.creeping_turn = static_cast<Real>(creeping * ratio * ratio);

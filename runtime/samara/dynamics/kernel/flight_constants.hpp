@@ -42,9 +42,9 @@ struct FlightConstants {
     Square<Real> directed_inertia{};    ///< of (v, v), over m*, less the unit matrix: its trace is zero
     Triple<Real> inverse_turning{};     ///< one over the diagonals, for the drag's stiffness
     Triple<Real> inverse_moving{};
-    Real weight = 0;                     ///< (m - rho_f V) / (m* l): times gravity the force
-    Triple<Real> weight_moment{};        ///< m r / (m* l^2), r from the centroid to the centre of mass
-    Real munk_rate = 0;  ///< times the speed: the rate at which the Munk moment turns the body
+    Real weight = 0;               ///< (m - rho_f V) / (m* l): times gravity the force
+    Triple<Real> weight_moment{};  ///< m r / (m* l^2), r from the centroid to the centre of mass
+    Real munk_rate = 0;            ///< times the speed: the rate at which the Munk moment turns the body
 
     Loads loads = Loads::none;
     Real tow_factor = 0;                      ///< rho_f A l / (2 m*)
@@ -59,20 +59,20 @@ struct FlightConstants {
     Square<Real> potential_transport{};  ///< rho_f (M - T) / m* over tow_factor, less its isotropic part
     Square<Real> directed_transport{};   ///< rho_f T / m* less its isotropic part
     Real isotropic_transport = 0;        ///< a third of the trace of rho_f T / m*
-    bool turning_transport = false;      ///< whether the next two are not zero
-    Square<Real> transport_turning{};    ///< t rho_f K_fluid's block of (omega, omega), over m* l^2
-    Square<Real> transport_coupling{};   ///< of (omega, v), over m* l
+    bool transports_turning = false;     ///< whether the next two are not zero
+    Square<Real> turning_transport{};    ///< t rho_f J / (m* l^2)
+    Square<Real> coupling_transport{};   ///< t rho_f C / (m* l)
     bool has_wake = false;               ///< whether the next two are not zero
     Square<Real> wake_by_velocity{};     ///< rho_f N_v / (m* l)
     Square<Real> wake_by_turning{};      ///< rho_f c^2 N_w / (m* l^3)
-    Square<Real> drag_in_motion{};   ///< rho_f l C_m A / (2 m*)
-    Square<Real> drag_in_spin{};     ///< rho_f l C_s A / (2 m*)
-    Square<Real> rotational_drag{};  ///< rho_f C_w D / (2 m* l)
+    Square<Real> drag_in_motion{};       ///< rho_f l C_m A / (2 m*)
+    Square<Real> drag_in_spin{};         ///< rho_f l C_s A / (2 m*)
+    Square<Real> rotational_drag{};      ///< rho_f C_w D / (2 m* l)
     Square<Real> rotational_drag_in_spin{};  ///< rho_f C_r D / (2 m* l)
-    Real tow_fading = 0;
-    Real half_length = 0;            ///< c / l
-    Real creeping_turn = 0;          ///< pi mu L^3 / (m* l^2) (1/s)
-    Real creeping_drag = 0;          ///< 3 pi mu L / m* (1/s)
+    Real tow_fading = 0;                 ///< f
+    Real half_length = 0;                ///< c / l
+    Real creeping_turn = 0;              ///< pi mu L^3 / (m* l^2) (1/s)
+    Real creeping_drag = 0;              ///< 3 pi mu L / m* (1/s)
 
     Turbulence turbulence = Turbulence::none;
     Langevin langevin = Langevin::seen_fluid;

@@ -71,7 +71,7 @@ template <class V, class Real>
 HWY_INLINE PressurePoint<V> pressure_point(const FlightConstants<Real>& c, const Heading<V>& heading,
                                            V share) {
     const TowCoefficients<V> tow = tow_coefficients<true>(c, heading);
-    // In a steady tow the transport below leaves this part of the Kirchhoff moment that the equations' left side holds.
+    // What transport leaves, in a steady tow, of the Kirchhoff moment on the equations' left side.
     const Triple<V> kirchhoff =
         cross(broadcast<V>(c.potential_transport) * heading.direction, heading.direction);
     const Triple<V> moment = tow.moment - kirchhoff;
@@ -105,58 +105,80 @@ HWY_INLINE LoadBlocks<V> moved_by_arm(const TowMatrix<V>& tow, const Triple<V>& 
             scaling_and_cross(tow.drag, tow.side)};
 }
 
+/// Adds the part of the tow's moment that no arm gives. What it does on a turning body it takes from its
+/// path, as wind does that turns a mill: workless.
+template <class V>
+HWY_INLINE void add_windmill(const Triple<V>& moment_along_force, const Triple<V>& velocity,
+                             LoadBlocks<V>& blocks) {
+    const Square<V> windmill = outer(moment_along_force, velocity);
+    blocks.moment_by_velocity = blocks.moment_by_velocity - windmill;
+    blocks.force_by_turning = blocks.force_by_turning + transposed(windmill);
+}
+
+/// Adds force omega x p and moment v x p + omega x l of the momenta (l, p) that separated flow lacks:
+/// workless.
+template <class V, class Real>
+HWY_INLINE void add_transport(const FlightConstants<Real>& c, const Triple<V>& omega,
+                              const Triple<V>& velocity, LoadBlocks<V>& blocks) {
+    // The isotropic part of T acts as a force alone: its moment v x v is none, and must not be made where D
+    // acts on another v than the one it was made with.
+    blocks.force_by_velocity = plus_cross(blocks.force_by_velocity, -V(c.isotropic_transport) * omega);
+    Triple<V> momentum = broadcast<V>(c.directed_transport) * velocity;
+    if (c.transports_turning) {
+        const Square<V> coupling = broadcast<V>(c.coupling_transport);
+        momentum = momentum + transposed_times(coupling, omega);
+        const Triple<V> angular_momentum = broadcast<V>(c.turning_transport) * omega + coupling * velocity;
+        blocks.moment_by_turning = plus_cross(blocks.moment_by_turning, angular_momentum);
+    }
+    blocks.moment_by_velocity = plus_cross(blocks.moment_by_velocity, momentum);
+    blocks.force_by_turning = plus_cross(blocks.force_by_turning, momentum);
+}
+
+/// Adds omega x the wake's angular momentum: workless.
+template <class V, class Real>
+HWY_INLINE void add_wake(const FlightConstants<Real>& c, const Triple<V>& omega, const Triple<V>& velocity,
+                         V combined, LoadBlocks<V>& blocks) {
+    const Triple<V> by_velocity = cross(velocity, broadcast<V>(c.wake_by_velocity) * velocity);
+    const Triple<V> by_turning = cross(omega, broadcast<V>(c.wake_by_turning) * omega);
+    const V inverse = V(1.0) / larger(V(tiny<V>), combined);
+    blocks.moment_by_turning = plus_cross(blocks.moment_by_turning, inverse * (by_velocity + by_turning));
+}
+
+/// a / (a + b), and 0 where both are none.
+template <class V>
+HWY_INLINE V share_of(V a, V b) {
+    return a / larger(V(tiny<V>), a + b);
+}
+
 /// D at a velocity of the centroid relative to the fluid.
 template <class V, class Real>
 HWY_INLINE LoadBlocks<V> load_blocks(const FlightConstants<Real>& c, const Triple<V>& omega,
                                      const Triple<V>& velocity) {
     const V zero(0.0);
-    const V one(1.0);
     const Heading<V> heading = heading_of(velocity);
-    const V tip_speed = V(c.half_length) * root(dot(omega, omega));
-    const V combined = root(heading.speed * heading.speed + tip_speed * tip_speed);
-    const V speed_square = heading.speed * heading.speed;
-    const V tip_square = tip_speed * tip_speed;
+    const V speed_square = dot(velocity, velocity);
+    const V tip_square = V(c.half_length * c.half_length) * dot(omega, omega);
+    const V combined = root(speed_square + tip_square);
 
-    // The tow's moment stays until the body does nothing but turn: a steady tow keeps it whole.
-    const V share = speed_square / larger(V(tiny<V>), speed_square + V(c.tow_fading) * tip_square);
-    const PressurePoint<V> point = pressure_point(c, heading, share);
+    // The tow's moment stays until the body does little but turn: a steady tow keeps it whole.
+    const PressurePoint<V> point = pressure_point(c, heading, share_of(speed_square, V(c.tow_fading) * tip_square));
     LoadBlocks<V> blocks = moved_by_arm(tow_matrix(c, velocity + cross(omega, point.arm)), point.arm);
+    add_windmill(point.moment_along_force, velocity, blocks);
+    add_transport(c, omega, velocity, blocks);
+    if (c.has_wake) add_wake(c, omega, velocity, combined, blocks);
 
-    // What a turning body gains along the force it loses along its path, as a windmill does: workless.
-    const Square<V> windmill = outer(point.moment_along_force, velocity);
-    // (omega x P, v x P), with the momentum P: workless.
-    // The isotropic part of T acts as a force alone: its moment v x v is none, and must not be made where D
-    // acts on another v than the one it was made with.
-    blocks.force_by_velocity = plus_cross(blocks.force_by_velocity, -V(c.isotropic_transport) * omega);
-    Triple<V> momentum = broadcast<V>(c.directed_transport) * velocity;
-    if (c.turning_transport) {
-        const Square<V> coupling = broadcast<V>(c.transport_coupling);
-        momentum = momentum + transposed_times(coupling, omega);
-        blocks.moment_by_turning =
-            plus_cross(blocks.moment_by_turning,
-                       broadcast<V>(c.transport_turning) * omega + coupling * velocity);
-    }
-    const V inverse = one / larger(V(tiny<V>), combined);
-    if (c.has_wake) {
-        blocks.moment_by_turning = plus_cross(
-            blocks.moment_by_turning, inverse * (cross(velocity, broadcast<V>(c.wake_by_velocity) * velocity) +
-                                                 cross(omega, broadcast<V>(c.wake_by_turning) * omega)));
-    }
-    blocks.moment_by_velocity = plus_cross(blocks.moment_by_velocity - windmill, momentum);
-    blocks.force_by_turning = plus_cross(blocks.force_by_turning + transposed(windmill), momentum);
-
-    const V spin_share = tip_square * inverse;
-    const V drag_share =
-        combined * (tip_square / larger(V(tiny<V>), V(motion_onset) * speed_square + tip_square));
-    const V below = larger(zero, one - V(c.reynolds_factor) * heading.speed * V(c.lowest_reynolds_inverse));
+    const V in_spin = tip_square / larger(V(tiny<V>), combined);
+    blocks.moment_by_turning = plus_diagonal(blocks.moment_by_turning +
+                                                 combined * broadcast<V>(c.rotational_drag) +
+                                                 in_spin * broadcast<V>(c.rotational_drag_in_spin),
+                                             V(c.creeping_turn));
+    const V in_motion = combined * share_of(tip_square, V(motion_onset) * speed_square);
+    const V below =
+        larger(zero, V(1.0) - V(c.reynolds_factor) * heading.speed * V(c.lowest_reynolds_inverse));
     const V creeping_drag = select(zero < V(c.lowest_reynolds_inverse), V(c.creeping_drag) * below, zero);
-    blocks.moment_by_turning = plus_diagonal(
-        blocks.moment_by_turning + combined * broadcast<V>(c.rotational_drag) +
-            spin_share * broadcast<V>(c.rotational_drag_in_spin),
-        V(c.creeping_turn));
     blocks.force_by_velocity =
-        plus_diagonal(blocks.force_by_velocity + drag_share * broadcast<V>(c.drag_in_motion) +
-                          spin_share * broadcast<V>(c.drag_in_spin),
+        plus_diagonal(blocks.force_by_velocity + in_motion * broadcast<V>(c.drag_in_motion) +
+                          in_spin * broadcast<V>(c.drag_in_spin),
                       creeping_drag);
     return blocks;
 }
