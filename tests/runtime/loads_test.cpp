@@ -1,5 +1,6 @@
 #include "samara/dynamics/loads.hpp"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -69,20 +70,20 @@ TEST(TableLoads, AreHeldAboveTheTableAndTendToStokesBelowIt) {
 
 TEST(Loads, NeverMakeEnergyInStillFluid) {
     const ImmersedBody table = test::blunt_ellipsoid();
-    const ImmersedBody lopsided = test::lopsided_body();
     ImmersedBody coefficients = table;
     coefficients.loads = Loads::coefficients;
     coefficients.coefficients.lift_coefficient = 3.0;
     coefficients.coefficients.reference_area = 1e-3;
     coefficients.coefficients.center_of_pressure = Vector3d(0.01, 0.02, -0.01);
     prepare(coefficients);
+    const std::array bodies = {table, test::lopsided_body(), coefficients};
     std::mt19937 generator(2);
     for (int i = 0; i < 2000; ++i) {
         Vector6d motion;
         const double rate = std::pow(10.0, i % 7 - 3);
         motion << rate * random_vector(generator), 0.2 * random_vector(generator);
-        for (const ImmersedBody* body : {&table, &lopsided, &coefficients}) {
-            const Matrix6d matrix = load_matrix(*body, motion);
+        for (const ImmersedBody& body : bodies) {
+            const Matrix6d matrix = load_matrix(body, motion);
             const Matrix6d symmetric = 0.5 * (matrix + matrix.transpose());
             const Vector6d eigenvalues = Eigen::SelfAdjointEigenSolver<Matrix6d>(symmetric).eigenvalues();
             EXPECT_GE(eigenvalues.minCoeff(), -1e-13 * eigenvalues.maxCoeff());
