@@ -133,11 +133,13 @@ bool is_settled(const fs::path& folder, const Job& entry) {
     };
     const Job& first = **std::ranges::min_element(failed, std::less<>(), rank);
     if (!fs::exists(folder / first.mesh / mesh_record)) throw Error(fault_of(folder, first.mesh));
+    if (jobs.size() == 1) throw Error(fault_of(folder, first.name));
     throw Error(fmt::format("{} ({} of {} cases failed; the solved ones are kept for the next run)",
                             fault_of(folder, first.name), failed.size(), jobs.size()));
 }
 
-// The iteration or time at which the last line of the last round's history of forces stands; 0 where there is none.
+// The iteration or time at which the last line of the last round's history of forces stands; 0 where there is
+// none.
 double last_iteration(const fs::path& case_folder) {
     double last_round = -1.0;
     fs::path history;
@@ -184,7 +186,10 @@ bool waits_for_failed_start(const fs::path& folder, const BakePlan& plan) {
 void run_snakemake(const fs::path& folder, const BakePlan& plan, const FarmOptions& options,
                    const fs::path& templates) {
     const std::vector<Job> to_solve = unsettled(folder, plan);
-    Progress progress("baking", "cases");
+    const bool counts_steps = plan.cases.empty() && plan.falls.size() == 1;
+    const double all = counts_steps ? plan.falls.front().duration / plan.falls.front().time_step
+                                    : static_cast<double>(to_solve.size());
+    Progress progress(options.work, counts_steps ? "steps" : "cases");
     const auto tick = [&, last = std::chrono::steady_clock::time_point()]() mutable {
         const auto now = std::chrono::steady_clock::now();
         if (now - last < std::chrono::seconds(1)) return;
@@ -195,8 +200,7 @@ void run_snakemake(const fs::path& folder, const BakePlan& plan, const FarmOptio
             done += entry.seconds * solved_share(folder / entry.name, entry.end);
             total += entry.seconds;
         }
-        const auto cases = static_cast<double>(to_solve.size());
-        progress.update(cases * done / total, cases);
+        progress.update(all * done / total, all);
     };
     std::vector<std::string> words = {"snakemake",
                                       "--snakefile",
@@ -218,6 +222,11 @@ void run_snakemake(const fs::path& folder, const BakePlan& plan, const FarmOptio
     const auto status = run_guarded(words, folder / "log.snakemake", fs::current_path(), tick);
     end_earlier_jobs(folder);
     if (status) return;
+    if (jobs_of(plan).size() == 1) {
+        throw Error(
+            fmt::format("interrupted: what is solved is kept in {}; the same command goes on from there",
+                        folder.string()));
+    }
     throw Error(fmt::format(
         "interrupted: {} of {} cases are solved and kept in {}; the same command goes on from there",
         count_solved(folder, plan), jobs_of(plan).size(), folder.string()));
@@ -249,7 +258,8 @@ void require_solvers(const FarmOptions& options, int ranks) {
     };
     std::vector<Need> needs = {{"snakemake", "snakemake"}, {"python3", "python3"}};
     if (options.cluster.empty()) {
-        needs.insert(needs.begin(), {{"simpleFoam", "openfoam"}, {"pimpleFoam", "openfoam"}, {"snappyHexMesh", "openfoam"}});
+        needs.insert(needs.begin(),
+                     {{"simpleFoam", "openfoam"}, {"pimpleFoam", "openfoam"}, {"snappyHexMesh", "openfoam"}});
         if (ranks > 1) needs.push_back({"mpirun", "openmpi-bin"});
     } else {
         needs.insert(needs.end(), {{"squeue", "slurm-client"}, {"scancel", "slurm-client"}});
@@ -262,8 +272,8 @@ void require_solvers(const FarmOptions& options, int ranks) {
         if (packages.find(need.package) == std::string::npos) packages += fmt::format(" {}", need.package);
     }
     if (missing.empty()) return;
-    throw Error(fmt::format("baking needs programs that are not on PATH: {}; on Debian: apt install{}",
-                            missing, packages));
+    throw Error(fmt::format("{} needs programs that are not on PATH: {}; on Debian: apt install{}",
+                            options.work, missing, packages));
 }
 
 std::vector<LeftOutCase> solve_cases(const fs::path& folder, const BakePlan& plan, const FarmOptions& options,
