@@ -27,9 +27,12 @@ struct FreeFall {
     /// Of the inertia about the centre of mass: columns, and the moments along them over rho L^5.
     Matrix3d principal_axes = Matrix3d::Identity();
     Vector3d principal_moments = Vector3d::Zero();
-    Vector3d gravity = Vector3d::Zero();           ///< over U^2/L
-    Vector3d velocity = Vector3d::Zero();          ///< of the centre of mass at the start, over U
-    Vector3d angular_velocity = Vector3d::Zero();  ///< at the start, over U/L
+    Vector3d gravity = Vector3d::Zero();  ///< over U^2/L
+    /// Of the centre of mass, over U, and over U/L: in the first instant, while the fluid is at rest and the
+    /// body has the momenta of both. The fluid takes its share in the first steps, which leaves the body at
+    /// the speed it is to have.
+    Vector3d velocity = Vector3d::Zero();
+    Vector3d angular_velocity = Vector3d::Zero();
 
     double duration = 0.0;                 ///< over L/U
     double time_step = 0.0;                ///< over L/U

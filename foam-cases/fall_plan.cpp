@@ -89,8 +89,9 @@ FreeFall plan_fall(const Body& body, const ImmersedBody& immersed, const BodySta
                      (immersed.fluid_density * volume_unit * length * length),
                  fall);
     fall.gravity = to_case * to_body * gravity * time_unit / speed;
-    fall.velocity = to_case * start.velocity.tail<3>() / speed;
-    fall.angular_velocity = to_case * start.velocity.head<3>() * time_unit;
+    const Vector6d momentum = immersed.inertia * start.velocity;
+    fall.velocity = to_case * momentum.tail<3>() / immersed.mass / speed;
+    fall.angular_velocity = to_case * immersed.own_inertia.ldlt().solve(momentum.head<3>()) * time_unit;
     fall.duration = duration / time_unit;
     fall.time_step = fall_time_step;
     fall.acceleration_relaxation =
