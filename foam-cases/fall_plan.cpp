@@ -1,7 +1,9 @@
 #include "foam-cases/fall_plan.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Eigenvalues>
 
@@ -28,17 +30,41 @@ constexpr double negligible_arm = 1e-9;
 // cells.
 constexpr double seconds_per_cell_and_step = 2.7e-6;
 
-// In case axes, right-handed; those of the case themselves where the inertia has no others.
+// The same axes in the order and with the signs that turn them least from the case's: right-handed. The
+// solver writes where the body is as angles about x, y and z, which tell nothing where its axes start a
+// quarter turn off about y.
+Matrix3d least_turned(const Matrix3d& axes) {
+    Matrix3d best = axes;
+    double best_trace = -std::numeric_limits<double>::infinity();
+    std::array<int, 3> order = {0, 1, 2};
+    do {
+        Matrix3d candidate;
+        for (int i = 0; i < 3; ++i) {
+            const Vector3d axis = axes.col(order[static_cast<std::size_t>(i)]);
+            candidate.col(i) = axis[i] < 0.0 ? Vector3d(-axis) : axis;
+        }
+        if (candidate.determinant() < 0.0) {
+            int smallest = 0;
+            candidate.diagonal().minCoeff(&smallest);
+            candidate.col(smallest) *= -1.0;
+        }
+        if (candidate.trace() > best_trace) {
+            best = candidate;
+            best_trace = candidate.trace();
+        }
+    } while (std::ranges::next_permutation(order).found);
+    return best;
+}
+
+// In case axes; those of the case themselves where the inertia has no others.
 void take_inertia(const Matrix3d& inertia, FreeFall& fall) {
     const Vector3d moments = inertia.diagonal();
     if ((inertia - Matrix3d(moments.asDiagonal())).norm() <= 1e-9 * inertia.norm()) {
         fall.principal_moments = moments;
         return;
     }
-    const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(inertia);
-    fall.principal_axes = solver.eigenvectors();
-    if (fall.principal_axes.determinant() < 0.0) fall.principal_axes.col(0) *= -1.0;
-    fall.principal_moments = solver.eigenvalues();
+    fall.principal_axes = least_turned(Eigen::SelfAdjointEigenSolver<Matrix3d>(inertia).eigenvectors());
+    fall.principal_moments = (fall.principal_axes.transpose() * inertia * fall.principal_axes).diagonal();
 }
 
 }  // namespace
@@ -62,8 +88,10 @@ double fall_speed(const Body& body, const ImmersedBody& immersed, const BodyStat
     }
     const double arm = immersed.center_of_buoyancy.norm();
     if (arm <= negligible_arm * immersed.length) return speed;
-    // The fastest of small swings under the torque of buoyancy, with the inertia that opposes it least.
-    const Matrix3d mobility = immersed.inverse_inertia.topLeftCorner<3, 3>();
+    // The fastest of small swings: buoyancy turns the body about axes across its arm.
+    const Vector3d along = immersed.center_of_buoyancy / arm;
+    const Matrix3d across = Matrix3d::Identity() - along * along.transpose();
+    const Matrix3d mobility = across * immersed.inverse_inertia.topLeftCorner<3, 3>() * across;
     const double largest = Eigen::SelfAdjointEigenSolver<Matrix3d>(mobility).eigenvalues().maxCoeff();
     return std::max(speed, immersed.length * std::sqrt(buoyant_mass * gravity * arm * largest));
 }
