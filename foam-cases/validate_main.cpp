@@ -50,7 +50,7 @@ void warn_of_doubts(const ValidationResult& result) {
     };
     const FallBalance& balance = result.balance;
     const FallSolution& solution = result.solution;
-    if (balance.force > doubtful_imbalance || balance.moment > doubtful_imbalance) {
+    if (balance.force > doubtful_balance.force || balance.moment > doubtful_balance.moment) {
         note(fmt::format(
             "the momenta do not balance the loads (force {:.0f} %, moment {:.0f} %): the fall is doubtful; "
             "halve its step with --step",

@@ -143,6 +143,17 @@ TEST_F(Falls, ASphereTakesHalfItsDisplacedMassAlongAndEndsAtItsTerminalSpeed) {
     EXPECT_THAT(motion.bodies.front().models, HasSubstr("full CFD"));
 }
 
+// The fluid is at rest in the first instant, and takes its share of the momentum that the body is given.
+TEST_F(Falls, ASphereThatStartsWithAVelocityKeepsItOnceTheFluidMoves) {
+    write_scene("duration = 0.08\ngravity = [0, 0, 0]", "sphere", "density = 1200\nvelocity = [0, 0.1, 0]");
+    ASSERT_TRUE(solved().is_object());
+    const FallRecord record = read_fall_record(fall_);
+    EXPECT_NEAR(record.fall.velocity.y(), (1.2 + 0.5) / 1.2, 0.01);
+    const FallSample& late = record.samples.at(9);
+    EXPECT_NEAR(late.velocity.y(), 1.0, 0.05);
+    EXPECT_LT(std::hypot(late.velocity.x(), late.velocity.z()), 0.01);
+}
+
 // A floating body whose centre of mass is 8 mm below its centroid: omega^2 = rho V g r (K^-1)_xx, where the
 // inverse of the inertia of body and fluid lets it swing about whatever point it will.
 TEST_F(Falls, ABodyHungOffItsCentroidSwingsAsTheInertiaOfBodyAndFluidSays) {
