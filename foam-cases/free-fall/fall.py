@@ -19,7 +19,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
 
 from case_files import (Failure, Fault, breakdown, cpu_seconds, hash_of_inputs, numbers, parameter, read, read_record,
                         write_entries, write_json)
@@ -145,25 +144,31 @@ class Fall:
             self.go_on()
 
     def go_on(self, before=math.inf):
-        """Keeps the last state before a time that is whole, since the solver had gone on after it."""
+        """Removes the states from a time on, and those that may not be whole, since the solver did not go on after
+        them; and what had followed the last one that is left, or the start."""
         reached = last_state()
         bound = min(before, reached[0] if reached else 0.0)
-        times = sorted(time_folders())
-        whole = [time for time in times if time < bound]
-        for time in times:
-            if time not in whole[-1:]:
-                shutil.rmtree(time_folders()[time])
+        states = time_folders()
+        last = max([time for time in states if time < bound], default=0.0)
+        for time, name in states.items():
+            if time > last:
+                shutil.rmtree(name)
         for path in glob.glob("postProcessing/*/*"):
-            if float(os.path.basename(path)) >= (whole[-1] if whole else 0.0):
+            if float(os.path.basename(path)) >= last:
                 shutil.rmtree(path)
-        if whole:
-            self.attempt["went_on_from"] = self.attempt.get("went_on_from", []) + [whole[-1]]
+        if last > 0.0:
+            self.attempt["went_on_from"] = self.attempt.get("went_on_from", []) + [last]
             write_json("attempts.json", self.state)
 
     def watch(self, solver):
         start_speed = math.hypot(*own("startVelocity"))
-        while solver.poll() is None:
-            time.sleep(SECONDS_BETWEEN_LOOKS)
+        ended = False
+        while not ended:
+            try:
+                solver.wait(SECONDS_BETWEEN_LOOKS)
+                ended = True
+            except subprocess.TimeoutExpired:
+                pass
             reached = last_state()
             fault = reached and blow_up(reached[1], start_speed)
             if fault:
