@@ -182,7 +182,7 @@ TEST_F(Falls, ABodyHungOffItsCentroidSwingsAsTheInertiaOfBodyAndFluidSays) {
                                                  scene_body, scene.fluid);
     const double torque = 1000.0 * body.volume * 9.81 * 0.008;
     const double exact = 2.0 * std::numbers::pi / std::sqrt(torque * body.inverse_inertia(0, 0));
-    EXPECT_NEAR(period, exact, 0.04 * exact);
+    EXPECT_NEAR(period, exact, 0.015 * exact);
     EXPECT_LT(json["balance"]["moment"].get<double>(), 0.03);
 }
 
