@@ -76,6 +76,7 @@ void solve_and_convert(const BakeRequest& request, const Body& body, const FarmO
     const fs::path folder = case_folder_of(request.output);
     const fs::path templates = foam_cases_folder();
     const FolderLock lock(folder);
+    require_cases_of(CaseKind::bake, folder);
     Stopwatch watch;
     const BakePlan& plan = *result.preparation.plan;
     end_earlier_jobs(folder);
