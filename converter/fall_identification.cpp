@@ -211,12 +211,19 @@ std::string origin_of(const std::vector<FallRecord>& falls, double error) {
 
 }  // namespace
 
-Identification identify_motion(const Body& body, const std::vector<FallRecord>& records, int threads,
+FlownFall fly_fall(const Body& body, const FallRecord& record) {
+    const ReadyFall fall = ready(body, record);
+    return fly_whole(body, fall, fall.body.dynamic);
+}
+
+Identification identify_motion(const Body& body, const std::vector<FallRecord>& records,
+                               const std::vector<std::string>& without,
                                const std::function<void(double)>& progress) {
+    constexpr int threads = 0;
     std::vector<ReadyFall> falls;
     for (const FallRecord& record : records) falls.push_back(ready(body, record));
     const std::vector<Segment> segments = segments_of(falls);
-    const MotionParameters parameters(body);
+    const MotionParameters parameters(body, without);
     const LeastSquaresSolution solution =
         solve_least_squares(problem_of(falls, segments, parameters, threads));
     if (progress) progress(1.0 / (2.0 + stretches));

@@ -35,7 +35,12 @@ struct Identification {
 /// not say (motion_parameters.hpp), and positive where the loads would else make energy. Their standard errors come
 /// from leaving out one of six stretches of the falls at a time (jackknife). `body` must have its Kirchhoff tensor and
 /// its tables. Throws Error where a fall is of another body or too short.
-Identification identify_motion(const Body& body, const std::vector<FallRecord>& falls, int threads = 0,
+/// `without`: terms to leave out (motion_parameters.hpp), to see what they do. `progress` is told the share done.
+Identification identify_motion(const Body& body, const std::vector<FallRecord>& falls,
+                               const std::vector<std::string>& without = {},
                                const std::function<void(double)>& progress = {});
+
+/// The figures of a body with its coefficients on a solved fall, whether or not they are from it.
+FlownFall fly_fall(const Body& body, const FallRecord& record);
 
 }  // namespace samara
