@@ -11,24 +11,12 @@
 namespace samara {
 namespace {
 
-/// The reason in the failed.json of a case or mesh; nothing where there is none.
-std::optional<std::string> reason_in(const std::filesystem::path& folder) {
-    const std::filesystem::path file = folder / "failed.json";
-    if (!std::filesystem::exists(file)) return std::nullopt;
-    try {
-        return nlohmann::json::parse(read_bytes(file)).at("reason").get<std::string>();
-    } catch (const nlohmann::json::exception& reason) {
-        throw Error(fmt::format("{}: has no text 'reason' ({}); remove it and run 'samara bake' again",
-                                file.string(), reason.what()));
-    }
-}
-
 /// Why the case has failed, by itself or for want of its mesh; nothing where it has not, or was solved after
 /// all.
 std::optional<std::string> failure_of(const std::filesystem::path& folder, const PlannedCase& planned) {
     if (is_solved(folder / planned.name)) return std::nullopt;
-    if (std::optional<std::string> reason = reason_in(folder / planned.name)) return reason;
-    const std::optional<std::string> reason = reason_in(folder / planned.mesh);
+    if (std::optional<std::string> reason = failure_reason(folder / planned.name)) return reason;
+    const std::optional<std::string> reason = failure_reason(folder / planned.mesh);
     if (!reason) return std::nullopt;
     return fmt::format("its mesh {} could not be made: {}", planned.mesh, *reason);
 }
@@ -42,6 +30,17 @@ Error not_solved(const std::filesystem::path& folder, const CasePlan& plan,
 }
 
 }  // namespace
+
+std::optional<std::string> failure_reason(const std::filesystem::path& folder) {
+    const std::filesystem::path file = folder / "failed.json";
+    if (!std::filesystem::exists(file)) return std::nullopt;
+    try {
+        return nlohmann::json::parse(read_bytes(file)).at("reason").get<std::string>();
+    } catch (const nlohmann::json::exception& reason) {
+        throw Error(fmt::format("{}: has no text 'reason' ({}); remove it and run 'samara bake' again",
+                                file.string(), reason.what()));
+    }
+}
 
 FolderReduction reduce_folder(const std::filesystem::path& folder, const CasePlan& plan,
                               const std::function<void(std::size_t, std::size_t)>& progress,

@@ -2,6 +2,8 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
+#include <string>
 #include <string>
 #include <vector>
 
@@ -26,5 +28,9 @@ enum class UnsolvedCases { refuse, leave_out };
 FolderReduction reduce_folder(const std::filesystem::path& folder, const CasePlan& plan,
                               const std::function<void(std::size_t done, std::size_t total)>& progress = {},
                               UnsolvedCases unsolved = UnsolvedCases::refuse);
+
+/// Why the case, mesh or fall in a folder failed, by its failed.json; nothing where it did not. Throws Error where that
+/// file is damaged.
+std::optional<std::string> failure_reason(const std::filesystem::path& folder);
 
 }  // namespace samara

@@ -87,6 +87,9 @@ CasePlan as_plan(const nlohmann::json& values, const std::filesystem::path& fold
     plan.case_axes = values.contains("case_axes") ? as_matrix(values["case_axes"]) : plan.axes;
     const CaseScales scales = as_scales(values, {});
     for (const nlohmann::json& entry : values.at("cases")) plan.cases.push_back(as_case(entry, plan, scales));
+    if (values.contains("falls")) {
+        for (const nlohmann::json& entry : values["falls"]) plan.falls.push_back(entry.at("name").get<std::string>());
+    }
     return plan;
 }
 

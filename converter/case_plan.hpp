@@ -51,6 +51,7 @@ struct CasePlan {
     Matrix3d case_axes;  ///< columns: the axes of the cases in body axes; those of the map for `samara bake`
     bool solved_by_user = false;  ///< the cases need no provenance.json to count as solved
     std::vector<PlannedCase> cases;
+    std::vector<std::string> falls;  ///< the folders of free falls, beside those of the cases
 
     /// Turns vectors in case axes into map axes.
     [[nodiscard]] Matrix3d to_map_axes() const { return axes.transpose() * case_axes; }

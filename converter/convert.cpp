@@ -51,6 +51,25 @@ LoadTables make_tables(const CasePlan& plan, const Symmetry& symmetry, std::vect
     return tables;
 }
 
+// Falls that are not solved are left out, with the cases.
+void identify(const std::filesystem::path& folder, const CasePlan& plan, Conversion& conversion) {
+    std::vector<FallRecord> records;
+    for (const std::string& name : plan.falls) {
+        if (is_solved(folder / name)) {
+            records.push_back(read_fall_record(folder / name));
+        } else if (const auto reason = failure_reason(folder / name)) {
+            conversion.body.tables->left_out.push_back({name, *reason});
+        } else {
+            throw Error(fmt::format("{}: the fall {} is not solved; run 'samara bake' again, which goes on where it "
+                                    "stopped",
+                                    folder.string(), name));
+        }
+    }
+    if (records.empty()) return;
+    conversion.identification = identify_motion(conversion.body, records);
+    conversion.body.dynamic = conversion.identification->coefficients;
+}
+
 }  // namespace
 
 Conversion convert_folder(const std::filesystem::path& folder,
@@ -69,6 +88,7 @@ Conversion convert_folder(const std::filesystem::path& folder,
             fmt::format("{}: {}; run 'samara bake' again", (folder / "plan.json").string(), fault.what()));
     }
     conversion.body.tables->left_out = std::move(reduction.left_out);
+    identify(folder, plan, conversion);
     return conversion;
 }
 

@@ -2,9 +2,11 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "converter/case_reduction.hpp"
+#include "converter/fall_identification.hpp"
 #include "samara/body/body.hpp"
 
 namespace samara {
@@ -14,6 +16,7 @@ struct Conversion {
     Body body;                      ///< body.body.h5 of the folder with its tables filled
     std::vector<SolvedCase> cases;  ///< in the plan's order, case axes, as they stand in the tables: without
                                     ///< what the symmetry forbids, errors widened by it
+    std::optional<Identification> identification;  ///< of the dynamic coefficients, where falls are solved
 };
 
 /// Reads a folder of cases that `samara bake` made and solved (docs/file-formats), reduces every case and

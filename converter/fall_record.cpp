@@ -25,6 +25,12 @@ Matrix3d turn_of(const Vector3d& angles) {
         .toRotationMatrix();
 }
 
+// Over L/U: the jolt of a body let go in fluid at rest has died away by then.
+constexpr double longest_jolt = 0.5;
+// Over L: with less than this as arm, a force turns no body that matters; what is smaller is noise of the
+// pressure, as the moment on a sphere.
+constexpr double least_arm = 0.01;
+
 // The rate of change of a vector between the samples beside sample i.
 template <typename Quantity>
 Vector3d rate(const std::vector<FallSample>& samples, std::size_t i, Quantity quantity) {
@@ -66,32 +72,43 @@ FallRecord read_fall_record(const std::filesystem::path& folder) {
 FallBalance balance_of(const FallRecord& record) {
     const FreeFall& fall = record.fall;
     const std::vector<FallSample>& samples = record.samples;
+    if (samples.size() < 3) return {};
+    const Matrix3d inertia = fall.inertia();
+    const auto spin = [&](const FallSample& sample) -> Vector3d {
+        return sample.turn * (inertia * (sample.turn.transpose() * sample.angular_velocity));
+    };
+    const auto velocity = [](const FallSample& sample) -> Vector3d { return sample.velocity; };
+    const Vector3d weight = (fall.mass - fall.volume) * fall.gravity;
+    const double settled = std::min(longest_jolt, 0.25 * samples.back().time);
+    // Sums of squares.
     double force_residual = 0.0;
     double force = 0.0;
     double moment_residual = 0.0;
     double moment = 0.0;
     double gyroscopic = 0.0;
-    const Matrix3d inertia = fall.inertia();
-    const auto spin = [&](const FallSample& sample) -> Vector3d {
-        return sample.turn * (inertia * (sample.turn.transpose() * sample.angular_velocity));
-    };
+    double of_weights = 0.0;
+    double of_buoyancies = 0.0;
     for (std::size_t i = 1; i + 1 < samples.size(); ++i) {
         const FallSample& sample = samples[i];
-        if (sample.time < 0.5) continue;
-        const Vector3d acceleration =
-            rate(samples, i, [](const FallSample& one) -> Vector3d { return one.velocity; });
-        const Vector3d weight = (fall.mass - fall.volume) * fall.gravity;
+        if (sample.time < settled) continue;
+        const Vector3d acceleration = rate(samples, i, velocity);
         force_residual += (fall.mass * acceleration - weight - sample.force).squaredNorm();
         force += sample.force.squaredNorm();
+        of_weights += weight.squaredNorm();
+        // The buoyancy's arm is from the centre of mass to the centroid, and it is opposed to gravity.
         const Vector3d of_buoyancy = (sample.turn * fall.center_of_mass).cross(fall.volume * fall.gravity);
         moment_residual += (rate(samples, i, spin) - of_buoyancy - sample.moment).squaredNorm();
         moment += sample.moment.squaredNorm();
+        of_buoyancies += of_buoyancy.squaredNorm();
         gyroscopic += sample.angular_velocity.cross(spin(sample)).squaredNorm();
     }
     const auto ratio = [](double residual, double scale) {
         return scale > 0.0 ? std::sqrt(residual / scale) : 0.0;
     };
-    return {ratio(force_residual, force), ratio(moment_residual, std::max(moment, gyroscopic))};
+    const double force_scale = std::max(force, of_weights);
+    return {ratio(force_residual, force_scale),
+            ratio(moment_residual,
+                  std::max({moment, gyroscopic, of_buoyancies, least_arm * least_arm * force_scale}))};
 }
 
 }  // namespace samara

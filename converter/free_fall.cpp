@@ -56,6 +56,7 @@ void check(const FreeFall& fall) {
     const auto require = [](bool holds, const char* what) {
         if (!holds) throw Error(fmt::format("'{}' is not positive", what));
     };
+    require(fall.reynolds_number > 0.0, "reynolds_number");
     require(fall.length > 0.0, "length");
     require(fall.speed > 0.0, "speed");
     require(fall.fluid_density > 0.0, "fluid_density");

@@ -11,6 +11,7 @@
 #include "foam-cases/body_preparation.hpp"
 #include "foam-cases/case_farm.hpp"
 #include "foam-cases/case_folder.hpp"
+#include "foam-cases/fall_plan.hpp"
 #include "foam-cases/cluster_jobs.hpp"
 #include "foam-cases/folder_lock.hpp"
 #include "foam-cases/terminal_speed.hpp"
@@ -56,12 +57,16 @@ BakePreparation plan_of(const BakeRequest& request, const Body& body) {
                            ? plan_probes(body, request.quality, reynolds_number, request.probes)
                            : plan_bake(body, request.quality, reynolds_number, request.inflow);
     preparation.plan->ranks = request.ranks;
+    if (request.probes == 0 && request.quality.falls > 0) {
+        add_falls(body, request.fluid, request.mass, request.gravity, preparation.terminal_speed, *preparation.plan);
+    }
     return preparation;
 }
 
 Body named_body(const BakeRequest& request, const fs::path& folder) {
     Body body = prepare_body(request.shape, request.scale, folder);
     body.tables.reset();
+    body.dynamic.reset();
     if (!request.name.empty()) body.name = request.name;
     return body;
 }
@@ -71,6 +76,7 @@ void solve_and_convert(const BakeRequest& request, const Body& body, const FarmO
     const fs::path folder = case_folder_of(request.output);
     const fs::path templates = foam_cases_folder();
     const FolderLock lock(folder);
+    require_cases_of(CaseKind::bake, folder);
     Stopwatch watch;
     const BakePlan& plan = *result.preparation.plan;
     end_earlier_jobs(folder);
@@ -104,7 +110,11 @@ fs::path case_folder_of(const fs::path& output) {
 
 BakePreparation prepare_bake(const BakeRequest& request) {
     const TemporaryFolder folder;
-    return plan_of(request, named_body(request, folder.path()));
+    Body body = named_body(request, folder.path());
+    if (request.tables && request.quality.falls > 0) {
+        add_kirchhoff_tensor(body, case_folder_of(request.output) / case_body_name, folder.path());
+    }
+    return plan_of(request, body);
 }
 
 BakeResult bake_body(const BakeRequest& request, const FarmOptions& farm, const Planned& planned) {
@@ -114,11 +124,11 @@ BakeResult bake_body(const BakeRequest& request, const FarmOptions& farm, const 
     Stopwatch watch;
     if (request.tables) require_solvers(farm, request.ranks);
     Body body = named_body(request, temporary.path());
-    result.preparation = plan_of(request, body);
-    planned(result.preparation);
     result.mesh_seconds = watch.lap();
     add_kirchhoff_tensor(body, folder / case_body_name, temporary.path());
     result.kirchhoff_seconds = watch.lap();
+    result.preparation = plan_of(request, body);
+    planned(result.preparation);
     if (request.tables) {
         solve_and_convert(request, body, farm, result);
     } else {

@@ -240,8 +240,8 @@ double estimated_iterations(const BakePlan& plan, const BakeCase& entry) {
 }
 
 double estimated_seconds(const BakePlan& plan, const BakeCase& entry) {
-    return seconds_per_case + seconds_per_cell_and_iteration * cells_of(plan, entry.mesh) *
-                                  estimated_iterations(plan, entry);
+    return seconds_per_case +
+           seconds_per_cell_and_iteration * cells_of(plan, entry.mesh) * estimated_iterations(plan, entry);
 }
 
 double estimated_cells(const Body& body, const FlowMesh& mesh) {

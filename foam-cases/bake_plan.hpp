@@ -45,8 +45,8 @@ struct BakePlan {
     std::vector<double> reynolds_numbers;  ///< the main one first
     std::vector<BakeCase> cases;
     std::vector<FreeFall> falls;  ///< each on one of the meshes
-    std::vector<double> cells;  ///< of each mesh, an estimate
-    double cpu_seconds = 0.0;   ///< of the meshes and all cases on one core, an estimate
+    std::vector<double> cells;    ///< of each mesh, an estimate
+    double cpu_seconds = 0.0;     ///< of the meshes and all cases on one core, an estimate
 };
 
 /// The largest Reynolds number at which the flow around a blunt body is still free of turbulence, so that the

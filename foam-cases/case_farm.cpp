@@ -28,7 +28,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* mesh_record = "mesh.json";
 constexpr const char* failure_record = "failed.json";
-constexpr const char* check_log = "log.check";  // what a check says, in its last line
+constexpr std::uintmax_t room_of_a_log = 64 * 1024;  // bytes; with less, a disk is full
+constexpr const char* check_log = "log.check";       // what a check says, in its last line
 
 // A case or a fall, as the farm sees it.
 struct Job {
@@ -50,6 +51,10 @@ std::vector<Job> jobs_of(const BakePlan& plan) {
                         estimated_fall_seconds(fall, cells_of(plan, fall.mesh))});
     }
     return jobs;
+}
+
+bool is_single_fall(const BakePlan& plan) {
+    return plan.cases.empty() && plan.falls.size() == 1;
 }
 
 // The last line that holds the text; empty where there is none.
@@ -84,6 +89,11 @@ std::string fault_of(const fs::path& folder, const std::string& name) {
     if (!of_job.empty()) {
         return fmt::format("{}: its cluster job ended early: {}; see {}", (folder / name).string(), of_job,
                            (folder / name / job_log).string());
+    }
+    std::error_code unknown;
+    if (fs::space(folder, unknown).available < room_of_a_log && !unknown) {
+        return fmt::format("{}: was not run to its end: the disk is full; make room and run again",
+                           (folder / name).string());
     }
     return fmt::format("{}: was not run to its end; see {}", (folder / name).string(),
                        (folder / "log.snakemake").string());
@@ -133,11 +143,13 @@ bool is_settled(const fs::path& folder, const Job& entry) {
     };
     const Job& first = **std::ranges::min_element(failed, std::less<>(), rank);
     if (!fs::exists(folder / first.mesh / mesh_record)) throw Error(fault_of(folder, first.mesh));
+    if (is_single_fall(plan)) throw Error(fault_of(folder, first.name));
     throw Error(fmt::format("{} ({} of {} cases failed; the solved ones are kept for the next run)",
                             fault_of(folder, first.name), failed.size(), jobs.size()));
 }
 
-// The iteration or time at which the last line of the last round's history of forces stands; 0 where there is none.
+// The iteration or time at which the last line of the last round's history of forces stands; 0 where there is
+// none.
 double last_iteration(const fs::path& case_folder) {
     double last_round = -1.0;
     fs::path history;
@@ -184,7 +196,10 @@ bool waits_for_failed_start(const fs::path& folder, const BakePlan& plan) {
 void run_snakemake(const fs::path& folder, const BakePlan& plan, const FarmOptions& options,
                    const fs::path& templates) {
     const std::vector<Job> to_solve = unsettled(folder, plan);
-    Progress progress("baking", "cases");
+    const bool counts_steps = is_single_fall(plan);
+    const double all = counts_steps ? plan.falls.front().duration / plan.falls.front().time_step
+                                    : static_cast<double>(to_solve.size());
+    Progress progress(options.work, counts_steps ? "steps" : "cases");
     const auto tick = [&, last = std::chrono::steady_clock::time_point()]() mutable {
         const auto now = std::chrono::steady_clock::now();
         if (now - last < std::chrono::seconds(1)) return;
@@ -195,8 +210,7 @@ void run_snakemake(const fs::path& folder, const BakePlan& plan, const FarmOptio
             done += entry.seconds * solved_share(folder / entry.name, entry.end);
             total += entry.seconds;
         }
-        const auto cases = static_cast<double>(to_solve.size());
-        progress.update(cases * done / total, cases);
+        progress.update(all * done / total, all);
     };
     std::vector<std::string> words = {"snakemake",
                                       "--snakefile",
@@ -218,6 +232,11 @@ void run_snakemake(const fs::path& folder, const BakePlan& plan, const FarmOptio
     const auto status = run_guarded(words, folder / "log.snakemake", fs::current_path(), tick);
     end_earlier_jobs(folder);
     if (status) return;
+    if (is_single_fall(plan)) {
+        throw Error(
+            fmt::format("interrupted: what is solved is kept in {}; the same command goes on from there",
+                        folder.string()));
+    }
     throw Error(fmt::format(
         "interrupted: {} of {} cases are solved and kept in {}; the same command goes on from there",
         count_solved(folder, plan), jobs_of(plan).size(), folder.string()));
@@ -249,7 +268,8 @@ void require_solvers(const FarmOptions& options, int ranks) {
     };
     std::vector<Need> needs = {{"snakemake", "snakemake"}, {"python3", "python3"}};
     if (options.cluster.empty()) {
-        needs.insert(needs.begin(), {{"simpleFoam", "openfoam"}, {"pimpleFoam", "openfoam"}, {"snappyHexMesh", "openfoam"}});
+        needs.insert(needs.begin(),
+                     {{"simpleFoam", "openfoam"}, {"pimpleFoam", "openfoam"}, {"snappyHexMesh", "openfoam"}});
         if (ranks > 1) needs.push_back({"mpirun", "openmpi-bin"});
     } else {
         needs.insert(needs.end(), {{"squeue", "slurm-client"}, {"scancel", "slurm-client"}});
@@ -262,8 +282,8 @@ void require_solvers(const FarmOptions& options, int ranks) {
         if (packages.find(need.package) == std::string::npos) packages += fmt::format(" {}", need.package);
     }
     if (missing.empty()) return;
-    throw Error(fmt::format("baking needs programs that are not on PATH: {}; on Debian: apt install{}",
-                            missing, packages));
+    throw Error(fmt::format("{} needs programs that are not on PATH: {}; on Debian: apt install{}",
+                            options.work, missing, packages));
 }
 
 std::vector<LeftOutCase> solve_cases(const fs::path& folder, const BakePlan& plan, const FarmOptions& options,

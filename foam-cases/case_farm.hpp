@@ -13,6 +13,7 @@ namespace samara {
 struct FarmOptions {
     int jobs = 1;         ///< cases at once
     std::string cluster;  ///< the command that submits a job to Slurm, "sbatch ..."; empty: on this machine
+    std::string work = "baking";  ///< what is done, as progress and faults call it
 };
 
 /// Throws Error naming every program that solving needs and that is not on PATH, with the Debian packages

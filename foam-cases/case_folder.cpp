@@ -11,6 +11,7 @@
 
 #include "foam-cases/case_parameters.hpp"
 #include "foam-cases/case_surface.hpp"
+#include "foam-cases/fall_plan.hpp"
 #include "samara/base/content_hash.hpp"
 #include "samara/base/error.hpp"
 #include "samara/body/body_file.hpp"
@@ -20,9 +21,14 @@ namespace samara {
 namespace {
 
 namespace fs = std::filesystem;
+
+// What the scripts in a case share with those of the farm, beside the templates; a copy goes into each case.
+// It says how files are read and faults are worded, and so is no input of a solution.
+constexpr const char* helper_file = "case_files.py";
+
 // What a fall's case has from the flow's: the fluid and its turbulence.
-constexpr const char* shared_files[] = {"0.orig/k", "0.orig/epsilon", "0.orig/nut", "constant/transportProperties",
-                                        "constant/turbulenceProperties"};
+constexpr const char* shared_files[] = {"0.orig/k", "0.orig/epsilon", "0.orig/nut",
+                                        "constant/transportProperties", "constant/turbulenceProperties"};
 
 using CaseFiles = std::map<fs::path, std::string>;  // content by the path inside a case
 
@@ -46,12 +52,14 @@ CaseFiles read_template(const fs::path& folder) {
         throw Error(fmt::format("{}: is no case template: it needs the files parameters and Allrun",
                                 folder.string()));
     }
+    files[helper_file] = read_bytes(folder.parent_path() / helper_file);
     return files;
 }
 
 std::string hash_of(const CaseFiles& files) {
     std::string bytes;
     for (const auto& [path, content] : files) {
+        if (path == helper_file) continue;
         bytes += fmt::format("{}\n{}\n", path.generic_string(), content.size());
         bytes += content;
     }
@@ -116,8 +124,8 @@ void remove_unplanned_cases(const fs::path& folder, const BakePlan& plan) {
     std::vector<fs::path> unplanned;
     for (const auto& entry : fs::directory_iterator(folder)) {
         const std::string name = entry.path().filename().string();
-        bool planned =
-            !name.starts_with("direction_") && !name.starts_with("probe_") && !name.starts_with("fall_") && !name.starts_with("mesh");
+        bool planned = !name.starts_with("direction_") && !name.starts_with("probe_") &&
+                       !name.starts_with("fall_") && !name.starts_with("mesh");
         for (const FlowMesh& mesh : plan.quality.meshes) planned = planned || mesh.name == name;
         for (const BakeCase& one : plan.cases) planned = planned || one.name == name;
         for (const FreeFall& fall : plan.falls) planned = planned || fall.name == name;
@@ -140,17 +148,23 @@ std::string write_mesh_case(const fs::path& folder, const CaseFiles& template_fi
     return hash;
 }
 
-void write_case(const fs::path& folder, const CaseFiles& files, const std::string& mesh, const std::string& hash) {
+void write_case(const fs::path& folder, const CaseFiles& files, const std::string& mesh,
+                const std::string& hash) {
     const bool solved_before = discard_stale(folder / "provenance.json", hash);
     const bool failed_before = discard_stale(folder / "failed.json", hash);
-    // Its histories would pass for progress.
-    if (solved_before || failed_before) fs::remove_all(folder / "postProcessing");
+    if (solved_before || failed_before) {
+        // Its histories would pass for progress, and the record of how they came about is of no use without
+        // them.
+        for (const char* name : {"postProcessing", "rounds.json", "attempts.json"})
+            fs::remove_all(folder / name);
+    }
     write_files(folder, files);
     link_to_mesh(folder, mesh, "polyMesh");
 }
 
-void write_falls(const fs::path& folder, const BakePlan& plan, const CaseFiles& body_flow, const fs::path& templates,
-                 const std::map<std::string, std::string>& mesh_hashes, nlohmann::json& json) {
+void write_falls(const fs::path& folder, const BakePlan& plan, const CaseFiles& body_flow,
+                 const fs::path& templates, const std::map<std::string, std::string>& mesh_hashes,
+                 nlohmann::json& json) {
     const CaseFiles fall_template = read_template(templates / "free-fall");
     for (std::size_t i = 0; i < plan.falls.size(); ++i) {
         const FreeFall& fall = plan.falls[i];
@@ -183,6 +197,19 @@ fs::path foam_cases_folder() {
     if (fs::exists(source / "Snakefile")) return source;
     throw Error(fmt::format("{}: the case templates are not installed there; install samara again",
                             installed.string()));
+}
+
+void require_cases_of(CaseKind kind, const fs::path& folder) {
+    const fs::path plan = folder / "plan.json";
+    if (!fs::exists(plan)) return;
+    const auto json = nlohmann::json::parse(read_bytes(plan), nullptr, false);
+    if (!json.is_object()) return;
+    const CaseKind found = json.value("quality", "") == fall_quality ? CaseKind::fall : CaseKind::bake;
+    if (found == kind) return;
+    throw Error(fmt::format(
+        "{}: holds the cases of samara {}, which would be lost; choose another name for the output, "
+        "or remove the folder",
+        folder.string(), found == CaseKind::fall ? "validate" : "bake"));
 }
 
 void write_case_folder(const fs::path& folder, const Body& body, const BakePlan& plan,

@@ -16,6 +16,13 @@ inline constexpr const char* case_body_name = "body.body.h5";
 /// none of them holds a Snakefile.
 std::filesystem::path foam_cases_folder();
 
+/// Whose cases a folder holds.
+enum class CaseKind { bake, fall };
+
+/// Throws Error where the folder holds cases of the other kind, which would be removed: outputs of the same
+/// stem share their folder.
+void require_cases_of(CaseKind kind, const std::filesystem::path& folder);
+
 /// Writes the folder of cases (docs/file-formats): body.body.h5, plan.json, the case mesh/, whose mesh all
 /// share, and one plain OpenFOAM case for each case of the plan. A file whose content is there already is
 /// left alone. The mesh and the cases that were made on other inputs lose their mesh.json,

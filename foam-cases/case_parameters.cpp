@@ -79,7 +79,8 @@ constexpr double anchor_height = 1e7;
 Entries body_entries(const FreeFall& fall) {
     const double gravity = fall.gravity.norm();
     const Vector3d up = gravity > 0.0 ? Vector3d(-fall.gravity / gravity) : Vector3d::UnitZ();
-    const Vector3d spin = fall.principal_moments.cwiseProduct(fall.principal_axes.transpose() * fall.angular_velocity);
+    const Vector3d spin =
+        fall.principal_moments.cwiseProduct(fall.principal_axes.transpose() * fall.angular_velocity);
     return {{"mass", fmt::format("{}", fall.mass)},
             {"centreOfMass", foam_vector(fall.center_of_mass)},
             {"momentsOfInertia", foam_vector(fall.principal_moments)},

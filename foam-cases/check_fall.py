@@ -8,31 +8,29 @@ the solver was only stopped) also FOLDER/failed.json with that reason. provenanc
 that its existence means success. Whether the momenta balance is judged where the fall is read (converter/fall_record).
 """
 
-import json
 import os
 import re
 import sys
 
-from case_files import Failure, Fault, input_hash, parameter, read, run_on_folder, word, write_json
+from case_files import Failure, Fault, parameter, read, read_record, word, write_json
+from farm_script import input_hash, mesh_record, run_on_folder, stopping_fault
 
 
 def check_fall(folder):
-    path = os.path.join(folder, "attempts.json")
-    if not os.path.exists(path):
-        raise Fault("was stopped before its first step; run again to go on")
-    done = json.loads(read(path))
+    done = read_record(os.path.join(folder, "attempts.json"))
+    if not done:
+        raise Fault(stopping_fault(folder, os.path.join(folder, "log.Allrun")))
     last = done["attempts"][-1]
     log = os.path.join(folder, "log.pimpleFoam")
     if done["verdict"] == "failed":
-        raise Failure(f"{last['end']} (attempts: {', '.join(one['what'] for one in done['attempts'])})")
+        tried = ", ".join(one["what"] for one in done["attempts"])
+        raise Failure(f"blew up in all attempts ({tried}); the last: {last['end']}; a smaller --step may hold")
     if done["verdict"] is None:
-        said = [line for line in read(os.path.join(folder, "log.Allrun")).splitlines() if line.strip()]
-        raise Fault(said[-1] if said else f"was stopped before its end; see {log}")
+        raise Fault(stopping_fault(folder, log))
     text = read(log)
     parameters = read(os.path.join(folder, "parameters"))
-    mesh_path = os.path.join(os.path.realpath(os.path.join(folder, "constant", "polyMesh")), "..", "..", "mesh.json")
     build = re.search(r"^Build\s*:\s*(.*)$", text, re.MULTILINE)
-    courant = [float(value) for value in re.findall(r"Courant Number mean: \S+ max: (\S+)", text)]
+    courant = [float(value) for value in re.findall(r"^Courant Number mean: \S+ max: (\S+)", text, re.MULTILINE)]
     write_json(os.path.join(folder, "provenance.json"), {
         "case": os.path.basename(os.path.abspath(folder)),
         "openfoam": build.group(1).strip() if build else "",
@@ -44,7 +42,7 @@ def check_fall(folder):
         "time_step": float(last.get("timeStep", parameter(parameters, "timeStep"))),
         "largest_courant_number": max(courant, default=0.0),
         "attempts": done["attempts"],
-        "mesh": json.loads(read(mesh_path)) if os.path.exists(mesh_path) else None,
+        "mesh": mesh_record(folder),
         "cpu_seconds": done["cpu_seconds"],
         "inputs_hash": input_hash(folder),
     })

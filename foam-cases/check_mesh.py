@@ -4,7 +4,7 @@ import math
 import os
 import re
 
-from case_files import Failure, check_ended, cpu_seconds, read
+from case_files import Failure, breakdown, cpu_seconds, read
 from patch_area import patch_area
 
 PROGRAMS = ("surfaceFeatureExtract", "blockMesh", "snappyHexMesh", "topoSet", "checkMesh")
@@ -76,7 +76,10 @@ def judge(folder):
     text = ""
     try:
         for program in PROGRAMS:
-            text = check_ended(os.path.join(folder, "log." + program), program)
+            log = os.path.join(folder, "log." + program)
+            text = read(log)
+            if not re.search(r"^End$", text, re.MULTILINE):
+                raise breakdown(log, program)
             finished = re.findall(r"Finished meshing in = ([\d.]+) s", text)
             judgement.seconds += float(finished[-1]) if finished else cpu_seconds(text)
     except Failure as failure:

@@ -16,8 +16,10 @@ import re
 import sys
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "body-flow"))
-from case_files import Failure, Fault, input_hash, parameter, read, run_on_folder, word, write_json  # noqa: E402
-from stationarity import AREA_UNIT, history  # noqa: E402
+from case_files import Failure, Fault, history, parameter, read, word, write_json  # noqa: E402
+from farm_script import input_hash, mesh_record, run_on_folder, stopping_fault  # noqa: E402
+from stationarity import AREA_UNIT  # noqa: E402
+
 
 def mean_and_deviation(rows, columns):
     means, deviations = [], []
@@ -67,7 +69,6 @@ def check_solution(folder):
     if drag <= 0.0:
         raise Failure(f"diverged: the drag coefficient is {drag:.3g}, not positive; see {log}")
 
-    mesh_path = os.path.join(os.path.realpath(os.path.join(folder, "constant", "polyMesh")), "..", "..", "mesh.json")
     build = re.search(r"^Build\s*:\s*(.*)$", text, re.MULTILINE)
     record = {
         "case": os.path.basename(os.path.abspath(folder)),
@@ -90,7 +91,7 @@ def check_solution(folder):
         "force_deviation": force_deviation,
         "moment": moment,
         "moment_deviation": moment_deviation,
-        "mesh": json.loads(read(mesh_path)) if os.path.exists(mesh_path) else None,
+        "mesh": mesh_record(folder),
         "cpu_seconds": rounds["cpu_seconds"],
         "inputs_hash": input_hash(folder),
     }
@@ -99,12 +100,6 @@ def check_solution(folder):
         record["shell"] = {"k": shell[0], "epsilon": shell[1],
                            "k_deviation": deviation[0], "epsilon_deviation": deviation[1]}
     write_json(os.path.join(folder, "provenance.json"), record)
-
-
-def stopping_fault(folder, log):
-    """Why the rounds stopped without a verdict: what iterate.py said last."""
-    said = [line for line in read(os.path.join(folder, "log.Allrun")).splitlines() if line.strip()]
-    return said[-1] if said and not said[-1].startswith("Running") else f"was stopped before its end; see {log}"
 
 
 if __name__ == "__main__":

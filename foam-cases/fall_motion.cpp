@@ -32,8 +32,8 @@ std::vector<TimedPose> flow_poses(const FallRecord& record, const BodyState& sta
     return poses;
 }
 
-Pose held(const BodyState& start) {
-    Pose pose = flow_pose(start);
+Pose held(const BodyState& start, const Surroundings& surroundings, double start_time) {
+    Pose pose = in_world(flow_pose(start), surroundings, start_time);
     pose.velocity.setZero();
     pose.angular_velocity.setZero();
     return pose;
@@ -41,8 +41,8 @@ Pose held(const BodyState& start) {
 
 }  // namespace
 
-void take_fall(const FallRecord& record, const BodyState& start, double start_time, const Surroundings& surroundings,
-               Motion& motion) {
+void take_fall(const FallRecord& record, const BodyState& start, double start_time,
+               const Surroundings& surroundings, Motion& motion) {
     const std::vector<TimedPose> steps = flow_poses(record, start);
     const double half_step = 0.5 * record.fall.time_step * record.fall.time_unit();
     BodyMotion& body = motion.bodies.front();
@@ -51,7 +51,7 @@ void take_fall(const FallRecord& record, const BodyState& start, double start_ti
     for (; frame < motion.times.size(); ++frame) {
         const double time = motion.times[frame] - start_time;
         if (time < 0.0) {
-            body.poses.push_back(in_world(held(start), surroundings, start_time));
+            body.poses.push_back(held(start, surroundings, start_time));
             continue;
         }
         if (time > steps.back().time + half_step) break;
@@ -60,8 +60,8 @@ void take_fall(const FallRecord& record, const BodyState& start, double start_ti
         const TimedPose& to = steps[after];
         const double duration = to.time - from.time;
         const double fraction = std::clamp((time - from.time) / duration, 0.0, 1.0);
-        body.poses.push_back(
-            in_world(interpolated(from.pose, to.pose, fraction, duration), surroundings, motion.times[frame]));
+        body.poses.push_back(in_world(interpolated(from.pose, to.pose, fraction, duration), surroundings,
+                                      motion.times[frame]));
     }
     if (frame < 2) throw Error(fmt::format("{}: the fall ends before its second frame", record.fall.name));
     motion.times.resize(frame);

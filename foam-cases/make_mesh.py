@@ -18,8 +18,9 @@ import shutil
 import subprocess
 import sys
 
-from case_files import Failure, Fault, input_hash, parameter, read, run_on_folder, write_json
+from case_files import Failure, Fault, parameter, read, write_entries, write_json
 from check_mesh import PROGRAMS, judge
+from farm_script import input_hash, run_on_folder
 
 # What `Allrun mesh` makes.
 PRODUCTS = ("constant/polyMesh", "constant/extendedFeatureEdgeMesh", "constant/triSurface/body.eMesh")
@@ -102,9 +103,8 @@ def attempt(folder, remedy, entries):
     """Makes the mesh with the remedy's entries and judges it."""
     clear(folder)
     if entries:
-        with open(os.path.join(folder, "remedy"), "w") as file:
-            file.write(f"// In place of entries of parameters: {remedy} (make_mesh.py)\n")
-            file.writelines(f"{name} {value};\n" for name, value in entries.items())
+        write_entries(os.path.join(folder, "remedy"), f"In place of entries of parameters: {remedy} (make_mesh.py)",
+                      entries)
     # Its logs say what went wrong; what it prints is of use where there are none.
     result = subprocess.run([os.path.join(folder, "Allrun"), "mesh"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                             text=True, check=False)

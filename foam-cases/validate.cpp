@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "foam-cases/bake.hpp"
 #include "foam-cases/body_preparation.hpp"
@@ -11,7 +12,6 @@
 #include "foam-cases/cluster_jobs.hpp"
 #include "foam-cases/fall_motion.hpp"
 #include "foam-cases/folder_lock.hpp"
-#include "foam-cases/terminal_speed.hpp"
 #include "samara/base/content_hash.hpp"
 #include "samara/base/error.hpp"
 #include "samara/files/temporary_folder.hpp"
@@ -33,17 +33,13 @@ struct Falling {
 };
 
 double speed_unit(const Falling& falling) {
-    const double start = falling.start.velocity.tail<3>().norm();
-    const double gravity = falling.scene.gravity.norm();
-    const double buoyant_mass = falling.immersed.fluid_density * falling.immersed.volume;
-    const bool floats = std::abs(falling.immersed.mass - buoyant_mass) <= 1e-6 * buoyant_mass || gravity == 0.0;
-    if (floats && start == 0.0) {
-        throw Error(fmt::format("{}: the body '{}' neither sinks nor rises nor moves at the start; there is nothing to "
-                                "solve",
-                                falling.scene.file.string(), falling.immersed.name));
-    }
-    if (floats) return start;
-    return std::max(start, terminal_speed(falling.body, falling.scene.fluid, falling.immersed.mass, gravity));
+    const double speed = fall_speed(falling.body, falling.immersed, falling.start, falling.scene.fluid,
+                                    falling.scene.gravity.norm());
+    if (speed > 0.0) return speed;
+    throw Error(fmt::format(
+        "{}: the body '{}' is as dense as the fluid and does not move at the start, so that there "
+        "is nothing to solve; give it another density or a velocity",
+        falling.scene.file.string(), falling.immersed.name));
 }
 
 Falling make_falling(const Scene& scene, const fs::path& earlier, const fs::path& temporary) {
@@ -72,12 +68,30 @@ BakePlan plan_of(const ValidationRequest& request, const Falling& falling) {
     return plan_single_fall(falling.body, request.cells, fall);
 }
 
+FallSolution read_solution(const fs::path& fall_folder) {
+    const fs::path file = fall_folder / "provenance.json";
+    try {
+        const auto json = nlohmann::json::parse(read_bytes(file));
+        FallSolution solution;
+        for (const auto& attempt : json.at("attempts")) solution.attempts.push_back(attempt.at("what"));
+        solution.time_step = json.at("time_step");
+        solution.largest_courant_number = json.at("largest_courant_number");
+        if (json.at("mesh").is_object()) solution.cells = json.at("mesh").at("cells");
+        return solution;
+    } catch (const nlohmann::json::exception& reason) {
+        throw Error(fmt::format("{}: an entry is missing or of the wrong kind ({}); remove it and run again",
+                                file.string(), reason.what()));
+    }
+}
+
 Motion motion_of(const Falling& falling, const FallRecord& record, const fs::path& body_file) {
     Simulation simulation(falling.scene, {CastBody{falling.body, file_content_hash(body_file)}}, 1, 1);
     Motion motion = simulation.motion();
-    motion.bodies.front().models = fmt::format("full CFD: OpenFOAM pimpleFoam with six degrees of freedom, {}, mesh {}",
-                                               record.fall.closure, record.fall.mesh);
-    take_fall(record, falling.start, falling.scene.bodies.front().start, surroundings_of(falling.scene), motion);
+    motion.bodies.front().models =
+        fmt::format("full CFD: OpenFOAM pimpleFoam with six degrees of freedom, {}, mesh {}",
+                    record.fall.closure, record.fall.mesh);
+    take_fall(record, falling.start, falling.scene.bodies.front().start, surroundings_of(falling.scene),
+              motion);
     return motion;
 }
 
@@ -92,7 +106,8 @@ void require_one_fall(const Scene& scene) {
     }
     const SceneBody& body = scene.bodies.front();
     if (body.count != 1) throw refuse("full CFD solves one copy of a body; drop 'count'");
-    if (scene.ground) throw refuse("full CFD knows no ground; drop 'ground' and let the scene end before the landing");
+    if (scene.ground)
+        throw refuse("full CFD knows no ground; drop 'ground' and let the scene end before the landing");
     if (scene.fluid.gust.amplitude.norm() > 0.0) throw refuse("full CFD knows no gust; drop 'gust'");
     if (!(scene.duration > body.start)) throw refuse("the scene ends before its body starts");
 }
@@ -116,13 +131,15 @@ ValidationResult validate_scene(const ValidationRequest& request, const FarmOpti
     result.plan = plan_of(request, falling);
     planned(result.plan);
     const FolderLock lock(folder);
+    require_cases_of(CaseKind::fall, folder);
     end_earlier_jobs(folder);
     write_case_folder(folder, falling.body, result.plan, templates);
     result.reused = count_solved(folder, result.plan) > 0;
-    const std::vector<LeftOutCase> failed = solve_cases(folder, result.plan, farm, templates);
-    if (!failed.empty()) throw Error(fmt::format("{}: {}", (folder / failed.front().name).string(), failed.front().reason));
+    solve_cases(folder, result.plan, farm, templates);  // throws where the one fall is not solved
     result.cpu_seconds = spent_cpu_seconds(folder, result.plan);
-    const FallRecord record = read_fall_record(folder / result.plan.falls.front().name);
+    const fs::path fall_folder = folder / result.plan.falls.front().name;
+    const FallRecord record = read_fall_record(fall_folder);
+    result.solution = read_solution(fall_folder);
     result.balance = balance_of(record);
     result.motion = motion_of(falling, record, folder / case_body_name);
     write_motion_file(request.output, result.motion);

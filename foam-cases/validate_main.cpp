@@ -44,12 +44,27 @@ void print_plan(const BakePlan& plan) {
                1e3 * fall.time_step * fall.time_unit(), fall.reynolds_number, fall.closure, plan.cpu_seconds);
 }
 
-void warn_of_imbalance(const FallBalance& balance) {
-    if (balance.force <= doubtful_imbalance && balance.moment <= doubtful_imbalance) return;
-    fmt::print(stderr,
-               "samara validate: note: the momenta do not balance the loads (force {:.0f} %, moment {:.0f} %): the "
-               "fall is doubtful; halve its step with --step 0.5\n",
-               100.0 * balance.force, 100.0 * balance.moment);
+void warn_of_doubts(const ValidationResult& result) {
+    const auto note = [](const std::string& text) {
+        fmt::print(stderr, "samara validate: note: {}\n", text);
+    };
+    const FallBalance& balance = result.balance;
+    const FallSolution& solution = result.solution;
+    if (balance.force > doubtful_balance.force || balance.moment > doubtful_balance.moment) {
+        note(fmt::format(
+            "the momenta do not balance the loads (force {:.0f} %, moment {:.0f} %): the fall is doubtful; "
+            "halve its step with --step",
+            100.0 * balance.force, 100.0 * balance.moment));
+    }
+    if (solution.largest_courant_number > doubtful_courant_number) {
+        note(fmt::format(
+            "the fluid passes up to {:.1f} cells in a step: the fall may be smeared; halve its step with "
+            "--step",
+            solution.largest_courant_number));
+    }
+    if (solution.attempts.size() > 1) {
+        note(fmt::format("the fall blew up as planned and was solved with {}", solution.attempts.back()));
+    }
 }
 
 nlohmann::json run_validation(const ValidateOptions& options, bool quiet) {
@@ -64,19 +79,28 @@ nlohmann::json run_validation(const ValidateOptions& options, bool quiet) {
         return as_json(plan);
     }
     if (request.output.has_parent_path()) std::filesystem::create_directories(request.output.parent_path());
-    const ValidationResult result = validate_scene(request, {1, options.cluster}, [](const BakePlan&) {});
-    warn_of_imbalance(result.balance);
+    const ValidationResult result =
+        validate_scene(request, {1, options.cluster, "solving"}, [](const BakePlan&) {});
+    warn_of_doubts(result);
     const BodyMeasures measures = measure_all(result.motion, result.motion.bodies.front());
     nlohmann::json json = as_json(result.plan);
     json["output"] = options.output;
     json["reused"] = result.reused;
     json["cpu_seconds"] = result.cpu_seconds;
+    json["time_step"] = result.solution.time_step * result.plan.falls.front().time_unit();
+    json["cells"] = result.solution.cells;
+    json["attempts"] = result.solution.attempts;
+    json["largest_courant_number"] = result.solution.largest_courant_number;
     json["balance"] = {{"force", result.balance.force}, {"moment", result.balance.moment}};
     json["body"] = as_json(measures);
     if (!quiet) {
-        fmt::print("{}\n{}  momenta balance to {:.1f} % (force) and {:.1f} % (moment)\n{:.0f} CPU s{} -> {}\n",
-                   result.motion.bodies.front().name, as_text(measures), 100.0 * result.balance.force,
-                   100.0 * result.balance.moment, result.cpu_seconds, result.reused ? " earlier" : "", options.output);
+        fmt::print(
+            "{}\n{}  momenta balance to {:.1f} % (force) and {:.1f} % (moment), largest Courant number "
+            "{:.2g}\n"
+            "{:.0f} CPU s{} -> {}\n",
+            result.motion.bodies.front().name, as_text(measures), 100.0 * result.balance.force,
+            100.0 * result.balance.moment, result.solution.largest_courant_number, result.cpu_seconds,
+            result.reused ? " earlier" : "", options.output);
     }
     return json;
 }
@@ -87,14 +111,17 @@ int run(int argc, const char* const* argv) {
     arguments.positional("SCENE", options.scene, "scene file (.toml) of one body");
     arguments.required_option("-o,--output", options.output, "motion file to write (.h5)");
     arguments.option("--cells", options.cells,
-                     "of the mesh, about: that of 6,000, 20,000, 60,000 or 200,000 that is nearest", 1e3, 1e7);
+                     "of the mesh, about: that of 6,000, 20,000, 60,000 or 200,000 that is nearest", 1e3,
+                     1e7);
     arguments.option("--step", options.step, "over the step that the fall gets of itself", 0.05, 4.0);
     arguments.option("--cluster", options.cluster,
                      "a command of Slurm that submits a job: solves the fall as a job there");
     arguments.flag("--dry-run", options.dry_run, "only say what would be solved and how long it would take");
     arguments.footer(
-        "The fall is solved by OpenFOAM (pimpleFoam, six degrees of freedom, k-epsilon) in the folder NAME.cases\n"
-        "beside the output: a plain case that can be looked at. An interrupted fall goes on when the command is\n"
+        "The fall is solved by OpenFOAM (pimpleFoam, six degrees of freedom, k-epsilon) in the folder "
+        "NAME.cases\n"
+        "beside the output: a plain case that can be looked at. An interrupted fall goes on when the command "
+        "is\n"
         "run again. The scene's loads and turbulence are not used, for they are what is solved.\n"
         "Compare with the runtime's motion: samara compare motion.h5 reference.h5\n"
         "Needs OpenFOAM and Snakemake (Debian: apt install openfoam snakemake).\n");

@@ -13,8 +13,6 @@ where all attempts did, else something stopped the solver.
 """
 
 import glob
-import hashlib
-import json
 import os
 import re
 import resource
@@ -22,7 +20,8 @@ import shutil
 import subprocess
 import sys
 
-from stationarity import Diverged, worst_quantity
+from case_files import Failure, Fault, breakdown, hash_of_inputs, read, read_record, word, write_entries, write_json
+from stationarity import worst_quantity
 
 # Each attempt: its changes to the parameters, those of its first round, and where it starts: as `startFrom` says,
 # from what stands, or from the undisturbed flow.
@@ -35,68 +34,17 @@ ATTEMPTS = {
 AFTER_RESTLESSNESS = {"as planned": "damped", "damped": "cautious"}
 AFTER_DIVERGENCE = {"as planned": "cautious", "damped": "cautious"}
 ACCEPTED = 3.0
-MESH_FILES = ("points", "faces", "owner", "neighbour", "boundary")
 
 
-class Fault(Exception):
-    """What is wrong, in one line for the user."""
-
-
-def read(path):
-    with open(path, errors="replace") as file:
-        return file.read()
-
-
-def write_json(path, content):
-    """Writes the file whole, or not at all."""
-    with open(path + ".part", "w") as file:
-        json.dump(content, file, indent=2)
-        file.write("\n")
-        file.flush()
-        os.fsync(file.fileno())
-    os.replace(path + ".part", path)
-
-
-def parameter(name):
-    match = re.search(rf"^{name}\s+([^;]+);", read("parameters"), re.MULTILINE)
-    if not match:
-        raise Fault(f"parameters: has no entry {name}; restore it")
-    return match.group(1).strip()
+def own(name):
+    """The text of an entry of the case's file `parameters`."""
+    return word(read("parameters"), name)
 
 
 def start_folder():
     """The folder of the solved case to start from; None where there is none, or where it failed."""
-    folder = os.path.join("..", parameter("startFrom"))
+    folder = os.path.join("..", own("startFrom"))
     return folder if os.path.exists(os.path.join(folder, "provenance.json")) else None
-
-
-def hash_of_inputs():
-    """Of all that the solution depends on: the case's own files and the mesh."""
-    own = ["parameters"] + [path for pattern in ("0.orig/*", "system/*", "constant/*") for path in glob.glob(pattern)]
-    mesh = [os.path.join("constant/polyMesh", name) for name in MESH_FILES]
-    start = [os.path.join(start_folder(), "rounds.json")] if start_folder() else []
-    total = hashlib.sha256()
-    for path in sorted(own) + mesh + start:
-        if os.path.isfile(path) and path != "system/round":
-            with open(path, "rb") as file:
-                total.update(path.encode() + b"\0" + file.read() + b"\0")
-    return total.hexdigest()
-
-
-def breakdown(log):
-    """The exception for a solver that did not reach its end: Diverged where its iterations broke down."""
-    text = read(log)
-    times = re.findall(r"^Time = (\d+)", text, re.MULTILINE)
-    where = f" at iteration {times[-1]}" if times else ""
-    see = f"; see {os.path.abspath(log)}"
-    fatal = re.search(r"FOAM FATAL ([A-Z ]*ERROR)[^\n]*\n(?:\s*\n)*([^\n]*)", text)
-    if fatal:
-        kind = Diverged if times and "IO" not in fatal.group(1) else Fault
-        return kind(f"simpleFoam failed{where}: {fatal.group(2).strip().rstrip('.')}{see}")
-    # The signal's handler, in the stack that OpenFOAM prints; its banner speaks of floating point exceptions too.
-    if "sigFpe::sigHandler" in text:
-        return Diverged(f"simpleFoam diverged (floating point exception){where}{see}")
-    return Fault(f"simpleFoam was stopped{where}, before its end{see}")
 
 
 def run_program(words, log):
@@ -112,16 +60,13 @@ class Rounds:
     """What was done, and so from where to go on."""
 
     def __init__(self):
-        self.round_iterations = int(parameter("roundIterations"))
-        self.most_iterations = int(parameter("mostIterations"))
-        self.least_iterations = int(parameter("leastIterations"))
-        self.tolerance = float(parameter("stationarity"))
-        self.turbulent = parameter("simulationType") != "laminar"
-        inputs = hash_of_inputs()
-        try:
-            self.state = json.loads(read("rounds.json"))
-        except (OSError, ValueError):
-            self.state = {}
+        self.round_iterations = int(own("roundIterations"))
+        self.most_iterations = int(own("mostIterations"))
+        self.least_iterations = int(own("leastIterations"))
+        self.tolerance = float(own("stationarity"))
+        self.turbulent = own("simulationType") != "laminar"
+        inputs = hash_of_inputs([os.path.join(start_folder(), "rounds.json")] if start_folder() else [])
+        self.state = read_record("rounds.json")
         if self.state.get("inputs") != inputs or self.state.get("verdict") == "failed":
             self.state = {"inputs": inputs, "verdict": None, "cpu_seconds": 0.0, "attempts": []}
             self.begin("as planned")
@@ -156,7 +101,7 @@ class Rounds:
         """The folder 0: the undisturbed flow, or the solution of another case on this mesh."""
         shutil.copytree("0.orig", "0")
         source = start_folder() if ATTEMPTS[self.attempt["what"]][2] == "startFrom" else None
-        self.attempt["started_from"] = parameter("startFrom") if source else "undisturbed flow"
+        self.attempt["started_from"] = own("startFrom") if source else "undisturbed flow"
         if source:
             status, seconds = run_program(["./Allrun", "map", source], "log.mapFields")
             self.state["cpu_seconds"] += seconds
@@ -171,13 +116,11 @@ class Rounds:
             changes = changes | first_changes
         end = attempt["iterations"] + self.round_iterations
         entries = {"endTime": end, "writeFormat": "binary", **changes}
-        with open("system/round", "w") as file:
-            file.write("// What this round has of its own; written by iterate.py\n")
-            file.write("".join(f"{name} {value};\n" for name, value in entries.items()))
+        write_entries("system/round", "What this round has of its own; written by iterate.py", entries)
         status, seconds = run_program(["./Allrun", "round"], "log.simpleFoam")
         self.state["cpu_seconds"] += seconds
         if status != 0:
-            raise breakdown("log.simpleFoam")
+            raise breakdown(os.path.abspath("log.simpleFoam"), "simpleFoam", "iteration")
         attempt["iterations"] = end
         unsteady, quantity, start = worst_quantity(".", attempt["first"], self.tolerance, self.turbulent)
         attempt["unsteadiness_over_tolerance"] = unsteady
@@ -212,7 +155,7 @@ class Rounds:
                 continue
             try:
                 self.run_round()
-            except Diverged as cause:
+            except Failure as cause:
                 self.attempt.pop("unsteadiness_over_tolerance", None)
                 self.after(str(cause), AFTER_DIVERGENCE)
 

@@ -6,10 +6,9 @@ taken. A quantity is stationary when half the difference between the means of th
 the standard error from six batches (an oscillation) are both within the tolerance.
 """
 
-import glob
 import math
-import os
-import re
+
+from case_files import Failure, history
 
 # k and epsilon settle later than forces and are less certain in any case: their tolerance over that of forces.
 TURBULENCE_TOLERANCES = 3.0
@@ -21,23 +20,9 @@ LEAST_MOMENT = 0.2
 LARGEST_FORCE = 20.0
 AREA_UNIT = math.pi / 8  # rho U^2 A/2 with rho = U = L = 1 and A = pi L^2/4
 
-NUMBER = re.compile(r"[-+]?(?:\d[\d.]*(?:[eE][-+]?\d+)?|nan|inf)")
 
-
-class Diverged(Exception):
+class Diverged(Failure):
     """The iterations went to nonsense."""
-
-
-def history(folder, name, file):
-    """The rows [iteration, values...] of a function object over all rounds; a later round counts where two overlap."""
-    rows = []
-    starts = {float(os.path.basename(path)): path
-              for path in glob.glob(os.path.join(folder, "postProcessing", name, "*"))}
-    for start, path in sorted(starts.items()):
-        rows = [row for row in rows if row[0] <= start]
-        with open(os.path.join(path, file), errors="replace") as lines:
-            rows += [[float(word) for word in NUMBER.findall(line)] for line in lines if not line.startswith("#")]
-    return [row for row in rows if row]
 
 
 def mean(values):

@@ -12,18 +12,22 @@ blew up, else something stopped the solver.
 """
 
 import glob
-import hashlib
-import json
 import math
 import os
 import re
-import resource
 import shutil
+import signal
 import subprocess
 import sys
-import time
 
-# Each: the factors on the step and on the relaxation of the acceleration, and the outer correctors.
+from case_files import (Failure, Fault, breakdown, cpu_seconds, hash_of_inputs, numbers, parameter, read, read_record,
+                        write_entries, write_json)
+
+SOLVER = "pimpleFoam"
+LOG = "log." + SOLVER
+
+# Each: the factors on the step and on the relaxation of the acceleration, and the outer correctors. The relaxation is
+# lowered too, since what blows up may be the exchange of forces between body and fluid, which no step helps.
 ATTEMPTS = {
     "as planned": (1.0, 1.0, None),
     "half the step": (0.5, 0.7, None),
@@ -31,50 +35,14 @@ ATTEMPTS = {
 }
 # A body in free fall is about as fast as the case's unit: ten times that, or of the start, is no fall any more.
 LARGEST_SPEED = 10.0
+# Over U/L: some twenty times the turning of a coin that tumbles, whose rim is about as fast as its centre.
 LARGEST_TURNING = 100.0
 SECONDS_BETWEEN_LOOKS = 0.5
-NUMBER = re.compile(r"[-+]?(?:\d[\d.]*(?:[eE][-+]?\d+)?|nan|inf)")
+MORE_THAN_A_ROW = 1024  # characters of a history
 
 
-class Fault(Exception):
-    """What is wrong, in one line for the user."""
-
-
-class BlownUp(Exception):
-    """The fall went to nonsense."""
-
-
-def read(path):
-    with open(path, errors="replace") as file:
-        return file.read()
-
-
-def write_json(path, content):
-    """Writes the file whole, or not at all."""
-    with open(path + ".part", "w") as file:
-        json.dump(content, file, indent=2)
-        file.write("\n")
-        file.flush()
-        os.fsync(file.fileno())
-    os.replace(path + ".part", path)
-
-
-def parameter(name):
-    match = re.search(rf"^{name}\s+([^;]+);", read("parameters"), re.MULTILINE)
-    if not match:
-        raise Fault(f"parameters: has no entry {name}; restore it")
-    return match.group(1).strip()
-
-
-def hash_of_inputs():
-    paths = ["parameters"] + [path for pattern in ("0.orig/*", "system/*", "constant/*") for path in glob.glob(pattern)]
-    paths += glob.glob("constant/polyMesh/[!s]*")
-    total = hashlib.sha256()
-    for path in sorted(paths):
-        if os.path.isfile(path):
-            with open(path, "rb") as file:
-                total.update(path.encode() + b"\0" + file.read() + b"\0")
-    return total.hexdigest()
+def own(name):
+    return parameter(read("parameters"), name)
 
 
 def time_folders():
@@ -83,44 +51,38 @@ def time_folders():
     return {float(name): name for name in names if float(name) > 0}
 
 
+def last_row(path):
+    """The last whole row of a history; None where there is none."""
+    with open(path, "rb") as file:
+        size = file.seek(0, os.SEEK_END)
+        file.seek(max(0, size - MORE_THAN_A_ROW))
+        lines = file.read().decode(errors="replace").split("\n")
+    rows = [line for line in lines[1:-1] if line and not line.startswith("#")]
+    return numbers(rows[-1]) if rows else None
+
+
 def last_state():
-    """The time and the numbers of the last whole row of the body's state; nothing before the first."""
+    """The time and the numbers of the last whole row of the body's state; None before the first."""
     starts = sorted(glob.glob("postProcessing/state/*"), key=lambda path: float(os.path.basename(path)))
-    for path in reversed(starts):
-        for file in glob.glob(os.path.join(path, "sixDoFRigidBodyState*.dat")):
-            rows = [row for row in read(file).split("\n")[:-1] if row and not row.startswith("#")]
-            if rows:
-                row = [float(word) for word in NUMBER.findall(rows[-1])]
+    for start in reversed(starts):
+        for path in glob.glob(os.path.join(start, "sixDoFRigidBodyState*.dat")):
+            row = last_row(path)
+            if row:
                 return row[0], row[1:]
     return None
 
 
-def is_blown_up(state, start_speed):
+def blow_up(state, start_speed):
+    """What shows that the state is of no fall any more; None where nothing does."""
     velocity, turning = state[-6:-3], state[-3:]
     speed = math.hypot(*velocity)
-    if not all(math.isfinite(number) for number in state):
+    if not all(map(math.isfinite, state)):
         return "its state is not finite"
     if speed > LARGEST_SPEED * max(1.0, start_speed):
-        return f"its speed is {speed:.3g} times that of the case's unit"
+        return f"its speed is {speed:.3g} U"
     if math.hypot(*turning) > LARGEST_TURNING:
-        return "its angular velocity is beyond all bounds"
+        return f"its angular velocity is {math.hypot(*turning):.3g} U/L"
     return None
-
-
-def breakdown(log):
-    """The exception for a solver that did not reach its end: BlownUp where its steps broke down."""
-    text = read(log)
-    times = re.findall(r"^Time = (\S+)", text, re.MULTILINE)
-    where = f" at time {times[-1]}" if times else ""
-    see = f"; see {os.path.abspath(log)}"
-    fatal = re.search(r"FOAM FATAL ([A-Z ]*ERROR)[^\n]*\n(?:\s*\n)*([^\n]*)", text)
-    if fatal:
-        kind = BlownUp if times and "IO" not in fatal.group(1) else Fault
-        return kind(f"pimpleFoam failed{where}: {fatal.group(2).strip().rstrip('.')}{see}")
-    # The signal's handler, in the stack that OpenFOAM prints; its banner speaks of floating point exceptions too.
-    if "sigFpe::sigHandler" in text:
-        return BlownUp(f"pimpleFoam diverged (floating point exception){where}{see}")
-    return Fault(f"pimpleFoam was stopped{where}, before its end{see}")
 
 
 class Fall:
@@ -128,103 +90,156 @@ class Fall:
 
     def __init__(self):
         inputs = hash_of_inputs()
-        try:
-            self.state = json.loads(read("attempts.json"))
-        except (OSError, ValueError):
-            self.state = {}
-        if self.state.get("inputs") == inputs and self.state.get("verdict") in ("done", None):
-            self.go_on()
-        else:
+        self.state = read_record("attempts.json")
+        if self.state.get("inputs") != inputs or self.state.get("verdict") == "failed":
             self.state = {"inputs": inputs, "verdict": None, "cpu_seconds": 0.0, "attempts": []}
+            self.begin("as planned")
+        elif self.state["verdict"] is None:
+            self.take_up()
+        elif not self.is_at_end():
+            self.state["verdict"] = None
             self.begin("as planned")
 
     @property
     def attempt(self):
         return self.state["attempts"][-1]
 
+    def is_at_end(self):
+        reached = last_state()
+        return reached is not None and reached[0] > own("duration") - 1.5 * self.time_step()
+
+    def time_step(self):
+        return float(self.attempt.get("timeStep", own("timeStep")))
+
     def begin(self, what):
         step, relaxation, correctors = ATTEMPTS[what]
-        for path in time_folders().values():
-            shutil.rmtree(path)
-        for path in ("0", "postProcessing"):
-            shutil.rmtree(path, ignore_errors=True)
-        shutil.copytree("0.orig", "0")
         entries = {}
         if what != "as planned":
-            entries["timeStep"] = f"{step * float(parameter('timeStep')):g}"
-            entries["accelerationRelaxation"] = f"{relaxation * float(parameter('accelerationRelaxation')):g}"
+            entries["timeStep"] = f"{step * own('timeStep'):g}"
+            entries["accelerationRelaxation"] = f"{relaxation * own('accelerationRelaxation'):g}"
         if correctors:
             entries["outerCorrectors"] = correctors
-        with open("remedy", "w") as file:
-            file.write("// What this attempt has in place of the plan; written by fall.py\n")
-            file.write("".join(f"{name} {value};\n" for name, value in entries.items()))
-        self.state["attempts"].append({"what": what, **entries})
+        self.state["attempts"].append({"what": what, "started": False, **entries})
+        write_json("attempts.json", self.state)
+        self.make_start(entries)
+
+    def make_start(self, entries):
+        for path in [*time_folders().values(), "0", "postProcessing"]:
+            shutil.rmtree(path, ignore_errors=True)
+        if os.path.exists(LOG):
+            os.remove(LOG)
+        shutil.copytree("0.orig", "0")
+        write_entries("remedy", "What this attempt has in place of the plan; written by fall.py", entries)
+        self.attempt["started"] = True
         write_json("attempts.json", self.state)
 
-    def go_on(self):
-        """Keeps the last state that is whole: the solver had gone on after it."""
+    def take_up(self):
+        """Goes on with an attempt that was cut short, or to the one after it."""
+        if "end" in self.attempt:
+            self.after_blow_up()
+        elif not self.attempt["started"]:
+            names = ("timeStep", "accelerationRelaxation", "outerCorrectors")
+            self.make_start({name: self.attempt[name] for name in names if name in self.attempt})
+        else:
+            self.go_on()
+
+    def go_on(self, before=math.inf):
+        """Removes the states from a time on, and those that may not be whole, since the solver did not go on after
+        them; and what had followed the last one that is left, or the start."""
         reached = last_state()
-        times = sorted(time_folders())
-        whole = [time for time in times if reached and time < reached[0]]
-        for time in times:
-            if time not in whole[-1:]:
-                shutil.rmtree(time_folders()[time])
+        bound = min(before, reached[0] if reached else 0.0)
+        states = time_folders()
+        last = max([time for time in states if time < bound], default=0.0)
+        for time, name in states.items():
+            if time > last:
+                shutil.rmtree(name)
         for path in glob.glob("postProcessing/*/*"):
-            if float(os.path.basename(path)) >= (whole[-1] if whole else 0.0):
+            if float(os.path.basename(path)) >= last:
                 shutil.rmtree(path)
-        if whole:
-            self.attempt["went_on_from"] = self.attempt.get("went_on_from", []) + [whole[-1]]
+        if last > 0.0:
+            self.attempt["went_on_from"] = self.attempt.get("went_on_from", []) + [last]
             write_json("attempts.json", self.state)
 
     def watch(self, solver):
-        start = [float(word) for word in NUMBER.findall(parameter("startVelocity"))]
-        while solver.poll() is None:
-            time.sleep(SECONDS_BETWEEN_LOOKS)
+        start_speed = math.hypot(*own("startVelocity"))
+        ended = False
+        while not ended:
+            try:
+                solver.wait(SECONDS_BETWEEN_LOOKS)
+                ended = True
+            except subprocess.TimeoutExpired:
+                pass
             reached = last_state()
-            fault = reached and is_blown_up(reached[1], math.hypot(*start))
+            fault = reached and blow_up(reached[1], start_speed)
             if fault:
-                solver.terminate()
-                solver.wait()
-                raise BlownUp(f"the fall blew up at time {reached[0]:g}: {fault}; see "
-                              f"{os.path.abspath('log.pimpleFoam')}")
+                raise Failure(f"the fall blew up at time {reached[0]:g}: {fault}; see {os.path.abspath(LOG)}")
 
-    def run_attempt(self):
-        before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        with open("log.pimpleFoam", "w") as log:
-            solver = subprocess.Popen(["pimpleFoam"], stdout=log, stderr=subprocess.STDOUT)
+    def run_solver(self):
+        """Runs the solver to the end of the fall; its log goes on where that of an earlier run ended."""
+        with open(LOG, "a") as log:
+            solver = subprocess.Popen([SOLVER], stdout=log, stderr=subprocess.STDOUT)
             try:
                 self.watch(solver)
             finally:
                 if solver.poll() is None:
                     solver.terminate()
                     solver.wait()
-                after = resource.getrusage(resource.RUSAGE_CHILDREN)
-                self.state["cpu_seconds"] += after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-                write_json("attempts.json", self.state)
         if solver.returncode != 0:
-            raise breakdown("log.pimpleFoam")
+            raise breakdown(os.path.abspath(LOG), SOLVER, "time")
+        if not self.is_at_end():
+            raise Fault(f"postProcessing/state ends before the fall does; is the disk full? See {os.path.abspath(LOG)}")
+
+    def note_cost(self):
+        """Of all the runs of this attempt, by its log."""
+        runs = re.split(r"^Build\s*:", read(LOG), flags=re.MULTILINE)
+        self.attempt["cpu_seconds"] = round(sum(map(cpu_seconds, runs)), 2)
+        self.state["cpu_seconds"] = round(sum(one["cpu_seconds"] for one in self.state["attempts"]), 2)
+
+    def went_on_from_damaged_state(self):
+        """Whether the solver could not read the state it was to go on from, as where the disk was full."""
+        run = re.split(r"^Build\s*:", read(LOG), flags=re.MULTILINE)[-1]
+        return bool(time_folders()) and "FOAM FATAL IO ERROR" in run and not re.search(r"^Time = ", run, re.MULTILINE)
+
+    def after_blow_up(self):
+        following = list(ATTEMPTS)[len(self.state["attempts"]):]
+        if following:
+            self.begin(following[0])
+        else:
+            self.state["verdict"] = "failed"
+
+    def run_attempt(self):
+        try:
+            self.run_solver()
+            self.note_cost()
+            self.state["verdict"] = "done"
+        except Failure as cause:
+            self.note_cost()
+            kept = f"{LOG}.{len(self.state['attempts'])}"  # the next attempt has a log of its own
+            shutil.copyfile(LOG, kept)
+            self.attempt["end"] = str(cause).replace(LOG, kept)
+            write_json("attempts.json", self.state)
+            self.after_blow_up()
+        except Fault:
+            if not self.went_on_from_damaged_state():
+                raise
+            self.go_on(before=max(time_folders()))
 
     def run(self):
         while self.state["verdict"] is None:
-            try:
-                self.run_attempt()
-                self.state["verdict"] = "done"
-            except BlownUp as cause:
-                self.attempt["end"] = str(cause)
-                names = list(ATTEMPTS)
-                following = names.index(self.attempt["what"]) + 1
-                if following < len(names):
-                    self.begin(names[following])
-                else:
-                    self.state["verdict"] = "failed"
+            self.run_attempt()
             write_json("attempts.json", self.state)
 
 
 def main():
     os.chdir(os.path.dirname(os.path.abspath(__file__)))
+    # So that the solver is ended too.
+    signal.signal(signal.SIGTERM, lambda number, frame: sys.exit("stopped; ./Allrun goes on from the last state"))
     try:
         fall = Fall()
         fall.run()
+    except KeyboardInterrupt:
+        print("stopped; ./Allrun goes on from the last state", file=sys.stderr)
+        return 1
     except (Fault, OSError) as fault:
         print(fault, file=sys.stderr)
         return 1

@@ -16,6 +16,9 @@ int export_command(int argc, const char* const* argv);
 /// samara plot: a picture of a motion.
 int plot_command(int argc, const char* const* argv);
 
+/// samara compare: a motion held against a reference.
+int compare_command(int argc, const char* const* argv);
+
 /// samara info: what a file holds.
 int info_command(int argc, const char* const* argv);
 

@@ -1,4 +1,3 @@
-#include <filesystem>
 #include <string>
 
 #include <fmt/format.h>
@@ -6,10 +5,10 @@
 
 #include "commands/commands.hpp"
 #include "commands/motion_choice.hpp"
-#include "samara/base/error.hpp"
 #include "samara/command/arguments.hpp"
 #include "samara/motion/description.hpp"
 #include "samara/motion/motion_file.hpp"
+#include "samara/plot/gnuplot.hpp"
 #include "samara/plot/motion_plot.hpp"
 
 namespace samara {
@@ -26,11 +25,7 @@ Example: samara plot motion.h5 -o motion.png)";
 
 nlohmann::json plot(const std::string& input, const std::string& output, const std::string& name, int run,
                     int copy) {
-    const std::string format = std::filesystem::path(output).extension().string();
-    if (format != ".png" && format != ".svg") {
-        throw Error(
-            fmt::format("{}: the format '{}' is unknown; end the name in .png or .svg", output, format));
-    }
+    require_picture_format(output);
     const Motion motion = read_motion_file(input);
     const BodyMotion& body = find_body(input, motion, name);
     require_run(input, motion, run);

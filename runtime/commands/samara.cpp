@@ -30,6 +30,7 @@ constexpr Command commands[] = {
     {"simulate", "scene -> motion of its bodies", samara::simulate_command},
     {"export", "motion -> .glb for animation tools, .csv", samara::export_command},
     {"plot", "motion -> picture: silhouettes along the path, time series", samara::plot_command},
+    {"compare", "motion held against another, such as a fall by full CFD", samara::compare_command},
     {"validate", "scene -> the same motion by full CFD, to hold the runtime against", nullptr},
     {"info", "what a file holds, its units and its provenance", samara::info_command},
 };

@@ -74,6 +74,33 @@ TEST(FoamHistory, ReadsTheLayoutOfTheFoundation) {
     EXPECT_THAT(history.rows.at(0), ElementsAre(1, 1, 2, 3, 0.1, 0.2, 0.3, 4, 5, 6, -1, -2, -0.3));
 }
 
+TEST(FoamHistory, ReadsVectorsThatAHeadingNamesByOneWord) {
+    const test::TemporaryFolder folder;
+    const FoamHistory history = read_history(folder.file(
+        "sixDoFRigidBodyState.dat",
+        "# Motion State      \n# Angle Units       : radians\n"
+        "# Time              \tcentreOfMass\trotation\n0.01                \t(1e-01 2 -3)\t(4 5 6)\n"
+        "0.02                \t(1 2 3)\t(4 5 nan)\n"));
+    EXPECT_THAT(history.columns, ElementsAre("Time", "centreOfMass_x", "centreOfMass_y", "centreOfMass_z",
+                                             "rotation_x", "rotation_y", "rotation_z"));
+    EXPECT_THAT(history.rows.at(0), ElementsAre(0.01, 0.1, 2, -3, 4, 5, 6));
+    EXPECT_TRUE(std::isnan(history.rows.at(1).at(6)));
+}
+
+TEST(FoamHistory, ReadsNumbersBesideVectorsThatAHeadingNamesByOneWord) {
+    const test::TemporaryFolder folder;
+    const FoamHistory history =
+        read_history(folder.file("f.dat", "# Time mass velocity\n1 0.5 (1 2 3)\n2 0.6 (4 5 6)\n"));
+    EXPECT_THAT(history.columns, ElementsAre("Time", "mass", "velocity_x", "velocity_y", "velocity_z"));
+    EXPECT_THAT(history.column("velocity_y", 2.0), ElementsAre(5));
+}
+
+TEST(FoamHistory, RefusesVectorsThatAHeadingDoesNotName) {
+    const test::TemporaryFolder folder;
+    const auto file = folder.file("f.dat", "# Time a b\n1 (1 2 3)\n");
+    EXPECT_THAT(test::error_of([&] { read_history(file); }), EndsWith("f.dat:2: has 4 values for 3 columns"));
+}
+
 TEST(FoamHistory, TimesMustAscend) {
     const test::TemporaryFolder folder;
     const auto file = folder.file("force.dat", "# Time a\n1 2\n3 2\n3 5\n");

@@ -8,8 +8,10 @@ import tempfile
 import unittest
 
 sys.dont_write_bytecode = True
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "foam-cases", "body-flow"))
-from stationarity import AREA_UNIT, Diverged, history, worst_quantity  # noqa: E402
+FOAM_CASES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "foam-cases")
+sys.path[:0] = [FOAM_CASES, os.path.join(FOAM_CASES, "body-flow")]
+from case_files import history  # noqa: E402
+from stationarity import AREA_UNIT, Diverged, worst_quantity  # noqa: E402
 
 
 class Case:

@@ -6,6 +6,11 @@
 
 namespace samara {
 
+/// (Q/|v|)^2 at which half of what a steady tow lacks is there: small, since a body need not turn fast beside
+/// its speed for its flow to be steady no more. Identified on the falls of docs/falls, which give 0.003 to
+/// 0.1.
+inline constexpr double motion_onset = 0.03;
+
 /// What a moving body feels beyond the tabulated loads of a steady tow; none of it changes a steady tow
 /// without rotation (docs/theory, "Loads of a moving body"). Body axes about the centroid of the volume; rho
 /// the fluid's density, v and omega relative to the fluid, Q = c |omega| the tip speed, H = sqrt(|v|^2 +
@@ -20,8 +25,12 @@ struct DynamicCoefficients {
     /// C_m A (m^2), symmetric and positive semidefinite: drag in motion, the force -rho/2 H s C_m A v with s
     /// = Q^2/(motion_onset |v|^2 + Q^2), Q there of the body's own turning.
     Matrix3d drag_in_motion = Matrix3d::Zero();
+    /// C_s A (m^2), likewise, of a body that turns fast: the force -rho/2 (Q^2/H) C_s A v.
+    Matrix3d drag_in_spin = Matrix3d::Zero();
     /// C_w D (m^4), symmetric and positive semidefinite: turning, the moment -rho/2 H C_w D omega.
     Matrix3d rotational_drag = Matrix3d::Zero();
+    /// C_r D (m^4), likewise, of a body that turns fast: the moment -rho/2 (Q^2/H) C_r D omega.
+    Matrix3d rotational_drag_in_spin = Matrix3d::Zero();
     /// N_v (m^4), symmetric: the angular momentum of the wake turns with the body, the moment
     /// rho omega x (v x (N_v v))/H, which does no work.
     Matrix3d wake_by_velocity = Matrix3d::Zero();
@@ -29,13 +38,10 @@ struct DynamicCoefficients {
     Matrix3d wake_by_turning = Matrix3d::Zero();
     /// c (m): the body's half-length.
     double half_length = 0.0;
+    /// f: of the steady tow's moment less the transport's the share |v|^2/(|v|^2 + f Q^2) stays.
+    double tow_fading = motion_onset;
     std::string origin;  ///< where they come from, in words, for reports
 };
-
-/// (Q/|v|)^2 at which half of what a steady tow lacks is there: small, since a body need not turn fast beside
-/// its speed for its flow to be steady no more. Identified on the falls of docs/falls, which give 0.003 to
-/// 0.1.
-inline constexpr double motion_onset = 0.03;
 
 /// A tensor among the coefficients, for what treats them all alike.
 struct TensorOfMotion {
@@ -50,8 +56,11 @@ inline constexpr TensorOfMotion tensors_of_motion[] = {
     {&DynamicCoefficients::transport, "transport", "transport", "m^3", "T, body axes", false},
     {&DynamicCoefficients::drag_in_motion, "drag_in_motion", "drag in motion", "m^2", "C_m A, body axes",
      true},
+    {&DynamicCoefficients::drag_in_spin, "drag_in_spin", "drag in spin", "m^2", "C_s A, body axes", true},
     {&DynamicCoefficients::rotational_drag, "rotational_drag", "rotational drag", "m^4",
      "C_w D about the centroid, body axes", true},
+    {&DynamicCoefficients::rotational_drag_in_spin, "rotational_drag_in_spin", "rotational drag in spin",
+     "m^4", "C_r D about the centroid, body axes", true},
     {&DynamicCoefficients::wake_by_velocity, "wake_by_velocity", "wake by velocity", "m^4", "N_v, body axes",
      false},
     {&DynamicCoefficients::wake_by_turning, "wake_by_turning", "wake by turning", "m^4", "N_w, body axes",

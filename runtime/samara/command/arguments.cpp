@@ -75,6 +75,11 @@ void Arguments::option(const std::string& name, int& value, const std::string& h
     parser_->app.add_option(name, value, help)->check(CLI::Range(lowest, highest))->capture_default_str();
 }
 
+void Arguments::option(const std::string& name, std::optional<int>& value, const std::string& help,
+                       int lowest, int highest) {
+    parser_->app.add_option(name, value, help)->check(CLI::Range(lowest, highest));
+}
+
 void Arguments::option(const std::string& name, std::uint64_t& value, const std::string& help) {
     parser_->app.add_option(name, value, help)->capture_default_str();
 }

@@ -4,10 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include <Eigen/Eigenvalues>
+
 namespace samara {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
+constexpr double alike = 0.01;
 
 /// The place of the extremum of the parabola through the points at i - 1, i and i + 1; time i where the three
 /// lie on a line.
@@ -35,6 +38,30 @@ double inclination(const Motion& motion, const BodyMotion& body, const Pose& pos
     return std::atan2(axis.cross(down).norm(), std::abs(axis.dot(down)));
 }
 
+bool has_shortest_axis(const BodyMotion& body) {
+    const Surface& surface = body.surface;
+    double area = 0.0;
+    Vector3d middle = Vector3d::Zero();
+    Matrix3d squares = Matrix3d::Zero();
+    for (std::size_t t = 0; t < surface.triangle_count(); ++t) {
+        // The integral of x x^T over a triangle: a twelfth of its area by its corners' squares and their
+        // sum's.
+        const double size = area_vector(surface, t).norm();
+        const Vector3d sum = 3.0 * triangle_centroid(surface, t);
+        area += size;
+        middle += size / 3.0 * sum;
+        squares += size / 12.0 * sum * sum.transpose();
+        for (const std::int32_t corner : surface.corners[t]) {
+            const Vector3d& place = surface.vertices[static_cast<std::size_t>(corner)];
+            squares += size / 12.0 * place * place.transpose();
+        }
+    }
+    middle /= area;
+    const Matrix3d spread = squares / area - middle * middle.transpose();
+    const Vector3d extents = Eigen::SelfAdjointEigenSolver<Matrix3d>(spread).eigenvalues().cwiseSqrt();
+    return extents.maxCoeff() - extents.minCoeff() > alike * extents.maxCoeff();
+}
+
 std::vector<double> inclination_series(const Motion& motion, const BodyMotion& body, int run, int copy) {
     std::vector<double> series(motion.times.size());
     for (int frame = 0; frame < motion.frames(); ++frame) {
@@ -46,6 +73,10 @@ std::vector<double> inclination_series(const Motion& motion, const BodyMotion& b
 
 double percentile(std::vector<double> values, double percent) {
     std::sort(values.begin(), values.end());
+    return percentile_of_sorted(values, percent);
+}
+
+double percentile_of_sorted(const std::vector<double>& values, double percent) {
     const double place = percent / 100.0 * static_cast<double>(values.size() - 1);
     const auto below = static_cast<std::size_t>(place);
     const std::size_t above = std::min(below + 1, values.size() - 1);

@@ -14,12 +14,19 @@ Vector3d down_direction(const Vector3d& gravity);
 /// it is measured from the world's vertical.
 double inclination(const Motion& motion, const BodyMotion& body, const Pose& pose);
 
+/// Whether the body has a shortest axis: false for a sphere or a cube, whose surface spreads alike in all
+/// directions, to 1 % of its extent. Then the inclination is that of an axis chosen by chance.
+bool has_shortest_axis(const BodyMotion& body);
+
 /// The inclination (rad) at every frame of one copy in one run.
 std::vector<double> inclination_series(const Motion& motion, const BodyMotion& body, int run, int copy);
 
 /// The value below which `percent` (0 to 100) of the values lie, linear between the order statistics; values
 /// must not be empty.
 double percentile(std::vector<double> values, double percent);
+
+/// The same of values that ascend.
+double percentile_of_sorted(const std::vector<double>& values, double percent);
 
 /// How deep a minimum of the inclination must be to count (rad), in a series of these inclinations: a tenth
 /// of the range from the 5th to the 95th percentile, and at least one degree.

@@ -1,33 +1,16 @@
 #include "samara/plot/motion_plot.hpp"
 
-#include <cerrno>
-#include <cstdlib>
-#include <cstring>
-#include <fstream>
 #include <numbers>
 #include <string>
 
 #include <fmt/format.h>
 
-#include "samara/base/content_hash.hpp"
-#include "samara/base/error.hpp"
-#include "samara/command/subprocess.hpp"
-#include "samara/files/replace_file.hpp"
-#include "samara/files/temporary_folder.hpp"
+#include "samara/plot/gnuplot.hpp"
 #include "samara/plot/series_panel.hpp"
 #include "samara/plot/strip_panel.hpp"
 
 namespace samara {
 namespace {
-
-std::string preamble(bool as_svg) {
-    return "set encoding utf8\nset minussign\n" + terminal(as_svg) +
-           "set output ARG1\n"
-           "set border 3 lw 1.5 lc rgb '#808080'\n"
-           "set tics nomirror out scale 0.6 textcolor rgb '#1a1a1a'\n"
-           "set grid lw 1 lt 1 lc rgb '#e4e4e4'\n"
-           "unset key\n";
-}
 
 std::string title_of(const Motion& motion, const BodyMotion& body, int run, int copy,
                      const Measures& measures) {
@@ -47,32 +30,6 @@ std::string title_of(const Motion& motion, const BodyMotion& body, int run, int 
            label(below, 45.0, canvas::height - 108.0, "left", gray);
 }
 
-std::string last_line(const std::string& text) {
-    const std::size_t end = text.find_last_not_of(" \n");
-    if (end == std::string::npos) return "it gave no reason";
-    const std::size_t begin = text.rfind('\n', end);
-    return text.substr(begin == std::string::npos ? 0 : begin + 1, end - begin);
-}
-
-void run_gnuplot(const std::string& script, const std::filesystem::path& output) {
-    const auto gnuplot = find_program("gnuplot");
-    if (!gnuplot) {
-        throw Error(
-            "gnuplot is not installed, which draws the pictures; install it, on Debian by 'apt install "
-            "gnuplot-nox'");
-    }
-    const TemporaryFolder folder;
-    std::ofstream stream(folder / "plot.gnuplot");
-    stream << script;
-    stream.close();
-    if (!stream) throw Error(fmt::format("{}: cannot be written", (folder / "plot.gnuplot").string()));
-    const int status = run_subprocess(
-        {gnuplot->string(), "-c", (folder / "plot.gnuplot").string(), output.string()}, folder / "messages");
-    if (status != 0 || !std::filesystem::exists(output)) {
-        throw Error(fmt::format("gnuplot failed: {}", last_line(read_bytes(folder / "messages"))));
-    }
-}
-
 }  // namespace
 
 MotionPlot plot_motion(const std::filesystem::path& file, const Motion& motion, const BodyMotion& body,
@@ -81,10 +38,9 @@ MotionPlot plot_motion(const std::filesystem::path& file, const Motion& motion, 
     const Strip strip = choose_strip(motion, body, run, copy);
     const StripPanel left = strip_panel(motion, body, run, copy, strip);
     const SeriesPanel right = series_panel(motion, body, run, copy, strip, measures, left.right);
-    const std::string script = preamble(file.extension() == ".svg") + left.data + right.data +
-                               "set multiplot\n" + title_of(motion, body, run, copy, measures) + left.plots +
-                               right.plots + "unset multiplot\nset output\n";
-    replace_file(file, [&](const std::filesystem::path& temporary) { run_gnuplot(script, temporary); });
+    draw_picture(file, left.data + right.data + "set multiplot\n" +
+                           title_of(motion, body, run, copy, measures) + left.plots + right.plots +
+                           "unset multiplot\nset output\n");
     const auto time = [&](int frame) { return motion.times[static_cast<std::size_t>(frame)]; };
     return {static_cast<int>(strip.frames.size()), {time(strip.first), time(strip.last)}, measures};
 }

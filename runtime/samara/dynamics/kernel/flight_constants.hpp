@@ -66,7 +66,10 @@ struct FlightConstants {
     Square<Real> wake_by_velocity{};     ///< rho_f N_v / (m* l)
     Square<Real> wake_by_turning{};      ///< rho_f c^2 N_w / (m* l^3)
     Square<Real> drag_in_motion{};       ///< rho_f l C_m A / (2 m*)
+    Square<Real> drag_in_spin{};         ///< rho_f l C_s A / (2 m*)
     Square<Real> rotational_drag{};      ///< rho_f C_w D / (2 m* l)
+    Square<Real> rotational_drag_in_spin{};  ///< rho_f C_r D / (2 m* l)
+    Real tow_fading = 0;                 ///< f
     Real half_length = 0;                ///< c / l
     Real creeping_turn = 0;              ///< pi mu L^3 / (m* l^2) (1/s)
     Real creeping_drag = 0;              ///< 3 pi mu L / m* (1/s)

@@ -144,10 +144,10 @@ HWY_INLINE void add_wake(const FlightConstants<Real>& c, const Triple<V>& omega,
     blocks.moment_by_turning = plus_cross(blocks.moment_by_turning, inverse * (by_velocity + by_turning));
 }
 
-/// a / (a + motion_onset b): none without a, near one as soon as a is no longer small beside b.
+/// a / (a + b), and 0 where both are none.
 template <class V>
-HWY_INLINE V early_share(V a, V b) {
-    return a / larger(V(tiny<V>), a + V(motion_onset) * b);
+HWY_INLINE V share_of(V a, V b) {
+    return a / larger(V(tiny<V>), a + b);
 }
 
 /// D at an angular velocity and a velocity of the centroid relative to the fluid. `turning`: the angular
@@ -164,20 +164,25 @@ HWY_INLINE LoadBlocks<V> load_blocks(const FlightConstants<Real>& c, const Tripl
     const V combined = root(speed_square + reach_square * dot(omega, omega));
 
     // The tow's moment stays until the body does little but turn: a steady tow keeps it whole.
-    const PressurePoint<V> point = pressure_point(c, heading, early_share(speed_square, tip_square));
+    const PressurePoint<V> point = pressure_point(c, heading, share_of(speed_square, V(c.tow_fading) * tip_square));
     LoadBlocks<V> blocks = moved_by_arm(tow_matrix(c, velocity + cross(omega, point.arm)), point.arm);
     add_windmill(point.moment_along_force, velocity, blocks);
     add_transport(c, omega, velocity, blocks);
     if (c.has_wake) add_wake(c, omega, velocity, combined, blocks);
 
-    blocks.moment_by_turning = plus_diagonal(
-        blocks.moment_by_turning + combined * broadcast<V>(c.rotational_drag), V(c.creeping_turn));
-    const V in_motion = combined * early_share(tip_square, speed_square);
+    const V in_spin = tip_square / larger(V(tiny<V>), combined);
+    blocks.moment_by_turning = plus_diagonal(blocks.moment_by_turning +
+                                                 combined * broadcast<V>(c.rotational_drag) +
+                                                 in_spin * broadcast<V>(c.rotational_drag_in_spin),
+                                             V(c.creeping_turn));
+    const V in_motion = combined * share_of(tip_square, V(motion_onset) * speed_square);
     const V below =
         larger(zero, V(1.0) - V(c.reynolds_factor) * heading.speed * V(c.lowest_reynolds_inverse));
     const V creeping_drag = select(zero < V(c.lowest_reynolds_inverse), V(c.creeping_drag) * below, zero);
     blocks.force_by_velocity =
-        plus_diagonal(blocks.force_by_velocity + in_motion * broadcast<V>(c.drag_in_motion), creeping_drag);
+        plus_diagonal(blocks.force_by_velocity + in_motion * broadcast<V>(c.drag_in_motion) +
+                          in_spin * broadcast<V>(c.drag_in_spin),
+                      creeping_drag);
     return blocks;
 }
 

@@ -1,0 +1,236 @@
+#include "converter/fall_identification.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "converter/falling_body.hpp"
+#include "converter/least_squares.hpp"
+#include "converter/motion_parameters.hpp"
+#include "samara/base/error.hpp"
+
+namespace samara {
+namespace {
+
+using Eigen::VectorXd;
+
+// Over L/U. The horizon is about a swing of a fluttering body: long enough for its energy to matter, short enough not
+// to be chaotic.
+constexpr double first_segment = 0.5;
+constexpr double horizon = 3.0;
+constexpr double spacing = 0.5;
+constexpr double flown_step = 0.03;
+constexpr int looks = 4;              // at the fall, in each segment
+constexpr int numbers_of_look = 9;    // velocity, tip speed, rotation
+constexpr double usual_miss = 0.2;    // beyond it a residual counts less
+constexpr double expected_miss = 0.1; // as far as expectations weigh
+constexpr int stretches = 6;          // of the jackknife
+constexpr double farthest_flight = 10.0;
+
+// A fall made ready for many flights.
+struct ReadyFall {
+    FallRecord record;
+    ImmersedBody body;
+    std::vector<BodyState> states;
+    Vector3d gravity;
+    std::size_t stride;  // states to a flown step
+};
+
+struct Segment {
+    std::size_t fall;
+    std::size_t begin;  // state
+    int stretch;
+};
+
+ReadyFall ready(const Body& body, const FallRecord& record) {
+    ReadyFall fall{record, falling_body(body, record.fall), states_of(record), gravity_of(record.fall), 1};
+    const double step = record.samples.front().time;
+    fall.stride = static_cast<std::size_t>(std::max(1.0, std::round(flown_step / step)));
+    return fall;
+}
+
+double step_of(const ReadyFall& fall) {
+    return fall.record.samples.front().time * fall.record.fall.time_unit();
+}
+
+int steps_to_look(const ReadyFall& fall) {
+    const double step = fall.record.samples.front().time * static_cast<double>(fall.stride);
+    return std::max(1, static_cast<int>(std::lround(horizon / looks / step)));
+}
+
+std::vector<Segment> segments_of(const std::vector<ReadyFall>& falls) {
+    std::vector<Segment> segments;
+    for (std::size_t i = 0; i < falls.size(); ++i) {
+        const ReadyFall& fall = falls[i];
+        const double step = fall.record.samples.front().time;
+        const std::size_t length = fall.stride * static_cast<std::size_t>(looks * steps_to_look(fall));
+        const auto every = static_cast<std::size_t>(std::max(1.0, std::round(spacing / step)));
+        const std::size_t first = segments.size();
+        for (auto begin = static_cast<std::size_t>(std::ceil(first_segment / step));
+             begin + length < fall.states.size(); begin += every) {
+            segments.push_back({i, begin, 0});
+        }
+        const std::size_t count = segments.size() - first;
+        if (count < 2 * stretches) {
+            throw Error(fmt::format("{}: the fall is too short to identify coefficients from: {:.3g} L/U, needs {:.3g}",
+                                    fall.record.fall.name, fall.record.samples.back().time,
+                                    first_segment + horizon + 2 * stretches * spacing));
+        }
+        for (std::size_t k = 0; k < count; ++k) {
+            segments[first + k].stretch = static_cast<int>(k * stretches / count);
+        }
+    }
+    return segments;
+}
+
+// What the flight misses of the fall at one look, over the fall's scales.
+Eigen::Matrix<double, numbers_of_look, 1> miss(const ReadyFall& fall, const BodyState& flown, const BodyState& solved) {
+    const double speed = fall.record.fall.speed;
+    const double tip = fall.body.dynamic.half_length / speed;
+    const Matrix3d to_world = flown.orientation.toRotationMatrix();
+    const Matrix3d solved_to_world = solved.orientation.toRotationMatrix();
+    const Eigen::AngleAxisd turn(Matrix3d(solved_to_world.transpose() * to_world));
+    Eigen::Matrix<double, numbers_of_look, 1> result;
+    result << (to_world * flown.velocity.tail<3>() - solved_to_world * solved.velocity.tail<3>()) / speed,
+        (to_world * flown.velocity.head<3>() - solved_to_world * solved.velocity.head<3>()) * tip,
+        turn.angle() * turn.axis();
+    if (!result.allFinite()) result.setConstant(farthest_flight);
+    return result.cwiseMin(farthest_flight).cwiseMax(-farthest_flight);
+}
+
+void fly_segment(const ReadyFall& fall, const ImmersedBody& body, std::size_t begin, Eigen::Ref<VectorXd> residuals) {
+    const double time_step = step_of(fall) * static_cast<double>(fall.stride);
+    const int steps = steps_to_look(fall);
+    BodyState state = fall.states[begin];
+    std::size_t at = begin;
+    for (int look = 0; look < looks; ++look) {
+        for (int step = 0; step < steps; ++step) state = implicit_step(body, fall.gravity, time_step, state);
+        at += fall.stride * static_cast<std::size_t>(steps);
+        residuals.segment<numbers_of_look>(numbers_of_look * look) = miss(fall, state, fall.states[at]);
+    }
+}
+
+VectorXd residuals_of(const std::vector<ReadyFall>& falls, const std::vector<Segment>& segments,
+                      const DynamicCoefficients& coefficients) {
+    constexpr Eigen::Index each = looks * numbers_of_look;
+    VectorXd residuals(each * static_cast<Eigen::Index>(segments.size()));
+    std::size_t of = falls.size();
+    ImmersedBody body;
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+        const Segment& segment = segments[i];
+        if (segment.fall != of) {
+            of = segment.fall;
+            body = falls[of].body;
+            body.dynamic = coefficients;
+            prepare(body);
+        }
+        fly_segment(falls[of], body, segment.begin, residuals.segment(each * static_cast<Eigen::Index>(i), each));
+    }
+    return residuals;
+}
+
+LeastSquaresProblem problem_of(const std::vector<ReadyFall>& falls, const std::vector<Segment>& segments,
+                               const MotionParameters& parameters, int threads) {
+    LeastSquaresProblem problem;
+    problem.residuals = [&falls, &parameters, segments](const VectorXd& numbers) {
+        return residuals_of(falls, segments, parameters.coefficients(numbers));
+    };
+    const auto count = static_cast<Eigen::Index>(parameters.all().size());
+    problem.start = parameters.expected();
+    problem.expected = problem.start;
+    problem.lower.resize(count);
+    problem.upper.resize(count);
+    problem.deviation.resize(count);
+    for (Eigen::Index i = 0; i < count; ++i) {
+        const MotionParameter& parameter = parameters.all()[static_cast<std::size_t>(i)];
+        problem.lower[i] = parameter.lower;
+        problem.upper[i] = parameter.upper;
+        problem.deviation[i] = parameter.deviation;
+    }
+    problem.scale = usual_miss;
+    // A segment's looks are not independent, nor are segments that overlap: about one number in a dozen is.
+    problem.prior_weight = 12.0 * expected_miss * expected_miss;
+    problem.threads = threads;
+    return problem;
+}
+
+// Standard errors from leaving out one stretch at a time (Efron & Tibshirani, An Introduction to the Bootstrap, 1993,
+// section 11.2), no less than what the linearised problem gives for one stretch's worth of segments.
+VectorXd jackknife(const std::vector<ReadyFall>& falls, const std::vector<Segment>& segments,
+                   const MotionParameters& parameters, const VectorXd& solution, int threads,
+                   const std::function<void(double)>& progress) {
+    VectorXd sum = VectorXd::Zero(solution.size());
+    VectorXd squares = VectorXd::Zero(solution.size());
+    for (int stretch = 0; stretch < stretches; ++stretch) {
+        std::vector<Segment> others = segments;
+        std::erase_if(others, [&](const Segment& segment) { return segment.stretch == stretch; });
+        LeastSquaresProblem problem = problem_of(falls, others, parameters, threads);
+        problem.start = solution;
+        problem.most_iterations = 8;
+        const VectorXd x = solve_least_squares(problem).x;
+        sum += x;
+        squares += x.cwiseAbs2();
+        if (progress) progress((2.0 + stretch) / (2.0 + stretches));
+    }
+    const VectorXd mean = sum / stretches;
+    const VectorXd variance = (squares / stretches - mean.cwiseAbs2()).cwiseMax(0.0);
+    return ((stretches - 1.0) * variance).cwiseSqrt();
+}
+
+FlownFall fly_whole(const Body& body, const ReadyFall& fall, const DynamicCoefficients& coefficients) {
+    ImmersedBody flying = fall.body;
+    flying.dynamic = coefficients;
+    prepare(flying);
+    const double time_step = step_of(fall) * static_cast<double>(fall.stride);
+    std::vector<BodyState> solved;
+    std::vector<BodyState> flown;
+    BodyState state = fall.states.front();
+    for (std::size_t i = 0; i < fall.states.size(); i += fall.stride) {
+        solved.push_back(fall.states[i]);
+        flown.push_back(state);
+        state = implicit_step(flying, fall.gravity, time_step, state);
+    }
+    const auto measured = [&](const std::vector<BodyState>& states) {
+        const Motion motion = motion_of(body, fall.gravity, time_step, states);
+        return measure(motion, motion.bodies.front());
+    };
+    return {fall.record.fall.name, measured(solved), measured(flown), balance_of(fall.record)};
+}
+
+std::string origin_of(const std::vector<FallRecord>& falls, double error) {
+    std::string names;
+    for (const FallRecord& record : falls) {
+        names += fmt::format("{}{} ({:.3g} L/U, Reynolds number {:.3g}, density {:.4g})", names.empty() ? "" : ", ",
+                             record.fall.name, record.fall.duration, record.fall.reynolds_number,
+                             record.fall.mass / record.fall.volume);
+    }
+    return fmt::format("dynamic coefficients identified from free falls in OpenFOAM: {}; prediction error {:.2g}",
+                       names, error);
+}
+
+}  // namespace
+
+Identification identify_motion(const Body& body, const std::vector<FallRecord>& records, int threads,
+                               const std::function<void(double)>& progress) {
+    std::vector<ReadyFall> falls;
+    for (const FallRecord& record : records) falls.push_back(ready(body, record));
+    const std::vector<Segment> segments = segments_of(falls);
+    const MotionParameters parameters(body);
+    const LeastSquaresSolution solution =
+        solve_least_squares(problem_of(falls, segments, parameters, threads));
+    if (progress) progress(1.0 / (2.0 + stretches));
+    Identification result;
+    result.prediction_error = solution.rms;
+    result.segments = static_cast<int>(segments.size());
+    result.coefficients.values = parameters.coefficients(solution.x);
+    result.coefficients.standard_errors = parameters.standard_errors(
+        jackknife(falls, segments, parameters, solution.x, threads, progress));
+    result.coefficients.values.origin = origin_of(records, solution.rms);
+    for (const ReadyFall& fall : falls) {
+        result.falls.push_back(fly_whole(body, fall, result.coefficients.values));
+    }
+    return result;
+}
+
+}  // namespace samara

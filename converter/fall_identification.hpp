@@ -1,0 +1,41 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "converter/fall_record.hpp"
+#include "samara/body/body.hpp"
+#include "samara/motion/measures.hpp"
+
+namespace samara {
+
+/// How one fall's figures compare when the identified model flies it from the same start.
+struct FlownFall {
+    std::string name;
+    Measures solved;      ///< of the full CFD
+    Measures flown;       ///< of the runtime
+    FallBalance balance;  ///< of the full CFD
+};
+
+/// Dynamic coefficients that were identified, and how good they are.
+struct Identification {
+    IdentifiedCoefficients coefficients;
+    /// Root mean square, over a horizon's quarters, of what the flights miss: velocity over the fall's speed, tip speed
+    /// over it, and rotation (rad).
+    double prediction_error = 0.0;
+    int segments = 0;
+    std::vector<FlownFall> falls;  ///< those that the coefficients are from
+};
+
+/// Identifies a body's dynamic coefficients from full-CFD falls of it.
+///
+/// The runtime's own step flies the body from many moments of each fall over a short horizon; the coefficients are
+/// those with which it misses the fall least (least_squares.hpp), near what is expected of any body where the falls do
+/// not say (motion_parameters.hpp), and positive where the loads would else make energy. Their standard errors come
+/// from leaving out one of six stretches of the falls at a time (jackknife). `body` must have its Kirchhoff tensor and
+/// its tables. Throws Error where a fall is of another body or too short.
+Identification identify_motion(const Body& body, const std::vector<FallRecord>& falls, int threads = 0,
+                               const std::function<void(double)>& progress = {});
+
+}  // namespace samara

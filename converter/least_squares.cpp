@@ -1,0 +1,108 @@
+#include "converter/least_squares.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <Eigen/Cholesky>
+
+#include "samara/base/parallel_for.hpp"
+
+namespace samara {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double difference = 1e-3;            // of a parameter, over its deviation
+constexpr double least_gain = 1e-5;            // of the cost: below it the iterations end
+constexpr double largest_damping = 1e8;
+
+struct Point {
+    VectorXd x;
+    VectorXd residuals;
+    double cost = 0.0;
+};
+
+Point point_at(const LeastSquaresProblem& problem, const VectorXd& x) {
+    Point point{x, problem.residuals(x)};
+    const double square = problem.scale * problem.scale;
+    for (const double r : point.residuals) point.cost += square * std::log1p(r * r / square);
+    point.cost += problem.prior_weight * ((x - problem.expected).cwiseQuotient(problem.deviation)).squaredNorm();
+    return point;
+}
+
+MatrixXd jacobian(const LeastSquaresProblem& problem, const Point& point) {
+    MatrixXd columns(point.residuals.size(), point.x.size());
+    parallel_for(static_cast<std::size_t>(point.x.size()), 1, problem.threads, [&](std::size_t index, std::size_t) {
+        const auto k = static_cast<Eigen::Index>(index);
+        VectorXd x = point.x;
+        const double step = difference * problem.deviation[k];
+        x[k] += x[k] + step > problem.upper[k] ? -step : step;
+        columns.col(k) = problem.upper[k] > problem.lower[k]
+                             ? VectorXd((problem.residuals(x) - point.residuals) / (x[k] - point.x[k]))
+                             : VectorXd(VectorXd::Zero(point.residuals.size()));
+    });
+    return columns;
+}
+
+// The parameters that the downhill direction does not push beyond a bound.
+std::vector<Eigen::Index> free_parameters(const LeastSquaresProblem& problem, const VectorXd& x,
+                                          const VectorXd& gradient) {
+    std::vector<Eigen::Index> free;
+    for (Eigen::Index k = 0; k < x.size(); ++k) {
+        const bool at_lower = x[k] <= problem.lower[k] && gradient[k] >= 0.0;
+        const bool at_upper = x[k] >= problem.upper[k] && gradient[k] <= 0.0;
+        if (!at_lower && !at_upper) free.push_back(k);
+    }
+    return free;
+}
+
+VectorXd damped_step(const MatrixXd& normal, const VectorXd& gradient, double damping,
+                     const std::vector<Eigen::Index>& free) {
+    VectorXd step = VectorXd::Zero(gradient.size());
+    if (free.empty()) return step;
+    MatrixXd matrix = normal(free, free);
+    matrix.diagonal() *= 1.0 + damping;
+    step(free) = -matrix.ldlt().solve(VectorXd(gradient(free)));
+    return step;
+}
+
+}  // namespace
+
+LeastSquaresSolution solve_least_squares(const LeastSquaresProblem& problem) {
+    const auto within = [&](const VectorXd& x) {
+        return VectorXd(x.cwiseMax(problem.lower).cwiseMin(problem.upper));
+    };
+    Point point = point_at(problem, within(problem.start));
+    const VectorXd prior = problem.prior_weight * problem.deviation.cwiseAbs2().cwiseInverse();
+    const double square = problem.scale * problem.scale;
+    LeastSquaresSolution solution;
+    double damping = 1e-2;
+    while (solution.iterations < problem.most_iterations && !solution.converged) {
+        ++solution.iterations;
+        const MatrixXd columns = jacobian(problem, point);
+        const VectorXd weights = (1.0 + point.residuals.array().square() / square).inverse();
+        MatrixXd normal = columns.transpose() * weights.asDiagonal() * columns;
+        normal.diagonal() += prior;
+        const VectorXd gradient = columns.transpose() * weights.cwiseProduct(point.residuals) +
+                                  prior.cwiseProduct(point.x - problem.expected);
+        const auto free = free_parameters(problem, point.x, gradient);
+        const double before = point.cost;
+        while (damping < largest_damping) {
+            Point next = point_at(problem, within(point.x + damped_step(normal, gradient, damping, free)));
+            if (next.cost < point.cost) {
+                point = std::move(next);
+                damping = std::max(1e-6, 0.25 * damping);
+                break;
+            }
+            damping *= 4.0;
+        }
+        solution.converged = before - point.cost <= least_gain * before;
+    }
+    solution.x = point.x;
+    solution.rms = std::sqrt(point.residuals.squaredNorm() / static_cast<double>(point.residuals.size()));
+    return solution;
+}
+
+}  // namespace samara

@@ -1,0 +1,136 @@
+#include "converter/motion_parameters.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "samara/dynamics/dynamic_coefficients.hpp"
+
+namespace samara {
+namespace {
+
+struct Expectation {
+    Matrix3d DynamicCoefficients::*member;
+    const char* name;
+    double expected, deviation, lower, upper;
+};
+
+// What the falls in docs/falls have in common (docs/falls.md), and how far they differ.
+constexpr Expectation expectations[] = {
+    {&DynamicCoefficients::transport, "transport", 0.0, 1.0, -6.0, 6.0},
+    {&DynamicCoefficients::drag_in_motion, "drag in motion", 0.6, 0.6, 0.0, 6.0},
+    {&DynamicCoefficients::drag_in_spin, "drag in spin", 0.3, 0.6, 0.0, 6.0},
+    {&DynamicCoefficients::rotational_drag, "rotational drag", 0.3, 0.5, 0.0, 6.0},
+    {&DynamicCoefficients::rotational_drag_in_spin, "rotational drag in spin", 0.3, 0.5, 0.0, 6.0},
+    {&DynamicCoefficients::wake_by_velocity, "wake by velocity", 0.0, 0.5, -3.0, 3.0},
+    {&DynamicCoefficients::wake_by_turning, "wake by turning", 0.0, 0.5, -3.0, 3.0},
+};
+
+// Axes along which the body moves alike: within this, relative.
+constexpr double alike = 0.01;
+
+Eigen::Vector3i tied_axes(const Matrix3d& axes, const Body& body) {
+    const auto along = [&](const Matrix3d& tensor) -> Vector3d {
+        return (axes.transpose() * tensor * axes).diagonal();
+    };
+    const Matrix6d& fluid = body.kirchhoff->matrix;
+    const Vector3d masses = along(fluid.bottomRightCorner<3, 3>());
+    const Vector3d inertias = along(fluid.topLeftCorner<3, 3>());
+    const Vector3d extents = along(body.moments.second_moments);
+    const auto equal = [](const Vector3d& values, int i, int j) {
+        return std::abs(values[i] - values[j]) <= alike * values.maxCoeff();
+    };
+    Eigen::Vector3i tied(0, 1, 2);
+    for (int i = 1; i < 3; ++i) {
+        for (int j = i - 1; j >= 0; --j) {
+            if (equal(masses, i, j) && equal(inertias, i, j) && equal(extents, i, j)) tied[i] = tied[j];
+        }
+    }
+    return tied;
+}
+
+Vector3d projected_areas(const Body& body, const Matrix3d& axes) {
+    Vector3d areas;
+    for (int i = 0; i < 3; ++i) areas[i] = projected_area(body.surface, axes.col(i));
+    return areas;
+}
+
+}  // namespace
+
+MotionParameters::MotionParameters(const Body& body) {
+    axes_ = principal_axes(body.moments);
+    tied_ = tied_axes(axes_, body);
+    half_length_ = default_dynamic_coefficients(body).half_length;
+    const Matrix3d added_mass = axes_.transpose() * body.kirchhoff->matrix.bottomRightCorner<3, 3>() * axes_;
+    const double largest = added_mass.diagonal().maxCoeff();
+    const Vector3d turning =
+        (axes_.transpose() * rotational_drag_tensor(body.surface, body.moments.centroid) * axes_).diagonal();
+    const Vector3d none = Vector3d::Zero();
+    const Vector3d of_wake = Vector3d::Constant(largest * half_length_);
+    const Vector3d offsets[] = {added_mass.diagonal(), none, none, none, none, none, none};
+    // A body of revolution has no rotational drag about its axis by its pressure: friction is a small share.
+    const Vector3d of_turning = turning.cwiseMax(0.02 * turning.maxCoeff());
+    const Vector3d areas = projected_areas(body, axes_);
+    const Vector3d units[] = {Vector3d::Constant(0.25 * largest), areas, areas, of_turning, of_turning, of_wake, of_wake};
+    for (std::size_t t = 0; t < std::size(expectations); ++t) {
+        const Expectation& expectation = expectations[t];
+        Tensor tensor{expectation.member, offsets[t], units[t], {}};
+        for (int i = 0; i < 3; ++i) {
+            if (tied_[i] == i) {
+                tensor.place[i] = static_cast<int>(parameters_.size());
+                parameters_.push_back({fmt::format("{} {}", expectation.name, i + 1), expectation.expected,
+                                       expectation.deviation, expectation.lower, expectation.upper});
+            } else {
+                tensor.place[i] = tensor.place[tied_[i]];
+            }
+        }
+        tensors_.push_back(tensor);
+    }
+    turning_place_ = static_cast<Eigen::Index>(parameters_.size());
+    parameters_.push_back({"turning transport", 1.0, 0.3, -2.0, 4.0});
+    parameters_.push_back({"fading of the tow", 0.3, 1.0, motion_onset, 20.0});
+}
+
+Eigen::VectorXd MotionParameters::expected() const {
+    Eigen::VectorXd numbers(static_cast<Eigen::Index>(parameters_.size()));
+    for (Eigen::Index i = 0; i < numbers.size(); ++i) numbers[i] = parameters_[static_cast<std::size_t>(i)].expected;
+    return numbers;
+}
+
+Eigen::Vector3d MotionParameters::principal_values(const Tensor& tensor, const Eigen::VectorXd& numbers) const {
+    return {tensor.unit[0] * numbers[tensor.place[0]], tensor.unit[1] * numbers[tensor.place[1]],
+            tensor.unit[2] * numbers[tensor.place[2]]};
+}
+
+DynamicCoefficients MotionParameters::coefficients(const Eigen::VectorXd& numbers) const {
+    DynamicCoefficients coefficients;
+    for (const Tensor& tensor : tensors_) {
+        const Vector3d values = tensor.offset + principal_values(tensor, numbers);
+        const Matrix3d matrix = axes_ * values.asDiagonal() * axes_.transpose();
+        coefficients.*tensor.member = 0.5 * (matrix + matrix.transpose());
+    }
+    coefficients.rotational_transport = numbers[turning_place_];
+    coefficients.tow_fading = numbers[turning_place_ + 1];
+    coefficients.half_length = half_length_;
+    return coefficients;
+}
+
+DynamicCoefficients MotionParameters::standard_errors(const Eigen::VectorXd& errors) const {
+    DynamicCoefficients coefficients;
+    for (const Tensor& tensor : tensors_) {
+        const Vector3d values = principal_values(tensor, errors);
+        // Each entry is a sum of the values times squares or products of the axes' components.
+        Matrix3d squares = Matrix3d::Zero();
+        for (int i = 0; i < 3; ++i) {
+            const Matrix3d share = axes_.col(i) * axes_.col(i).transpose();
+            squares += (values[i] * share).cwiseAbs2();
+        }
+        coefficients.*tensor.member = squares.cwiseSqrt();
+    }
+    coefficients.rotational_transport = errors[turning_place_];
+    coefficients.tow_fading = errors[turning_place_ + 1];
+    return coefficients;
+}
+
+}  // namespace samara

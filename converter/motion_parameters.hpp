@@ -1,0 +1,53 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "samara/body/body.hpp"
+
+namespace samara {
+
+/// What is known of one number of a body's dynamic coefficients before its falls are looked at.
+struct MotionParameter {
+    std::string name;  ///< such as "transport 1"
+    double expected;
+    double deviation;
+    double lower;
+    double upper;
+};
+
+/// The numbers that a body's dynamic coefficients are made of, over what belongs to its size: the principal values of
+/// each tensor along the body's principal axes, the shortest extent first; along two axes that the body's symmetry
+/// makes equal there is one. What is expected is what the falls in docs/falls have in common.
+class MotionParameters {
+  public:
+    /// The body must have its Kirchhoff tensor.
+    explicit MotionParameters(const Body& body);
+
+    [[nodiscard]] const std::vector<MotionParameter>& all() const { return parameters_; }
+    [[nodiscard]] DynamicCoefficients coefficients(const Eigen::VectorXd& numbers) const;
+    /// Of the numbers' standard errors, which are taken as independent: each entry's.
+    [[nodiscard]] DynamicCoefficients standard_errors(const Eigen::VectorXd& errors) const;
+    /// The numbers that are expected.
+    [[nodiscard]] Eigen::VectorXd expected() const;
+
+  private:
+    struct Tensor {
+        Matrix3d DynamicCoefficients::*member;
+        Vector3d offset;  // what the numbers are added to
+        Vector3d unit;    // of the numbers
+        Eigen::Vector3i place;
+    };
+    [[nodiscard]] Eigen::Vector3d principal_values(const Tensor& tensor, const Eigen::VectorXd& numbers) const;
+
+    Matrix3d axes_;
+    Eigen::Vector3i tied_;  // the axis whose number each axis takes
+    double half_length_ = 0.0;
+    std::vector<Tensor> tensors_;
+    std::vector<MotionParameter> parameters_;
+    Eigen::Index turning_place_ = 0;
+};
+
+}  // namespace samara
