@@ -21,12 +21,16 @@ constexpr double first_segment = 0.5;
 constexpr double horizon = 3.0;
 constexpr double spacing = 0.5;
 constexpr double flown_step = 0.03;
-constexpr int looks = 4;              // at the fall, in each segment
-constexpr int numbers_of_look = 9;    // velocity, tip speed, rotation
-constexpr double usual_miss = 0.2;    // beyond it a residual counts less
-constexpr double expected_miss = 0.1; // as far as expectations weigh
-constexpr int stretches = 6;          // of the jackknife
+constexpr int looks = 4;               // at the fall, in each segment
+constexpr int numbers_of_look = 9;     // velocity, tip speed, rotation
+constexpr double usual_miss = 0.2;     // beyond it a residual counts less
+constexpr double expected_miss = 0.1;  // as far as expectations weigh
+constexpr int stretches = 6;           // of the jackknife
+constexpr int least_segments = 2 * stretches;  // of each fall
+// Of any number of a miss: coefficients with which a body flies off are bad, but no worse than that.
 constexpr double farthest_flight = 10.0;
+// Of a sample's time over its step: the flights take steps of one length.
+constexpr double uneven_time = 0.01;
 
 // A fall made ready for many flights.
 struct ReadyFall {
@@ -43,7 +47,26 @@ struct Segment {
     int stretch;
 };
 
+Error too_short(const FallRecord& record) {
+    return Error(fmt::format(
+        "{}: the fall is too short to identify coefficients from: {:.3g} L/U, needs {:.3g}", record.fall.name,
+        record.samples.empty() ? 0.0 : record.samples.back().time,
+        first_segment + horizon + (least_segments - 1) * spacing));
+}
+
+void require_even_steps(const FallRecord& record) {
+    const double step = record.samples.front().time;
+    for (std::size_t i = 0; i < record.samples.size(); ++i) {
+        const double time = record.samples[i].time;
+        if (std::abs(time - static_cast<double>(i + 1) * step) <= uneven_time * step) continue;
+        throw Error(fmt::format("{}: the fall's steps are not of one length: {:.6g} L/U at first, but not at {:.6g}",
+                                record.fall.name, step, time));
+    }
+}
+
 ReadyFall ready(const Body& body, const FallRecord& record) {
+    if (record.samples.empty()) throw too_short(record);
+    require_even_steps(record);
     ReadyFall fall{record, falling_body(body, record.fall), states_of(record), gravity_of(record.fall), 1};
     const double step = record.samples.front().time;
     fall.stride = static_cast<std::size_t>(std::max(1.0, std::round(flown_step / step)));
@@ -72,11 +95,7 @@ std::vector<Segment> segments_of(const std::vector<ReadyFall>& falls) {
             segments.push_back({i, begin, 0});
         }
         const std::size_t count = segments.size() - first;
-        if (count < 2 * stretches) {
-            throw Error(fmt::format("{}: the fall is too short to identify coefficients from: {:.3g} L/U, needs {:.3g}",
-                                    fall.record.fall.name, fall.record.samples.back().time,
-                                    first_segment + horizon + 2 * stretches * spacing));
-        }
+        if (count < least_segments) throw too_short(fall.record);
         for (std::size_t k = 0; k < count; ++k) {
             segments[first + k].stretch = static_cast<int>(k * stretches / count);
         }
@@ -155,9 +174,9 @@ LeastSquaresProblem problem_of(const std::vector<ReadyFall>& falls, const std::v
     return problem;
 }
 
-// Standard errors from leaving out one stretch at a time (Efron & Tibshirani, An Introduction to the Bootstrap, 1993,
-// section 11.2), no less than what the linearised problem gives for one stretch's worth of segments.
-VectorXd jackknife(const std::vector<ReadyFall>& falls, const std::vector<Segment>& segments,
+// From leaving out one stretch at a time (Efron & Tibshirani, An Introduction to the Bootstrap, 1993, section 11.2),
+// which knows nothing of the pull of what is expected: that is the same whatever is left out.
+VectorXd standard_errors_of(const std::vector<ReadyFall>& falls, const std::vector<Segment>& segments,
                    const MotionParameters& parameters, const VectorXd& solution, int threads,
                    const std::function<void(double)>& progress) {
     VectorXd sum = VectorXd::Zero(solution.size());
@@ -174,8 +193,10 @@ VectorXd jackknife(const std::vector<ReadyFall>& falls, const std::vector<Segmen
         if (progress) progress((2.0 + stretch) / (2.0 + stretches));
     }
     const VectorXd mean = sum / stretches;
-    const VectorXd variance = (squares / stretches - mean.cwiseAbs2()).cwiseMax(0.0);
-    return ((stretches - 1.0) * variance).cwiseSqrt();
+    const VectorXd variance = (stretches - 1.0) * (squares / stretches - mean.cwiseAbs2()).cwiseMax(0.0);
+    const VectorXd of_expectation =
+        errors_by_expectation(problem_of(falls, segments, parameters, threads), solution);
+    return (variance + of_expectation.cwiseAbs2()).cwiseSqrt();
 }
 
 FlownFall fly_whole(const Body& body, const ReadyFall& fall, const DynamicCoefficients& coefficients) {
@@ -225,7 +246,7 @@ Identification identify_motion(const Body& body, const std::vector<FallRecord>& 
     result.segments = static_cast<int>(segments.size());
     result.coefficients.values = parameters.coefficients(solution.x);
     result.coefficients.standard_errors = parameters.standard_errors(
-        jackknife(falls, segments, parameters, solution.x, threads, progress));
+        standard_errors_of(falls, segments, parameters, solution.x, threads, progress));
     result.coefficients.values.origin = origin_of(records, solution.rms);
     for (const ReadyFall& fall : falls) {
         result.falls.push_back(fly_whole(body, fall, result.coefficients.values));

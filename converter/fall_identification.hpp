@@ -33,8 +33,9 @@ struct Identification {
 /// The runtime's own step flies the body from many moments of each fall over a short horizon; the coefficients are
 /// those with which it misses the fall least (least_squares.hpp), near what is expected of any body where the falls do
 /// not say (motion_parameters.hpp), and positive where the loads would else make energy. Their standard errors come
-/// from leaving out one of six stretches of the falls at a time (jackknife). `body` must have its Kirchhoff tensor and
-/// its tables. Throws Error where a fall is of another body or too short.
+/// from leaving out one of six stretches of the falls at a time (jackknife), and from how far what is expected may be
+/// off. `body` must have its Kirchhoff tensor and its tables. Throws Error, which names the fall, where one is of
+/// another body, too short (9 L/U), or of steps that are not of one length.
 Identification identify_motion(const Body& body, const std::vector<FallRecord>& falls, int threads = 0,
                                const std::function<void(double)>& progress = {});
 
