@@ -9,6 +9,7 @@
 
 #include "converter/case_folder_reduction.hpp"
 #include "converter/convert.hpp"
+#include "converter/identification_report.hpp"
 #include "converter/samples_csv.hpp"
 #include "samara/base/error.hpp"
 #include "samara/base/vector_json.hpp"
@@ -168,7 +169,12 @@ nlohmann::json write_tables(const std::string& cases, const std::string& output,
     const Conversion conversion = convert_folder(cases, progress);
     write_body_file(output, conversion.body);
     if (print) print_cases(conversion);
-    return conversion_as_json(conversion, output);
+    nlohmann::json json = conversion_as_json(conversion, output);
+    if (conversion.identification) {
+        json["dynamic_coefficients"] = identification_as_json(*conversion.identification);
+        if (print) fmt::print("\n{}", identification_as_text(*conversion.identification));
+    }
+    return json;
 }
 
 int run(int argc, const char* const* argv) {

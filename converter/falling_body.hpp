@@ -14,8 +14,8 @@ namespace samara {
 /// has, or the default ones. Throws Error where the fall is of a body of another size.
 ImmersedBody falling_body(const Body& body, const FreeFall& fall);
 
-/// The fall's states, the first at its start, in SI units; the world's axes are the body's (shape) axes at
-/// the start, and its origin the centre of mass there.
+/// The fall's states, the first at its start with the velocities of fall.json, in SI units; the world's axes
+/// are the body's (shape) axes at the start, and its origin the centre of mass there.
 std::vector<BodyState> states_of(const FallRecord& record);
 
 /// The fall's gravity (m/s^2) in the same axes.

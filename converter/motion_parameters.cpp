@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "samara/base/error.hpp"
 #include "samara/dynamics/dynamic_coefficients.hpp"
 
 namespace samara {
@@ -26,6 +28,9 @@ constexpr Expectation expectations[] = {
     {&DynamicCoefficients::wake_by_velocity, "wake by velocity", 0.0, 0.5, -3.0, 3.0},
     {&DynamicCoefficients::wake_by_turning, "wake by turning", 0.0, 0.5, -3.0, 3.0},
 };
+
+constexpr const char* turning_transport = "turning transport";
+constexpr const char* fading_of_tow = "fading of the tow";
 
 // Axes along which the body moves alike: within this, relative.
 constexpr double alike = 0.01;
@@ -58,7 +63,15 @@ Vector3d projected_areas(const Body& body, const Matrix3d& axes) {
 
 }  // namespace
 
-MotionParameters::MotionParameters(const Body& body) {
+std::vector<std::string> MotionParameters::names() {
+    std::vector<std::string> names;
+    for (const Expectation& expectation : expectations) names.emplace_back(expectation.name);
+    names.emplace_back(turning_transport);
+    names.emplace_back(fading_of_tow);
+    return names;
+}
+
+MotionParameters::MotionParameters(const Body& body, const std::vector<std::string>& without) {
     axes_ = principal_axes(body.moments);
     tied_ = tied_axes(axes_, body);
     half_length_ = default_dynamic_coefficients(body).half_length;
@@ -72,7 +85,8 @@ MotionParameters::MotionParameters(const Body& body) {
     // A body of revolution has no rotational drag about its axis by its pressure: friction is a small share.
     const Vector3d of_turning = turning.cwiseMax(0.02 * turning.maxCoeff());
     const Vector3d areas = projected_areas(body, axes_);
-    const Vector3d units[] = {Vector3d::Constant(0.25 * largest), areas, areas, of_turning, of_turning, of_wake, of_wake};
+    const Vector3d units[] = {
+        Vector3d::Constant(0.25 * largest), areas, areas, of_turning, of_turning, of_wake, of_wake};
     for (std::size_t t = 0; t < std::size(expectations); ++t) {
         const Expectation& expectation = expectations[t];
         Tensor tensor{expectation.member, offsets[t], units[t], {}};
@@ -88,17 +102,39 @@ MotionParameters::MotionParameters(const Body& body) {
         tensors_.push_back(tensor);
     }
     turning_place_ = static_cast<Eigen::Index>(parameters_.size());
-    parameters_.push_back({"turning transport", 1.0, 0.3, -2.0, 4.0});
-    parameters_.push_back({"fading of the tow", 0.3, 1.0, motion_onset, 20.0});
+    parameters_.push_back({turning_transport, 1.0, 0.3, -2.0, 4.0});
+    parameters_.push_back({fading_of_tow, 0.3, 1.0, motion_onset, 20.0});
+    for (const std::string& name : without) leave_out(name);
+}
+
+void MotionParameters::leave_out(const std::string& name) {
+    const std::vector<std::string> known = names();
+    if (std::ranges::find(known, name) == known.end()) {
+        throw Error(fmt::format("there is no term '{}'; the terms are {}", name, fmt::join(known, ", ")));
+    }
+    // Transport's numbers are added to the added mass; as in potential flow there is none.
+    for (Tensor& tensor : tensors_) {
+        if (name == "transport" && tensor.member == &DynamicCoefficients::transport) tensor.offset.setZero();
+    }
+    for (MotionParameter& parameter : parameters_) {
+        if (!parameter.name.starts_with(name) ||
+            parameter.name.find_first_not_of(" 123", name.size()) != std::string::npos) {
+            continue;
+        }
+        const double none = name == fading_of_tow ? motion_onset : 0.0;
+        parameter.expected = parameter.lower = parameter.upper = none;
+    }
 }
 
 Eigen::VectorXd MotionParameters::expected() const {
     Eigen::VectorXd numbers(static_cast<Eigen::Index>(parameters_.size()));
-    for (Eigen::Index i = 0; i < numbers.size(); ++i) numbers[i] = parameters_[static_cast<std::size_t>(i)].expected;
+    for (Eigen::Index i = 0; i < numbers.size(); ++i)
+        numbers[i] = parameters_[static_cast<std::size_t>(i)].expected;
     return numbers;
 }
 
-Eigen::Vector3d MotionParameters::principal_values(const Tensor& tensor, const Eigen::VectorXd& numbers) const {
+Eigen::Vector3d MotionParameters::principal_values(const Tensor& tensor,
+                                                   const Eigen::VectorXd& numbers) const {
     return {tensor.unit[0] * numbers[tensor.place[0]], tensor.unit[1] * numbers[tensor.place[1]],
             tensor.unit[2] * numbers[tensor.place[2]]};
 }

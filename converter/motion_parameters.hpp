@@ -18,13 +18,17 @@ struct MotionParameter {
     double upper;
 };
 
-/// The numbers that a body's dynamic coefficients are made of, over what belongs to its size: the principal values of
-/// each tensor along the body's principal axes, the shortest extent first; along two axes that the body's symmetry
-/// makes equal there is one. What is expected is what the falls in docs/falls have in common.
+/// The numbers that a body's dynamic coefficients are made of, over what belongs to its size: the principal
+/// values of each tensor along the body's principal axes, the shortest extent first; along two axes that the
+/// body's symmetry makes equal there is one. What is expected is what the falls in docs/falls have in common.
 class MotionParameters {
   public:
-    /// The body must have its Kirchhoff tensor.
-    explicit MotionParameters(const Body& body);
+    /// The body must have its Kirchhoff tensor. Terms whose names are in `without`, as names() has them, stay
+    /// out: zero, and for the transports as in potential flow. Throws Error where there is no such term.
+    explicit MotionParameters(const Body& body, const std::vector<std::string>& without = {});
+
+    /// The terms: transport, drag in motion, ...
+    [[nodiscard]] static std::vector<std::string> names();
 
     [[nodiscard]] const std::vector<MotionParameter>& all() const { return parameters_; }
     [[nodiscard]] DynamicCoefficients coefficients(const Eigen::VectorXd& numbers) const;
@@ -40,7 +44,9 @@ class MotionParameters {
         Vector3d unit;    // of the numbers
         Eigen::Vector3i place;
     };
-    [[nodiscard]] Eigen::Vector3d principal_values(const Tensor& tensor, const Eigen::VectorXd& numbers) const;
+    void leave_out(const std::string& name);
+    [[nodiscard]] Eigen::Vector3d principal_values(const Tensor& tensor,
+                                                   const Eigen::VectorXd& numbers) const;
 
     Matrix3d axes_;
     Eigen::Vector3i tied_;  // the axis whose number each axis takes

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "converter/identification_report.hpp"
 #include "samara/base/vector_json.hpp"
 #include "samara/body/body_file.hpp"
 
@@ -93,6 +94,13 @@ nlohmann::json bake_as_json(const BakeRequest& request, const BakePreparation& p
                                  {"direction", as_json(entry.direction)},
                                  {"reynolds_number", entry.reynolds_number}});
     }
+    json["falls"] = nlohmann::json::array();
+    for (const FreeFall& fall : preparation.plan->falls) {
+        json["falls"].push_back({{"name", fall.name},
+                                 {"mesh", fall.mesh},
+                                 {"duration", fall.duration * fall.time_unit()},
+                                 {"reynolds_number", fall.reynolds_number}});
+    }
     for (const double cells : preparation.plan->cells) json["estimated_cells"].push_back(std::round(cells));
     json["estimated_cpu_seconds"] = std::round(preparation.plan->cpu_seconds);
     return json;
@@ -117,6 +125,9 @@ nlohmann::json bake_as_json(const BakeRequest& request, const BakeResult& result
                       {"entries", tables.entries.size()}};
     json["meshes"] = meshes_of(result.conversion->cases);
     json["reused_cases"] = result.reused;
+    if (result.conversion->identification) {
+        json["dynamic_coefficients"] = identification_as_json(*result.conversion->identification);
+    }
     json["left_out"] = nlohmann::json::array();
     for (const LeftOutCase& failed : result.left_out) {
         json["left_out"].push_back({{"name", failed.name}, {"reason", failed.reason}});
@@ -137,6 +148,9 @@ void print_preparation(const BakeRequest& request, const BakePreparation& prepar
     for (const BakeCase& entry : plan.cases) {
         fmt::print("  {}  moving along ({:7.4f} {:7.4f} {:7.4f})\n", entry.name, entry.direction.x(),
                    entry.direction.y(), entry.direction.z());
+    }
+    for (const FreeFall& fall : plan.falls) {
+        fmt::print("  {}  a free fall of {:.3g} s on {}\n", fall.name, fall.duration * fall.time_unit(), fall.mesh);
     }
     const double at_once = std::min<double>(jobs, static_cast<double>(plan.cases.size()));
     fmt::print("meshes of about {:.0f} cells, {:.0f} CPU seconds in all, {:.0f} s with {} jobs\n",
@@ -170,6 +184,9 @@ void print_result(const BakeRequest& request, const BakeResult& result) {
     for (const nlohmann::json& mesh : meshes_of(cases)) {
         fmt::print("{} cells, checkMesh: {}{}\n", mesh.value("cells", 0), mesh.value("verdict", "unknown"),
                    remedy_of(mesh));
+    }
+    if (result.conversion->identification) {
+        fmt::print("{}", identification_as_text(*result.conversion->identification));
     }
     fmt::print(
         "surface {:.1f} s, Kirchhoff tensor {:.1f} s, cases {:.1f} s ({:.0f} CPU s in all), tables {:.1f} s; "

@@ -26,6 +26,7 @@ constexpr Command commands[] = {
      samara::kirchhoff_command},
     {"bake", "OpenFOAM cases around a body -> load and turbulence tables", nullptr},
     {"convert", "solved cases -> tables in the body file", nullptr},
+    {"identify", "solved free falls -> dynamic coefficients in the body file", nullptr},
     {"check-tables", "tables against solved cases that they were not made from", nullptr},
     {"simulate", "scene -> motion of its bodies", samara::simulate_command},
     {"export", "motion -> .glb for animation tools, .csv", samara::export_command},

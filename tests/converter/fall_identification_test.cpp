@@ -198,6 +198,33 @@ std::string fault_with(const Body& body, const FallRecord& record) {
     return test::error_of([&] { static_cast<void>(identify_motion(body, {record})); });
 }
 
+// A case's start has the momenta of body and fluid in the body alone, which is faster than it will be.
+TEST_F(FallIdentification, FliesAFallFromTheSpeedItHasAfterTheFirstInstant) {
+    FreeFall fall = test::oblique_fall(2.0);
+    fall.velocity = {1.0, -3.0, 2.0};
+    fall.angular_velocity = {0.5, 4.0, -2.0};
+    Body body = body_;
+    body.dynamic = {.values = true_, .standard_errors = {}};
+    const auto& [name, solved, flown, balance] = fly_fall(body, test::flown_record(body, fall, true_));
+    EXPECT_GT(solved.mean_velocity.norm(), fall.speed);
+    EXPECT_LT((flown.mean_velocity - solved.mean_velocity).norm(), 0.01 * solved.mean_velocity.norm());
+    EXPECT_NEAR(flown.rms_angular_speed, solved.rms_angular_speed, 0.01 * solved.rms_angular_speed);
+}
+
+TEST_F(FallIdentification, LeavesOutTheTermsThatItIsToldTo) {
+    const Identification without = identify_motion(body_, {record_}, {"wake by velocity", "wake by turning"});
+    EXPECT_EQ(without.coefficients.values.wake_by_velocity, Matrix3d::Zero());
+    EXPECT_EQ(without.coefficients.standard_errors.wake_by_turning, Matrix3d::Zero());
+    EXPECT_GT(without.prediction_error, 3.0 * found_.prediction_error);
+    EXPECT_THAT(test::error_of([&] { static_cast<void>(identify_motion(body_, {record_}, {"wake"})); }),
+                HasSubstr("there is no term 'wake'; the terms are transport, "));
+}
+
+TEST_F(FallIdentification, RefusesToIdentifyFromNothing) {
+    EXPECT_EQ(test::error_of([&] { static_cast<void>(identify_motion(body_, {})); }),
+              "exact: there is no fall to identify coefficients from");
+}
+
 TEST_F(FallIdentification, RefusesAFallThatIsTooShort) {
     FallRecord record = record_;
     record.fall.name = "fall_07";

@@ -21,7 +21,7 @@ TEST(FallingBody, HasTheMassTheInertiaAndTheFluidOfTheFall) {
               1e-9 * flying.own_inertia.norm());
     EXPECT_EQ(flying.fluid_density, 1000.0);
     EXPECT_NEAR(flying.viscosity, 1e-3, 1e-15);
-    // The centre of mass is at (0.01, -0.005, 0.008) L from the centroid in case axes, which are z, x, y.
+    // The centre of mass is at (0.01, -0.005, 0.008) L from the centroid in case axes, which are the body's y, z, x.
     const Vector3d offset = fall.length * Vector3d(0.008, 0.01, -0.005);
     EXPECT_LT((flying.center_of_buoyancy + offset).norm(), 1e-12);
     EXPECT_EQ(flying.loads, Loads::table);
@@ -59,9 +59,9 @@ TEST(FallingBody, HasTheStatesOfItsRecordAfterThatOfTheStart) {
     ASSERT_EQ(states.size(), 6u);
     EXPECT_LT(states[0].position.norm(), 1e-15);
     EXPECT_NEAR(states[0].orientation.angularDistance(Quaterniond::Identity()), 0.0, 1e-7);
-    // Case axes are the body's z, x, y.
-    EXPECT_LT((states[0].velocity.tail<3>() / record.fall.speed - Vector3d(-0.2, 0.3, 0.1)).norm(), 1e-12);
-    EXPECT_LT((states[0].velocity.head<3>() * record.fall.time_unit() - Vector3d(0.7, -0.2, 0.5)).norm(),
+    // The case's axes are the body's y, z and x.
+    EXPECT_LT((states[0].velocity.tail<3>() / record.fall.speed - Vector3d(0.3, 0.1, -0.2)).norm(), 1e-12);
+    EXPECT_LT((states[0].velocity.head<3>() * record.fall.time_unit() - Vector3d(-0.2, 0.5, 0.7)).norm(),
               1e-12);
     for (std::size_t i = 0; i < expected.size(); ++i) {
         EXPECT_LT((states[i + 1].position - expected[i].position).norm(), 1e-14);

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "samara/base/error.hpp"
 #include "samara/dynamics/dynamic_coefficients.hpp"
 #include "support/exact_bodies.hpp"
 #include "support/test_shapes.hpp"
@@ -124,6 +125,27 @@ TEST(MotionParameters, TieNoAxesThatMassAloneMakesEqual) {
     Body body = ellipsoid_of(Vector3d(1.0, 4.0, 4.0));
     body.moments.second_moments(2, 2) *= 1.1;
     EXPECT_EQ(MotionParameters(body).all().size(), 7u * 3u + 2u);
+}
+
+TEST(MotionParameters, AreNothingWhereTheTermIsLeftOut) {
+    const Body body = ellipsoid_of(uneven);
+    for (const std::string& name : MotionParameters::names()) {
+        const MotionParameters parameters(body, {name});
+        const DynamicCoefficients coefficients = parameters.coefficients(parameters.expected());
+        std::ptrdiff_t fixed = 0;
+        for (const MotionParameter& one : parameters.all()) fixed += one.lower == one.upper ? 1 : 0;
+        const bool is_scalar = name == "turning transport" || name == "fading of the tow";
+        EXPECT_EQ(fixed, is_scalar ? 1 : 3) << name;
+        const bool of_turning = name == "turning transport";
+        EXPECT_EQ(coefficients.rotational_transport, of_turning ? 0.0 : 1.0) << name;
+        EXPECT_EQ(coefficients.tow_fading == motion_onset, name == "fading of the tow") << name;
+        for (const TensorOfMotion& tensor : tensors_of_motion) {
+            const bool is_wake = std::string(tensor.title).starts_with("wake");
+            const bool is_none = coefficients.*tensor.member == Matrix3d::Zero();
+            EXPECT_EQ(is_none, is_wake || name == tensor.title) << name << ", " << tensor.title;
+        }
+    }
+    EXPECT_THROW(MotionParameters(body, {"transports"}), Error);
 }
 
 TEST(MotionParameters, TurnWithTheBody) {

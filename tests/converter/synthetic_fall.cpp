@@ -58,7 +58,10 @@ FallRecord flown_record(const Body& body, const FreeFall& fall, const DynamicCoe
     prepare(flying);
     FallRecord record;
     record.fall = fall;
-    BodyState state;
+    BodyState state = states_of(record).front();
+    Vector6d momenta;
+    momenta << flying.own_inertia * state.velocity.head<3>(), flying.mass * state.velocity.tail<3>();
+    state.velocity = flying.inverse_inertia * momenta;
     const Vector3d gravity = fall.axes * fall.gravity * fall.speed / fall.time_unit();
     const double step = fall.time_step * fall.time_unit() / substeps;
     const auto samples = static_cast<int>(std::lround(fall.duration / fall.time_step));

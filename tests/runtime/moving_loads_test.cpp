@@ -296,6 +296,21 @@ TEST(MovingLoads, DragInMotionSetsInWithTheSquareOfTheTipSpeedAndIsHalfThereAtTh
     EXPECT_EQ(share_at(0.0), 0.0);
 }
 
+TEST(MovingLoads, DragInMotionIsOfTheBodysOwnTurning) {
+    ImmersedBody body = bare(test::lopsided_body(), false);
+    body.dynamic.drag_in_motion = 1e-3 * Matrix3d::Identity();
+    prepare(body);
+    const Vector3d velocity(0.1, -0.2, 0.2);
+    const Vector6d relative = motion_of(Vector3d(3.0, -1.0, 2.0), velocity);
+    const auto drag_at = [&](const Vector3d& own) {
+        return -(load_matrix(body, relative, own) * relative).tail<3>().dot(velocity.normalized());
+    };
+    EXPECT_EQ(drag_at(Vector3d::Zero()), 0.0);
+    const Vector3d at_onset(std::sqrt(motion_onset) * velocity.norm() / body.dynamic.half_length, 0.0, 0.0);
+    EXPECT_NEAR(drag_at(at_onset) / drag_at(1e9 * at_onset), 0.5, 1e-12);
+    EXPECT_EQ(load_matrix(body, relative), load_matrix(body, relative, relative.head<3>()));
+}
+
 TEST(MovingLoads, KeepTheTablesMomentUntilTheBodyDoesLittleButTurn) {
     // A body whose moment is along its force, about which it turns: no arm, and so no change of the local
     // velocity.

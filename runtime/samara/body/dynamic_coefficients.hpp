@@ -23,7 +23,7 @@ struct DynamicCoefficients {
     /// C^T omega that turning makes; J, C: blocks of K_fluid. 1 takes the potential flow's own away.
     double rotational_transport = 0.0;
     /// C_m A (m^2), symmetric and positive semidefinite: drag in motion, the force -rho/2 H s C_m A v with s
-    /// = Q^2/(motion_onset |v|^2 + Q^2).
+    /// = Q^2/(motion_onset |v|^2 + Q^2), Q there of the body's own turning.
     Matrix3d drag_in_motion = Matrix3d::Zero();
     /// C_s A (m^2), likewise, of a body that turns fast: the force -rho/2 (Q^2/H) C_s A v.
     Matrix3d drag_in_spin = Matrix3d::Zero();

@@ -49,8 +49,9 @@ EquationsOfMotion::EquationsOfMotion(const ImmersedBody& body, const Vector3d& g
       gravity_(gravity),
       seen_fluid_(seen_fluid) {}
 
-Vector6d EquationsOfMotion::load(const Vector6d& relative_velocity) const noexcept {
-    return -(load_matrix(*body_, relative_velocity) * relative_velocity);
+Vector6d EquationsOfMotion::load(const Vector6d& relative_velocity,
+                                 const Vector3d& angular_velocity) const noexcept {
+    return -(load_matrix(*body_, relative_velocity, angular_velocity) * relative_velocity);
 }
 
 Vector6d EquationsOfMotion::relative_velocity(const MotionVector& motion,
@@ -75,7 +76,7 @@ MotionVector EquationsOfMotion::rate(const MotionVector& motion) const noexcept 
                          displaced * body_->center_of_buoyancy.cross(gravity_in_body),
         linear.cross(omega) + (body_->mass - displaced) * gravity_in_body;
     if (body_->loads != Loads::none) {
-        momentum_rate += body_->to_centroid.transpose() * load(relative_velocity(motion, to_world));
+        momentum_rate += body_->to_centroid.transpose() * load(relative_velocity(motion, to_world), omega);
     }
 
     MotionVector result;
@@ -96,7 +97,8 @@ Matrix6d EquationsOfMotion::acceleration_gradient(const MotionVector& motion) co
 
     if (body_->loads != Loads::none) {
         const Vector6d relative = relative_velocity(motion, homogeneous_rotation(motion.segment<4>(6)));
-        const Vector6d load_here = load(relative);
+        const Vector3d omega_here = motion.head<3>();
+        const Vector6d load_here = load(relative, omega_here);
         // Differences of a millionth of the speeds that are there; any will do for a body at rest.
         const double speed = relative.tail<3>().norm() + body_->length * relative.head<3>().norm();
         const double difference = 1e-6 * speed + std::numeric_limits<double>::min() * 1e20;
@@ -104,7 +106,8 @@ Matrix6d EquationsOfMotion::acceleration_gradient(const MotionVector& motion) co
         for (int i = 0; i < 6; ++i) {
             Vector6d moved = relative;
             moved[i] += i < 3 ? difference / body_->length : difference;
-            by_relative_velocity.col(i) = (load(moved) - load_here) / (moved[i] - relative[i]);
+            const Vector3d turning = omega_here + (moved - relative).head<3>();
+            by_relative_velocity.col(i) = (load(moved, turning) - load_here) / (moved[i] - relative[i]);
         }
         gradient += body_->to_centroid.transpose() * by_relative_velocity * body_->to_centroid;
     }

@@ -34,9 +34,10 @@ class EquationsOfMotion {
     [[nodiscard]] Matrix6d acceleration_gradient(const MotionVector& motion) const noexcept;
 
   private:
-    /// The loads on a body at the velocity (omega, v) of its centroid relative to the fluid: moment and
-    /// force.
-    [[nodiscard]] Vector6d load(const Vector6d& relative_velocity) const noexcept;
+    /// The loads on a body at the velocity (omega, v) of its centroid relative to the fluid and its own
+    /// angular velocity: moment and force.
+    [[nodiscard]] Vector6d load(const Vector6d& relative_velocity,
+                                const Vector3d& angular_velocity) const noexcept;
     [[nodiscard]] Vector6d relative_velocity(const MotionVector& motion,
                                              const Matrix3d& to_world) const noexcept;
 

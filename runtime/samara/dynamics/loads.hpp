@@ -12,6 +12,12 @@ namespace samara {
 /// body". Never throws.
 Matrix6d load_matrix(const ImmersedBody& body, const Vector6d& relative_velocity) noexcept;
 
+/// The same in a fluid that turns: `angular_velocity` is the body's own (rad/s, body axes), not relative to
+/// the seen fluid. By it alone the flow ceases to be that of a steady tow: the tables hold what turbulence
+/// turns.
+Matrix6d load_matrix(const ImmersedBody& body, const Vector6d& relative_velocity,
+                     const Vector3d& angular_velocity) noexcept;
+
 /// U L / nu of a speed (m/s).
 double reynolds_number(const ImmersedBody& body, double speed) noexcept;
 

@@ -51,7 +51,8 @@ int begin_step(const FlightConstants<double>& constants, double h, const Noise& 
                BodyState& state) noexcept;
 
 /// load_matrix() of loads.hpp.
-Matrix6d load_matrix(const FlightConstants<double>& constants, const Vector6d& relative_velocity) noexcept;
+Matrix6d load_matrix(const FlightConstants<double>& constants, const Vector6d& relative_velocity,
+                     const Vector3d& angular_velocity) noexcept;
 
 /// The functions of langevin.hpp; the velocities are the state's.
 TurbulenceLevel turbulence_level(const FlightConstants<double>& constants, const Vector3d& velocity) noexcept;

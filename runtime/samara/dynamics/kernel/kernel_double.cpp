@@ -64,9 +64,11 @@ int begin_one(const FlightConstants<double>& c, double h, const Noise& noise, st
     return static_cast<int>(substeps_of(c, h, flight));
 }
 
-void loads_of_one(const FlightConstants<double>& c, const Vector6d& velocity, Matrix6d& matrix) {
+void loads_of_one(const FlightConstants<double>& c, const Vector6d& velocity, const Vector3d& turning,
+                  Matrix6d& matrix) {
     const LoadBlocks<double> blocks =
-        load_blocks(c, triple_of(velocity.head<3>()), c.inverse_length * triple_of(velocity.tail<3>()));
+        load_blocks(c, triple_of(velocity.head<3>()), c.inverse_length * triple_of(velocity.tail<3>()),
+                    triple_of(turning));
     const auto keep_block = [&](const Square<double>& block, Eigen::Index row, Eigen::Index column,
                                 double scale) {
         matrix.block<3, 3>(row, column) << block.x.x, block.x.y, block.x.z, block.y.x, block.y.y, block.y.z,
@@ -137,9 +139,10 @@ int begin_step(const FlightConstants<double>& constants, double h, const Noise& 
     return HWY_DYNAMIC_DISPATCH(begin_one)(constants, h, noise, step, state);
 }
 
-Matrix6d load_matrix(const FlightConstants<double>& constants, const Vector6d& relative_velocity) noexcept {
+Matrix6d load_matrix(const FlightConstants<double>& constants, const Vector6d& relative_velocity,
+                     const Vector3d& angular_velocity) noexcept {
     Matrix6d matrix;
-    HWY_DYNAMIC_DISPATCH(loads_of_one)(constants, relative_velocity, matrix);
+    HWY_DYNAMIC_DISPATCH(loads_of_one)(constants, relative_velocity, angular_velocity, matrix);
     return matrix;
 }
 

@@ -150,15 +150,18 @@ HWY_INLINE V share_of(V a, V b) {
     return a / larger(V(tiny<V>), a + b);
 }
 
-/// D at a velocity of the centroid relative to the fluid.
+/// D at an angular velocity and a velocity of the centroid relative to the fluid. `turning`: the angular
+/// velocity itself, by which the flow ceases to be that of a tow; what turbulence turns is in the table
+/// already.
 template <class V, class Real>
 HWY_INLINE LoadBlocks<V> load_blocks(const FlightConstants<Real>& c, const Triple<V>& omega,
-                                     const Triple<V>& velocity) {
+                                     const Triple<V>& velocity, const Triple<V>& turning) {
     const V zero(0.0);
     const Heading<V> heading = heading_of(velocity);
     const V speed_square = dot(velocity, velocity);
-    const V tip_square = V(c.half_length * c.half_length) * dot(omega, omega);
-    const V combined = root(speed_square + tip_square);
+    const V reach_square(c.half_length * c.half_length);
+    const V tip_square = reach_square * dot(turning, turning);
+    const V combined = root(speed_square + reach_square * dot(omega, omega));
 
     // The tow's moment stays until the body does little but turn: a steady tow keeps it whole.
     const PressurePoint<V> point = pressure_point(c, heading, share_of(speed_square, V(c.tow_fading) * tip_square));

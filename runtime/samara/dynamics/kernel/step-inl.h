@@ -159,7 +159,7 @@ HWY_INLINE void improve(const FlightConstants<Real>& c, const StepStart<V>& star
             start_turning = start_turning - fluid_turning;
             start_velocity = start_velocity - fluid_velocity;
         }
-        const LoadBlocks<V> loads = load_blocks(c, slip_turning, slip_velocity);
+        const LoadBlocks<V> loads = load_blocks(c, slip_turning, slip_velocity, middle.omega);
         const Stiffness<V> stiff = stiffness(c, loads, start.h);
         const V z = larger(stiff.turning, stiff.moving);
         middle.theta = (V(3.0) + z) / (V(6.0) + z);

@@ -1,0 +1,94 @@
+// The program samara-identify: dynamic coefficients from solved free falls, anew or without some of their
+// terms.
+
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "converter/fall_identification.hpp"
+#include "converter/identification_report.hpp"
+#include "converter/motion_parameters.hpp"
+#include "samara/base/error.hpp"
+#include "samara/body/body_file.hpp"
+#include "samara/command/arguments.hpp"
+#include "samara/command/progress.hpp"
+
+namespace samara {
+namespace {
+
+struct IdentifyOptions {
+    std::string body;
+    std::string falls;
+    std::string output;
+    std::string without;
+    std::string hold;
+};
+
+std::vector<std::string> words_of(const std::string& list) {
+    std::vector<std::string> words;
+    std::istringstream stream(list);
+    for (std::string word; std::getline(stream, word, ',');) {
+        if (!word.empty()) words.push_back(word);
+    }
+    return words;
+}
+
+std::vector<FallRecord> records_of(const std::string& list) {
+    std::vector<FallRecord> records;
+    for (const std::string& folder : words_of(list)) records.push_back(read_fall_record(folder));
+    return records;
+}
+
+nlohmann::json identify(const IdentifyOptions& options, bool quiet) {
+    Body body = read_body_file(options.body);
+    if (!body.kirchhoff || !body.tables) {
+        throw Error(fmt::format("{}: holds no Kirchhoff tensor or no tables; bake it first", options.body));
+    }
+    Progress progress("identifying", "fits");
+    const Identification identification =
+        identify_motion(body, records_of(options.falls), words_of(options.without),
+                        [&](double done) { progress.update(done, 1.0); });
+    body.dynamic = identification.coefficients;
+    nlohmann::json json = identification_as_json(identification);
+    json["held"] = nlohmann::json::array();
+    if (!quiet) fmt::print("{}", identification_as_text(identification));
+    for (const FallRecord& record : records_of(options.hold)) {
+        const FlownFall flown = fly_fall(body, record);
+        json["held"].push_back(flown_fall_as_json(flown));
+        if (!quiet) fmt::print("{}", flown_fall_as_text(flown));
+    }
+    if (!options.output.empty()) write_body_file(options.output, body);
+    return json;
+}
+
+int run(int argc, const char* const* argv) {
+    IdentifyOptions options;
+    Arguments arguments("samara-identify", "Identifies a body's dynamic coefficients from solved free falls");
+    arguments.positional("BODY", options.body, "a baked body file (.body.h5)");
+    arguments.positional(
+        "FALLS", options.falls,
+        "folders of solved falls, as NAME.cases/fall_00 of samara bake or samara validate, by commas");
+    arguments.option("-o,--output", options.output, "body file to write, with the coefficients (.body.h5)");
+    arguments.option(
+        "--without", options.without,
+        fmt::format("terms to leave out, by commas: {}", fmt::join(MotionParameters::names(), ", ")));
+    arguments.option("--hold", options.hold,
+                     "folders of other falls to hold the flown body against, by commas");
+    arguments.footer(
+        "samara bake does this at the qualities standard and high; this program does it anew, from other "
+        "falls, or\n"
+        "without some of the terms (docs/falls.md).\n");
+    return run_program(argc, argv, arguments, [&] { return identify(options, arguments.json()); });
+}
+
+}  // namespace
+}  // namespace samara
+
+int main(int argc, char** argv) {
+    return samara::run(argc, argv);
+}
