@@ -88,7 +88,8 @@ CasePlan as_plan(const nlohmann::json& values, const std::filesystem::path& fold
     const CaseScales scales = as_scales(values, {});
     for (const nlohmann::json& entry : values.at("cases")) plan.cases.push_back(as_case(entry, plan, scales));
     if (values.contains("falls")) {
-        for (const nlohmann::json& entry : values["falls"]) plan.falls.push_back(entry.at("name").get<std::string>());
+        for (const nlohmann::json& entry : values["falls"])
+            plan.falls.push_back(entry.at("name").get<std::string>());
     }
     return plan;
 }

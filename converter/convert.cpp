@@ -60,9 +60,10 @@ void identify(const std::filesystem::path& folder, const CasePlan& plan, Convers
         } else if (const auto reason = failure_reason(folder / name)) {
             conversion.body.tables->left_out.push_back({name, *reason});
         } else {
-            throw Error(fmt::format("{}: the fall {} is not solved; run 'samara bake' again, which goes on where it "
-                                    "stopped",
-                                    folder.string(), name));
+            throw Error(
+                fmt::format("{}: the fall {} is not solved; run 'samara bake' again, which goes on where it "
+                            "stopped",
+                            folder.string(), name));
         }
     }
     if (records.empty()) return;

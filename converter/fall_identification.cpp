@@ -15,18 +15,22 @@ namespace {
 
 using Eigen::VectorXd;
 
-// Over L/U. The horizon is about a swing of a fluttering body: long enough for its energy to matter, short enough not
-// to be chaotic.
+// Over L/U. The horizon is about a swing of a fluttering body: long enough for its energy to matter, short
+// enough not to be chaotic.
 constexpr double first_segment = 0.5;
 constexpr double horizon = 3.0;
 constexpr double spacing = 0.5;
 constexpr double flown_step = 0.03;
-constexpr int looks = 4;              // at the fall, in each segment
-constexpr int numbers_of_look = 9;    // velocity, tip speed, rotation
-constexpr double usual_miss = 0.2;    // beyond it a residual counts less
-constexpr double expected_miss = 0.1; // as far as expectations weigh
-constexpr int stretches = 6;          // of the jackknife
+constexpr int looks = 4;                       // at the fall, in each segment
+constexpr int numbers_of_look = 9;             // velocity, tip speed, rotation
+constexpr double usual_miss = 0.2;             // beyond it a residual counts less
+constexpr double expected_miss = 0.1;          // as far as expectations weigh
+constexpr int stretches = 6;                   // of the jackknife
+constexpr int least_segments = 2 * stretches;  // of each fall
+// Of any number of a miss: coefficients with which a body flies off are bad, but no worse than that.
 constexpr double farthest_flight = 10.0;
+// Of a sample's time over its step: the flights take steps of one length.
+constexpr double uneven_time = 0.01;
 
 // A fall made ready for many flights.
 struct ReadyFall {
@@ -43,7 +47,27 @@ struct Segment {
     int stretch;
 };
 
+Error too_short(const FallRecord& record) {
+    return Error(
+        fmt::format("{}: the fall is too short to identify coefficients from: {:.3g} L/U, needs {:.3g}",
+                    record.fall.name, record.samples.empty() ? 0.0 : record.samples.back().time,
+                    first_segment + horizon + (least_segments - 1) * spacing));
+}
+
+void require_even_steps(const FallRecord& record) {
+    const double step = record.samples.front().time;
+    for (std::size_t i = 0; i < record.samples.size(); ++i) {
+        const double time = record.samples[i].time;
+        if (std::abs(time - static_cast<double>(i + 1) * step) <= uneven_time * step) continue;
+        throw Error(
+            fmt::format("{}: the fall's steps are not of one length: {:.6g} L/U at first, but not at {:.6g}",
+                        record.fall.name, step, time));
+    }
+}
+
 ReadyFall ready(const Body& body, const FallRecord& record) {
+    if (record.samples.empty()) throw too_short(record);
+    require_even_steps(record);
     ReadyFall fall{record, falling_body(body, record.fall), states_of(record), gravity_of(record.fall), 1};
     const double step = record.samples.front().time;
     fall.stride = static_cast<std::size_t>(std::max(1.0, std::round(flown_step / step)));
@@ -72,11 +96,7 @@ std::vector<Segment> segments_of(const std::vector<ReadyFall>& falls) {
             segments.push_back({i, begin, 0});
         }
         const std::size_t count = segments.size() - first;
-        if (count < 2 * stretches) {
-            throw Error(fmt::format("{}: the fall is too short to identify coefficients from: {:.3g} L/U, needs {:.3g}",
-                                    fall.record.fall.name, fall.record.samples.back().time,
-                                    first_segment + horizon + 2 * stretches * spacing));
-        }
+        if (count < least_segments) throw too_short(fall.record);
         for (std::size_t k = 0; k < count; ++k) {
             segments[first + k].stretch = static_cast<int>(k * stretches / count);
         }
@@ -85,7 +105,8 @@ std::vector<Segment> segments_of(const std::vector<ReadyFall>& falls) {
 }
 
 // What the flight misses of the fall at one look, over the fall's scales.
-Eigen::Matrix<double, numbers_of_look, 1> miss(const ReadyFall& fall, const BodyState& flown, const BodyState& solved) {
+Eigen::Matrix<double, numbers_of_look, 1> miss(const ReadyFall& fall, const BodyState& flown,
+                                               const BodyState& solved) {
     const double speed = fall.record.fall.speed;
     const double tip = fall.body.dynamic.half_length / speed;
     const Matrix3d to_world = flown.orientation.toRotationMatrix();
@@ -99,7 +120,8 @@ Eigen::Matrix<double, numbers_of_look, 1> miss(const ReadyFall& fall, const Body
     return result.cwiseMin(farthest_flight).cwiseMax(-farthest_flight);
 }
 
-void fly_segment(const ReadyFall& fall, const ImmersedBody& body, std::size_t begin, Eigen::Ref<VectorXd> residuals) {
+void fly_segment(const ReadyFall& fall, const ImmersedBody& body, std::size_t begin,
+                 Eigen::Ref<VectorXd> residuals) {
     const double time_step = step_of(fall) * static_cast<double>(fall.stride);
     const int steps = steps_to_look(fall);
     BodyState state = fall.states[begin];
@@ -125,13 +147,14 @@ VectorXd residuals_of(const std::vector<ReadyFall>& falls, const std::vector<Seg
             body.dynamic = coefficients;
             prepare(body);
         }
-        fly_segment(falls[of], body, segment.begin, residuals.segment(each * static_cast<Eigen::Index>(i), each));
+        fly_segment(falls[of], body, segment.begin,
+                    residuals.segment(each * static_cast<Eigen::Index>(i), each));
     }
     return residuals;
 }
 
 LeastSquaresProblem problem_of(const std::vector<ReadyFall>& falls, const std::vector<Segment>& segments,
-                               const MotionParameters& parameters, int threads) {
+                               const MotionParameters& parameters) {
     LeastSquaresProblem problem;
     problem.residuals = [&falls, &parameters, segments](const VectorXd& numbers) {
         return residuals_of(falls, segments, parameters.coefficients(numbers));
@@ -151,31 +174,41 @@ LeastSquaresProblem problem_of(const std::vector<ReadyFall>& falls, const std::v
     problem.scale = usual_miss;
     // A segment's looks are not independent, nor are segments that overlap: about one number in a dozen is.
     problem.prior_weight = 12.0 * expected_miss * expected_miss;
-    problem.threads = threads;
     return problem;
 }
 
-// Standard errors from leaving out one stretch at a time (Efron & Tibshirani, An Introduction to the Bootstrap, 1993,
-// section 11.2), no less than what the linearised problem gives for one stretch's worth of segments.
-VectorXd jackknife(const std::vector<ReadyFall>& falls, const std::vector<Segment>& segments,
-                   const MotionParameters& parameters, const VectorXd& solution, int threads,
-                   const std::function<void(double)>& progress) {
+// From leaving out one stretch at a time (Efron & Tibshirani, An Introduction to the Bootstrap, 1993,
+// section 11.2), which knows nothing of the pull of what is expected: that is the same whatever is left out.
+VectorXd standard_errors_of(const std::vector<ReadyFall>& falls, const std::vector<Segment>& segments,
+                            const MotionParameters& parameters, const VectorXd& solution,
+                            const std::function<void(double)>& progress) {
     VectorXd sum = VectorXd::Zero(solution.size());
     VectorXd squares = VectorXd::Zero(solution.size());
     for (int stretch = 0; stretch < stretches; ++stretch) {
         std::vector<Segment> others = segments;
         std::erase_if(others, [&](const Segment& segment) { return segment.stretch == stretch; });
-        LeastSquaresProblem problem = problem_of(falls, others, parameters, threads);
+        LeastSquaresProblem problem = problem_of(falls, others, parameters);
         problem.start = solution;
         problem.most_iterations = 8;
         const VectorXd x = solve_least_squares(problem).x;
         sum += x;
         squares += x.cwiseAbs2();
-        if (progress) progress((2.0 + stretch) / (2.0 + stretches));
+        if (progress) progress((2.0 + stretch) / (1.0 + stretches));
     }
     const VectorXd mean = sum / stretches;
-    const VectorXd variance = (squares / stretches - mean.cwiseAbs2()).cwiseMax(0.0);
-    return ((stretches - 1.0) * variance).cwiseSqrt();
+    const VectorXd variance = (stretches - 1.0) * (squares / stretches - mean.cwiseAbs2()).cwiseMax(0.0);
+    const VectorXd of_expectation = errors_by_expectation(problem_of(falls, segments, parameters), solution);
+    return (variance + of_expectation.cwiseAbs2()).cwiseSqrt();
+}
+
+// A fall's first state has the momenta of body and fluid as the body's own, while the fluid is still at rest
+// (free_fall.hpp): this one has them shared.
+BodyState start_of(const ReadyFall& fall) {
+    BodyState start = fall.states.front();
+    Vector6d momenta;
+    momenta << fall.body.own_inertia * start.velocity.head<3>(), fall.body.mass * start.velocity.tail<3>();
+    start.velocity = fall.body.inverse_inertia * momenta;
+    return start;
 }
 
 FlownFall fly_whole(const Body& body, const ReadyFall& fall, const DynamicCoefficients& coefficients) {
@@ -185,7 +218,7 @@ FlownFall fly_whole(const Body& body, const ReadyFall& fall, const DynamicCoeffi
     const double time_step = step_of(fall) * static_cast<double>(fall.stride);
     std::vector<BodyState> solved;
     std::vector<BodyState> flown;
-    BodyState state = fall.states.front();
+    BodyState state = start_of(fall);
     for (std::size_t i = 0; i < fall.states.size(); i += fall.stride) {
         solved.push_back(fall.states[i]);
         flown.push_back(state);
@@ -201,12 +234,13 @@ FlownFall fly_whole(const Body& body, const ReadyFall& fall, const DynamicCoeffi
 std::string origin_of(const std::vector<FallRecord>& falls, double error) {
     std::string names;
     for (const FallRecord& record : falls) {
-        names += fmt::format("{}{} ({:.3g} L/U, Reynolds number {:.3g}, density {:.4g})", names.empty() ? "" : ", ",
-                             record.fall.name, record.fall.duration, record.fall.reynolds_number,
-                             record.fall.mass / record.fall.volume);
+        names += fmt::format("{}{} ({:.3g} L/U, Reynolds number {:.3g}, density {:.4g})",
+                             names.empty() ? "" : ", ", record.fall.name, record.fall.duration,
+                             record.fall.reynolds_number, record.fall.mass / record.fall.volume);
     }
-    return fmt::format("dynamic coefficients identified from free falls in OpenFOAM: {}; prediction error {:.2g}",
-                       names, error);
+    return fmt::format(
+        "dynamic coefficients identified from free falls in OpenFOAM: {}; prediction error {:.2g}", names,
+        error);
 }
 
 }  // namespace
@@ -219,20 +253,20 @@ FlownFall fly_fall(const Body& body, const FallRecord& record) {
 Identification identify_motion(const Body& body, const std::vector<FallRecord>& records,
                                const std::vector<std::string>& without,
                                const std::function<void(double)>& progress) {
-    constexpr int threads = 0;
+    if (records.empty())
+        throw Error(fmt::format("{}: there is no fall to identify coefficients from", body.name));
     std::vector<ReadyFall> falls;
     for (const FallRecord& record : records) falls.push_back(ready(body, record));
     const std::vector<Segment> segments = segments_of(falls);
     const MotionParameters parameters(body, without);
-    const LeastSquaresSolution solution =
-        solve_least_squares(problem_of(falls, segments, parameters, threads));
-    if (progress) progress(1.0 / (2.0 + stretches));
+    const LeastSquaresSolution solution = solve_least_squares(problem_of(falls, segments, parameters));
+    if (progress) progress(1.0 / (1.0 + stretches));
     Identification result;
     result.prediction_error = solution.rms;
     result.segments = static_cast<int>(segments.size());
     result.coefficients.values = parameters.coefficients(solution.x);
-    result.coefficients.standard_errors = parameters.standard_errors(
-        jackknife(falls, segments, parameters, solution.x, threads, progress));
+    result.coefficients.standard_errors =
+        parameters.standard_errors(standard_errors_of(falls, segments, parameters, solution.x, progress));
     result.coefficients.values.origin = origin_of(records, solution.rms);
     for (const ReadyFall& fall : falls) {
         result.falls.push_back(fly_whole(body, fall, result.coefficients.values));

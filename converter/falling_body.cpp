@@ -13,8 +13,9 @@ namespace samara {
 ImmersedBody falling_body(const Body& body, const FreeFall& fall) {
     const double length = reference_length(body.moments.surface_area);
     if (std::abs(length - fall.length) > 1e-6 * length) {
-        throw Error(fmt::format("{}: the fall is of another body than {}: its length L is {:.6g} m, not {:.6g} m",
-                                fall.name, body.name, fall.length, length));
+        throw Error(
+            fmt::format("{}: the fall is of another body than {}: its length L is {:.6g} m, not {:.6g} m",
+                        fall.name, body.name, fall.length, length));
     }
     const double mass_unit = fall.fluid_density * length * length * length;
     SceneBody scene_body;
@@ -54,7 +55,8 @@ Vector3d gravity_of(const FreeFall& fall) {
     return fall.axes * fall.gravity * fall.speed / fall.time_unit();
 }
 
-Motion motion_of(const Body& body, const Vector3d& gravity, double interval, const std::vector<BodyState>& states) {
+Motion motion_of(const Body& body, const Vector3d& gravity, double interval,
+                 const std::vector<BodyState>& states) {
     Motion motion;
     motion.gravity = gravity;
     motion.frame_rate = 1.0 / interval;

@@ -26,10 +26,10 @@ nlohmann::json coefficients_as_json(const DynamicCoefficients& coefficients) {
 
 std::string figures(const char* what, const Measures& measures) {
     const double degrees = 180.0 / std::numbers::pi;
-    return fmt::format("    {:<9} descends at {:.4g} m/s, {} Hz, inclination up to {:.1f} degrees, {:.3g} rad/s rms, {}\n",
-                       what, measures.descent_speed,
-                       measures.frequency ? fmt::format("{:.3g}", *measures.frequency) : "-",
-                       degrees * measures.inclination_amplitude, measures.rms_angular_speed, name_of(measures.regime));
+    return fmt::format(
+        "    {:<9} descends at {:.4g} m/s, {} Hz, inclination up to {:.1f} degrees, {:.3g} rad/s rms, {}\n",
+        what, measures.descent_speed, measures.frequency ? fmt::format("{:.3g}", *measures.frequency) : "-",
+        degrees * measures.inclination_amplitude, measures.rms_angular_speed, name_of(measures.regime));
 }
 
 }  // namespace
@@ -52,15 +52,15 @@ nlohmann::json identification_as_json(const Identification& identification) {
 }
 
 std::string flown_fall_as_text(const FlownFall& fall) {
-    return fmt::format("  {} (momenta balance to {:.1f} % and {:.1f} %)\n", fall.name, 100.0 * fall.balance.force,
-                       100.0 * fall.balance.moment) +
+    return fmt::format("  {} (momenta balance to {:.1f} % and {:.1f} %)\n", fall.name,
+                       100.0 * fall.balance.force, 100.0 * fall.balance.moment) +
            figures("full CFD", fall.solved) + figures("flown", fall.flown);
 }
 
 std::string identification_as_text(const Identification& identification) {
-    std::string text =
-        fmt::format("Dynamic coefficients from {} stretches of free fall, missed by {:.1f} % of the fall's speed:\n",
-                    identification.segments, 100.0 * identification.prediction_error);
+    std::string text = fmt::format(
+        "Dynamic coefficients from {} stretches of free fall, missed by {:.1f} % of the fall's speed:\n",
+        identification.segments, 100.0 * identification.prediction_error);
     for (const FlownFall& fall : identification.falls) text += flown_fall_as_text(fall);
     return text;
 }

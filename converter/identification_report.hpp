@@ -8,8 +8,8 @@
 
 namespace samara {
 
-/// The identification in SI units: prediction_error, segments, coefficients and falls, each fall with its figures by
-/// full CFD (solved) and by the runtime (flown).
+/// The identification in SI units: prediction_error, segments, coefficients and falls, each fall with its
+/// figures by full CFD (solved) and by the runtime (flown).
 nlohmann::json identification_as_json(const Identification& identification);
 nlohmann::json flown_fall_as_json(const FlownFall& fall);
 

@@ -1,4 +1,5 @@
-// The program samara-identify: dynamic coefficients from solved free falls, anew or without some of their terms.
+// The program samara-identify: dynamic coefficients from solved free falls, anew or without some of their
+// terms.
 
 #include <filesystem>
 #include <sstream>
@@ -69,14 +70,18 @@ int run(int argc, const char* const* argv) {
     IdentifyOptions options;
     Arguments arguments("samara-identify", "Identifies a body's dynamic coefficients from solved free falls");
     arguments.positional("BODY", options.body, "a baked body file (.body.h5)");
-    arguments.positional("FALLS", options.falls,
-                         "folders of solved falls, as NAME.cases/fall_00 of samara bake or samara validate, by commas");
+    arguments.positional(
+        "FALLS", options.falls,
+        "folders of solved falls, as NAME.cases/fall_00 of samara bake or samara validate, by commas");
     arguments.option("-o,--output", options.output, "body file to write, with the coefficients (.body.h5)");
-    arguments.option("--without", options.without,
-                     fmt::format("terms to leave out, by commas: {}", fmt::join(MotionParameters::names(), ", ")));
-    arguments.option("--hold", options.hold, "folders of other falls to hold the flown body against, by commas");
+    arguments.option(
+        "--without", options.without,
+        fmt::format("terms to leave out, by commas: {}", fmt::join(MotionParameters::names(), ", ")));
+    arguments.option("--hold", options.hold,
+                     "folders of other falls to hold the flown body against, by commas");
     arguments.footer(
-        "samara bake does this at the qualities standard and high; this program does it anew, from other falls, or\n"
+        "samara bake does this at the qualities standard and high; this program does it anew, from other "
+        "falls, or\n"
         "without some of the terms (docs/falls.md).\n");
     return run_program(argc, argv, arguments, [&] { return identify(options, arguments.json()); });
 }

@@ -14,9 +14,11 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double difference = 1e-3;            // of a parameter, over its deviation
-constexpr double least_gain = 1e-5;            // of the cost: below it the iterations end
-constexpr double largest_damping = 1e8;
+constexpr double difference = 1e-3;  // of a parameter, over its deviation
+constexpr double least_gain = 1e-5;  // of the cost: below it the iterations end
+constexpr double first_damping = 1e-2;
+constexpr double least_damping = 1e-6;
+constexpr double largest_damping = 1e8;  // beyond it no step gains anything
 
 struct Point {
     VectorXd x;
@@ -28,21 +30,33 @@ Point point_at(const LeastSquaresProblem& problem, const VectorXd& x) {
     Point point{x, problem.residuals(x)};
     const double square = problem.scale * problem.scale;
     for (const double r : point.residuals) point.cost += square * std::log1p(r * r / square);
-    point.cost += problem.prior_weight * ((x - problem.expected).cwiseQuotient(problem.deviation)).squaredNorm();
+    point.cost +=
+        problem.prior_weight * ((x - problem.expected).cwiseQuotient(problem.deviation)).squaredNorm();
     return point;
+}
+
+// Half the second derivatives of the prior, which is a diagonal, and the weights that Cauchy's loss gives the
+// residuals.
+VectorXd prior_of(const LeastSquaresProblem& problem) {
+    return problem.prior_weight * problem.deviation.cwiseAbs2().cwiseInverse();
+}
+
+VectorXd weights_of(const LeastSquaresProblem& problem, const VectorXd& residuals) {
+    return (1.0 + residuals.array().square() / (problem.scale * problem.scale)).inverse();
 }
 
 MatrixXd jacobian(const LeastSquaresProblem& problem, const Point& point) {
     MatrixXd columns(point.residuals.size(), point.x.size());
-    parallel_for(static_cast<std::size_t>(point.x.size()), 1, problem.threads, [&](std::size_t index, std::size_t) {
-        const auto k = static_cast<Eigen::Index>(index);
-        VectorXd x = point.x;
-        const double step = difference * problem.deviation[k];
-        x[k] += x[k] + step > problem.upper[k] ? -step : step;
-        columns.col(k) = problem.upper[k] > problem.lower[k]
-                             ? VectorXd((problem.residuals(x) - point.residuals) / (x[k] - point.x[k]))
-                             : VectorXd(VectorXd::Zero(point.residuals.size()));
-    });
+    parallel_for(
+        static_cast<std::size_t>(point.x.size()), 1, problem.threads, [&](std::size_t index, std::size_t) {
+            const auto k = static_cast<Eigen::Index>(index);
+            VectorXd x = point.x;
+            const double step = difference * problem.deviation[k];
+            x[k] += x[k] + step > problem.upper[k] ? -step : step;
+            columns.col(k) = problem.upper[k] > problem.lower[k]
+                                 ? VectorXd((problem.residuals(x) - point.residuals) / (x[k] - point.x[k]))
+                                 : VectorXd(VectorXd::Zero(point.residuals.size()));
+        });
     return columns;
 }
 
@@ -75,14 +89,13 @@ LeastSquaresSolution solve_least_squares(const LeastSquaresProblem& problem) {
         return VectorXd(x.cwiseMax(problem.lower).cwiseMin(problem.upper));
     };
     Point point = point_at(problem, within(problem.start));
-    const VectorXd prior = problem.prior_weight * problem.deviation.cwiseAbs2().cwiseInverse();
-    const double square = problem.scale * problem.scale;
+    const VectorXd prior = prior_of(problem);
     LeastSquaresSolution solution;
-    double damping = 1e-2;
+    double damping = first_damping;
     while (solution.iterations < problem.most_iterations && !solution.converged) {
         ++solution.iterations;
         const MatrixXd columns = jacobian(problem, point);
-        const VectorXd weights = (1.0 + point.residuals.array().square() / square).inverse();
+        const VectorXd weights = weights_of(problem, point.residuals);
         MatrixXd normal = columns.transpose() * weights.asDiagonal() * columns;
         normal.diagonal() += prior;
         const VectorXd gradient = columns.transpose() * weights.cwiseProduct(point.residuals) +
@@ -93,7 +106,7 @@ LeastSquaresSolution solve_least_squares(const LeastSquaresProblem& problem) {
             Point next = point_at(problem, within(point.x + damped_step(normal, gradient, damping, free)));
             if (next.cost < point.cost) {
                 point = std::move(next);
-                damping = std::max(1e-6, 0.25 * damping);
+                damping = std::max(least_damping, 0.25 * damping);
                 break;
             }
             damping *= 4.0;
@@ -103,6 +116,27 @@ LeastSquaresSolution solve_least_squares(const LeastSquaresProblem& problem) {
     solution.x = point.x;
     solution.rms = std::sqrt(point.residuals.squaredNorm() / static_cast<double>(point.residuals.size()));
     return solution;
+}
+
+VectorXd errors_by_expectation(const LeastSquaresProblem& problem, const VectorXd& x) {
+    const Point point = point_at(problem, x);
+    const MatrixXd columns = jacobian(problem, point);
+    MatrixXd normal = columns.transpose() * weights_of(problem, point.residuals).asDiagonal() * columns;
+    normal.diagonal() += prior_of(problem);
+    VectorXd errors = VectorXd::Zero(x.size());
+    std::vector<Eigen::Index> open;
+    for (Eigen::Index k = 0; k < x.size(); ++k) {
+        if (problem.lower[k] < problem.upper[k]) open.push_back(k);
+    }
+    if (open.empty() || problem.prior_weight == 0.0) return errors;
+    // An expectation that is off by e moves the solution by N^-1 P e; e is independent for each parameter.
+    const MatrixXd shifts =
+        MatrixXd(normal(open, open))
+            .ldlt()
+            .solve(MatrixXd(
+                VectorXd(problem.prior_weight * problem.deviation(open).cwiseInverse()).asDiagonal()));
+    errors(open) = shifts.rowwise().norm();
+    return errors;
 }
 
 }  // namespace samara

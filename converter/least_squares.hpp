@@ -12,11 +12,12 @@ namespace samara {
 struct LeastSquaresProblem {
     /// All residuals at x; always as many. Called from several threads at once.
     std::function<Eigen::VectorXd(const Eigen::VectorXd& x)> residuals;
-    Eigen::VectorXd start;
+    Eigen::VectorXd start;  ///< taken into the bounds where it is outside
     Eigen::VectorXd lower;
-    Eigen::VectorXd upper;
+    Eigen::VectorXd upper;  ///< as `lower` where a parameter is to stay as it is
     Eigen::VectorXd expected;
-    Eigen::VectorXd deviation;
+    Eigen::VectorXd
+        deviation;  ///< of what is expected, above 0; differences for the gradient are a thousandth of it
     double scale = 1.0;         ///< s
     double prior_weight = 0.0;  ///< p
     int most_iterations = 40;
@@ -30,8 +31,14 @@ struct LeastSquaresSolution {
     bool converged = false;  ///< false: the iterations ran out
 };
 
-/// Levenberg and Marquardt's method with differences for the gradient; parameters at a bound that the gradient pushes
-/// beyond it are held there (Nocedal & Wright, Numerical Optimization, 2nd ed., sections 10.3 and 16.7).
+/// Levenberg and Marquardt's method with differences for the gradient; parameters at a bound that the
+/// gradient pushes beyond it are held there (Nocedal & Wright, Numerical Optimization, 2nd ed., sections 10.3
+/// and 16.7).
 LeastSquaresSolution solve_least_squares(const LeastSquaresProblem& problem);
+
+/// The standard errors that the solution x has since what is expected is itself known to its deviations
+/// alone: the deviation of a parameter that the residuals say nothing of, little of one that they determine,
+/// zero of one without freedom. Linearised at x, without the bounds.
+Eigen::VectorXd errors_by_expectation(const LeastSquaresProblem& problem, const Eigen::VectorXd& x);
 
 }  // namespace samara

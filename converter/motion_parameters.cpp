@@ -85,7 +85,8 @@ MotionParameters::MotionParameters(const Body& body, const std::vector<std::stri
     // A body of revolution has no rotational drag about its axis by its pressure: friction is a small share.
     const Vector3d of_turning = turning.cwiseMax(0.02 * turning.maxCoeff());
     const Vector3d areas = projected_areas(body, axes_);
-    const Vector3d units[] = {Vector3d::Constant(0.25 * largest), areas, areas, of_turning, of_turning, of_wake, of_wake};
+    const Vector3d units[] = {
+        Vector3d::Constant(0.25 * largest), areas, areas, of_turning, of_turning, of_wake, of_wake};
     for (std::size_t t = 0; t < std::size(expectations); ++t) {
         const Expectation& expectation = expectations[t];
         Tensor tensor{expectation.member, offsets[t], units[t], {}};
@@ -127,11 +128,13 @@ void MotionParameters::leave_out(const std::string& name) {
 
 Eigen::VectorXd MotionParameters::expected() const {
     Eigen::VectorXd numbers(static_cast<Eigen::Index>(parameters_.size()));
-    for (Eigen::Index i = 0; i < numbers.size(); ++i) numbers[i] = parameters_[static_cast<std::size_t>(i)].expected;
+    for (Eigen::Index i = 0; i < numbers.size(); ++i)
+        numbers[i] = parameters_[static_cast<std::size_t>(i)].expected;
     return numbers;
 }
 
-Eigen::Vector3d MotionParameters::principal_values(const Tensor& tensor, const Eigen::VectorXd& numbers) const {
+Eigen::Vector3d MotionParameters::principal_values(const Tensor& tensor,
+                                                   const Eigen::VectorXd& numbers) const {
     return {tensor.unit[0] * numbers[tensor.place[0]], tensor.unit[1] * numbers[tensor.place[1]],
             tensor.unit[2] * numbers[tensor.place[2]]};
 }

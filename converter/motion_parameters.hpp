@@ -18,13 +18,13 @@ struct MotionParameter {
     double upper;
 };
 
-/// The numbers that a body's dynamic coefficients are made of, over what belongs to its size: the principal values of
-/// each tensor along the body's principal axes, the shortest extent first; along two axes that the body's symmetry
-/// makes equal there is one. What is expected is what the falls in docs/falls have in common.
+/// The numbers that a body's dynamic coefficients are made of, over what belongs to its size: the principal
+/// values of each tensor along the body's principal axes, the shortest extent first; along two axes that the
+/// body's symmetry makes equal there is one. What is expected is what the falls in docs/falls have in common.
 class MotionParameters {
   public:
-    /// The body must have its Kirchhoff tensor. Terms whose names are in `without`, as names() has them, stay out:
-    /// zero, and for the transports as in potential flow. Throws Error where there is no such term.
+    /// The body must have its Kirchhoff tensor. Terms whose names are in `without`, as names() has them, stay
+    /// out: zero, and for the transports as in potential flow. Throws Error where there is no such term.
     explicit MotionParameters(const Body& body, const std::vector<std::string>& without = {});
 
     /// The terms: transport, drag in motion, ...
@@ -45,7 +45,8 @@ class MotionParameters {
         Eigen::Vector3i place;
     };
     void leave_out(const std::string& name);
-    [[nodiscard]] Eigen::Vector3d principal_values(const Tensor& tensor, const Eigen::VectorXd& numbers) const;
+    [[nodiscard]] Eigen::Vector3d principal_values(const Tensor& tensor,
+                                                   const Eigen::VectorXd& numbers) const;
 
     Matrix3d axes_;
     Eigen::Vector3i tied_;  // the axis whose number each axis takes

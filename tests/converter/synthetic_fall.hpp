@@ -1,0 +1,24 @@
+#pragma once
+
+#include "converter/fall_record.hpp"
+#include "samara/body/body.hpp"
+#include "samara/dynamics/step.hpp"
+
+namespace samara::test {
+
+/// The rubber ellipsoid (known_bodies.hpp) with blunt tables, without dynamic coefficients.
+Body ellipsoid_with_tables();
+
+/// A fall of ellipsoid_with_tables() from rest in water, at density 1200 and oblique to all its axes, with a
+/// step of 0.01 L/U. The case's axes are not the body's, and the centre of mass is off the centroid.
+FreeFall oblique_fall(double duration);
+
+/// A record of the fall as the runtime flies the body with the coefficients, with steps a fifth as long. The
+/// loads are not filled in.
+FallRecord flown_record(const Body& body, const FreeFall& fall, const DynamicCoefficients& coefficients);
+
+/// One sample of a fall in the units and axes of its case: converter/falling_body.hpp's states_of the other
+/// way.
+FallSample sample_of(const FreeFall& fall, double time, const BodyState& state);
+
+}  // namespace samara::test
