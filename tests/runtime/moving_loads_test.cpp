@@ -118,6 +118,15 @@ Vector6d drag_in_motion(const Motion& m) {
     return motion_of(Vector3d::Zero(),
                      -0.5 * m.body.fluid_density * m.combined * share * m.body.dynamic.drag_in_motion * m.v);
 }
+Vector6d drag_in_spin(const Motion& m) {
+    return motion_of(Vector3d::Zero(), -0.5 * m.body.fluid_density * m.tip * m.tip / m.combined *
+                                           m.body.dynamic.drag_in_spin * m.v);
+}
+Vector6d rotational_drag_in_spin(const Motion& m) {
+    return motion_of(-0.5 * m.body.fluid_density * m.tip * m.tip / m.combined *
+                         m.body.dynamic.rotational_drag_in_spin * m.omega,
+                     Vector3d::Zero());
+}
 Vector6d rotational_drag(const Motion& m) {
     return motion_of(-0.5 * m.body.fluid_density * m.combined * m.body.dynamic.rotational_drag * m.omega,
                      Vector3d::Zero());
@@ -140,7 +149,7 @@ Vector6d static_table(const Motion& m) {
     const auto& [force, tow_moment] = tabulated(m.body, m.v);
     const Vector3d left = m.body.added_mass * m.v - m.body.fluid_density * m.body.dynamic.transport * m.v;
     const Vector3d moment = tow_moment - left.cross(m.v);
-    const double share = m.v.squaredNorm() / (m.v.squaredNorm() + motion_onset * m.tip * m.tip);
+    const double share = m.v.squaredNorm() / (m.v.squaredNorm() + m.body.dynamic.tow_fading * m.tip * m.tip);
     const Vector3d arm = share * force.cross(moment) / force.squaredNorm();
     const Vector3d along = share * moment.dot(force) / force.squaredNorm() * force;
     const Vector3d local = tabulated(m.body, m.v + m.omega.cross(arm)).first;
@@ -177,7 +186,10 @@ const std::vector<Term>& terms() {
         {"wake by velocity", keeping(&Coefficients::wake_by_velocity), wake_by_velocity, true},
         {"wake by turning", keeping(&Coefficients::wake_by_turning), wake_by_turning, true},
         {"drag in motion", keeping(&Coefficients::drag_in_motion), drag_in_motion, false},
+        {"drag in spin", keeping(&Coefficients::drag_in_spin), drag_in_spin, false},
         {"rotational drag", keeping(&Coefficients::rotational_drag), rotational_drag, false},
+        {"rotational drag in spin", keeping(&Coefficients::rotational_drag_in_spin), rotational_drag_in_spin,
+         false},
     };
     return all;
 }
@@ -309,6 +321,19 @@ TEST(MovingLoads, DragInMotionIsOfTheBodysOwnTurning) {
     const Vector3d at_onset(std::sqrt(motion_onset) * velocity.norm() / body.dynamic.half_length, 0.0, 0.0);
     EXPECT_NEAR(drag_at(at_onset) / drag_at(1e9 * at_onset), 0.5, 1e-12);
     EXPECT_EQ(load_matrix(body, relative), load_matrix(body, relative, relative.head<3>()));
+    // With every term: bodies at rest in a fluid that turns, and those that turn with it.
+    const ImmersedBody lopsided = test::lopsided_body();
+    for (const Vector3d& own :
+         {Vector3d(Vector3d::Zero()), Vector3d(3.0, -1.0, 2.0), Vector3d(1e3, 0.0, 0.0)}) {
+        for (const Vector6d& slip :
+             {Vector6d(Vector6d::Zero()), motion_of(Vector3d(1.0, 2.0, 3.0), Vector3d::Zero()),
+              motion_of(Vector3d::Zero(), velocity)}) {
+            const Matrix6d matrix = load_matrix(lopsided, slip, own);
+            EXPECT_TRUE(matrix.allFinite());
+            EXPECT_LT(matrix.norm(), 1e3);
+            EXPECT_GE((slip.transpose() * matrix * slip).value(), 0.0);
+        }
+    }
 }
 
 TEST(MovingLoads, KeepTheTablesMomentUntilTheBodyDoesLittleButTurn) {
@@ -317,6 +342,8 @@ TEST(MovingLoads, KeepTheTablesMomentUntilTheBodyDoesLittleButTurn) {
     ImmersedBody body = bare(test::blunt_ellipsoid(), true);
     for (LoadEntry& entry : body.tables->entries) entry.moment = 0.1 * entry.force;
     body.dynamic.transport = body.added_mass / body.fluid_density;
+    const double fading = 0.4;
+    body.dynamic.tow_fading = fading;
     prepare(body);
     const Vector3d velocity(0.1, -0.2, 0.2);
     const auto [force, moment] = tabulated(body, velocity);
@@ -327,9 +354,9 @@ TEST(MovingLoads, KeepTheTablesMomentUntilTheBodyDoesLittleButTurn) {
         return (loads_at(body, motion_of(m.omega, m.v)) - rest).head<3>().dot(moment) / moment.squaredNorm();
     };
     EXPECT_NEAR(share_at(1e6), 1.0, 1e-6);
-    EXPECT_NEAR(share_at(1.0), 1.0 / (1.0 + motion_onset), 1e-9);
-    EXPECT_NEAR(share_at(motion_onset), 0.5, 1e-9);
-    EXPECT_NEAR(share_at(1e-4 * motion_onset) / 1e-4, 1.0, 1e-3);
+    EXPECT_NEAR(share_at(1.0), 1.0 / (1.0 + fading), 1e-9);
+    EXPECT_NEAR(share_at(fading), 0.5, 1e-9);
+    EXPECT_NEAR(share_at(1e-4 * fading) / 1e-4, 1.0, 1e-3);
 }
 
 TEST(MovingLoads, TendToThoseOfTheTowAsTheBodyStopsTurning) {
@@ -352,8 +379,8 @@ TEST(MovingLoads, OfABodyThatTurnsOnTheSpotAreFiniteAndThoseOfTheTurningAlone) {
     for (const double rate : {1e-3, 1.0, 1e3}) {
         const Vector3d omega = rate * Vector3d(0.3, -1.0, 0.5);
         const Motion m(body, motion_of(omega, Vector3d::Zero()));
-        const Vector6d expected =
-            rotational_transport(m) + wake_by_turning(m) + rotational_drag(m) + creeping_turn(m);
+        const Vector6d expected = rotational_transport(m) + wake_by_turning(m) + rotational_drag(m) +
+                                  rotational_drag_in_spin(m) + creeping_turn(m);
         for (const double speed : {0.0, 1e-200, 1e-30}) {
             const Vector6d loads = loads_at(body, motion_of(omega, speed * Vector3d(0.5, 0.3, -0.4)));
             ASSERT_TRUE(loads.allFinite());

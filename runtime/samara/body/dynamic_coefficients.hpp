@@ -13,8 +13,9 @@ inline constexpr double motion_onset = 0.03;
 
 /// What a moving body feels beyond the tabulated loads of a steady tow; none of it changes a steady tow
 /// without rotation (docs/theory, "Loads of a moving body"). Body axes about the centroid of the volume; rho
-/// the fluid's density, v and omega relative to the fluid, Q = c |omega| the tip speed, H = sqrt(|v|^2 +
-/// Q^2).
+/// the fluid's density, v and omega relative to the fluid, H = sqrt(|v|^2 + c^2 |omega|^2). Q is the tip
+/// speed c |omega| of the body's own turning: what turbulence turns is in the table already. In still fluid
+/// they are one.
 struct DynamicCoefficients {
     /// T (m^3), symmetric: separated flow adds the force rho omega x (T v) and the moment rho v x (T v),
     /// which together do no work. T = M, the added mass, takes the potential flow's own away.
@@ -23,13 +24,15 @@ struct DynamicCoefficients {
     /// C^T omega that turning makes; J, C: blocks of K_fluid. 1 takes the potential flow's own away.
     double rotational_transport = 0.0;
     /// C_m A (m^2), symmetric and positive semidefinite: drag in motion, the force -rho/2 H s C_m A v with s
-    /// = Q^2/(motion_onset |v|^2 + Q^2), Q there of the body's own turning.
+    /// = Q^2/(motion_onset |v|^2 + Q^2).
     Matrix3d drag_in_motion = Matrix3d::Zero();
-    /// C_s A (m^2), likewise, of a body that turns fast: the force -rho/2 (Q^2/H) C_s A v.
+    /// C_s A (m^2), likewise, of a body that turns fast: the force -rho/2 H s C_s A v with s =
+    /// Q^2/(|v|^2 + Q^2).
     Matrix3d drag_in_spin = Matrix3d::Zero();
     /// C_w D (m^4), symmetric and positive semidefinite: turning, the moment -rho/2 H C_w D omega.
     Matrix3d rotational_drag = Matrix3d::Zero();
-    /// C_r D (m^4), likewise, of a body that turns fast: the moment -rho/2 (Q^2/H) C_r D omega.
+    /// C_r D (m^4), likewise, of a body that turns fast: the moment -rho/2 H s C_r D omega with the
+    /// same s.
     Matrix3d rotational_drag_in_spin = Matrix3d::Zero();
     /// N_v (m^4), symmetric: the angular momentum of the wake turns with the body, the moment
     /// rho omega x (v x (N_v v))/H, which does no work.

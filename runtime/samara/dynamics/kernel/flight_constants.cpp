@@ -151,6 +151,7 @@ void set_loads(const ImmersedBody& body, FlightConstants<Real>& c) {
     c.reynolds_factor = reynolds_factor<Real>(body);
     c.half_length = static_cast<Real>(dynamic.half_length / length);
     c.drag_in_motion = square<Real>(half_density * length / mass * dynamic.drag_in_motion);
+    c.has_spin = !dynamic.drag_in_spin.isZero(0.0) || !dynamic.rotational_drag_in_spin.isZero(0.0);
     c.drag_in_spin = square<Real>(half_density * length / mass * dynamic.drag_in_spin);
     c.rotational_drag = square<Real>(half_density / (mass * length) * dynamic.rotational_drag);
     c.rotational_drag_in_spin =

@@ -56,23 +56,24 @@ struct FlightConstants {
     Triple<Real> center_of_pressure{};  ///< over l, from the centroid
     Real lowest_reynolds_inverse = 0;   ///< of the table; 0: no Stokes resistance in translation
 
-    Square<Real> potential_transport{};  ///< rho_f (M - T) / m* over tow_factor, less its isotropic part
-    Square<Real> directed_transport{};   ///< rho_f T / m* less its isotropic part
-    Real isotropic_transport = 0;        ///< a third of the trace of rho_f T / m*
-    bool transports_turning = false;     ///< whether the next two are not zero
-    Square<Real> turning_transport{};    ///< t rho_f J / (m* l^2)
-    Square<Real> coupling_transport{};   ///< t rho_f C / (m* l)
-    bool has_wake = false;               ///< whether the next two are not zero
-    Square<Real> wake_by_velocity{};     ///< rho_f N_v / (m* l)
-    Square<Real> wake_by_turning{};      ///< rho_f c^2 N_w / (m* l^3)
-    Square<Real> drag_in_motion{};       ///< rho_f l C_m A / (2 m*)
-    Square<Real> drag_in_spin{};         ///< rho_f l C_s A / (2 m*)
-    Square<Real> rotational_drag{};      ///< rho_f C_w D / (2 m* l)
+    Square<Real> potential_transport{};      ///< rho_f (M - T) / m* over tow_factor, less its isotropic part
+    Square<Real> directed_transport{};       ///< rho_f T / m* less its isotropic part
+    Real isotropic_transport = 0;            ///< a third of the trace of rho_f T / m*
+    bool transports_turning = false;         ///< whether the next two are not zero
+    Square<Real> turning_transport{};        ///< t rho_f J / (m* l^2)
+    Square<Real> coupling_transport{};       ///< t rho_f C / (m* l)
+    bool has_wake = false;                   ///< whether the next two are not zero
+    Square<Real> wake_by_velocity{};         ///< rho_f N_v / (m* l)
+    Square<Real> wake_by_turning{};          ///< rho_f c^2 N_w / (m* l^3)
+    Square<Real> drag_in_motion{};           ///< rho_f l C_m A / (2 m*)
+    Square<Real> rotational_drag{};          ///< rho_f C_w D / (2 m* l)
+    bool has_spin = false;                   ///< whether the next two are not zero
+    Square<Real> drag_in_spin{};             ///< rho_f l C_s A / (2 m*)
     Square<Real> rotational_drag_in_spin{};  ///< rho_f C_r D / (2 m* l)
-    Real tow_fading = 0;                 ///< f
-    Real half_length = 0;                ///< c / l
-    Real creeping_turn = 0;              ///< pi mu L^3 / (m* l^2) (1/s)
-    Real creeping_drag = 0;              ///< 3 pi mu L / m* (1/s)
+    Real tow_fading = 0;                     ///< f
+    Real half_length = 0;                    ///< c / l
+    Real creeping_turn = 0;                  ///< pi mu L^3 / (m* l^2) (1/s)
+    Real creeping_drag = 0;                  ///< 3 pi mu L / m* (1/s)
 
     Turbulence turbulence = Turbulence::none;
     Langevin langevin = Langevin::seen_fluid;

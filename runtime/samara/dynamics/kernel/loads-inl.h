@@ -164,25 +164,27 @@ HWY_INLINE LoadBlocks<V> load_blocks(const FlightConstants<Real>& c, const Tripl
     const V combined = root(speed_square + reach_square * dot(omega, omega));
 
     // The tow's moment stays until the body does little but turn: a steady tow keeps it whole.
-    const PressurePoint<V> point = pressure_point(c, heading, share_of(speed_square, V(c.tow_fading) * tip_square));
+    const PressurePoint<V> point =
+        pressure_point(c, heading, share_of(speed_square, V(c.tow_fading) * tip_square));
     LoadBlocks<V> blocks = moved_by_arm(tow_matrix(c, velocity + cross(omega, point.arm)), point.arm);
     add_windmill(point.moment_along_force, velocity, blocks);
     add_transport(c, omega, velocity, blocks);
     if (c.has_wake) add_wake(c, omega, velocity, combined, blocks);
 
-    const V in_spin = tip_square / larger(V(tiny<V>), combined);
-    blocks.moment_by_turning = plus_diagonal(blocks.moment_by_turning +
-                                                 combined * broadcast<V>(c.rotational_drag) +
-                                                 in_spin * broadcast<V>(c.rotational_drag_in_spin),
-                                             V(c.creeping_turn));
     const V in_motion = combined * share_of(tip_square, V(motion_onset) * speed_square);
     const V below =
         larger(zero, V(1.0) - V(c.reynolds_factor) * heading.speed * V(c.lowest_reynolds_inverse));
     const V creeping_drag = select(zero < V(c.lowest_reynolds_inverse), V(c.creeping_drag) * below, zero);
+    blocks.moment_by_turning = plus_diagonal(
+        blocks.moment_by_turning + combined * broadcast<V>(c.rotational_drag), V(c.creeping_turn));
     blocks.force_by_velocity =
-        plus_diagonal(blocks.force_by_velocity + in_motion * broadcast<V>(c.drag_in_motion) +
-                          in_spin * broadcast<V>(c.drag_in_spin),
-                      creeping_drag);
+        plus_diagonal(blocks.force_by_velocity + in_motion * broadcast<V>(c.drag_in_motion), creeping_drag);
+    if (c.has_spin) {
+        const V in_spin = combined * share_of(tip_square, speed_square);
+        blocks.moment_by_turning =
+            blocks.moment_by_turning + in_spin * broadcast<V>(c.rotational_drag_in_spin);
+        blocks.force_by_velocity = blocks.force_by_velocity + in_spin * broadcast<V>(c.drag_in_spin);
+    }
     return blocks;
 }
 
