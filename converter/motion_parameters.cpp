@@ -21,10 +21,10 @@ struct Expectation {
 // What the falls in docs/falls have in common (docs/falls.md), and how far they differ.
 constexpr Expectation expectations[] = {
     {&DynamicCoefficients::transport, "transport", 0.0, 1.0, -6.0, 6.0},
-    {&DynamicCoefficients::drag_in_motion, "drag in motion", 0.6, 0.6, 0.0, 6.0},
-    {&DynamicCoefficients::drag_in_spin, "drag in spin", 0.3, 0.6, 0.0, 6.0},
-    {&DynamicCoefficients::rotational_drag, "rotational drag", 0.3, 0.5, 0.0, 6.0},
-    {&DynamicCoefficients::rotational_drag_in_spin, "rotational drag in spin", 0.3, 0.5, 0.0, 6.0},
+    {&DynamicCoefficients::drag_in_motion, "drag in motion", usual_drag_in_motion, 0.6, 0.0, 6.0},
+    {&DynamicCoefficients::drag_in_spin, "drag in spin", usual_drag_in_spin, 0.6, 0.0, 6.0},
+    {&DynamicCoefficients::rotational_drag, "rotational drag", usual_rotational_drag, 0.7, 0.0, 6.0},
+    {&DynamicCoefficients::rotational_drag_in_spin, "rotational drag in spin", usual_rotational_drag_in_spin, 0.7, 0.0, 6.0},
     {&DynamicCoefficients::wake_by_velocity, "wake by velocity", 0.0, 0.5, -3.0, 3.0},
     {&DynamicCoefficients::wake_by_turning, "wake by turning", 0.0, 0.5, -3.0, 3.0},
 };
@@ -102,8 +102,8 @@ MotionParameters::MotionParameters(const Body& body, const std::vector<std::stri
         tensors_.push_back(tensor);
     }
     turning_place_ = static_cast<Eigen::Index>(parameters_.size());
-    parameters_.push_back({turning_transport, 1.0, 0.3, -2.0, 4.0});
-    parameters_.push_back({fading_of_tow, 0.3, 1.0, motion_onset, 20.0});
+    parameters_.push_back({turning_transport, usual_rotational_transport, 0.3, -2.0, 4.0});
+    parameters_.push_back({fading_of_tow, usual_tow_fading, 1.0, motion_onset, 20.0});
     for (const std::string& name : without) leave_out(name);
 }
 

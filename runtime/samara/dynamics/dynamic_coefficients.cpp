@@ -5,11 +5,8 @@
 namespace samara {
 namespace {
 
-// Chosen on a free fall of the 1:2:4 ellipsoid in OpenFOAM; docs/theory gives its figures and what they miss.
-constexpr double default_transport = 0.75;
-constexpr double default_rotational_transport = 1.0;
-constexpr double default_drag_in_motion = 2.0;
-constexpr double default_rotational_drag = 1.3;
+// Of loads by drag and lift coefficients, which have no other damping of a spin.
+constexpr double rotational_drag_beside_coefficients = 1.3;
 
 double half_length_of(const Body& body) {
     double longest = 0.0;
@@ -36,24 +33,31 @@ Matrix3d rotational_drag_tensor(const Surface& surface, const Vector3d& centroid
 DynamicCoefficients rotational_drag_alone(const Body& body) {
     DynamicCoefficients coefficients;
     coefficients.rotational_drag =
-        default_rotational_drag * rotational_drag_tensor(body.surface, body.moments.centroid);
+        rotational_drag_beside_coefficients * rotational_drag_tensor(body.surface, body.moments.centroid);
     coefficients.half_length = half_length_of(body);
     coefficients.origin = "rotational drag by default";
     return coefficients;
 }
 
 DynamicCoefficients default_dynamic_coefficients(const Body& body) {
-    DynamicCoefficients coefficients = rotational_drag_alone(body);
+    DynamicCoefficients coefficients;
+    coefficients.half_length = half_length_of(body);
     if (body.kirchhoff) {
-        coefficients.transport = default_transport * body.kirchhoff->matrix.bottomRightCorner<3, 3>();
+        coefficients.transport = usual_transport * body.kirchhoff->matrix.bottomRightCorner<3, 3>();
     }
-    coefficients.rotational_transport = default_rotational_transport;
+    coefficients.rotational_transport = usual_rotational_transport;
+    coefficients.tow_fading = usual_tow_fading;
     const Matrix3d axes = principal_axes(body.moments);
+    Matrix3d areas = Matrix3d::Zero();
     for (int i = 0; i < 3; ++i) {
         const Vector3d axis = axes.col(i);
-        coefficients.drag_in_motion +=
-            default_drag_in_motion * projected_area(body.surface, axis) * axis * axis.transpose();
+        areas += projected_area(body.surface, axis) * axis * axis.transpose();
     }
+    coefficients.drag_in_motion = usual_drag_in_motion * areas;
+    coefficients.drag_in_spin = usual_drag_in_spin * areas;
+    const Matrix3d turning = rotational_drag_tensor(body.surface, body.moments.centroid);
+    coefficients.rotational_drag = usual_rotational_drag * turning;
+    coefficients.rotational_drag_in_spin = usual_rotational_drag_in_spin * turning;
     coefficients.origin = "dynamic coefficients by default (none in the body file)";
     return coefficients;
 }

@@ -1,0 +1,135 @@
+#!/usr/bin/env python3
+"""The runtime against the reference falls, and what each term of the loads does.
+
+    falls_report.py BIN BODIES falls ROWS.csv    bakes what is missing in BODIES, flies every scene, compares
+    falls_report.py BIN BODIES terms ROWS.csv    identifies anew without each term, and holds the falls again
+
+BIN: the folder of the programs; BODIES: a folder for baked bodies. Run from the project's folder.
+"""
+
+import csv
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+FALLS = "docs/falls"
+# The body of each scene: its shape, and what it is baked for. No body is baked from a reference fall.
+BODIES = {
+    "sphere": ("meshes/sphere.geo", ["--density", "1297.7"]),
+    "ellipsoid": ("meshes/ellipsoid.geo", ["--density", "1200"]),
+    "spheroid": (f"{FALLS}/spheroid.geo", ["--density", "1297.7"]),
+    "disc-light": (f"{FALLS}/disc.geo", ["--density", "1497.3"]),
+    "disc-heavy": (f"{FALLS}/disc.geo", ["--density", "11340"]),
+    "plate": (f"{FALLS}/plate.geo", ["--density", "2700"]),
+    "sheet": ("meshes/sheet.geo", ["--fluid", "air", "--density", "800"]),
+}
+SCENES = {
+    "sphere": "sphere", "ellipsoid-tilted": "ellipsoid", "ellipsoid-compound": "ellipsoid",
+    "ellipsoid-edgewise": "ellipsoid", "ellipsoid-heavy": "ellipsoid", "spheroid": "spheroid",
+    "disc-light": "disc-light", "disc-heavy": "disc-heavy", "plate": "plate", "sheet": "sheet",
+}
+TERMS = ("transport", "turning transport", "drag in motion", "drag in spin", "rotational drag",
+         "rotational drag in spin", "wake by velocity", "wake by turning", "fading of the tow")
+FIGURES = ("descent_speed", "frequency", "inclination_amplitude", "rms_angular_speed")
+
+
+def run(words):
+    """What a program prints as JSON; its one line of fault goes on."""
+    return json.loads(subprocess.run(words, check=True, stdout=subprocess.PIPE).stdout)
+
+
+def baked(programs, folder, body):
+    """The baked body's file and its falls, separated by commas."""
+    shape, options = BODIES[body]
+    file = os.path.join(folder, f"{body}.body.h5")
+    if not os.path.exists(file):
+        run([f"{programs}/samara", "bake", shape, "-o", file, "--quality", "standard", "--json"] + options)
+    return file, os.path.join(folder, f"{body}.cases", "fall_00")
+
+
+def compared(programs, body_file, scene, folder):
+    """The comparison of a scene flown with a body with its reference fall."""
+    bodies = os.path.join(folder, "bodies")
+    os.makedirs(bodies, exist_ok=True)
+    link = os.path.join(bodies, f"{scene}.body.h5")
+    if os.path.lexists(link):
+        os.remove(link)
+    os.symlink(os.path.abspath(body_file), link)
+    motion = os.path.join(folder, f"{scene}.h5")
+    run([f"{programs}/samara", "simulate", f"{FALLS}/{scene}.toml", "-o", motion, "--bodies", bodies, "--json"])
+    return run([f"{programs}/samara", "compare", motion, f"{FALLS}/{scene}.h5", "--json"])
+
+
+def row_of(scene, comparison):
+    """The figures of a comparison: of the motion, of the reference, and what they differ by."""
+    measures = comparison["measures"]
+    row = [scene, comparison["motion"]["regime"], comparison["reference"]["regime"]]
+    for figure in FIGURES:
+        measure = measures.get(figure) or {}
+        of_motion, of_reference = measure.get("motion") or {}, measure.get("reference") or {}
+        row += [of_motion.get("value"), of_reference.get("value"), of_reference.get("error"),
+                measure.get("relative_difference")]
+    return row + [comparison["first_swing"]["path_distance"]["value"] if comparison["first_swing"] else None,
+                  "yes" if comparison["agrees"] else "no"]
+
+
+def heading():
+    columns = [f"{figure}_{what}" for figure in FIGURES
+               for what in ("runtime", "cfd", "cfd_error", "difference")]
+    return ["fall", "regime_runtime", "regime_cfd"] + columns + ["first_swing_apart", "agrees"]
+
+
+def written(target, rows):
+    with open(target, "w", newline="") as file:
+        csv.writer(file, lineterminator="\n").writerows(
+            [[f"{cell:.5g}" if isinstance(cell, float) else "" if cell is None else cell for cell in row]
+             for row in rows])
+    print(f"Written: {target}")
+
+
+def report_falls(programs, folder, target):
+    rows = [heading()]
+    with tempfile.TemporaryDirectory() as work:
+        for scene, body in SCENES.items():
+            file, _ = baked(programs, folder, body)
+            rows.append(row_of(scene, compared(programs, file, scene, work)))
+            print(rows[-1][0], "agrees" if rows[-1][-1] == "yes" else "differs")
+    written(target, rows)
+
+
+def report_terms(programs, folder, target):
+    """Every body identified anew without each term: how well it predicts its own fall, and which references agree."""
+    rows = [["without", "prediction_error"] + list(SCENES) + ["agree"]]
+    with tempfile.TemporaryDirectory() as work:
+        for term in ("",) + TERMS:
+            errors, verdicts = [], []
+            files = {}
+            for body in BODIES:
+                file, fall = baked(programs, folder, body)
+                files[body] = os.path.join(work, f"{body}.body.h5")
+                words = [f"{programs}/samara", "identify", file, fall, "-o", files[body], "--json"]
+                identified = run(words + (["--without", term] if term else []))
+                errors.append(identified["prediction_error"])
+            for scene, body in SCENES.items():
+                comparison = compared(programs, files[body], scene, work)
+                descent = comparison["measures"]["descent_speed"]["relative_difference"]
+                verdicts.append(f"{'yes' if comparison['agrees'] else 'no'} {100 * descent:+.0f} %")
+            agree = sum(verdict.startswith("yes") for verdict in verdicts)
+            rows.append([term or "nothing", sum(errors) / len(errors)] + verdicts + [agree])
+            print(rows[-1][0], f"{rows[-1][1]:.3f}", agree)
+    written(target, rows)
+
+
+def main(words):
+    if len(words) != 5 or words[3] not in ("falls", "terms"):
+        sys.stderr.write(__doc__)
+        return 2
+    os.makedirs(words[2], exist_ok=True)
+    (report_falls if words[3] == "falls" else report_terms)(words[1], words[2], words[4])
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv))
