@@ -11,14 +11,16 @@
 namespace samara {
 namespace {
 
-/// Why the case has failed, by itself or for want of its mesh; nothing where it has not, or was solved after
-/// all.
-std::optional<std::string> failure_of(const std::filesystem::path& folder, const PlannedCase& planned) {
-    if (is_solved(folder / planned.name)) return std::nullopt;
-    if (std::optional<std::string> reason = failure_reason(folder / planned.name)) return reason;
-    const std::optional<std::string> reason = failure_reason(folder / planned.mesh);
-    if (!reason) return std::nullopt;
-    return fmt::format("its mesh {} could not be made: {}", planned.mesh, *reason);
+/// What stands in a folder's failed.json; nothing where there is none. Throws Error where it is damaged.
+std::optional<std::string> failure_reason(const std::filesystem::path& folder) {
+    const std::filesystem::path file = folder / "failed.json";
+    if (!std::filesystem::exists(file)) return std::nullopt;
+    try {
+        return nlohmann::json::parse(read_bytes(file)).at("reason").get<std::string>();
+    } catch (const nlohmann::json::exception& reason) {
+        throw Error(fmt::format("{}: has no text 'reason' ({}); remove it and run 'samara bake' again",
+                                file.string(), reason.what()));
+    }
 }
 
 Error not_solved(const std::filesystem::path& folder, const CasePlan& plan,
@@ -31,15 +33,13 @@ Error not_solved(const std::filesystem::path& folder, const CasePlan& plan,
 
 }  // namespace
 
-std::optional<std::string> failure_reason(const std::filesystem::path& folder) {
-    const std::filesystem::path file = folder / "failed.json";
-    if (!std::filesystem::exists(file)) return std::nullopt;
-    try {
-        return nlohmann::json::parse(read_bytes(file)).at("reason").get<std::string>();
-    } catch (const nlohmann::json::exception& reason) {
-        throw Error(fmt::format("{}: has no text 'reason' ({}); remove it and run 'samara bake' again",
-                                file.string(), reason.what()));
-    }
+std::optional<std::string> failure_of(const std::filesystem::path& folder, const std::string& name,
+                                      const std::string& mesh) {
+    if (is_solved(folder / name)) return std::nullopt;
+    if (std::optional<std::string> reason = failure_reason(folder / name)) return reason;
+    const std::optional<std::string> reason = failure_reason(folder / mesh);
+    if (!reason) return std::nullopt;
+    return fmt::format("its mesh {} could not be made: {}", mesh, *reason);
 }
 
 FolderReduction reduce_folder(const std::filesystem::path& folder, const CasePlan& plan,
@@ -50,7 +50,7 @@ FolderReduction reduce_folder(const std::filesystem::path& folder, const CasePla
     std::vector<std::string> missing;
     for (const PlannedCase& planned : plan.cases) {
         if (planned.purpose == CasePurpose::start) continue;
-        if (const std::optional<std::string> reason = failure_of(folder, planned)) {
+        if (const std::optional<std::string> reason = failure_of(folder, planned.name, planned.mesh)) {
             reduction.left_out.push_back({planned.name, *reason});
         } else if (plan.solved_by_user || is_solved(folder / planned.name)) {
             solved.push_back(&planned);

@@ -4,7 +4,6 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <string>
 #include <vector>
 
 #include "converter/case_reduction.hpp"
@@ -29,8 +28,9 @@ FolderReduction reduce_folder(const std::filesystem::path& folder, const CasePla
                               const std::function<void(std::size_t done, std::size_t total)>& progress = {},
                               UnsolvedCases unsolved = UnsolvedCases::refuse);
 
-/// Why the case, mesh or fall in a folder failed, by its failed.json; nothing where it did not. Throws Error where that
-/// file is damaged.
-std::optional<std::string> failure_reason(const std::filesystem::path& folder);
+/// Why the case or fall FOLDER/NAME failed, by its failed.json or that of FOLDER/MESH; nothing where neither
+/// is there, or it was solved after all. Throws Error where that file is damaged.
+std::optional<std::string> failure_of(const std::filesystem::path& folder, const std::string& name,
+                                      const std::string& mesh);
 
 }  // namespace samara

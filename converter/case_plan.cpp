@@ -88,8 +88,11 @@ CasePlan as_plan(const nlohmann::json& values, const std::filesystem::path& fold
     const CaseScales scales = as_scales(values, {});
     for (const nlohmann::json& entry : values.at("cases")) plan.cases.push_back(as_case(entry, plan, scales));
     if (values.contains("falls")) {
-        for (const nlohmann::json& entry : values["falls"])
-            plan.falls.push_back(entry.at("name").get<std::string>());
+        for (const nlohmann::json& entry : values["falls"]) {
+            PlannedFall fall{entry.at("name").get<std::string>()};
+            fall.mesh = entry.value("mesh", fall.mesh);
+            plan.falls.push_back(std::move(fall));
+        }
     }
     return plan;
 }
@@ -129,6 +132,14 @@ void check_cases(const std::vector<PlannedCase>& cases) {
     }
 }
 
+void check_falls(const CasePlan& plan) {
+    std::set<std::string> names;
+    for (const PlannedCase& planned : plan.cases) names.insert(planned.name);
+    for (const PlannedFall& fall : plan.falls) {
+        if (!names.insert(fall.name).second) throw Error("two cases or falls are named " + fall.name);
+    }
+}
+
 void check(const CasePlan& plan) {
     const auto is_rotation = [](const Matrix3d& axes) {
         return (axes.transpose() * axes - Matrix3d::Identity()).norm() < 1e-6 && axes.determinant() > 0.0;
@@ -138,6 +149,7 @@ void check(const CasePlan& plan) {
     if (plan.subdivisions < 1 || plan.subdivisions > 1024) throw Error("'subdivisions' is not sane");
     if (!(plan.reference_length > 0.0)) throw Error("'reference_length' is not positive");
     check_cases(plan.cases);
+    check_falls(plan);
 }
 
 }  // namespace

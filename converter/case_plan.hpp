@@ -42,6 +42,12 @@ struct PlannedCase {
     std::optional<double> averaging_start = {};  ///< the first time that counts, where the plan says
 };
 
+/// One free fall of a plan (free_fall.hpp).
+struct PlannedFall {
+    std::string name;           ///< of its folder
+    std::string mesh = "mesh";  ///< the folder of its mesh, beside its own
+};
+
 /// plan.json of a folder of cases (docs/file-formats): what `samara bake`, or the user, set out to solve.
 struct CasePlan {
     std::string quality;   ///< smoke, preview, standard or high; "user" where the user solved and says none
@@ -51,7 +57,7 @@ struct CasePlan {
     Matrix3d case_axes;  ///< columns: the axes of the cases in body axes; those of the map for `samara bake`
     bool solved_by_user = false;  ///< the cases need no provenance.json to count as solved
     std::vector<PlannedCase> cases;
-    std::vector<std::string> falls;  ///< the folders of free falls, beside those of the cases
+    std::vector<PlannedFall> falls;  ///< beside the cases; none where the plan names none
 
     /// Turns vectors in case axes into map axes.
     [[nodiscard]] Matrix3d to_map_axes() const { return axes.transpose() * case_axes; }
@@ -60,7 +66,8 @@ struct CasePlan {
 /// Reads FOLDER/plan.json. Where the user solved the cases, quality, reference_length and axes may be absent:
 /// the last two are then those of FOLDER/body.body.h5. Throws Error where there is no plan, where it is no
 /// JSON, or where an entry is missing or breaks a rule: axes that are no rotation, directions that are no
-/// unit vectors, numbers that are not positive, no cases, two of one name, two of the same flow and purpose.
+/// unit vectors, numbers that are not positive, no cases, two cases or falls of one name, two of the same
+/// flow and purpose.
 CasePlan read_case_plan(const std::filesystem::path& folder);
 
 }  // namespace samara

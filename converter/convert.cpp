@@ -51,30 +51,30 @@ LoadTables make_tables(const CasePlan& plan, const Symmetry& symmetry, std::vect
     return tables;
 }
 
-// Falls that are not solved are left out, with the cases.
-void identify(const std::filesystem::path& folder, const CasePlan& plan, Conversion& conversion) {
+// Falls that failed are left out, with the cases.
+std::vector<FallRecord> solved_falls(const std::filesystem::path& folder, const CasePlan& plan,
+                                     std::vector<LeftOutCase>& left_out) {
     std::vector<FallRecord> records;
-    for (const std::string& name : plan.falls) {
-        if (is_solved(folder / name)) {
-            records.push_back(read_fall_record(folder / name));
-        } else if (const auto reason = failure_reason(folder / name)) {
-            conversion.body.tables->left_out.push_back({name, *reason});
+    for (const PlannedFall& fall : plan.falls) {
+        if (is_solved(folder / fall.name)) {
+            records.push_back(read_fall_record(folder / fall.name));
+        } else if (const auto reason = failure_of(folder, fall.name, fall.mesh)) {
+            left_out.push_back({fall.name, *reason});
         } else {
             throw Error(
                 fmt::format("{}: the fall {} is not solved; run 'samara bake' again, which goes on where it "
                             "stopped",
-                            folder.string(), name));
+                            folder.string(), fall.name));
         }
     }
-    if (records.empty()) return;
-    conversion.identification = identify_motion(conversion.body, records);
-    conversion.body.dynamic = conversion.identification->coefficients;
+    return records;
 }
 
 }  // namespace
 
 Conversion convert_folder(const std::filesystem::path& folder,
-                          const std::function<void(std::size_t, std::size_t)>& progress) {
+                          const std::function<void(std::size_t, std::size_t)>& progress,
+                          const std::function<void(double)>& identifying) {
     const CasePlan plan = read_case_plan(folder);
     Conversion conversion;
     conversion.body = read_body_file(folder / "body.body.h5");
@@ -89,7 +89,10 @@ Conversion convert_folder(const std::filesystem::path& folder,
             fmt::format("{}: {}; run 'samara bake' again", (folder / "plan.json").string(), fault.what()));
     }
     conversion.body.tables->left_out = std::move(reduction.left_out);
-    identify(folder, plan, conversion);
+    const std::vector<FallRecord> falls = solved_falls(folder, plan, conversion.body.tables->left_out);
+    if (falls.empty()) return conversion;
+    conversion.identification = identify_motion(conversion.body, falls, {}, identifying);
+    conversion.body.dynamic = conversion.identification->coefficients;
     return conversion;
 }
 

@@ -22,11 +22,14 @@ struct Conversion {
 /// Reads a folder of cases that `samara bake` made and solved (docs/file-formats), reduces every case and
 /// fills the tables over all directions by the body's symmetry. The tables' errors hold the tail of the
 /// iterations and what the symmetry forbids; of the errors of mesh, closure and interpolation they know
-/// nothing. `progress` is told how many cases of how many are done. Throws Error where the folder is no such
-/// folder, is of another body than its body file, misses a direction, or has a case that is not solved (the
-/// message names the first) or diverged.
+/// nothing. Where the plan has free falls, the dynamic coefficients are identified from those that are solved
+/// (identify_motion); falls that failed are left out, and without any the body has none. `progress` is told
+/// how many cases of how many are done, `identifying` the share of the identification. Throws Error where the
+/// folder is no such folder, is of another body than its body file, misses a direction, or has a case that is
+/// not solved (the message names the first) or diverged, or a fall that is neither solved nor failed.
 Conversion convert_folder(const std::filesystem::path& folder,
-                          const std::function<void(std::size_t done, std::size_t total)>& progress = {});
+                          const std::function<void(std::size_t done, std::size_t total)>& progress = {},
+                          const std::function<void(double share)>& identifying = {});
 
 /// The body of convert_folder.
 Body convert_cases(const std::filesystem::path& folder);

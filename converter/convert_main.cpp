@@ -2,6 +2,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include <fmt/format.h>
@@ -166,7 +167,12 @@ nlohmann::json write_samples(const std::string& cases, const std::string& output
 
 nlohmann::json write_tables(const std::string& cases, const std::string& output, bool print,
                             const CaseProgress& progress) {
-    const Conversion conversion = convert_folder(cases, progress);
+    std::optional<Progress> identification;
+    const auto identifying = [&](double share) {
+        if (!identification) identification.emplace("identifying", "%");
+        identification->update(100.0 * share, 100.0);
+    };
+    const Conversion conversion = convert_folder(cases, progress, identifying);
     write_body_file(output, conversion.body);
     if (print) print_cases(conversion);
     nlohmann::json json = conversion_as_json(conversion, output);

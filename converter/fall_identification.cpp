@@ -255,6 +255,7 @@ Identification identify_motion(const Body& body, const std::vector<FallRecord>& 
                                const std::function<void(double)>& progress) {
     if (records.empty())
         throw Error(fmt::format("{}: there is no fall to identify coefficients from", body.name));
+    if (progress) progress(0.0);
     std::vector<ReadyFall> falls;
     for (const FallRecord& record : records) falls.push_back(ready(body, record));
     const std::vector<Segment> segments = segments_of(falls);

@@ -36,8 +36,8 @@ struct Identification {
 /// energy. Their standard errors come from leaving out one of six stretches of the falls at a time
 /// (jackknife), and from how far what is expected may be off. `body` must have its Kirchhoff tensor and its
 /// tables. `without`: terms to leave out (motion_parameters.hpp), to see what they do. `progress` is told the
-/// share done. Throws Error where there is no fall, or, with its name, where one is of another body, too
-/// short (9 L/U), or of steps that are not of one length.
+/// share done, from 0 to 1. Throws Error where there is no fall, or, with its name, where one is of another
+/// body, too short (9 L/U), or of steps that are not of one length.
 Identification identify_motion(const Body& body, const std::vector<FallRecord>& falls,
                                const std::vector<std::string>& without = {},
                                const std::function<void(double)>& progress = {});

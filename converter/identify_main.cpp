@@ -49,10 +49,10 @@ nlohmann::json identify(const IdentifyOptions& options, bool quiet) {
     if (!body.kirchhoff || !body.tables) {
         throw Error(fmt::format("{}: holds no Kirchhoff tensor or no tables; bake it first", options.body));
     }
-    Progress progress("identifying", "fits");
+    Progress progress("identifying", "%");
     const Identification identification =
         identify_motion(body, records_of(options.falls), words_of(options.without),
-                        [&](double done) { progress.update(done, 1.0); });
+                        [&](double done) { progress.update(100.0 * done, 100.0); });
     body.dynamic = identification.coefficients;
     nlohmann::json json = identification_as_json(identification);
     json["held"] = nlohmann::json::array();

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -11,8 +12,8 @@
 #include "foam-cases/body_preparation.hpp"
 #include "foam-cases/case_farm.hpp"
 #include "foam-cases/case_folder.hpp"
-#include "foam-cases/fall_plan.hpp"
 #include "foam-cases/cluster_jobs.hpp"
+#include "foam-cases/fall_plan.hpp"
 #include "foam-cases/folder_lock.hpp"
 #include "foam-cases/terminal_speed.hpp"
 #include "samara/base/error.hpp"
@@ -58,7 +59,8 @@ BakePreparation plan_of(const BakeRequest& request, const Body& body) {
                            : plan_bake(body, request.quality, reynolds_number, request.inflow);
     preparation.plan->ranks = request.ranks;
     if (request.probes == 0 && request.quality.falls > 0) {
-        add_falls(body, request.fluid, request.mass, request.gravity, preparation.terminal_speed, *preparation.plan);
+        add_falls(body, request.fluid, request.mass, request.gravity, preparation.terminal_speed,
+                  *preparation.plan);
     }
     return preparation;
 }
@@ -95,7 +97,12 @@ void solve_and_convert(const BakeRequest& request, const Body& body, const FarmO
         result.probes = reduction.cases.size();
         replace_file_with(request.output, samples_csv(reduction.cases, plan.axes));
     } else {
-        result.conversion = convert_folder(folder, tell);
+        std::optional<Progress> identification;
+        const auto identifying = [&](double share) {
+            if (!identification) identification.emplace("identifying", "%");
+            identification->update(100.0 * share, 100.0);
+        };
+        result.conversion = convert_folder(folder, tell, identifying);
         write_body_file(request.output, result.conversion->body);
     }
     result.conversion_seconds = watch.lap();
@@ -111,7 +118,7 @@ fs::path case_folder_of(const fs::path& output) {
 BakePreparation prepare_bake(const BakeRequest& request) {
     const TemporaryFolder folder;
     Body body = named_body(request, folder.path());
-    if (request.tables && request.quality.falls > 0) {
+    if (request.tables && request.probes == 0 && request.quality.falls > 0) {
         add_kirchhoff_tensor(body, case_folder_of(request.output) / case_body_name, folder.path());
     }
     return plan_of(request, body);

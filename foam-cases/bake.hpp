@@ -51,7 +51,8 @@ struct BakeResult {
 /// The folder of cases of an output file: NAME.cases beside NAME.body.h5, or beside NAME.csv.
 std::filesystem::path case_folder_of(const std::filesystem::path& output);
 
-/// Meshes the body in a temporary folder and plans its cases; writes nothing else. Throws Error.
+/// Meshes the body in a temporary folder and plans its cases and, as the quality asks, its falls, for which
+/// it computes the Kirchhoff tensor unless an earlier bake did; writes nothing else. Throws Error.
 BakePreparation prepare_bake(const BakeRequest& request);
 
 /// Meshes the body, computes its Kirchhoff tensor, solves its cases in case_folder_of(output), and

@@ -216,6 +216,7 @@ BakePlan plan_of_meshes(const Body& body, const BakeQuality& quality) {
 }
 
 void estimate_cost(BakePlan& plan) {
+    plan.cpu_seconds = 0.0;
     for (const double cells : plan.cells) plan.cpu_seconds += seconds_per_cell_of_mesh * cells;
     for (const BakeCase& entry : plan.cases) plan.cpu_seconds += estimated_seconds(plan, entry);
     for (const FreeFall& fall : plan.falls) {

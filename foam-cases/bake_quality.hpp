@@ -34,8 +34,8 @@ struct BakeQuality {
     std::vector<double> further_reynolds_numbers;
     /// Other closures, solved likewise: the spread is the closure's error.
     std::vector<std::string> other_closures;
-    int falls = 0;          ///< free falls that the dynamic coefficients are identified from
-    std::size_t fall_mesh = 1;  ///< the mesh they are solved on
+    int falls = 0;                ///< free falls that the dynamic coefficients are identified from
+    std::size_t fall_mesh = 1;    ///< the mesh they are solved on
     double stationarity = 0.005;  ///< tolerance of the tail (body-flow/stationarity.py)
     int most_iterations = 800;    ///< of each attempt
 };

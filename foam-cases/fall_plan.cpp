@@ -140,8 +140,8 @@ BodyState identification_start(const Body& body, int index) {
     return start;
 }
 
-void add_falls(const Body& body, const Fluid& fluid, const MassSpecification& mass, double gravity, double speed,
-               BakePlan& plan) {
+void add_falls(const Body& body, const Fluid& fluid, const MassSpecification& mass, double gravity,
+               double speed, BakePlan& plan) {
     SceneBody scene_body;
     scene_body.name = body.name;
     scene_body.mass = mass;
@@ -150,13 +150,12 @@ void add_falls(const Body& body, const Fluid& fluid, const MassSpecification& ma
     const ImmersedBody immersed = make_immersed_body(body, scene_body, fluid);
     const double duration = identification_fall_duration * plan.reference_length / speed;
     for (int i = 0; i < plan.quality.falls; ++i) {
-        FreeFall fall = plan_fall(body, immersed, identification_start(body, i), gravity * -Vector3d::UnitZ(), speed,
-                                  duration);
+        FreeFall fall = plan_fall(body, immersed, identification_start(body, i), gravity * -Vector3d::UnitZ(),
+                                  speed, duration);
         fall.name = fmt::format("fall_{:02}", i);
         fall.mesh = plan.quality.meshes.at(plan.quality.fall_mesh).name;
         plan.falls.push_back(fall);
     }
-    plan.cpu_seconds = 0.0;
     estimate_cost(plan);
 }
 

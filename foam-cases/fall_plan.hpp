@@ -27,13 +27,15 @@ double fall_speed(const Body& body, const ImmersedBody& immersed, const BodyStat
 /// How long a fall that coefficients are identified from lasts, over L/U: some six swings.
 inline constexpr double identification_fall_duration = 30.0;
 
-/// The states from rest from which such falls start, each in its way oblique to all of the body's principal axes, so
-/// that none of its motions is left out. `index`: of the fall.
+/// The states from rest from which such falls start, each in its way oblique to all of the body's principal
+/// axes, so that none of its motions is left out. `index`: of the fall.
 BodyState identification_start(const Body& body, int index);
 
-/// Adds the quality's falls to a plan, of a body with that mass in the fluid, under a gravity of that size (m/s^2).
-void add_falls(const Body& body, const Fluid& fluid, const MassSpecification& mass, double gravity, double speed,
-               BakePlan& plan);
+/// Adds the quality's falls to a plan and its estimated cost: of the body with that mass in the fluid, under
+/// a gravity of that size (m/s^2), `speed` (m/s) being about that at which it falls. The body must have its
+/// Kirchhoff tensor.
+void add_falls(const Body& body, const Fluid& fluid, const MassSpecification& mass, double gravity,
+               double speed, BakePlan& plan);
 
 /// A free fall of the body from a state, over `duration` (s), under a gravity (m/s^2, world axes). `speed`
 /// (m/s): of the case's units, about that at which it falls. The body's added mass must be there.

@@ -14,14 +14,15 @@ namespace {
 
 TEST(FallingBody, HasTheMassTheInertiaAndTheFluidOfTheFall) {
     const Body body = test::ellipsoid_with_tables();
-    const FreeFall fall = test::oblique_fall(1.0);
+    const FreeFall fall = test::oblique_fall(test::ellipsoid_with_tables(), 1.0);
     const ImmersedBody flying = falling_body(body, fall);
     EXPECT_NEAR(flying.mass, 1200.0 * body.moments.volume, 1e-12);
     EXPECT_LT((flying.own_inertia - uniform_inertia(body.moments, 1200.0)).norm(),
               1e-9 * flying.own_inertia.norm());
     EXPECT_EQ(flying.fluid_density, 1000.0);
     EXPECT_NEAR(flying.viscosity, 1e-3, 1e-15);
-    // The centre of mass is at (0.01, -0.005, 0.008) L from the centroid in case axes, which are the body's y, z, x.
+    // The centre of mass is at (0.01, -0.005, 0.008) L from the centroid in case axes, which are the body's
+    // y, z, x.
     const Vector3d offset = fall.length * Vector3d(0.008, 0.01, -0.005);
     EXPECT_LT((flying.center_of_buoyancy + offset).norm(), 1e-12);
     EXPECT_EQ(flying.loads, Loads::table);
@@ -29,14 +30,14 @@ TEST(FallingBody, HasTheMassTheInertiaAndTheFluidOfTheFall) {
 }
 
 TEST(FallingBody, RefusesAFallOfABodyOfAnotherSize) {
-    FreeFall fall = test::oblique_fall(1.0);
+    FreeFall fall = test::oblique_fall(test::ellipsoid_with_tables(), 1.0);
     fall.length *= 1.0 + 1e-5;
     EXPECT_THAT(test::error_of([&] { static_cast<void>(falling_body(test::ellipsoid_with_tables(), fall)); }),
                 testing::StartsWith("fall_00: the fall is of another body than exact: its length L is "));
 }
 
 TEST(FallingBody, FallsInSIUnitsAndTheBodysAxesAtTheStart) {
-    const FreeFall fall = test::oblique_fall(1.0);
+    const FreeFall fall = test::oblique_fall(test::ellipsoid_with_tables(), 1.0);
     const Vector3d gravity = gravity_of(fall);
     EXPECT_NEAR(gravity.norm(), 9.81, 1e-9);
     EXPECT_LT((gravity.normalized() - Vector3d(-0.64, 0.5, 0.58).normalized()).norm(), 1e-12);
@@ -44,7 +45,7 @@ TEST(FallingBody, FallsInSIUnitsAndTheBodysAxesAtTheStart) {
 
 TEST(FallingBody, HasTheStatesOfItsRecordAfterThatOfTheStart) {
     FallRecord record;
-    record.fall = test::oblique_fall(1.0);
+    record.fall = test::oblique_fall(test::ellipsoid_with_tables(), 1.0);
     record.fall.velocity = {0.1, -0.2, 0.3};
     record.fall.angular_velocity = {0.5, 0.7, -0.2};
     std::vector<BodyState> expected;

@@ -20,8 +20,7 @@ Body ellipsoid_with_tables() {
     return body;
 }
 
-FreeFall oblique_fall(double duration) {
-    const Body body = ellipsoid_with_tables();
+FreeFall oblique_fall(const Body& body, double duration) {
     FreeFall fall;
     fall.length = reference_length(body.moments.surface_area);
     fall.speed = speed;

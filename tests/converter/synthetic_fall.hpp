@@ -9,9 +9,9 @@ namespace samara::test {
 /// The rubber ellipsoid (known_bodies.hpp) with blunt tables, without dynamic coefficients.
 Body ellipsoid_with_tables();
 
-/// A fall of ellipsoid_with_tables() from rest in water, at density 1200 and oblique to all its axes, with a
+/// A fall of the body from rest in water, at density 1200 and oblique to all its axes, with a
 /// step of 0.01 L/U. The case's axes are not the body's, and the centre of mass is off the centroid.
-FreeFall oblique_fall(double duration);
+FreeFall oblique_fall(const Body& body, double duration);
 
 /// A record of the fall as the runtime flies the body with the coefficients, with steps a fifth as long. The
 /// loads are not filled in.

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "foam-cases/terminal_speed.hpp"
 #include "samara/simulation/world_pose.hpp"
@@ -217,6 +218,73 @@ TEST(FallPlan, TakesTheMeshWhoseCellsAreNearestAsARatio) {
     const double of_fall = estimated_fall_seconds(plan.falls.front(), plan.cells.front());
     EXPECT_GT(plan.cpu_seconds, of_fall);
     EXPECT_LT(plan.cpu_seconds, 2.0 * of_fall);
+}
+
+BakePlan bake_with_falls(const Body& body, const std::string& quality) {
+    MassSpecification mass;
+    mass.density = 1200.0;
+    BakePlan plan = plan_bake(body, bake_quality(quality), 1e4);
+    add_falls(body, water, mass, 9.81, speed, plan);
+    return plan;
+}
+
+TEST(IdentificationFalls, AreOneAtStandardOnTheMediumMeshAndTwoAtHighOnTheFine) {
+    const Body body = test::ellipsoid({0.01, 0.02, 0.04});
+    EXPECT_TRUE(bake_with_falls(body, "smoke").falls.empty());
+    EXPECT_TRUE(bake_with_falls(body, "preview").falls.empty());
+    const BakePlan standard = bake_with_falls(body, "standard");
+    ASSERT_EQ(standard.falls.size(), 1u);
+    EXPECT_EQ(standard.falls[0].name, "fall_00");
+    EXPECT_EQ(standard.falls[0].mesh, "mesh_medium");
+    const BakePlan high = bake_with_falls(body, "high");
+    ASSERT_EQ(high.falls.size(), 2u);
+    for (const FreeFall& fall : high.falls) EXPECT_EQ(fall.mesh, "mesh_fine");
+    EXPECT_EQ(high.falls[1].name, "fall_01");
+    EXPECT_GT((high.falls[0].gravity - high.falls[1].gravity).norm(), 0.5 * high.falls[0].gravity.norm());
+}
+
+TEST(IdentificationFalls, StartFromRestWithTheBodysMassAndLastThirtyUnits) {
+    const BakePlan plan = bake_with_falls(test::ellipsoid({0.01, 0.02, 0.04}), "standard");
+    const FreeFall& fall = plan.falls[0];
+    EXPECT_EQ(fall.velocity, Vector3d::Zero());
+    EXPECT_EQ(fall.angular_velocity, Vector3d::Zero());
+    EXPECT_NEAR(fall.mass, 1.2 * fall.volume, 1e-12);
+    EXPECT_NEAR(fall.duration, 30.0, 1e-12);
+    EXPECT_EQ(fall.speed, speed);
+}
+
+TEST(IdentificationFalls, CountInTheCostOfTheBake) {
+    const Body body = test::ellipsoid({0.01, 0.02, 0.04});
+    const BakePlan plan = bake_with_falls(body, "standard");
+    const double without = plan_bake(body, bake_quality("standard"), 1e4).cpu_seconds;
+    EXPECT_NEAR(plan.cpu_seconds - without,
+                estimated_fall_seconds(plan.falls[0], cells_of(plan, "mesh_medium")), 1e-6 * without);
+    BakePlan again = plan;
+    estimate_cost(again);
+    EXPECT_EQ(again.cpu_seconds, plan.cpu_seconds);
+}
+
+TEST(IdentificationFalls, StandInThePlanWithTheirMeshes) {
+    const nlohmann::json json = plan_json(bake_with_falls(test::ellipsoid({0.01, 0.02, 0.04}), "high"));
+    EXPECT_EQ(json["falls"], (nlohmann::json{{{"name", "fall_00"}, {"mesh", "mesh_fine"}},
+                                             {{"name", "fall_01"}, {"mesh", "mesh_fine"}}}));
+}
+
+TEST(IdentificationStart, IsObliqueToAllPrincipalAxesHoweverTheShapeLies) {
+    Body body = test::ellipsoid({0.01, 0.02, 0.04});
+    const Matrix3d turn = Eigen::AngleAxisd(0.9, Vector3d(1, -2, 1).normalized()).toRotationMatrix();
+    for (int turned = 0; turned < 2; ++turned) {
+        for (int index = 0; index < 3; ++index) {
+            const BodyState start = identification_start(body, index);
+            EXPECT_EQ(start.velocity, Vector6d::Zero());
+            const Vector3d down = start.orientation.conjugate() * -Vector3d::UnitZ();
+            const Vector3d along = (principal_axes(body.moments).transpose() * down).cwiseAbs();
+            // No axis is nearer than 15 degrees to the horizontal, or than 30 to the vertical.
+            EXPECT_GT(along.minCoeff(), std::sin(0.26)) << index;
+            EXPECT_LT(along.maxCoeff(), std::cos(0.52)) << index;
+        }
+        body.moments.second_moments = turn * body.moments.second_moments * turn.transpose();
+    }
 }
 
 }  // namespace
