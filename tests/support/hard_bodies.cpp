@@ -36,9 +36,9 @@ Body baked_ellipsoid(const Vector3d& semi_axes) {
     return body;
 }
 
-Body baked_sphere(double radius) {
+Body baked_sphere(double radius, int subdivisions) {
     Body body = exact_sphere(radius);
-    body.tables = blunt_tables(body, 2);
+    body.tables = blunt_tables(body, subdivisions);
     body.tables->reynolds_numbers = {1.0, 1e5};
     for (int reynolds = 0; reynolds < 2; ++reynolds) {
         for (int row = 0; row < body.tables->map_size(); ++row) {

@@ -17,7 +17,7 @@ Body baked_ellipsoid(const Vector3d& semi_axes);
 
 /// A sphere with its exact tensor, and tables of the same drag coefficient in all directions: 0.5 times its
 /// cross section at all Reynolds numbers from 1 up, no moment.
-Body baked_sphere(double radius);
+Body baked_sphere(double radius, int subdivisions = 2);
 
 /// A sheet of A4 paper 0.1 mm thick, its normal along x, with blunt tables. Its tensor is the one that
 /// `samara kirchhoff --tolerance 0.01` gives for the box, rounded to three digits.

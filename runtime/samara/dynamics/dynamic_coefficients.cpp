@@ -16,6 +16,18 @@ double half_length_of(const Body& body) {
     return longest;
 }
 
+struct Shadow {
+    Matrix3d areas;     // projected along the principal axes (m^2)
+    double unevenness;  // 0 for a sphere, whose turning changes nothing in its stream, to 1 for a thin sheet
+};
+
+Shadow shadow_of(const Body& body) {
+    const Matrix3d axes = principal_axes(body.moments);
+    Vector3d areas;
+    for (int i = 0; i < 3; ++i) areas[i] = projected_area(body.surface, axes.col(i));
+    return {axes * areas.asDiagonal() * axes.transpose(), 1.0 - areas.minCoeff() / areas.maxCoeff()};
+}
+
 }  // namespace
 
 Matrix3d rotational_drag_tensor(const Surface& surface, const Vector3d& centroid) {
@@ -42,19 +54,15 @@ DynamicCoefficients rotational_drag_alone(const Body& body) {
 DynamicCoefficients default_dynamic_coefficients(const Body& body) {
     DynamicCoefficients coefficients;
     coefficients.half_length = half_length_of(body);
+    const auto [areas, unevenness] = shadow_of(body);
     if (body.kirchhoff) {
-        coefficients.transport = usual_transport * body.kirchhoff->matrix.bottomRightCorner<3, 3>();
+        coefficients.transport =
+            usual_transport * unevenness * body.kirchhoff->matrix.bottomRightCorner<3, 3>();
     }
     coefficients.rotational_transport = usual_rotational_transport;
     coefficients.tow_fading = usual_tow_fading;
-    const Matrix3d axes = principal_axes(body.moments);
-    Matrix3d areas = Matrix3d::Zero();
-    for (int i = 0; i < 3; ++i) {
-        const Vector3d axis = axes.col(i);
-        areas += projected_area(body.surface, axis) * axis * axis.transpose();
-    }
-    coefficients.drag_in_motion = usual_drag_in_motion * areas;
-    coefficients.drag_in_spin = usual_drag_in_spin * areas;
+    coefficients.drag_in_motion = usual_drag_in_motion * unevenness * areas;
+    coefficients.drag_in_spin = usual_drag_in_spin * unevenness * areas;
     const Matrix3d turning = rotational_drag_tensor(body.surface, body.moments.centroid);
     coefficients.rotational_drag = usual_rotational_drag * turning;
     coefficients.rotational_drag_in_spin = usual_rotational_drag_in_spin * turning;
