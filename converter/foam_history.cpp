@@ -75,8 +75,8 @@ std::vector<double> numbers_in(std::string_view line) {
     return row;
 }
 
-/// A heading may name a vector by one word, as that of sixDoFRigidBodyState does: where the first row has as many
-/// numbers and brackets around three as there are names, the names of the latter become three.
+/// A heading may name a vector by one word, as that of sixDoFRigidBodyState does: where the first row has as
+/// many numbers and brackets around three as there are names, the names of the latter become three.
 void name_components(std::vector<std::string>& columns, std::string_view row) {
     std::vector<std::string> named;
     std::size_t column = 0;

@@ -24,7 +24,8 @@ constexpr Expectation expectations[] = {
     {&DynamicCoefficients::drag_in_motion, "drag in motion", usual_drag_in_motion, 0.6, 0.0, 6.0},
     {&DynamicCoefficients::drag_in_spin, "drag in spin", usual_drag_in_spin, 0.6, 0.0, 6.0},
     {&DynamicCoefficients::rotational_drag, "rotational drag", usual_rotational_drag, 0.7, 0.0, 6.0},
-    {&DynamicCoefficients::rotational_drag_in_spin, "rotational drag in spin", usual_rotational_drag_in_spin, 0.7, 0.0, 6.0},
+    {&DynamicCoefficients::rotational_drag_in_spin, "rotational drag in spin", usual_rotational_drag_in_spin,
+     0.7, 0.0, 6.0},
     {&DynamicCoefficients::wake_by_velocity, "wake by velocity", 0.0, 0.5, -3.0, 3.0},
     {&DynamicCoefficients::wake_by_turning, "wake by turning", 0.0, 0.5, -3.0, 3.0},
 };

@@ -150,7 +150,8 @@ void print_preparation(const BakeRequest& request, const BakePreparation& prepar
                    entry.direction.y(), entry.direction.z());
     }
     for (const FreeFall& fall : plan.falls) {
-        fmt::print("  {}  a free fall of {:.3g} s on {}\n", fall.name, fall.duration * fall.time_unit(), fall.mesh);
+        fmt::print("  {}  a free fall of {:.3g} s on {}\n", fall.name, fall.duration * fall.time_unit(),
+                   fall.mesh);
     }
     const double at_once = std::min<double>(jobs, static_cast<double>(plan.cases.size()));
     fmt::print("meshes of about {:.0f} cells, {:.0f} CPU seconds in all, {:.0f} s with {} jobs\n",
