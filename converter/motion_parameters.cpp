@@ -31,7 +31,6 @@ constexpr Expectation expectations[] = {
 };
 
 constexpr const char* turning_transport = "turning transport";
-constexpr const char* fading_of_tow = "fading of the tow";
 
 // Axes along which the body moves alike: within this, relative.
 constexpr double alike = 0.01;
@@ -68,7 +67,6 @@ std::vector<std::string> MotionParameters::names() {
     std::vector<std::string> names;
     for (const Expectation& expectation : expectations) names.emplace_back(expectation.name);
     names.emplace_back(turning_transport);
-    names.emplace_back(fading_of_tow);
     return names;
 }
 
@@ -104,7 +102,6 @@ MotionParameters::MotionParameters(const Body& body, const std::vector<std::stri
     }
     turning_place_ = static_cast<Eigen::Index>(parameters_.size());
     parameters_.push_back({turning_transport, usual_rotational_transport, 0.3, -2.0, 4.0});
-    parameters_.push_back({fading_of_tow, usual_tow_fading, 1.0, motion_onset, 20.0});
     for (const std::string& name : without) leave_out(name);
 }
 
@@ -122,8 +119,7 @@ void MotionParameters::leave_out(const std::string& name) {
             parameter.name.find_first_not_of(" 123", name.size()) != std::string::npos) {
             continue;
         }
-        const double none = name == fading_of_tow ? motion_onset : 0.0;
-        parameter.expected = parameter.lower = parameter.upper = none;
+        parameter.expected = parameter.lower = parameter.upper = 0.0;
     }
 }
 
@@ -148,7 +144,6 @@ DynamicCoefficients MotionParameters::coefficients(const Eigen::VectorXd& number
         coefficients.*tensor.member = 0.5 * (matrix + matrix.transpose());
     }
     coefficients.rotational_transport = numbers[turning_place_];
-    coefficients.tow_fading = numbers[turning_place_ + 1];
     coefficients.half_length = half_length_;
     return coefficients;
 }
@@ -166,7 +161,7 @@ DynamicCoefficients MotionParameters::standard_errors(const Eigen::VectorXd& err
         coefficients.*tensor.member = squares.cwiseSqrt();
     }
     coefficients.rotational_transport = errors[turning_place_];
-    coefficients.tow_fading = errors[turning_place_ + 1];
+    coefficients.tow_fading = 0.0;
     return coefficients;
 }
 

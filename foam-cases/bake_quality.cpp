@@ -53,7 +53,7 @@ BakeQuality standard_quality() {
     quality.stationarity = 0.01;
     quality.meshes = {coarse_mesh(), medium_mesh(), fine_mesh()};
     quality.further_reynolds_numbers = {0.1, 0.3};
-    quality.falls = 1;
+    quality.falls = 2;
     return quality;
 }
 

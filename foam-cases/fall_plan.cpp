@@ -69,7 +69,7 @@ void take_inertia(const Matrix3d& inertia, FreeFall& fall) {
 }
 
 // Where gravity points at the start, along the principal axes from the shortest extent to the longest.
-constexpr double start_directions[][3] = {{-0.64, 0.5, 0.58}, {-0.86, 0.27, 0.433}, {-0.35, 0.8, -0.48}};
+constexpr double start_directions[][3] = {{-0.86, 0.27, 0.433}, {-0.64, 0.5, 0.58}, {-0.35, 0.8, -0.48}};
 
 }  // namespace
 

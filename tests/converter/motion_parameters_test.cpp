@@ -90,7 +90,7 @@ TEST(MotionParameters, GiveSymmetricTensorsAndNoNegativeDragAnywhereWithinTheBou
 
 TEST(MotionParameters, OfABodyWithoutEqualAxesHaveANumberForEach) {
     const MotionParameters parameters(ellipsoid_of(uneven));
-    EXPECT_EQ(parameters.all().size(), 7u * 3u + 2u);
+    EXPECT_EQ(parameters.all().size(), 7u * 3u + 1u);
     EXPECT_EQ(count_named(parameters, "transport"), 3);
     EXPECT_EQ(count_named(parameters, "wake by turning"), 3);
 }
@@ -98,7 +98,7 @@ TEST(MotionParameters, OfABodyWithoutEqualAxesHaveANumberForEach) {
 TEST(MotionParameters, OfASpheroidHaveOneNumberForBothEqualAxes) {
     for (const Vector3d& semi_axes : {Vector3d(1.0, 4.0, 4.0), Vector3d(1.0, 1.0, 4.0)}) {
         const MotionParameters parameters(ellipsoid_of(semi_axes));
-        EXPECT_EQ(parameters.all().size(), 7u * 2u + 2u);
+        EXPECT_EQ(parameters.all().size(), 7u * 2u + 1u);
         EXPECT_EQ(count_named(parameters, "rotational drag"), 2 + 2);  // and that in spin
         const int other = semi_axes.y() == semi_axes.z() ? 1 : 0;      // y and z are equal, or x and y
         const DynamicCoefficients coefficients =
@@ -118,13 +118,13 @@ TEST(MotionParameters, OfASphereHaveOneNumberForAllAxes) {
     body.surface = test::ellipsoid(sphere.semi_axes, 3);
     body.moments = test::exact_moments(sphere);
     body.kirchhoff->matrix = test::exact_tensor(sphere);
-    EXPECT_EQ(MotionParameters(body).all().size(), 7u + 2u);
+    EXPECT_EQ(MotionParameters(body).all().size(), 7u + 1u);
 }
 
 TEST(MotionParameters, TieNoAxesThatMassAloneMakesEqual) {
     Body body = ellipsoid_of(Vector3d(1.0, 4.0, 4.0));
     body.moments.second_moments(2, 2) *= 1.1;
-    EXPECT_EQ(MotionParameters(body).all().size(), 7u * 3u + 2u);
+    EXPECT_EQ(MotionParameters(body).all().size(), 7u * 3u + 1u);
 }
 
 TEST(MotionParameters, AreNothingWhereTheTermIsLeftOut) {
@@ -134,11 +134,10 @@ TEST(MotionParameters, AreNothingWhereTheTermIsLeftOut) {
         const DynamicCoefficients coefficients = parameters.coefficients(parameters.expected());
         std::ptrdiff_t fixed = 0;
         for (const MotionParameter& one : parameters.all()) fixed += one.lower == one.upper ? 1 : 0;
-        const bool is_scalar = name == "turning transport" || name == "fading of the tow";
+        const bool is_scalar = name == "turning transport";
         EXPECT_EQ(fixed, is_scalar ? 1 : 3) << name;
         const bool of_turning = name == "turning transport";
         EXPECT_EQ(coefficients.rotational_transport, of_turning ? 0.0 : 1.0) << name;
-        EXPECT_EQ(coefficients.tow_fading == motion_onset, name == "fading of the tow") << name;
         for (const TensorOfMotion& tensor : tensors_of_motion) {
             const bool is_wake = std::string(tensor.title).starts_with("wake");
             const bool is_none = coefficients.*tensor.member == Matrix3d::Zero();
@@ -187,7 +186,7 @@ TEST(MotionParameters, GiveTheErrorOfEachEntryAlongPrincipalAxes) {
         const Matrix3d change = moved.*tensor.member - coefficients.*tensor.member;
         EXPECT_LT((standard_errors.*tensor.member - change).norm(), 1e-9 * change.norm()) << tensor.name;
     }
-    EXPECT_NEAR(standard_errors.tow_fading, errors[errors.size() - 1], 1e-15);
+    EXPECT_NEAR(standard_errors.rotational_transport, errors[errors.size() - 1], 1e-15);
 }
 
 // Of a turned body every entry depends on several numbers: the spread of entries under numbers that are

@@ -31,7 +31,7 @@ SCENES = {
     "disc-light": "disc-light", "disc-heavy": "disc-heavy", "plate": "plate", "sheet": "sheet",
 }
 TERMS = ("transport", "turning transport", "drag in motion", "drag in spin", "rotational drag",
-         "rotational drag in spin", "wake by velocity", "wake by turning", "fading of the tow")
+         "rotational drag in spin", "wake by velocity", "wake by turning")
 FIGURES = ("descent_speed", "frequency", "inclination_amplitude", "rms_angular_speed")
 
 
@@ -46,7 +46,9 @@ def baked(programs, folder, body):
     file = os.path.join(folder, f"{body}.body.h5")
     if not os.path.exists(file):
         run([f"{programs}/samara", "bake", shape, "-o", file, "--quality", "standard", "--json"] + options)
-    return file, os.path.join(folder, f"{body}.cases", "fall_00")
+    cases = os.path.join(folder, f"{body}.cases")
+    falls = sorted(name for name in os.listdir(cases) if name.startswith("fall_")) if os.path.isdir(cases) else []
+    return file, ",".join(os.path.join(cases, name) for name in falls)
 
 
 def compared(programs, body_file, scene, folder):

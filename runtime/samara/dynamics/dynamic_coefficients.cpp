@@ -60,7 +60,6 @@ DynamicCoefficients default_dynamic_coefficients(const Body& body) {
             usual_transport * unevenness * body.kirchhoff->matrix.bottomRightCorner<3, 3>();
     }
     coefficients.rotational_transport = usual_rotational_transport;
-    coefficients.tow_fading = usual_tow_fading;
     coefficients.drag_in_motion = usual_drag_in_motion * unevenness * areas;
     coefficients.drag_in_spin = usual_drag_in_spin * unevenness * areas;
     const Matrix3d turning = rotational_drag_tensor(body.surface, body.moments.centroid);

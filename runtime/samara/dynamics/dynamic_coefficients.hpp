@@ -12,7 +12,6 @@ inline constexpr double usual_drag_in_motion = 0.5;
 inline constexpr double usual_drag_in_spin = 0.3;
 inline constexpr double usual_rotational_drag = 0.7;
 inline constexpr double usual_rotational_drag_in_spin = 0.7;
-inline constexpr double usual_tow_fading = 0.3;
 
 /// The defaults for a body whose file holds none: guided by free falls of spheroids and a 1:2:4 ellipsoid in
 /// OpenFOAM (docs/theory gives the figures and what they miss). Scaled by the body's own projected areas and
