@@ -11,8 +11,7 @@ namespace samara {
 namespace {
 
 nlohmann::json coefficients_as_json(const DynamicCoefficients& coefficients) {
-    nlohmann::json json = {{"rotational_transport", coefficients.rotational_transport},
-                           {"tow_fading", coefficients.tow_fading}};
+    nlohmann::json json = {{"rotational_transport", coefficients.rotational_transport}};
     for (const TensorOfMotion& tensor : tensors_of_motion) {
         nlohmann::json rows = nlohmann::json::array();
         for (int row = 0; row < 3; ++row) {

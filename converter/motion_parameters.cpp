@@ -161,7 +161,6 @@ DynamicCoefficients MotionParameters::standard_errors(const Eigen::VectorXd& err
         coefficients.*tensor.member = squares.cwiseSqrt();
     }
     coefficients.rotational_transport = errors[turning_place_];
-    coefficients.tow_fading = 0.0;
     return coefficients;
 }
 

@@ -147,7 +147,6 @@ void print_dynamic(const IdentifiedCoefficients& dynamic) {
     print_row("origin", "{}", values.origin);
     print_row("turning transport", "{:.3g} +- {:.2g}", values.rotational_transport,
               errors.rotational_transport);
-    print_row("fading of the tow", "{:.3g} +- {:.2g}", values.tow_fading, errors.tow_fading);
     for (const TensorOfMotion& tensor : tensors_of_motion) {
         print_tensor(tensor.title, tensor.unit, values.*tensor.member, errors.*tensor.member);
     }
@@ -166,8 +165,7 @@ nlohmann::json rows_of(const Matrix& matrix) {
 }
 
 nlohmann::json numbers_as_json(const DynamicCoefficients& numbers) {
-    nlohmann::json json = {{"rotational_transport", numbers.rotational_transport},
-                           {"tow_fading", numbers.tow_fading}};
+    nlohmann::json json = {{"rotational_transport", numbers.rotational_transport}};
     for (const TensorOfMotion& tensor : tensors_of_motion)
         json[tensor.name] = rows_of(numbers.*tensor.member);
     return json;

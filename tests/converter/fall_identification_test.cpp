@@ -161,7 +161,6 @@ TEST_F(FallIdentification, GivesCoefficientsThatABodyFileTakes) {
                   found_.coefficients.standard_errors.*tensor.member)
             << tensor.name;
     }
-    EXPECT_EQ(read.dynamic->values.tow_fading, found_.coefficients.values.tow_fading);
     EXPECT_EQ(read.dynamic->values.origin, found_.coefficients.values.origin);
 }
 

@@ -159,7 +159,6 @@ TEST(MotionParameters, TurnWithTheBody) {
         EXPECT_LT((of_turned.*tensor.member - expected).norm(), 1e-9 * expected.norm()) << tensor.name;
     }
     EXPECT_NEAR(of_turned.half_length, coefficients.half_length, 1e-12);
-    EXPECT_EQ(of_turned.tow_fading, coefficients.tow_fading);
 }
 
 TEST(MotionParameters, GrowWithTheBodyAsTheirUnitsSay) {

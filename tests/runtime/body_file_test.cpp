@@ -43,7 +43,6 @@ void expect_equal(const DynamicCoefficients& a, const DynamicCoefficients& b) {
     for (const TensorOfMotion& tensor : tensors_of_motion) {
         EXPECT_EQ(a.*tensor.member, b.*tensor.member) << tensor.name;
     }
-    EXPECT_EQ(a.tow_fading, b.tow_fading);
     EXPECT_EQ(a.half_length, b.half_length);
     EXPECT_EQ(a.origin, b.origin);
 }
@@ -257,9 +256,6 @@ TEST(BodyFile, DynamicCoefficientsThatAreNoneAreNamed) {
         refused([&](Identified& c) { (c.standard_errors.*tensor.member)(2, 2) = std::nan(""); },
                 name + "_error");
     }
-    refused([&](Identified& c) { c.values.tow_fading = -0.1; }, "tow_fading is negative");
-    refused([&](Identified& c) { c.values.tow_fading = infinity; }, "tow_fading is negative or not finite");
-    refused([&](Identified& c) { c.standard_errors.tow_fading = -1.0; }, "tow_fading_error");
     refused([&](Identified& c) { c.standard_errors.rotational_transport = -1.0; },
             "rotational_transport_error");
     refused([&](Identified& c) { c.standard_errors.rotational_transport = infinity; },

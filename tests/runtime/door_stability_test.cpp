@@ -108,9 +108,6 @@ TEST(Door, ABodyFileWithNaNIsRefusedInOneLine) {
     body.dynamic->values.rotational_transport = not_a_number;
     check(body);
     body.dynamic->values.rotational_transport = 1.0;
-    body.dynamic->values.tow_fading = not_a_number;
-    check(body);
-    body.dynamic->values.tow_fading = 1.0;
     for (const TensorOfMotion& tensor : tensors_of_motion) {
         (body.dynamic->values.*tensor.member)(0, 0) = not_a_number;
         check(body);

@@ -147,7 +147,6 @@ TEST(InfoCommand, ShowsDynamicCoefficientsWithTheirErrors) {
     const nlohmann::json result = samara(folder, {"info", file, "--json"}).json()["dynamic_coefficients"];
     EXPECT_EQ(result["rotational_transport"], 0.8);
     EXPECT_EQ(result["transport"][1][2], 0.001);
-    EXPECT_EQ(result["tow_fading"], 0.25);
     EXPECT_EQ(result["wake_by_velocity"][0][0], -0.02);
     EXPECT_EQ(result["standard_errors"]["wake_by_turning"][2][1], 0.0001);
     EXPECT_EQ(result["drag_in_motion"][0][2], -0.02);

@@ -149,7 +149,7 @@ Vector6d static_table(const Motion& m) {
     const auto& [force, tow_moment] = tabulated(m.body, m.v);
     const Vector3d left = m.body.added_mass * m.v - m.body.fluid_density * m.body.dynamic.transport * m.v;
     const Vector3d moment = tow_moment - left.cross(m.v);
-    const double share = m.v.squaredNorm() / (m.v.squaredNorm() + m.body.dynamic.tow_fading * m.tip * m.tip);
+    const double share = m.v.squaredNorm() / (m.v.squaredNorm() + motion_onset * m.tip * m.tip);
     const Vector3d arm = share * force.cross(moment) / force.squaredNorm();
     const Vector3d along = share * moment.dot(force) / force.squaredNorm() * force;
     const Vector3d local = tabulated(m.body, m.v + m.omega.cross(arm)).first;
@@ -342,8 +342,6 @@ TEST(MovingLoads, KeepTheTablesMomentUntilTheBodyDoesLittleButTurn) {
     ImmersedBody body = bare(test::blunt_ellipsoid(), true);
     for (LoadEntry& entry : body.tables->entries) entry.moment = 0.1 * entry.force;
     body.dynamic.transport = body.added_mass / body.fluid_density;
-    const double fading = 0.4;
-    body.dynamic.tow_fading = fading;
     prepare(body);
     const Vector3d velocity(0.1, -0.2, 0.2);
     const auto [force, moment] = tabulated(body, velocity);
@@ -354,9 +352,9 @@ TEST(MovingLoads, KeepTheTablesMomentUntilTheBodyDoesLittleButTurn) {
         return (loads_at(body, motion_of(m.omega, m.v)) - rest).head<3>().dot(moment) / moment.squaredNorm();
     };
     EXPECT_NEAR(share_at(1e6), 1.0, 1e-6);
-    EXPECT_NEAR(share_at(1.0), 1.0 / (1.0 + fading), 1e-9);
-    EXPECT_NEAR(share_at(fading), 0.5, 1e-9);
-    EXPECT_NEAR(share_at(1e-4 * fading) / 1e-4, 1.0, 1e-3);
+    EXPECT_NEAR(share_at(1.0), 1.0 / (1.0 + motion_onset), 1e-9);
+    EXPECT_NEAR(share_at(motion_onset), 0.5, 1e-9);
+    EXPECT_NEAR(share_at(1e-4 * motion_onset) / 1e-4, 1.0, 1e-3);
 }
 
 TEST(MovingLoads, TendToThoseOfTheTowAsTheBodyStopsTurning) {

@@ -110,7 +110,6 @@ Body lopsided_shape() {
     dynamic.drag_in_spin *= 1e-3;
     dynamic.rotational_drag_in_spin << 0.9, 0.2, -0.1, 0.2, 0.4, 0.1, -0.1, 0.1, 0.6;
     dynamic.rotational_drag_in_spin *= 1e-6;
-    dynamic.tow_fading = 0.3;
     dynamic.half_length = 0.04;
     body.dynamic = {.values = dynamic, .standard_errors = {}};
     return body;

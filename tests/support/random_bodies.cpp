@@ -61,7 +61,6 @@ DynamicCoefficients RandomBodies::coefficients(double size) {
     result.wake_by_turning = symmetric(area * area * magnitude(0.01, 100.0));
     result.drag_in_spin = semidefinite(area * magnitude(0.01, 100.0));
     result.rotational_drag_in_spin = semidefinite(area * area * magnitude(0.01, 100.0));
-    result.tow_fading = uniform(0.0, 1.0) < 0.25 ? 0.0 : magnitude(1e-3, 100.0);
     result.half_length = size * magnitude(0.1, 10.0);
     return result;
 }

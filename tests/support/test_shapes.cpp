@@ -229,7 +229,6 @@ Body full_body() {
     dynamic.wake_by_turning << 0.001, 0.0005, 0.0, 0.0005, -0.002, 0.0, 0.0, 0.0, 0.003;
     dynamic.drag_in_spin = Vector3d(0.5, 0.6, 0.0).asDiagonal();
     dynamic.rotational_drag_in_spin = Vector3d(0.005, 0.006, 0.007).asDiagonal();
-    dynamic.tow_fading = 0.25;
     dynamic.half_length = 0.41;
     dynamic.origin = "identified from 3 falls";
     DynamicCoefficients errors;
@@ -241,7 +240,6 @@ Body full_body() {
     errors.wake_by_turning = Matrix3d::Constant(0.0001);
     errors.drag_in_spin = Matrix3d::Constant(0.009);
     errors.rotational_drag_in_spin = Matrix3d::Constant(0.0003);
-    errors.tow_fading = 0.02;
     body.dynamic = {.values = dynamic, .standard_errors = errors};
     return body;
 }

@@ -25,9 +25,6 @@ std::string fault_of(const Matrix3d& tensor, const char* name, bool is_drag) {
 
 std::string fault_of(const DynamicCoefficients& coefficients) {
     if (!std::isfinite(coefficients.rotational_transport)) return "rotational_transport is not finite";
-    if (!(coefficients.tow_fading >= 0.0) || !std::isfinite(coefficients.tow_fading)) {
-        return "tow_fading is negative or not finite";
-    }
     if (!(coefficients.half_length > 0.0) || !std::isfinite(coefficients.half_length)) {
         return "half_length is not a positive number";
     }

@@ -8,7 +8,7 @@ namespace samara {
 
 /// (Q/|v|)^2 at which half of what a steady tow lacks is there: small, since a body need not turn fast beside
 /// its speed for its flow to be steady no more. Identified on the falls of docs/falls, which give 0.003 to
-/// 0.1.
+/// 0.1. Where |v| and Q have changed places, half of the tow's moment is gone.
 inline constexpr double motion_onset = 0.03;
 
 /// What a moving body feels beyond the tabulated loads of a steady tow; none of it changes a steady tow
@@ -41,8 +41,6 @@ struct DynamicCoefficients {
     Matrix3d wake_by_turning = Matrix3d::Zero();
     /// c (m): the body's half-length.
     double half_length = 0.0;
-    /// f: of the steady tow's moment less the transport's the share |v|^2/(|v|^2 + f Q^2) stays.
-    double tow_fading = motion_onset;
     std::string origin;  ///< where they come from, in words, for reports
 };
 

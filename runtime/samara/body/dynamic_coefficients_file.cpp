@@ -24,7 +24,6 @@ DynamicCoefficients read_numbers(const Hdf5Reader& file, const char* name_end) {
     DynamicCoefficients numbers;
     numbers.rotational_transport =
         file.number_attribute(group, fmt::format("rotational_transport{}", name_end));
-    numbers.tow_fading = file.number_attribute(group, fmt::format("tow_fading{}", name_end));
     for (const TensorOfMotion& tensor : tensors_of_motion) {
         numbers.*tensor.member = read_tensor(file, tensor.name, name_end);
     }
@@ -38,7 +37,6 @@ void write_numbers(Hdf5Writer& file, const DynamicCoefficients& numbers, const c
                    is_value ? tensor.meaning : "standard error of the tensor of the same name");
     }
     file.attribute(group, fmt::format("rotational_transport{}", name_end), numbers.rotational_transport);
-    file.attribute(group, fmt::format("tow_fading{}", name_end), numbers.tow_fading);
 }
 
 /// A standard error that is none; empty where all are.
@@ -46,7 +44,6 @@ std::string fault_of_errors(const DynamicCoefficients& errors) {
     if (!(errors.rotational_transport >= 0.0) || !std::isfinite(errors.rotational_transport)) {
         return "rotational_transport_error";
     }
-    if (!(errors.tow_fading >= 0.0) || !std::isfinite(errors.tow_fading)) return "tow_fading_error";
     for (const TensorOfMotion& tensor : tensors_of_motion) {
         if ((errors.*tensor.member).minCoeff() < 0.0) return std::string(tensor.name) + "_error";
     }

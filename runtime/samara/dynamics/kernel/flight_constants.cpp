@@ -156,7 +156,6 @@ void set_loads(const ImmersedBody& body, FlightConstants<Real>& c) {
     c.rotational_drag = square<Real>(half_density / (mass * length) * dynamic.rotational_drag);
     c.rotational_drag_in_spin =
         square<Real>(half_density / (mass * length) * dynamic.rotational_drag_in_spin);
-    c.tow_fading = static_cast<Real>(dynamic.tow_fading);
     set_transport(body, mass, length, c);
     set_wake(body, mass, length, c);
     const double creeping = std::numbers::pi * body.viscosity * body.length / mass;

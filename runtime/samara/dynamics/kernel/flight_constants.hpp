@@ -70,7 +70,6 @@ struct FlightConstants {
     bool has_spin = false;                   ///< whether the next two are not zero
     Square<Real> drag_in_spin{};             ///< rho_f l C_s A / (2 m*)
     Square<Real> rotational_drag_in_spin{};  ///< rho_f C_r D / (2 m* l)
-    Real tow_fading = 0;                     ///< f
     Real half_length = 0;                    ///< c / l
     Real creeping_turn = 0;                  ///< pi mu L^3 / (m* l^2) (1/s)
     Real creeping_drag = 0;                  ///< 3 pi mu L / m* (1/s)

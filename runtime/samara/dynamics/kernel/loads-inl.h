@@ -165,7 +165,7 @@ HWY_INLINE LoadBlocks<V> load_blocks(const FlightConstants<Real>& c, const Tripl
 
     // The tow's moment stays until the body does little but turn: a steady tow keeps it whole.
     const PressurePoint<V> point =
-        pressure_point(c, heading, share_of(speed_square, V(c.tow_fading) * tip_square));
+        pressure_point(c, heading, share_of(speed_square, V(motion_onset) * tip_square));
     LoadBlocks<V> blocks = moved_by_arm(tow_matrix(c, velocity + cross(omega, point.arm)), point.arm);
     add_windmill(point.moment_along_force, velocity, blocks);
     add_transport(c, omega, velocity, blocks);
