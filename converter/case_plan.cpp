@@ -76,6 +76,7 @@ CasePlan as_plan(const nlohmann::json& values, const std::filesystem::path& fold
     plan.quality =
         plan.solved_by_user ? values.value("quality", "user") : values.at("quality").get<std::string>();
     plan.subdivisions = values.at("subdivisions").get<int>();
+    plan.covers_scene = values.value("covers", "all") == "scene";
     std::optional<Body> body;
     if (plan.solved_by_user && !(values.contains("reference_length") && values.contains("axes"))) {
         body = read_body_file(folder / "body.body.h5");

@@ -55,6 +55,7 @@ struct CasePlan {
     double reference_length;  ///< L (m)
     Matrix3d axes;            ///< columns: the map's axes in body axes
     Matrix3d case_axes;  ///< columns: the axes of the cases in body axes; those of the map for `samara bake`
+    bool covers_scene = false;    ///< the directions are those that a scene visits, not all
     bool solved_by_user = false;  ///< the cases need no provenance.json to count as solved
     std::vector<PlannedCase> cases;
     std::vector<PlannedFall> falls;  ///< beside the cases; none where the plan names none

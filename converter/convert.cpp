@@ -40,14 +40,14 @@ std::string provenance_of(const std::vector<SolvedCase>& cases) {
     return list.dump();
 }
 
-LoadTables make_tables(const CasePlan& plan, const Symmetry& symmetry, std::vector<SolvedCase>& cases) {
+LoadTables make_tables(const CasePlan& plan, const Symmetry& symmetry, Conversion& conversion) {
     LoadTables tables;
     tables.reference_length = plan.reference_length;
     tables.subdivisions = plan.subdivisions;
     tables.axes = plan.axes;
     tables.quality = plan.quality;
-    fill_tables(tables, symmetry, cases);
-    tables.provenance = provenance_of(cases);
+    conversion.sampling_errors = fill_tables(tables, symmetry, conversion.cases);
+    tables.provenance = provenance_of(conversion.cases);
     return tables;
 }
 
@@ -83,7 +83,7 @@ Conversion convert_folder(const std::filesystem::path& folder,
     try {
         require_enough_directions(plan, conversion.body.symmetry, reduction);
         conversion.cases = std::move(reduction.cases);
-        conversion.body.tables = make_tables(plan, conversion.body.symmetry, conversion.cases);
+        conversion.body.tables = make_tables(plan, conversion.body.symmetry, conversion);
     } catch (const Error& fault) {
         throw Error(
             fmt::format("{}: {}; run 'samara bake' again", (folder / "plan.json").string(), fault.what()));

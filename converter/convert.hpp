@@ -16,6 +16,7 @@ struct Conversion {
     Body body;                      ///< body.body.h5 of the folder with its tables filled
     std::vector<SolvedCase> cases;  ///< in the plan's order, case axes, as they stand in the tables: without
                                     ///< what the symmetry forbids, errors widened by it
+    std::vector<LoadEntryError> sampling_errors;   ///< of the tables' entries, by fill_tables
     std::optional<Identification> identification;  ///< of the dynamic coefficients, where falls are solved
 };
 

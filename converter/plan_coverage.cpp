@@ -42,7 +42,8 @@ std::optional<Vector3d> missing_direction(const std::vector<const PlannedCase*>&
 void require_enough_directions(const CasePlan& plan, const Symmetry& symmetry,
                                const FolderReduction& reduction) {
     const std::vector<const PlannedCase*> main = main_cases(plan);
-    if (const auto missing = missing_direction(main, symmetry, 1)) {
+    const auto missing = plan.covers_scene ? std::nullopt : missing_direction(main, symmetry, 1);
+    if (missing) {
         throw Error(
             fmt::format("Reynolds number {:.6g}: no case in the direction ({:.6g}, {:.6g}, {:.6g}), "
                         "which the table needs",

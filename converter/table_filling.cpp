@@ -38,6 +38,10 @@ LoadEntryError& of(SourceVariances& variances, ErrorSource source) {
     return variances[static_cast<std::size_t>(source)];
 }
 
+const LoadEntryError& of(const SourceVariances& variances, ErrorSource source) {
+    return variances[static_cast<std::size_t>(source)];
+}
+
 /// The variance of each component and logarithm from standard errors that are the same for all components
 /// that are free.
 LoadEntryError variance_of(const ErrorFigures& figures, const FreeComponents& free) {
@@ -283,7 +287,8 @@ LoadEntryError variance_between(const std::vector<ReynoldsTable>& tables) {
 
 }  // namespace
 
-void fill_tables(LoadTables& tables, const Symmetry& symmetry, std::vector<SolvedCase>& cases) {
+std::vector<LoadEntryError> fill_tables(LoadTables& tables, const Symmetry& symmetry,
+                                        std::vector<SolvedCase>& cases) {
     transfer_to_main_mesh(cases, main_reynolds_number(cases));
     std::vector<ReynoldsTable> parts = symmetric_tables(symmetry, cases);
     fit(parts, symmetry);
@@ -291,6 +296,7 @@ void fill_tables(LoadTables& tables, const Symmetry& symmetry, std::vector<Solve
     const ModelErrors model = errors_of_models(symmetry, cases, parts);
     const LoadEntryError between = variance_between(parts);
     Totals totals;
+    std::vector<LoadEntryError> sampling;
     for (const ReynoldsTable& part : parts) {
         tables.reynolds_numbers.push_back(part.reynolds_number);
         const std::vector<SourceVariances> variances =
@@ -301,10 +307,13 @@ void fill_tables(LoadTables& tables, const Symmetry& symmetry, std::vector<Solve
             for (const LoadEntryError& variance : variances[node]) sum = plus(sum, 1.0, variance);
             tables.entries.push_back(transformed(entry, tables.axes));
             tables.errors.push_back(transformed_error(absolute(entry, sum), tables.axes));
+            const LoadEntryError of_sampling = of(variances[node], ErrorSource::interpolation);
+            sampling.push_back(transformed_error(absolute(entry, of_sampling), tables.axes));
             add(totals, entry, variances[node]);
         }
     }
     tables.error_sources = shares_of(totals, model, forbids_something(symmetry, parts));
+    return sampling;
 }
 
 }  // namespace samara

@@ -26,7 +26,11 @@ namespace samara {
 /// Sources of which the cases say nothing are absent from error_sources: mesh and closure without such
 /// cases, symmetry where it forbids nothing.
 ///
+/// Returns the standard errors of the interpolation alone, entry by entry: what more directions and Reynolds
+/// numbers would lower.
+///
 /// Throws Error where there is no table case, or where a Reynolds number mixes laminar and turbulent ones.
-void fill_tables(LoadTables& tables, const Symmetry& symmetry, std::vector<SolvedCase>& cases);
+std::vector<LoadEntryError> fill_tables(LoadTables& tables, const Symmetry& symmetry,
+                                        std::vector<SolvedCase>& cases);
 
 }  // namespace samara

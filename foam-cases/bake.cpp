@@ -1,11 +1,13 @@
 #include "foam-cases/bake.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <optional>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "converter/case_folder_reduction.hpp"
 #include "converter/samples_csv.hpp"
@@ -15,6 +17,7 @@
 #include "foam-cases/cluster_jobs.hpp"
 #include "foam-cases/fall_plan.hpp"
 #include "foam-cases/folder_lock.hpp"
+#include "foam-cases/scene_plan_report.hpp"
 #include "foam-cases/terminal_speed.hpp"
 #include "samara/base/error.hpp"
 #include "samara/body/body_file.hpp"
@@ -48,20 +51,32 @@ double mass_of(const MassSpecification& mass, const Body& body) {
     throw Error(fmt::format("{}: has neither a density nor a mass; give one", body.name));
 }
 
+bool plans_falls(const BakeRequest& request) {
+    return request.tables && request.probes == 0 && request.quality.falls > 0;
+}
+
 BakePreparation plan_of(const BakeRequest& request, const Body& body) {
     BakePreparation preparation;
+    preparation.symmetry = body.symmetry;
     if (!request.tables) return preparation;
     preparation.terminal_speed =
         terminal_speed(body, request.fluid, mass_of(request.mass, body), request.gravity);
     const double reynolds_number = terminal_reynolds_number(body, request.fluid, preparation.terminal_speed);
-    preparation.plan = request.probes > 0
-                           ? plan_probes(body, request.quality, reynolds_number, request.probes)
-                           : plan_bake(body, request.quality, reynolds_number, request.inflow);
+    if (request.goal) {
+        preparation.flight = fly_ensemble(request.goal->scene, request.goal->body, body, request.goal->falls);
+        preparation.scene_plan = first_plan(body, request.quality, request.inflow, preparation.flight);
+        preparation.plan = preparation.scene_plan->cases;
+    } else if (request.probes > 0) {
+        preparation.plan = plan_probes(body, request.quality, reynolds_number, request.probes);
+    } else {
+        preparation.plan = plan_bake(body, request.quality, reynolds_number, request.inflow);
+    }
     preparation.plan->ranks = request.ranks;
-    if (request.probes == 0 && request.quality.falls > 0) {
+    if (plans_falls(request)) {
         add_falls(body, request.fluid, request.mass, request.gravity, preparation.terminal_speed,
                   *preparation.plan);
     }
+    if (preparation.scene_plan) preparation.scene_plan->cases = *preparation.plan;
     return preparation;
 }
 
@@ -73,39 +88,110 @@ Body named_body(const BakeRequest& request, const fs::path& folder) {
     return body;
 }
 
+/// A folder of cases that one bake solves, perhaps in rounds.
+class CaseSolving {
+  public:
+    CaseSolving(const BakeRequest& request, const Body& body, FarmOptions farm, BakeResult& result)
+        : folder_(case_folder_of(request.output)),
+          templates_(foam_cases_folder()),
+          body_(body),
+          farm_(std::move(farm)),
+          result_(result),
+          lock_(folder_) {
+        require_cases_of(CaseKind::bake, folder_);
+        end_earlier_jobs(folder_);
+    }
+
+    /// Solves what is not solved yet of a plan.
+    void solve(const BakePlan& plan, Unplanned unplanned) {
+        write_case_folder(folder_, body_, plan, templates_, unplanned);
+        const std::size_t solved_before = count_solved(folder_, plan);
+        result_.reused += solved_before - std::min(solved_before, solved_);
+        const std::vector<LeftOutCase> left_out = solve_cases(folder_, plan, farm_, templates_);
+        solved_ = plan.cases.size() + plan.falls.size() - left_out.size();
+        result_.left_out = left_out;
+        result_.cpu_seconds = spent_cpu_seconds(folder_, plan);
+        result_.case_seconds += watch_.lap();
+    }
+
+    [[nodiscard]] Conversion converted() {
+        watch_.lap();
+        Progress progress("converting", "cases");
+        std::optional<Progress> identification;
+        Conversion conversion = convert_folder(
+            folder_,
+            [&](std::size_t done, std::size_t total) {
+                progress.update(static_cast<double>(done), static_cast<double>(total));
+            },
+            [&](double share) {
+                if (!identification) identification.emplace("identifying", "%");
+                identification->update(100.0 * share, 100.0);
+            });
+        result_.conversion_seconds += watch_.lap();
+        return conversion;
+    }
+
+    [[nodiscard]] FolderReduction reduced() {
+        Progress progress("converting", "cases");
+        return reduce_folder(folder_, read_case_plan(folder_), [&](std::size_t done, std::size_t total) {
+            progress.update(static_cast<double>(done), static_cast<double>(total));
+        });
+    }
+
+    /// Removes the cases that no round planned.
+    void remove_unplanned(const BakePlan& plan) {
+        write_case_folder(folder_, body_, plan, templates_, Unplanned::removed);
+    }
+
+    void name_work(std::string work) { farm_.work = std::move(work); }
+
+  private:
+    fs::path folder_;
+    fs::path templates_;
+    const Body& body_;
+    FarmOptions farm_;
+    BakeResult& result_;
+    FolderLock lock_;
+    Stopwatch watch_;
+    std::size_t solved_ = 0;
+};
+
+void bake_for_scene(const BakeRequest& request, CaseSolving& solving, BakeResult& result) {
+    ScenePlan plan = *result.preparation.scene_plan;
+    Conversion conversion;
+    while (plan.stopped_because.empty()) {
+        solving.name_work(fmt::format("baking, round {}", plan.rounds.size() + 1));
+        solving.solve(plan.cases, Unplanned::kept);
+        conversion = solving.converted();
+        judge_round(*request.goal, conversion, result.cpu_seconds, plan);
+        fmt::print(stderr, "{}\n", round_as_line(*request.goal, plan));
+    }
+    solving.remove_unplanned(plan.cases);
+    conversion.body.tables->plan = plan.region;
+    conversion.body.tables->plan.report = scene_plan_as_json(*request.goal, plan).dump();
+    result.conversion = std::move(conversion);
+    result.preparation.plan = plan.cases;
+    result.preparation.scene_plan = std::move(plan);
+    write_body_file(request.output, result.conversion->body);
+}
+
 void solve_and_convert(const BakeRequest& request, const Body& body, const FarmOptions& farm,
                        BakeResult& result) {
-    const fs::path folder = case_folder_of(request.output);
-    const fs::path templates = foam_cases_folder();
-    const FolderLock lock(folder);
-    require_cases_of(CaseKind::bake, folder);
-    Stopwatch watch;
-    const BakePlan& plan = *result.preparation.plan;
-    end_earlier_jobs(folder);
-    write_case_folder(folder, body, plan, templates);
-    result.reused = count_solved(folder, plan);
-    result.left_out = solve_cases(folder, plan, farm, templates);
-    result.cpu_seconds = spent_cpu_seconds(folder, plan);
-    result.case_seconds = watch.lap();
-
-    Progress progress("converting", "cases");
-    const auto tell = [&](std::size_t done, std::size_t total) {
-        progress.update(static_cast<double>(done), static_cast<double>(total));
-    };
+    CaseSolving solving(request, body, farm, result);
+    if (request.goal) {
+        bake_for_scene(request, solving, result);
+        return;
+    }
+    const BakePlan plan = *result.preparation.plan;
+    solving.solve(plan, Unplanned::removed);
     if (request.probes > 0) {
-        const FolderReduction reduction = reduce_folder(folder, read_case_plan(folder), tell);
+        const FolderReduction reduction = solving.reduced();
         result.probes = reduction.cases.size();
         replace_file_with(request.output, samples_csv(reduction.cases, plan.axes));
-    } else {
-        std::optional<Progress> identification;
-        const auto identifying = [&](double share) {
-            if (!identification) identification.emplace("identifying", "%");
-            identification->update(100.0 * share, 100.0);
-        };
-        result.conversion = convert_folder(folder, tell, identifying);
-        write_body_file(request.output, result.conversion->body);
+        return;
     }
-    result.conversion_seconds = watch.lap();
+    result.conversion = solving.converted();
+    write_body_file(request.output, result.conversion->body);
 }
 
 }  // namespace
@@ -118,7 +204,7 @@ fs::path case_folder_of(const fs::path& output) {
 BakePreparation prepare_bake(const BakeRequest& request) {
     const TemporaryFolder folder;
     Body body = named_body(request, folder.path());
-    if (request.tables && request.probes == 0 && request.quality.falls > 0) {
+    if (plans_falls(request) || request.goal) {
         add_kirchhoff_tensor(body, case_folder_of(request.output) / case_body_name, folder.path());
     }
     return plan_of(request, body);

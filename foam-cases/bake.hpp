@@ -9,6 +9,7 @@
 #include "converter/convert.hpp"
 #include "foam-cases/bake_plan.hpp"
 #include "foam-cases/case_farm.hpp"
+#include "foam-cases/scene_plan.hpp"
 #include "samara/scene/scene.hpp"
 
 namespace samara {
@@ -25,14 +26,18 @@ struct BakeRequest {
     BakeQuality quality;
     bool tables = true;  ///< false: mesh and Kirchhoff tensor alone
     Inflow inflow;
-    int ranks = 1;   ///< processes that share each case, by MPI
+    int ranks = 1;                       ///< processes that share each case, by MPI
+    std::optional<SceneGoal> goal = {};  ///< bakes what the scene needs, in rounds; else all directions
     int probes = 0;  ///< above 0: so many cases between the tables' nodes, written as CSV, in place of tables
 };
 
 /// What is known before anything is solved.
 struct BakePreparation {
-    double terminal_speed = 0.0;  ///< m/s, an estimate (terminal_speed.hpp)
-    std::optional<BakePlan> plan;
+    double terminal_speed = 0.0;          ///< m/s, an estimate (terminal_speed.hpp)
+    std::optional<BakePlan> plan;         ///< for a goal that of the first round
+    std::optional<ScenePlan> scene_plan;  ///< for a goal
+    EnsembleFlight flight;                ///< for a goal, before anything is baked
+    Symmetry symmetry;                    ///< of the body
 };
 
 struct BakeResult {
@@ -51,12 +56,14 @@ struct BakeResult {
 /// The folder of cases of an output file: NAME.cases beside NAME.body.h5, or beside NAME.csv.
 std::filesystem::path case_folder_of(const std::filesystem::path& output);
 
-/// Meshes the body in a temporary folder and plans its cases and, as the quality asks, its falls, for which
-/// it computes the Kirchhoff tensor unless an earlier bake did; writes nothing else. Throws Error.
+/// Meshes the body in a temporary folder and plans its cases and, as the quality asks, its falls; for these
+/// and for a goal it computes the Kirchhoff tensor unless an earlier bake did; writes nothing else. Throws
+/// Error.
 BakePreparation prepare_bake(const BakeRequest& request);
 
 /// Meshes the body, computes its Kirchhoff tensor, solves its cases in case_folder_of(output), and
-/// writes the body file with its tables. What an earlier call solved on the same inputs is reused.
+/// writes the body file with its tables. For a goal it goes on round by round (scene_plan.hpp). What an
+/// earlier call solved on the same inputs is reused.
 /// `planned` is told of the plan before anything long begins. Throws Error.
 BakeResult bake_body(const BakeRequest& request, const FarmOptions& farm,
                      const std::function<void(const BakePreparation&)>& planned);

@@ -12,6 +12,7 @@
 #include "foam-cases/bake.hpp"
 #include "foam-cases/bake_report.hpp"
 #include "foam-cases/cluster_jobs.hpp"
+#include "foam-cases/scene_requests.hpp"
 #include "foam-cases/terminal_speed.hpp"
 #include "samara/base/error.hpp"
 #include "samara/body/body_file.hpp"
@@ -34,13 +35,15 @@ struct BakeOptions {
     std::string quality = "preview";
     std::string inflow = "still";
     int probes = 0;
+    bool whole_grid = false;
+    double tolerance = SceneBakeOptions().tolerance;
+    double budget = 0.0;
+    int rounds = SceneBakeOptions().most_rounds;
     bool dry_run = false;
 };
 
-void take_options(const BakeOptions& options, BakeRequest& request) {
-    request.quality = bake_quality(options.quality);
-    if (options.inflow == "paper") request.inflow = paper_inflow();
-    request.probes = options.probes;
+Inflow inflow_of(const BakeOptions& options) {
+    return options.inflow == "paper" ? paper_inflow() : Inflow();
 }
 
 BakeRequest request_for_shape(const BakeOptions& options) {
@@ -56,27 +59,10 @@ BakeRequest request_for_shape(const BakeOptions& options) {
     request.output = options.output;
     request.fluid = *fluid_preset(options.fluid);
     request.mass.density = options.density;
-    take_options(options, request);
+    request.quality = bake_quality(options.quality);
+    request.inflow = inflow_of(options);
+    request.probes = options.probes;
     return request;
-}
-
-std::vector<BakeRequest> requests_for_scene(const BakeOptions& options) {
-    const Scene scene = read_scene_file(options.input);
-    std::vector<BakeRequest> requests;
-    for (const SceneBody& body : scene.bodies) {
-        BakeRequest request;
-        request.name = body.name;
-        request.shape = body.shape;
-        request.scale = body.scale;
-        request.output = fs::path(options.output) / (body.name + ".body.h5");
-        request.fluid = scene.fluid;
-        request.mass = body.mass;
-        request.gravity = scene.gravity.norm();
-        take_options(options, request);
-        request.tables = body.loads == Loads::table || body.turbulence == Turbulence::table;
-        requests.push_back(request);
-    }
-    return requests;
 }
 
 bool is_scene(const std::string& input) {
@@ -84,7 +70,15 @@ bool is_scene(const std::string& input) {
 }
 
 std::vector<BakeRequest> requests_for(const BakeOptions& options, const Arguments& arguments) {
-    if (!is_scene(options.input)) return {request_for_shape(options)};
+    if (!is_scene(options.input)) {
+        for (const char* option : {"--tolerance", "--budget", "--rounds", "--whole-grid"}) {
+            if (arguments.given(option)) {
+                throw Error(fmt::format("{}: {} is of a scene; a shape is baked in all directions",
+                                        options.input, option));
+            }
+        }
+        return {request_for_shape(options)};
+    }
     for (const char* option : {"--fluid", "--density"}) {
         if (arguments.given(option)) {
             throw Error(fmt::format("{}: the scene says of which fluid and density its bodies are; drop {}",
@@ -99,7 +93,14 @@ std::vector<BakeRequest> requests_for(const BakeOptions& options, const Argument
             fmt::format("{}: the output for a scene is a folder, for it gets one body file for each body",
                         options.output));
     }
-    return requests_for_scene(options);
+    SceneBakeOptions scene{.quality = bake_quality(options.quality),
+                           .inflow = inflow_of(options),
+                           .whole_grid = options.whole_grid,
+                           .tolerance = options.tolerance,
+                           .budget = {},
+                           .most_rounds = options.rounds};
+    if (arguments.given("--budget")) scene.budget = options.budget;
+    return requests_for_scene(read_scene_file(options.input), options.output, scene);
 }
 
 nlohmann::json run_requests(const std::vector<BakeRequest>& requests, const BakeOptions& options,
@@ -154,11 +155,25 @@ int run(int argc, const char* const* argv) {
                      "instead of tables: so many cases between the tables' nodes, to hold tables against; "
                      "the output is NAME.csv",
                      1, 1000);
+    arguments.option(
+        "--tolerance", options.tolerance,
+        "for a scene: relative error of the descent speed that the tables' directions may leave; "
+        "twice that of the frequency, three times of amplitude and rms angular speed",
+        1e-4, 10.0);
+    arguments.option("--budget", options.budget,
+                     "for a scene: estimated CPU seconds for each body at which no more cases are added", 0.0,
+                     1e9);
+    arguments.option("--rounds", options.rounds, "for a scene: the most rounds of cases", 1, 100);
+    arguments.flag("--whole-grid", options.whole_grid,
+                   "for a scene: bakes all directions, not only those that its bodies visit");
     arguments.flag("--dry-run", options.dry_run, "only say what would be solved and how long it would take");
     arguments.footer(fmt::format(
-        "The tables are made at the Reynolds number of the terminal speed, estimated with a drag "
-        "coefficient\n"
-        "of {:.1f} on the largest projected area. The cases are kept in NAME.cases beside the output: plain\n"
+        "A scene's bodies are baked in rounds, in the directions in which they move ('samara plan' shows "
+        "them);\n"
+        "a shape in all directions. Its tables are made at the Reynolds number of the terminal speed, "
+        "estimated\n"
+        "with a drag coefficient of {:.1f} on the largest projected area. The cases are kept in NAME.cases "
+        "beside the output: plain\n"
         "OpenFOAM cases with their logs, of which the next run reuses those whose inputs are unchanged.\n"
         "Needs OpenFOAM and Snakemake (Debian: apt install openfoam snakemake).\n"
         "Examples: samara bake meshes/ellipsoid.geo -o rubber.body.h5 --density 1200 --jobs 2\n"

@@ -120,8 +120,60 @@ std::string case_name(const char* kind, std::size_t index, const FlowMesh& mesh)
     return fmt::format("{}_{:02}_{}", kind, index, mesh.name.substr(mesh.name.find('_') + 1));
 }
 
-// Adds the main cases of one direction, from the coarsest mesh to the finest, each started from the one
-// before.
+// Adds a case beside another, which differs from it in what `change` does to it.
+template <typename Change>
+void add_beside(const BakeCase& main, const std::string& more, Change change, BakePlan& plan) {
+    BakeCase entry = main;
+    entry.name = main.name + more;
+    entry.start_from = main.name;
+    change(entry);
+    plan.cases.push_back(entry);
+}
+
+// The mesh that further Reynolds numbers and closures are solved on: that before the last.
+const std::string& mesh_of_few(const BakePlan& plan) {
+    const std::vector<FlowMesh>& meshes = plan.quality.meshes;
+    return meshes[meshes.size() < 2 ? 0 : meshes.size() - 2].name;
+}
+
+// The main case in a direction on that mesh.
+BakeCase case_of_few(const Vector3d& direction, const BakePlan& plan) {
+    return *std::ranges::find_if(plan.cases, [&](const BakeCase& entry) {
+        return entry.mesh == mesh_of_few(plan) && entry.direction == direction &&
+               entry.reynolds_number == plan.reynolds_numbers.front();
+    });
+}
+
+// The main cases in the directions of the coarsest map on the mesh before the last.
+std::vector<BakeCase> few_of(const Symmetry& symmetry, const BakePlan& plan) {
+    const std::string& mesh = mesh_of_few(plan);
+    std::vector<BakeCase> few;
+    for (const Vector3d& direction : required_directions(symmetry, plan.quality.least_subdivisions)) {
+        const auto found = std::ranges::find_if(plan.cases, [&](const BakeCase& entry) {
+            return entry.mesh == mesh && (entry.direction - direction).norm() < direction_tolerance(symmetry);
+        });
+        if (found != plan.cases.end()) few.push_back(*found);
+    }
+    return few;
+}
+
+void plan_cases(const Symmetry& symmetry, double main_reynolds_number, BakePlan& plan) {
+    const BakeQuality& quality = plan.quality;
+    plan.reynolds_numbers = {main_reynolds_number};
+    const std::vector<Vector3d> directions = required_directions(symmetry, plan.solved_subdivisions);
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+        add_ladder("direction", i, directions[i], main_reynolds_number, plan);
+    }
+    const std::vector<BakeCase> few = few_of(symmetry, plan);
+    for (const double factor : quality.further_reynolds_numbers) {
+        const double reynolds_number = rounded_reynolds_number(factor * main_reynolds_number);
+        for (const BakeCase& main : few) add_further_reynolds_number(main.direction, reynolds_number, plan);
+    }
+    for (const BakeCase& main : few) add_other_closures(main.direction, plan);
+}
+
+}  // namespace
+
 void add_ladder(const char* kind, std::size_t index, const Vector3d& direction, double reynolds_number,
                 BakePlan& plan) {
     const std::vector<FlowMesh>& meshes = plan.quality.meshes;
@@ -142,66 +194,33 @@ void add_ladder(const char* kind, std::size_t index, const Vector3d& direction, 
     }
 }
 
-// Adds a case beside each of `few`, which differs from it in what `change` does to it.
-template <typename Change>
-void add_beside(const std::vector<BakeCase>& few, const std::string& more, Change change, BakePlan& plan) {
-    for (const BakeCase& main : few) {
-        BakeCase entry = main;
-        entry.name = main.name + more;
-        entry.start_from = main.name;
-        change(entry);
-        plan.cases.push_back(entry);
-    }
-}
-
-double rounded(double reynolds_number) {
+double rounded_reynolds_number(double reynolds_number) {
     const double unit = std::pow(10.0, std::floor(std::log10(reynolds_number)) - 2.0);
     return std::round(reynolds_number / unit) * unit;
 }
 
-// The main cases in the directions of the coarsest map on the mesh before the last.
-std::vector<BakeCase> few_of(const Symmetry& symmetry, const BakePlan& plan) {
-    const std::vector<FlowMesh>& meshes = plan.quality.meshes;
-    const std::string& mesh = meshes[meshes.size() < 2 ? 0 : meshes.size() - 2].name;
-    std::vector<BakeCase> few;
-    for (const Vector3d& direction : required_directions(symmetry, plan.quality.least_subdivisions)) {
-        const auto found = std::ranges::find_if(plan.cases, [&](const BakeCase& entry) {
-            return entry.mesh == mesh && (entry.direction - direction).norm() < direction_tolerance(symmetry);
-        });
-        if (found != plan.cases.end()) few.push_back(*found);
+void add_further_reynolds_number(const Vector3d& direction, double reynolds_number, BakePlan& plan) {
+    if (std::ranges::find(plan.reynolds_numbers, reynolds_number) == plan.reynolds_numbers.end()) {
+        plan.reynolds_numbers.push_back(reynolds_number);
     }
-    return few;
+    const auto change = [&](BakeCase& entry) {
+        entry.reynolds_number = reynolds_number;
+        entry.closure = closure_at(reynolds_number);
+        entry.purpose = CasePurpose::table;
+    };
+    add_beside(case_of_few(direction, plan), fmt::format("_re_{:.6g}", reynolds_number), change, plan);
 }
 
-void plan_cases(const Symmetry& symmetry, double main_reynolds_number, BakePlan& plan) {
-    const BakeQuality& quality = plan.quality;
-    plan.reynolds_numbers = {main_reynolds_number};
-    const std::vector<Vector3d> directions = required_directions(symmetry, plan.solved_subdivisions);
-    for (std::size_t i = 0; i < directions.size(); ++i) {
-        add_ladder("direction", i, directions[i], main_reynolds_number, plan);
-    }
-    const std::vector<BakeCase> few = few_of(symmetry, plan);
-    for (const double factor : quality.further_reynolds_numbers) {
-        const double reynolds_number = rounded(factor * main_reynolds_number);
-        plan.reynolds_numbers.push_back(reynolds_number);
-        const auto change = [&](BakeCase& entry) {
-            entry.reynolds_number = reynolds_number;
-            entry.closure = closure_at(reynolds_number);
-            entry.purpose = CasePurpose::table;
-        };
-        add_beside(few, fmt::format("_re_{:.6g}", reynolds_number), change, plan);
-    }
-    if (closure_at(main_reynolds_number) == "laminar") return;
-    for (const std::string& closure : quality.other_closures) {
+void add_other_closures(const Vector3d& direction, BakePlan& plan) {
+    if (closure_at(plan.reynolds_numbers.front()) == "laminar") return;
+    for (const std::string& closure : plan.quality.other_closures) {
         const auto change = [&](BakeCase& entry) {
             entry.closure = closure;
             entry.purpose = CasePurpose::closure;
         };
-        add_beside(few, "_" + closure, change, plan);
+        add_beside(case_of_few(direction, plan), "_" + closure, change, plan);
     }
 }
-
-}  // namespace
 
 BakePlan plan_of_meshes(const Body& body, const BakeQuality& quality) {
     BakePlan plan;
@@ -290,7 +309,7 @@ BakePlan plan_probes(const Body& body, const BakeQuality& quality, double reynol
         const Vector3d direction(radius * std::cos(angle), radius * std::sin(angle), z);
         const double decades = i % 3 == 2 ? fraction(0.6180339887498949 * i) : 0.0;
         add_ladder("probe", static_cast<std::size_t>(i), direction.normalized(),
-                   rounded(reynolds_number * std::pow(10.0, -decades)), plan);
+                   rounded_reynolds_number(reynolds_number * std::pow(10.0, -decades)), plan);
     }
     estimate_cost(plan);
     return plan;
@@ -302,6 +321,7 @@ nlohmann::json plan_json(const BakePlan& plan) {
     json["subdivisions"] = plan.subdivisions;
     json["reference_length"] = plan.reference_length;
     json["ranks"] = plan.ranks;
+    if (plan.covers_scene) json["covers"] = "scene";
     for (int row = 0; row < 3; ++row) {
         json["axes"].push_back({plan.axes(row, 0), plan.axes(row, 1), plan.axes(row, 2)});
     }

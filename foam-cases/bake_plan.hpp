@@ -40,6 +40,7 @@ struct BakePlan {
     int solved_subdivisions = 1;    ///< of the map whose directions are solved; divides `subdivisions`
     double reference_length = 0.0;  ///< L (m)
     Matrix3d axes = Matrix3d::Identity();
+    bool covers_scene = false;  ///< the directions are those that a scene visits, not all
     Inflow inflow;
     int ranks = 1;                         ///< processes that share each case
     std::vector<double> reynolds_numbers;  ///< the main one first
@@ -68,6 +69,21 @@ BakePlan plan_bake(const Body& body, const BakeQuality& quality, double reynolds
 /// others between it and a tenth of it; each from the coarsest mesh of the quality to the finest. Depends on
 /// the body, the quality and the Reynolds number alone; more of them begin with the same ones.
 BakePlan plan_probes(const Body& body, const BakeQuality& quality, double reynolds_number, int count);
+
+/// Adds the cases of one direction on all meshes of the quality, from the coarsest to the finest, each
+/// started from the one before: KIND_INDEX_MESH.
+void add_ladder(const char* kind, std::size_t index, const Vector3d& direction, double reynolds_number,
+                BakePlan& plan);
+
+/// Adds the case of a direction that has its ladder at a further Reynolds number, on the mesh before the
+/// last.
+void add_further_reynolds_number(const Vector3d& direction, double reynolds_number, BakePlan& plan);
+
+/// Adds the quality's other closures to such a direction, likewise; none where the flow is laminar.
+void add_other_closures(const Vector3d& direction, BakePlan& plan);
+
+/// Three figures of a Reynolds number, which is known no better.
+double rounded_reynolds_number(double reynolds_number);
 
 /// A plan without cases on the quality's meshes, fitted to the body.
 BakePlan plan_of_meshes(const Body& body, const BakeQuality& quality);

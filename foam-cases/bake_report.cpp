@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "converter/identification_report.hpp"
+#include "foam-cases/scene_plan_report.hpp"
 #include "samara/base/vector_json.hpp"
 #include "samara/body/body_file.hpp"
 
@@ -125,6 +126,7 @@ nlohmann::json bake_as_json(const BakeRequest& request, const BakeResult& result
                       {"entries", tables.entries.size()}};
     json["meshes"] = meshes_of(result.conversion->cases);
     json["reused_cases"] = result.reused;
+    if (request.goal) json["plan"] = scene_plan_as_json(*request.goal, *result.preparation.scene_plan);
     if (result.conversion->identification) {
         json["dynamic_coefficients"] = identification_as_json(*result.conversion->identification);
     }
@@ -181,6 +183,9 @@ void print_result(const BakeRequest& request, const BakeResult& result) {
                    direction.x(), direction.y(), direction.z(), drag_coefficient(solved),
                    solved.sample.entry.turbulent_kinetic_energy, solved.sample.entry.dissipation_rate,
                    number_in(provenance_of(solved), "cpu_seconds"));
+    }
+    if (request.goal) {
+        fmt::print("{}", scene_plan_as_text(*request.goal, *result.preparation.scene_plan));
     }
     for (const nlohmann::json& mesh : meshes_of(cases)) {
         fmt::print("{} cells, checkMesh: {}{}\n", mesh.value("cells", 0), mesh.value("verdict", "unknown"),

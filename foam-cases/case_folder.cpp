@@ -213,11 +213,11 @@ void require_cases_of(CaseKind kind, const fs::path& folder) {
 }
 
 void write_case_folder(const fs::path& folder, const Body& body, const BakePlan& plan,
-                       const fs::path& templates) {
+                       const fs::path& templates, Unplanned unplanned) {
     const CaseFiles template_files = read_template(templates / "body-flow");
     fs::create_directories(folder);
     write_body_file(folder / case_body_name, body);
-    remove_unplanned_cases(folder, plan);
+    if (unplanned == Unplanned::removed) remove_unplanned_cases(folder, plan);
 
     nlohmann::json json = plan_json(plan);
     const std::string stl = case_surface_stl(body, plan);

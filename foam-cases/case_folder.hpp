@@ -23,12 +23,16 @@ enum class CaseKind { bake, fall };
 /// stem share their folder.
 void require_cases_of(CaseKind kind, const std::filesystem::path& folder);
 
+/// What becomes of cases in a folder that the plan has not: a bake that goes in rounds may plan them yet.
+enum class Unplanned { removed, kept };
+
 /// Writes the folder of cases (docs/file-formats): body.body.h5, plan.json, the case mesh/, whose mesh all
 /// share, and one plain OpenFOAM case for each case of the plan. A file whose content is there already is
 /// left alone. The mesh and the cases that were made on other inputs lose their mesh.json,
 /// provenance.json and failed.json, so that they will be made again; folders of cases that are no longer
-/// planned are removed. Throws Error where the folder cannot be written or a template lacks a parameter.
+/// planned are removed, unless they are to be kept. Throws Error where the folder cannot be written or a
+/// template lacks a parameter.
 void write_case_folder(const std::filesystem::path& folder, const Body& body, const BakePlan& plan,
-                       const std::filesystem::path& templates);
+                       const std::filesystem::path& templates, Unplanned unplanned = Unplanned::removed);
 
 }  // namespace samara

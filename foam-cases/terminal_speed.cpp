@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "foam-cases/bake_plan.hpp"
 #include "samara/base/error.hpp"
 #include "samara/body/octahedral_map.hpp"
 
@@ -44,9 +45,8 @@ double terminal_speed(const Body& body, const Fluid& fluid, double mass, double 
 }
 
 double terminal_reynolds_number(const Body& body, const Fluid& fluid, double speed) {
-    const double exact = speed * reference_length(body.moments.surface_area) / fluid.kinematic_viscosity();
-    const double unit = std::pow(10.0, std::floor(std::log10(exact)) - 2.0);
-    return std::round(exact / unit) * unit;
+    return rounded_reynolds_number(speed * reference_length(body.moments.surface_area) /
+                                   fluid.kinematic_viscosity());
 }
 
 }  // namespace samara

@@ -7,6 +7,7 @@ namespace samara {
 namespace {
 
 constexpr double doubtful = 0.3;
+constexpr double worth_a_note = 0.1;  // of the flight, outside of what a bake was planned for
 
 bool used_tables(const std::optional<LoadTables>& tables, const TableErrorsMet& met) {
     return tables && met.forces + met.turbulent_kinetic_energies > 0;
@@ -48,6 +49,7 @@ nlohmann::json table_errors_as_json(const std::optional<LoadTables>& tables, con
     if (met.turbulent_kinetic_energies > 0) {
         result["turbulent_kinetic_energy"] = met.mean_turbulent_kinetic_energy();
     }
+    result["outside_of_plan"] = met.share_strayed();
     result["sources"] = source_names(*tables);
     result["left_out"] = nlohmann::json::array();
     for (const LeftOutCase& one : tables->left_out) result["left_out"].push_back(one.name);
@@ -65,6 +67,12 @@ std::vector<std::string> table_error_warnings(const std::string& body, const Tab
     };
     warn("the force", met.mean_force());
     warn("k", met.mean_turbulent_kinetic_energy());
+    if (met.share_strayed() > worth_a_note) {
+        warnings.push_back(fmt::format(
+            "'{}' moved for {:.0f} % of its flight in directions that its bake was not planned for: "
+            "there its tables are extrapolated; bake this scene, or bake with --whole-grid",
+            body, 100.0 * met.share_strayed()));
+    }
     return warnings;
 }
 

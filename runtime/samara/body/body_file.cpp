@@ -8,6 +8,7 @@
 #include "samara/base/error.hpp"
 #include "samara/base/version.hpp"
 #include "samara/body/dynamic_coefficients_file.hpp"
+#include "samara/body/planned_region_file.hpp"
 #include "samara/body/surface_file.hpp"
 #include "samara/body/table_errors_file.hpp"
 #include "samara/files/hdf5_file.hpp"
@@ -148,6 +149,7 @@ void write_tables(Hdf5Writer& file, const LoadTables& tables) {
     write_entries(file, tables, tables.entries, "");
     write_entries(file, tables, tables.errors, "_error");
     write_table_errors(file, tables);
+    write_planned_region(file, tables.plan);
     file.write_text("/tables/provenance", tables.provenance, "JSON: how each case was solved");
     file.attribute("/tables", "reference_length", tables.reference_length);
     file.attribute("/tables", "subdivisions", std::int64_t{tables.subdivisions});
@@ -177,6 +179,7 @@ LoadTables read_tables(const Hdf5Reader& file) {
     tables.entries = read_entries(file, tables, "");
     tables.errors = read_entries(file, tables, "_error");
     read_table_errors(file, tables);
+    tables.plan = read_planned_region(file);
     tables.provenance = file.text("/tables/provenance");
     return tables;
 }

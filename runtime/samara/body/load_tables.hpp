@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "samara/base/linear_algebra.hpp"
+#include "samara/body/planned_region.hpp"
 #include "samara/body/table_errors.hpp"
 
 namespace samara {
@@ -38,6 +39,7 @@ struct LoadTables {
     std::string provenance;  ///< JSON text: one object for each solved case (docs/file-formats)
     std::vector<ErrorShare> error_sources;  ///< that `errors` hold; empty where the file does not say
     std::vector<LeftOutCase> left_out;      ///< what the bake could not solve
+    PlannedRegion plan;                     ///< what a bake for a scene was planned for
 
     [[nodiscard]] int map_size() const { return 2 * subdivisions + 1; }
     [[nodiscard]] std::size_t index(int reynolds, int row, int column) const {

@@ -112,7 +112,7 @@ void BodyFlight::advance(std::uint64_t steps) {
 }
 
 void BodyFlight::note_poses() {
-    const double lowest = body_.tables ? body_.tables->reynolds_numbers.front() : 0.0;
+    const double lowest = body_.tables ? 0.5 * body_.tables->reynolds_numbers.front() : 0.0;
     std::mutex mutex;
     parallel_for(batch_.size(), poses_a_piece, threads_, [&](std::size_t first, std::size_t end) {
         FlightReport piece;

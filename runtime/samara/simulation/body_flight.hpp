@@ -19,11 +19,11 @@ struct FlightReport {
     BatchReport batch;
     double highest_reynolds_number = 0.0;  ///< at the frames
     std::uint64_t moving = 0;              ///< poses at the frames of bodies that move through the fluid
-    std::uint64_t below_table = 0;         ///< those of them below the table's lowest Reynolds number
+    std::uint64_t below_table = 0;         ///< those of them below half the table's lowest Reynolds number
     TableErrorsMet table_errors;           ///< at the frames asked for
 };
 
-/// The share of the poses of bodies that move that lie below the table's lowest Reynolds number.
+/// The share of the poses of bodies that move that lie below half the table's lowest Reynolds number.
 double share_below_table(const FlightReport& report);
 
 /// All copies of one body of a scene in all runs, flown frame by frame.

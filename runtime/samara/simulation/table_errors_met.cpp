@@ -16,6 +16,8 @@ void TableErrorsMet::add(const TableErrorsMet& other) {
     turbulent_kinetic_energy += other.turbulent_kinetic_energy;
     forces += other.forces;
     turbulent_kinetic_energies += other.turbulent_kinetic_energies;
+    poses += other.poses;
+    strayed += other.strayed;
 }
 
 double TableErrorsMet::mean_force() const {
@@ -24,6 +26,10 @@ double TableErrorsMet::mean_force() const {
 
 double TableErrorsMet::mean_turbulent_kinetic_energy() const {
     return mean(turbulent_kinetic_energy, turbulent_kinetic_energies);
+}
+
+double TableErrorsMet::share_strayed() const {
+    return mean(static_cast<double>(strayed), poses);
 }
 
 TableErrorsMet table_errors_met(const ImmersedBody& body, const Pose& in_flow) noexcept {
@@ -35,6 +41,8 @@ TableErrorsMet table_errors_met(const ImmersedBody& body, const Pose& in_flow) n
     const double speed = velocity.norm();
     if (!(speed > 0.0)) return met;
     const Vector3d direction = velocity / speed;
+    met.poses = 1;
+    met.strayed = body.tables->plan.holds(body.tables->axes.transpose() * direction) ? 0 : 1;
     const double reynolds = reynolds_number(body, speed);
     const LoadEntry entry = look_up(*body.tables, direction, reynolds);
     const LoadEntryError error = look_up_error(*body.tables, direction, reynolds);

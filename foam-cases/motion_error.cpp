@@ -1,0 +1,141 @@
+#include "foam-cases/motion_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "converter/direction_fit.hpp"
+#include "converter/symmetric_loads.hpp"
+#include "samara/body/octahedral_map.hpp"
+#include "samara/dynamics/noise.hpp"
+
+namespace samara {
+namespace {
+
+/// A deviation of an entry by its standard errors, k and epsilon by their logarithms.
+LoadEntry deviate(const LoadEntry& entry, const LoadEntryError& error, const Noise& noise,
+                  std::size_t direction) {
+    const auto of_vectors = [&](std::size_t number) {
+        const auto normals = noise.normals(3 * direction + number, NoiseStream::seen_fluid);
+        return Vector3d(normals[0], normals[1], normals[2]);
+    };
+    const auto scalars = noise.normals(3 * direction + 2, NoiseStream::seen_fluid);
+    const auto logarithm = [](double value, double of_error) {
+        return value > 0.0 ? std::log1p(of_error / value) : 0.0;
+    };
+    return {error.force.cwiseProduct(of_vectors(0)), error.moment.cwiseProduct(of_vectors(1)),
+            scalars[0] * logarithm(entry.turbulent_kinetic_energy, error.turbulent_kinetic_energy),
+            scalars[1] * logarithm(entry.dissipation_rate, error.dissipation_rate)};
+}
+
+/// The deviations in the solved directions (none) and the unsolved ones, map axes.
+std::vector<DirectionSample> drawn_samples(const LoadTables& tables, const Symmetry& symmetry,
+                                           const UncertainTables& uncertain, std::uint32_t draw) {
+    LoadTables sampling = tables;
+    sampling.errors = uncertain.sampling_errors;
+    const Noise noise(1, "table", draw, 0);
+    const Matrix3d to_map = tables.axes.transpose();
+    std::vector<DirectionSample> samples;
+    for (const Vector3d& direction : uncertain.solved) samples.push_back({direction, {}, {}});
+    for (std::size_t i = 0; i < uncertain.unsolved.size(); ++i) {
+        const Vector3d& direction = uncertain.unsolved[i];
+        const Vector3d in_body = tables.axes * direction;
+        const LoadEntry entry = look_up(tables, in_body, uncertain.reynolds_number);
+        const LoadEntryError error =
+            transformed_error(look_up_error(sampling, in_body, uncertain.reynolds_number), to_map);
+        samples.push_back({direction, deviate(entry, error, noise, i), {}});
+    }
+    keep_symmetric_part(symmetry, samples);
+    return samples;
+}
+
+/// A difference of a measure that nobody sees, in its unit.
+double unseen(FallMeasure measure, const EnsembleFlight& flight, double length) {
+    constexpr double one_degree = std::numbers::pi / 180.0;
+    const auto& descent = flight.measures[static_cast<std::size_t>(FallMeasure::descent_speed)];
+    if (measure == FallMeasure::inclination_amplitude) return one_degree;
+    if (measure == FallMeasure::rms_angular_speed && descent) {
+        return one_degree * std::abs(descent->value) / length;
+    }
+    return 0.0;
+}
+
+double variance_of(const std::vector<double>& values, double about) {
+    double sum = 0.0;
+    for (const double value : values) sum += (value - about) * (value - about);
+    return sum / static_cast<double>(values.size());
+}
+
+}  // namespace
+
+double MotionError::worst(double tolerance) const {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < fall_measure_count; ++i) {
+        if (!measures[i]) continue;
+        largest =
+            std::max(largest, measures[i]->of_table / allowed_error(static_cast<FallMeasure>(i), tolerance));
+    }
+    return largest;
+}
+
+LoadTables drawn_tables(const LoadTables& tables, const Symmetry& symmetry, const UncertainTables& uncertain,
+                        std::uint32_t draw) {
+    const std::vector<DirectionSample> samples = drawn_samples(tables, symmetry, uncertain, draw);
+    std::vector<Vector3d> directions;
+    std::vector<LoadEntry> deviations;
+    for (const DirectionSample& sample : samples) {
+        directions.push_back(sample.direction);
+        deviations.push_back(sample.entry);
+    }
+    const DirectionFit fit(symmetry, directions);
+    LoadTables drawn = tables;
+    for (int row = 0; row < tables.map_size(); ++row) {
+        for (int column = 0; column < tables.map_size(); ++column) {
+            const LoadEntry deviation = transformed(
+                fit.at(deviations, octahedral_node(tables.subdivisions, row, column)), tables.axes);
+            for (std::size_t i = 0; i < tables.reynolds_numbers.size(); ++i) {
+                LoadEntry& entry = drawn.entries[tables.index(static_cast<int>(i), row, column)];
+                entry.force += deviation.force;
+                entry.moment += deviation.moment;
+                entry.turbulent_kinetic_energy *= std::exp(deviation.turbulent_kinetic_energy);
+                entry.dissipation_rate *= std::exp(deviation.dissipation_rate);
+            }
+        }
+    }
+    return drawn;
+}
+
+MotionError motion_error(const Scene& scene, std::size_t body, const Body& of_body,
+                         const UncertainTables& uncertain, const EnsembleFlight& flight, int falls,
+                         int draws) {
+    MotionError result;
+    std::array<std::vector<double>, fall_measure_count> drawn;
+    if (!uncertain.unsolved.empty()) {
+        Body other = of_body;
+        for (int draw = 0; draw < draws; ++draw) {
+            other.tables =
+                drawn_tables(*of_body.tables, of_body.symmetry, uncertain, static_cast<std::uint32_t>(draw));
+            const EnsembleFlight flown = fly_ensemble(scene, body, other, falls);
+            for (std::size_t i = 0; i < fall_measure_count; ++i) {
+                if (flown.measures[i]) drawn[i].push_back(flown.measures[i]->value);
+            }
+        }
+    }
+    for (std::size_t i = 0; i < fall_measure_count; ++i) {
+        if (!flight.measures[i] || !(std::abs(flight.measures[i]->value) > 0.0)) continue;
+        const double value = flight.measures[i]->value;
+        const double chance = flight.measures[i]->error.value_or(0.0);
+        const double length = reference_length(of_body.moments.surface_area);
+        MotionError::OfMeasure error{0.0, chance / std::abs(value),
+                                     unseen(static_cast<FallMeasure>(i), flight, length) / std::abs(value)};
+        if (2 * drawn[i].size() > static_cast<std::size_t>(draws)) {
+            // Both ensembles of a difference have their chance.
+            const double of_table = variance_of(drawn[i], value) - 2.0 * chance * chance;
+            error.of_table = std::sqrt(std::max(of_table, 0.0)) / std::abs(value);
+        }
+        result.measures[i] = error;
+    }
+    return result;
+}
+
+}  // namespace samara

@@ -1,0 +1,146 @@
+// The program samara-plan: what a scene needs to be baked.
+
+#include <filesystem>
+#include <string>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "foam-cases/bake_report.hpp"
+#include "foam-cases/scene_plan_picture.hpp"
+#include "foam-cases/scene_plan_report.hpp"
+#include "foam-cases/scene_requests.hpp"
+#include "samara/base/error.hpp"
+#include "samara/base/vector_json.hpp"
+#include "samara/command/arguments.hpp"
+#include "samara/plot/gnuplot.hpp"
+#include "samara/scene/scene_file.hpp"
+
+namespace samara {
+namespace {
+
+struct PlanOptions {
+    std::string scene;
+    std::string bodies;
+    std::string picture;
+    std::string quality = "preview";
+    double tolerance = SceneBakeOptions().tolerance;
+};
+
+nlohmann::json visits_as_json(const std::vector<VisitedDirection>& places) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const VisitedDirection& place : places) {
+        list.push_back({{"direction", as_json(place.direction)},
+                        {"share", place.share},
+                        {"load_share", place.load_share},
+                        {"reynolds_numbers", {place.lowest_reynolds_number, place.highest_reynolds_number}},
+                        {"images", place.images},
+                        {"solved", place.solved}});
+    }
+    return list;
+}
+
+void print_places(const std::vector<VisitedDirection>& places) {
+    fmt::print("{:>26} {:>6} {:>6} {:>20} {:>7}\n", "moving along (map axes)", "time", "load",
+               "Reynolds numbers", "images");
+    constexpr std::size_t most_rows = 20;
+    for (std::size_t i = 0; i < std::min(places.size(), most_rows); ++i) {
+        const VisitedDirection& place = places[i];
+        const std::string range =
+            place.share > 0.0
+                ? fmt::format("{:.0f} to {:.0f}", place.lowest_reynolds_number, place.highest_reynolds_number)
+                : "-";
+        fmt::print("({:7.4f} {:7.4f} {:7.4f}) {:5.1f}% {:5.1f}% {:>20} {:>7}{}\n", place.direction.x(),
+                   place.direction.y(), place.direction.z(), 100.0 * place.share, 100.0 * place.load_share,
+                   range, place.images, place.solved ? "  case" : "");
+    }
+    if (places.size() > most_rows) fmt::print("and {} more\n", places.size() - most_rows);
+}
+
+nlohmann::json grid_as_json(const GridCost& grid) {
+    return {
+        {"directions", grid.directions}, {"cases", grid.cases}, {"estimated_cpu_seconds", grid.cpu_seconds}};
+}
+
+nlohmann::json plan_body(const BakeRequest& request, const PlanOptions& options, bool quiet) {
+    const BakePreparation preparation = prepare_bake(request);
+    nlohmann::json json = bake_as_json(request, preparation);
+    json["name"] = request.name;
+    if (!preparation.scene_plan) {
+        if (!quiet)
+            fmt::print("{}: asks for no tables: mesh and Kirchhoff tensor alone, no CFD\n", request.name);
+        return json;
+    }
+    const ScenePlan& plan = *preparation.scene_plan;
+    const std::vector<VisitedDirection> places =
+        visited_directions(preparation.flight.visits, preparation.symmetry, plan);
+    json["regime"] = name_of(preparation.flight.regime);
+    json["visited"] = visits_as_json(places);
+    json["whole_grid"] = grid_as_json(whole_grid(plan, false));
+    json["symmetric_grid"] = grid_as_json(whole_grid(plan, true));
+    if (!options.picture.empty()) {
+        draw_plan(options.picture, request.name, preparation.flight.visits, preparation.symmetry, plan);
+    }
+    if (quiet) return json;
+    const GridCost all = whole_grid(plan, false);
+    const GridCost wedge = whole_grid(plan, true);
+    fmt::print("{}: with guessed loads it is {} ({:.0f} % of the falls)\n", request.name,
+               name_of(preparation.flight.regime), 100.0 * preparation.flight.regime_share);
+    print_places(places);
+    fmt::print(
+        "first round: {} directions at Reynolds number {:.6g}, {} cases, about {:.0f} CPU s; further rounds "
+        "until\nthe motion is certain to {:.3g} % in descent speed\n",
+        plan.chosen.size(), fmt::join(plan.cases.reynolds_numbers, ", "), plan.cases.cases.size(),
+        plan.cases.cpu_seconds, 100.0 * options.tolerance);
+    fmt::print("all directions of that spacing: {} ({:.0f} CPU s), {} after symmetry ({:.0f} CPU s)\n\n",
+               all.directions, all.cpu_seconds, wedge.directions, wedge.cpu_seconds);
+    return json;
+}
+
+nlohmann::json run(const PlanOptions& options, const Arguments& arguments) {
+    if (std::filesystem::path(options.scene).extension() != ".toml") {
+        throw Error(fmt::format("{}: is no scene; give a scene file NAME.toml", options.scene));
+    }
+    const Scene scene = read_scene_file(options.scene);
+    if (!options.picture.empty()) {
+        require_picture_format(options.picture);
+        if (scene.bodies.size() != 1) {
+            throw Error(
+                fmt::format("{}: has {} bodies, a picture is of one", options.scene, scene.bodies.size()));
+        }
+    }
+    const std::filesystem::path folder = options.bodies.empty() ? "." : options.bodies;
+    nlohmann::json bodies = nlohmann::json::array();
+    SceneBakeOptions wanted;
+    wanted.quality = bake_quality(options.quality);
+    wanted.tolerance = options.tolerance;
+    for (const BakeRequest& request : requests_for_scene(scene, folder, wanted)) {
+        bodies.push_back(plan_body(request, options, arguments.json()));
+    }
+    return {{"bodies", bodies}};
+}
+
+}  // namespace
+}  // namespace samara
+
+int main(int argc, char** argv) {
+    using namespace samara;
+    PlanOptions options;
+    Arguments arguments(
+        "samara-plan",
+        "Shows what a scene needs: the directions and Reynolds numbers that its bodies visit, "
+        "and the cases that a bake starts with");
+    arguments.positional("SCENE", options.scene, "scene file (.toml)");
+    arguments.option("--bodies", options.bodies,
+                     "folder of an earlier bake, whose Kirchhoff tensors are used again");
+    arguments.option("--picture", options.picture,
+                     "draws the visited directions and the cases (.png or .svg; of a scene with one body)");
+    arguments.choice("--quality", options.quality, bake_quality_names(), "of the bake that is planned");
+    arguments.option("--tolerance", options.tolerance, "of the bake that is planned", 1e-4, 10.0);
+    arguments.footer(
+        "Flies the scene 16 times with its Kirchhoff tensor and guessed loads. The bake goes on from there: "
+        "it\n"
+        "flies again with what each round of cases gave ('samara bake SCENE').\n");
+    return run_program(argc, argv, arguments, [&] { return run(options, arguments); });
+}

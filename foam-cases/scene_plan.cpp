@@ -1,0 +1,256 @@
+#include "foam-cases/scene_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "converter/direction_sampling.hpp"
+#include "samara/dynamics/loads.hpp"
+
+namespace samara {
+namespace {
+
+constexpr std::size_t first_directions = 3;  // beside the anchors
+constexpr std::size_t first_directions_of_arc = 1;
+constexpr double far_in_reynolds_number = 2.0;  // beyond that ratio coefficients may differ
+constexpr double share_that_strays = 0.05;      // of the frames: so many may be outside of the plan
+constexpr std::size_t further_directions = 3;   // with cases at another Reynolds number
+
+/// The quantile of the logarithm of the visits' Reynolds numbers by the squared loads met there.
+double reynolds_quantile(std::vector<FlowVisit> visits, double share) {
+    std::ranges::sort(visits, {}, &FlowVisit::reynolds_number);
+    double all = 0.0;
+    for (const FlowVisit& visit : visits) all += visit.pressure * visit.pressure;
+    double sum = 0.0;
+    for (const FlowVisit& visit : visits) {
+        sum += visit.pressure * visit.pressure;
+        if (sum >= share * all) return visit.reynolds_number;
+    }
+    return visits.back().reynolds_number;
+}
+
+double mean_reynolds_number(const std::vector<FlowVisit>& visits) {
+    double sum = 0.0;
+    double all = 0.0;
+    for (const FlowVisit& visit : visits) {
+        const double weight = visit.pressure * visit.pressure;
+        sum += weight * std::log(visit.reynolds_number);
+        all += weight;
+    }
+    return std::exp(sum / all);
+}
+
+/// A Reynolds number that counts and is far from the main one; 0 where there is none.
+double far_reynolds_number(const std::vector<FlowVisit>& visits, double main) {
+    const double low = reynolds_quantile(visits, 0.05);
+    const double high = reynolds_quantile(visits, 0.95);
+    if (main / low > far_in_reynolds_number && main / low >= high / main) {
+        return rounded_reynolds_number(low);
+    }
+    return high / main > far_in_reynolds_number ? rounded_reynolds_number(high) : 0.0;
+}
+
+void add_directions(const std::vector<std::size_t>& more, ScenePlan& plan) {
+    for (const std::size_t index : more) {
+        plan.chosen.push_back(index);
+        add_ladder("direction", index, plan.candidates.directions[index], plan.cases.reynolds_numbers.front(),
+                   plan.cases);
+    }
+}
+
+/// The candidates that any table needs: without them its interpolation is extrapolated freely.
+std::vector<std::size_t> anchors(const Symmetry& symmetry, const Candidates& candidates) {
+    std::vector<std::size_t> found;
+    for (const Vector3d& direction : required_directions(symmetry, 1)) {
+        for (std::size_t i = 0; i < candidates.directions.size(); ++i) {
+            if ((candidates.directions[i] - direction).norm() < direction_tolerance(symmetry)) {
+                found.push_back(i);
+            }
+        }
+    }
+    return found;
+}
+
+/// The chosen candidates, those first without which most would be uncertain.
+std::vector<std::size_t> by_weight(const std::vector<WeightedDirection>& weights, const Symmetry& symmetry,
+                                   const ScenePlan& plan) {
+    std::vector<std::pair<double, std::size_t>> loads;
+    for (const std::size_t index : plan.chosen) {
+        std::vector<std::size_t> without = plan.chosen;
+        std::erase(without, index);
+        loads.emplace_back(without.empty()
+                               ? 0.0
+                               : -mean_squared_spread(symmetry, plan.candidates.directions, without, weights),
+                           index);
+    }
+    std::ranges::stable_sort(loads, {}, &std::pair<double, std::size_t>::first);
+    std::vector<std::size_t> order;
+    for (const auto& [load, index] : loads) order.push_back(index);
+    return order;
+}
+
+/// Cases at the Reynolds number in the first `count` of the directions.
+void add_reynolds_number(double reynolds_number, std::size_t count, const std::vector<std::size_t>& order,
+                         ScenePlan& plan) {
+    for (std::size_t i = 0; i < std::min(count, order.size()); ++i) {
+        const Vector3d& direction = plan.candidates.directions[order[i]];
+        const bool there = std::ranges::any_of(plan.cases.cases, [&](const BakeCase& entry) {
+            return entry.direction == direction && entry.reynolds_number == reynolds_number;
+        });
+        if (!there) add_further_reynolds_number(direction, reynolds_number, plan.cases);
+    }
+}
+
+double share_strayed(const std::vector<FlowVisit>& visits, const ScenePlan& plan) {
+    const auto strayed = std::ranges::count_if(visits, [&](const FlowVisit& visit) {
+        return !plan.region.holds(plan.cases.axes.transpose() * visit.direction);
+    });
+    return visits.empty() ? 0.0 : static_cast<double>(strayed) / static_cast<double>(visits.size());
+}
+
+UncertainTables uncertain_tables(const Conversion& conversion, const ScenePlan& plan) {
+    UncertainTables uncertain;
+    uncertain.sampling_errors = conversion.sampling_errors;
+    uncertain.reynolds_number = plan.cases.reynolds_numbers.front();
+    for (std::size_t i = 0; i < plan.candidates.directions.size(); ++i) {
+        const bool solved = std::ranges::find(plan.chosen, i) != plan.chosen.end();
+        (solved ? uncertain.solved : uncertain.unsolved).push_back(plan.candidates.directions[i]);
+    }
+    return uncertain;
+}
+
+/// The largest change of the force's coefficient from the main Reynolds number to another along the visits
+/// there, over the force: what the table would be wrong by without it.
+double change_with_reynolds_number(const LoadTables& tables, const std::vector<FlowVisit>& visits,
+                                   double main) {
+    double sum = 0.0;
+    double all = 0.0;
+    for (const FlowVisit& visit : visits) {
+        const double weight = visit.pressure * visit.pressure;
+        const Vector3d here = look_up(tables, visit.direction, visit.reynolds_number).force;
+        const Vector3d there = look_up(tables, visit.direction, main).force;
+        sum += weight * (here - there).squaredNorm();
+        all += weight * there.squaredNorm();
+    }
+    return all > 0.0 ? std::sqrt(sum / all) : 0.0;
+}
+
+bool adds_reynolds_numbers(const SceneGoal& goal, const LoadTables& tables, const Symmetry& symmetry,
+                           const std::vector<FlowVisit>& visits, ScenePlan& plan) {
+    const std::vector<double>& numbers = plan.cases.reynolds_numbers;
+    if (numbers.size() < 2 || plan.reynolds_collapsed) return false;
+    if (change_with_reynolds_number(tables, visits, numbers.front()) < goal.tolerance) {
+        plan.reynolds_collapsed = true;
+        return false;
+    }
+    const std::size_t before = plan.cases.cases.size();
+    const std::vector<std::size_t> order = by_weight(direction_weights(visits, symmetry), symmetry, plan);
+    add_reynolds_number(numbers[1], further_directions, order, plan);
+    return plan.cases.cases.size() > before;
+}
+
+/// How many directions the next round adds: more, the more there are.
+std::size_t next_count(const ScenePlan& plan, const Symmetry& symmetry) {
+    if (symmetry.kind == Symmetry::Kind::axial) return 1;
+    return std::clamp<std::size_t>(plan.chosen.size() / 3, 2, 8);
+}
+
+}  // namespace
+
+ScenePlan first_plan(const Body& body, const BakeQuality& quality, const Inflow& inflow,
+                     const EnsembleFlight& flight) {
+    const Symmetry& symmetry = body.symmetry;
+    ScenePlan plan;
+    plan.candidates = candidate_directions(symmetry);
+    plan.cases = plan_of_meshes(body, quality);
+    plan.cases.inflow = inflow;
+    plan.cases.covers_scene = true;
+    plan.cases.solved_subdivisions = plan.candidates.subdivisions;
+    // In multiples, so that the map's nodes hold the candidates.
+    const int solved = plan.candidates.subdivisions;
+    plan.cases.subdivisions = solved * ((quality.table_subdivisions + solved - 1) / solved);
+    plan.cases.reynolds_numbers = {rounded_reynolds_number(mean_reynolds_number(flight.visits))};
+    plan.region = visited_region(flight.visits, symmetry);
+    add_directions(anchors(symmetry, plan.candidates), plan);
+    const std::size_t count =
+        symmetry.kind == Symmetry::Kind::axial ? first_directions_of_arc : first_directions;
+    add_directions(choose_directions(symmetry, plan.candidates.directions, plan.chosen,
+                                     direction_weights(flight.visits, symmetry), count),
+                   plan);
+    const std::vector<std::size_t> order =
+        by_weight(direction_weights(flight.visits, symmetry), symmetry, plan);
+    if (const double far = far_reynolds_number(flight.visits, plan.cases.reynolds_numbers.front());
+        far > 0.0) {
+        add_reynolds_number(far, 1, order, plan);
+    }
+    for (std::size_t i = 0; i < std::min(further_directions, order.size()); ++i) {
+        add_other_closures(plan.candidates.directions[order[i]], plan.cases);
+    }
+    estimate_cost(plan.cases);
+    return plan;
+}
+
+void judge_round(const SceneGoal& goal, const Conversion& conversion, double cpu_seconds, ScenePlan& plan) {
+    const Symmetry& symmetry = conversion.body.symmetry;
+    PlanRound round;
+    round.directions = plan.chosen.size();
+    round.cases = plan.cases.cases.size();
+    round.estimated_cpu_seconds = plan.cases.cpu_seconds;
+    round.cpu_seconds = cpu_seconds;
+    round.flight = fly_ensemble(goal.scene, goal.body, conversion.body, goal.falls);
+    round.error = motion_error(goal.scene, goal.body, conversion.body, uncertain_tables(conversion, plan),
+                               round.flight, goal.falls, goal.draws);
+    round.strayed = share_strayed(round.flight.visits, plan);
+    const std::vector<FlowVisit> visits = std::move(round.flight.visits);
+    round.flight.visits = {};
+    const bool good = round.error.worst(goal.tolerance) <= 1.0;
+    const bool stays = round.strayed <= share_that_strays;
+    plan.rounds.push_back(round);
+    if (plan.rounds.size() >= static_cast<std::size_t>(goal.most_rounds)) {
+        plan.stopped_because = fmt::format("{} rounds are the most there may be", goal.most_rounds);
+    }
+
+    ScenePlan next = plan;
+    const bool more_reynolds_numbers =
+        adds_reynolds_numbers(goal, *conversion.body.tables, symmetry, visits, next);
+    plan.reynolds_collapsed = next.reynolds_collapsed;
+    if (good && stays && !more_reynolds_numbers) {
+        plan.stopped_because = "the tolerance is met";
+    } else if (next.chosen.size() == next.candidates.directions.size() && !more_reynolds_numbers) {
+        plan.stopped_because = "every direction is solved";
+    }
+    if (!plan.stopped_because.empty()) return;
+    // Where it has strayed to is planned from now on.
+    if (symmetry.kind != Symmetry::Kind::spherical) merge(next.region, visited_region(visits, symmetry));
+    if (!good || !stays) {
+        add_directions(choose_directions(symmetry, next.candidates.directions, next.chosen,
+                                         direction_weights(visits, symmetry), next_count(next, symmetry)),
+                       next);
+    }
+    estimate_cost(next.cases);
+    if (goal.budget && next.cases.cpu_seconds > *goal.budget) {
+        plan.stopped_because = fmt::format(
+            "the next round would take {:.0f} CPU seconds in all, beyond the budget", next.cases.cpu_seconds);
+        return;
+    }
+    plan = std::move(next);
+}
+
+GridCost whole_grid(const ScenePlan& plan, bool with_symmetry) {
+    const int n = plan.candidates.subdivisions;
+    GridCost cost;
+    cost.directions =
+        with_symmetry ? plan.candidates.directions.size() : static_cast<std::size_t>(4 * n * n + 2);
+    BakePlan grid = plan.cases;
+    grid.cases.clear();
+    for (std::size_t i = 0; i < cost.directions; ++i) {
+        add_ladder("direction", i, Vector3d::UnitX(), grid.reynolds_numbers.front(), grid);
+    }
+    estimate_cost(grid);
+    cost.cases = grid.cases.size();
+    cost.cpu_seconds = grid.cpu_seconds;
+    return cost;
+}
+
+}  // namespace samara
