@@ -74,8 +74,10 @@ Eigen::VectorXd SphereInterpolation::weights_without(const std::vector<std::size
 }
 
 double SphereInterpolation::spread(const Vector3d& direction, const Eigen::VectorXd& weights) const {
-    const double square =
-        2.0 * weights.dot(towards(points_, direction, chord)) - weights.dot(distances_ * weights);
+    // Of the covariance 2 - r; where the weights sum to one the 2 drops out.
+    const double level = 1.0 - weights.sum();
+    const double square = 2.0 * weights.dot(towards(points_, direction, chord)) -
+                          weights.dot(distances_ * weights) + 2.0 * level * level;
     return std::sqrt(std::max(square, 0.0));
 }
 

@@ -27,8 +27,9 @@ class SphereInterpolation {
     [[nodiscard]] Eigen::VectorXd weights_without(const std::vector<std::size_t>& left_out) const;
 
     /// How far a direction is from the points, for a weighted sum of their samples: the standard deviation of
-    /// the sum's error if the quantity were a random walk whose squared increments have the mean r. About
-    /// the square root of the distance to the points; zero at the points.
+    /// the sum's error if the quantity were a random walk whose squared increments have the mean r, and its
+    /// level were uncertain by as much as opposite ends differ. About the square root of the distance to the
+    /// points; zero at the points.
     [[nodiscard]] double spread(const Vector3d& direction, const Eigen::VectorXd& weights) const;
 
     [[nodiscard]] const std::vector<Vector3d>& points() const { return points_; }

@@ -64,7 +64,8 @@ BakePreparation plan_of(const BakeRequest& request, const Body& body) {
     const double reynolds_number = terminal_reynolds_number(body, request.fluid, preparation.terminal_speed);
     if (request.goal) {
         preparation.flight = fly_ensemble(request.goal->scene, request.goal->body, body, request.goal->falls);
-        preparation.scene_plan = first_plan(body, request.quality, request.inflow, preparation.flight);
+        preparation.scene_plan =
+            first_plan(*request.goal, body, request.quality, request.inflow, preparation.flight);
         preparation.plan = preparation.scene_plan->cases;
     } else if (request.probes > 0) {
         preparation.plan = plan_probes(body, request.quality, reynolds_number, request.probes);
@@ -167,7 +168,7 @@ void bake_for_scene(const BakeRequest& request, CaseSolving& solving, BakeResult
         fmt::print(stderr, "{}\n", round_as_line(*request.goal, plan));
     }
     solving.remove_unplanned(plan.cases);
-    conversion.body.tables->plan = plan.region;
+    if (!request.goal->whole_grid) conversion.body.tables->plan = plan.region;
     conversion.body.tables->plan.report = scene_plan_as_json(*request.goal, plan).dump();
     result.conversion = std::move(conversion);
     result.preparation.plan = plan.cases;

@@ -165,7 +165,7 @@ int run(int argc, const char* const* argv) {
                      1e9);
     arguments.option("--rounds", options.rounds, "for a scene: the most rounds of cases", 1, 100);
     arguments.flag("--whole-grid", options.whole_grid,
-                   "for a scene: bakes all directions, not only those that its bodies visit");
+                   "for a scene: solves all directions, not only those that its bodies visit");
     arguments.flag("--dry-run", options.dry_run, "only say what would be solved and how long it would take");
     arguments.footer(fmt::format(
         "A scene's bodies are baked in rounds, in the directions in which they move ('samara plan' shows "

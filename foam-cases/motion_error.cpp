@@ -129,9 +129,11 @@ MotionError motion_error(const Scene& scene, std::size_t body, const Body& of_bo
         MotionError::OfMeasure error{0.0, chance / std::abs(value),
                                      unseen(static_cast<FallMeasure>(i), flight, length) / std::abs(value)};
         if (2 * drawn[i].size() > static_cast<std::size_t>(draws)) {
-            // Both ensembles of a difference have their chance.
-            const double of_table = variance_of(drawn[i], value) - 2.0 * chance * chance;
-            error.of_table = std::sqrt(std::max(of_table, 0.0)) / std::abs(value);
+            // Both ensembles of a difference have their chance, of which a few draws leave a part unseen.
+            const double of_chance = 2.0 * chance * chance;
+            const double of_table = std::max(variance_of(drawn[i], value) - of_chance, 0.0) +
+                                    of_chance * std::sqrt(2.0 / static_cast<double>(draws));
+            error.of_table = std::sqrt(of_table) / std::abs(value);
         }
         result.measures[i] = error;
     }

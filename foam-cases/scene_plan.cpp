@@ -72,6 +72,15 @@ std::vector<std::size_t> anchors(const Symmetry& symmetry, const Candidates& can
     return found;
 }
 
+/// The candidates that are not chosen, of so many.
+std::vector<std::size_t> without(const std::vector<std::size_t>& chosen, std::size_t count) {
+    std::vector<std::size_t> others;
+    for (std::size_t index = 0; index < count; ++index) {
+        if (std::ranges::find(chosen, index) == chosen.end()) others.push_back(index);
+    }
+    return others;
+}
+
 /// The chosen candidates, those first without which most would be uncertain.
 std::vector<std::size_t> by_weight(const std::vector<WeightedDirection>& weights, const Symmetry& symmetry,
                                    const ScenePlan& plan) {
@@ -113,9 +122,10 @@ UncertainTables uncertain_tables(const Conversion& conversion, const ScenePlan& 
     UncertainTables uncertain;
     uncertain.sampling_errors = conversion.sampling_errors;
     uncertain.reynolds_number = plan.cases.reynolds_numbers.front();
-    for (std::size_t i = 0; i < plan.candidates.directions.size(); ++i) {
-        const bool solved = std::ranges::find(plan.chosen, i) != plan.chosen.end();
-        (solved ? uncertain.solved : uncertain.unsolved).push_back(plan.candidates.directions[i]);
+    const std::vector<Vector3d>& candidates = plan.candidates.directions;
+    for (const std::size_t index : plan.chosen) uncertain.solved.push_back(candidates[index]);
+    for (const std::size_t index : without(plan.chosen, candidates.size())) {
+        uncertain.unsolved.push_back(candidates[index]);
     }
     return uncertain;
 }
@@ -150,16 +160,19 @@ bool adds_reynolds_numbers(const SceneGoal& goal, const LoadTables& tables, cons
     return plan.cases.cases.size() > before;
 }
 
-/// How many directions the next round adds: more, the more there are.
-std::size_t next_count(const ScenePlan& plan, const Symmetry& symmetry) {
+/// How many directions the next round adds: a third of what there is, up to as many again where the error is
+/// far beyond the tolerance.
+std::size_t next_count(const ScenePlan& plan, const Symmetry& symmetry, double worst) {
     if (symmetry.kind == Symmetry::Kind::axial) return 1;
-    return std::clamp<std::size_t>(plan.chosen.size() / 3, 2, 8);
+    const double share = std::clamp(worst, 1.0, 3.0) / 3.0;
+    return std::max<std::size_t>(
+        2, static_cast<std::size_t>(std::floor(share * static_cast<double>(plan.chosen.size()))));
 }
 
 }  // namespace
 
-ScenePlan first_plan(const Body& body, const BakeQuality& quality, const Inflow& inflow,
-                     const EnsembleFlight& flight) {
+ScenePlan first_plan(const SceneGoal& goal, const Body& body, const BakeQuality& quality,
+                     const Inflow& inflow, const EnsembleFlight& flight) {
     const Symmetry& symmetry = body.symmetry;
     ScenePlan plan;
     plan.candidates = candidate_directions(symmetry);
@@ -173,10 +186,11 @@ ScenePlan first_plan(const Body& body, const BakeQuality& quality, const Inflow&
     plan.cases.reynolds_numbers = {rounded_reynolds_number(mean_reynolds_number(flight.visits))};
     plan.region = visited_region(flight.visits, symmetry);
     add_directions(anchors(symmetry, plan.candidates), plan);
-    const std::size_t count =
+    const std::size_t few =
         symmetry.kind == Symmetry::Kind::axial ? first_directions_of_arc : first_directions;
-    add_directions(choose_directions(symmetry, plan.candidates.directions, plan.chosen,
-                                     direction_weights(flight.visits, symmetry), count),
+    add_directions(goal.whole_grid ? without(plan.chosen, plan.candidates.directions.size())
+                                   : choose_directions(symmetry, plan.candidates.directions, plan.chosen,
+                                                       direction_weights(flight.visits, symmetry), few),
                    plan);
     const std::vector<std::size_t> order =
         by_weight(direction_weights(flight.visits, symmetry), symmetry, plan);
@@ -204,7 +218,8 @@ void judge_round(const SceneGoal& goal, const Conversion& conversion, double cpu
     round.strayed = share_strayed(round.flight.visits, plan);
     const std::vector<FlowVisit> visits = std::move(round.flight.visits);
     round.flight.visits = {};
-    const bool good = round.error.worst(goal.tolerance) <= 1.0;
+    const double worst = round.error.worst(goal.tolerance);
+    const bool good = worst <= 1.0;
     const bool stays = round.strayed <= share_that_strays;
     plan.rounds.push_back(round);
     if (plan.rounds.size() >= static_cast<std::size_t>(goal.most_rounds)) {
@@ -224,9 +239,10 @@ void judge_round(const SceneGoal& goal, const Conversion& conversion, double cpu
     // Where it has strayed to is planned from now on.
     if (symmetry.kind != Symmetry::Kind::spherical) merge(next.region, visited_region(visits, symmetry));
     if (!good || !stays) {
-        add_directions(choose_directions(symmetry, next.candidates.directions, next.chosen,
-                                         direction_weights(visits, symmetry), next_count(next, symmetry)),
-                       next);
+        add_directions(
+            choose_directions(symmetry, next.candidates.directions, next.chosen,
+                              direction_weights(visits, symmetry), next_count(next, symmetry, worst)),
+            next);
     }
     estimate_cost(next.cases);
     if (goal.budget && next.cases.cpu_seconds > *goal.budget) {

@@ -19,8 +19,9 @@ struct SceneGoal {
     double tolerance = 0.1;        ///< relative, of the descent speed (allowed_error)
     std::optional<double> budget;  ///< CPU seconds, estimated; none: as many as the tolerance takes
     int most_rounds = 8;
-    int falls = 16;  ///< in each ensemble
-    int draws = 12;  ///< of the tables, for their error
+    bool whole_grid = false;  ///< every candidate at once
+    int falls = 16;           ///< in each ensemble
+    int draws = 12;           ///< of the tables, for their error
 };
 
 /// What is known after a round of cases was solved.
@@ -50,8 +51,8 @@ struct ScenePlan {
 /// directions that every table needs and the few that leave least uncertain where the visits are, with one
 /// more case at a Reynolds number far from it where they spread over a factor of more than two. `flight`: of
 /// the body without tables.
-ScenePlan first_plan(const Body& body, const BakeQuality& quality, const Inflow& inflow,
-                     const EnsembleFlight& flight);
+ScenePlan first_plan(const SceneGoal& goal, const Body& body, const BakeQuality& quality,
+                     const Inflow& inflow, const EnsembleFlight& flight);
 
 /// Judges a round: flies the baked body, works out what its tables leave uncertain, and either says why to
 /// stop or adds the directions (and Reynolds numbers) that would lower the uncertainty most.

@@ -18,12 +18,13 @@ std::vector<BakeRequest> requests_for_scene(const Scene& scene, const std::files
         request.quality = options.quality;
         request.inflow = options.inflow;
         request.tables = body.loads == Loads::table || body.turbulence == Turbulence::table;
-        if (request.tables && !options.whole_grid) {
+        if (request.tables) {
             request.goal = SceneGoal{.scene = scene,
                                      .body = i,
                                      .tolerance = options.tolerance,
                                      .budget = options.budget,
-                                     .most_rounds = options.most_rounds};
+                                     .most_rounds = options.most_rounds,
+                                     .whole_grid = options.whole_grid};
         }
         requests.push_back(std::move(request));
     }

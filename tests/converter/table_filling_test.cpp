@@ -303,6 +303,20 @@ TEST(FilledMap, OfAnotherReynoldsNumberNeedsFewDirections) {
     EXPECT_LT(largest, 0.08);  // of differences of up to 0.7
 }
 
+TEST(FilledMap, OfTheFewestDirectionsHasErrorsThatAreFiniteAndNotSmall) {
+    for (const Symmetry& symmetry : {test::box_symmetry(), test::cube_symmetry(), Symmetry()}) {
+        auto cases = test::solved_cases(required_directions(symmetry, 1), test::BoxLaw(), 1e4);
+        const LoadTables tables = test::filled(symmetry, 4, cases);
+        double force = 0.0;
+        for (const LoadEntryError& error : tables.errors) {
+            EXPECT_TRUE(error.force.allFinite() && error.moment.allFinite());
+            EXPECT_TRUE(std::isfinite(error.turbulent_kinetic_energy));
+            force = std::max(force, error.force.norm());
+        }
+        EXPECT_GT(force, 0.1);
+    }
+}
+
 TEST(FilledMap, FillsACaseThatIsMissingFromTheOthersWithAWiderError) {
     const Symmetry box = test::box_symmetry();
     const LoadTables whole = filled(box, 4, wavy_law, 16);

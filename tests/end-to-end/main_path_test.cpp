@@ -182,8 +182,8 @@ TEST(BadInput, AnUnknownCommandOrOptionIsNamedInOneLine) {
 
 TEST(Help, OfEveryCommandWorks) {
     const test::TemporaryFolder folder;
-    for (const char* command :
-         {"mesh", "kirchhoff", "bake", "convert", "check-tables", "simulate", "export", "plot", "info"}) {
+    for (const char* command : {"mesh", "kirchhoff", "plan", "bake", "convert", "identify", "validate",
+                                "check-tables", "simulate", "export", "plot", "compare", "info"}) {
         const auto help = run_program_in(folder, {"samara", command, "--help"});
         EXPECT_EQ(help.status, 0) << help.fault;
         EXPECT_THAT(help.output, HasSubstr("--json")) << command;

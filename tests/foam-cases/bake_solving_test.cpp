@@ -216,6 +216,52 @@ TEST_F(Bake, RefusesABodyAsDenseAsTheFluid) {
     EXPECT_FALSE(fs::exists(cases_));
 }
 
+TEST_F(Bake, OfASceneSolvesInRoundsWhatItVisitsAndEndsTheSameAfterAnInterruption) {
+    write_body(test::ellipsoid({0.01, 0.02, 0.04}));
+    std::ofstream(folder_ / "scene.toml") << R"([scene]
+duration = 3.0
+[fluid]
+preset = "water"
+[[body]]
+name = "out"
+shape = "ellipsoid.body.h5"
+density = 1200
+orientation = [0.8, 0, -0.6, 0]
+)";
+    const std::string words = "scene.toml -o . --quality smoke --tolerance 0.2 --json";
+    const test::ProgramRun run = bake(words);
+    ASSERT_EQ(run.status, 0) << run.fault;
+    const nlohmann::json plan = run.json()["bodies"][0]["plan"];
+    EXPECT_EQ(plan["stopped_because"], "the tolerance is met") << plan.dump(1);
+    EXPECT_GE(plan["rounds"].size(), 1u);
+    EXPECT_LT(plan["rounds"].back()["directions"], plan["symmetric_grid"]["directions"]);
+    EXPECT_EQ(plan["whole_grid"]["directions"], 258);
+    const LoadTables tables = *read_body_file(output_).tables;
+    EXPECT_GT(tables.plan.subdivisions, 0);
+    EXPECT_EQ(nlohmann::json::parse(tables.plan.report), plan);
+
+    // As if it had been killed in its first round: the last cases are gone, the later rounds' among them.
+    const std::string before = data_of(output_);
+    fs::remove(output_);
+    const auto solved_before = solved();
+    for (const auto& [name, time] : solved_before) {
+        if (name == solved_before.rbegin()->first) fs::remove(cases_ / name / "provenance.json");
+    }
+    const test::ProgramRun again = bake(words);
+    ASSERT_EQ(again.status, 0) << again.fault;
+    EXPECT_EQ(data_of(output_), before);
+    std::size_t solved_again = 0;
+    for (const auto& [name, time] : solved()) solved_again += time != solved_before.at(name) ? 1 : 0;
+    EXPECT_EQ(solved_again, 1u);
+}
+
+TEST_F(Bake, OfAShapeTakesNoTolerance) {
+    const fs::path file = write_body(test::sphere(0.01));
+    const test::ProgramRun run = bake(fmt::format("{} -o out.body.h5 --tolerance 0.1", file.string()));
+    EXPECT_EQ(run.status, 1);
+    EXPECT_THAT(run.fault, HasSubstr("--tolerance is of a scene"));
+}
+
 TEST_F(Bake, OfASceneGivesOneFileForEachBodyAndNoCasesToThoseWithoutTables) {
     write_body(test::sphere(0.01));
     std::ofstream(folder_ / "scene.toml") << R"([scene]

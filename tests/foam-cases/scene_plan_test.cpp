@@ -70,7 +70,7 @@ Conversion solved(const Body& body, const ScenePlan& plan) {
 }
 
 ScenePlan planned(const SceneGoal& goal, const Body& body) {
-    return first_plan(body, bake_quality("smoke"), {}, fly_ensemble(goal.scene, 0, body, goal.falls));
+    return first_plan(goal, body, bake_quality("smoke"), {}, fly_ensemble(goal.scene, 0, body, goal.falls));
 }
 
 ScenePlan baked(const SceneGoal& goal, const Body& body) {
@@ -152,7 +152,7 @@ TEST(ScenePlan, HoldsTheDirectionsThatItsFlightsVisited) {
     const SceneGoal goal = goal_of(0.1);
     const Body body = rubber();
     const EnsembleFlight flight = fly_ensemble(goal.scene, 0, body, goal.falls);
-    const ScenePlan plan = first_plan(body, bake_quality("smoke"), {}, flight);
+    const ScenePlan plan = first_plan(goal, body, bake_quality("smoke"), {}, flight);
     for (const FlowVisit& visit : flight.visits) EXPECT_TRUE(plan.region.holds(visit.direction));
     EXPECT_FALSE(std::ranges::all_of(plan.region.planned, [](std::uint8_t one) { return one == 1; }));
 }

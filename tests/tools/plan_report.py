@@ -124,7 +124,7 @@ def report(programs, work, target):
             if not os.path.exists(cases):
                 shutil.copytree(os.path.join(work, "plan", f"{body}.cases"), cases, symlinks=True)
         whole = baked(programs, work, body, "all",
-                      ["--quality", "preview", "--tolerance", "1e-4", "--rounds", "100"])
+                      ["--quality", "preview", "--whole-grid"])
         cases = os.path.join(everything, f"{body}.cases")
         truth = flown(programs, work, body, os.path.join(everything, f"{body}.body.h5"), "all")
 
