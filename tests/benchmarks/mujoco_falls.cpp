@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <limits>
+#include <map>
 #include <random>
 #include <sstream>
 #include <string>
@@ -34,6 +34,7 @@ constexpr FluidCoefficients highest = {4.0, 4.0, 12.0, 4.0, 4.0};
 /// A reference fall and the body that is to fall like it.
 struct Fall {
     std::string name;
+    std::string shape;
     MujocoBody body;
     Measures measures;        // of the reference
     bool judges_inclination;  // false for a sphere
@@ -70,7 +71,9 @@ std::vector<Fall> read_falls(const std::string& folder_or_names, int integrator)
     for (const fs::path& file : scenes) {
         fs::path motion = file;
         const Motion reference = read_motion_file(motion.replace_extension(".h5"));
-        falls.push_back({file.stem().string(), MujocoBody(read_scene_file(file), reference, integrator),
+        const Scene scene = read_scene_file(file);
+        falls.push_back({file.stem().string(), scene.bodies.front().shape.stem().string(),
+                         MujocoBody(scene, reference, integrator),
                          measure(reference, reference.bodies.front()),
                          has_shortest_axis(reference.bodies.front())});
     }
@@ -160,29 +163,61 @@ std::vector<Trial> drawn(const std::vector<Fall>& falls, int samples) {
     return trials;
 }
 
-/// The best set for all falls, and the best for each alone, as a bound.
-nlohmann::json search(const std::vector<Fall>& falls, int samples) {
-    const std::vector<Trial> trials = drawn(falls, samples);
-    std::vector<Trial> order = trials;
+/// Those of some falls alone, with their share of a trial's misfits.
+std::vector<Trial> of_falls(const std::vector<Trial>& trials, const std::vector<std::size_t>& chosen) {
+    std::vector<Trial> parts;
+    for (const Trial& trial : trials) {
+        parts.push_back({trial.coefficients, {}});
+        for (const std::size_t i : chosen) parts.back().misfits.push_back(trial.misfits[i]);
+    }
+    return parts;
+}
+
+/// The best set for some falls: pattern searches from the best of the trials.
+Trial best_of(const std::vector<Fall>& falls, const std::vector<std::size_t>& chosen,
+              const std::vector<Trial>& trials, std::size_t starts) {
+    std::vector<Fall> some;
+    for (const std::size_t i : chosen) some.push_back(falls[i]);
+    std::vector<Trial> order = of_falls(trials, chosen);
     std::sort(order.begin(), order.end(), [](const Trial& a, const Trial& b) { return a.sum() < b.sum(); });
-    constexpr std::size_t starts = 4;
     Trial best = order.front();
     for (std::size_t i = 0; i < std::min(starts, order.size()); ++i) {
-        const Trial end = refined(falls, order[i]);
+        const Trial end = refined(some, order[i]);
         if (end.sum() < best.sum()) best = end;
     }
+    return best;
+}
+
+nlohmann::json as_json(const Trial& trial) {
+    return {{"coefficients", trial.coefficients}, {"misfit", trial.sum()}};
+}
+
+/// The best sets for each fall alone, for each shape, and for all falls. The sets found for few falls are
+/// among the starts for many.
+nlohmann::json search(const std::vector<Fall>& falls, int samples) {
+    std::vector<Trial> trials = drawn(falls, samples);
+    const double default_misfit = trials.front().sum();
     nlohmann::json alone = nlohmann::json::object();
+    std::map<std::string, std::vector<std::size_t>> shapes;
+    std::vector<std::size_t> all;
     for (std::size_t i = 0; i < falls.size(); ++i) {
-        const auto start =
-            std::min_element(trials.begin(), trials.end(),
-                             [&](const Trial& a, const Trial& b) { return a.misfits[i] < b.misfits[i]; });
-        const std::vector<Fall> one = {falls[i]};
-        const Trial end = refined(one, Trial{start->coefficients, {start->misfits[i]}});
-        alone[falls[i].name] = {{"coefficients", end.coefficients}, {"misfit", end.sum()}};
+        const Trial best = best_of(falls, {i}, trials, 1);
+        alone[falls[i].name] = as_json(best);
+        trials.push_back(tried(falls, best.coefficients));
+        shapes[falls[i].shape].push_back(i);
+        all.push_back(i);
+    }
+    nlohmann::json by_shape = nlohmann::json::object();
+    for (const auto& [shape, chosen] : shapes) {
+        const Trial best = best_of(falls, chosen, trials, 3);
+        by_shape[shape] = as_json(best);
+        for (const std::size_t i : chosen) by_shape[shape]["falls"].push_back(falls[i].name);
+        trials.push_back(tried(falls, best.coefficients));
     }
     return {{"samples", samples},
-            {"default_misfit", trials.front().sum()},
-            {"best", {{"coefficients", best.coefficients}, {"misfit", best.sum()}}},
+            {"default_misfit", default_misfit},
+            {"best", as_json(best_of(falls, all, trials, 6))},
+            {"best_by_shape", by_shape},
             {"best_alone", alone}};
 }
 

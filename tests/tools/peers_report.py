@@ -5,7 +5,7 @@
 
 BIN: the folder of the programs; BODIES: that of the baked bodies (`falls_report.py ... falls` bakes them; the runtime's
 cells stay empty for a body that is not there); FOLDER: of peers.csv, peers.gp and peers.md, whose tables it writes.
-SAMPLES: how many sets of coefficients are drawn in the search for MuJoCo's best, 1000 by default; what was found is kept
+SAMPLES: how many sets of coefficients are drawn in the search for MuJoCo's best, 2000 by default; what was found is kept
 in BODIES and used again. Run from the project's folder.
 """
 
@@ -21,7 +21,8 @@ from falls_report import FALLS, SCENES, baked_file, compared, run
 BEGIN, END = "<!-- table: written by ./dev report-falls -->\n", "<!-- end of table -->"
 FIGURES = {"descent": "descent_speed", "frequency": "frequency", "amplitude": "inclination_amplitude",
            "angular_speed": "rms_angular_speed"}
-DEFAULT, BEST, ALONE, OURS = "MuJoCo default", "MuJoCo best", "MuJoCo best for each fall", "samara"
+DEFAULT, BEST, SHAPE, ALONE, OURS = ("MuJoCo default", "MuJoCo best", "MuJoCo best for each shape",
+                                     "MuJoCo best for each fall", "samara")
 
 
 def searched(programs, folder, samples):
@@ -90,13 +91,15 @@ def cell(row):
         return "not baked"
     if row["regime"] == "breaks":
         return "breaks"
+    if row["fall"] == "sphere":  # its inclination has no meaning
+        return percent(row["descent"]) + (" **yes**" if row["agrees"] == "yes" else "")
     figures = " / ".join(percent(row[name]) for name in ("descent", "frequency", "amplitude"))
     return f"{figures}, {row['regime']}" + (" **yes**" if row["agrees"] == "yes" else "")
 
 
 def table(rows):
     """The table of errors: a line a fall, a column a model."""
-    models = (DEFAULT, BEST, ALONE, OURS)
+    models = (DEFAULT, BEST, SHAPE, ALONE, OURS)
     found = {(row["fall"], row["model"]): row for row in rows}
     lines = ["| fall (full CFD) | " + " | ".join(models) + " |", "|---" * (len(models) + 1) + "|"]
     for scene in SCENES:
@@ -130,6 +133,8 @@ def coefficients_table(search, default):
     lines = ["| coefficients | blunt drag | slender drag | angular drag | Kutta lift | Magnus lift | misfit |", "|---" * 7 + "|"]
     sets = [("MuJoCo's defaults", default, search["default_misfit"]),
             ("best for all falls", search["best"]["coefficients"], search["best"]["misfit"])]
+    sets += [(f"best for {', '.join(found['falls'])}", found["coefficients"], found["misfit"])
+             for found in search["best_by_shape"].values() if len(found["falls"]) > 1]
     alone = search["best_alone"]
     sets += [(f"best for {scene} alone", alone[scene]["coefficients"], alone[scene]["misfit"]) for scene in SCENES]
     for name, numbers, misfit in sets:
@@ -137,13 +142,13 @@ def coefficients_table(search, default):
     return "\n".join(lines) + "\n"
 
 
-def write_tables(document, tables):
+def write_tables(document, tables, begin=BEGIN):
     """Puts the tables between the document's marks, in their order."""
     with open(document, encoding="utf-8") as file:
-        parts = file.read().split(BEGIN)
+        parts = file.read().split(begin)
     if len(parts) != len(tables) + 1:
-        sys.exit(f"peers_report.py: {document} has not the {len(tables)} marks that hold its tables")
-    text = parts[0] + "".join(BEGIN + table + END + part.split(END, 1)[1] for table, part in zip(tables, parts[1:]))
+        sys.exit(f"{document}: has not the {len(tables)} marks that hold its tables")
+    text = parts[0] + "".join(begin + table + END + part.split(END, 1)[1] for table, part in zip(tables, parts[1:]))
     with open(document, "w", encoding="utf-8") as file:
         file.write(text)
 
@@ -155,9 +160,11 @@ def main(words):
     programs, bodies, folder = words[1:4]
     default = (0.5, 0.25, 1.5, 1.0, 1.0)
     scenes = list(SCENES)
-    search = searched(programs, bodies, words[4] if len(words) == 5 else "1000")
+    search = searched(programs, bodies, words[4] if len(words) == 5 else "2000")
     best = search["best"]["coefficients"]
     rows = peer(programs, scenes, DEFAULT, default) + peer(programs, scenes, BEST, best)
+    for found in search["best_by_shape"].values():
+        rows += peer(programs, found["falls"], SHAPE, found["coefficients"])
     for scene in scenes:
         rows += peer(programs, [scene], ALONE, search["best_alone"][scene]["coefficients"])
     for integrator in ("Euler", "RK4"):
