@@ -15,7 +15,7 @@ import sys
 import tempfile
 
 from falls_report import run
-from gnuplot_picture import draw
+from gnuplot_picture import draw, flights
 from peers_report import write_tables
 
 DISC = "docs/falls/disc.geo"
@@ -107,10 +107,49 @@ def table(maps):
     return "\n".join(lines) + "\n"
 
 
+# Diameter (m) and Reynolds number of the discs of Tinklenberg et al. 2023 that their abstract names.
+THIN_DISCS = ((0.001, 96), (0.003, 360))
+ASPECT, THIN_STARTS = 40, 200
+AIR_DENSITY, AIR_VISCOSITY = 1.204, 1.825e-5
+
+
+def thin_disc(programs, work, diameter, reynolds):
+    """200 starts of a thin disc in air, turned about random axes by any angle; a line of the table."""
+    thickness, speed = diameter / ASPECT, reynolds * AIR_VISCOSITY / (AIR_DENSITY * diameter)
+    density = AIR_DENSITY * (1.1 * speed ** 2 / (2 * GRAVITY * thickness) + 1)  # falls broadside at that speed
+    time = diameter / speed
+    shape, scene, motion = (os.path.join(work, f"thin.{end}") for end in ("geo", "toml", "h5"))
+    with open(shape, "w", encoding="utf-8") as file:
+        file.write(f'SetFactory("OpenCASCADE");\nCylinder(1) = {{0, 0, {-thickness / 2}, 0, 0, {thickness}, {diameter / 2}}};\n'
+                   f"Mesh.MeshSizeMax = {diameter / 16};\n")
+    with open(scene, "w", encoding="utf-8") as file:
+        file.write(f'[scene]\nduration = {600 * time}\nstep = {0.02 * time}\nframe_rate = {10 / time}\n[fluid]\npreset = "air"\n'
+                   f'[[body]]\nname = "thin"\nshape = "{shape}"\ndensity = {density}\ncount = {THIN_STARTS}\n'
+                   f'spread = {{ position = [0, 0, 0], angle = {math.pi} }}\nturbulence = "none"\nloads = "coefficients"\n'
+                   'drag_coefficient = 1.1\nlift_coefficient = 1.0\n')
+    body = run([f"{programs}/samara", "simulate", scene, "-o", motion, "--threads", "1", "--json"])["bodies"][0]
+    drifts = []
+    for poses in flights(programs, motion).values():
+        way = [b - a for a, b in zip(poses[len(poses) // 3].position, poses[-1].position)]
+        drifts.append(math.degrees(math.atan2(math.hypot(*way[:2]), -way[2])))
+    shares = " | ".join(f"{100 * body['regimes'][name] / THIN_STARTS:.0f} %" for name in REGIMES)
+    inertia = math.pi / 64 * density * thickness / (AIR_DENSITY * diameter)
+    return (f"| {1000 * diameter:.0f} mm | {reynolds} | {inertia:.1f} | {speed:.2f} m/s | {body['descent_speed']:.2f} m/s | {shares} | "
+            f"{sum(drifts) / len(drifts):.0f}, {max(drifts):.0f} degrees |")
+
+
+def thin_table(programs):
+    lines = ["| diameter | Reynolds number | I* | their fall speed | samara's | " + " | ".join(REGIMES) + " | drift: mean, largest |",
+             "|---" * 10 + "|"]
+    with tempfile.TemporaryDirectory() as work:
+        lines += [thin_disc(programs, work, *disc) for disc in THIN_DISCS]
+    return "\n".join(lines) + "\n"
+
+
 def picture(maps, file):
-    commands = f'''set terminal pngcairo size {240 + 760 * len(maps)}, 900 font "DejaVu Sans,16" linewidth 1.6
+    width = 240 + 760 * len(maps)
+    commands = f'''set terminal pngcairo size {width}, 900 font "DejaVu Sans,16" linewidth 1.6
 set output "{file}"
-set datafile missing "-"
 set logscale xy
 set xrange [10:30000]
 set yrange [0.004:0.2]
@@ -124,32 +163,31 @@ set object 1 rectangle from 10, 0.004 to 100, 0.2 behind fc rgb word(areas, 1) f
 set object 2 rectangle from 100, 0.004 to 30000, 0.01 behind fc rgb word(areas, 2) fs solid noborder
 set object 3 rectangle from 100, 0.01 to 30000, 0.05 behind fc rgb word(areas, 3) fs solid noborder
 set object 4 rectangle from 100, 0.05 to 30000, 0.2 behind fc rgb word(areas, 4) fs solid noborder
-set label 1 "steady" at 11.5, 0.0044 tc rgb "#6b6b6b"
-set label 2 "periodic" at 120, 0.0044 tc rgb "#2a6f97"
-set label 3 "chaotic" at 120, 0.0109 tc rgb "#b5761a"
-set label 4 "tumbling" at 120, 0.182 tc rgb "#a5281b"
+set label 1 "Field: steady" at 11, 0.187 tc rgb "#6b6b6b"
+set label 2 "Field: periodic" at 110, 0.0044 tc rgb "#2a6f97"
+set label 3 "Field: chaotic" at 110, 0.0365 tc rgb "#b5761a"
+set label 4 "Field: tumbling" at 110, 0.187 tc rgb "#a5281b"
 set xlabel "Reynolds number of the fall"
 '''
     colours = ("#8a8a8a", "#2a6f97", "#d98c1f", "#c0392b")
     marks = (6, 7, 9, 5)
-    width = 240 + 760 * len(maps)
     commands += "set multiplot\nset tmargin at screen 0.93\nset bmargin at screen 0.2\n"
     for number, (model, rows) in enumerate(maps.items()):
         left = (120 + 760 * number) / width
         commands += f"set lmargin at screen {left}\nset rmargin at screen {left + 690 / width}\nset title '{model}'\n"
         commands += "set ylabel 'I* = (pi/64) rho_{disc} t / (rho_{fluid} d)' noenhanced\n" if number == 0 else "unset ylabel\n"
         if number == 0:
-            commands += "set key at screen 0.5, 0.02 center bottom maxrows 1 samplen 1.5\n"
+            commands += "set key at screen 0.5, 0.02 center bottom maxrows 2 samplen 1.5 width -6\n"
         else:
             commands += "set key off\n"
         plots = []
         for index, regime in enumerate(REGIMES):
             points = [f"{row['reynolds']:.6g} {row['inertia']:.6g} {1.0 + 1.8 * row['share']:.3f}" for row in rows
-                      if row["regime"] == regime] or ["- - -"]
+                      if row["regime"] == regime] or ["1e9 1e9 1"]
             commands += f"$points{number}{index} << EOD\n" + "\n".join(points) + "\nEOD\n"
-            title = "fluttering" if regime == "fluttering" else regime
+            title = "fluttering (periodic)" if regime == "fluttering" else regime
             plots.append(f'$points{number}{index} using 1:2:3 with points pt {marks[index]} ps variable lc rgb '
-                         f'"{colours[index]}" title "{title}"')
+                         f'"{colours[index]}" notitle, NaN with points pt {marks[index]} ps 2 lc rgb "{colours[index]}" title "{title}"')
         commands += "plot " + ", ".join(plots) + "\n"
     draw(commands + "unset multiplot\n")
 
@@ -168,7 +206,7 @@ def main(words):
             writer.writerows([model] + [f"{cell:.4g}" if isinstance(cell, float) else cell for cell in row.values()]
                              for row in rows)
     picture(maps, os.path.join(folder, "discs.png"))
-    write_tables(os.path.join(folder, os.pardir, "discs.md"), [table(maps)], BEGIN)
+    write_tables(os.path.join(folder, os.pardir, "discs.md"), [table(maps), thin_table(programs)], BEGIN)
     print(f"Written: discs.csv and discs.png in {folder}, and discs.md")
     return 0
 

@@ -192,17 +192,17 @@ def airplane_picture(flights_of, picture):
     commands = f'set terminal pngcairo size 2000, 1050 font "DejaVu Sans,16" linewidth 1.6\nset output "{picture}"\n' + STYLE
     commands += "set multiplot\nset size ratio -1\n"
     titles = {"seen-fluid": "seen fluid (default)", "body-velocity": "equation 8"}
-    places = {"seen-fluid": (0.0, 0.42), "body-velocity": (0.42, 0.62)}
+    places = {"seen-fluid": (0.0, 0.4), "body-velocity": (0.42, 0.58)}
     for number, (form, all_flights) in enumerate(flights_of.items()):
         left, right = places[form]
         middle = 0.1 if form == "seen-fluid" else 0.0
         half = 2.35 * (right - left) * 2000 / (0.86 * 1050) / 2
-        commands += airplane_panel(number, titles[form], all_flights, (0.125, 0.35)[number],
+        commands += airplane_panel(number, titles[form], all_flights, (0.1, 0.3)[number],
                                    (left, right, 0.06, 0.92, middle - half, middle + half))
     commands += "set border 3\nset tics nomirror\nset grid lc rgb '#e4e4e4' lt 1 lw 0.8\n"
-    commands += "set lmargin at screen 0.685\nset rmargin at screen 0.985\nset bmargin at screen 0.2\nset tmargin at screen 0.85\n"
+    commands += "set lmargin at screen 0.66\nset rmargin at screen 0.985\nset bmargin at screen 0.2\nset tmargin at screen 0.9\n"
     commands += 'set title "where they land, m from the start (it flies to the left)"\nset xrange [-1.6:0.8]\nset yrange [-1.2:1.2]\nset xtics 0.5\nset ytics 0.5\n'
-    commands += 'set key at screen 0.835, 0.06 center bottom maxrows 1\nset xlabel "x"\nset ylabel "y"\n'
+    commands += 'set key at screen 0.82, 0.04 center bottom maxrows 1 samplen 1 width -2\nset xlabel "x"\nset ylabel "y"\n'
     for number, (form, all_flights) in enumerate(flights_of.items()):
         commands += block(f"ends{number}", [[poses[-1].position[:2] for poses in all_flights]])
     commands += ('plot $ends0 with points pt 7 ps 1.6 lc rgb "#2a6f97" title "seen fluid", '
