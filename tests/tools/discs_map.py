@@ -147,7 +147,7 @@ def thin_table(programs):
 
 
 def picture(maps, file):
-    width = 240 + 760 * len(maps)
+    width = 170 + 760 * len(maps)
     commands = f'''set terminal pngcairo size {width}, 900 font "DejaVu Sans,16" linewidth 1.6
 set output "{file}"
 set logscale xy
@@ -173,9 +173,9 @@ set xlabel "Reynolds number of the fall"
     marks = (6, 7, 9, 5)
     commands += "set multiplot\nset tmargin at screen 0.93\nset bmargin at screen 0.2\n"
     for number, (model, rows) in enumerate(maps.items()):
-        left = (120 + 760 * number) / width
-        commands += f"set lmargin at screen {left}\nset rmargin at screen {left + 690 / width}\nset title '{model}'\n"
-        commands += "set ylabel 'I* = (pi/64) rho_{disc} t / (rho_{fluid} d)' noenhanced\n" if number == 0 else "unset ylabel\n"
+        left = (150 + 760 * number) / width
+        commands += f"set lmargin at screen {left}\nset rmargin at screen {left + 660 / width}\nset title '{model}'\n"
+        commands += "set ylabel 'I* = (π/64) ρ_{disc} t / (ρ_{fluid} d)' offset 0.5\n" if number == 0 else "unset ylabel\n"
         if number == 0:
             commands += "set key at screen 0.5, 0.02 center bottom maxrows 2 samplen 1.5 width -6\n"
         else:
