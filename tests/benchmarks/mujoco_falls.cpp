@@ -29,7 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr FluidCoefficients lowest = {0.0, 0.0, 0.0, 0.0, 0.0};
-constexpr FluidCoefficients highest = {4.0, 4.0, 12.0, 4.0, 4.0};
+constexpr FluidCoefficients highest = {4.0, 12.0, 16.0, 6.0, 6.0};
 
 /// A reference fall and the body that is to fall like it.
 struct Fall {
