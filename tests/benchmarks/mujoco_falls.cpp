@@ -246,6 +246,7 @@ FluidCoefficients coefficients_of(const std::string& words) {
 /// Writes FOLDER/NAME.h5 for each fall; a fall whose numbers run away is not written.
 nlohmann::json flown(const std::vector<Fall>& falls, const Request& request) {
     const FluidCoefficients coefficients = coefficients_of(request.coefficients);
+    fs::create_directories(request.output);
     nlohmann::json rows = nlohmann::json::array();
     for (const Fall& fall : falls) {
         MujocoFall best = fall.body.fall(coefficients, request.cuts);
