@@ -40,10 +40,14 @@ def run(words):
     return json.loads(subprocess.run(words, check=True, stdout=subprocess.PIPE).stdout)
 
 
+def baked_file(folder, body):
+    return os.path.join(folder, f"{body}.body.h5")
+
+
 def baked(programs, folder, body):
     """The baked body's file and its falls, separated by commas."""
     shape, options = BODIES[body]
-    file = os.path.join(folder, f"{body}.body.h5")
+    file = baked_file(folder, body)
     if not os.path.exists(file):
         run([f"{programs}/samara", "bake", shape, "-o", file, "--quality", "standard", "--json"] + options)
     cases = os.path.join(folder, f"{body}.cases")

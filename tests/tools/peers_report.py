@@ -1,0 +1,188 @@
+#!/usr/bin/env python3
+"""MuJoCo's ellipsoid fluid model and the runtime against the reference falls.
+
+    peers_report.py BIN BODIES FOLDER [SAMPLES]
+
+BIN: the folder of the programs; BODIES: that of the baked bodies (`falls_report.py ... falls` bakes them; the runtime's
+cells stay empty for a body that is not there); FOLDER: of peers.csv, peers.gp and peers.md, whose tables it writes.
+SAMPLES: how many sets of coefficients are drawn in the search for MuJoCo's best, 2000 by default; what was found is kept
+in BODIES and used again. Run from the project's folder.
+"""
+
+import csv
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+from falls_report import FALLS, SCENES, baked_file, compared, run
+
+BEGIN, END = "<!-- table: written by ./dev report-falls -->\n", "<!-- end of table -->"
+FIGURES = {"descent": "descent_speed", "frequency": "frequency", "amplitude": "inclination_amplitude",
+           "angular_speed": "rms_angular_speed"}
+DEFAULT, BEST, SHAPE, ALONE, OURS = ("MuJoCo default", "MuJoCo best", "MuJoCo best for each shape",
+                                     "MuJoCo best for each fall", "samara")
+
+
+def searched(programs, folder, samples):
+    """What the search for the best coefficients found, kept in the folder."""
+    kept = os.path.join(folder, f"mujoco-search-{samples}.json")
+    if not os.path.exists(kept):
+        search = run([f"{programs}/samara-mujoco-falls", ",".join(f"{FALLS}/{scene}.toml" for scene in SCENES),
+                      "--search", samples, "--json"])
+        with open(kept, "w", encoding="utf-8") as file:
+            json.dump(search, file, indent=1)
+    with open(kept, encoding="utf-8") as file:
+        return json.load(file)
+
+
+def row_of(fall, who, comparison, step_seconds, second_seconds):
+    """A row of peers.csv. Without a comparison the numbers ran away."""
+    row = {"fall": fall, "model": who, "seconds_per_step": step_seconds,
+           "seconds_per_simulated_second": second_seconds}
+    if comparison is None:
+        return row | {"regime": "breaks", "agrees": "no"}
+    row |= {name: (comparison["measures"].get(figure) or {}).get("relative_difference")
+            for name, figure in FIGURES.items()}
+    return row | {"regime": comparison["motion"]["regime"], "regime_cfd": comparison["reference"]["regime"],
+                  "agrees": "yes" if comparison["agrees"] else "no"}
+
+
+def peer(programs, scenes, who, coefficients, integrator="implicit"):
+    """MuJoCo's rows: its motions, judged as every motion is."""
+    rows = []
+    with tempfile.TemporaryDirectory() as work:
+        words = [f"{programs}/samara-mujoco-falls", ",".join(f"{FALLS}/{scene}.toml" for scene in scenes), "-o", work,
+                 "--coefficients", ",".join(map(str, coefficients)), "--integrator", integrator, "--json"]
+        for flown in run(words)["falls"]:
+            comparison = None if flown["broke"] else run(
+                [f"{programs}/samara", "compare", f"{work}/{flown['fall']}.h5", f"{FALLS}/{flown['fall']}.h5",
+                 "--json"])
+            rows.append(row_of(flown["fall"], who, comparison, flown["seconds_per_step"],
+                               flown["seconds_per_simulated_second"]))
+    return rows
+
+
+def ours(programs, bodies):
+    """The runtime's rows. The time is the least of several flights on one thread."""
+    rows = []
+    with tempfile.TemporaryDirectory() as work:
+        for scene, body in SCENES.items():
+            if not os.path.exists(baked_file(bodies, body)):
+                print(f"{scene}: no {baked_file(bodies, body)}, left empty")
+                continue
+            comparison = compared(programs, baked_file(bodies, body), scene, work)
+            flights = [run([f"{programs}/samara", "simulate", f"{FALLS}/{scene}.toml", "-o", f"{work}/again.h5",
+                            "--bodies", f"{work}/bodies", "--threads", "1", "--json"]) for _ in range(7)]
+            least = min(flights, key=lambda flight: flight["seconds"])
+            seconds = run([f"{programs}/samara", "info", f"{work}/again.h5", "--json"])["duration"]
+            rows.append(row_of(scene, OURS, comparison, 1e-9 * least["nanoseconds_per_step"],
+                               least["seconds"] / seconds))
+    return rows
+
+
+def percent(value):
+    return "-" if value is None else f"{100 * value:+.0f} %"
+
+
+def cell(row):
+    if row is None:
+        return "not baked"
+    if row["regime"] == "breaks":
+        return "breaks"
+    if row["fall"] == "sphere":  # its inclination has no meaning
+        return percent(row["descent"]) + (" **yes**" if row["agrees"] == "yes" else "")
+    figures = " / ".join(percent(row[name]) for name in ("descent", "frequency", "amplitude"))
+    return f"{figures}, {row['regime']}" + (" **yes**" if row["agrees"] == "yes" else "")
+
+
+def table(rows):
+    """The table of errors: a line a fall, a column a model."""
+    models = (DEFAULT, BEST, SHAPE, ALONE, OURS)
+    found = {(row["fall"], row["model"]): row for row in rows}
+    lines = ["| fall (full CFD) | " + " | ".join(models) + " |", "|---" * (len(models) + 1) + "|"]
+    for scene in SCENES:
+        regime = next(row["regime_cfd"] for row in rows if row["fall"] == scene and row.get("regime_cfd"))
+        title = scene if scene == "sphere" else f"{scene} ({regime})"
+        lines.append("| " + " | ".join([title] + [cell(found.get((scene, model))) for model in models]) + " |")
+    counts = [f"{sum(row['agrees'] == 'yes' for row in of)} of {len(of)}"
+              for of in ([row for row in rows if row["model"] == model] for model in models)]
+    lines.append("| within the limits | " + " | ".join(counts) + " |")
+    return "\n".join(lines) + "\n"
+
+
+def times(rows):
+    """The table of times: a line a fall; our column first."""
+    found = {(row["fall"], row["model"]): row for row in rows}
+    models = (OURS, BEST, "MuJoCo Euler", "MuJoCo RK4")
+    lines = ["| fall | " + " | ".join(f"{'MuJoCo implicit' if model == BEST else model}, us a step; ms a simulated second"
+                                      for model in models) + " |", "|---" * (len(models) + 1) + "|"]
+    for scene in SCENES:
+        cells = []
+        for model in models:
+            row = found.get((scene, model))
+            broke = " (breaks)" if row and row["regime"] == "breaks" else ""
+            cells.append("not baked" if row is None else f"{1e6 * row['seconds_per_step']:.2f}; "
+                         f"{1e3 * row['seconds_per_simulated_second']:.2f}{broke}")
+        lines.append("| " + " | ".join([scene] + cells) + " |")
+    return "\n".join(lines) + "\n"
+
+
+def coefficients_table(search, default):
+    lines = ["| coefficients | blunt drag | slender drag | angular drag | Kutta lift | Magnus lift | misfit |", "|---" * 7 + "|"]
+    sets = [("MuJoCo's defaults", default, search["default_misfit"]),
+            ("best for all falls", search["best"]["coefficients"], search["best"]["misfit"])]
+    sets += [(f"best for {', '.join(found['falls'])}", found["coefficients"], found["misfit"])
+             for found in search["best_by_shape"].values() if len(found["falls"]) > 1]
+    alone = search["best_alone"]
+    sets += [(f"best for {scene} alone", alone[scene]["coefficients"], alone[scene]["misfit"]) for scene in SCENES]
+    for name, numbers, misfit in sets:
+        lines.append(f"| {name} | " + " | ".join(f"{number:.3g}" for number in numbers) + f" | {misfit:.2f} |")
+    return "\n".join(lines) + "\n"
+
+
+def write_tables(document, tables, begin=BEGIN):
+    """Puts the tables between the document's marks, in their order."""
+    with open(document, encoding="utf-8") as file:
+        parts = file.read().split(begin)
+    if len(parts) != len(tables) + 1:
+        sys.exit(f"{document}: has not the {len(tables)} marks that hold its tables")
+    text = parts[0] + "".join(begin + table + END + part.split(END, 1)[1] for table, part in zip(tables, parts[1:]))
+    with open(document, "w", encoding="utf-8") as file:
+        file.write(text)
+
+
+def main(words):
+    if len(words) not in (4, 5):
+        sys.stderr.write(__doc__)
+        return 2
+    programs, bodies, folder = words[1:4]
+    default = (0.5, 0.25, 1.5, 1.0, 1.0)
+    scenes = list(SCENES)
+    search = searched(programs, bodies, words[4] if len(words) == 5 else "2000")
+    best = search["best"]["coefficients"]
+    rows = peer(programs, scenes, DEFAULT, default) + peer(programs, scenes, BEST, best)
+    for found in search["best_by_shape"].values():
+        rows += peer(programs, found["falls"], SHAPE, found["coefficients"])
+    for scene in scenes:
+        rows += peer(programs, [scene], ALONE, search["best_alone"][scene]["coefficients"])
+    for integrator in ("Euler", "RK4"):
+        rows += peer(programs, scenes, f"MuJoCo {integrator}", best, integrator)
+    rows += ours(programs, bodies)
+    columns = ["fall", "model", "regime_cfd", "regime"] + list(FIGURES) + ["agrees", "seconds_per_step",
+                                                                         "seconds_per_simulated_second"]
+    with open(os.path.join(folder, "peers.csv"), "w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, columns, lineterminator="\n")
+        writer.writeheader()
+        for row in rows:
+            writer.writerow({key: f"{value:.4g}" if isinstance(value, float) else value for key, value in row.items()})
+    write_tables(os.path.join(folder, "peers.md"), [coefficients_table(search, default), table(rows), times(rows)])
+    subprocess.run(["gnuplot", "-e", f"rows='{folder}/peers.csv'; picture='{folder}/peers.png'", f"{folder}/peers.gp"],
+                   check=True)
+    print(f"Written: peers.csv, peers.md and peers.png in {folder}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv))
