@@ -1,6 +1,9 @@
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -13,6 +16,7 @@
 #include "samara/export/chan_file.hpp"
 #include "samara/export/csv_file.hpp"
 #include "samara/export/gltf_file.hpp"
+#include "samara/export/page_file.hpp"
 #include "samara/export/usd_file.hpp"
 #include "samara/motion/motion_file.hpp"
 #include "samara/motion/resample.hpp"
@@ -29,11 +33,13 @@ constexpr const char* footer = R"(Formats, by the ending of OUT:
   .chan  Nuke's channels, a file for each copy (OUT_NAME.chan, OUT_NAME.001.chan,
          ... where there are several): frame tx ty tz rx ry rz, metres and
          degrees; world y up, rotation order ZXY (R = Ry Rx Rz).
+  .html  a page that plays the motion in a browser, without a network: all bodies
+         in space, and descent speed, inclination and angular speed under it.
   .csv   run,body,copy,time,position_{x,y,z},orientation_{w,x,y,z},
          velocity_{x,y,z},angular_velocity_{x,y,z}; SI units, world axes, z up.
          All runs unless --run is given.
-All give the place of the shape file's origin, so that the shape file itself can
-be put there; the velocity in .csv is the velocity of that point.
+The files for other tools give the place of the shape file's origin, so that the
+shape file itself can be put there; the velocity in .csv is the velocity of that point.
 
 Keys of .glb and samples of .usda that linear interpolation between their
 neighbours reaches are left out: within --tolerance of the position, and within
@@ -77,15 +83,24 @@ nlohmann::json write(const ExportOptions& options, const std::string& format, co
                 {"samples", samples},
                 {"run", run}};
     }
+    if (format == ".html") {
+        const std::string title = std::filesystem::path(options.input).stem().string();
+        const std::string runs = motion.runs > 1 ? fmt::format(", run {} of {}", run, motion.runs) : "";
+        write_page(options.output, motion, run, title,
+                   fmt::format("{} frames per second{}", motion.frame_rate, runs));
+        return {{"bodies", motion.bodies.size()}, {"copies", copies_in(motion)}, {"run", run}};
+    }
     const std::size_t keys = write_glb(options.output, motion, run, options.tolerance);
     return {{"meshes", motion.bodies.size()}, {"nodes", copies_in(motion)}, {"keys", keys}, {"run", run}};
 }
 
 nlohmann::json export_motion(const ExportOptions& options) {
     const std::string format = std::filesystem::path(options.output).extension().string();
-    if (format != ".glb" && format != ".usda" && format != ".chan" && format != ".csv") {
-        throw Error(fmt::format("{}: the format '{}' is unknown; end the name in .glb, .usda, .chan or .csv",
-                                options.output, format));
+    constexpr std::array<std::string_view, 5> formats = {".glb", ".usda", ".chan", ".html", ".csv"};
+    if (std::find(formats.begin(), formats.end(), format) == formats.end()) {
+        throw Error(
+            fmt::format("{}: the format '{}' is unknown; end the name in .glb, .usda, .chan, .html or .csv",
+                        options.output, format));
     }
     if (options.tolerance && format != ".glb" && format != ".usda") {
         throw Error(fmt::format("{}: --tolerance is for .glb and .usda; other formats have every frame",
@@ -107,14 +122,19 @@ nlohmann::json export_motion(const ExportOptions& options) {
     return result;
 }
 
-/// "OUT: 3 nodes, 240 keys, 240 frames, 12345 bytes".
+/// "OUT: 3 nodes, 200 keys, 240 frames, 12345 bytes".
 void print_summary(const nlohmann::json& result) {
     std::string counts;
-    for (const char* what : {"rows", "nodes", "keys", "transforms", "samples"}) {
-        if (!result.contains(what)) continue;
-        const auto count = result[what].get<std::size_t>();
-        const std::string plural = what;
-        counts += fmt::format("{} {}, ", count, count == 1 ? plural.substr(0, plural.size() - 1) : plural);
+    constexpr std::array<std::array<const char*, 2>, 6> words = {{{"rows", "row"},
+                                                                  {"nodes", "node"},
+                                                                  {"keys", "key"},
+                                                                  {"transforms", "transform"},
+                                                                  {"samples", "sample"},
+                                                                  {"copies", "copy"}}};
+    for (const auto& [plural, singular] : words) {
+        if (!result.contains(plural)) continue;
+        const auto count = result[plural].get<std::size_t>();
+        counts += fmt::format("{} {}, ", count, count == 1 ? singular : plural);
     }
     if (result.contains("files")) {
         const std::size_t count = result["files"].size();

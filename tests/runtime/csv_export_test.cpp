@@ -158,7 +158,7 @@ TEST(ExportCommand, RefusesUnknownFormatsAndMissingFiles) {
     const TemporaryFolder folder;
     const std::string program = SAMARA_PROGRAMS "/samara";
     EXPECT_EQ(run_subprocess({program, "export", "none.h5", "-o", folder / "motion.xyz"}, folder / "log"), 1);
-    EXPECT_NE(read_bytes(folder / "log").find(".usda, .chan or .csv"), std::string::npos);
+    EXPECT_NE(read_bytes(folder / "log").find(".chan, .html or .csv"), std::string::npos);
     EXPECT_EQ(run_subprocess({program, "export", "none.h5", "-o", folder / "motion.csv"}, folder / "log"), 1);
     EXPECT_NE(read_bytes(folder / "log").find("none.h5: there is no such file"), std::string::npos);
 }
