@@ -32,7 +32,7 @@ constexpr const char* footer = R"(Formats, by the ending of OUT:
          body, an Xform for each copy; a PointInstancer of more than 100 copies.
   .chan  Nuke's channels, a file for each copy (OUT_NAME.chan, OUT_NAME.001.chan,
          ... where there are several): frame tx ty tz rx ry rz, metres and
-         degrees; world y up, rotation order ZXY (R = Ry Rx Rz).
+         degrees; y up as in .glb, rotation order ZXY (R = Ry Rx Rz).
   .html  a page that plays the motion in a browser, without a network: all bodies
          in space, and descent speed, inclination and angular speed under it.
   .csv   run,body,copy,time,position_{x,y,z},orientation_{w,x,y,z},

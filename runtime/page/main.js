@@ -18,6 +18,7 @@ let time = begin;
 let playing = false;
 let before = null;
 let stale = true;
+let drawings = 0;
 
 function speed() {
     return Number(element('speed').value);
@@ -70,6 +71,7 @@ function tick(now) {
     if (stale) refresh();
     stage.controls.update();
     stage.draw();
+    ++drawings;
     requestAnimationFrame(tick);
 }
 
@@ -167,6 +169,7 @@ window.samara = {
     },
     time: () => time,
     playing: () => playing,
+    drawings: () => drawings,
     chosen,
     drawnPose: (body, copy) => stage.drawnPose(body, copy),
     series: () => series,

@@ -21,7 +21,7 @@ export class Stage {
         this.renderer.setPixelRatio(window.devicePixelRatio || 1);
         this.scene = new Scene();
         this.scene.background = new Color('#f4f6f8');
-        this.scene.add(new HemisphereLight('#ffffff', '#b8c0c8', 2.2));
+        this.scene.add(new HemisphereLight('#ffffff', '#ccd3da', 2.4));
         this.measureSpace();
         const sun = new DirectionalLight('#ffffff', 1.9);
         sun.position.set(-0.4, -0.6, 1).multiplyScalar(10 * this.size);

@@ -1,8 +1,12 @@
 #include "samara/motion/resample.hpp"
 
+#include <filesystem>
+
 #include <gtest/gtest.h>
 
 #include "samara/base/error.hpp"
+#include "samara/export/key_reduction.hpp"
+#include "samara/motion/motion_file.hpp"
 #include "synthetic_motion.hpp"
 
 namespace samara {
@@ -41,6 +45,38 @@ TEST(Resample, IsOfTheFourthOrderInPlaceAndTurnAndOfTheThirdInTheirRates) {
     EXPECT_GT(coarse.orientation / fine.orientation, 13.0);
     EXPECT_GT(coarse.velocity / fine.velocity, 7.0);
     EXPECT_GT(coarse.angular_velocity / fine.angular_velocity, 7.0);
+}
+
+/// The largest error of a fall that is recorded at `frame_rate` and written at its own: in place over the
+/// body's radius, and in turn (rad).
+Errors errors_of_fall(const Motion& fall, double frame_rate) {
+    const Motion again = resampled(resampled(fall, frame_rate), fall.frame_rate);
+    const double radius = 500.0 * key_tolerance(fall.bodies[0], std::nullopt).position;
+    Errors errors;
+    for (std::size_t i = 0; i < again.times.size(); ++i) {
+        const Pose& is = again.bodies[0].poses[i];
+        const Pose& shall = fall.bodies[0].poses[i];
+        errors.position = std::max(errors.position, (is.position - shall.position).norm() / radius);
+        errors.orientation = std::max(errors.orientation, is.orientation.angularDistance(shall.orientation));
+    }
+    return errors;
+}
+
+// The figures of docs/output.md.
+TEST(Resample, FollowsTheReferenceFallsByFullCfd) {
+    int falls = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(SAMARA_SOURCE_DIRECTORY "/docs/falls")) {
+        if (entry.path().extension() != ".h5") continue;
+        const Motion fall = read_motion_file(entry.path());
+        const Errors at_60 = errors_of_fall(fall, 60.0);
+        const Errors at_24 = errors_of_fall(fall, 24.0);
+        EXPECT_LT(at_60.position, 0.0045) << entry.path();
+        EXPECT_LT(at_60.orientation, 0.11 * test::degree) << entry.path();
+        EXPECT_LT(at_24.position, 0.016) << entry.path();
+        EXPECT_LT(at_24.orientation, 0.23 * test::degree) << entry.path();
+        ++falls;
+    }
+    EXPECT_EQ(falls, 10);
 }
 
 TEST(Resample, FollowsABodyThatTurnsSeveralTimesBetweenFrames) {

@@ -41,6 +41,11 @@ const colours = (selector) => page.evaluate((which) => {
     for (const word of words) counts.set(word, (counts.get(word) ?? 0) + 1);
     return { count: counts.size, other_share: 1 - Math.max(...counts.values()) / words.length };
 }, selector);
+/** Waits until everything asked for so far is drawn. */
+const settle = async () => {
+    const drawings = await page.evaluate('window.samara.drawings()');
+    await page.waitForFunction(`window.samara.drawings() > ${drawings + 1}`);
+};
 const samara = (expression) => page.evaluate(`(() => { const s = window.samara; return ${expression}; })()`);
 
 const found = { plays: await samara('s.playing()') };
@@ -48,16 +53,16 @@ if (found.plays) await page.waitForFunction('window.samara.time() > 0');
 if (found.plays) await page.keyboard.press('Space');
 found.paused = !(await samara('s.playing()'));
 await page.keyboard.press('Home');
-await page.waitForTimeout(100);
+await settle();
 await page.keyboard.press('ArrowRight');
-await page.waitForTimeout(100);
+await settle();
 found.after_an_arrow = await samara('s.time()');
 
 await page.locator('#scrub').evaluate((scrub, to) => {
     scrub.value = to;
     scrub.dispatchEvent(new Event('input'));
 }, time);
-await page.waitForTimeout(300);
+await settle();
 found.time = await samara('s.time()');
 found.poses = await samara('s.motion.bodies.map((b, i) => Array.from({ length: b.copies }, (_, c) => s.drawnPose(i, c)))');
 found.series = await samara('s.series().map((values) => Array.from(values))');
@@ -75,10 +80,10 @@ const place = await samara(`(() => { const v = s.stage.camera.position.clone().f
     .project(s.stage.camera); const c = document.getElementById('stage').getBoundingClientRect();
     return [c.left + (v.x + 1) / 2 * c.width, c.top + (1 - v.y) / 2 * c.height]; })()`);
 await page.mouse.click(...place);
-await page.waitForTimeout(100);
+await settle();
 found.picked = await samara('({ ...s.chosen })');
 await page.keyboard.press('f');
-await page.waitForTimeout(300);
+await settle();
 found.followed = await samara('s.stage.controls.target.distanceTo(s.stage.place)');
 
 await browser.close();
