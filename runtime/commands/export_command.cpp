@@ -73,7 +73,10 @@ nlohmann::json write(const ExportOptions& options, const std::string& format, co
     }
     if (format == ".chan") {
         nlohmann::json files = nlohmann::json::array();
-        for (const auto& file : write_chan(options.output, motion, run)) files.push_back(file.string());
+        Progress progress("writing " + options.output, "files");
+        const auto written = write_chan(options.output, motion, run,
+                                        [&](double done, double total) { progress.update(done, total); });
+        for (const auto& file : written) files.push_back(file.string());
         return {{"files", files}, {"run", run}};
     }
     if (format == ".usda") {

@@ -39,8 +39,9 @@ json read_in_blender(const TemporaryFolder& folder, int frame_rate, int last_fra
 
 Eigen::Matrix4d matrix_of(const json& rows) {
     Eigen::Matrix4d matrix;
-    for (int row = 0; row < 4; ++row) {
-        for (int column = 0; column < 4; ++column) matrix(row, column) = rows[row][column].get<double>();
+    for (std::size_t row = 0; row < 4; ++row) {
+        const auto values = rows[row].get<std::vector<double>>();
+        matrix.row(static_cast<Eigen::Index>(row)) = Eigen::Map<const Eigen::RowVector4d>(values.data());
     }
     return matrix;
 }

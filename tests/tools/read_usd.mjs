@@ -52,13 +52,14 @@ async function withThree() {
 }
 
 async function withTinyusdz() {
-    // The package is made for browsers; it is given its bytes, and no need to fetch them.
+    // The package is made for browsers: it is told that this is one, and given its bytes, which it would fetch.
     const folder = join(require.resolve('tinyusdz'), '..');
     const wasm = await readFile(join(folder, 'tinyusdz.wasm'));
     Object.defineProperty(process, 'type', { value: 'renderer' });
     globalThis.window = globalThis;
     console.log = console.error;
-    const { default: start } = await load('tinyusdz');
+    const script = await readFile(join(folder, 'tinyusdz.js'));
+    const { default: start } = await import(`data:text/javascript;base64,${script.toString('base64')}`);
     const module = await start({
         instantiateWasm(imports, use) {
             WebAssembly.instantiate(wasm, imports).then((result) => use(result.instance, result.module));

@@ -73,9 +73,11 @@ void require_whole_frames(const std::filesystem::path& file, const Motion& motio
 }  // namespace
 
 std::vector<std::filesystem::path> write_chan(const std::filesystem::path& file, const Motion& motion,
-                                              int run) {
+                                              int run, const ExportProgress& progress) {
     require_whole_frames(file, motion);
-    const bool single = motion.bodies.size() == 1 && motion.bodies.front().copies == 1;
+    int total = 0;
+    for (const BodyMotion& body : motion.bodies) total += body.copies;
+    const bool single = total == 1;
     std::vector<std::filesystem::path> files;
     for (const BodyMotion& body : motion.bodies) {
         for (int copy = 0; copy < body.copies; ++copy) {
@@ -88,6 +90,7 @@ std::vector<std::filesystem::path> write_chan(const std::filesystem::path& file,
             }
             replace_file_with(target, channels(motion, body, run, copy));
             files.push_back(target);
+            if (progress) progress(static_cast<double>(files.size()), total);
         }
     }
     return files;

@@ -20,7 +20,7 @@ inline constexpr int most_usd_transforms = 100;
 /// key_tolerance()) have no sample of their own: USD interpolates linearly, and orientations along the arc.
 ///
 /// A body of more than most_usd_transforms copies is a PointInstancer with all frames. Its orientations are
-/// there twice: as `orientationsf` (quatf), which OpenUSD prefers where it knows it, and as `orientations`
+/// there twice: as `orientationsf` (quatf), which OpenUSD prefers from 24.03 on, and as `orientations`
 /// (quath, to 5e-4), which every version reads. Positions are floats, as the schema asks.
 ///
 /// Normals are smooth over curved parts and sharp at creases (shaded_mesh.hpp). Numbers are the shortest text
