@@ -57,12 +57,19 @@ export class SeriesPlot {
             low = Math.min(low, value);
             high = Math.max(high, value);
         }
-        const range = Math.max(high - low, 1e-3 * Math.max(Math.abs(low), Math.abs(high)), 1e-6);
-        this.step = roundStep(range, 4);
-        this.low = Math.floor(low / this.step + 1e-6) * this.step;
-        this.high = Math.ceil(high / this.step - 1e-6) * this.step;
-        if (this.high <= this.low) this.high = this.low + this.step;
+        this.lowest = low;
+        this.highest = high;
         this.draw();
+    }
+
+    /** Lays round values along the axis, as many as there is room for in `height` pixels. */
+    scale(height) {
+        const { lowest, highest } = this;
+        const least = Math.max(1e-3 * Math.max(Math.abs(lowest), Math.abs(highest)), 1e-6);
+        this.step = roundStep(Math.max(highest - lowest, least), Math.min(4, Math.max(1, Math.floor(height / 24))));
+        this.low = Math.floor(lowest / this.step + 1e-6) * this.step;
+        this.high = Math.ceil(highest / this.step - 1e-6) * this.step;
+        if (this.high <= this.low) this.high = this.low + this.step;
     }
 
     /** Moves the cursor; `value` is the measure there. */
@@ -83,6 +90,7 @@ export class SeriesPlot {
         const pen = this.canvas.getContext('2d');
         pen.scale(ratio, ratio);
         pen.font = '12px system-ui, "DejaVu Sans", sans-serif';
+        this.scale(height - MARGIN.top - MARGIN.bottom);
         const x = (time) =>
             MARGIN.left + ((time - this.times[0]) / this.duration) * (width - MARGIN.left - MARGIN.right);
         const y = (value) =>
