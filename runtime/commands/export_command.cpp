@@ -1,6 +1,9 @@
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -10,74 +13,158 @@
 #include "samara/base/error.hpp"
 #include "samara/command/arguments.hpp"
 #include "samara/command/progress.hpp"
+#include "samara/export/chan_file.hpp"
 #include "samara/export/csv_file.hpp"
 #include "samara/export/gltf_file.hpp"
+#include "samara/export/page_file.hpp"
+#include "samara/export/usd_file.hpp"
 #include "samara/motion/motion_file.hpp"
+#include "samara/motion/resample.hpp"
 
 namespace samara {
 namespace {
 
 constexpr const char* footer = R"(Formats, by the ending of OUT:
-  .glb  binary glTF 2.0: one mesh for each body, a node for each copy (NAME,
-        NAME.001, ...) with translation and rotation keys at every frame; y up,
-        as glTF asks, so that importers for z-up programs restore the scene.
-        One run: 0 unless --run is given.
-  .csv  run,body,copy,time,position_{x,y,z},orientation_{w,x,y,z},
-        velocity_{x,y,z},angular_velocity_{x,y,z}; SI units, world axes, z up.
-        All runs unless --run is given.
-Both give the place of the shape file's origin, so that the shape file itself can
-be put there; the velocity in .csv is the velocity of that point.
+  .glb   binary glTF 2.0: one mesh for each body, a node for each copy (NAME,
+         NAME.001, ...) with translation and rotation keys; y up, as glTF asks,
+         so that importers for z-up programs restore the scene.
+  .usda  USD as text: z up, metres, a time code for each frame; one mesh for each
+         body, an Xform for each copy; a PointInstancer of more than 100 copies.
+  .chan  Nuke's channels, a file for each copy (OUT_NAME.chan, OUT_NAME.001.chan,
+         ... where there are several): frame tx ty tz rx ry rz, metres and
+         degrees; y up as in .glb, rotation order ZXY (R = Ry Rx Rz).
+  .html  a page that plays the motion in a browser, without a network: all bodies
+         in space, and descent speed, inclination and angular speed under it.
+  .csv   run,body,copy,time,position_{x,y,z},orientation_{w,x,y,z},
+         velocity_{x,y,z},angular_velocity_{x,y,z}; SI units, world axes, z up.
+         All runs unless --run is given.
+The files for other tools give the place of the shape file's origin, so that the
+shape file itself can be put there; the velocity in .csv is the velocity of that point.
 
-Example: samara export motion.h5 -o motion.glb)";
+Keys of .glb and samples of .usda that linear interpolation between their
+neighbours reaches are left out: within --tolerance of the position, and within
+the angle that moves the body's farthest point by as much. Not given: 1/500 of
+the body's radius. 0 keeps all.
 
-nlohmann::json export_motion(const std::string& input, const std::string& output, int run, bool run_given) {
-    const std::string format = std::filesystem::path(output).extension().string();
-    if (format != ".glb" && format != ".csv") {
-        throw Error(
-            fmt::format("{}: the format '{}' is unknown; end the name in .glb or .csv", output, format));
-    }
-    const Motion motion = read_motion_file(input);
-    require_run(input, motion, run);
-    nlohmann::json result = {{"output", output}, {"format", format.substr(1)}, {"frames", motion.frames()}};
+Example: samara export motion.h5 -o motion.glb --frame-rate 24)";
+
+struct ExportOptions {
+    std::string input;
+    std::string output;
+    std::optional<int> run;
+    std::optional<double> frame_rate;
+    std::optional<double> tolerance;
+};
+
+std::size_t copies_in(const Motion& motion) {
+    std::size_t copies = 0;
+    for (const BodyMotion& body : motion.bodies) copies += static_cast<std::size_t>(body.copies);
+    return copies;
+}
+
+/// Writes the motion in the format of the output's ending and returns what was written.
+nlohmann::json write(const ExportOptions& options, const std::string& format, const Motion& motion) {
+    const int run = options.run.value_or(0);
     if (format == ".csv") {
-        Progress progress("writing " + output, "rows");
-        const std::optional<int> one_run = run_given ? std::optional<int>(run) : std::nullopt;
-        result["rows"] = write_csv(output, motion, one_run,
-                                   [&](double done, double total) { progress.update(done, total); });
-        result["runs"] = run_given ? 1 : motion.runs;
-    } else {
-        write_glb(output, motion, run);
-        int nodes = 0;
-        for (const BodyMotion& body : motion.bodies) nodes += body.copies;
-        result["meshes"] = motion.bodies.size();
-        result["nodes"] = nodes;
-        result["run"] = run;
+        Progress progress("writing " + options.output, "rows");
+        const std::size_t rows = write_csv(options.output, motion, options.run,
+                                           [&](double done, double total) { progress.update(done, total); });
+        return {{"rows", rows}, {"runs", options.run ? 1 : motion.runs}};
     }
-    result["bytes"] = std::filesystem::file_size(output);
+    if (format == ".chan") {
+        nlohmann::json files = nlohmann::json::array();
+        Progress progress("writing " + options.output, "files");
+        const auto written = write_chan(options.output, motion, run,
+                                        [&](double done, double total) { progress.update(done, total); });
+        for (const auto& file : written) files.push_back(file.string());
+        return {{"files", files}, {"run", run}};
+    }
+    if (format == ".usda") {
+        const std::size_t samples = write_usda(options.output, motion, run, options.tolerance);
+        return {{"meshes", motion.bodies.size()},
+                {"transforms", copies_in(motion)},
+                {"samples", samples},
+                {"run", run}};
+    }
+    if (format == ".html") {
+        const std::string title = std::filesystem::path(options.input).stem().string();
+        const std::string runs = motion.runs > 1 ? fmt::format(", run {} of {}", run, motion.runs) : "";
+        write_page(options.output, motion, run, title,
+                   fmt::format("{} frames per second{}", motion.frame_rate, runs));
+        return {{"bodies", motion.bodies.size()}, {"copies", copies_in(motion)}, {"run", run}};
+    }
+    const std::size_t keys = write_glb(options.output, motion, run, options.tolerance);
+    return {{"meshes", motion.bodies.size()}, {"nodes", copies_in(motion)}, {"keys", keys}, {"run", run}};
+}
+
+nlohmann::json export_motion(const ExportOptions& options) {
+    const std::string format = std::filesystem::path(options.output).extension().string();
+    constexpr std::array<std::string_view, 5> formats = {".glb", ".usda", ".chan", ".html", ".csv"};
+    if (std::find(formats.begin(), formats.end(), format) == formats.end()) {
+        throw Error(
+            fmt::format("{}: the format '{}' is unknown; end the name in .glb, .usda, .chan, .html or .csv",
+                        options.output, format));
+    }
+    if (options.tolerance && format != ".glb" && format != ".usda") {
+        throw Error(fmt::format("{}: --tolerance is for .glb and .usda; other formats have every frame",
+                                options.output));
+    }
+    Motion motion = read_motion_file(options.input);
+    require_run(options.input, motion, options.run.value_or(0));
+    if (options.frame_rate) motion = resampled(motion, *options.frame_rate);
+    nlohmann::json result = {{"output", options.output},
+                             {"format", format.substr(1)},
+                             {"frames", motion.frames()},
+                             {"frame_rate", motion.frame_rate}};
+    result.update(write(options, format, motion));
+    std::uintmax_t bytes = 0;
+    for (const auto& file : result.value("files", nlohmann::json::array({options.output}))) {
+        bytes += std::filesystem::file_size(file.get<std::string>());
+    }
+    result["bytes"] = bytes;
     return result;
+}
+
+/// "OUT: 3 nodes, 200 keys, 240 frames, 12345 bytes".
+void print_summary(const nlohmann::json& result) {
+    std::string counts;
+    constexpr std::array<std::array<const char*, 2>, 6> words = {{{"rows", "row"},
+                                                                  {"nodes", "node"},
+                                                                  {"keys", "key"},
+                                                                  {"transforms", "transform"},
+                                                                  {"samples", "sample"},
+                                                                  {"copies", "copy"}}};
+    for (const auto& [plural, singular] : words) {
+        if (!result.contains(plural)) continue;
+        const auto count = result[plural].get<std::size_t>();
+        counts += fmt::format("{} {}, ", count, count == 1 ? singular : plural);
+    }
+    if (result.contains("files")) {
+        const std::size_t count = result["files"].size();
+        counts += fmt::format("{} file{}, ", count, count == 1 ? "" : "s");
+    }
+    fmt::print("{}: {}{} frames, {} bytes\n", result["output"].get<std::string>(), counts,
+               result["frames"].get<int>(), result["bytes"].get<std::uintmax_t>());
 }
 
 }  // namespace
 
 int export_command(int argc, const char* const* argv) {
     Arguments arguments("samara export", "Writes a motion file for animation tools and spreadsheets.");
-    std::string input;
-    std::string output;
-    int run = 0;
-    arguments.positional("MOTION", input, "motion file, from 'samara simulate'");
-    arguments.required_option("-o,--output", output, "file to write; its ending gives the format");
-    arguments.option("--run", run, "the run to write, counted from 0", 0, 1'000'000'000);
+    ExportOptions options;
+    arguments.positional("MOTION", options.input, "motion file, from 'samara simulate'");
+    arguments.required_option("-o,--output", options.output, "file to write; its ending gives the format");
+    arguments.option("--run", options.run, "the run to write, counted from 0 (default: 0; .csv: all)", 0,
+                     1'000'000'000);
+    arguments.option("--frame-rate", options.frame_rate,
+                     "frames per second to write (default: the motion file's)", 1e-3, 1e6);
+    arguments.option("--tolerance", options.tolerance,
+                     "metres that keys of .glb and .usda may be off (default: 1/500 of the radius)", 0.0,
+                     1e6);
     arguments.footer(footer);
     return run_program(argc, argv, arguments, [&] {
-        nlohmann::json result = export_motion(input, output, run, arguments.given("--run"));
-        if (!arguments.json()) {
-            const bool is_table = result["format"] == "csv";
-            const auto count = result[is_table ? "rows" : "nodes"].get<std::size_t>();
-            const std::string what =
-                fmt::format("{} {}{}", count, is_table ? "row" : "node", count == 1 ? "" : "s");
-            fmt::print("{}: {}, {} frames, {} bytes\n", output, what, result["frames"].get<int>(),
-                       result["bytes"].get<std::uintmax_t>());
-        }
+        const nlohmann::json result = export_motion(options);
+        if (!arguments.json()) print_summary(result);
         return result;
     });
 }

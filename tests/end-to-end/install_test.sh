@@ -5,7 +5,8 @@ set -euo pipefail
 source_folder=$1
 work=$2
 rm -rf "$work"
-cmake -S "$source_folder" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Debug -DSAMARA_BAKING=OFF -DSAMARA_TESTS=OFF
+cmake -S "$source_folder" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Debug -DSAMARA_BAKING=OFF -DSAMARA_TESTS=OFF \
+  -DSAMARA_PAGE=OFF
 cmake --build "$work/build"
 cmake --install "$work/build" --prefix "$work/installed"
 if ldd "$work/installed/bin/samara" | grep -iE 'gmsh|openfoam'; then
@@ -13,6 +14,11 @@ if ldd "$work/installed/bin/samara" | grep -iE 'gmsh|openfoam'; then
   exit 1
 fi
 "$work/installed/bin/samara" --help | grep -q 'mesh .*(not installed)'
+if "$work/installed/bin/samara" export "$source_folder/docs/falls/sheet.h5" -o "$work/sheet.html" 2> "$work/fault"; then
+  echo "a page was written without the page" >&2
+  exit 1
+fi
+grep -q 'built without the page' "$work/fault"
 cmake -S "$source_folder/tests/end-to-end/consumer" -B "$work/consumer" -G Ninja -DCMAKE_PREFIX_PATH="$work/installed" \
   -DEXAMPLES="$source_folder/docs/examples"
 cmake --build "$work/consumer"

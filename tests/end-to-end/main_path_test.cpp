@@ -113,7 +113,7 @@ TEST(MainPath, AShapeBecomesABakedBodyThatFallsAndLeavesForOtherTools) {
     EXPECT_EQ(changed.status, 1);
     EXPECT_THAT(changed.fault, HasSubstr("bake the scene again"));
 
-    for (const char* file : {"fall.glb", "fall.csv"}) {
+    for (const char* file : {"fall.glb", "fall.csv", "fall.usda", "fall.chan", "fall.html"}) {
         const auto written = run_program_in(folder, {"samara", "export", "fall.h5", "-o", file, "--json"});
         EXPECT_EQ(written.status, 0) << written.fault;
     }

@@ -1,11 +1,13 @@
 #include <sstream>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "samara/base/content_hash.hpp"
 #include "samara/command/subprocess.hpp"
 #include "samara/export/csv_file.hpp"
 #include "samara/motion/motion_file.hpp"
+#include "samara/motion/resample.hpp"
 #include "support/temporary_folder.hpp"
 #include "synthetic_motion.hpp"
 
@@ -123,11 +125,40 @@ TEST(ExportCommand, WritesAllRunsOrTheOneAskedFor) {
     EXPECT_NE(read_bytes(folder / "log").find("there is no run 2"), std::string::npos);
 }
 
+TEST(ExportCommand, WritesTheFrameRateAskedForInEveryFormat) {
+    const TemporaryFolder folder;
+    const Motion motion = motion_with_runs_and_copies();
+    write_motion_file(folder / "motion.h5", motion);
+    write_csv(folder / "expected.csv", resampled(motion, 24.0), 0);
+    for (const char* name : {"motion.csv", "motion.glb", "motion.usda", "motion.chan"}) {
+        ASSERT_EQ(run_subprocess({SAMARA_PROGRAMS "/samara", "export", folder / "motion.h5", "-o",
+                                  folder / name, "--frame-rate", "24", "--run", "0", "--json"},
+                                 folder / "log"),
+                  0)
+            << read_bytes(folder / "log");
+        const auto result = nlohmann::json::parse(read_bytes(folder / "log"));
+        EXPECT_EQ(result["frames"], 25);
+        EXPECT_EQ(result["frame_rate"], 24.0);
+    }
+    EXPECT_EQ(read_bytes(folder / "motion.csv"), read_bytes(folder / "expected.csv"));
+}
+
+TEST(ExportCommand, RefusesAToleranceWhereEveryFrameIsWritten) {
+    const TemporaryFolder folder;
+    write_motion_file(folder / "motion.h5", motion_with_runs_and_copies());
+    EXPECT_EQ(run_subprocess({SAMARA_PROGRAMS "/samara", "export", folder / "motion.h5", "-o",
+                              folder / "motion.chan", "--tolerance", "1e-4"},
+                             folder / "log"),
+              1);
+    EXPECT_NE(read_bytes(folder / "log").find("--tolerance is for .glb and .usda"), std::string::npos);
+    EXPECT_FALSE(std::filesystem::exists(folder / "motion.chan"));
+}
+
 TEST(ExportCommand, RefusesUnknownFormatsAndMissingFiles) {
     const TemporaryFolder folder;
     const std::string program = SAMARA_PROGRAMS "/samara";
     EXPECT_EQ(run_subprocess({program, "export", "none.h5", "-o", folder / "motion.xyz"}, folder / "log"), 1);
-    EXPECT_NE(read_bytes(folder / "log").find(".glb or .csv"), std::string::npos);
+    EXPECT_NE(read_bytes(folder / "log").find(".chan, .html or .csv"), std::string::npos);
     EXPECT_EQ(run_subprocess({program, "export", "none.h5", "-o", folder / "motion.csv"}, folder / "log"), 1);
     EXPECT_NE(read_bytes(folder / "log").find("none.h5: there is no such file"), std::string::npos);
 }

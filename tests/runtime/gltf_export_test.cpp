@@ -132,7 +132,7 @@ TEST(GltfExport, KeysAreThePosesOfTheRunInAxesWithYUp) {
     for (std::size_t i = 0; i < motion.bodies[0].poses.size(); i += 5) {
         motion.bodies[0].poses[i].orientation.coeffs() *= -1.0;
     }
-    write_glb(folder / "motion.glb", motion, 1);
+    write_glb(folder / "motion.glb", motion, 1, 0.0);
     const tinygltf::Model model = read_glb(folder / "motion.glb");
     ASSERT_EQ(model.animations.size(), 1U);
     const tinygltf::Animation& animation = model.animations[0];
@@ -166,6 +166,87 @@ TEST(GltfExport, KeysAreThePosesOfTheRunInAxesWithYUp) {
             }
         }
     }
+}
+
+/// Times and values of a channel.
+struct Track {
+    std::vector<float> times;
+    std::vector<float> values;
+};
+
+Track track_of(const tinygltf::Model& model, const std::string& path) {
+    for (const tinygltf::AnimationChannel& channel : model.animations[0].channels) {
+        if (channel.target_path != path) continue;
+        const auto& sampler = model.animations[0].samplers[static_cast<std::size_t>(channel.sampler)];
+        return {floats_of(model, sampler.input, 1),
+                floats_of(model, sampler.output, path == "rotation" ? 4 : 3)};
+    }
+    return {};
+}
+
+/// The key before a time, and the fraction of the way to the next.
+std::pair<std::size_t, double> place_of(const Track& track, double time) {
+    std::size_t key = 0;
+    while (key + 2 < track.times.size() && track.times[key + 1] < time) ++key;
+    return {key, (time - track.times[key]) / (track.times[key + 1] - track.times[key])};
+}
+
+TEST(GltfExport, KeptKeysGiveEveryFrameWithinTheTolerance) {
+    const TemporaryFolder folder;
+    Motion motion = test::motion_of([](double t) { return test::flutter(t, 0.7, 0.6, 0.2); }, 4.0, 240.0);
+    motion.bodies[0].center_of_mass = Vector3d(0.01, 0.0, 0.002);
+    const Matrix3d up = Eigen::AngleAxisd(-std::numbers::pi / 2.0, Vector3d::UnitX()).toRotationMatrix();
+    std::size_t before = 2 * motion.times.size() + 1;
+    for (const double tolerance : {1e-6, 1e-5, 1e-4, 1e-3}) {
+        const std::size_t keys = write_glb(folder / "motion.glb", motion, 0, tolerance);
+        EXPECT_LT(keys, before) << tolerance;
+        before = keys;
+        const tinygltf::Model model = read_glb(folder / "motion.glb");
+        const Track positions = track_of(model, "translation");
+        const Track rotations = track_of(model, "rotation");
+        EXPECT_EQ(positions.times.size() + rotations.times.size(), keys);
+        for (std::size_t frame = 0; frame < motion.times.size(); ++frame) {
+            const Pose& pose = motion.bodies[0].poses[frame];
+            const auto [k, s] = place_of(positions, motion.times[frame]);
+            const auto position = [&](std::size_t key) {
+                return Eigen::Map<const Eigen::Vector3f>(&positions.values[3 * key]).cast<double>().eval();
+            };
+            const Vector3d place = (1.0 - s) * position(k) + s * position(k + 1);
+            EXPECT_LE((place - up * shape_origin(pose, motion.bodies[0].center_of_mass)).norm(),
+                      tolerance * (1.0 + 1e-9));
+            const auto [r, u] = place_of(rotations, motion.times[frame]);
+            const auto rotation = [&](std::size_t key) {
+                return Quaterniond(
+                    Eigen::Map<const Eigen::Vector4f>(&rotations.values[4 * key]).cast<double>().eval());
+            };
+            const Matrix3d exact = up * pose.orientation.toRotationMatrix() * up.transpose();
+            const Quaterniond by_arc = rotation(r).slerp(u, rotation(r + 1)).normalized();
+            const Quaterniond by_components =
+                Quaterniond((1.0 - u) * rotation(r).coeffs() + u * rotation(r + 1).coeffs()).normalized();
+            for (const Vector3d& vertex : motion.bodies[0].surface.vertices) {
+                const Vector3d point = up * vertex;
+                EXPECT_LE((by_arc * point - exact * point).norm(), tolerance * (1.0 + 1e-6));
+                EXPECT_LE((by_components * point - exact * point).norm(), tolerance * (1.0 + 1e-6));
+            }
+        }
+    }
+}
+
+TEST(GltfExport, ABodyAtRestHasTwoKeysAndTheToleranceZeroKeepsAll) {
+    const TemporaryFolder folder;
+    const Motion motion = test::motion_of([](double) { return Pose{}; }, 1.0);
+    EXPECT_EQ(write_glb(folder / "motion.glb", motion), 2U + 2U);
+    expect_valid(folder / "motion.glb", folder);
+    EXPECT_EQ(write_glb(folder / "motion.glb", motion, 0, 0.0), 2U * 61U);
+    expect_valid(folder / "motion.glb", folder);
+}
+
+TEST(GltfExport, TheDefaultToleranceIsA500thOfTheBodysRadius) {
+    const TemporaryFolder folder;
+    const Motion motion = test::motion_of([](double t) { return test::flutter(t, 0.7, 0.6, 0.2); }, 2.0);
+    write_glb(folder / "default.glb", motion);
+    write_glb(folder / "stated.glb", motion, 0, 0.04 / 500.0);
+    EXPECT_EQ(read_bytes(folder / "default.glb"), read_bytes(folder / "stated.glb"));
 }
 
 TEST(GltfExport, EqualMotionsGiveEqualBytes) {

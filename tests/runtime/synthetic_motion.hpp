@@ -96,4 +96,19 @@ inline Pose tumble(double time, double spin, double speed) {
     return pose;
 }
 
+/// A motion without any plane or axis of its own: turning about z by sin, then about x by cos and a growing
+/// angle, along a curve in space.
+inline Pose wander(double time) {
+    const double a = 1.3 * std::sin(4.0 * time);
+    const double b = 0.9 * std::cos(5.0 * time) + 3.0 * time;
+    const Quaterniond about_z(Eigen::AngleAxisd(a, Vector3d::UnitZ()));
+    Pose pose;
+    pose.orientation = about_z * Quaterniond(Eigen::AngleAxisd(b, Vector3d::UnitX()));
+    pose.angular_velocity = 5.2 * std::cos(4.0 * time) * Vector3d::UnitZ() +
+                            (3.0 - 4.5 * std::sin(5.0 * time)) * (about_z * Vector3d::UnitX());
+    pose.position = Vector3d(0.1 * std::sin(6.0 * time), 0.2 * std::cos(3.0 * time), -0.3 * time);
+    pose.velocity = Vector3d(0.6 * std::cos(6.0 * time), -0.6 * std::sin(3.0 * time), -0.3);
+    return pose;
+}
+
 }  // namespace samara::test

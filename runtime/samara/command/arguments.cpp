@@ -80,6 +80,11 @@ void Arguments::option(const std::string& name, std::optional<int>& value, const
     parser_->app.add_option(name, value, help)->check(CLI::Range(lowest, highest));
 }
 
+void Arguments::option(const std::string& name, std::optional<double>& value, const std::string& help,
+                       double lowest, double highest) {
+    parser_->app.add_option(name, value, help)->check(CLI::Range(lowest, highest));
+}
+
 void Arguments::option(const std::string& name, std::uint64_t& value, const std::string& help) {
     parser_->app.add_option(name, value, help)->capture_default_str();
 }

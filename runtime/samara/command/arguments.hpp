@@ -34,6 +34,8 @@ class Arguments {
     void option(const std::string& name, int& value, const std::string& help, int lowest, int highest);
     void option(const std::string& name, std::optional<int>& value, const std::string& help, int lowest,
                 int highest);
+    void option(const std::string& name, std::optional<double>& value, const std::string& help, double lowest,
+                double highest);
     void option(const std::string& name, std::uint64_t& value, const std::string& help);
     /// An option whose value is one of the given words.
     void choice(const std::string& name, std::string& value, const std::vector<std::string>& words,

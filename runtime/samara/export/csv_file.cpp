@@ -1,13 +1,10 @@
 #include "samara/export/csv_file.hpp"
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <iterator>
+#include <ostream>
 
 #include <fmt/format.h>
 
-#include "samara/base/error.hpp"
 #include "samara/export/shape_pose.hpp"
 #include "samara/files/replace_file.hpp"
 
@@ -56,8 +53,7 @@ std::size_t write_csv(const std::filesystem::path& file, const Motion& motion, c
     for (const BodyMotion& body : motion.bodies) copies += static_cast<std::size_t>(body.copies);
     const std::size_t total = static_cast<std::size_t>(end_run - first_run) * copies * motion.times.size();
     std::size_t done = 0;
-    replace_file(file, [&](const std::filesystem::path& temporary) {
-        std::ofstream stream(temporary, std::ios::binary);
+    replace_file_by_stream(file, [&](std::ostream& stream) {
         stream << column_names;
         fmt::memory_buffer rows;
         for (int r = first_run; r < end_run; ++r) {
@@ -70,10 +66,6 @@ std::size_t write_csv(const std::filesystem::path& file, const Motion& motion, c
                     if (progress) progress(static_cast<double>(done), static_cast<double>(total));
                 }
             }
-        }
-        stream.close();
-        if (!stream) {
-            throw Error(fmt::format("{}: cannot be written: {}", file.string(), std::strerror(errno)));
         }
     });
     return total;

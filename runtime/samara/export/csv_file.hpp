@@ -1,15 +1,12 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 
+#include "samara/export/export_progress.hpp"
 #include "samara/motion/motion.hpp"
 
 namespace samara {
-
-/// Called now and then with the work done and the whole work, in rows or frames.
-using ExportProgress = std::function<void(double done, double total)>;
 
 /// Writes a motion as a table of comma-separated values (RFC 4180, UTF-8, lines ended by "\n"): a row of
 /// column names, then one row for each run, body, copy and frame, the last one running fastest:

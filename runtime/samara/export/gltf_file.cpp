@@ -1,16 +1,15 @@
 #include "samara/export/gltf_file.hpp"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <limits>
+#include <ostream>
 
 #include <fmt/format.h>
 #include <tiny_gltf.h>
 
 #include "samara/base/error.hpp"
 #include "samara/base/version.hpp"
+#include "samara/export/key_reduction.hpp"
 #include "samara/export/shaded_mesh.hpp"
 #include "samara/export/shape_pose.hpp"
 #include "samara/files/replace_file.hpp"
@@ -155,7 +154,8 @@ void add_channel(tinygltf::Animation& animation, int node, const char* path, int
     animation.channels.push_back(channel);
 }
 
-int add_times(Builder& builder, const Motion& motion, const std::filesystem::path& file) {
+/// The motion's times as glTF stores them.
+std::vector<float> checked_times(const Motion& motion, const std::filesystem::path& file) {
     std::vector<float> times;
     append(times, motion.times);
     if (times.front() < 0.0F) {
@@ -168,31 +168,66 @@ int add_times(Builder& builder, const Motion& motion, const std::filesystem::pat
                         "rate or a shorter motion",
                         file.string()));
     }
-    builder.begin_view(0);
-    return builder.add_floats(times, 1, TINYGLTF_TYPE_SCALAR);
+    return times;
 }
 
-/// The bodies of one run as nodes, with their keys where `animation` is given.
-void add_body(Builder& builder, const Motion& motion, const BodyMotion& body, int run, int times,
-              tinygltf::Animation* animation, const std::filesystem::path& file) {
-    const int mesh = add_mesh(builder, body, file);
-    if (animation != nullptr) builder.begin_view(0);
-    for (int copy = 0; copy < body.copies; ++copy) {
-        const std::vector<ShapePose> poses = shape_poses(motion, body, run, copy);
-        const int node = add_node(builder.model(), copy_name(body, copy), mesh, poses.front());
-        if (animation == nullptr) continue;
-        std::vector<float> translations;
-        std::vector<float> rotations;
+/// The keys of one run, added body by body.
+class Keys {
+  public:
+    Keys(Builder& builder, const Motion& motion, const std::vector<float>& times,
+         tinygltf::Animation& animation)
+        : builder_(builder),
+          motion_(motion),
+          times_(times),
+          key_times_(times.begin(), times.end()),
+          animation_(animation) {}
+
+    /// The keys of a node with these poses, within the tolerance; returns how many there are.
+    std::size_t add(int node, const std::vector<ShapePose>& poses, const KeyTolerance& tolerance) {
+        std::vector<Vector3d> positions;
+        std::vector<Vector3d> position_keys;
+        std::vector<Quaterniond> rotations;
+        std::vector<Quaterniond> rotation_keys;
         for (const ShapePose& pose : poses) {
-            append(translations, y_up(pose.position));
-            append(rotations, y_up(pose.orientation));
+            positions.push_back(y_up(pose.position));
+            position_keys.emplace_back(positions.back().cast<float>().cast<double>());
+            rotations.emplace_back(y_up(pose.orientation));
+            rotation_keys.emplace_back(rotations.back().coeffs().cast<float>().cast<double>().normalized());
         }
-        add_channel(*animation, node, "translation", times,
-                    builder.add_floats(translations, 3, TINYGLTF_TYPE_VEC3));
-        add_channel(*animation, node, "rotation", times,
-                    builder.add_floats(rotations, 4, TINYGLTF_TYPE_VEC4));
+        const auto kept =
+            kept_keys({motion_.times, positions, key_times_, position_keys}, tolerance.position);
+        std::vector<float> values;
+        for (const std::size_t key : kept) append(values, positions[key]);
+        add_channel(animation_, node, "translation", times_of(kept),
+                    builder_.add_floats(values, 3, TINYGLTF_TYPE_VEC3));
+        const auto kept_turns =
+            kept_keys({motion_.times, rotations, key_times_, rotation_keys}, tolerance.angle);
+        values.clear();
+        for (const std::size_t key : kept_turns) append(values, rotations[key].coeffs());
+        add_channel(animation_, node, "rotation", times_of(kept_turns),
+                    builder_.add_floats(values, 4, TINYGLTF_TYPE_VEC4));
+        return kept.size() + kept_turns.size();
     }
-}
+
+  private:
+    /// The accessor of the kept keys' times; all channels that keep every key share one.
+    int times_of(const std::vector<std::size_t>& kept) {
+        const bool all = kept.size() == times_.size();
+        if (all && all_times_ >= 0) return all_times_;
+        std::vector<float> times;
+        for (const std::size_t key : kept) times.push_back(times_[key]);
+        const int accessor = builder_.add_floats(times, 1, TINYGLTF_TYPE_SCALAR);
+        if (all) all_times_ = accessor;
+        return accessor;
+    }
+
+    Builder& builder_;
+    const Motion& motion_;
+    const std::vector<float>& times_;
+    std::vector<double> key_times_;
+    tinygltf::Animation& animation_;
+    int all_times_ = -1;
+};
 
 tinygltf::Material matte_material() {
     tinygltf::Material material;
@@ -205,7 +240,8 @@ tinygltf::Material matte_material() {
 
 }  // namespace
 
-void write_glb(const std::filesystem::path& file, const Motion& motion, int run) {
+std::size_t write_glb(const std::filesystem::path& file, const Motion& motion, int run,
+                      const std::optional<double>& tolerance) {
     Builder builder;
     tinygltf::Model& model = builder.model();
     model.scenes.emplace_back();
@@ -214,9 +250,18 @@ void write_glb(const std::filesystem::path& file, const Motion& motion, int run)
     tinygltf::Animation animation;
     animation.name = "motion";
     const bool moves = motion.times.size() > 1;
-    const int times = moves ? add_times(builder, motion, file) : -1;
+    const std::vector<float> times = moves ? checked_times(motion, file) : std::vector<float>{};
+    Keys keys(builder, motion, times, animation);
+    std::size_t count = 0;
     for (const BodyMotion& body : motion.bodies) {
-        add_body(builder, motion, body, run, times, moves ? &animation : nullptr, file);
+        const int mesh = add_mesh(builder, body, file);
+        const KeyTolerance body_tolerance = key_tolerance(body, tolerance);
+        if (moves) builder.begin_view(0);
+        for (int copy = 0; copy < body.copies; ++copy) {
+            const std::vector<ShapePose> poses = shape_poses(motion, body, run, copy);
+            const int node = add_node(model, copy_name(body, copy), mesh, poses.front());
+            if (moves) count += keys.add(node, poses, body_tolerance);
+        }
     }
     if (moves) model.animations.push_back(animation);
     if (model.buffers[0].data.size() > std::numeric_limits<std::uint32_t>::max() / 2) {
@@ -225,15 +270,10 @@ void write_glb(const std::filesystem::path& file, const Motion& motion, int run)
                         "or fewer copies",
                         file.string()));
     }
-    replace_file(file, [&](const std::filesystem::path& temporary) {
-        std::ofstream stream(temporary, std::ios::binary);
-        tinygltf::TinyGLTF writer;
-        const bool written = writer.WriteGltfSceneToStream(&model, stream, false, true);
-        stream.close();
-        if (!written || !stream) {
-            throw Error(fmt::format("{}: cannot be written: {}", file.string(), std::strerror(errno)));
-        }
+    replace_file_by_stream(file, [&](std::ostream& stream) {
+        tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, stream, false, true);
     });
+    return count;
 }
 
 }  // namespace samara

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "samara/motion/motion.hpp"
 
@@ -10,16 +11,18 @@ namespace samara {
 ///
 /// Each body is one mesh with smooth normals and sharp creases (shaded_mesh.hpp), shared by its copies. Each
 /// copy is a node called copy_name(), placed at its first frame, with a translation and a rotation channel of
-/// the animation "motion": a key at each frame of the motion, linear interpolation (spherical for rotations),
-/// quaternions with continuous signs. A motion of one frame has no animation. Values are floats; lengths are
-/// metres and times seconds.
+/// the animation "motion": keys at frames of the motion, linear interpolation (spherical for rotations),
+/// quaternions with continuous signs. Frames that the keys around them give within `tolerance` (m; 0: none;
+/// not given: the default of key_tolerance()) have no key of their own. A motion of one frame has no
+/// animation. Values are floats; lengths are metres and times seconds.
 ///
 /// Nodes move the shape file's origin. glTF has y up: shapes and keys alike are turned by -90 degrees about
 /// x, (x, y, z) -> (x, z, -y), with no parent node in between; importers that turn y up into z up, as Blender
 /// does, thus arrive at the shape's own coordinates and at the motion's own positions and quaternions.
 ///
 /// Equal motions give equal bytes. Times must not be negative, as glTF asks, and must differ as floats; Error
-/// else, and where the file cannot be written. `run` must be in the motion.
-void write_glb(const std::filesystem::path& file, const Motion& motion, int run = 0);
+/// else, and where the file cannot be written. `run` must be in the motion. Returns the number of keys.
+std::size_t write_glb(const std::filesystem::path& file, const Motion& motion, int run = 0,
+                      const std::optional<double>& tolerance = std::nullopt);
 
 }  // namespace samara

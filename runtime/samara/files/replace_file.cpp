@@ -54,14 +54,21 @@ void replace_file(const std::filesystem::path& target,
     }
 }
 
-void replace_file_with(const std::filesystem::path& target, std::string_view bytes) {
+void replace_file_by_stream(const std::filesystem::path& target,
+                            const std::function<void(std::ostream&)>& write) {
     replace_file(target, [&](const std::filesystem::path& temporary) {
         std::ofstream stream(temporary, std::ios::binary);
-        stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+        write(stream);
         stream.close();
         if (!stream) {
             throw Error(fmt::format("{}: cannot be written: {}", target.string(), std::strerror(errno)));
         }
+    });
+}
+
+void replace_file_with(const std::filesystem::path& target, std::string_view bytes) {
+    replace_file_by_stream(target, [&](std::ostream& stream) {
+        stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     });
 }
 

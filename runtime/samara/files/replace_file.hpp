@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <iosfwd>
 #include <string_view>
 
 namespace samara {
@@ -12,6 +13,10 @@ namespace samara {
 /// written or the disk is full.
 void replace_file(const std::filesystem::path& target,
                   const std::function<void(const std::filesystem::path& temporary)>& write);
+
+/// replace_file for a file that is written from its beginning to its end: `write` fills a stream of bytes.
+void replace_file_by_stream(const std::filesystem::path& target,
+                            const std::function<void(std::ostream& stream)>& write);
 
 /// replace_file with the given bytes.
 void replace_file_with(const std::filesystem::path& target, std::string_view bytes);

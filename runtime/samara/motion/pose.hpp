@@ -22,6 +22,14 @@ inline Vector3d shape_origin(const Pose& pose, const Vector3d& center_of_mass) {
 /// orientation.
 Pose interpolated(const Pose& before, const Pose& after, double fraction, double duration);
 
+/// A smooth pose between two that lie `duration` (s) apart, at `fraction` (0 to 1) of it, for frames that are
+/// far apart: both position and orientation agree with the velocities at both ends, and the velocities are
+/// their derivatives. The position is cubic. The orientation is q exp(s t) exp(c(s)) with the turn t from one
+/// pose to the other and a cubic c that is zero at both ends. Of the turns that lead there, which differ by
+/// whole ones, t is the nearest to the mean of the angular velocities times the duration. The error is of the
+/// fourth order in the duration for smooth motion.
+Pose smoothly_interpolated(const Pose& before, const Pose& after, double fraction, double duration);
+
 /// Gives the orientation the sign (q and -q are the same turn) that is nearer to the one before.
 void keep_sign_continuous(Quaterniond& orientation, const Quaterniond& before);
 

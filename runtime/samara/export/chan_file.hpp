@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "samara/export/export_progress.hpp"
+#include "samara/motion/motion.hpp"
+
+namespace samara {
+
+/// Writes one run of a motion as channel files (.chan) of Nuke's layout, one for each body and copy: a line
+/// for each frame with the columns
+///
+///   frame tx ty tz rx ry rz
+///
+/// Frame: time times frame rate, whole (frame 0 at 0 s). Position (m) of the shape file's origin and angles
+/// (degrees), with y up, as Nuke and Houdini have it: shape and world alike are turned as in .glb, (x, y, z)
+/// -> (x, z, -y), so that a body in the shape file's own attitude has the angles 0 0 0. Rotation order ZXY,
+/// Nuke's default: first about z, then x, then y, R = Ry Rx Rz. Angles are continuous: of the two triples
+/// that give the same turn, and the whole turns, those nearest to the line before; ry goes on where rx is a
+/// right angle (the shape's y axis is vertical) to 1e-9. Numbers are the shortest text that reads back as the
+/// same double.
+///
+/// A motion of one copy of one body is written to `file` itself; else each to its own file beside it,
+/// STEM_NAME.chan with copy_name(), slashes as underscores. Returns the files; `progress` counts them. Throws
+/// Error where one cannot be written, or where the frames are not at whole multiples of the frame's duration.
+/// `run` must be in the motion.
+std::vector<std::filesystem::path> write_chan(const std::filesystem::path& file, const Motion& motion,
+                                              int run = 0, const ExportProgress& progress = {});
+
+}  // namespace samara

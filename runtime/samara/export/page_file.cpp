@@ -1,0 +1,154 @@
+#include "samara/export/page_file.hpp"
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <ostream>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "samara/base/error.hpp"
+#include "samara/export/page_bytes.hpp"
+#include "samara/export/shaded_mesh.hpp"
+#include "samara/export/shape_pose.hpp"
+#include "samara/files/replace_file.hpp"
+#include "samara/motion/inclination.hpp"
+
+namespace samara {
+namespace {
+
+constexpr std::string_view mark = "<!--MOTION-->";
+constexpr std::size_t floats_of_pose = 10;  // as runtime/page/motion.js reads them
+constexpr double most_bytes = 384e6;
+
+/// Base64 of RFC 4648, padded.
+std::string base64(const void* data, std::size_t size) {
+    constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const auto* bytes = static_cast<const unsigned char*>(data);
+    std::string text;
+    text.reserve((size + 2) / 3 * 4);
+    for (std::size_t i = 0; i < size; i += 3) {
+        const std::size_t left = size - i;
+        const std::uint32_t three = static_cast<std::uint32_t>(bytes[i]) << 16 |
+                                    (left > 1 ? static_cast<std::uint32_t>(bytes[i + 1]) << 8 : 0U) |
+                                    (left > 2 ? static_cast<std::uint32_t>(bytes[i + 2]) : 0U);
+        text += letters[three >> 18];
+        text += letters[three >> 12 & 63];
+        text += left > 1 ? letters[three >> 6 & 63] : '=';
+        text += left > 2 ? letters[three & 63] : '=';
+    }
+    return text;
+}
+
+/// An array for motion.js to find by its name.
+template <typename Number>
+void write_array(std::ostream& stream, const std::string& name, const std::vector<Number>& numbers) {
+    stream << "<script type=\"text/plain\" id=\"motion-" << name << "\">"
+           << base64(numbers.data(), numbers.size() * sizeof(Number)) << "</script>\n";
+}
+
+void append(std::vector<float>& floats, const auto& values) {
+    for (const double value : values) floats.push_back(static_cast<float>(value));
+}
+
+/// From the centre of mass to the body's farthest point (m).
+double radius_of(const BodyMotion& body) {
+    double radius = 0.0;
+    for (const Vector3d& vertex : body.surface.vertices) {
+        radius = std::max(radius, (vertex - body.center_of_mass).norm());
+    }
+    return radius;
+}
+
+std::vector<float> poses_of(const Motion& motion, const BodyMotion& body, int run) {
+    const Vector3d down = down_direction(motion.gravity);
+    std::vector<float> floats;
+    floats.reserve(floats_of_pose * motion.times.size() * static_cast<std::size_t>(body.copies));
+    for (int frame = 0; frame < motion.frames(); ++frame) {
+        for (int copy = 0; copy < body.copies; ++copy) {
+            const Pose& pose = motion.pose(body, run, frame, copy);
+            append(floats, pose.position);
+            append(floats, pose.orientation.normalized().coeffs());  // x, y, z, w
+            append(floats, std::array<double, 3>{pose.velocity.dot(down), inclination(motion, body, pose),
+                                                 pose.angular_velocity.norm()});
+        }
+    }
+    return floats;
+}
+
+void write_body(std::ostream& stream, const Motion& motion, const BodyMotion& body, std::size_t index,
+                int run) {
+    const ShadedMesh mesh = shaded_mesh(body.surface);
+    std::vector<float> points;
+    std::vector<float> normals;
+    std::vector<std::uint32_t> triangles;
+    for (const Vector3d& position : mesh.positions) append(points, Vector3d(position - body.center_of_mass));
+    for (const Vector3d& normal : mesh.normals) append(normals, normal);
+    for (const auto& triangle : mesh.triangles)
+        triangles.insert(triangles.end(), triangle.begin(), triangle.end());
+    write_array(stream, fmt::format("{}-points", index), points);
+    write_array(stream, fmt::format("{}-normals", index), normals);
+    write_array(stream, fmt::format("{}-triangles", index), triangles);
+    write_array(stream, fmt::format("{}-poses", index), poses_of(motion, body, run));
+}
+
+/// JSON that no "</script>" ends.
+std::string header_of(const Motion& motion, const std::string& title, const std::string& detail) {
+    nlohmann::json header = {{"title", title}, {"detail", detail}, {"frame_rate", motion.frame_rate}};
+    header["ground"] = motion.ground ? nlohmann::json(*motion.ground) : nlohmann::json(nullptr);
+    for (const BodyMotion& body : motion.bodies) {
+        header["bodies"].push_back(
+            {{"name", body.name}, {"copies", body.copies}, {"radius", radius_of(body)}});
+    }
+    std::string text = header.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+    for (std::size_t at = text.find("</"); at != std::string::npos; at = text.find("</", at)) {
+        text.replace(at, 2, "<\\/");
+    }
+    return text;
+}
+
+void require_size(const std::filesystem::path& file, const Motion& motion) {
+    double poses = 0.0;
+    for (const BodyMotion& body : motion.bodies) {
+        poses = std::max(poses, static_cast<double>(motion.times.size()) * body.copies);
+    }
+    const double bytes = poses * floats_of_pose * sizeof(float) * 4.0 / 3.0;
+    if (bytes > most_bytes) {
+        throw Error(
+            fmt::format("{}: the poses would take {:.0f} MB, and browsers read {:.0f}; give a lower "
+                        "--frame-rate, or simulate fewer copies",
+                        file.string(), 1e-6 * bytes, 1e-6 * most_bytes));
+    }
+}
+
+}  // namespace
+
+bool has_page() {
+    return !page_bytes().empty();
+}
+
+void write_page(const std::filesystem::path& file, const Motion& motion, int run, const std::string& title,
+                const std::string& detail) {
+    const std::string_view page = page_bytes();
+    const std::size_t place = page.find(mark);
+    if (place == std::string_view::npos) {
+        throw Error(
+            fmt::format("{}: this samara was built without the page; configure it with "
+                        "-DSAMARA_PAGE=ON where npm is, or write .glb",
+                        file.string()));
+    }
+    require_size(file, motion);
+    replace_file_by_stream(file, [&](std::ostream& stream) {
+        stream << page.substr(0, place) << "<script type=\"application/json\" id=\"motion-header\">"
+               << header_of(motion, title, detail) << "</script>\n";
+        write_array(stream, "times", motion.times);
+        for (std::size_t b = 0; b < motion.bodies.size(); ++b) {
+            write_body(stream, motion, motion.bodies[b], b, run);
+        }
+        stream << page.substr(place + mark.size());
+    });
+}
+
+}  // namespace samara

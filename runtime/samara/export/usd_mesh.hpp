@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include "samara/body/surface.hpp"
+
+namespace samara {
+
+/// A number as USD's text has it: the shortest that reads back as the same float.
+std::string usd_float(double value);
+
+/// (x, y, z) of floats.
+std::string usd_float3(const Vector3d& vector);
+
+/// The Mesh prim "mesh" of a surface, its lines indented by `indent` spaces: welded points, triangles,
+/// normals (at the points of a smooth surface, at the triangles' corners where there are creases), no
+/// subdivision.
+std::string usd_mesh(const Surface& surface, std::size_t indent);
+
+}  // namespace samara

@@ -1,0 +1,90 @@
+// Opens a page of `samara export` in Debian's Chromium without a network, works it as a person would, photographs it,
+// and prints what it found as one JSON object.
+//
+//   node look_at_page.mjs TOOLS PAGE TIME PICTURE    TOOLS: the folder in which `npm ci` installed package.json
+//
+// TIME: seconds at which the poses are read and the picture is taken.
+
+import { createRequire } from 'node:module';
+import { join, resolve } from 'node:path';
+import { pathToFileURL } from 'node:url';
+
+const [tools, page_file, time, picture] = process.argv.slice(2);
+const { chromium } = createRequire(join(resolve(tools), 'package.json'))('playwright-core');
+const browser = await chromium.launch({
+    executablePath: '/usr/bin/chromium',
+    args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
+});
+const page = await browser.newPage({ viewport: { width: 1280, height: 800 } });
+const faults = [];
+const requests = [];
+page.on('console', (message) => {
+    const text = message.text();
+    // Reading pixels from the software renderer is slow, and Chromium says so.
+    if (['error', 'warning'].includes(message.type()) && !/GPU stall|swiftshader/i.test(text)) faults.push(text);
+});
+page.on('pageerror', (fault) => faults.push(String(fault)));
+page.on('request', (request) => {
+    if (!/^(data|blob):/.test(request.url()) && request.url() !== page.url()) requests.push(request.url());
+});
+await page.goto(pathToFileURL(resolve(page_file)).href);
+
+/** How many colours a canvas shows, and the share of its pixels that are not the commonest one. */
+const colours = (selector) => page.evaluate((which) => {
+    const source = document.querySelector(which);
+    const copy = document.createElement('canvas');
+    [copy.width, copy.height] = [source.width, source.height];
+    const pen = copy.getContext('2d');
+    pen.drawImage(source, 0, 0);
+    const words = new Uint32Array(pen.getImageData(0, 0, copy.width, copy.height).data.buffer);
+    const counts = new Map();
+    for (const word of words) counts.set(word, (counts.get(word) ?? 0) + 1);
+    return { count: counts.size, other_share: 1 - Math.max(...counts.values()) / words.length };
+}, selector);
+/** Waits until everything asked for so far is drawn. */
+const settle = async () => {
+    const drawings = await page.evaluate('window.samara.drawings()');
+    await page.waitForFunction(`window.samara.drawings() > ${drawings + 1}`);
+};
+const samara = (expression) => page.evaluate(`(() => { const s = window.samara; return ${expression}; })()`);
+
+const found = { plays: await samara('s.playing()') };
+if (found.plays) await page.waitForFunction('window.samara.time() > 0');
+if (found.plays) await page.keyboard.press('Space');
+found.paused = !(await samara('s.playing()'));
+await page.keyboard.press('Home');
+await settle();
+await page.keyboard.press('ArrowRight');
+await settle();
+found.after_an_arrow = await samara('s.time()');
+
+await page.locator('#scrub').evaluate((scrub, to) => {
+    scrub.value = to;
+    scrub.dispatchEvent(new Event('input'));
+}, time);
+await settle();
+found.time = await samara('s.time()');
+found.poses = await samara('s.motion.bodies.map((b, i) => Array.from({ length: b.copies }, (_, c) => s.drawnPose(i, c)))');
+found.series = await samara('s.series().map((values) => Array.from(values))');
+found.stage = await colours('#stage');
+found.plots = [];
+for (const i of [1, 2, 3]) found.plots.push(await colours(`#series canvas:nth-child(${i})`));
+found.text = await page.evaluate('document.body.innerText');
+await page.screenshot({ path: picture });
+
+// A click on the first body picks it, wherever it is drawn.
+const last = found.poses.length - 1;
+await samara(`s.choose(${last}, 0)`);
+found.chosen = await samara('({ ...s.chosen })');
+const place = await samara(`(() => { const v = s.stage.camera.position.clone().fromArray(s.drawnPose(0, 0).position)
+    .project(s.stage.camera); const c = document.getElementById('stage').getBoundingClientRect();
+    return [c.left + (v.x + 1) / 2 * c.width, c.top + (1 - v.y) / 2 * c.height]; })()`);
+await page.mouse.click(...place);
+await settle();
+found.picked = await samara('({ ...s.chosen })');
+await page.keyboard.press('f');
+await settle();
+found.followed = await samara('s.stage.controls.target.distanceTo(s.stage.place)');
+
+await browser.close();
+console.log(JSON.stringify({ ...found, faults, requests }));
