@@ -1,0 +1,157 @@
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "samara/simulation/model_advice.hpp"
+
+namespace samara {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::array figure_names = {"descent_speed", "inclination_amplitude", "frequency",
+                                     "rms_angular_speed", "path_spread"};
+constexpr std::array figure_titles = {"descent", "amplitude", "frequency", "angular speed", "path spread"};
+constexpr std::array loads_words = {"none", "coefficients", "table"};
+constexpr std::array turbulence_words = {"none", "constant", "table"};
+constexpr std::array dynamic_words = {"body", "default", "none"};
+
+template <typename Value>
+json or_null(const std::optional<Value>& value) {
+    return value ? json(*value) : json(nullptr);
+}
+
+json as_json(const ModelSet& models) {
+    json result = {{"loads", loads_words[static_cast<std::size_t>(models.loads)]},
+                   {"added_mass", models.added_mass},
+                   {"dynamic_coefficients", dynamic_words[static_cast<std::size_t>(models.dynamic)]},
+                   {"turbulence", turbulence_words[static_cast<std::size_t>(models.turbulence)]}};
+    if (models.loads == Loads::coefficients) result["drag_coefficient"] = models.drag_coefficient;
+    if (models.table_reynolds_number) result["table_reynolds_number"] = *models.table_reynolds_number;
+    if (models.turbulence == Turbulence::constant) {
+        result["turbulent_kinetic_energy"] = models.turbulent_kinetic_energy;
+        result["dissipation_rate"] = models.dissipation_rate;
+    }
+    return result;
+}
+
+json as_json(const FigureEffect& figure) {
+    const auto value_of = [](const std::optional<Estimate>& one) {
+        return one ? json(one->value) : json(nullptr);
+    };
+    return {{"reference", value_of(figure.reference)},
+            {"value", value_of(figure.value)},
+            {"change", value_of(figure.change)},
+            {"error", figure.change ? or_null(figure.change->error) : json(nullptr)},
+            {"limit", or_null(figure.limit)},
+            {"verdict", figure.limit ? json(name_of(figure.verdict)) : json(nullptr)}};
+}
+
+json as_json(const ModelEffect& one) {
+    json figures;
+    for (std::size_t i = 0; i < figure_names.size(); ++i) {
+        figures[figure_names[i]] = as_json(one.effect.figures[i]);
+    }
+    return {{"left_out", one.left_out.empty() ? json(nullptr) : json(one.left_out)},
+            {"part", one.part ? json(name_of(*one.part)) : json(nullptr)},
+            {"models", as_json(one.models)},
+            {"words", one.words},
+            {"needs",
+             {{"falls", one.cost.falls},
+              {"tables", one.cost.tables},
+              {"reynolds_numbers", one.cost.reynolds_numbers},
+              {"kirchhoff", one.cost.kirchhoff}}},
+            {"flies", one.flies},
+            {"falls", one.effect.falls},
+            {"figures", figures},
+            {"regime", name_of(one.effect.regime)},
+            {"regime_share", one.effect.regime_share},
+            {"regimes_agree", one.effect.regimes_agree},
+            {"verdict", name_of(one.effect.verdict)},
+            {"nanoseconds_per_step", one.nanoseconds_per_step}};
+}
+
+/// The change in percent of the reference with its error; "?" where not certain, "!" where beyond.
+std::string cell(const FigureEffect& figure) {
+    if (!figure.limit || !figure.reference || !figure.change) {
+        return figure.limit && figure.verdict == EffectVerdict::beyond ? "!" : "-";
+    }
+    const char* mark = figure.verdict == EffectVerdict::within        ? ""
+                       : figure.verdict == EffectVerdict::not_certain ? " ?"
+                                                                      : " !";
+    const double scale = std::abs(figure.reference->value);
+    if (!(scale > 0.0)) return fmt::format("{:+.2g}{}", figure.change->value, mark);
+    const double percent = 100.0 / scale;
+    const std::string error =
+        figure.change->error ? fmt::format(" +- {:.1f}", percent * *figure.change->error) : "";
+    return fmt::format("{:+.1f}{} %{}", percent * figure.change->value, error, mark);
+}
+
+std::string row(const std::string& name, const ModelEffect& one) {
+    std::string text = fmt::format("  {:<36}", name);
+    if (!one.flies) return text + "leaves the range of numbers\n";
+    for (const FigureEffect& figure : one.effect.figures) text += fmt::format(" {:<18}", cell(figure));
+    text += fmt::format(" {:<12}", std::string(name_of(one.effect.regime)) +
+                                       (one.effect.regimes_agree ? "" : " !"));
+    return text + fmt::format("{:<12} {:>5.0f} ns\n", name_of(one.effect.verdict), one.nanoseconds_per_step);
+}
+
+std::string needs_in_words(const ModelCost& cost, bool one_direction) {
+    std::vector<std::string> words;
+    if (cost.falls) words.emplace_back("free falls in full CFD");
+    if (cost.tables) {
+        words.push_back(fmt::format("OpenFOAM cases{}{}", one_direction ? " in one direction" : "",
+                                    cost.reynolds_numbers ? " at several Reynolds numbers" : ""));
+    }
+    if (cost.kirchhoff) words.emplace_back("the Kirchhoff tensor");
+    if (words.empty()) return "nothing but the shape";
+    return fmt::format("{}", fmt::join(words, "; "));
+}
+
+std::string text_of(const BodyAdvice& body, double tolerance) {
+    std::string text =
+        fmt::format("{}: falls of {:.3g} s at the Reynolds number {:.3g}, tolerance {:g} %\n", body.name,
+                    body.duration, body.flow.reynolds_number, 100.0 * tolerance);
+    text += fmt::format("  fullest: {}\n", body.full.words);
+    for (const std::string& note : body.notes) text += fmt::format("  {}\n", note);
+    if (!body.omissions.empty()) {
+        text += fmt::format("  {:<36}", "without");
+        for (const char* title : figure_titles) text += fmt::format(" {:<18}", title);
+        text += fmt::format(" {:<12}{:<12} {:>8}\n", "regime", "verdict", "a step");
+    }
+    for (const ModelEffect& omission : body.omissions) text += row(omission.left_out, omission);
+    text += row("recommended", body.recommended);
+    text += fmt::format("  recommended: {}\n", body.recommended.words);
+    return text + fmt::format("  needs: {}\n", needs_in_words(body.recommended.cost, body.one_direction));
+}
+
+}  // namespace
+
+std::string as_text(const ModelAdvice& advice) {
+    std::string text;
+    for (const BodyAdvice& body : advice.bodies) text += text_of(body, advice.tolerance);
+    return text;
+}
+
+json as_json(const ModelAdvice& advice) {
+    json bodies = json::array();
+    for (const BodyAdvice& body : advice.bodies) {
+        json omissions = json::array();
+        for (const ModelEffect& omission : body.omissions) omissions.push_back(as_json(omission));
+        bodies.push_back({{"name", body.name},
+                          {"duration", body.duration},
+                          {"reynolds_number", body.flow.reynolds_number},
+                          {"turbulent_kinetic_energy", body.flow.turbulent_kinetic_energy},
+                          {"dissipation_rate", body.flow.dissipation_rate},
+                          {"one_direction", body.one_direction},
+                          {"notes", body.notes},
+                          {"full", as_json(body.full)},
+                          {"omissions", omissions},
+                          {"recommended", as_json(body.recommended)}});
+    }
+    return {{"tolerance", advice.tolerance}, {"bodies", bodies}};
+}
+
+}  // namespace samara
