@@ -135,8 +135,8 @@ std::optional<ModelAdvice> choose_models(Scene& scene, const std::vector<CastBod
     options.auto_alone = true;
     options.sampling.threads = threads;
     Progress progress("judging models", "flights");
-    ModelAdvice advice = advise_models(scene, cast, options,
-                                       [&](double done, double total) { progress.update(done, total); });
+    ModelAdvice advice =
+        advise_models(scene, cast, options, [&](double done, double total) { progress.update(done, total); });
     apply(advice, scene);
     return advice;
 }

@@ -69,8 +69,8 @@ TEST_F(ModelChoice, IsToldToPeopleAndIsNullWhereNothingIsChosen) {
 }
 
 TEST_F(ModelChoice, WithoutAddedMassNeedsNoTensor) {
-    const ProgramRun run = simulate("loads = \"coefficients\"\nadded_mass = false", "motion.h5", {"--json"},
-                                    "shape");
+    const ProgramRun run =
+        simulate("loads = \"coefficients\"\nadded_mass = false", "motion.h5", {"--json"}, "shape");
     ASSERT_EQ(run.status, 0) << run.fault;
     EXPECT_THAT(run.json()["bodies"][0]["models"].get<std::string>(), HasSubstr("no added mass"));
 }

@@ -106,9 +106,8 @@ TEST_F(SceneFile, ModelsAreSwitchedBodyByBody) {
 }
 
 TEST_F(SceneFile, ModelsThatAreChosenAreNotGivenToo) {
-    for (const std::string key :
-         {"loads = \"table\"", "added_mass = true", "dynamic_coefficients = \"body\"",
-          "table_reynolds_number = 1e4", "turbulence = \"none\""}) {
+    for (const std::string key : {"loads = \"table\"", "added_mass = true", "dynamic_coefficients = \"body\"",
+                                  "table_reynolds_number = 1e4", "turbulence = \"none\""}) {
         const std::string name = key.substr(0, key.find(' '));
         EXPECT_THAT(refusal(with_body("density = 1\nmodels = \"auto\"\n" + key)),
                     AllOf(HasSubstr("scene.toml:8: " + name), HasSubstr("models = \"auto\"")));

@@ -225,8 +225,9 @@ SceneBody read_body(TomlTable& table, const std::filesystem::path& folder) {
     body.coefficients = read_coefficients(table, body.loads);
     read_turbulence(table, body);
     if (body.table_reynolds_number && body.loads != Loads::table && body.turbulence != Turbulence::table) {
-        throw table.fault("table_reynolds_number",
-                          "is for loads or turbulence from tables; remove it or set one of them to \"table\"");
+        throw table.fault(
+            "table_reynolds_number",
+            "is for loads or turbulence from tables; remove it or set one of them to \"table\"");
     }
     table.finish();
     return body;

@@ -17,6 +17,7 @@ namespace {
 
 constexpr double laminar_reynolds_number = 300.0;  // as the bake solves it
 constexpr int directions_of_mean = 1024;
+constexpr double fewest_steps = 16.0;  // of a flight that is judged
 
 /// Points spread evenly over the sphere, by the golden angle.
 Vector3d even_direction(int i, int count) {
@@ -38,9 +39,8 @@ double mean_drag_coefficient(const LoadTables& tables, double reynolds_number) {
 }
 
 bool is_laminar(const LoadTables& tables) {
-    return std::all_of(tables.entries.begin(), tables.entries.end(), [](const LoadEntry& entry) {
-        return entry.turbulent_kinetic_energy == 0.0;
-    });
+    return std::all_of(tables.entries.begin(), tables.entries.end(),
+                       [](const LoadEntry& entry) { return entry.turbulent_kinetic_energy == 0.0; });
 }
 
 bool uses_tables(const ModelSet& models) {
@@ -79,18 +79,23 @@ class Advisor {
         advice_.duration = sampled_duration(scene_, scene_body_, options_.sampling);
         advice_.one_direction = cast_.body.symmetry.kind == Symmetry::Kind::spherical;
         full_ = fullest();
-        fly_fullest();
         set_scale();
-        advice_.full = effect(full_, "");
+        advice_.full = unflown(full_, "");
+        if (advice_.duration >= fewest_steps * scene_.step) {
+            fly_fullest();
+            advice_.full = effect(full_, "");
+        }
         if (!is_long_enough()) {
             advice_.notes.emplace_back("the fall is too short to be judged: every part is kept");
-            return finished(full_);
+            advice_.recommended = advice_.full;
+            return finished();
         }
         for (const Reduction& reduction : reductions(full_)) {
             advice_.omissions.push_back(effect(reduction.models, reduction.left_out));
             advice_.omissions.back().part = reduction.part;
         }
-        return finished(cheapest());
+        advice_.recommended = effect(cheapest(), "");
+        return finished();
     }
 
   private:
@@ -125,9 +130,8 @@ class Advisor {
         }
         const double highest = flown.first.highest_reynolds_number;
         if (full_.turbulence == Turbulence::table && highest < laminar_reynolds_number) {
-            advice_.notes.push_back(
-                fmt::format("no turbulence: the Reynolds number stays at {:.3g} or below, the flow is laminar",
-                            highest));
+            advice_.notes.push_back(fmt::format(
+                "no turbulence: the Reynolds number stays at {:.3g} or below, the flow is laminar", highest));
             full_.turbulence = Turbulence::none;
             (void)falls_of(full_, first_falls());
         }
@@ -144,6 +148,7 @@ class Advisor {
     }
 
     bool is_long_enough() {
+        if (flown_.empty()) return false;
         const FlownSet& flown = falls_of(full_, first_falls());
         const auto measured = std::count_if(flown.falls.begin(), flown.falls.end(),
                                             [](const SampledFall& fall) { return fall.measured; });
@@ -173,13 +178,19 @@ class Advisor {
         return *found;
     }
 
-    /// What a set changes, with as many falls as it takes to be certain.
-    ModelEffect effect(const ModelSet& models, const std::string& left_out) {
+    /// A set without what it changes.
+    [[nodiscard]] ModelEffect unflown(const ModelSet& models, const std::string& left_out) const {
         ModelEffect result;
         result.left_out = left_out;
         result.models = models;
         result.words = in_words(models, cast_.body);
         result.cost = cost_of(models, cast_.body);
+        return result;
+    }
+
+    /// What a set changes, with as many falls as it takes to be certain.
+    ModelEffect effect(const ModelSet& models, const std::string& left_out) {
+        ModelEffect result = unflown(models, left_out);
         for (std::size_t falls = first_falls();; falls *= 2) {
             const FlownSet& other = falls_of(models, falls);
             result.flies = other.flies;
@@ -201,7 +212,8 @@ class Advisor {
             ModelSet models = from;
             change(models);
             if (!uses_tables(models)) models.table_reynolds_number.reset();
-            if (cost_of(models, cast_.body) < cost_of(from, cast_.body)) all.push_back({part, left_out, models});
+            if (cost_of(models, cast_.body) < cost_of(from, cast_.body))
+                all.push_back({part, left_out, models});
         };
         const FlowMet& flow = advice_.flow;
         if (judges_all_) {
@@ -226,9 +238,8 @@ class Advisor {
                     models.dissipation_rate = flow.dissipation_rate;
                 });
             }
-            add(ModelPart::reynolds_dependence, "further Reynolds numbers", [&](ModelSet& models) {
-                models.table_reynolds_number = flow.reynolds_number;
-            });
+            add(ModelPart::reynolds_dependence, "further Reynolds numbers",
+                [&](ModelSet& models) { models.table_reynolds_number = flow.reynolds_number; });
         }
         add(ModelPart::added_mass, "added mass", [](ModelSet& models) { models.added_mass = false; });
         if (judges_all_ && from.loads != Loads::none) {
@@ -253,12 +264,11 @@ class Advisor {
         return now;
     }
 
-    BodyAdvice finished(const ModelSet& chosen) {
-        advice_.recommended = effect(chosen, "");
+    BodyAdvice finished() {
         if (!judges_all_) {
-            // Flown by coefficients only for want of tables.
+            // Flown otherwise only for want of tables.
             ModelSet models = model_set_of(scene_body_);
-            models.added_mass = chosen.added_mass;
+            models.added_mass = advice_.recommended.models.added_mass;
             advice_.recommended.models = models;
             advice_.recommended.words = in_words(models, cast_.body);
             advice_.recommended.cost = cost_of(models, cast_.body);

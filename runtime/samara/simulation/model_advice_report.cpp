@@ -13,7 +13,7 @@ using nlohmann::json;
 
 constexpr std::array figure_names = {"descent_speed", "inclination_amplitude", "frequency",
                                      "rms_angular_speed", "path_spread"};
-constexpr std::array figure_titles = {"descent", "amplitude", "frequency", "angular speed", "path spread"};
+constexpr std::array figure_titles = {"descent", "amplitude", "frequency", "turning", "path"};
 constexpr std::array loads_words = {"none", "coefficients", "table"};
 constexpr std::array turbulence_words = {"none", "constant", "table"};
 constexpr std::array dynamic_words = {"body", "default", "none"};
@@ -45,6 +45,7 @@ json as_json(const FigureEffect& figure) {
             {"value", value_of(figure.value)},
             {"change", value_of(figure.change)},
             {"error", figure.change ? or_null(figure.change->error) : json(nullptr)},
+            {"scale", figure.scale},
             {"limit", or_null(figure.limit)},
             {"verdict", figure.limit ? json(name_of(figure.verdict)) : json(nullptr)}};
 }
@@ -73,29 +74,36 @@ json as_json(const ModelEffect& one) {
             {"nanoseconds_per_step", one.nanoseconds_per_step}};
 }
 
-/// The change in percent of the reference with its error; "?" where not certain, "!" where beyond.
+/// The change in percent of its scale with its error; "?" where not certain, "!" where beyond.
 std::string cell(const FigureEffect& figure) {
-    if (!figure.limit || !figure.reference || !figure.change) {
-        return figure.limit && figure.verdict == EffectVerdict::beyond ? "!" : "-";
-    }
     const char* mark = figure.verdict == EffectVerdict::within        ? ""
                        : figure.verdict == EffectVerdict::not_certain ? " ?"
                                                                       : " !";
-    const double scale = std::abs(figure.reference->value);
-    if (!(scale > 0.0)) return fmt::format("{:+.2g}{}", figure.change->value, mark);
-    const double percent = 100.0 / scale;
+    if (!figure.limit) return "-";
+    if (!figure.change || !(figure.scale > 0.0)) return std::string("-") + mark;
+    const double percent = 100.0 / figure.scale;
     const std::string error =
         figure.change->error ? fmt::format(" +- {:.1f}", percent * *figure.change->error) : "";
-    return fmt::format("{:+.1f}{} %{}", percent * figure.change->value, error, mark);
+    return fmt::format("{:+.1f}{}{}", percent * figure.change->value, error, mark);
 }
 
 std::string row(const std::string& name, const ModelEffect& one) {
-    std::string text = fmt::format("  {:<36}", name);
+    std::string text = fmt::format("  {:<37}", name);
     if (!one.flies) return text + "leaves the range of numbers\n";
-    for (const FigureEffect& figure : one.effect.figures) text += fmt::format(" {:<18}", cell(figure));
-    text += fmt::format(" {:<12}", std::string(name_of(one.effect.regime)) +
-                                       (one.effect.regimes_agree ? "" : " !"));
-    return text + fmt::format("{:<12} {:>5.0f} ns\n", name_of(one.effect.verdict), one.nanoseconds_per_step);
+    if (one.effect.falls == 0) return text + "not flown\n";
+    for (const FigureEffect& figure : one.effect.figures) text += fmt::format("{:<17}", cell(figure));
+    text += fmt::format("{:<13}",
+                        std::string(name_of(one.effect.regime)) + (one.effect.regimes_agree ? "" : " !"));
+    return text + fmt::format("{:<12}{:>5.0f} ns\n", name_of(one.effect.verdict), one.nanoseconds_per_step);
+}
+
+std::string heading(double tolerance) {
+    std::string text = fmt::format("  {:<37}", "without (changes in %)");
+    for (std::size_t i = 0; i < advised_figures.size(); ++i) {
+        const double limit = 100.0 * tolerance * tolerance_share(advised_figures[i]);
+        text += fmt::format("{:<17}", fmt::format("{} ({:g})", figure_titles[i], limit));
+    }
+    return text + fmt::format("{:<13}{:<12}{:>8}\n", "regime", "verdict", "a step");
 }
 
 std::string needs_in_words(const ModelCost& cost, bool one_direction) {
@@ -106,21 +114,16 @@ std::string needs_in_words(const ModelCost& cost, bool one_direction) {
                                     cost.reynolds_numbers ? " at several Reynolds numbers" : ""));
     }
     if (cost.kirchhoff) words.emplace_back("the Kirchhoff tensor");
-    if (words.empty()) return "nothing but the shape";
+    if (words.empty()) return "the shape, and the numbers above";
     return fmt::format("{}", fmt::join(words, "; "));
 }
 
 std::string text_of(const BodyAdvice& body, double tolerance) {
-    std::string text =
-        fmt::format("{}: falls of {:.3g} s at the Reynolds number {:.3g}, tolerance {:g} %\n", body.name,
-                    body.duration, body.flow.reynolds_number, 100.0 * tolerance);
+    std::string text = fmt::format("{}: falls of {:.3g} s at the Reynolds number {:.3g}, tolerance {:g} %\n",
+                                   body.name, body.duration, body.flow.reynolds_number, 100.0 * tolerance);
     text += fmt::format("  fullest: {}\n", body.full.words);
     for (const std::string& note : body.notes) text += fmt::format("  {}\n", note);
-    if (!body.omissions.empty()) {
-        text += fmt::format("  {:<36}", "without");
-        for (const char* title : figure_titles) text += fmt::format(" {:<18}", title);
-        text += fmt::format(" {:<12}{:<12} {:>8}\n", "regime", "verdict", "a step");
-    }
+    text += heading(tolerance);
     for (const ModelEffect& omission : body.omissions) text += row(omission.left_out, omission);
     text += row("recommended", body.recommended);
     text += fmt::format("  recommended: {}\n", body.recommended.words);

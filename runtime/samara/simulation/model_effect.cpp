@@ -86,29 +86,43 @@ double mean_over(const Falls& falls, double SampledFall::*member) {
     return sum / static_cast<double>(falls.size());
 }
 
-/// The limit of a figure's change; nothing where it is not judged.
-std::optional<double> limit_of(Figure figure, double reference, const Falls& falls, const EffectScale& scale,
-                               bool swings) {
-    const double t = scale.tolerance;
+/// Whether a figure says something of these falls.
+bool is_judged(Figure figure, const EffectScale& scale, bool swings) {
+    switch (figure) {
+        case Figure::inclination_amplitude:
+            return scale.judges_inclination;
+        case Figure::frequency:
+            return scale.judges_inclination && swings;
+        case Figure::rms_angular_speed:
+            return scale.judges_turning;
+        default:
+            return true;
+    }
+}
+
+double scale_of(Figure figure, double reference, const Falls& falls, const EffectScale& scale) {
     const double speed = mean_over(falls, &SampledFall::speed);
+    const double share = tolerance_share(figure);
     switch (figure) {
         case Figure::descent_speed:
-            return t * std::max(std::abs(reference), speed);
+            return std::max(reference, speed);
         case Figure::inclination_amplitude:
-            if (!scale.judges_inclination) return std::nullopt;
-            return std::max(3.0 * t * reference, degree);
-        case Figure::frequency:
-            if (!scale.judges_inclination || !swings) return std::nullopt;
-            return 2.0 * t * reference;
+            return std::max(reference, degree / (share * scale.tolerance));
         case Figure::rms_angular_speed:
-            if (!scale.judges_turning) return std::nullopt;
-            return std::max(3.0 * t * reference, t * speed / scale.half_length);
+            return std::max(reference, speed / (share * scale.half_length));
+        case Figure::path_spread:
+            return std::max(reference, mean_over(falls, &SampledFall::distance) / share);
         default:
-            return std::max(3.0 * t * reference, t * mean_over(falls, &SampledFall::distance));
+            return reference;
     }
 }
 
 }  // namespace
+
+double tolerance_share(Figure figure) {
+    if (figure == Figure::descent_speed) return 1.0;
+    return figure == Figure::frequency ? 2.0 : 3.0;
+}
 
 const char* name_of(EffectVerdict verdict) {
     constexpr const char* names[] = {"within", "not certain", "beyond"};
@@ -144,9 +158,10 @@ FallsEffect effect_of(const std::vector<SampledFall>& reference, const std::vect
         figure.reference = figure_without(before, i, before.size());
         figure.value = figure_without(after, i, after.size());
         figure.change = change_of(before, after, i);
-        figure.limit = limit_of(advised_figures[i], figure.reference ? std::abs(figure.reference->value) : 0.0,
-                                before, scale, swings);
-        if (!figure.limit) continue;
+        figure.scale = scale_of(advised_figures[i],
+                                figure.reference ? std::abs(figure.reference->value) : 0.0, before, scale);
+        if (!is_judged(advised_figures[i], scale, swings)) continue;
+        figure.limit = tolerance_share(advised_figures[i]) * scale.tolerance * figure.scale;
         const bool had = share_with(before, i) >= 0.5;
         const bool has = share_with(after, i) >= 0.5;
         if (had && has) {

@@ -20,7 +20,8 @@ struct FigureEffect {
     std::optional<Estimate> reference;  ///< of the fullest model
     std::optional<Estimate> value;      ///< of the other
     std::optional<Estimate> change;     ///< value - reference, its error from pairs of falls
-    std::optional<double> limit;        ///< of the change; nothing where the figure is not judged
+    double scale = 0.0;  ///< what the change is small against: the reference, or what the way makes of it
+    std::optional<double> limit;  ///< of the change; nothing where the figure is not judged
     EffectVerdict verdict = EffectVerdict::within;
 };
 
@@ -35,6 +36,9 @@ struct FallsEffect {
     EffectVerdict verdict = EffectVerdict::within;  ///< the worst of all that is judged
 };
 
+/// In tolerances: 1 of the descent speed, 2 of the frequency, 3 of the others (as `samara compare` has them).
+double tolerance_share(Figure figure);
+
 /// What is judged of a body, and in which proportion.
 struct EffectScale {
     double tolerance = 0.05;         ///< t: descent t, frequency 2 t; amplitude, angular speed, path 3 t
@@ -46,12 +50,12 @@ struct EffectScale {
 /// Holds falls of another model against those of the fullest, fall i against fall i: the same draw of noise
 /// and start. Standard errors by the jackknife over the pairs, since the pairs share what chance they can.
 ///
-/// Limits, t the tolerance: of the descent speed t times the mean speed through the fluid; of the frequency
-/// 2 t of itself, judged where either falls other than steadily, and beyond where most falls of one have a
-/// frequency and most of the other have none; of the amplitude 3 t of itself, one degree at least; of the rms
-/// angular speed 3 t of itself, and at least what moves the tip at t of the mean speed; of the path's spread 3
-/// t of itself, and at least t of the distance from the release. Regimes differ where the commonest are
-/// different and the share of the fullest model's differs by more than two standard errors.
+/// Limits are tolerance_share() times the tolerance t times the scale: the descent speed's is the mean speed
+/// through the fluid, the others' are the figures themselves, and at least: of the amplitude what makes the
+/// limit a degree; of the rms angular speed what moves the tip at t of the mean speed; of the path's spread a
+/// third of the distance from the release. The frequency is judged where either falls other than steadily,
+/// and beyond where most falls of one have a frequency and most of the other have none. Regimes differ where
+/// the commonest are different and the share of the fullest model's differs by more than two standard errors.
 FallsEffect effect_of(const std::vector<SampledFall>& reference, const std::vector<SampledFall>& falls,
                       const EffectScale& scale);
 

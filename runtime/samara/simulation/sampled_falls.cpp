@@ -34,6 +34,9 @@ Scene sampling_scene(const Scene& scene, std::size_t index, const Body& body, co
     // Nothing may start below the ground that would not without the advice's own turn.
     if (one.ground) only.position.z() += sinking(body, more);
     const double duration = sampled_duration(scene, only, sampling);
+    // Nothing but a gust knows the time.
+    only.start =
+        scene.fluid.gust.amplitude.isZero(0.0) ? 0.0 : std::fmod(only.start, scene.fluid.gust.period);
     one.duration = only.start + duration;
     one.frame_rate = std::max({scene.frame_rate, least_frame_rate, least_frames / duration});
     one.seed = scene.seed + batch;
@@ -71,8 +74,8 @@ FlowMet flow_met(const Motion& motion, const BodyMotion& body, const Surrounding
             if (time < window.begin || time > window.end) continue;
             const Pose pose = in_flow(motion.pose(body, 0, frame, copy), surroundings, time);
             const Quaterniond to_body = pose.orientation.conjugate();
-            const Vector3d velocity = to_body * pose.velocity + (to_body * pose.angular_velocity)
-                                                                    .cross(immersed.center_of_buoyancy);
+            const Vector3d velocity = to_body * pose.velocity +
+                                      (to_body * pose.angular_velocity).cross(immersed.center_of_buoyancy);
             const double speed = velocity.norm();
             const double reynolds = reynolds_number(immersed, speed);
             frames += 1.0;
@@ -93,14 +96,14 @@ FlowMet flow_met(const Motion& motion, const BodyMotion& body, const Surrounding
 }  // namespace
 
 double sampled_duration(const Scene& scene, const SceneBody& body, const FallSampling& sampling) {
-    return std::min(std::max(scene.duration - body.start, scene.step), sampling.most_steps * scene.step);
+    return std::clamp(scene.duration - body.start, 0.0, sampling.most_steps * scene.step);
 }
 
 SampledFalls sample_falls(const Scene& scene, std::size_t body, const CastBody& cast, const ModelSet& models,
                           std::uint64_t batch, const FallSampling& sampling) {
     const Scene one = sampling_scene(scene, body, cast.body, models, batch, sampling);
-    const SimulationResult flown =
-        simulate(one, {cast}, 1, [](double, double) { return true; }, sampling.threads);
+    const SimulationResult flown = simulate(
+        one, {cast}, 1, [](double, double) { return true; }, sampling.threads);
     const Motion& motion = flown.motion;
     const BodyMotion& falling = motion.bodies.front();
     SampledFalls result;

@@ -52,7 +52,7 @@ struct FallSampling {
     int threads = 0;
 };
 
-/// The seconds of flight that are sampled: the scene's, `most_steps` at most.
+/// The seconds of flight that are sampled: the scene's, `most_steps` at most; 0 where the body never starts.
 double sampled_duration(const Scene& scene, const SceneBody& body, const FallSampling& sampling);
 
 /// `sampling.falls` falls of the body number `body` that differ by their noise and their starts. Fall i of
