@@ -95,9 +95,9 @@ void note(const std::string& text) {
 /// Says where coefficients were held at an end of their tables.
 void warn_of_reynolds_numbers(const SceneBody& scene_body, const Body& body, const FlightReport& report) {
     if (scene_body.loads != Loads::table && scene_body.turbulence != Turbulence::table) return;
-    const auto& one = scene_body.table_reynolds_number;
-    const double lowest = one.value_or(body.tables->reynolds_numbers.front());
-    const double highest = one.value_or(body.tables->reynolds_numbers.back());
+    if (scene_body.table_reynolds_number) return;  // as the scene asks
+    const double lowest = body.tables->reynolds_numbers.front();
+    const double highest = body.tables->reynolds_numbers.back();
     // A table of one Reynolds number is made for the terminal speed: swings around it are expected.
     if (report.highest_reynolds_number > 2.0 * highest) {
         note(

@@ -169,6 +169,30 @@ TEST(ModelAdvice, StartsNothingBelowTheGround) {
     EXPECT_FALSE(advice_of(scene, baked_ball()).recommended.models.added_mass);
 }
 
+TEST(ModelAdvice, NeverShakesABodyThatLiesOnTheGround) {
+    Scene scene = scene_of(2000.0, test::water());
+    scene.bodies[0].position.z() = 0.5;
+    AdviceOptions quick;
+    quick.most_falls = quick.sampling.falls;
+    const auto constant = [&] {
+        const BodyAdvice advice = advice_of(scene, test::baked_ellipsoid({0.01, 0.02, 0.04}), quick);
+        return std::any_of(advice.omissions.begin(), advice.omissions.end(), [](const ModelEffect& one) {
+            return one.models.turbulence == Turbulence::constant;
+        });
+    };
+    EXPECT_TRUE(constant());
+    scene.ground = 0.0;
+    EXPECT_FALSE(constant());
+}
+
+TEST(ModelAdvice, OfABodyThatDoesNotMoveLeavesOutWhatItMay) {
+    Scene scene = scene_of(1200.0, test::water(), 1.0);
+    scene.gravity.setZero();
+    const BodyAdvice advice = advice_of(scene, test::baked_ellipsoid({0.01, 0.02, 0.04}));
+    for (const ModelEffect& one : advice.omissions) EXPECT_TRUE(one.flies) << one.left_out;
+    EXPECT_FALSE(advice.recommended.cost.tables);
+}
+
 /// The advice without what is measured by the clock.
 nlohmann::json decided(nlohmann::json advice) {
     for (nlohmann::json& body : advice["bodies"]) {

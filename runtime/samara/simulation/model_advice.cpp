@@ -231,15 +231,19 @@ class Advisor {
             }
             add(ModelPart::turbulence, "turbulence",
                 [](ModelSet& models) { models.turbulence = Turbulence::none; });
-            if (from.turbulence == Turbulence::table && flow.turbulent_kinetic_energy > 0.0) {
+            // On the ground constant turbulence would go on shaking a body that lies still.
+            if (from.turbulence == Turbulence::table && flow.turbulent_kinetic_energy > 0.0 &&
+                !scene_.ground) {
                 add(ModelPart::turbulence, "turbulence by direction (constant)", [&](ModelSet& models) {
                     models.turbulence = Turbulence::constant;
                     models.turbulent_kinetic_energy = flow.turbulent_kinetic_energy;
                     models.dissipation_rate = flow.dissipation_rate;
                 });
             }
-            add(ModelPart::reynolds_dependence, "further Reynolds numbers",
-                [&](ModelSet& models) { models.table_reynolds_number = flow.reynolds_number; });
+            if (flow.reynolds_number > 0.0) {
+                add(ModelPart::reynolds_dependence, "further Reynolds numbers",
+                    [&](ModelSet& models) { models.table_reynolds_number = flow.reynolds_number; });
+            }
         }
         add(ModelPart::added_mass, "added mass", [](ModelSet& models) { models.added_mass = false; });
         if (judges_all_ && from.loads != Loads::none) {

@@ -94,7 +94,8 @@ std::string row(const std::string& name, const ModelEffect& one) {
     for (const FigureEffect& figure : one.effect.figures) text += fmt::format("{:<17}", cell(figure));
     text += fmt::format("{:<13}",
                         std::string(name_of(one.effect.regime)) + (one.effect.regimes_agree ? "" : " !"));
-    return text + fmt::format("{:<12}{:>5.0f} ns\n", name_of(one.effect.verdict), one.nanoseconds_per_step);
+    return text + fmt::format("{:<12}{:>6}{:>7.0f} ns\n", name_of(one.effect.verdict), one.effect.falls,
+                              one.nanoseconds_per_step);
 }
 
 std::string heading(double tolerance) {
@@ -103,7 +104,7 @@ std::string heading(double tolerance) {
         const double limit = 100.0 * tolerance * tolerance_share(advised_figures[i]);
         text += fmt::format("{:<17}", fmt::format("{} ({:g})", figure_titles[i], limit));
     }
-    return text + fmt::format("{:<13}{:<12}{:>8}\n", "regime", "verdict", "a step");
+    return text + fmt::format("{:<13}{:<12}{:>6}{:>10}\n", "regime", "verdict", "falls", "a step");
 }
 
 std::string needs_in_words(const ModelCost& cost, bool one_direction) {

@@ -160,15 +160,11 @@ FallsEffect effect_of(const std::vector<SampledFall>& reference, const std::vect
         figure.change = change_of(before, after, i);
         figure.scale = scale_of(advised_figures[i],
                                 figure.reference ? std::abs(figure.reference->value) : 0.0, before, scale);
-        if (!is_judged(advised_figures[i], scale, swings)) continue;
-        figure.limit = tolerance_share(advised_figures[i]) * scale.tolerance * figure.scale;
         const bool had = share_with(before, i) >= 0.5;
         const bool has = share_with(after, i) >= 0.5;
-        if (had && has) {
-            figure.verdict = verdict_of(*figure.change, *figure.limit);
-        } else if (had != has) {
-            figure.verdict = EffectVerdict::beyond;
-        }
+        if (!is_judged(advised_figures[i], scale, swings) || (!had && !has)) continue;
+        figure.limit = tolerance_share(advised_figures[i]) * scale.tolerance * figure.scale;
+        figure.verdict = had && has ? verdict_of(*figure.change, *figure.limit) : EffectVerdict::beyond;
         effect.verdict = std::max(effect.verdict, figure.verdict);
     }
     return effect;
