@@ -1,4 +1,6 @@
-#include <cmath>
+#include <array>
+#include <numbers>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -107,6 +109,22 @@ std::string heading(double tolerance) {
     return text + fmt::format("{:<13}{:<12}{:>6}{:>10}\n", "regime", "verdict", "falls", "a step");
 }
 
+/// What the fullest model does, in the figures' own units.
+std::string fullest_in_words(const ModelEffect& full) {
+    constexpr double degrees = 180.0 / std::numbers::pi;
+    constexpr std::array units = {"m/s", "degrees", "Hz", "rad/s", "m"};
+    std::vector<std::string> words = {name_of(full.effect.regime)};
+    for (std::size_t i = 0; i < advised_figures.size(); ++i) {
+        const FigureEffect& figure = full.effect.figures[i];
+        if (!figure.limit || !figure.reference) continue;
+        const double unit = advised_figures[i] == Figure::inclination_amplitude ? degrees : 1.0;
+        words.push_back(
+            fmt::format("{} {:.3g} {}", figure_titles[i], unit * figure.reference->value, units[i]));
+    }
+    words.push_back(fmt::format("{:.0f} ns a step", full.nanoseconds_per_step));
+    return fmt::format("{}", fmt::join(words, ", "));
+}
+
 std::string needs_in_words(const ModelCost& cost, bool one_direction) {
     std::vector<std::string> words;
     if (cost.falls) words.emplace_back("free falls in full CFD");
@@ -123,6 +141,7 @@ std::string text_of(const BodyAdvice& body, double tolerance) {
     std::string text = fmt::format("{}: falls of {:.3g} s at the Reynolds number {:.3g}, tolerance {:g} %\n",
                                    body.name, body.duration, body.flow.reynolds_number, 100.0 * tolerance);
     text += fmt::format("  fullest: {}\n", body.full.words);
+    if (body.full.effect.falls > 0) text += fmt::format("  {}\n", fullest_in_words(body.full));
     for (const std::string& note : body.notes) text += fmt::format("  {}\n", note);
     text += heading(tolerance);
     for (const ModelEffect& omission : body.omissions) text += row(omission.left_out, omission);
