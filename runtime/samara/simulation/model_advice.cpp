@@ -84,6 +84,7 @@ class Advisor {
         if (advice_.duration >= fewest_steps * scene_.step) {
             fly_fullest();
             advice_.full = effect(full_, "");
+            time_step(advice_.full);
         }
         if (!is_long_enough()) {
             advice_.notes.emplace_back("the fall is too short to be judged: every part is kept");
@@ -93,8 +94,10 @@ class Advisor {
         for (const Reduction& reduction : reductions(full_)) {
             advice_.omissions.push_back(effect(reduction.models, reduction.left_out));
             advice_.omissions.back().part = reduction.part;
+            time_step(advice_.omissions.back());
         }
         advice_.recommended = effect(cheapest(), "");
+        time_step(advice_.recommended);
         return finished();
     }
 
@@ -178,6 +181,16 @@ class Advisor {
         return *found;
     }
 
+    void time_step(ModelEffect& one) const {
+        if (!one.flies) return;
+        try {
+            one.nanoseconds_per_step =
+                nanoseconds_per_step(scene_, index_, cast_, one.models, options_.sampling);
+        } catch (const Error&) {
+            one.nanoseconds_per_step = 0.0;  // it flies longer here than in the scene
+        }
+    }
+
     /// A set without what it changes.
     [[nodiscard]] ModelEffect unflown(const ModelSet& models, const std::string& left_out) const {
         ModelEffect result;
@@ -198,7 +211,6 @@ class Advisor {
                 result.effect.verdict = EffectVerdict::beyond;
                 return result;
             }
-            result.nanoseconds_per_step = other.first.nanoseconds_per_step();
             result.effect = effect_of(falls_of(full_, falls).falls, other.falls, scale_);
             const bool more = 2 * falls <= static_cast<std::size_t>(options_.most_falls);
             if (result.effect.verdict != EffectVerdict::not_certain || !more) return result;

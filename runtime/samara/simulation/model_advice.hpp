@@ -29,7 +29,7 @@ struct ModelEffect {
     ModelCost cost;
     FallsEffect effect;
     bool flies = true;  ///< false where a flight with these models leaves the range of numbers
-    double nanoseconds_per_step = 0.0;  ///< measured, of one body among many: for information alone
+    double nanoseconds_per_step = 0.0;  ///< nanoseconds_per_step(): for information alone
 };
 
 /// What a body of a scene needs.

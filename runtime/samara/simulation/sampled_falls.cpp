@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 
 #include "samara/base/parallel_for.hpp"
 #include "samara/dynamics/loads.hpp"
@@ -116,9 +117,27 @@ SampledFalls sample_falls(const Scene& scene, std::size_t body, const CastBody& 
     const ImmersedBody immersed = make_immersed_body(cast.body, one.bodies.front(), one.fluid);
     result.flow = flow_met(motion, falling, surroundings_of(one), immersed, cast.body.tables);
     result.highest_reynolds_number = flown.report.bodies.front().highest_reynolds_number;
-    result.steps = flown.report.steps;
-    result.seconds = flown.report.seconds;
     return result;
+}
+
+double nanoseconds_per_step(const Scene& scene, std::size_t body, const CastBody& cast,
+                            const ModelSet& models, const FallSampling& sampling) {
+    constexpr int stretches = 8;
+    constexpr double steps_in_stretch = 128.0;
+    const Scene one = sampling_scene(scene, body, cast.body, models, 0, sampling);
+    const SceneBody& only = one.bodies.front();
+    const ImmersedBody immersed = make_immersed_body(cast.body, only, one.fluid);
+    BodyFlight flight(one, only, immersed, 1, 1);
+    std::vector<Pose> poses(static_cast<std::size_t>(only.count));
+    double least = INFINITY;
+    for (int i = 1; i <= stretches; ++i) {
+        const std::uint64_t before = flight.steps();
+        const std::clock_t start = std::clock();
+        flight.fly_to(only.start + i * steps_in_stretch * one.step, poses.data(), poses.size());
+        const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+        least = std::min(least, seconds / static_cast<double>(flight.steps() - before));
+    }
+    return 1e9 * least;
 }
 
 }  // namespace samara

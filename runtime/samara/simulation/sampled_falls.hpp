@@ -37,11 +37,6 @@ struct SampledFalls {
     std::vector<SampledFall> falls;
     FlowMet flow;
     double highest_reynolds_number = 0.0;
-    std::uint64_t steps = 0;
-    double seconds = 0.0;  ///< wall time of the steps: for information, never to decide by
-    [[nodiscard]] double nanoseconds_per_step() const {
-        return steps == 0 ? 0.0 : 1e9 * seconds / static_cast<double>(steps);
-    }
 };
 
 /// How falls are flown.
@@ -60,5 +55,10 @@ double sampled_duration(const Scene& scene, const SceneBody& body, const FallSam
 /// for any number of threads. Throws Error where the body cannot fly so.
 SampledFalls sample_falls(const Scene& scene, std::size_t body, const CastBody& cast, const ModelSet& models,
                           std::uint64_t batch, const FallSampling& sampling);
+
+/// CPU time of a step (ns) of one of these falls among `sampling.falls`, on one thread, the fastest of
+/// several stretches. For information: nothing is decided by it.
+double nanoseconds_per_step(const Scene& scene, std::size_t body, const CastBody& cast,
+                            const ModelSet& models, const FallSampling& sampling);
 
 }  // namespace samara
