@@ -23,6 +23,7 @@
 #include "samara/motion/motion_file.hpp"
 #include "samara/motion/motion_writer.hpp"
 #include "samara/scene/scene_file.hpp"
+#include "samara/simulation/model_advice.hpp"
 #include "samara/simulation/simulation.hpp"
 
 namespace samara {
@@ -79,6 +80,7 @@ CastBody cast_body(const SceneBody& scene_body, const std::string& bodies) {
     // A baked body is in metres already: the scene's scale went into it.
     CastBody cast{load_body(file, bodies.empty() ? scene_body.scale : 1.0), file_content_hash(file)};
     if (!bodies.empty()) require_same_shape(file, cast.body, scene_body);
+    if (!scene_body.added_mass) return cast;
     if (!cast.body.kirchhoff) {
         cast.body.kirchhoff = kirchhoff_tensor(cast.body.surface, cast.body.moments);
     }
@@ -93,6 +95,7 @@ void note(const std::string& text) {
 /// Says where coefficients were held at an end of their tables.
 void warn_of_reynolds_numbers(const SceneBody& scene_body, const Body& body, const FlightReport& report) {
     if (scene_body.loads != Loads::table && scene_body.turbulence != Turbulence::table) return;
+    if (scene_body.table_reynolds_number) return;  // as the scene asks
     const double lowest = body.tables->reynolds_numbers.front();
     const double highest = body.tables->reynolds_numbers.back();
     // A table of one Reynolds number is made for the terminal speed: swings around it are expected.
@@ -117,6 +120,25 @@ void warn_of_substeps(const SimulationReport& report) {
         fmt::format("in {} of {} steps a body turned so fast that {} substeps were too few for 0.3 rad "
                     "each; use a smaller step",
                     report.steps_at_limit, report.steps, most_substeps));
+}
+
+/// Chooses the models of the bodies that leave them to the advice, and says which; nothing where none does.
+std::optional<ModelAdvice> choose_models(Scene& scene, const std::vector<CastBody>& cast, int threads) {
+    bool any = false;
+    for (std::size_t i = 0; i < cast.size(); ++i) {
+        if (!scene.bodies[i].models_auto) continue;
+        (void)make_immersed_body(cast[i].body, scene.bodies[i], scene.fluid);  // throws where tables lack
+        any = true;
+    }
+    if (!any) return std::nullopt;
+    AdviceOptions options;
+    options.auto_alone = true;
+    options.sampling.threads = threads;
+    Progress progress("judging models", "flights");
+    ModelAdvice advice =
+        advise_models(scene, cast, options, [&](double done, double total) { progress.update(done, total); });
+    apply(advice, scene);
+    return advice;
 }
 
 /// Flies the scene into the motion file.
@@ -162,6 +184,9 @@ nlohmann::json run(const Request& request, const Arguments& arguments) {
     std::vector<CastBody> cast;
     for (const SceneBody& body : scene.bodies) cast.push_back(cast_body(body, request.bodies));
 
+    const std::optional<ModelAdvice> advice = choose_models(scene, cast, request.threads);
+    if (advice && !arguments.json()) fmt::print("models = \"auto\" chose:\n{}", as_text(*advice));
+
     std::signal(SIGINT, note_interrupt);
     std::signal(SIGTERM, note_interrupt);
     Simulation simulation(scene, cast, request.runs, request.threads);
@@ -196,6 +221,7 @@ nlohmann::json run(const Request& request, const Arguments& arguments) {
                    request.output);
     }
     return {{"bodies", bodies},
+            {"models", advice ? as_json(*advice) : nlohmann::json(nullptr)},
             {"frames", report.frames},
             {"steps", report.steps},
             {"implicit_steps", report.implicit_steps},

@@ -130,6 +130,52 @@ TEST(ImmersedBody, RefusesTablesThatAreNone) {
     EXPECT_NO_THROW((void)given.made());
 }
 
+TEST(ImmersedBody, WithoutAddedMassHasItsOwnInertiaAloneAndNeedsNoTensor) {
+    Given given;
+    given.scene_body.added_mass = false;
+    const ImmersedBody with_tensor = given.made();
+    given.body.kirchhoff.reset();
+    const ImmersedBody body = given.made();
+    Matrix6d own = Matrix6d::Zero();
+    own.topLeftCorner<3, 3>() = body.own_inertia;
+    own.bottomRightCorner<3, 3>() = body.mass * Matrix3d::Identity();
+    EXPECT_EQ(body.inertia, own);
+    EXPECT_EQ(with_tensor.inertia, own);
+    EXPECT_TRUE(body.dynamic.transport.isZero(0.0));
+    EXPECT_TRUE(with_tensor.dynamic.transport.isZero(0.0));
+    EXPECT_EQ(with_tensor.dynamic.rotational_transport, 0.0);
+    given.scene_body.added_mass = true;
+    EXPECT_THAT(test::error_of([&] { (void)given.made(); }), HasSubstr("no Kirchhoff tensor"));
+}
+
+TEST(ImmersedBody, TakesTheDynamicCoefficientsThatTheSceneAsksFor) {
+    Given given;
+    given.body = test::lopsided_shape();
+    const DynamicCoefficients& own = given.body.dynamic->values;
+    EXPECT_EQ(given.made().dynamic.drag_in_motion, own.drag_in_motion);
+    given.scene_body.dynamic = Dynamic::by_default;
+    const DynamicCoefficients standard = default_dynamic_coefficients(given.body);
+    EXPECT_EQ(given.made().dynamic.drag_in_motion, standard.drag_in_motion);
+    EXPECT_EQ(given.made().dynamic.origin, "dynamic coefficients by default");
+    for (const Loads loads : {Loads::table, Loads::coefficients}) {
+        given.scene_body.loads = loads;
+        given.scene_body.dynamic = Dynamic::none;
+        const DynamicCoefficients none = given.made().dynamic;
+        for (const TensorOfMotion& tensor : tensors_of_motion) {
+            EXPECT_TRUE((none.*tensor.member).isZero(0.0)) << tensor.name;
+        }
+        EXPECT_EQ(none.rotational_transport, 0.0);
+        EXPECT_EQ(none.half_length, standard.half_length);
+    }
+}
+
+TEST(ImmersedBody, ReadsItsTablesAtOneReynoldsNumberWhereTheSceneSaysSo) {
+    Given given;
+    given.scene_body.table_reynolds_number = 1e4;
+    EXPECT_EQ(given.made().tables->reynolds_numbers, std::vector<double>{1e4});
+    expect_refused({{"table_reynolds_number", [](Given& g) { g.scene_body.table_reynolds_number = -1.0; }}});
+}
+
 TEST(ImmersedBody, RefusesCoefficientsThatAreNone) {
     const auto spoiled = [](const std::function<void(SceneBody&)>& spoil) {
         return [spoil](Given& g) {

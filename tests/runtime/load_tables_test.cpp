@@ -30,6 +30,25 @@ TEST(LoadTables, LookUpGivesTheEntryAtEachNode) {
     }
 }
 
+TEST(LoadTables, OfOneReynoldsNumberAreTheWholeOnesThere) {
+    const LoadTables tables = test::smooth_tables(4);
+    const std::vector<double>& numbers = tables.reynolds_numbers;
+    const double between = std::sqrt(numbers[0] * numbers[1]);
+    for (const double reynolds : {numbers.front(), between, numbers[1], numbers.back()}) {
+        const LoadTables one = at_reynolds_number(tables, reynolds);
+        ASSERT_EQ(one.reynolds_numbers, std::vector<double>{reynolds});
+        for (int i = 0; i < 50; ++i) {
+            const Vector3d direction = Vector3d(std::cos(i), std::sin(2.3 * i), 0.02 * i - 0.5).normalized();
+            EXPECT_LT(difference(look_up(one, direction, 7.0), look_up(tables, direction, reynolds)), 1e-12);
+            EXPECT_LT(
+                difference(look_up_error(one, direction, 7.0), look_up_error(tables, direction, reynolds)),
+                1e-12);
+        }
+    }
+    EXPECT_EQ(at_reynolds_number(tables, 0.1 * numbers.front()).reynolds_numbers.front(), numbers.front());
+    EXPECT_EQ(at_reynolds_number(tables, 10.0 * numbers.back()).reynolds_numbers.front(), numbers.back());
+}
+
 TEST(LoadTables, LookUpIsContinuousOverSeamsAndPoles) {
     const LoadTables tables = test::smooth_tables(4);
     constexpr double step = 1e-7;

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <utility>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
@@ -285,6 +287,74 @@ TEST(MovingLoads, LeaveASteadyTowAsItIsTabulatedWhateverTheCoefficients) {
         const double pressure = 0.5 * body.fluid_density * speed * speed * body.reference_area;
         EXPECT_LT((load.tail<3>() - force).norm(), 1e-12 * pressure);
         EXPECT_LT((load.head<3>() - moment).norm(), 1e-12 * pressure * body.length);
+    }
+}
+
+/// The lopsided body with parts left out, as a scene does that.
+std::vector<ImmersedBody> lesser_bodies() {
+    std::vector<ImmersedBody> bodies;
+    for (const bool added_mass : {true, false}) {
+        for (const Dynamic dynamic : {Dynamic::of_body, Dynamic::by_default, Dynamic::none}) {
+            for (const std::optional<double> reynolds : {std::optional<double>(), std::optional(1e4)}) {
+                SceneBody given = test::scene_body(1200.0);
+                given.added_mass = added_mass;
+                given.dynamic = dynamic;
+                given.table_reynolds_number = reynolds;
+                bodies.push_back(make_immersed_body(test::lopsided_shape(), given, Fluid{}));
+            }
+        }
+    }
+    return bodies;
+}
+
+TEST(MovingLoads, LeaveASteadyTowAsItIsTabulatedWhateverIsLeftOut) {
+    std::mt19937 generator(8);
+    for (const ImmersedBody& body : lesser_bodies()) {
+        for (int i = 0; i < 50; ++i) {
+            const double reynolds = std::pow(10.0, 4.0 + i / 49.0);
+            const double speed = reynolds * body.viscosity / (body.fluid_density * body.length);
+            const Vector3d velocity = speed * random_vector(generator).normalized();
+            Vector6d load = loads_at(body, motion_of(Vector3d::Zero(), velocity));
+            load.head<3>() += (body.added_mass * velocity).cross(velocity);
+            const auto& [force, moment] = tabulated(body, velocity);
+            const double pressure = 0.5 * body.fluid_density * speed * speed * body.reference_area;
+            EXPECT_LT((load.tail<3>() - force).norm(), 1e-12 * pressure);
+            EXPECT_LT((load.head<3>() - moment).norm(), 1e-12 * pressure * body.length);
+        }
+    }
+}
+
+TEST(MovingLoads, NeverMakeEnergyWhateverIsLeftOut) {
+    std::mt19937 generator(9);
+    for (const ImmersedBody& body : lesser_bodies()) {
+        for (int i = 0; i < 300; ++i) {
+            const Matrix6d matrix = load_matrix(body, random_motion(generator, i));
+            const Matrix6d symmetric = 0.5 * (matrix + matrix.transpose());
+            const Vector6d eigenvalues = Eigen::SelfAdjointEigenSolver<Matrix6d>(symmetric).eigenvalues();
+            EXPECT_GE(eigenvalues.minCoeff(), -1e-13 * eigenvalues.maxCoeff());
+        }
+    }
+}
+
+TEST(MovingLoads, OfASpinningBallWithoutAddedMassDoNotBendItsPath) {
+    SceneBody given = test::scene_body(1200.0);
+    given.added_mass = false;
+    Body ball = test::exact_sphere(0.02);
+    ball.dynamic = test::lopsided_shape().dynamic;
+    ball.tables = test::blunt_tables(ball, 2);
+    for (LoadEntry& entry : ball.tables->entries) {
+        entry.force.setZero();
+        entry.moment.setZero();
+    }
+    const ImmersedBody body = make_immersed_body(ball, given, Fluid{});
+    std::mt19937 generator(10);
+    for (int i = 0; i < 50; ++i) {
+        const Vector6d motion = motion_of(random_vector(generator), random_vector(generator));
+        const Vector3d force = loads_at(body, motion).tail<3>();
+        // What is left are the drags in motion, which act along C_m A v and C_s A v.
+        const Motion m(body, motion);
+        const Vector6d drags = drag_in_motion(m) + drag_in_spin(m);
+        EXPECT_LT((force - drags.tail<3>() - creeping_drag(m).tail<3>()).norm(), 1e-12 * force.norm());
     }
 }
 

@@ -127,6 +127,19 @@ TEST(Passivity, AHollowBodyNeverGainsEnergy) {
     }
 }
 
+TEST(Passivity, ABodyWithoutTheFluidsInertiaNeverGainsEnergy) {
+    for (const double density : {1.0, 1200.0}) {
+        SceneBody given = test::scene_body(density);
+        given.added_mass = false;
+        const ImmersedBody body = make_immersed_body(test::lopsided_shape(), given, test::water());
+        for (const double h : {1e-3, 1.0 / 24.0, 1.0}) {
+            test::expect_row({fmt::format("ellipsoid of density {:g} in water, no added mass", density),
+                              fmt::format("{:.3g} s", h), "largest rise of E in a step", 1e-12,
+                              largest_rise(body, test::tumbling_state(2.0, 50.0), h, 200, implicit)});
+        }
+    }
+}
+
 TEST(Passivity, ATableWithASharpEdgeGivesNoEnergyAndNoNaN) {
     Body shape = test::baked_ellipsoid({0.01, 0.02, 0.04});
     for (std::size_t i = 0; i < shape.tables->entries.size(); i += 2) {

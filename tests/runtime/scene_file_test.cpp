@@ -11,6 +11,7 @@
 namespace samara {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 
 /// A folder with an (empty) shape file and one scene in it, removed at the end.
@@ -57,6 +58,10 @@ TEST_F(SceneFile, ValuesNotGivenHaveTheirDocumentedDefaults) {
     EXPECT_EQ(scene.bodies.at(0).loads, Loads::table);
     EXPECT_EQ(scene.bodies.at(0).turbulence, Turbulence::table);
     EXPECT_EQ(scene.bodies.at(0).langevin, Langevin::seen_fluid);
+    EXPECT_TRUE(scene.bodies.at(0).added_mass);
+    EXPECT_EQ(scene.bodies.at(0).dynamic, Dynamic::of_body);
+    EXPECT_FALSE(scene.bodies.at(0).table_reynolds_number.has_value());
+    EXPECT_FALSE(scene.bodies.at(0).models_auto);
     EXPECT_EQ(scene.bodies.at(0).shape, folder_ / "ball.stl");
 }
 
@@ -84,6 +89,36 @@ TEST_F(SceneFile, EveryKeyIsRead) {
     EXPECT_EQ(body.coefficients.normal, Vector3d(0, 0, 1));
     EXPECT_EQ(body.turbulence, Turbulence::constant);
     EXPECT_EQ(body.langevin, Langevin::body_velocity);
+}
+
+TEST_F(SceneFile, ModelsAreSwitchedBodyByBody) {
+    const auto body = [&](const std::string& keys) {
+        return read(with_body("density = 1\n" + keys)).bodies.at(0);
+    };
+    EXPECT_FALSE(body("added_mass = false").added_mass);
+    EXPECT_TRUE(body("added_mass = true").added_mass);
+    EXPECT_EQ(body("dynamic_coefficients = \"body\"").dynamic, Dynamic::of_body);
+    EXPECT_EQ(body("dynamic_coefficients = \"default\"").dynamic, Dynamic::by_default);
+    EXPECT_EQ(body("dynamic_coefficients = \"none\"").dynamic, Dynamic::none);
+    EXPECT_EQ(body("table_reynolds_number = 1e4").table_reynolds_number, 1e4);
+    EXPECT_FALSE(body("models = \"given\"\nloads = \"none\"").models_auto);
+    EXPECT_TRUE(body("models = \"auto\"\nlangevin = \"seen-fluid\"").models_auto);
+}
+
+TEST_F(SceneFile, ModelsThatAreChosenAreNotGivenToo) {
+    for (const std::string key : {"loads = \"table\"", "added_mass = true", "dynamic_coefficients = \"body\"",
+                                  "table_reynolds_number = 1e4", "turbulence = \"none\""}) {
+        const std::string name = key.substr(0, key.find(' '));
+        EXPECT_THAT(refusal(with_body("density = 1\nmodels = \"auto\"\n" + key)),
+                    AllOf(HasSubstr("scene.toml:8: " + name), HasSubstr("models = \"auto\"")));
+    }
+    EXPECT_THAT(refusal(with_body("density = 1\nmodels = \"best\"")), HasSubstr("scene.toml:7: models"));
+    EXPECT_THAT(refusal(with_body("density = 1\nadded_mass = 1")), HasSubstr("must be true or false"));
+    EXPECT_THAT(refusal(with_body("density = 1\ndynamic_coefficients = \"all\"")), HasSubstr("\"default\""));
+    EXPECT_THAT(refusal(with_body("density = 1\nloads = \"none\"\ntable_reynolds_number = 1e4")),
+                HasSubstr("scene.toml:8: table_reynolds_number"));
+    EXPECT_THAT(refusal(with_body("density = 1\ntable_reynolds_number = 0")),
+                HasSubstr("scene.toml:7: table_reynolds_number"));
 }
 
 TEST_F(SceneFile, AnUnknownKeyIsNamedWithItsLine) {

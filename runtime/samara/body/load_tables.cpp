@@ -59,6 +59,26 @@ LoadEntry look_up(const LoadTables& tables, const Vector3d& direction, double re
     return interpolated(tables, tables.entries, direction, reynolds_number);
 }
 
+LoadTables at_reynolds_number(const LoadTables& tables, double reynolds_number) {
+    const ReynoldsCell cell = reynolds_cell(tables.reynolds_numbers, reynolds_number);
+    const std::size_t plane = tables.index(1, 0, 0);
+    const auto cut = [&](const std::vector<LoadEntry>& entries) {
+        std::vector<LoadEntry> result(entries.empty() ? 0 : plane);
+        for (std::size_t i = 0; i < result.size(); ++i) {
+            const std::size_t below = static_cast<std::size_t>(cell.index) * plane + i;
+            add_weighted(result[i], entries[below], 1.0 - cell.fraction);
+            if (cell.fraction > 0.0) add_weighted(result[i], entries[below + plane], cell.fraction);
+        }
+        return result;
+    };
+    LoadTables one = tables;
+    one.reynolds_numbers = {
+        std::clamp(reynolds_number, tables.reynolds_numbers.front(), tables.reynolds_numbers.back())};
+    one.entries = cut(tables.entries);
+    one.errors = cut(tables.errors);
+    return one;
+}
+
 LoadEntryError look_up_error(const LoadTables& tables, const Vector3d& direction,
                              double reynolds_number) noexcept {
     return interpolated(tables, tables.errors, direction, reynolds_number);

@@ -54,6 +54,10 @@ struct LoadTables {
 /// number.
 LoadEntry look_up(const LoadTables& tables, const Vector3d& direction, double reynolds_number) noexcept;
 
+/// The tables as a bake of that one Reynolds number would have made them: their values there. A number beyond
+/// the tables' is moved to their edge.
+LoadTables at_reynolds_number(const LoadTables& tables, double reynolds_number);
+
 /// The standard errors of look_up's values, themselves looked up in the same way.
 LoadEntryError look_up_error(const LoadTables& tables, const Vector3d& direction,
                              double reynolds_number) noexcept;

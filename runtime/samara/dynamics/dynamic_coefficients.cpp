@@ -51,6 +51,13 @@ DynamicCoefficients rotational_drag_alone(const Body& body) {
     return coefficients;
 }
 
+DynamicCoefficients no_dynamic_coefficients(const Body& body) {
+    DynamicCoefficients coefficients;
+    coefficients.half_length = half_length_of(body);
+    coefficients.origin = "no dynamic coefficients";
+    return coefficients;
+}
+
 DynamicCoefficients default_dynamic_coefficients(const Body& body) {
     DynamicCoefficients coefficients;
     coefficients.half_length = half_length_of(body);

@@ -21,6 +21,9 @@ DynamicCoefficients default_dynamic_coefficients(const Body& body);
 /// Rotational drag alone, for loads by drag and lift coefficients: the same C_w D, and no other term.
 DynamicCoefficients rotational_drag_alone(const Body& body);
 
+/// None: a body whose flow is that of a steady tow at every instant, but for the creeping turn.
+DynamicCoefficients no_dynamic_coefficients(const Body& body);
+
 /// D = 1/2 the integral over the surface of (r x n)(r x n)^T dA (m^4), r from the centroid: symmetric,
 /// positive semidefinite, zero for a sphere.
 Matrix3d rotational_drag_tensor(const Surface& surface, const Vector3d& centroid);

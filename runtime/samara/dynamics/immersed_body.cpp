@@ -82,6 +82,31 @@ std::vector<double> projected_areas(const Surface& surface) {
     return areas;
 }
 
+DynamicCoefficients dynamic_coefficients_of(const Body& body, const SceneBody& scene_body) {
+    if (scene_body.loads == Loads::none) return {};
+    if (scene_body.dynamic == Dynamic::none) return no_dynamic_coefficients(body);
+    if (scene_body.loads == Loads::coefficients) return rotational_drag_alone(body);
+    const bool own = scene_body.dynamic == Dynamic::of_body && body.dynamic;
+    DynamicCoefficients coefficients = own ? body.dynamic->values : default_dynamic_coefficients(body);
+    if (!own && body.dynamic) coefficients.origin = "dynamic coefficients by default";
+    if (!scene_body.added_mass) {
+        // What separated flow lacks of the fluid's momentum goes with that momentum.
+        coefficients.transport.setZero();
+        coefficients.rotational_transport = 0.0;
+    }
+    return coefficients;
+}
+
+/// rho_f K_fluid; zero where the scene leaves it out.
+Matrix6d fluid_inertia_of(const Body& body, const SceneBody& scene_body, const Fluid& fluid) {
+    if (!scene_body.added_mass) return Matrix6d::Zero();
+    if (!body.kirchhoff) {
+        throw Error(fmt::format("body '{}': {} holds no Kirchhoff tensor; add it with 'samara kirchhoff'",
+                                scene_body.name, scene_body.shape.string()));
+    }
+    return fluid.density * body.kirchhoff->matrix;
+}
+
 }  // namespace
 
 void prepare(ImmersedBody& body) {
@@ -90,10 +115,7 @@ void prepare(ImmersedBody& body) {
 }
 
 ImmersedBody make_immersed_body(const Body& body, const SceneBody& scene_body, const Fluid& fluid) {
-    if (!body.kirchhoff) {
-        throw Error(fmt::format("body '{}': {} holds no Kirchhoff tensor; add it with 'samara kirchhoff'",
-                                scene_body.name, scene_body.shape.string()));
-    }
+    const Matrix6d fluid_inertia = fluid_inertia_of(body, scene_body, fluid);
     require_tables(body, scene_body);
     require_sound(body, scene_body, fluid);
     const Mass mass = mass_of(body, scene_body.mass, scene_body.name);
@@ -107,7 +129,6 @@ ImmersedBody make_immersed_body(const Body& body, const SceneBody& scene_body, c
     result.center_of_mass = mass.center;
     result.center_of_buoyancy = body.moments.centroid - mass.center;
     result.to_centroid.block<3, 3>(3, 0) = -skew(result.center_of_buoyancy);
-    const Matrix6d fluid_inertia = fluid.density * body.kirchhoff->matrix;
     result.own_inertia = mass.inertia;
     result.added_mass = fluid_inertia.bottomRightCorner<3, 3>();
     result.added_inertia = fluid_inertia.topLeftCorner<3, 3>();
@@ -127,24 +148,19 @@ ImmersedBody make_immersed_body(const Body& body, const SceneBody& scene_body, c
     result.loads = scene_body.loads;
     result.coefficients = scene_body.coefficients;
     if (!result.coefficients.normal) result.coefficients.normal = principal_axes(body.moments).col(0);
-    switch (scene_body.loads) {
-        case Loads::none:
-            break;
-        case Loads::coefficients:
-            result.dynamic = rotational_drag_alone(body);
-            if (!scene_body.coefficients.reference_area) {
-                result.projected_areas = projected_areas(body.surface);
-            }
-            break;
-        case Loads::table:
-            result.dynamic = body.dynamic ? body.dynamic->values : default_dynamic_coefficients(body);
-            break;
+    if (result.loads == Loads::coefficients && !scene_body.coefficients.reference_area) {
+        result.projected_areas = projected_areas(body.surface);
     }
+    result.dynamic = dynamic_coefficients_of(body, scene_body);
     result.turbulence = scene_body.turbulence;
     result.turbulent_kinetic_energy = scene_body.turbulent_kinetic_energy;
     result.dissipation_rate = scene_body.dissipation_rate;
     result.langevin = scene_body.langevin;
-    if (result.loads == Loads::table || result.turbulence == Turbulence::table) result.tables = body.tables;
+    if (result.loads == Loads::table || result.turbulence == Turbulence::table) {
+        result.tables = scene_body.table_reynolds_number
+                            ? at_reynolds_number(*body.tables, *scene_body.table_reynolds_number)
+                            : *body.tables;
+    }
     prepare(result);
     return result;
 }

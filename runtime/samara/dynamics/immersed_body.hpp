@@ -59,9 +59,10 @@ inline constexpr int shadow_subdivisions = 16;
 /// Works out what the steps need of the members.
 void prepare(ImmersedBody& body);
 
-/// Puts body, mass and fluid together. Throws Error where the body file lacks what the scene asks of it (the
-/// Kirchhoff tensor; tables: the message names the command that bakes them), where a number is not finite or
-/// out of its range (the message names the member), and where the inertia is not that of any body.
+/// Puts body, mass and fluid together. Without added mass in the scene, K_fluid is zero and the coefficients
+/// T and t with it. Throws Error where the body file lacks what the scene asks of it (the Kirchhoff tensor;
+/// tables: the message names the command that bakes them), where a number is not finite or out of its range
+/// (the message names the member), and where the inertia is not that of any body.
 ImmersedBody make_immersed_body(const Body& body, const SceneBody& scene_body, const Fluid& fluid);
 
 }  // namespace samara

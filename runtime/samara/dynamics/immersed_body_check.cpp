@@ -113,13 +113,16 @@ void require_sound(const Body& body, const SceneBody& scene_body, const Fluid& f
     door.finite(body.moments.centroid, "moments.centroid");
     door.finite(body.moments.second_moments, "moments.second_moments");
     check_mass(door, scene_body.mass);
-    if (body.kirchhoff) door.finite(body.kirchhoff->matrix, "kirchhoff.matrix");
+    if (body.kirchhoff && scene_body.added_mass) door.finite(body.kirchhoff->matrix, "kirchhoff.matrix");
     if (body.tables && (scene_body.loads == Loads::table || scene_body.turbulence == Turbulence::table)) {
         check_tables(door, *body.tables);
     }
     check_coefficients(door, scene_body.coefficients);
     check_turbulence(door, scene_body);
-    if (!body.dynamic || scene_body.loads != Loads::table) return;
+    if (scene_body.table_reynolds_number) {
+        door.positive(*scene_body.table_reynolds_number, "table_reynolds_number");
+    }
+    if (!body.dynamic || scene_body.loads != Loads::table || scene_body.dynamic != Dynamic::of_body) return;
     const std::string fault = fault_of(body.dynamic->values);
     if (!fault.empty()) throw Error(fmt::format("body '{}': dynamic.{}", scene_body.name, fault));
 }

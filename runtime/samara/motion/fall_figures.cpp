@@ -211,14 +211,10 @@ std::optional<Estimate> spectral_frequency_of(const FallSeries& record, double s
 
 Estimate path_spread_of(const FallSeries& record, const Jackknife& jackknife) {
     const Piece window = window_frames(record);
-    double sum = 0.0;
     double times = 0.0;
-    for (std::size_t i = window.begin; i < window.end; ++i) {
-        sum += std::pow(horizontal(record, record.ways[i]).norm(), 2);
-        times += record.times[i];
-    }
+    for (std::size_t i = window.begin; i < window.end; ++i) times += record.times[i];
     const auto count = static_cast<double>(window.end - window.begin);
-    Estimate spread{std::sqrt(sum / count), {}, {}};
+    Estimate spread{path_spread(record), {}, {}};
     if (const auto rate = jackknife.spreading()) spread.error = std::sqrt(*rate * times / count);
     return spread;
 }
@@ -232,6 +228,15 @@ Estimate drift_speed_of(const FallSeries& record, const Jackknife& jackknife) {
 }
 
 }  // namespace
+
+double path_spread(const FallSeries& record) {
+    const Piece window = window_frames(record);
+    double sum = 0.0;
+    for (std::size_t i = window.begin; i < window.end; ++i) {
+        sum += horizontal(record, record.ways[i]).squaredNorm();
+    }
+    return std::sqrt(sum / static_cast<double>(window.end - window.begin));
+}
 
 Spectrum swing_spectrum(const FallSeries& record, double segment, const LeftOut& left_out) {
     const Piece window = window_frames(record);

@@ -43,6 +43,9 @@ struct FallFigures {
     std::size_t pieces = 0;                        ///< independent ones, see pieces_of()
 };
 
+/// Figure::path_spread (m) of one fall.
+double path_spread(const FallSeries& record);
+
 /// `segment` (s): of the spectrum.
 FallFigures fall_figures(const FallSeries& record, double segment);
 

@@ -32,6 +32,9 @@ std::optional<Fluid> fluid_preset(const std::string& name);
 enum class Loads { none, coefficients, table };
 enum class Turbulence { none, constant, table };
 enum class Langevin { seen_fluid, body_velocity };
+/// Whose coefficients give the loads of a body in motion beyond those of a steady tow: the body file's, or
+/// the defaults where it has none; the defaults; none.
+enum class Dynamic { of_body, by_default, none };
 
 /// What a scene says of the paper's eq. 5; what is absent is taken from the body (docs/theory).
 struct CoefficientLoads {
@@ -65,7 +68,11 @@ struct SceneBody {
     Vector3d spread_position =
         Vector3d::Zero();       ///< m: copies start within +- this of `position`, each axis uniform
     double spread_angle = 0.0;  ///< rad: copies are turned by up to this about a random axis
+    bool models_auto = false;   ///< what the model advice says is to be flown (simulation/model_advice.hpp)
     Loads loads = Loads::table;
+    std::optional<double> table_reynolds_number;  ///< at which alone tables are read
+    bool added_mass = true;  ///< whether the fluid's inertia K_fluid is part of the body's
+    Dynamic dynamic = Dynamic::of_body;
     CoefficientLoads coefficients;
     Turbulence turbulence = Turbulence::table;  ///< default: table where the loads are, else none
     double turbulent_kinetic_energy = 0.0;      ///< m^2/s^2, where turbulence is constant

@@ -114,6 +114,26 @@ MassSpecification read_mass(TomlTable& table) {
     return mass;
 }
 
+/// What the equations hold, beside turbulence and coefficients.
+void read_models(TomlTable& table, SceneBody& body) {
+    body.loads = choice<Loads>(
+        table, "loads",
+        {{"none", Loads::none}, {"coefficients", Loads::coefficients}, {"table", Loads::table}}, body.loads);
+    assign(body.added_mass, table.boolean("added_mass"));
+    body.dynamic = choice<Dynamic>(
+        table, "dynamic_coefficients",
+        {{"body", Dynamic::of_body}, {"default", Dynamic::by_default}, {"none", Dynamic::none}},
+        body.dynamic);
+    body.table_reynolds_number = table.number("table_reynolds_number", positive_number);
+    body.models_auto = choice<bool>(table, "models", {{"auto", true}, {"given", false}}, false);
+    if (!body.models_auto) return;
+    for (const char* key :
+         {"loads", "added_mass", "dynamic_coefficients", "table_reynolds_number", "turbulence"}) {
+        if (table.node(key) == nullptr) continue;
+        throw table.fault(key, R"(stands beside models = "auto", which chooses it; give one of the two)");
+    }
+}
+
 CoefficientLoads read_coefficients(TomlTable& table, Loads loads) {
     CoefficientLoads coefficients;
     for (const char* key :
@@ -201,11 +221,14 @@ SceneBody read_body(TomlTable& table, const std::filesystem::path& folder) {
     assign(body.scale, table.number("scale", positive_number));
     body.mass = read_mass(table);
     read_start(table, body);
-    body.loads = choice<Loads>(
-        table, "loads",
-        {{"none", Loads::none}, {"coefficients", Loads::coefficients}, {"table", Loads::table}}, body.loads);
+    read_models(table, body);
     body.coefficients = read_coefficients(table, body.loads);
     read_turbulence(table, body);
+    if (body.table_reynolds_number && body.loads != Loads::table && body.turbulence != Turbulence::table) {
+        throw table.fault(
+            "table_reynolds_number",
+            "is for loads or turbulence from tables; remove it or set one of them to \"table\"");
+    }
     table.finish();
     return body;
 }

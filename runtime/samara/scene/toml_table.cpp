@@ -56,6 +56,13 @@ std::optional<std::string> TomlTable::text(std::string_view key) {
     return found->value<std::string>();
 }
 
+std::optional<bool> TomlTable::boolean(std::string_view key) {
+    const toml::node* found = node(key);
+    if (found == nullptr) return std::nullopt;
+    if (!found->is_boolean()) throw fault(key, "must be true or false");
+    return found->value<bool>();
+}
+
 std::optional<std::vector<double>> TomlTable::numbers(std::string_view key, std::size_t length) {
     const toml::node* found = node(key);
     if (found == nullptr) return std::nullopt;

@@ -35,6 +35,7 @@ class TomlTable {
     std::optional<double> number(std::string_view key, const NumberRange& range);
     std::optional<std::int64_t> integer(std::string_view key, std::int64_t lowest, std::int64_t highest);
     std::optional<std::string> text(std::string_view key);
+    std::optional<bool> boolean(std::string_view key);
     /// `length` finite numbers.
     std::optional<std::vector<double>> numbers(std::string_view key, std::size_t length);
     std::optional<Vector3d> vector(std::string_view key);

@@ -31,7 +31,13 @@ std::string models_of(const SceneBody& scene_body, const ImmersedBody& body) {
     if (scene_body.turbulence != Turbulence::none) {
         text += fmt::format(" ({})", langevin[static_cast<int>(scene_body.langevin)]);
     }
+    if (scene_body.table_reynolds_number && body.tables) {
+        text +=
+            fmt::format("; tables at the Reynolds number {:.4g} alone", *scene_body.table_reynolds_number);
+    }
+    if (!scene_body.added_mass) text += "; no added mass";
     if (!body.dynamic.origin.empty()) text += "; " + body.dynamic.origin;
+    if (scene_body.models_auto) text += R"(; chosen by models = "auto")";
     return text;
 }
 

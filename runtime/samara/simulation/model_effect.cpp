@@ -1,0 +1,173 @@
+#include "samara/simulation/model_effect.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace samara {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180.0;
+constexpr double certain_errors = 2.0;
+constexpr std::size_t fewest_pairs = 8;
+
+using Falls = std::vector<const SampledFall*>;
+
+Mean mean_for(std::size_t figure) {
+    const bool rms = advised_figures[figure] == Figure::rms_angular_speed ||
+                     advised_figures[figure] == Figure::path_spread;
+    return rms ? Mean::root_mean_square : Mean::arithmetic;
+}
+
+/// The mean of a figure over all falls but one.
+std::optional<Estimate> figure_without(const Falls& falls, std::size_t figure, std::size_t left_out) {
+    std::vector<Estimate> values;
+    for (std::size_t i = 0; i < falls.size(); ++i) {
+        const auto& value = falls[i]->figures[figure];
+        if (i != left_out && value) values.push_back({*value, {}, {}});
+    }
+    return mean_of(values, mean_for(figure));
+}
+
+double share_with(const Falls& falls, std::size_t figure) {
+    const auto count = std::count_if(falls.begin(), falls.end(), [&](const SampledFall* fall) {
+        return fall->figures[figure].has_value();
+    });
+    return static_cast<double>(count) / static_cast<double>(falls.size());
+}
+
+std::optional<Estimate> change_of(const Falls& reference, const Falls& falls, std::size_t figure) {
+    const std::size_t none = falls.size();
+    const auto before = figure_without(reference, figure, none);
+    const auto after = figure_without(falls, figure, none);
+    if (!before || !after) return std::nullopt;
+    Estimate change{after->value - before->value, {}, {}};
+    std::vector<double> values;
+    for (std::size_t i = 0; i < falls.size(); ++i) {
+        const auto one = figure_without(reference, figure, i);
+        const auto other = figure_without(falls, figure, i);
+        if (!one || !other) return change;
+        values.push_back(other->value - one->value);
+    }
+    if (values.size() >= fewest_pairs) change.error = jackknife_error(values, values.size(), 1);
+    return change;
+}
+
+EffectVerdict verdict_of(const Estimate& change, double limit) {
+    if (!change.error) return EffectVerdict::not_certain;
+    const double distance = std::abs(change.value);
+    const double doubt = certain_errors * *change.error;
+    if (distance + doubt <= limit) return EffectVerdict::within;
+    return distance - doubt > limit ? EffectVerdict::beyond : EffectVerdict::not_certain;
+}
+
+Regime commonest(const Falls& falls) {
+    std::array<int, 4> counts{};
+    for (const SampledFall* fall : falls) ++counts[static_cast<std::size_t>(fall->regime)];
+    return static_cast<Regime>(std::max_element(counts.begin(), counts.end()) - counts.begin());
+}
+
+double share_of(const Falls& falls, Regime regime) {
+    const auto count = std::count_if(falls.begin(), falls.end(),
+                                     [&](const SampledFall* fall) { return fall->regime == regime; });
+    return static_cast<double>(count) / static_cast<double>(falls.size());
+}
+
+/// Two samples of the same size against one share.
+bool shares_agree(double a, double b, std::size_t count) {
+    const double middle = 0.5 * (a + b);
+    const double error = std::sqrt(2.0 * middle * (1.0 - middle) / static_cast<double>(count));
+    return std::abs(a - b) <= certain_errors * error;
+}
+
+double mean_over(const Falls& falls, double SampledFall::*member) {
+    double sum = 0.0;
+    for (const SampledFall* fall : falls) sum += fall->*member;
+    return sum / static_cast<double>(falls.size());
+}
+
+/// Whether a figure says something of these falls.
+bool is_judged(Figure figure, const EffectScale& scale, bool swings) {
+    switch (figure) {
+        case Figure::inclination_amplitude:
+            return scale.judges_inclination;
+        case Figure::frequency:
+            return scale.judges_inclination && swings;
+        case Figure::rms_angular_speed:
+            return scale.judges_turning;
+        default:
+            return true;
+    }
+}
+
+double scale_of(Figure figure, double reference, const Falls& falls, const EffectScale& scale) {
+    const double speed = mean_over(falls, &SampledFall::speed);
+    const double share = tolerance_share(figure);
+    switch (figure) {
+        case Figure::descent_speed:
+            return std::max(reference, speed);
+        case Figure::inclination_amplitude:
+            return std::max(reference, degree / (share * scale.tolerance));
+        case Figure::rms_angular_speed:
+            return std::max(reference, speed / (share * scale.half_length));
+        case Figure::path_spread:
+            return std::max(reference, mean_over(falls, &SampledFall::distance) / share);
+        default:
+            return reference;
+    }
+}
+
+}  // namespace
+
+double tolerance_share(Figure figure) {
+    if (figure == Figure::descent_speed) return 1.0;
+    return figure == Figure::frequency ? 2.0 : 3.0;
+}
+
+const char* name_of(EffectVerdict verdict) {
+    constexpr const char* names[] = {"within", "not certain", "beyond"};
+    return names[static_cast<int>(verdict)];
+}
+
+FallsEffect effect_of(const std::vector<SampledFall>& reference, const std::vector<SampledFall>& falls,
+                      const EffectScale& scale) {
+    Falls before;
+    Falls after;
+    for (std::size_t i = 0; i < std::min(reference.size(), falls.size()); ++i) {
+        if (!reference[i].measured || !falls[i].measured) continue;
+        before.push_back(&reference[i]);
+        after.push_back(&falls[i]);
+    }
+    FallsEffect effect;
+    effect.falls = after.size();
+    if (after.empty()) {
+        effect.verdict = EffectVerdict::not_certain;
+        return effect;
+    }
+    effect.reference_regime = commonest(before);
+    effect.regime = commonest(after);
+    effect.regime_share = share_of(after, effect.reference_regime);
+    effect.regimes_agree =
+        effect.regime == effect.reference_regime ||
+        shares_agree(share_of(before, effect.reference_regime), effect.regime_share, after.size());
+    const bool swings = effect.regime != Regime::steady || effect.reference_regime != Regime::steady;
+    if (scale.judges_inclination && !effect.regimes_agree) effect.verdict = EffectVerdict::beyond;
+
+    for (std::size_t i = 0; i < advised_figures.size(); ++i) {
+        FigureEffect& figure = effect.figures[i];
+        figure.reference = figure_without(before, i, before.size());
+        figure.value = figure_without(after, i, after.size());
+        figure.change = change_of(before, after, i);
+        figure.scale = scale_of(advised_figures[i],
+                                figure.reference ? std::abs(figure.reference->value) : 0.0, before, scale);
+        const bool had = share_with(before, i) >= 0.5;
+        const bool has = share_with(after, i) >= 0.5;
+        if (!is_judged(advised_figures[i], scale, swings) || (!had && !has)) continue;
+        figure.limit = tolerance_share(advised_figures[i]) * scale.tolerance * figure.scale;
+        figure.verdict = had && has ? verdict_of(*figure.change, *figure.limit) : EffectVerdict::beyond;
+        effect.verdict = std::max(effect.verdict, figure.verdict);
+    }
+    return effect;
+}
+
+}  // namespace samara
