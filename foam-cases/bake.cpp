@@ -57,7 +57,7 @@ bool plans_falls(const BakeRequest& request) {
 
 BakePreparation plan_of(const BakeRequest& request, const Body& body) {
     BakePreparation preparation;
-    preparation.symmetry = body.symmetry;
+    preparation.body = body;
     if (!request.tables) return preparation;
     preparation.terminal_speed =
         terminal_speed(body, request.fluid, mass_of(request.mass, body), request.gravity);
@@ -205,9 +205,7 @@ fs::path case_folder_of(const fs::path& output) {
 BakePreparation prepare_bake(const BakeRequest& request) {
     const TemporaryFolder folder;
     Body body = named_body(request, folder.path());
-    if (plans_falls(request) || request.goal) {
-        add_kirchhoff_tensor(body, case_folder_of(request.output) / case_body_name, folder.path());
-    }
+    add_kirchhoff_tensor(body, case_folder_of(request.output) / case_body_name, folder.path());
     return plan_of(request, body);
 }
 

@@ -37,7 +37,7 @@ struct BakePreparation {
     std::optional<BakePlan> plan;         ///< for a goal that of the first round
     std::optional<ScenePlan> scene_plan;  ///< for a goal
     EnsembleFlight flight;                ///< for a goal, before anything is baked
-    Symmetry symmetry;                    ///< of the body
+    Body body;                            ///< meshed, with its Kirchhoff tensor
 };
 
 struct BakeResult {
@@ -56,9 +56,8 @@ struct BakeResult {
 /// The folder of cases of an output file: NAME.cases beside NAME.body.h5, or beside NAME.csv.
 std::filesystem::path case_folder_of(const std::filesystem::path& output);
 
-/// Meshes the body in a temporary folder and plans its cases and, as the quality asks, its falls; for these
-/// and for a goal it computes the Kirchhoff tensor unless an earlier bake did; writes nothing else. Throws
-/// Error.
+/// Meshes the body in a temporary folder, computes its Kirchhoff tensor unless an earlier bake did, and plans
+/// its cases and, as the quality asks, its falls; writes nothing else. Throws Error.
 BakePreparation prepare_bake(const BakeRequest& request);
 
 /// Meshes the body, computes its Kirchhoff tensor, solves its cases in case_folder_of(output), and

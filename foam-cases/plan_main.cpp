@@ -13,9 +13,12 @@
 #include "foam-cases/scene_requests.hpp"
 #include "samara/base/error.hpp"
 #include "samara/base/vector_json.hpp"
+#include "samara/body/body_file.hpp"
 #include "samara/command/arguments.hpp"
+#include "samara/command/progress.hpp"
 #include "samara/plot/gnuplot.hpp"
 #include "samara/scene/scene_file.hpp"
+#include "samara/simulation/model_advice.hpp"
 
 namespace samara {
 namespace {
@@ -63,8 +66,8 @@ nlohmann::json grid_as_json(const GridCost& grid) {
         {"directions", grid.directions}, {"cases", grid.cases}, {"estimated_cpu_seconds", grid.cpu_seconds}};
 }
 
-nlohmann::json plan_body(const BakeRequest& request, const PlanOptions& options, bool quiet) {
-    const BakePreparation preparation = prepare_bake(request);
+nlohmann::json plan_body(const BakeRequest& request, const BakePreparation& preparation,
+                         const PlanOptions& options, bool quiet) {
     nlohmann::json json = bake_as_json(request, preparation);
     json["name"] = request.name;
     if (!preparation.scene_plan) {
@@ -74,13 +77,13 @@ nlohmann::json plan_body(const BakeRequest& request, const PlanOptions& options,
     }
     const ScenePlan& plan = *preparation.scene_plan;
     const std::vector<VisitedDirection> places =
-        visited_directions(preparation.flight.visits, preparation.symmetry, plan);
+        visited_directions(preparation.flight.visits, preparation.body.symmetry, plan);
     json["regime"] = name_of(preparation.flight.regime);
     json["visited"] = visits_as_json(places);
     json["whole_grid"] = grid_as_json(whole_grid(plan, false));
     json["symmetric_grid"] = grid_as_json(whole_grid(plan, true));
     if (!options.picture.empty()) {
-        draw_plan(options.picture, request.name, preparation.flight.visits, preparation.symmetry, plan);
+        draw_plan(options.picture, request.name, preparation.flight.visits, preparation.body.symmetry, plan);
     }
     if (quiet) return json;
     const GridCost all = whole_grid(plan, false);
@@ -98,6 +101,20 @@ nlohmann::json plan_body(const BakeRequest& request, const PlanOptions& options,
     return json;
 }
 
+/// The body with which the scene flies: the baked one where there is one.
+CastBody as_baked(const BakeRequest& request, const BakePreparation& preparation, bool has_bodies) {
+    if (has_bodies && std::filesystem::exists(request.output)) return {read_body_file(request.output), ""};
+    return {preparation.body, ""};
+}
+
+ModelAdvice advised(const Scene& scene, const std::vector<CastBody>& cast, double tolerance) {
+    Progress progress("judging the physics", "flights");
+    AdviceOptions options;
+    options.tolerance = tolerance;
+    return advise_models(scene, cast, options,
+                         [&](double done, double total) { progress.update(done, total); });
+}
+
 nlohmann::json run(const PlanOptions& options, const Arguments& arguments) {
     if (std::filesystem::path(options.scene).extension() != ".toml") {
         throw Error(fmt::format("{}: is no scene; give a scene file NAME.toml", options.scene));
@@ -111,14 +128,20 @@ nlohmann::json run(const PlanOptions& options, const Arguments& arguments) {
         }
     }
     const std::filesystem::path folder = options.bodies.empty() ? "." : options.bodies;
-    nlohmann::json bodies = nlohmann::json::array();
     SceneBakeOptions wanted;
     wanted.quality = bake_quality(options.quality);
     wanted.tolerance = options.tolerance;
+    nlohmann::json result = {{"bodies", nlohmann::json::array()}};
+    std::vector<CastBody> cast;
     for (const BakeRequest& request : requests_for_scene(scene, folder, wanted)) {
-        bodies.push_back(plan_body(request, options, arguments.json()));
+        const BakePreparation preparation = prepare_bake(request);
+        result["bodies"].push_back(plan_body(request, preparation, options, arguments.json()));
+        cast.push_back(as_baked(request, preparation, !options.bodies.empty()));
     }
-    return {{"bodies", bodies}};
+    const ModelAdvice advice = advised(scene, cast, options.tolerance);
+    if (!arguments.json()) fmt::print("{}", as_text(advice));
+    result["models"] = as_json(advice);
+    return result;
 }
 
 }  // namespace
@@ -132,12 +155,17 @@ int main(int argc, char** argv) {
         "Shows what a scene needs: the directions and Reynolds numbers that its bodies visit, "
         "and the cases that a bake starts with");
     arguments.positional("SCENE", options.scene, "scene file (.toml)");
-    arguments.option("--bodies", options.bodies,
-                     "folder of an earlier bake, whose Kirchhoff tensors are used again");
+    arguments.option(
+        "--bodies", options.bodies,
+        "folder of an earlier bake: its tensors are used again, and its tables tell which physics "
+        "the scene needs");
     arguments.option("--picture", options.picture,
                      "draws the visited directions and the cases (.png or .svg; of a scene with one body)");
     arguments.choice("--quality", options.quality, bake_quality_names(), "of the bake that is planned");
-    arguments.option("--tolerance", options.tolerance, "of the bake that is planned", 1e-4, 10.0);
+    arguments.option(
+        "--tolerance", options.tolerance,
+        "relative, of the descent speed: of the bake that is planned, and of what may be left out", 1e-4,
+        10.0);
     arguments.footer(
         "Flies the scene 16 times with its Kirchhoff tensor and guessed loads. The bake goes on from there: "
         "it\n"

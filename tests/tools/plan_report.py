@@ -2,6 +2,7 @@
 """What baking only what a scene needs saves: its rounds beside uniform grids of directions.
 
     plan_report.py BIN WORK ROWS.csv    bakes the scenes of docs/plan in the folder WORK, or goes on there
+    plan_report.py ROWS.csv             only writes the tables and the picture beside the rows again
 
 BIN: the folder of the programs. Run from the project's folder. For each scene: the bake in rounds; then every
 direction that it might have solved, on the same meshes, as the truth; then uniform grids of these directions.
@@ -16,9 +17,12 @@ import shutil
 import subprocess
 import sys
 
+from peers_report import write_tables
+
 SCENES = "docs/plan"
 BODIES = ("sphere", "ellipsoid", "sheet", "airplane", "samara", "leaf")
 FIGURES = ("descent_speed", "frequency", "inclination_amplitude", "rms_angular_speed")
+SHARES = dict(zip(FIGURES, (1, 2, 3, 3)))
 RUNS = "32"
 
 
@@ -114,7 +118,7 @@ def compared(programs, motion, truth):
 def report(programs, work, target):
     rows = [["body", "set", "directions", "without_symmetry", "cases", "cpu_seconds"] +
             [f"{figure}_{what}" for figure in FIGURES for what in ("difference", "chance", "stated")] +
-            ["regime", "regime_of_all", "stopped_because"]]
+            ["worst", "worst_chance", "regime", "regime_of_all", "stopped_because"]]
     for body in BODIES:
         plan = baked(programs, work, body, "plan", ["--quality", "preview"])
         everything = os.path.join(work, "all")
@@ -135,7 +139,10 @@ def report(programs, work, target):
                 difference = differences.get(figure)
                 row += [f"{difference[0]:.4f}", f"{difference[1]:.4f}"] if difference else ["", ""]
                 row.append(f"{stated[figure]['error_of_table']:.4f}" if figure in stated else "")
-            return row + [regime, of_all]
+            # In what the descent speed's tolerance is to the others': 1, 2, 3 and 3 times.
+            worst = max(abs(differences[figure][0]) / share for figure, share in SHARES.items() if figure in differences)
+            chance = max(differences[figure][1] / share for figure, share in SHARES.items() if figure in differences)
+            return row + [f"{worst:.4f}", f"{chance:.4f}", regime, of_all]
 
         last = plan["plan"]["rounds"][-1]
         rows.append(row_of("plan", os.path.join(work, "plan", f"{body}.body.h5"), (last["directions"], ""),
@@ -155,13 +162,69 @@ def report(programs, work, target):
             print(*rows[-1])
     with open(target, "w", newline="") as file:
         csv.writer(file, lineterminator="\n").writerows(rows)
+    write(target)
     print(f"Written: {target}")
 
 
+def percent(row, figure):
+    """A set's difference from the truth, with what chance makes of it and what was stated."""
+    if not row[f"{figure}_difference"]:
+        return "-"
+    text = f"{100 * float(row[f'{figure}_difference']):+.1f} +- {100 * float(row[f'{figure}_chance']):.1f} %"
+    stated = row[f"{figure}_stated"]
+    return text + (f" ({100 * float(stated):.1f})" if stated else "")
+
+
+def holds(row):
+    """How many of the measures keep within two of their stated errors, chance included; and of how many."""
+    kept = 0
+    measures = [figure for figure in FIGURES if row[f"{figure}_difference"]]
+    for figure in measures:
+        stated, chance = float(row[f"{figure}_stated"] or 0.0), float(row[f"{figure}_chance"])
+        kept += abs(float(row[f"{figure}_difference"])) <= 2.0 * (stated ** 2 + chance ** 2) ** 0.5
+    return kept, len(measures)
+
+
+def write(target):
+    """The tables of plan.md beside the rows, and its picture."""
+    with open(target, newline="") as file:
+        rows = list(csv.DictReader(file))
+    lines = ["| body | set | directions | CPU s | descent | frequency | amplitude | rms angular speed | regime |",
+             "|---" * 9 + "|"]
+    summary = ["| body | directions, CPU s: what the scene needs | the cheapest grid as good, after symmetry | "
+               "the same without symmetry | share of the CPU s | stated errors hold |", "|---" * 6 + "|"]
+    kept, measured = 0, 0
+    for body in BODIES:
+        of_body = [row for row in rows if row["body"] == body]
+        for row in of_body:
+            lines.append(f"| {body} | {row['set'].replace('_', ' ')} | {row['directions']} | {row['cpu_seconds']} | " +
+                         " | ".join(percent(row, figure) for figure in FIGURES) + f" | {row['regime']} |")
+        if not of_body:
+            continue
+        plan, grids = of_body[0], of_body[1:]
+        allowed = float(plan["worst"]) + 2.0 * float(plan["worst_chance"])
+        good = next(row for row in grids if float(row["worst"]) <= allowed or row is grids[-1])
+        alone = float(good["cpu_seconds"]) * int(good["without_symmetry"]) / int(good["directions"])
+        now = holds(plan)
+        kept, measured = kept + now[0], measured + now[1]
+        summary.append(f"| {body} | {plan['directions']}, {plan['cpu_seconds']} | {good['directions']}, "
+                       f"{good['cpu_seconds']} | {good['without_symmetry']}, {alone:.0f} | "
+                       f"{100 * float(plan['cpu_seconds']) / float(good['cpu_seconds']):.0f} %; "
+                       f"{100 * float(plan['cpu_seconds']) / alone:.0f} % | {now[0]} of {now[1]} |")
+    summary.append(f"| all | | | | | {kept} of {measured} |")
+    write_tables(target.replace(".csv", ".md"), ["\n".join(summary) + "\n", "\n".join(lines) + "\n"],
+                 "<!-- table: written by ./dev report-plan -->\n")
+    picture = target.replace(".csv", "")
+    subprocess.run(["gnuplot", "-e", f"rows='{target}'; picture='{picture}.png'", f"{picture}.gp"], check=True)
+
+
 def main():
-    if len(sys.argv) != 4:
+    if len(sys.argv) == 2:
+        write(sys.argv[1])
+    elif len(sys.argv) == 4:
+        report(*sys.argv[1:])
+    else:
         sys.exit(__doc__.strip())
-    report(*sys.argv[1:])
 
 
 if __name__ == "__main__":
