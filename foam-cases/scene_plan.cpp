@@ -14,7 +14,6 @@ namespace {
 constexpr std::size_t first_directions = 3;  // beside the anchors
 constexpr std::size_t first_directions_of_arc = 1;
 constexpr double far_in_reynolds_number = 2.0;  // beyond that ratio coefficients may differ
-constexpr double share_that_strays = 0.05;      // of the frames: so many may be outside of the plan
 constexpr std::size_t further_directions = 3;   // with cases at another Reynolds number
 
 /// The quantile of the logarithm of the visits' Reynolds numbers by the squared loads met there.
@@ -220,8 +219,9 @@ void judge_round(const SceneGoal& goal, const Conversion& conversion, double cpu
     round.flight.visits = {};
     const double worst = round.error.worst(goal.tolerance);
     const bool good = worst <= 1.0;
-    const bool stays = round.strayed <= share_that_strays;
     plan.rounds.push_back(round);
+    // Where it strays to is judged with the rest, and planned from now on.
+    if (symmetry.kind != Symmetry::Kind::spherical) merge(plan.region, visited_region(visits, symmetry));
     if (plan.rounds.size() >= static_cast<std::size_t>(goal.most_rounds)) {
         plan.stopped_because = fmt::format("{} rounds are the most there may be", goal.most_rounds);
     }
@@ -230,15 +230,13 @@ void judge_round(const SceneGoal& goal, const Conversion& conversion, double cpu
     const bool more_reynolds_numbers =
         adds_reynolds_numbers(goal, *conversion.body.tables, symmetry, visits, next);
     plan.reynolds_collapsed = next.reynolds_collapsed;
-    if (good && stays && !more_reynolds_numbers) {
+    if (good && !more_reynolds_numbers) {
         plan.stopped_because = "the tolerance is met";
     } else if (next.chosen.size() == next.candidates.directions.size() && !more_reynolds_numbers) {
         plan.stopped_because = "every direction is solved";
     }
     if (!plan.stopped_because.empty()) return;
-    // Where it has strayed to is planned from now on.
-    if (symmetry.kind != Symmetry::Kind::spherical) merge(next.region, visited_region(visits, symmetry));
-    if (!good || !stays) {
+    if (!good) {
         add_directions(
             choose_directions(symmetry, next.candidates.directions, next.chosen,
                               direction_weights(visits, symmetry), next_count(next, symmetry, worst)),
