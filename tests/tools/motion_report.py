@@ -1,0 +1,137 @@
+#!/usr/bin/env python3
+"""Error of the motion against time, from inertia alone to full CFD, on the reference falls of docs/falls.
+
+    motion_report.py BIN BODIES FOLDER    flies the falls whose bodies are in BODIES, writes FOLDER/motion.{csv,md,png}
+
+BODIES: as falls_report.py leaves it, NAME.body.h5 at quality standard, and NAME-preview.body.h5, which is baked here
+if it is missing. Bodies that are not there are left out. Run from the project's folder.
+"""
+
+import csv
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+from falls_report import BODIES as SHAPES
+from falls_report import FALLS, SCENES, baked_file, run
+from peers_report import write_tables
+
+# The models, cheapest first: what the body of a scene is given, and the body file that it needs.
+MODELS = (
+    ("inertia alone", 'loads = "none"\n', "standard"),
+    ("drag coefficient 1", 'loads = "coefficients"\n', "standard"),
+    ("preview tables", "", "preview"),
+    ("standard tables, default coefficients of motion", 'dynamic_coefficients = "default"\n', "standard"),
+    ("standard tables, identified coefficients", "", "standard"),
+)
+CFD = "full CFD, the reference"
+SHARES = {"descent_speed": 1, "frequency": 2, "inclination_amplitude": 3}
+MARK = "<!-- table: written by ./dev report-falls -->\n"
+
+
+def preview_of(programs, folder, body):
+    file = os.path.join(folder, f"{body}-preview.body.h5")
+    if not os.path.exists(file):
+        shape, options = SHAPES[body]
+        run([f"{programs}/samara", "bake", shape, "-o", file, "--quality", "preview", "--json"] + options)
+    return file
+
+
+def flown(programs, scene, keys, file, folder):
+    """The comparison of a scene with other keys with its reference, and the seconds for a simulated second."""
+    with open(f"{FALLS}/{scene}.toml") as opened:
+        text = opened.read()
+    text = re.sub(r'shape = ".*"', f'shape = "{os.path.abspath(file)}"', text).rstrip() + "\n" + keys
+    with open(os.path.join(folder, "scene.toml"), "w") as changed:
+        changed.write(text)
+    motion = os.path.join(folder, "motion.h5")
+    words = [f"{programs}/samara", "simulate", os.path.join(folder, "scene.toml"), "-o", motion, "--threads", "1", "--json"]
+    seconds = min(run(words)["seconds"] for _ in range(5))
+    duration = float(re.search(r"duration = ([0-9.]+)", text).group(1))
+    return run([f"{programs}/samara", "compare", motion, f"{FALLS}/{scene}.h5", "--json"]), seconds / duration
+
+
+def error_of(comparison):
+    """The worst of the measures' differences over 1 (descent), 2 (frequency) and 3 (amplitude); a measure that only
+    one of the two falls has counts as all of itself."""
+    judged = SHARES if comparison.get("judges_inclination", True) else {"descent_speed": 1}
+    worst = 0.0
+    for figure, share in judged.items():
+        measure = comparison["measures"].get(figure) or {}
+        if not (measure.get("reference") or {}).get("value"):
+            continue
+        difference = measure.get("relative_difference")
+        worst = max(worst, (1.0 if difference is None else abs(difference)) / share)
+    return worst
+
+
+def cpu_seconds():
+    """CPU seconds and duration of the reference falls, by docs/falls.md and the scenes."""
+    costs = {}
+    with open("docs/falls.md") as document:
+        for line in document:
+            cells = [cell.strip() for cell in line.split("|")]
+            name = re.match(r"\[([a-z-]+)\]\(falls/", cells[1]) if len(cells) > 5 else None
+            if name:
+                with open(f"{FALLS}/{name.group(1)}.toml") as scene:
+                    duration = float(re.search(r"duration = ([0-9.]+)", scene.read()).group(1))
+                costs[name.group(1)] = float(cells[4].replace(",", "")) / duration
+    return costs
+
+
+def report(programs, bodies, target):
+    rows = []
+    costs = cpu_seconds()
+    with tempfile.TemporaryDirectory() as work:
+        for scene, body in SCENES.items():
+            if not os.path.exists(baked_file(bodies, body)):
+                print(f"{scene}: no {baked_file(bodies, body)}, left out")
+                continue
+            for model, keys, quality in MODELS:
+                file = baked_file(bodies, body) if quality == "standard" else preview_of(programs, bodies, body)
+                comparison, seconds = flown(programs, scene, keys, file, work)
+                agrees = comparison["motion"]["regime"] == comparison["reference"]["regime"]
+                rows.append([scene, model, seconds, error_of(comparison), comparison["motion"]["regime"],
+                             "yes" if agrees else "no"])
+                print(*rows[-1])
+            rows.append([scene, CFD, costs[scene], 0.0, comparison["reference"]["regime"], "yes"])
+    with open(target, "w", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["fall", "model", "seconds_per_simulated_second", "error", "regime", "regime_agrees"])
+        writer.writerows([[f"{cell:.4g}" if isinstance(cell, float) else cell for cell in row] for row in rows])
+    write(target)
+
+
+def write(target):
+    """The table of motion.md beside the rows, and its picture."""
+    with open(target, newline="") as file:
+        rows = list(csv.DictReader(file))
+    falls = list(dict.fromkeys(row["fall"] for row in rows))
+    lines = ["| model | s for a simulated second | faster than full CFD | " + " | ".join(falls) + " | mean | regimes right |",
+             "|---" * (len(falls) + 5) + "|"]
+    of_cfd = [float(row["seconds_per_simulated_second"]) for row in rows if row["model"] == CFD]
+    for model in dict.fromkeys(row["model"] for row in rows):
+        of_model = [row for row in rows if row["model"] == model]
+        seconds = [float(row["seconds_per_simulated_second"]) for row in of_model]
+        errors = [float(row["error"]) for row in of_model]
+        mean = sum(seconds) / len(seconds)
+        lines.append(f"| {model} | {mean:.2g} | {sum(of_cfd) / len(of_cfd) / mean:,.0f} | " +
+                     " | ".join(f"{100 * error:.0f} %" for error in errors) +
+                     f" | {100 * sum(errors) / len(errors):.0f} % | "
+                     f"{sum(row['regime_agrees'] == 'yes' for row in of_model)} of {len(of_model)} |")
+    write_tables(target.replace(".csv", ".md"), ["\n".join(lines) + "\n"], MARK)
+    picture = target.replace(".csv", "")
+    subprocess.run(["gnuplot", "-e", f"rows='{target}'; picture='{picture}.png'", f"{picture}.gp"], check=True)
+    print(f"Written: {target}, its table and picture")
+
+
+def main():
+    if len(sys.argv) != 4:
+        sys.exit(__doc__.strip())
+    report(sys.argv[1], sys.argv[2], os.path.join(sys.argv[3], "motion.csv"))
+
+
+if __name__ == "__main__":
+    main()
