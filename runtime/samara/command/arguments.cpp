@@ -52,6 +52,10 @@ void Arguments::positional(const std::string& name, std::string& value, const st
     parser_->app.add_option(name, value, help)->required();
 }
 
+void Arguments::optional_positional(const std::string& name, std::string& value, const std::string& help) {
+    parser_->app.add_option(name, value, help);
+}
+
 void Arguments::flag(const std::string& name, bool& value, const std::string& help) {
     parser_->app.add_flag(name, value, help);
 }
