@@ -38,14 +38,24 @@ constexpr Command commands[] = {
     {"info", "what a file holds, its units and its provenance", samara::info_command},
 };
 
+bool is_installed(const Command& command) {
+    return command.run != nullptr || samara::find_program(fmt::format("samara-{}", command.name)).has_value();
+}
+
 void print_help() {
     fmt::print(
         "samara: rigid bodies that fall, flutter and tumble through water or air\n\n"
         "Usage: samara COMMAND [options]; 'samara COMMAND --help' tells more\n\n");
     for (const Command& command : commands) {
-        const bool installed = command.run != nullptr ||
-                               samara::find_program(fmt::format("samara-{}", command.name)).has_value();
-        fmt::print("  {:<13}{}{}\n", command.name, command.does, installed ? "" : " (not installed)");
+        fmt::print("  {:<13}{}{}\n", command.name, command.does,
+                   is_installed(command) ? "" : " (not installed)");
+    }
+}
+
+/// For a shell's completion.
+void list_commands() {
+    for (const Command& command : commands) {
+        if (is_installed(command)) fmt::print("{}\n", command.name);
     }
 }
 
@@ -77,6 +87,10 @@ int main(int argc, char** argv) {
     const std::string name = argc > 1 ? argv[1] : "--help";
     if (name == "--help" || name == "-h" || name == "help") {
         print_help();
+        return 0;
+    }
+    if (name == "--list-commands") {
+        list_commands();
         return 0;
     }
     if (name == "--version") {

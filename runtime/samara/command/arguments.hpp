@@ -57,8 +57,10 @@ class Arguments {
 };
 
 /// Parses the words and runs `body`, which does the command's work, prints its text for people unless --json
-/// was given, and returns its result, printed as one JSON object where --json was given. Returns the exit
-/// status: 0, or 1 after one line "PROGRAM: what is wrong" on standard error, for bad words as for an Error.
+/// was given, and returns its result, printed as one JSON object where --json was given. The single word
+/// --list-options instead prints the options and the words they take, for a shell's completion. Returns the
+/// exit status: 0, or 1 after one line "PROGRAM: what is wrong" on standard error, for bad words as for an
+/// Error.
 int run_program(int argc, const char* const* argv, Arguments& arguments,
                 const std::function<nlohmann::json()>& body);
 
