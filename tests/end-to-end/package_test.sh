@@ -54,6 +54,9 @@ cc -std=c99 -Wall "$source_folder/docs/examples/fall.c" -I"$work/root/usr/includ
 LD_LIBRARY_PATH=$(dirname "$(find "$work/root" -name libsamara.so)") \
   ./fall "$work/root/usr/share/samara/bodies/airplane.body.h5" >poses || fail "the example in C does not run"
 [ -s poses ] || fail "the example in C printed nothing"
+python3 "$source_folder/docs/examples/fall.py" "$(find "$work/root" -name libsamara.so)" \
+  "$work/root/usr/share/samara/bodies/airplane.body.h5" >poses || fail "the example in Python does not run"
+[ "$(wc -l <poses)" = 25 ] || fail "the example in Python did not print 25 poses"
 nm -D --defined-only "$(find "$work/root" -name libsamara.so)" | awk '{ print $3 }' | grep -v '^samara_' |
   grep -q . && fail "libsamara.so shows more than the C interface"
 

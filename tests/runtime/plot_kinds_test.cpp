@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "samara/base/content_hash.hpp"
-#include "samara/motion/leaning.hpp"
 #include "samara/motion/motion_file.hpp"
+#include "samara/motion/tilt.hpp"
 #include "support/program_run.hpp"
 #include "synthetic_motion.hpp"
 
@@ -92,8 +92,8 @@ TEST_F(PlotKinds, APhasePortraitHasBothAxesNamedAndIsOneCurveForAFlutter) {
     EXPECT_EQ(json["lines"], 1);
     EXPECT_NEAR(json["highest_rate"].get<double>(), 40.0 * degree * 2.0 * std::numbers::pi, 0.01);
     const Svg picture = svg("phase.svg");
-    for (const char* text : {"leaning in the plane of the swing (°)", "Rate of leaning (rad/s)", "time (s)",
-                             "Leaning (°)", "Rate (rad/s)", "4.00 s", "fluttering"}) {
+    for (const char* text : {"tilt in the plane of the swing (°)", "Rate of the tilt (rad/s)", "time (s)",
+                             "Tilt (°)", "Rate (rad/s)", "4.00 s", "fluttering"}) {
         EXPECT_THAT(picture.text, HasSubstr(text));
     }
     // Coloured by time: a line of its own colour for each frame.
@@ -151,26 +151,26 @@ TEST_F(PlotKinds, WhatCannotBeDrawnIsRefusedInOneLine) {
     refused({"cube.h5", "-o", "no.svg", "--kind", "phase"}, "has no shortest axis");
 }
 
-TEST(Leaning, IsTheInclinationWithASignAndItsDerivativeForASwingInAPlane) {
+TEST(Tilt, IsTheInclinationWithASignAndItsDerivativeForASwingInAPlane) {
     const Motion motion =
         test::motion_of([](double t) { return test::flutter(t, 1.0, 40.0 * degree, 0.2); }, 2.0);
-    const Leaning leaning = leaning_of(motion, motion.bodies[0], 0, 0);
-    ASSERT_EQ(leaning.times.size(), motion.times.size());
-    for (std::size_t i = 0; i < leaning.times.size(); ++i) {
-        const double phase = 2.0 * std::numbers::pi * leaning.times[i];
-        EXPECT_NEAR(leaning.angle[i], 40.0 * degree * std::cos(phase), 1e-12);
-        EXPECT_NEAR(leaning.rate[i], -40.0 * degree * 2.0 * std::numbers::pi * std::sin(phase), 1e-12);
-        EXPECT_EQ(leaning.continues[i], i > 0);
+    const Tilt tilt = tilt_of(motion, motion.bodies[0], 0, 0);
+    ASSERT_EQ(tilt.times.size(), motion.times.size());
+    for (std::size_t i = 0; i < tilt.times.size(); ++i) {
+        const double phase = 2.0 * std::numbers::pi * tilt.times[i];
+        EXPECT_NEAR(tilt.angle[i], 40.0 * degree * std::cos(phase), 1e-12);
+        EXPECT_NEAR(tilt.rate[i], -40.0 * degree * 2.0 * std::numbers::pi * std::sin(phase), 1e-12);
+        EXPECT_EQ(tilt.continues[i], i > 0);
     }
 }
 
-TEST(Leaning, ItsRateIsTheDerivativeOfTheAngleInAnyMotion) {
+TEST(Tilt, ItsRateIsTheDerivativeOfTheAngleInAnyMotion) {
     const Motion motion = test::motion_of(test::wander, 2.0, 2000.0);
-    const Leaning leaning = leaning_of(motion, motion.bodies[0], 0, 0);
-    for (std::size_t i = 1; i + 1 < leaning.times.size(); ++i) {
-        if (!leaning.continues[i] || !leaning.continues[i + 1]) continue;
-        const double difference = (leaning.angle[i + 1] - leaning.angle[i - 1]) * 1000.0;
-        EXPECT_NEAR(leaning.rate[i], difference, 1e-2 + 1e-2 * std::abs(difference)) << leaning.times[i];
+    const Tilt tilt = tilt_of(motion, motion.bodies[0], 0, 0);
+    for (std::size_t i = 1; i + 1 < tilt.times.size(); ++i) {
+        if (!tilt.continues[i] || !tilt.continues[i + 1]) continue;
+        const double difference = (tilt.angle[i + 1] - tilt.angle[i - 1]) * 1000.0;
+        EXPECT_NEAR(tilt.rate[i], difference, 1e-2 + 1e-2 * std::abs(difference)) << tilt.times[i];
     }
 }
 

@@ -1,4 +1,4 @@
-#include "samara/motion/leaning.hpp"
+#include "samara/motion/tilt.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -52,22 +52,22 @@ Vector3d main_side(const std::vector<UpperEnd>& ends) {
 
 }  // namespace
 
-Leaning leaning_of(const Motion& motion, const BodyMotion& body, int run, int copy) {
+Tilt tilt_of(const Motion& motion, const BodyMotion& body, int run, int copy) {
     const std::vector<UpperEnd> ends = upper_ends(motion, body, run, copy);
     const Vector3d side = main_side(ends);
-    Leaning leaning;
+    Tilt tilt;
     for (const UpperEnd& end : ends) {
         const double sine = end.horizontal.dot(side);
         const double sine_rate = end.horizontal_rate.dot(side);
         const double square = std::max(sine * sine + end.height * end.height, across);
         const double angle = std::atan2(sine, end.height);
-        leaning.continues.push_back(!leaning.times.empty() &&
-                                    std::abs(angle - leaning.angle.back()) < most_between_frames);
-        leaning.times.push_back(end.time);
-        leaning.angle.push_back(angle);
-        leaning.rate.push_back((sine_rate * end.height - end.height_rate * sine) / square);
+        tilt.continues.push_back(!tilt.times.empty() &&
+                                 std::abs(angle - tilt.angle.back()) < most_between_frames);
+        tilt.times.push_back(end.time);
+        tilt.angle.push_back(angle);
+        tilt.rate.push_back((sine_rate * end.height - end.height_rate * sine) / square);
     }
-    return leaning;
+    return tilt;
 }
 
 }  // namespace samara

@@ -8,7 +8,7 @@ namespace samara {
 
 /// How the body leans in the vertical plane in which it swings most, and its rate: the axes of a phase
 /// portrait.
-struct Leaning {
+struct Tilt {
     std::vector<double> times;  ///< s
     std::vector<double> angle;  ///< rad, -pi/2 to pi/2: of the shortest axis' upper end from the vertical, as
                                 ///< seen in the plane; of a body that swings in it alone the inclination
@@ -20,6 +20,6 @@ struct Leaning {
 
 /// The fall (fall_of()) of one copy in one run. The plane is upright and holds the horizontal direction in
 /// which the shortest axis' upper end swings most over the fall. Without gravity the down direction is -z.
-Leaning leaning_of(const Motion& motion, const BodyMotion& body, int run, int copy);
+Tilt tilt_of(const Motion& motion, const BodyMotion& body, int run, int copy);
 
 }  // namespace samara
