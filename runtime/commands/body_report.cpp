@@ -24,19 +24,6 @@ std::string in_words(const Vector3d& vector) {
     return fmt::format("({:.6g}, {:.6g}, {:.6g})", vector.x(), vector.y(), vector.z());
 }
 
-/// The lengths of the surface along the columns of `axes` (m).
-Vector3d extents_along(const Surface& surface, const Matrix3d& axes) {
-    const double infinity = std::numeric_limits<double>::infinity();
-    Vector3d lowest = Vector3d::Constant(infinity);
-    Vector3d highest = -lowest;
-    for (const Vector3d& vertex : surface.vertices) {
-        const Vector3d place = axes.transpose() * vertex;
-        lowest = lowest.cwiseMin(place);
-        highest = highest.cwiseMax(place);
-    }
-    return highest - lowest;
-}
-
 std::string in_words(const Symmetry& symmetry) {
     const std::string group =
         fmt::format("{} element{}", symmetry.elements.size(),
@@ -213,6 +200,19 @@ nlohmann::json tables_as_json(const LoadTables& tables) {
 
 }  // namespace
 
+Vector3d principal_extents(const Body& body) {
+    const Matrix3d axes = principal_axes(body.moments);
+    const double infinity = std::numeric_limits<double>::infinity();
+    Vector3d lowest = Vector3d::Constant(infinity);
+    Vector3d highest = -lowest;
+    for (const Vector3d& vertex : body.surface.vertices) {
+        const Vector3d place = axes.transpose() * vertex;
+        lowest = lowest.cwiseMin(place);
+        highest = highest.cwiseMax(place);
+    }
+    return highest - lowest;
+}
+
 void print_body(const Body& body) {
     const VolumeMoments& moments = body.moments;
     fmt::print("Body {} (metres, shape axes)\n", body.name);
@@ -222,7 +222,7 @@ void print_body(const Body& body) {
     print_row("volume", "{:.6g} m^3", moments.volume);
     print_row("centroid", "{} m", in_words(moments.centroid));
     print_row("surface area", "{:.6g} m^2", moments.surface_area);
-    print_row("principal extents", "{} m", in_words(extents_along(body.surface, principal_axes(moments))));
+    print_row("principal extents", "{} m", in_words(principal_extents(body)));
     print_row("symmetry", "{}", in_words(body.symmetry));
     if (body.kirchhoff) {
         print_kirchhoff(*body.kirchhoff);
@@ -252,7 +252,7 @@ nlohmann::json body_as_json(const Body& body) {
         {"volume", moments.volume},
         {"centroid", as_json(moments.centroid)},
         {"surface_area", moments.surface_area},
-        {"principal_extents", as_json(extents_along(body.surface, principal_axes(moments)))},
+        {"principal_extents", as_json(principal_extents(body))},
         {"symmetry", {{"kind", name_of(body.symmetry.kind)}, {"elements", body.symmetry.elements.size()}}},
         {"kirchhoff", nullptr},
         {"tables", nullptr},

@@ -10,6 +10,9 @@ int kirchhoff_command(int argc, const char* const* argv);
 /// samara simulate: a scene's motion.
 int simulate_command(int argc, const char* const* argv);
 
+/// samara bodies: the ready-baked bodies.
+int bodies_command(int argc, const char* const* argv);
+
 /// samara export: a motion for other tools.
 int export_command(int argc, const char* const* argv);
 

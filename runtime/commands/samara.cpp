@@ -24,26 +24,38 @@ constexpr Command commands[] = {
     {"mesh", "shape file -> checked surface, volume moments, symmetry", nullptr},
     {"kirchhoff", "body or shape -> added mass (Kirchhoff tensor) in an unbounded fluid",
      samara::kirchhoff_command},
+    {"plan", "scene -> the cases that it needs, and their cost", nullptr},
     {"bake", "OpenFOAM cases around a body -> load and turbulence tables", nullptr},
     {"convert", "solved cases -> tables in the body file", nullptr},
     {"identify", "solved free falls -> dynamic coefficients in the body file", nullptr},
     {"check-tables", "tables against solved cases that they were not made from", nullptr},
+    {"bodies", "the ready-baked bodies that come with it", samara::bodies_command},
     {"simulate", "scene -> motion of its bodies", samara::simulate_command},
-    {"export", "motion -> .glb for animation tools, .csv", samara::export_command},
+    {"export", "motion -> .glb, .usda, .chan for animation tools, .html, .csv", samara::export_command},
     {"plot", "motion -> picture: silhouettes along the path, time series", samara::plot_command},
     {"compare", "motion held against another, such as a fall by full CFD", samara::compare_command},
     {"validate", "scene -> the same motion by full CFD, to hold the runtime against", nullptr},
     {"info", "what a file holds, its units and its provenance", samara::info_command},
 };
 
+bool is_installed(const Command& command) {
+    return command.run != nullptr || samara::find_program(fmt::format("samara-{}", command.name)).has_value();
+}
+
 void print_help() {
     fmt::print(
         "samara: rigid bodies that fall, flutter and tumble through water or air\n\n"
         "Usage: samara COMMAND [options]; 'samara COMMAND --help' tells more\n\n");
     for (const Command& command : commands) {
-        const bool installed = command.run != nullptr ||
-                               samara::find_program(fmt::format("samara-{}", command.name)).has_value();
-        fmt::print("  {:<13}{}{}\n", command.name, command.does, installed ? "" : " (not installed)");
+        fmt::print("  {:<13}{}{}\n", command.name, command.does,
+                   is_installed(command) ? "" : " (not installed)");
+    }
+}
+
+/// For a shell's completion.
+void list_commands() {
+    for (const Command& command : commands) {
+        if (is_installed(command)) fmt::print("{}\n", command.name);
     }
 }
 
@@ -75,6 +87,10 @@ int main(int argc, char** argv) {
     const std::string name = argc > 1 ? argv[1] : "--help";
     if (name == "--help" || name == "-h" || name == "help") {
         print_help();
+        return 0;
+    }
+    if (name == "--list-commands") {
+        list_commands();
         return 0;
     }
     if (name == "--version") {

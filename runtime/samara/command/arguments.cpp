@@ -4,10 +4,13 @@
 #include <cctype>
 #include <cstdio>
 #include <exception>
+#include <map>
 #include <new>
+#include <string_view>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "samara/base/error.hpp"
@@ -19,6 +22,7 @@ struct Arguments::Parser {
     CLI::App app;
     std::string program;
     bool json = false;
+    std::map<std::string, std::vector<std::string>> choices;  ///< by the option's name with its dashes
 };
 
 namespace {
@@ -27,6 +31,19 @@ std::string one_line(std::string text) {
     std::replace(text.begin(), text.end(), '\n', ' ');
     while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())) != 0) text.pop_back();
     return text;
+}
+
+/// For shells: a line for each option, of its names and, after a tab, the words that it takes.
+void list_options(const CLI::App& app, const std::map<std::string, std::vector<std::string>>& choices) {
+    for (const CLI::Option* option : app.get_options()) {
+        std::vector<std::string> names;
+        for (const std::string& name : option->get_snames()) names.push_back('-' + name);
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+        if (names.empty()) continue;  // a word by its place
+        const auto words = choices.find(option->get_name());
+        fmt::print("{}\t{}\n", fmt::join(names, " "),
+                   words == choices.end() ? "" : fmt::format("{}", fmt::join(words->second, " ")));
+    }
 }
 
 int fail(const std::string& program, const std::string& text) {
@@ -50,6 +67,10 @@ Arguments::~Arguments() = default;
 
 void Arguments::positional(const std::string& name, std::string& value, const std::string& help) {
     parser_->app.add_option(name, value, help)->required();
+}
+
+void Arguments::optional_positional(const std::string& name, std::string& value, const std::string& help) {
+    parser_->app.add_option(name, value, help);
 }
 
 void Arguments::flag(const std::string& name, bool& value, const std::string& help) {
@@ -91,7 +112,9 @@ void Arguments::option(const std::string& name, std::uint64_t& value, const std:
 
 void Arguments::choice(const std::string& name, std::string& value, const std::vector<std::string>& words,
                        const std::string& help) {
-    parser_->app.add_option(name, value, help)->check(CLI::IsMember(words))->capture_default_str();
+    CLI::Option* option = parser_->app.add_option(name, value, help);
+    option->check(CLI::IsMember(words))->capture_default_str();
+    parser_->choices[option->get_name()] = words;
 }
 
 void Arguments::footer(const std::string& text) {
@@ -109,6 +132,10 @@ bool Arguments::json() const {
 int run_program(int argc, const char* const* argv, Arguments& arguments,
                 const std::function<nlohmann::json()>& body) {
     Arguments::Parser& parser = *arguments.parser_;
+    if (argc == 2 && std::string_view(argv[1]) == "--list-options") {
+        list_options(parser.app, parser.choices);
+        return 0;
+    }
     try {
         parser.app.parse(argc, argv);
         const nlohmann::json result = body();

@@ -23,6 +23,8 @@ class Arguments {
 
     /// A required word, by its place.
     void positional(const std::string& name, std::string& value, const std::string& help);
+    /// A word by its place that may be left out: then the value stays as it is.
+    void optional_positional(const std::string& name, std::string& value, const std::string& help);
     /// A flag without a value, such as "--keep".
     void flag(const std::string& name, bool& value, const std::string& help);
     /// An option with a value, such as "-o,--output"; the default shown in the help is the value it has now.
@@ -55,8 +57,10 @@ class Arguments {
 };
 
 /// Parses the words and runs `body`, which does the command's work, prints its text for people unless --json
-/// was given, and returns its result, printed as one JSON object where --json was given. Returns the exit
-/// status: 0, or 1 after one line "PROGRAM: what is wrong" on standard error, for bad words as for an Error.
+/// was given, and returns its result, printed as one JSON object where --json was given. The single word
+/// --list-options instead prints the options and the words they take, for a shell's completion. Returns the
+/// exit status: 0, or 1 after one line "PROGRAM: what is wrong" on standard error, for bad words as for an
+/// Error.
 int run_program(int argc, const char* const* argv, Arguments& arguments,
                 const std::function<nlohmann::json()>& body);
 

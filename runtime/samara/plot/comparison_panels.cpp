@@ -27,10 +27,6 @@ std::string header(const std::string& title, const std::string& right, const Box
            label(right, box.right, box.top + canvas::header_lift, "right", gray);
 }
 
-std::string end_panel() {
-    return "unset label; unset arrow; unset object\n";
-}
-
 std::string line(const std::string& block, unsigned color, double width) {
     return fmt::format("{} using 1:2 with lines lc rgb '#{:06x}' lw {} notitle", block, color, width);
 }

@@ -4,6 +4,7 @@
 
 #include "samara/motion/comparison.hpp"
 #include "samara/plot/canvas.hpp"
+#include "samara/plot/panel.hpp"
 
 namespace samara {
 
@@ -15,12 +16,6 @@ inline constexpr unsigned faint_reference_color = 0xf5d3b8;
 
 /// Until when falls are drawn (s since the release): what both cover, 24 swings of the reference at most.
 double drawn_time(const Comparison& comparison);
-
-/// gnuplot commands: data blocks, to stand before the plots, and plots within a multiplot.
-struct PanelText {
-    std::string data;
-    std::string plots;
-};
 
 /// Both paths in two views; between the two edges (pixels).
 PanelText path_panel(const Comparison& comparison, double left, double right);

@@ -10,10 +10,9 @@
 #include "samara/plot/strip_panel.hpp"
 
 namespace samara {
-namespace {
 
-std::string title_of(const Motion& motion, const BodyMotion& body, int run, int copy,
-                     const Measures& measures) {
+std::string picture_title(const Motion& motion, const BodyMotion& body, int run, int copy,
+                          const Measures& measures) {
     const double degrees = 180.0 / std::numbers::pi;
     const bool rests = measures.rms_angular_speed == 0.0 && measures.mean_velocity.isZero(0.0);
     const std::string title = rests ? body.name + ": at rest"
@@ -30,8 +29,6 @@ std::string title_of(const Motion& motion, const BodyMotion& body, int run, int 
            label(below, 45.0, canvas::height - 108.0, "left", gray);
 }
 
-}  // namespace
-
 MotionPlot plot_motion(const std::filesystem::path& file, const Motion& motion, const BodyMotion& body,
                        int run, int copy) {
     const Measures measures = measure(motion, body, run, copy);
@@ -39,7 +36,7 @@ MotionPlot plot_motion(const std::filesystem::path& file, const Motion& motion, 
     const StripPanel left = strip_panel(motion, body, run, copy, strip);
     const SeriesPanel right = series_panel(motion, body, run, copy, strip, measures, left.right);
     draw_picture(file, left.data + right.data + "set multiplot\n" +
-                           title_of(motion, body, run, copy, measures) + left.plots + right.plots +
+                           picture_title(motion, body, run, copy, measures) + left.plots + right.plots +
                            "unset multiplot\nset output\n");
     const auto time = [&](int frame) { return motion.times[static_cast<std::size_t>(frame)]; };
     return {static_cast<int>(strip.frames.size()), {time(strip.first), time(strip.last)}, measures};

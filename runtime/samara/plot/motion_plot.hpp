@@ -1,10 +1,15 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "samara/motion/measures.hpp"
 
 namespace samara {
+
+/// gnuplot commands for the title of a picture of one copy in one run: its name, regime and figures.
+std::string picture_title(const Motion& motion, const BodyMotion& body, int run, int copy,
+                          const Measures& measures);
 
 /// What a picture of a motion showed.
 struct MotionPlot {

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "samara/motion/inclination.hpp"
+#include "samara/plot/panel.hpp"
 #include "samara/plot/silhouette.hpp"
 #include "samara/plot/strip_panel.hpp"
 
@@ -88,12 +89,7 @@ std::string begin_panel(const Motion& motion, const Measures& measures, const Bo
     text += last ? "set format x '%g'\n" : "set format x ''\n";
     if (last) text += x_title("time (s)", box);
     text += "set format y '%g'\n";
-    if (measures.window.end > measures.window.begin) {
-        text += fmt::format(
-            "set object 1 rectangle from first {:.9g}, graph 0 to first {:.9g}, graph 1 behind fs solid 1 "
-            "noborder fc rgb '#f0f3f7'\n",
-            measures.window.begin, measures.window.end);
-    }
+    text += shaded_window(measures.window);
     return text + bold_label(title, box.left, box.top + canvas::header_lift, "left", black);
 }
 
@@ -106,10 +102,6 @@ std::string level(const Measures& measures, double value) {
     return fmt::format(
         "set arrow from {:.9g},{:.9g} to {:.9g},{:.9g} nohead lc rgb '#d55e00' lw 2.5 dt (8,6)\n",
         measures.window.begin, value, measures.window.end, value);
-}
-
-std::string end_panel() {
-    return "unset label; unset arrow; unset object\n";
 }
 
 std::string scalar_plot(int column) {

@@ -151,7 +151,7 @@ std::string time_texts(const Scene& scene, const Motion& motion, const BodyMotio
 
 std::string view_plot(const Scene& scene, const ViewFrame& frame, bool first) {
     std::string plot = place_frame(frame.box);
-    plot += axis("x", frame.range, tic_step(95.0 * scene.pixel));
+    plot += axis("x", frame.range, tic_step(80.0 * scene.pixel));
     plot += axis("y", scene.height, tic_step(70.0 * scene.pixel));
     plot += first ? "set format y '%g'\n" : "set format y ''\n";
     plot += x_title(fmt::format("{} (m)", frame.horizontal), frame.box);

@@ -11,6 +11,7 @@
 
 #include "samara/base/content_hash.hpp"
 #include "samara/base/error.hpp"
+#include "samara/scene/ready_bodies.hpp"
 #include "samara/scene/toml_table.hpp"
 
 namespace samara {
@@ -204,6 +205,23 @@ bool is_plain_name(const std::string& name) {
     return !name.empty() && name.size() <= 64 && name.find_first_not_of(allowed) == std::string::npos;
 }
 
+/// The file that `shape` names: a ready-baked body, or a file seen from the scene's folder.
+std::filesystem::path shape_file(const TomlTable& table, const std::string& shape,
+                                 const std::filesystem::path& folder) {
+    if (shape.starts_with(ready_body_prefix)) {
+        try {
+            return ready_body_file(shape.substr(ready_body_prefix.size()));
+        } catch (const Error& fault) {
+            throw table.fault("shape", fmt::format("cannot be had: {}", fault.what()));
+        }
+    }
+    const std::filesystem::path file = folder / shape;  // an absolute path stays as it is
+    if (!std::filesystem::is_regular_file(file)) {
+        throw table.fault("shape", fmt::format("names {}, but there is no such file", file.string()));
+    }
+    return file;
+}
+
 SceneBody read_body(TomlTable& table, const std::filesystem::path& folder) {
     SceneBody body;
     const auto name = table.text("name");
@@ -212,12 +230,10 @@ SceneBody read_body(TomlTable& table, const std::filesystem::path& folder) {
         throw table.fault("name", "may hold letters, digits, '-' and '_' alone, 64 at most");
     body.name = *name;
     const auto shape = table.text("shape");
-    if (!shape) throw table.fault("shape", "is missing; give a shape file or a .body.h5");
-    body.shape =
-        std::filesystem::path(*shape).is_absolute() ? std::filesystem::path(*shape) : folder / *shape;
-    if (!std::filesystem::is_regular_file(body.shape)) {
-        throw table.fault("shape", fmt::format("names {}, but there is no such file", body.shape.string()));
-    }
+    if (!shape)
+        throw table.fault(
+            "shape", "is missing; give a shape file, a .body.h5 or a ready-baked body, as \"samara:leaf\"");
+    body.shape = shape_file(table, *shape, folder);
     assign(body.scale, table.number("scale", positive_number));
     body.mass = read_mass(table);
     read_start(table, body);
@@ -262,12 +278,7 @@ Scene read_scene_file(const std::filesystem::path& file) {
     Scene scene;
     scene.file = file;
     scene.text = read_bytes(file);
-    toml::table document;
-    try {
-        document = toml::parse(scene.text, file.string());
-    } catch (const toml::parse_error& fault) {
-        throw Error(fmt::format("{}:{}: {}", file.string(), fault.source().begin.line, fault.description()));
-    }
+    const toml::table document = parse_toml(scene.text, file.string());
     TomlTable top(document, file.string(), "the scene");
     auto settings = top.table("scene");
     if (!settings) throw top.fault("[scene]", "is missing; it holds at least the duration");

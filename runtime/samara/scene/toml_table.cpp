@@ -8,6 +8,14 @@
 
 namespace samara {
 
+toml::table parse_toml(std::string_view text, const std::string& file) {
+    try {
+        return toml::parse(text, file);
+    } catch (const toml::parse_error& fault) {
+        throw Error(fmt::format("{}:{}: {}", file, fault.source().begin.line, fault.description()));
+    }
+}
+
 TomlTable::TomlTable(const toml::table& table, std::string file, std::string where)
     : table_(&table), file_(std::move(file)), where_(std::move(where)) {}
 

@@ -13,6 +13,9 @@
 
 namespace samara {
 
+/// Parses a TOML text; `file` is the name for messages. Throws Error with the file and the line.
+toml::table parse_toml(std::string_view text, const std::string& file);
+
 /// Bounds of a number, with the words for a message: "must be above 0".
 struct NumberRange {
     double lowest;

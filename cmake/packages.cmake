@@ -1,0 +1,35 @@
+# `cpack -G DEB` (./dev package): one Debian package for each component.
+set(CPACK_PACKAGE_NAME samara)
+set(CPACK_PACKAGE_CONTACT "the samara project")
+set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY ${PROJECT_DESCRIPTION})
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_ALL runtime)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME samara-runtime)
+set(CPACK_COMPONENT_RUNTIME_DESCRIPTION
+  "The runtime: simulates bodies with precomputed added mass, load and turbulence tables,
+exports their motion to animation tools and plots it. With ready-baked
+bodies, the C interface (libsamara.so, samara.h) and the C++ library.")
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS gnuplot-nox)
+# For programs in C++ that find_package(samara).
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS
+  "samara-baking, libeigen3-dev, libhdf5-dev, libfmt-dev, libhwy-dev, libtinygltf-dev, libtomlplusplus-dev, nlohmann-json3-dev")
+
+if(SAMARA_BAKING)
+  list(APPEND CPACK_COMPONENTS_ALL baking)
+  set(CPACK_DEBIAN_BAKING_PACKAGE_NAME samara-baking)
+  set(CPACK_COMPONENT_BAKING_DESCRIPTION
+    "The baking tools: mesh shapes with gmsh, solve the flow around them with OpenFOAM and
+make the body files that samara-runtime flies; falls by full CFD to validate
+them.")
+  set(CPACK_DEBIAN_BAKING_PACKAGE_DEPENDS
+    "samara-runtime (= ${PROJECT_VERSION}), openfoam, snakemake, python3")
+endif()
+include(CPack)

@@ -1,0 +1,175 @@
+// samara bodies: the ready-baked bodies that come with it.
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "commands/body_report.hpp"
+#include "commands/commands.hpp"
+#include "samara/base/content_hash.hpp"
+#include "samara/base/error.hpp"
+#include "samara/base/vector_json.hpp"
+#include "samara/body/body_file.hpp"
+#include "samara/command/arguments.hpp"
+#include "samara/files/hdf5_file.hpp"
+#include "samara/files/replace_file.hpp"
+#include "samara/scene/ready_bodies.hpp"
+
+namespace samara {
+namespace {
+
+constexpr const char* footer =
+    R"(A scene flies one with shape = "samara:NAME"; its tables hold around the Reynolds
+numbers listed, in any fluid. Force: the tables' standard error over the force, root
+mean square over all directions.
+
+The bodies are in share/samara/bodies beside the program's folder; SAMARA_BODIES names
+another folder of body files.
+
+JSON: folder, not_baked (names), bodies: a list with name, file, hash, samara_version,
+source, shape (its file), extents (m, shortest first), fluid, density (kg/m^3),
+reynolds_numbers, quality, force_error (a share), from_falls (whether its dynamic
+coefficients come from free falls), purpose; null where a body has none.
+With NAME that body alone; with -o also output.
+
+Examples: samara bodies
+          samara bodies leaf -o leaf.body.h5)";
+
+/// The shape file's name at the begin of a body's source.
+std::string shape_of(const Body& body) {
+    return body.source.substr(0, body.source.find(' '));
+}
+
+double force_error(const LoadTables& tables) {
+    double square = 0.0;
+    for (const ErrorShare& share : tables.error_sources) square += share.force * share.force;
+    return std::sqrt(square);
+}
+
+template <typename Value>
+nlohmann::json given(const Value& value, bool is_given) {
+    return is_given ? nlohmann::json(value) : nlohmann::json(nullptr);
+}
+
+nlohmann::json report(const ReadyBody& ready) {
+    const Body body = read_body_file(ready.file);
+    nlohmann::json json = {
+        {"name", ready.name},
+        {"file", ready.file.string()},
+        {"hash", file_content_hash(ready.file)},
+        {"samara_version", Hdf5Reader(ready.file).text_attribute("/", "samara_version")},
+        {"source", body.source},
+        {"shape", shape_of(body)},
+        {"extents", as_json(principal_extents(body))},
+        {"fluid", given(ready.fluid, !ready.fluid.empty())},
+        {"density", given(ready.density.value_or(0.0), ready.density.has_value())},
+        {"reynolds_numbers", nullptr},
+        {"quality", nullptr},
+        {"force_error", nullptr},
+        {"from_falls", body.dynamic.has_value()},
+        {"purpose", given(ready.purpose, !ready.purpose.empty())},
+    };
+    if (body.tables) {
+        json["reynolds_numbers"] = body.tables->reynolds_numbers;
+        json["quality"] = body.tables->quality;
+        json["force_error"] = given(force_error(*body.tables), !body.tables->error_sources.empty());
+    }
+    return json;
+}
+
+std::string text_or_dash(const nlohmann::json& value) {
+    return value.is_null() ? "-" : value.get<std::string>();
+}
+
+std::string numbers_in_words(const nlohmann::json& numbers) {
+    if (numbers.is_null()) return "-";
+    std::vector<std::string> words;
+    for (const nlohmann::json& number : numbers) words.push_back(fmt::format("{:.3g}", number.get<double>()));
+    return fmt::format("{}", fmt::join(words, " "));
+}
+
+std::string size_in_words(const nlohmann::json& extents) {
+    return fmt::format("{:.3g} x {:.3g} x {:.3g}", 1e3 * extents[0].get<double>(),
+                       1e3 * extents[1].get<double>(), 1e3 * extents[2].get<double>());
+}
+
+void print_list(const nlohmann::json& result) {
+    constexpr const char* row = "{:<11}{:<15}{:<20}{:<7}{:<19}{:<10}{:>6}  {}\n";
+    fmt::print(fmt::runtime(row), "name", "shape", "size (mm)", "fluid", "Reynolds numbers", "quality",
+               "force", "for");
+    for (const nlohmann::json& body : result["bodies"]) {
+        const std::string error = body["force_error"].is_null()
+                                      ? "-"
+                                      : fmt::format("{:.0f} %", 100.0 * body["force_error"].get<double>());
+        fmt::print(fmt::runtime(row), body["name"].get<std::string>(), body["shape"].get<std::string>(),
+                   size_in_words(body["extents"]), text_or_dash(body["fluid"]),
+                   numbers_in_words(body["reynolds_numbers"]), text_or_dash(body["quality"]), error,
+                   text_or_dash(body["purpose"]));
+    }
+    if (result["bodies"].empty()) {
+        fmt::print("There are none in {}\n", result["folder"].get<std::string>());
+        return;
+    }
+    const nlohmann::json& missing = result["not_baked"];
+    if (!missing.empty()) {
+        fmt::print("Not baked yet: {}\n", fmt::join(missing.get<std::vector<std::string>>(), ", "));
+    }
+}
+
+nlohmann::json list(bool quiet) {
+    const std::filesystem::path folder = ready_bodies_folder();
+    nlohmann::json result = {{"folder", folder.string()},
+                             {"not_baked", nlohmann::json::array()},
+                             {"bodies", nlohmann::json::array()}};
+    for (const ReadyBody& body : ready_bodies(folder)) {
+        if (body.exists) {
+            result["bodies"].push_back(report(body));
+        } else {
+            result["not_baked"].push_back(body.name);
+        }
+    }
+    if (!quiet) print_list(result);
+    return result;
+}
+
+nlohmann::json one(const std::string& name, const std::string& output, bool quiet) {
+    const std::filesystem::path file = ready_body_file(name);
+    nlohmann::json result;
+    for (const ReadyBody& body : ready_bodies(file.parent_path())) {
+        if (body.name == name) result = report(body);
+    }
+    if (output.empty()) {
+        if (!quiet) print_body(read_body_file(file));
+        return result;
+    }
+    replace_file_with(output, read_bytes(file));
+    result["output"] = output;
+    if (!quiet) fmt::print("{}: a copy of {}\n", output, file.string());
+    return result;
+}
+
+}  // namespace
+
+int bodies_command(int argc, const char* const* argv) {
+    std::string name;
+    std::string output;
+    Arguments arguments("samara bodies", "The ready-baked bodies that come with samara.");
+    arguments.optional_positional("NAME", name, "one of them: what its file holds");
+    arguments.option("-o,--output", output, "NAME.body.h5: copies that body's file there");
+    arguments.footer(footer);
+    return run_program(argc, argv, arguments, [&] {
+        if (arguments.given("--output")) {
+            if (name.empty()) throw Error("-o copies one body; name it, as in 'samara bodies leaf -o ...'");
+            if (!is_body_file_name(output)) {
+                throw Error(fmt::format("{}: is to be a body file; name it NAME.body.h5", output));
+            }
+        }
+        return name.empty() ? list(arguments.json()) : one(name, output, arguments.json());
+    });
+}
+
+}  // namespace samara

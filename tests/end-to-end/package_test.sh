@@ -1,0 +1,77 @@
+#!/usr/bin/env bash
+# The packages of a build: the runtime's, unpacked into an empty root, flies a ready-baked body and serves a program in
+# C, without the build folder; the baking tools are in the other.
+# Usage: package_test.sh BUILD_FOLDER WORK_FOLDER SOURCE_FOLDER
+set -euo pipefail
+build=$1
+work=$2
+source_folder=$3
+
+fail() {
+  echo "$*" >&2
+  exit 1
+}
+
+rm -rf "$work"
+mkdir -p "$work/root" "$work/scene"
+(cd "$work" && cpack -G DEB --config "$build/CPackConfig.cmake" -B "$work/packages") >"$work/cpack.log" ||
+  fail "cpack failed: $(tail -n 5 "$work/cpack.log")"
+runtime=$(echo "$work"/packages/samara-runtime_*.deb)
+baking=$(echo "$work"/packages/samara-baking_*.deb)
+
+# Dependencies are those that dpkg-shlibdeps finds, and the tools' own.
+dpkg-deb -f "$runtime" Depends | grep -q 'libhdf5' || fail "the runtime depends on no HDF5"
+dpkg-deb -f "$runtime" Depends | grep -qE 'gmsh|openfoam|snakemake' && fail "the runtime depends on baking tools"
+for package in samara-runtime openfoam snakemake libgmsh; do
+  dpkg-deb -f "$baking" Depends | grep -q "$package" || fail "the baking tools do not depend on $package"
+done
+dpkg-deb -c "$runtime" | awk '{ print $6 }' >"$work/runtime"
+dpkg-deb -c "$baking" | awk '{ print $6 }' >"$work/baking"
+grep -v '/$' "$work/runtime" | grep -Fxf "$work/baking" && fail "both packages hold these files"
+grep -q 'bin/samara-bake$' "$work/baking" || fail "there is no samara-bake among the baking tools"
+grep -q 'foam-cases/Snakefile$' "$work/baking" || fail "there are no case templates among the baking tools"
+if command -v help2man >/dev/null; then
+  grep -q 'man1/samara-simulate\.1$' "$work/runtime" || fail "the runtime has no manual pages"
+  grep -q 'man1/samara-bake\.1$' "$work/baking" || fail "the baking tools have no manual pages"
+fi
+
+# The runtime alone, away from the folders it was built in.
+dpkg -x "$runtime" "$work/root"
+samara=$work/root/usr/bin/samara
+cd "$work/scene"
+printf '[scene]\nduration = 1.0\n[fluid]\npreset = "air"\n[[body]]\nname = "dart"\nshape = "samara:airplane"\ndensity = 800\n' \
+  >scene.toml
+"$samara" bodies --json | grep -q "\"folder\":\"$work/root/usr/share/samara/bodies\"" ||
+  fail "the ready-baked bodies are not taken from the package"
+"$samara" simulate scene.toml -o motion.h5
+"$samara" export motion.h5 -o motion.glb
+[ -s motion.glb ] || fail "nothing was exported"
+PATH= "$samara" --help | /usr/bin/grep -q 'bake .*(not installed)' || fail "baking tools were found outside of the root"
+
+# A program in C with what the package holds, and no other library.
+cc -std=c99 -Wall "$source_folder/docs/examples/fall.c" -I"$work/root/usr/include" \
+  -L"$(dirname "$(find "$work/root" -name libsamara.so)")" -lsamara -lm -o fall
+LD_LIBRARY_PATH=$(dirname "$(find "$work/root" -name libsamara.so)") \
+  ./fall "$work/root/usr/share/samara/bodies/airplane.body.h5" >poses || fail "the example in C does not run"
+[ -s poses ] || fail "the example in C printed nothing"
+python3 "$source_folder/docs/examples/fall.py" "$(find "$work/root" -name libsamara.so)" \
+  "$work/root/usr/share/samara/bodies/airplane.body.h5" >poses || fail "the example in Python does not run"
+[ "$(wc -l <poses)" = 25 ] || fail "the example in Python did not print 25 poses"
+nm -D --defined-only "$(find "$work/root" -name libsamara.so)" | awk '{ print $3 }' | grep -v '^samara_' |
+  grep -q . && fail "libsamara.so shows more than the C interface"
+
+# Both together: the tools are found beside samara, and their templates beside them.
+dpkg -x "$baking" "$work/root"
+"$samara" mesh "$work/root/usr/share/samara/meshes/sphere.geo" -o ball.body.h5
+"$samara" bake ball.body.h5 -o baked.body.h5 --quality smoke --dry-run
+
+# A shell that completes commands, options and their words.
+completed() {
+  bash -c "source '$work/root/usr/share/bash-completion/completions/samara'
+    COMP_WORDS=($samara $1); COMP_CWORD=\$((\${#COMP_WORDS[@]} - 1)); _samara; echo \"\${COMPREPLY[*]}\""
+}
+[ "$(completed sim)" = simulate ] || fail "commands are not completed"
+[ "$(completed 'simulate --ru')" = --runs ] || fail "options are not completed"
+[ "$(completed 'bake --quality pre')" = preview ] || fail "words of options are not completed"
+cd /
+rm -rf "$work"
