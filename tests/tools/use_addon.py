@@ -132,6 +132,7 @@ def errors(good, newer, cut):
     empty_scene()
     found = {"none_selected": run(bpy.ops.samara.simulate)}
     (o,) = add_bodies(good, 1)
+    o.animation_data_clear()
     for name, file in (("newer", newer), ("cut", cut), ("missing", good + ".not")):
         o.samara.body_file = file
         found[name] = run(bpy.ops.samara.simulate)
@@ -149,6 +150,7 @@ def errors(good, newer, cut):
     o.parent = parent
     found["parent"] = run(bpy.ops.samara.simulate)
     o.parent = None
+    o.animation_data_clear()
     assert run(bpy.ops.samara.live) == ""
     o.samara.body_file = cut
     scene.frame_set(9)
