@@ -33,7 +33,7 @@ def write_stl(path, corners):
 def scene_text(name, stl, density, fluid):
     """The scene that `samara bake` reads. fluid: density and viscosity."""
     return (
-        f"[fluid]\ndensity = {fluid[0]!r}\nviscosity = {fluid[1]!r}\n\n"
+        f"[scene]\nduration = 1.0\n\n[fluid]\ndensity = {fluid[0]!r}\nviscosity = {fluid[1]!r}\n\n"
         f'[[body]]\nname = "{name}"\nshape = "{stl}"\ndensity = {density!r}\n'
     )
 
