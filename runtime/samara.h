@@ -61,7 +61,7 @@ typedef struct samara_body samara_body;
 SAMARA_API samara_status samara_body_load(const char* file, samara_body** body, char* error,
                                           size_t error_size);
 
-/* Simulations that were given the body keep what they need of it. Null is allowed. */
+/* Simulations that were given the body keep what they need of it, and share it. Null is allowed. */
 SAMARA_API void samara_body_free(samara_body* body);
 
 /* Of a null body the following return an empty text, or 0. Texts live as long as the body. */

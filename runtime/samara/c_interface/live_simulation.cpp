@@ -80,7 +80,8 @@ bool is_finite(const BodyState& state) {
 
 LiveSimulation::LiveSimulation(const SimulationSettings& settings) : settings_(settings) {}
 
-std::size_t LiveSimulation::add(const Body& body, const std::string& hash, const SceneBody& given) {
+std::size_t LiveSimulation::add(const Body& body, PreparedBodies& prepared, const std::string& hash,
+                                const SceneBody& given) {
     if (has_begun_) throw Fault(SAMARA_INVALID_ARGUMENT, "bodies cannot be added after the first advance");
     SceneBody kind = given;
     if (kind.name.empty()) kind.name = body.name;
@@ -91,7 +92,7 @@ std::size_t LiveSimulation::add(const Body& body, const std::string& hash, const
     }
     require_data(body, kind);
     const auto count = static_cast<std::size_t>(kind.count);
-    auto immersed = std::make_unique<const ImmersedBody>(make_immersed_body(body, kind, settings_.fluid));
+    auto immersed = prepared.get(body, kind, settings_.fluid);
     Batch batch(*immersed, count);
     Kind added{.given = kind,
                .description = description_of(kind, *immersed, hash),
@@ -105,7 +106,7 @@ std::size_t LiveSimulation::add(const Body& body, const std::string& hash, const
         const Noise noise(settings_.seed, kind.name, settings_.run, static_cast<std::uint32_t>(i));
         const BodyState state =
             initial_state(kind, added.body->center_of_mass, settings_.surroundings, noise);
-        require_above_ground(*added.body, settings_.surroundings, kind.start, state, i, count);
+        require_above_ground(*added.body, kind.name, settings_.surroundings, kind.start, state, i, count);
         added.batch.set_state(i, state);
         added.before[i] = flow_pose(state);
     }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "samara/body/body.hpp"
+#include "samara/c_interface/prepared_bodies.hpp"
 #include "samara/c_interface/settings.hpp"
 #include "samara/dynamics/batch.hpp"
 #include "samara/dynamics/immersed_body.hpp"
@@ -29,10 +30,11 @@ class LiveSimulation {
     explicit LiveSimulation(const SimulationSettings& settings);
 
     /// Adds all bodies of a kind, before the first advance, and returns the number of the first. `hash`: of
-    /// the body file. Throws Fault where the body lacks what the kind asks for, where the name is taken, or
-    /// where the simulation has begun; Error where the inertia is not that of any body, or a body starts
-    /// below the ground.
-    std::size_t add(const Body& body, const std::string& hash, const SceneBody& kind);
+    /// the body file; `prepared`: of this body. Throws Fault where the body lacks what the kind asks for,
+    /// where the name is taken, or where the simulation has begun; Error where the inertia is not that of any
+    /// body, or a body starts below the ground.
+    std::size_t add(const Body& body, PreparedBodies& prepared, const std::string& hash,
+                    const SceneBody& kind);
 
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
     [[nodiscard]] double time() const noexcept { return time_; }
@@ -64,7 +66,7 @@ class LiveSimulation {
     struct Kind {
         SceneBody given;
         std::string description;  ///< of all that shapes the motion: states fit equal descriptions
-        std::unique_ptr<const ImmersedBody> body;
+        std::shared_ptr<const ImmersedBody> body;
         Batch batch;
         std::size_t first = 0;
         std::uint64_t steps = 0;

@@ -122,7 +122,8 @@ samara_status samara_simulation_add(samara_simulation* simulation, const samara_
         require(simulation, "simulation");
         require(body, "body");
         require(kind, "kind");
-        const size_t added = simulation->live.add(body->body, body->hash, samara::read_kind(*kind));
+        const size_t added =
+            simulation->live.add(body->body, body->prepared, body->hash, samara::read_kind(*kind));
         if (first != nullptr) *first = added;
     });
 }

@@ -48,7 +48,7 @@ BodyFlight::BodyFlight(const Scene& scene, const SceneBody& scene_body, const Im
         const auto copy = static_cast<std::uint32_t>(i % copies_);
         const Noise noise(scene.seed, scene_body.name, run, copy);
         const BodyState state = initial_state(scene_body, body.center_of_mass, surroundings_, noise);
-        require_above_ground(body, surroundings_, start_, state, copy, copies_);
+        require_above_ground(body, body.name, surroundings_, start_, state, copy, copies_);
         batch_.set_noise(i, noise);
         batch_.set_state(i, state);
         after_[i] = flow_pose(state);

@@ -57,17 +57,17 @@ BodyState initial_state(const SceneBody& scene_body, const Vector3d& center_of_m
     return state_of(in_flow(pose, surroundings, scene_body.start));
 }
 
-void require_above_ground(const ImmersedBody& body, const Surroundings& surroundings, double start,
-                          const BodyState& state, std::size_t copy, std::size_t copies) {
+void require_above_ground(const ImmersedBody& body, const std::string& name, const Surroundings& surroundings,
+                          double start, const BodyState& state, std::size_t copy, std::size_t copies) {
     if (!surroundings.ground) return;
     const Vector3d down = state.orientation.conjugate() * -Vector3d::UnitZ();
     const double height = state.position.z() + flow_displacement(surroundings, start).z();
     const double depth = *surroundings.ground - height + reach(body.contact_points, down);
     if (depth <= 1e-6 * body.contact_points.bounding_radius) return;
-    throw Error(fmt::format(
-        "body '{}'{} starts {:.4g} m below the ground at {:g} m; start it higher, or "
-        "lower the ground",
-        body.name, copies > 1 ? fmt::format(", copy {},", copy) : "", depth, *surroundings.ground));
+    throw Error(
+        fmt::format("body '{}'{} starts {:.4g} m below the ground at {:g} m; start it higher, or "
+                    "lower the ground",
+                    name, copies > 1 ? fmt::format(", copy {},", copy) : "", depth, *surroundings.ground));
 }
 
 }  // namespace samara

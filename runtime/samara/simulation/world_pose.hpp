@@ -29,9 +29,9 @@ BodyState state_of(const Pose& in_flow);
 BodyState initial_state(const SceneBody& scene_body, const Vector3d& center_of_mass,
                         const Surroundings& surroundings, const Noise& noise);
 
-/// Throws Error, which names the body and says how deep, where the lowest point of copy number `copy` (of
-/// `copies`) starts below the ground of the surroundings. `start`: s.
-void require_above_ground(const ImmersedBody& body, const Surroundings& surroundings, double start,
-                          const BodyState& state, std::size_t copy, std::size_t copies);
+/// Throws Error, which calls the body by `name` and says how deep, where the lowest point of copy number
+/// `copy` (of `copies`) starts below the ground of the surroundings. `start`: s.
+void require_above_ground(const ImmersedBody& body, const std::string& name, const Surroundings& surroundings,
+                          double start, const BodyState& state, std::size_t copy, std::size_t copies);
 
 }  // namespace samara

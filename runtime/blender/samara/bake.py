@@ -1,0 +1,163 @@
+"""Operator: a body file from an object's mesh, by the program samara."""
+
+import os
+import tempfile
+
+import bpy
+import numpy
+from bpy.props import EnumProperty
+
+from .bake_job import BakeJob, bake_command, find_program, write_stl
+from .conventions import metres_per_unit, noise_name
+from .objects import fluid_of
+from .samara_library import SamaraError
+
+
+def mesh_corners(context, o):
+    """The triangles (n, 3 corners, 3) of the object with modifiers and scale, in metres about its origin."""
+    if any(s < 0.0 for s in o.scale):
+        raise SamaraError(f"{o.name}: has a negative scale, which turns its faces; apply it (Ctrl A, Scale)")
+    if any(s == 0.0 for s in o.scale):
+        raise SamaraError(f"{o.name}: has a scale of 0; it has no volume")
+    evaluated = o.evaluated_get(context.evaluated_depsgraph_get())
+    try:
+        mesh = evaluated.to_mesh()
+    except RuntimeError:
+        raise SamaraError(f"{o.name}: has no mesh; bake a mesh") from None
+    try:
+        mesh.calc_loop_triangles()
+        vertices = numpy.empty(3 * len(mesh.vertices), numpy.float32)
+        corners = numpy.empty(3 * len(mesh.loop_triangles), numpy.int32)
+        mesh.vertices.foreach_get("co", vertices)
+        mesh.loop_triangles.foreach_get("vertices", corners)
+    finally:
+        evaluated.to_mesh_clear()
+    if not len(corners):
+        raise SamaraError(f"{o.name}: has no faces; bake a closed mesh")
+    scaled = vertices.reshape(-1, 3) * numpy.array(o.scale) * metres_per_unit(context.scene)
+    return scaled[corners].reshape(-1, 3, 3)
+
+
+def output_folder():
+    """Where baked bodies go: beside the .blend file, or among temporary files as long as it is not saved."""
+    if bpy.data.filepath:
+        folder = bpy.path.abspath("//samara")
+    else:
+        folder = os.path.join(tempfile.gettempdir(), f"samara-{os.getuid()}")
+    try:
+        os.makedirs(folder, exist_ok=True)
+    except OSError as fault:
+        raise SamaraError(f"{folder}: {fault.strerror}") from None
+    return folder
+
+
+class SAMARA_OT_bake(bpy.types.Operator):
+    bl_idname = "samara.bake"
+    bl_label = "Bake Body"
+    bl_description = "Makes a body file of the active object's closed mesh, with the program samara"
+    bl_options = {"REGISTER", "UNDO"}
+
+    quality: EnumProperty(
+        name="Quality",
+        items=[
+            ("SHAPE", "Added mass alone", "A second; no OpenFOAM. Loads then come from coefficients"),
+            ("SMOKE", "Smoke", "The coarsest tables, for tests"),
+            ("PREVIEW", "Preview", "Tables by OpenFOAM in a minute or some, for a first look"),
+            ("STANDARD", "Standard", "Tables for work: many minutes"),
+        ],
+        default="PREVIEW",
+    )
+
+    @classmethod
+    def poll(cls, context):
+        return context.object is not None
+
+    def _start(self, context):
+        o = context.object
+        program = find_program(preferences(context).program)
+        corners = mesh_corners(context, o)
+        folder, name = output_folder(), noise_name(o.name)
+        try:
+            write_stl(os.path.join(folder, f"{name}.stl"), corners)
+            command = bake_command(program, folder, name, self.quality, o.samara.density, fluid_of(context.scene))
+        except OSError as fault:
+            raise SamaraError(f"{fault.filename}: {fault.strerror}") from None
+        self._name, self._scale = o.name, tuple(o.scale)
+        self._file = os.path.join(folder, f"{name}.body.h5")
+        self._job = BakeJob(command)
+
+    def _finish(self):
+        o = bpy.data.objects.get(self._name)
+        if o is None:
+            self.report({"WARNING"}, f"{self._file}: is baked, but the object {self._name} is gone")
+            return {"FINISHED"}
+        o.samara.body_file = bpy.path.relpath(self._file) if bpy.data.filepath else self._file
+        o.samara.body_scale = self._scale
+        self.report({"INFO"}, f"{self._file}: is baked")
+        return {"FINISHED"}
+
+    def execute(self, context):
+        try:
+            self._start(context)
+            self._job.wait()
+        except SamaraError as fault:
+            self.report({"ERROR"}, str(fault))
+            return {"CANCELLED"}
+        return self._finish()
+
+    def invoke(self, context, event):
+        if bpy.app.background:
+            return self.execute(context)
+        try:
+            self._start(context)
+        except SamaraError as fault:
+            self.report({"ERROR"}, str(fault))
+            return {"CANCELLED"}
+        manager = context.window_manager
+        manager.progress_begin(0, 100)
+        self._timer = manager.event_timer_add(0.2, window=context.window)
+        manager.modal_handler_add(self)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context, event):
+        if event.type == "ESC":
+            self.cancel(context)
+            self.report({"WARNING"}, "bake cancelled; what is solved is kept, and the next bake goes on from there")
+            return {"CANCELLED"}
+        if event.type != "TIMER":
+            return {"PASS_THROUGH"}
+        context.window_manager.progress_update(100.0 * self._job.progress())
+        context.workspace.status_text_set(f"samara bakes (Esc cancels). {self._job.line}")
+        try:
+            if not self._job.is_done():
+                return {"PASS_THROUGH"}
+        except SamaraError as fault:
+            self.cancel(context)
+            self.report({"ERROR"}, str(fault))
+            return {"CANCELLED"}
+        self.cancel(context)
+        return self._finish()
+
+    def cancel(self, context):
+        self._job.cancel()
+        context.window_manager.event_timer_remove(self._timer)
+        context.window_manager.progress_end()
+        context.workspace.status_text_set(None)
+
+
+def preferences(context):
+    return context.preferences.addons[__package__].preferences
+
+
+class SamaraPreferences(bpy.types.AddonPreferences):
+    bl_idname = __package__
+
+    program: bpy.props.StringProperty(
+        name="samara", description="The program that bakes bodies", subtype="FILE_PATH", default="samara"
+    )
+
+    def draw(self, context):
+        self.layout.prop(self, "program")
+
+
+CLASSES = (SamaraPreferences, SAMARA_OT_bake)

@@ -1,0 +1,58 @@
+"""Between Blender's conventions and samara's: lengths, time, names.
+
+Both have z up, right-handed axes and quaternions (w, x, y, z), so that only scales differ. samara counts metres and
+seconds. A Blender unit is `metres_per_unit` metres, a frame is fps_base/fps seconds, and the scene's first frame is
+time 0. The scene's gravity is read as m/s^2 whatever a unit is.
+"""
+
+import hashlib
+import math
+import re
+
+from .samara_library import SamaraError
+
+
+def metres_per_unit(scene):
+    """The length of a Blender unit: the scene's unit scale, where it has units."""
+    units = scene.unit_settings
+    return units.scale_length if units.system != "NONE" else 1.0
+
+
+def seconds_per_frame(scene):
+    return scene.render.fps_base / scene.render.fps
+
+
+def frame_count(scene):
+    """Frames from the scene's first to its last, both counted."""
+    if scene.frame_end <= scene.frame_start:
+        raise SamaraError(
+            f"the scene's frame range, {scene.frame_start} to {scene.frame_end}, has no length; "
+            "set its end behind its start"
+        )
+    return scene.frame_end - scene.frame_start + 1
+
+
+def frame_times(scene):
+    """The time (s) of every frame of the range."""
+    step = seconds_per_frame(scene)
+    return [i * step for i in range(frame_count(scene))]
+
+
+def noise_name(name):
+    """The name that keys an object's noise: of any name a different one of letters, digits, - and _ alone."""
+    plain = re.sub(r"[^A-Za-z0-9-]", lambda c: "__" if c[0] == "_" else f"_{ord(c[0]):x}_", name)
+    if len(plain) <= 64:
+        return plain
+    return plain[:40] + "_" + hashlib.sha256(name.encode()).hexdigest()[:20]
+
+
+def checked_scale(name, scale, body_scale):
+    """Refuses an object that does not show its body in the body file's size."""
+    if all(math.isclose(a, b, rel_tol=1e-4) for a, b in zip(scale, body_scale)):
+        return
+    text = ", ".join(f"{s:.4g}" for s in scale)
+    wanted = ", ".join(f"{s:.4g}" for s in body_scale)
+    raise SamaraError(
+        f"{name}: its scale is ({text}), but the size of the body file counts, which is for ({wanted}); "
+        "apply the scale (Ctrl A) and bake the body anew, or set the scale back"
+    )

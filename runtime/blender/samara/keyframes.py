@@ -1,0 +1,44 @@
+"""Keys of location and rotation, many at a time."""
+
+import bpy
+import numpy
+
+_LINEAR = 1  # 'LINEAR' among the interpolations of a key
+
+
+def _own_action(o):
+    """The object's action, which no other object shares."""
+    data = o.animation_data_create()
+    if data.action is None:
+        data.action = bpy.data.actions.new(f"{o.name} samara")
+    elif data.action.users > 1:
+        data.action = data.action.copy()
+    return data.action
+
+
+def _insert_channel(action, path, index, frames, values):
+    old = action.fcurves.find(path, index=index)
+    if old is not None:
+        action.fcurves.remove(old)
+    curve = action.fcurves.new(path, index=index, action_group="samara")
+    points = numpy.empty((len(frames), 2), numpy.float32)
+    points[:, 0] = frames
+    points[:, 1] = values
+    curve.keyframe_points.add(len(frames))
+    curve.keyframe_points.foreach_set("co", points.ravel())
+    curve.keyframe_points.foreach_set("interpolation", numpy.full(len(frames), _LINEAR, numpy.int32))
+    curve.update()
+
+
+def insert_poses(o, first_frame, locations, rotations):
+    """Linear keys of location (n, 3) and rotation_quaternion (n, 4) at n frames on end, in place of any before."""
+    o.rotation_mode = "QUATERNION"
+    action = _own_action(o)
+    frames = numpy.arange(first_frame, first_frame + len(locations))
+    for path, values in (("location", locations), ("rotation_quaternion", rotations)):
+        for index in range(values.shape[1]):
+            _insert_channel(action, path, index, frames, values[:, index])
+    data = o.animation_data
+    # From 4.4 on an action has slots, of which the object takes one.
+    if getattr(data, "action_slot", True) is None and data.action_suitable_slots:
+        data.action_slot = data.action_suitable_slots[0]

@@ -1,0 +1,215 @@
+"""The C interface of samara (samara.h) in Python: bodies, settings, simulations. Knows nothing of Blender.
+
+SI units, world z up, quaternions (w, x, y, z). Every failure is a SamaraError with one line of text.
+"""
+
+import ctypes
+import functools
+import os
+from ctypes import POINTER, byref, c_char_p, c_double, c_int, c_int32, c_size_t, c_uint32, c_uint64, c_void_p
+
+import numpy
+
+LIBRARY = os.path.join(os.path.dirname(os.path.abspath(__file__)), "libsamara.so")
+API_VERSION = 1
+
+LOADS_NONE, LOADS_COEFFICIENTS, LOADS_TABLE = 0, 1, 2
+TURBULENCE_NONE, TURBULENCE_AS_LOADS = 0, 3
+
+# Numbers of a pose: position 3, orientation 4 (w, x, y, z), velocity 3, angular velocity 3.
+POSE_SIZE = 13
+
+
+class SamaraError(Exception):
+    """What the library, or a check of the add-on, refused, in one line."""
+
+
+class Settings(ctypes.Structure):
+    """samara_settings."""
+
+    _fields_ = [
+        ("size", c_size_t),
+        ("fluid_density", c_double),
+        ("fluid_viscosity", c_double),
+        ("current", c_double * 3),
+        ("gust_amplitude", c_double * 3),
+        ("gust_period", c_double),
+        ("gravity", c_double * 3),
+        ("step", c_double),
+        ("seed", c_uint64),
+        ("run", c_uint32),
+        ("threads", c_int32),
+        ("has_ground", c_int32),
+        ("ground", c_double),
+    ]
+
+
+class Kind(ctypes.Structure):
+    """samara_kind."""
+
+    _fields_ = [
+        ("size", c_size_t),
+        ("name", c_char_p),
+        ("count", c_uint32),
+        ("density", c_double),
+        ("mass", c_double),
+        ("has_center_of_mass", c_int32),
+        ("center_of_mass", c_double * 3),
+        ("inertia", c_double * 9),
+        ("position", c_double * 3),
+        ("orientation", c_double * 4),
+        ("velocity", c_double * 3),
+        ("angular_velocity", c_double * 3),
+        ("start", c_double),
+        ("spread_position", c_double * 3),
+        ("spread_angle", c_double),
+        ("loads", c_int32),
+        ("drag_coefficient", c_double),
+        ("lift_coefficient", c_double),
+        ("reference_area", c_double),
+        ("normal", c_double * 3),
+        ("center_of_pressure", c_double * 3),
+        ("turbulence", c_int32),
+        ("turbulent_kinetic_energy", c_double),
+        ("dissipation_rate", c_double),
+        ("langevin", c_int32),
+    ]
+
+
+# Every function's result and arguments, but for the buffer of the error and its size, which end those that can fail.
+_PLAIN = {
+    "samara_api_version": (c_int, []),
+    "samara_version": (c_char_p, []),
+    "samara_body_free": (None, [c_void_p]),
+    "samara_body_name": (c_char_p, [c_void_p]),
+    "samara_body_has_added_mass": (c_int, [c_void_p]),
+    "samara_body_has_tables": (c_int, [c_void_p]),
+    "samara_body_vertex_count": (c_size_t, [c_void_p]),
+    "samara_body_triangle_count": (c_size_t, [c_void_p]),
+    "samara_simulation_free": (None, [c_void_p]),
+}
+_FALLIBLE = {
+    "samara_body_load": [c_char_p, POINTER(c_void_p)],
+    "samara_body_get_vertices": [c_void_p, c_void_p, c_size_t],
+    "samara_body_get_triangles": [c_void_p, c_void_p, c_size_t],
+    "samara_default_settings": [POINTER(Settings), c_size_t],
+    "samara_default_kind": [POINTER(Kind), c_size_t],
+    "samara_simulation_create": [POINTER(Settings), POINTER(c_void_p)],
+    "samara_simulation_add": [c_void_p, c_void_p, POINTER(Kind), c_void_p],
+    "samara_advance_to": [c_void_p, c_double],
+    "samara_get_poses": [c_void_p, c_size_t, c_size_t, c_void_p, c_size_t],
+}
+
+
+@functools.lru_cache(maxsize=1)
+def library():
+    """The loaded library. A library that is missing or does not fit is asked for anew at the next call."""
+    try:
+        loaded = ctypes.CDLL(LIBRARY)
+        for name, (result, arguments) in _PLAIN.items():
+            function = getattr(loaded, name)
+            function.restype, function.argtypes = result, arguments
+        for name, arguments in _FALLIBLE.items():
+            function = getattr(loaded, name)
+            function.restype, function.argtypes = c_int, arguments + [c_char_p, c_size_t]
+    except (OSError, AttributeError) as fault:
+        raise SamaraError(
+            f"samara's library cannot be loaded: {fault}; install the add-on's zip anew, built for this system"
+        ) from None
+    if loaded.samara_api_version() < API_VERSION:
+        raise SamaraError(f"{LIBRARY} is older than the add-on; install the add-on's zip anew")
+    return loaded
+
+
+def _call(name, *arguments):
+    error = ctypes.create_string_buffer(512)
+    if getattr(library(), name)(*arguments, error, len(error)) != 0:
+        raise SamaraError(error.value.decode("utf-8", "replace"))
+
+
+def version():
+    """That of the library, such as "0.1.0"."""
+    return library().samara_version().decode()
+
+
+class Body:
+    """What a body file holds. May be used from several threads."""
+
+    def __init__(self, path):
+        self.handle = c_void_p()
+        self.path = path
+        _call("samara_body_load", os.fsencode(path), byref(self.handle))
+
+    def __del__(self):
+        if self.handle:
+            library().samara_body_free(self.handle)
+
+    @property
+    def name(self):
+        return library().samara_body_name(self.handle).decode("utf-8", "replace")
+
+    @property
+    def has_added_mass(self):
+        return bool(library().samara_body_has_added_mass(self.handle))
+
+    @property
+    def has_tables(self):
+        return bool(library().samara_body_has_tables(self.handle))
+
+    def surface(self):
+        """Vertices (n, 3), metres in the shape's axes, and triangles (m, 3), counter-clockwise from outside."""
+        vertices = numpy.empty((library().samara_body_vertex_count(self.handle), 3))
+        triangles = numpy.empty((library().samara_body_triangle_count(self.handle), 3), numpy.int32)
+        _call("samara_body_get_vertices", self.handle, vertices.ctypes.data, vertices.size)
+        _call("samara_body_get_triangles", self.handle, triangles.ctypes.data, triangles.size)
+        return vertices, triangles
+
+
+_bodies = {}
+
+
+def body_of_file(path):
+    """The body of a file, read once for as long as the file stays as it is."""
+    if not path:
+        raise SamaraError("no body file is chosen; pick one or bake one")
+    try:
+        status = os.stat(path)
+    except OSError as fault:
+        raise SamaraError(f"{path}: {fault.strerror}") from None
+    key = (status.st_mtime_ns, status.st_size, status.st_ino)
+    if path not in _bodies or _bodies[path][0] != key:
+        _bodies[path] = (key, Body(path))
+    return _bodies[path][1]
+
+
+def default_settings():
+    settings = Settings()
+    _call("samara_default_settings", byref(settings), ctypes.sizeof(settings))
+    return settings
+
+
+def default_kind():
+    kind = Kind()
+    _call("samara_default_kind", byref(kind), ctypes.sizeof(kind))
+    return kind
+
+
+class Simulation:
+    """One body's simulation. A call lets other threads run meanwhile; one thread at a time may call."""
+
+    def __init__(self, settings, body, kind):
+        self.handle = c_void_p()
+        _call("samara_simulation_create", byref(settings), byref(self.handle))
+        _call("samara_simulation_add", self.handle, body.handle, byref(kind), None)
+
+    def __del__(self):
+        if self.handle:
+            library().samara_simulation_free(self.handle)
+
+    def advance_to(self, time):
+        """To a time (s) not before the one of the last call."""
+        _call("samara_advance_to", self.handle, time)
+
+    def read_pose(self, row):
+        """Puts the pose into a row of POSE_SIZE doubles without gaps."""
+        _call("samara_get_poses", self.handle, 0, 1, row.ctypes.data, 0)

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "samara/dynamics/immersed_body.hpp"
+
+namespace samara {
+
+/// What was lately made of one body for the steps. Simulations and kinds that differ only in names and starts
+/// share it: a crowd of them is made in the time, and takes the memory, of one. Safe to call from several
+/// threads.
+class PreparedBodies {
+  public:
+    /// make_immersed_body() of the body, done once for equal mass, loads, turbulence and fluid. The name is
+    /// that of whoever came first. Throws what make_immersed_body throws.
+    [[nodiscard]] std::shared_ptr<const ImmersedBody> get(const Body& body, const SceneBody& kind,
+                                                          const Fluid& fluid);
+
+  private:
+    struct Entry {
+        std::string key;
+        std::shared_ptr<const ImmersedBody> body;
+    };
+
+    std::mutex mutex_;
+    std::vector<Entry> entries_;  ///< the oldest first
+};
+
+}  // namespace samara

@@ -1,0 +1,131 @@
+// Simulations that share a body: each flies as if the body were its own.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "c_interface_calls.hpp"
+
+namespace samara {
+namespace {
+
+using namespace samara::test;
+using testing::HasSubstr;
+
+struct Difference {
+    const char* name;
+    void (*apply)(samara_settings& settings, samara_kind& kind);
+};
+
+const Difference differences[] = {
+    {"density", [](samara_settings&, samara_kind& kind) { kind.density = 1500.0; }},
+    {"mass",
+     [](samara_settings&, samara_kind& kind) {
+         kind.density = 0.0;
+         kind.mass = 0.06;
+     }},
+    {"center of mass",
+     [](samara_settings&, samara_kind& kind) {
+         kind.density = 0.0;
+         kind.mass = 0.06;
+         kind.has_center_of_mass = 1;
+         kind.center_of_mass[2] = 0.002;
+     }},
+    {"inertia",
+     [](samara_settings&, samara_kind& kind) {
+         kind.density = 0.0;
+         kind.mass = 0.06;
+         for (int i = 0; i < 3; ++i) kind.inertia[4 * i] = 2e-5;
+     }},
+    {"loads", [](samara_settings&, samara_kind& kind) { kind.loads = SAMARA_LOADS_NONE; }},
+    {"coefficients", [](samara_settings&, samara_kind& kind) { kind.loads = SAMARA_LOADS_COEFFICIENTS; }},
+    {"drag",
+     [](samara_settings&, samara_kind& kind) {
+         kind.loads = SAMARA_LOADS_COEFFICIENTS;
+         kind.drag_coefficient = 0.7;
+     }},
+    {"lift",
+     [](samara_settings&, samara_kind& kind) {
+         kind.loads = SAMARA_LOADS_COEFFICIENTS;
+         kind.lift_coefficient = 0.7;
+     }},
+    {"area",
+     [](samara_settings&, samara_kind& kind) {
+         kind.loads = SAMARA_LOADS_COEFFICIENTS;
+         kind.reference_area = 0.003;
+     }},
+    {"normal",
+     [](samara_settings&, samara_kind& kind) {
+         kind.loads = SAMARA_LOADS_COEFFICIENTS;
+         kind.lift_coefficient = 0.7;
+         kind.normal[1] = 1.0;
+     }},
+    {"center of pressure",
+     [](samara_settings&, samara_kind& kind) {
+         kind.loads = SAMARA_LOADS_COEFFICIENTS;
+         kind.center_of_pressure[0] = 0.01;
+     }},
+    {"turbulence", [](samara_settings&, samara_kind& kind) { kind.turbulence = SAMARA_TURBULENCE_NONE; }},
+    {"constant turbulence",
+     [](samara_settings&, samara_kind& kind) {
+         kind.turbulence = SAMARA_TURBULENCE_CONSTANT;
+         kind.turbulent_kinetic_energy = 1e-3;
+         kind.dissipation_rate = 1e-2;
+     }},
+    {"energy",
+     [](samara_settings&, samara_kind& kind) {
+         kind.turbulence = SAMARA_TURBULENCE_CONSTANT;
+         kind.turbulent_kinetic_energy = 2e-3;
+         kind.dissipation_rate = 1e-2;
+     }},
+    {"dissipation",
+     [](samara_settings&, samara_kind& kind) {
+         kind.turbulence = SAMARA_TURBULENCE_CONSTANT;
+         kind.turbulent_kinetic_energy = 1e-3;
+         kind.dissipation_rate = 2e-2;
+     }},
+    {"langevin", [](samara_settings&, samara_kind& kind) { kind.langevin = SAMARA_LANGEVIN_BODY_VELOCITY; }},
+    {"fluid", [](samara_settings& settings, samara_kind&) { settings.fluid_density = 1025.0; }},
+    {"viscosity", [](samara_settings& settings, samara_kind&) { settings.fluid_viscosity = 2e-3; }},
+    {"name", [](samara_settings&, samara_kind& kind) { kind.name = "another"; }},
+};
+
+TEST(CCrowd, SimulationsThatShareABodyFlyAsIfItWereTheirOwn) {
+    const BodyOnDisk shared;
+    std::vector<std::vector<samara_pose>> motions;
+    for (int round = 0; round < 2; ++round) {
+        for (const Difference& difference : differences) {
+            SCOPED_TRACE(difference.name);
+            samara_settings settings = default_settings();
+            samara_kind kind = rubber_kind();
+            difference.apply(settings, kind);
+            const BodyOnDisk own;
+            const auto alone = poses_at(simulation_of(own, kind, settings), 0.4);
+            EXPECT_TRUE(same_bytes(poses_at(simulation_of(shared, kind, settings), 0.4), alone));
+            if (round == 0) motions.push_back(alone);
+        }
+    }
+    for (std::size_t i = 0; i < motions.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            EXPECT_FALSE(same_bytes(motions[i], motions[j]))
+                << differences[i].name << " and " << differences[j].name;
+        }
+    }
+}
+
+TEST(CCrowd, ABodyBelowTheGroundIsNamedByItsOwnKind) {
+    const BodyOnDisk shared;
+    samara_settings settings = default_settings();
+    settings.has_ground = 1;
+    settings.ground = -1.0;
+    samara_kind kind = rubber_kind();
+    kind.name = "high";
+    const SimulationPointer high = simulation_of(shared, kind, settings);
+    kind.name = "deep";
+    kind.position[2] = -2.0;
+    Text fault;
+    EXPECT_EQ(CALL(samara_simulation_add, high.get(), shared.get(), &kind, nullptr), SAMARA_INVALID_ARGUMENT);
+    EXPECT_THAT(fault.text(), HasSubstr("'deep'"));
+}
+
+}  // namespace
+}  // namespace samara

@@ -1,0 +1,40 @@
+#include "support/blender_addon.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "samara/base/content_hash.hpp"
+#include "samara/command/subprocess.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace samara::test {
+
+nlohmann::json use_addon(const std::vector<std::string>& task) {
+    const TemporaryFolder folder;
+    std::vector<std::string> words = {"env",
+                                      fmt::format("BLENDER_USER_SCRIPTS={}", (folder / "scripts").string()),
+                                      fmt::format("BLENDER_USER_CONFIG={}", (folder / "config").string()),
+                                      fmt::format("TMPDIR={}", folder.path().string()),
+                                      "blender",
+                                      "-b",
+                                      "--factory-startup",
+                                      "--python-exit-code",
+                                      "3",
+                                      "--python",
+                                      SAMARA_SOURCE_DIRECTORY "/tests/tools/use_addon.py",
+                                      "--",
+                                      SAMARA_BLENDER_ZIP};
+    words.insert(words.end(), task.begin(), task.end());
+    const int status = run_subprocess(words, folder / "log");
+    const std::string log = read_bytes(folder / "log");
+    EXPECT_EQ(status, 0) << log;
+    EXPECT_EQ(log.find("Traceback"), std::string::npos) << log;
+    const std::size_t place = log.find("\nFOUND ");
+    if (place == std::string::npos) {
+        ADD_FAILURE() << "Blender found nothing:\n" << log;
+        return {};
+    }
+    return nlohmann::json::parse(log.substr(place + 7, log.find('\n', place + 7) - place - 7));
+}
+
+}  // namespace samara::test

@@ -1,0 +1,260 @@
+"""Installs the add-on's zip in Blender, does one task with it, and prints what came of it as a line of JSON after "FOUND ":
+
+  blender -b --factory-startup --python-exit-code 3 --python use_addon.py -- ZIP TASK [ARGUMENT ...]
+"""
+
+import json
+import sys
+import time
+
+import addon_utils
+import bpy
+import mathutils
+
+zip_file, task, *arguments = sys.argv[sys.argv.index("--") + 1 :]
+scene = bpy.context.scene
+
+
+def empty_scene():
+    bpy.ops.object.select_all(action="SELECT")
+    bpy.ops.object.delete()
+
+
+def run(operator, **options):
+    """The error that the operator reports, or an empty text. With an undo step, as from a button."""
+    try:
+        operator("EXEC_DEFAULT", True, **options)
+    except RuntimeError as fault:
+        return str(fault).strip()
+    return ""
+
+
+def select(objects):
+    for o in bpy.context.selected_objects:
+        o.select_set(False)
+    for o in objects:
+        o.select_set(True)
+        bpy.context.view_layer.objects.active = o
+
+
+def matrices(objects, frames):
+    """By object: its matrix in the world at every frame, as rows."""
+    found = {o.name: [] for o in objects}
+    for frame in frames:
+        scene.frame_set(int(frame), subframe=frame % 1.0)
+        for o in objects:
+            found[o.name].append([list(row) for row in o.matrix_world])
+    return found
+
+
+def add_bodies(file, count, **options):
+    assert run(bpy.ops.samara.add_bodies, filepath=file, count=count, **options) == ""
+    return list(bpy.context.selected_objects)
+
+
+def three_bodies(file):
+    """Three objects that start differently, in a scene with units and a frame rate of its own."""
+    empty_scene()
+    scene.unit_settings.scale_length = 0.1
+    scene.render.fps, scene.render.fps_base = 24, 1.001
+    scene.frame_start, scene.frame_end = 11, 71
+    scene.samara.seed = 5
+    objects = add_bodies(file, 3, density=1600.0)
+    for i, o in enumerate(objects):
+        o.location = (1.5 * i, -0.5 * i, 0.25 * i)
+        o.rotation_quaternion = mathutils.Quaternion((1.0, 0.3 * i, -0.2, 0.1 * i)).normalized()
+    objects[1].samara.velocity = (1.0, 0.0, -2.0)
+    objects[1].samara.angular_velocity = (0.0, 3.0, 0.5)
+    objects[2].samara.noise = False
+    return objects
+
+
+def starts(objects):
+    """What the scene of `samara simulate` needs to know."""
+    from samara.conventions import noise_name
+
+    bpy.context.view_layer.update()
+    return {
+        o.name: {
+            "noise_name": noise_name(o.name),
+            "position": [0.1 * x for x in o.matrix_world.translation],
+            "orientation": list(o.matrix_world.to_quaternion()),
+            "velocity": [0.1 * x for x in o.samara.velocity],
+            "angular_velocity": list(o.samara.angular_velocity),
+            "noise": o.samara.noise,
+        }
+        for o in objects
+    }
+
+
+def keys(file):
+    objects = three_bodies(file)
+    found = {"starts": starts(objects)}
+    bpy.ops.ed.undo_push(message="before")
+    found["error"] = run(bpy.ops.samara.simulate)
+    curves = [c for o in objects for c in o.animation_data.action.fcurves]
+    found["keys"] = sorted({len(c.keyframe_points) for c in curves})
+    found["range"] = [curves[0].keyframe_points[0].co[0], curves[0].keyframe_points[-1].co[0]]
+    found["interpolations"] = sorted({p.interpolation for c in curves for p in c.keyframe_points})
+    found["matrices"] = matrices(objects, range(11, 72))
+    scene.frame_set(31)
+    found["error_again"] = run(bpy.ops.samara.simulate)
+    found["frame"] = scene.frame_current
+    found["matrices_again"] = matrices(objects, range(11, 72))
+    bpy.ops.ed.undo()
+    bpy.ops.ed.undo()
+    found["animated_after_undo"] = sum(o.animation_data is not None for o in bpy.context.scene.objects)
+    return found
+
+
+def live(file):
+    objects = three_bodies(file)
+    begin = {o.name: [list(row) for row in o.matrix_basis] for o in objects}
+    found = {"error": run(bpy.ops.samara.live), "begin": begin}
+    shuffled = [60, 12, 40, 11, 71, 13, 40.25, 5, 90]
+    found["scrubbed"] = matrices(objects, shuffled)
+    found["keys_while_live"] = sum(o.animation_data is not None for o in objects)
+    scene.samara.seed = 6
+    found["other_seed"] = matrices(objects, shuffled)
+    scene.samara.seed = 5
+    found["off"] = run(bpy.ops.samara.live)
+    found["end"] = {o.name: [list(row) for row in o.matrix_basis] for o in objects}
+    assert run(bpy.ops.samara.live) == ""
+    scene.frame_set(50)
+    found["simulate_while_live"] = run(bpy.ops.samara.simulate)
+    found["live_after"] = sum(o.samara.live for o in objects)
+    found["keyed"] = matrices(objects, shuffled)
+    found["live_on_keys"] = run(bpy.ops.samara.live)
+    return found
+
+
+def errors(good, newer, cut):
+    empty_scene()
+    found = {"none_selected": run(bpy.ops.samara.simulate)}
+    (o,) = add_bodies(good, 1)
+    o.animation_data_clear()
+    for name, file in (("newer", newer), ("cut", cut), ("missing", good + ".not")):
+        o.samara.body_file = file
+        found[name] = run(bpy.ops.samara.simulate)
+        found[name + "_live"] = run(bpy.ops.samara.live)
+    o.samara.body_file = good
+    o.scale = (2.0, 2.0, 2.0)
+    found["scale"] = run(bpy.ops.samara.simulate)
+    o.scale = (1.0, 1.0, 1.0)
+    scene.frame_end = scene.frame_start
+    found["range"] = run(bpy.ops.samara.simulate)
+    scene.frame_end = 40
+    bpy.ops.object.empty_add()
+    parent = bpy.context.object
+    select([o])
+    o.parent = parent
+    found["parent"] = run(bpy.ops.samara.simulate)
+    o.parent = None
+    o.animation_data_clear()
+    assert run(bpy.ops.samara.live) == ""
+    o.samara.body_file = cut
+    scene.frame_set(9)
+    found["in_handler"] = o.samara.live_error
+    found["live_after"] = o.samara.live
+    o.samara.body_file = good
+    found["good"] = run(bpy.ops.samara.simulate)
+
+    from samara import samara_library
+
+    samara_library.library.cache_clear()
+    place, samara_library.LIBRARY = samara_library.LIBRARY, samara_library.LIBRARY + ".not"
+    found["no_library"] = run(bpy.ops.samara.simulate)
+    samara_library.LIBRARY = place
+    found["library_again"] = run(bpy.ops.samara.simulate)
+    return found
+
+
+def bake(program, quality):
+    empty_scene()
+    found = {}
+    settings = bpy.context.preferences.addons["samara"].preferences
+    bpy.ops.mesh.primitive_plane_add(size=0.02)
+    settings.program = program + "-not"
+    found["no_program"] = run(bpy.ops.samara.bake, quality=quality)
+    settings.program = program
+    found["open"] = run(bpy.ops.samara.bake, quality=quality)
+    bpy.ops.mesh.primitive_uv_sphere_add(radius=0.5)
+    o = bpy.context.object
+    o.name = "Ball 1"
+    o.scale = (-0.04, 0.04, 0.04)
+    found["negative"] = run(bpy.ops.samara.bake, quality=quality)
+    o.scale = (0.04, 0.04, 0.04)
+    o.modifiers.new("smooth", "SUBSURF").levels = 1
+    found["error"] = run(bpy.ops.samara.bake, quality=quality)
+
+    from samara import samara_library
+    from samara.bake import mesh_corners
+    from samara.bake_job import BakeJob, bake_command
+
+    found["file"] = o.samara.body_file
+    body = samara_library.body_of_file(o.samara.body_file)
+    found["tables"] = body.has_tables
+    vertices, _ = body.surface()
+    found["extent"] = list(vertices.max(axis=0) - vertices.min(axis=0))
+    found["simulate"] = run(bpy.ops.samara.simulate)
+    bpy.ops.mesh.primitive_cube_add()
+    found["empty_of_faces"] = ""
+    bpy.context.object.data.clear_geometry()
+    found["empty_of_faces"] = run(bpy.ops.samara.bake, quality=quality)
+    # A bake that is cancelled ends at once.
+    job = BakeJob(["sleep", "600"])
+    job.cancel()
+    found["cancelled"] = job.cancelled
+    return found
+
+
+def render(file, picture):
+    empty_scene()
+    add_bodies(file, 20, spread=(0.15, 0.15, 0.1), turn=True, density=1600.0)
+    scene.frame_end = 12
+    assert run(bpy.ops.samara.simulate) == ""
+    bpy.ops.object.camera_add(location=(0.0, -0.6, 0.0), rotation=(1.5708, 0.0, 0.0))
+    scene.camera = bpy.context.object
+    bpy.ops.object.light_add(type="SUN", rotation=(0.5, 0.3, 0.0))
+    bpy.context.object.data.energy = 4.0
+    scene.render.engine = "CYCLES"
+    scene.cycles.samples = 4
+    scene.cycles.use_denoising = False
+    scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = 320, 240, 100
+    scene.render.filepath = picture
+    scene.frame_set(12)
+    bpy.ops.render.render(write_still=True)
+    pixels = bpy.data.images.load(picture).pixels[:]
+    return {"bright": sum(p > 0.5 for p in pixels[0::4]) / (len(pixels) / 4)}
+
+
+def crowd(file, count, frames):
+    """Seconds for many bodies over many frames, without keys and with them."""
+    empty_scene()
+    objects = add_bodies(file, int(count), spread=(1.0, 1.0, 1.0), turn=True, density=600.0)
+    scene.samara.fluid = "AIR"
+    scene.frame_end = int(frames)
+
+    from samara.flight import FlightJob
+    from samara.simulate import requests_of
+
+    start = time.perf_counter()
+    FlightJob(requests_of(bpy.context, objects)).wait()
+    flown = time.perf_counter()
+    assert run(bpy.ops.samara.simulate) == ""
+    return {"simulation": flown - start, "with_keys": time.perf_counter() - flown}
+
+
+def version():
+    from samara import bl_info, samara_library
+
+    return {"library": samara_library.version(), "bl_info": ".".join(map(str, bl_info["version"]))}
+
+
+bpy.ops.preferences.addon_install(filepath=zip_file)
+bpy.ops.preferences.addon_enable(module="samara")
+assert addon_utils.check("samara")[1], "the add-on is not enabled"
+tasks = {f.__name__: f for f in (keys, live, errors, bake, render, crowd, version)}
+found = tasks[task](*arguments)
+bpy.ops.preferences.addon_disable(module="samara")
+print("\nFOUND " + json.dumps(found))
