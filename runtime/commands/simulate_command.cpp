@@ -107,10 +107,10 @@ void warn_of_reynolds_numbers(const SceneBody& scene_body, const Body& body, con
     }
     const double share = share_below_table(report);
     if (scene_body.loads == Loads::table && share > 0.5) {
-        note(
-            fmt::format("'{}' moved below half its table's lowest Reynolds number, {:.3g}, for {:.0f} % of its "
-                        "flight: there Stokes resistance is added to the table's first values",
-                        scene_body.name, lowest, 100.0 * share));
+        note(fmt::format(
+            "'{}' moved below half its table's lowest Reynolds number, {:.3g}, for {:.0f} % of its "
+            "flight: there Stokes resistance is added to the table's first values",
+            scene_body.name, lowest, 100.0 * share));
     }
 }
 
