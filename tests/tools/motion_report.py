@@ -23,10 +23,10 @@ MODELS = (
     ("inertia alone", 'loads = "none"\n', "standard"),
     ("drag coefficient 1", 'loads = "coefficients"\n', "standard"),
     ("preview tables", "", "preview"),
-    ("standard tables, default coefficients of motion", 'dynamic_coefficients = "default"\n', "standard"),
-    ("standard tables, identified coefficients", "", "standard"),
+    ("standard tables with default coefficients", 'dynamic_coefficients = "default"\n', "standard"),
+    ("standard tables with identified coefficients", "", "standard"),
 )
-CFD = "full CFD, the reference"
+CFD = "full CFD"
 SHARES = {"descent_speed": 1, "frequency": 2, "inclination_amplitude": 3}
 MARK = "<!-- table: written by ./dev report-falls -->\n"
 
