@@ -55,7 +55,7 @@ class SAMARA_OT_bake(bpy.types.Operator):
     bl_idname = "samara.bake"
     bl_label = "Bake Body"
     bl_description = "Makes a body file of the active object's closed mesh, with the program samara"
-    bl_options = {"REGISTER", "UNDO"}
+    bl_options = {"UNDO"}  # not REGISTER: to change a past call must not run it all again
 
     quality: EnumProperty(
         name="Quality",

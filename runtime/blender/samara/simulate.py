@@ -36,7 +36,7 @@ class SAMARA_OT_simulate(bpy.types.Operator):
     bl_idname = "samara.simulate"
     bl_label = "Simulate to Keyframes"
     bl_description = "Flies the selected objects over the scene's frame range and keys their location and rotation"
-    bl_options = {"REGISTER", "UNDO"}
+    bl_options = {"UNDO"}  # not REGISTER: to change a past call must not run it all again
 
     def _start(self, context):
         self._objects = flown_objects(context)
