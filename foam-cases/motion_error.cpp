@@ -60,6 +60,18 @@ double unseen(FallMeasure measure, const EnsembleFlight& flight, double length) 
     return 0.0;
 }
 
+/// The largest error over what the tolerance allows.
+double largest_share(const MotionError& error, double tolerance, double MotionError::OfMeasure::*member) {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < fall_measure_count; ++i) {
+        if (!error.measures[i]) continue;
+        const double allowed = std::max(allowed_error(static_cast<FallMeasure>(i), tolerance),
+                                        error.measures[i]->always_allowed);
+        largest = std::max(largest, (*error.measures[i]).*member / allowed);
+    }
+    return largest;
+}
+
 double variance_of(const std::vector<double>& values, double about) {
     double sum = 0.0;
     for (const double value : values) sum += (value - about) * (value - about);
@@ -69,13 +81,11 @@ double variance_of(const std::vector<double>& values, double about) {
 }  // namespace
 
 double MotionError::worst(double tolerance) const {
-    double largest = 0.0;
-    for (std::size_t i = 0; i < fall_measure_count; ++i) {
-        if (!measures[i]) continue;
-        largest =
-            std::max(largest, measures[i]->of_table / allowed_error(static_cast<FallMeasure>(i), tolerance));
-    }
-    return largest;
+    return largest_share(*this, tolerance, &OfMeasure::of_table);
+}
+
+double MotionError::worst_chance(double tolerance) const {
+    return largest_share(*this, tolerance, &OfMeasure::of_chance);
 }
 
 LoadTables drawn_tables(const LoadTables& tables, const Symmetry& symmetry, const UncertainTables& uncertain,

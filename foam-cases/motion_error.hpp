@@ -22,6 +22,8 @@ struct MotionError {
     /// The largest of the measures' errors from the table over what the tolerance allows of it; 0 without
     /// measures.
     [[nodiscard]] double worst(double tolerance) const;
+    /// The same of what chance makes.
+    [[nodiscard]] double worst_chance(double tolerance) const;
 };
 
 /// What is needed to draw tables that might as well have been baked.

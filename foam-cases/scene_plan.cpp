@@ -14,6 +14,7 @@ namespace {
 constexpr std::size_t first_directions = 3;  // beside the anchors
 constexpr std::size_t first_directions_of_arc = 1;
 constexpr double far_in_reynolds_number = 2.0;  // beyond that ratio coefficients may differ
+constexpr int most_falls_more = 2;              // times the goal's
 constexpr std::size_t further_directions = 3;   // with cases at another Reynolds number
 
 /// The quantile of the logarithm of the visits' Reynolds numbers by the squared loads met there.
@@ -159,11 +160,11 @@ bool adds_reynolds_numbers(const SceneGoal& goal, const LoadTables& tables, cons
     return plan.cases.cases.size() > before;
 }
 
-/// How many directions the next round adds: a third of what there is, up to as many again where the error is
-/// far beyond the tolerance.
+/// How many directions the next round adds: a sixth of what there is, up to half where the error is far
+/// beyond the tolerance; two at least.
 std::size_t next_count(const ScenePlan& plan, const Symmetry& symmetry, double worst) {
     if (symmetry.kind == Symmetry::Kind::axial) return 1;
-    const double share = std::clamp(worst, 1.0, 3.0) / 3.0;
+    const double share = std::clamp(worst, 1.0, 3.0) / 6.0;
     return std::max<std::size_t>(
         2, static_cast<std::size_t>(std::floor(share * static_cast<double>(plan.chosen.size()))));
 }
@@ -211,9 +212,14 @@ void judge_round(const SceneGoal& goal, const Conversion& conversion, double cpu
     round.cases = plan.cases.cases.size();
     round.estimated_cpu_seconds = plan.cases.cpu_seconds;
     round.cpu_seconds = cpu_seconds;
-    round.flight = fly_ensemble(goal.scene, goal.body, conversion.body, goal.falls);
-    round.error = motion_error(goal.scene, goal.body, conversion.body, uncertain_tables(conversion, plan),
-                               round.flight, goal.falls, goal.draws);
+    const UncertainTables uncertain = uncertain_tables(conversion, plan);
+    // Falls that differ much need more of them to see what the tables leave uncertain.
+    for (int falls = goal.falls; falls <= most_falls_more * goal.falls; falls *= 2) {
+        round.flight = fly_ensemble(goal.scene, goal.body, conversion.body, falls);
+        round.error =
+            motion_error(goal.scene, goal.body, conversion.body, uncertain, round.flight, falls, goal.draws);
+        if (round.error.worst_chance(goal.tolerance) <= 0.5) break;
+    }
     round.strayed = share_strayed(round.flight.visits, plan);
     const std::vector<FlowVisit> visits = std::move(round.flight.visits);
     round.flight.visits = {};
