@@ -5,8 +5,8 @@ set -euo pipefail
 source_folder=$1
 work=$2
 rm -rf "$work"
-cmake -S "$source_folder" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Debug -DSAMARA_BAKING=OFF -DSAMARA_TESTS=OFF \
-  -DSAMARA_PAGE=OFF
+cmake -S "$source_folder" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 \
+  -DSAMARA_BAKING=OFF -DSAMARA_TESTS=OFF -DSAMARA_PAGE=OFF
 cmake --build "$work/build"
 cmake --install "$work/build" --prefix "$work/installed"
 if ldd "$work/installed/bin/samara" | grep -iE 'gmsh|openfoam'; then
