@@ -45,12 +45,6 @@ class Stopwatch {
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-double mass_of(const MassSpecification& mass, const Body& body) {
-    if (mass.mass) return *mass.mass;
-    if (mass.density) return *mass.density * body.moments.volume;
-    throw Error(fmt::format("{}: has neither a density nor a mass; give one", body.name));
-}
-
 bool plans_falls(const BakeRequest& request) {
     return request.tables && request.probes == 0 && request.quality.falls > 0;
 }

@@ -61,11 +61,6 @@ void print_places(const std::vector<VisitedDirection>& places) {
     if (places.size() > most_rows) fmt::print("and {} more\n", places.size() - most_rows);
 }
 
-nlohmann::json grid_as_json(const GridCost& grid) {
-    return {
-        {"directions", grid.directions}, {"cases", grid.cases}, {"estimated_cpu_seconds", grid.cpu_seconds}};
-}
-
 nlohmann::json plan_body(const BakeRequest& request, const BakePreparation& preparation,
                          const PlanOptions& options, bool quiet) {
     nlohmann::json json = bake_as_json(request, preparation);
@@ -80,8 +75,8 @@ nlohmann::json plan_body(const BakeRequest& request, const BakePreparation& prep
         visited_directions(preparation.flight.visits, preparation.body.symmetry, plan);
     json["regime"] = name_of(preparation.flight.regime);
     json["visited"] = visits_as_json(places);
-    json["whole_grid"] = grid_as_json(whole_grid(plan, false));
-    json["symmetric_grid"] = grid_as_json(whole_grid(plan, true));
+    json["whole_grid"] = cost_as_json(whole_grid(plan, false));
+    json["symmetric_grid"] = cost_as_json(whole_grid(plan, true));
     if (!options.picture.empty()) {
         draw_plan(options.picture, request.name, preparation.flight.visits, preparation.body.symmetry, plan);
     }

@@ -14,10 +14,6 @@ constexpr double least_spread_angle = 0.05;        // rad
 constexpr double unknown_intensity = 0.1;          // rms fluctuation over the terminal speed
 constexpr double frames_per_length_of_way = 20.0;  // enough to see a body turn
 
-double mass_of(const MassSpecification& mass, const Body& body) {
-    return mass.mass ? *mass.mass : mass.density.value_or(0.0) * body.moments.volume;
-}
-
 /// What stands in for tables before there are any.
 void use_guesses(SceneBody& scene_body, const Body& body, double speed) {
     if (scene_body.loads == Loads::table) scene_body.loads = Loads::coefficients;

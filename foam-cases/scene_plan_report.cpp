@@ -38,12 +38,6 @@ nlohmann::json measures_as_json(const PlanRound& round, double tolerance) {
     return json;
 }
 
-nlohmann::json cost_as_json(const GridCost& cost) {
-    return {{"directions", cost.directions},
-            {"cases", cost.cases},
-            {"estimated_cpu_seconds", std::round(cost.cpu_seconds)}};
-}
-
 /// The candidate of which an image is nearest to a direction.
 std::size_t nearest_candidate(const Vector3d& direction, const std::vector<Vector3d>& candidates,
                               const std::vector<Matrix3d>& elements, const Symmetry& symmetry) {
@@ -78,6 +72,12 @@ int images_of(const Vector3d& direction, const std::vector<Matrix3d>& elements, 
 }
 
 }  // namespace
+
+nlohmann::json cost_as_json(const GridCost& cost) {
+    return {{"directions", cost.directions},
+            {"cases", cost.cases},
+            {"estimated_cpu_seconds", std::round(cost.cpu_seconds)}};
+}
 
 nlohmann::json scene_plan_as_json(const SceneGoal& goal, const ScenePlan& plan) {
     nlohmann::json json = {{"tolerance", goal.tolerance},

@@ -9,6 +9,9 @@
 
 namespace samara {
 
+/// Directions, cases and CPU seconds, rounded, of a grid.
+nlohmann::json cost_as_json(const GridCost& cost);
+
 /// What a bake for a scene aims at and has reached (docs/plan.md): goal, rounds with their measures and what
 /// the tables leave uncertain in them, why it stopped, and what the whole grid would cost. The same wherever
 /// and however fast it was solved.

@@ -26,6 +26,12 @@ double largest_projected_area(const Body& body) {
     return largest;
 }
 
+double mass_of(const MassSpecification& mass, const Body& body) {
+    if (mass.mass) return *mass.mass;
+    if (mass.density) return *mass.density * body.moments.volume;
+    throw Error(fmt::format("{}: has neither a density nor a mass; give one", body.name));
+}
+
 double terminal_speed(const Body& body, const Fluid& fluid, double mass, double gravity) {
     const double buoyant_mass = fluid.density * body.moments.volume;
     if (std::abs(mass - buoyant_mass) <= 1e-6 * buoyant_mass) {

@@ -13,6 +13,9 @@ inline constexpr double terminal_drag_coefficient = 1.0;
 /// The largest area (m^2) of the body's shadow over the nodes of an octahedral map and the principal axes.
 double largest_projected_area(const Body& body);
 
+/// The body's mass (kg) as a scene gives it. Throws Error where it gives neither a density nor a mass.
+double mass_of(const MassSpecification& mass, const Body& body);
+
 /// The speed (m/s) at which the drag, with terminal_drag_coefficient on the largest projected area, balances
 /// the weight less the buoyancy: |mass - rho V| g = C rho A U^2 / 2, for a body that sinks or rises. `mass`
 /// in kg, `gravity` in m/s^2. Throws Error where the weight and the buoyancy are equal to 1e-6, or gravity is
