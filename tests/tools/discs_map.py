@@ -24,7 +24,7 @@ INERTIAS = [0.0055, 0.007, 0.01, 0.014, 0.02, 0.03, 0.045, 0.07, 0.1, 0.15]
 REYNOLDS_NUMBERS = [30, 100, 300, 1000, 3000, 10000]  # aimed at; those of the fall are measured
 STARTS = 12
 REGIMES = ("steady", "fluttering", "chaotic", "tumbling")
-BEGIN = "<!-- table: written by ./dev report-scenes -->\n"
+BEGIN = "<!-- table: written by ./dev report scenes -->\n"
 
 
 def expected(inertia, reynolds):

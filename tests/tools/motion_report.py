@@ -28,7 +28,7 @@ MODELS = (
 )
 CFD = "full CFD"
 SHARES = {"descent_speed": 1, "frequency": 2, "inclination_amplitude": 3}
-MARK = "<!-- table: written by ./dev report-falls -->\n"
+MARK = "<!-- table: written by ./dev report falls -->\n"
 
 
 def preview_of(programs, folder, body):

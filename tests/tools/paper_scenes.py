@@ -20,7 +20,7 @@ SCENES = "docs/scenes"
 RUNS = 20
 FRONT_TURN = math.radians(20)  # how far the nose dips before it comes up to level again
 SIDE_TURN = math.radians(45)   # how far the course turns
-BEGIN = "<!-- table: written by ./dev report-scenes -->\n"
+BEGIN = "<!-- table: written by ./dev report scenes -->\n"
 
 STYLE = '''set border 3 lc rgb "#6b6b6b"
 set tics nomirror textcolor rgb "#1a1a1a"

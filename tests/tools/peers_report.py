@@ -18,7 +18,7 @@ import tempfile
 
 from falls_report import FALLS, SCENES, baked_file, compared, run
 
-BEGIN, END = "<!-- table: written by ./dev report-falls -->\n", "<!-- end of table -->"
+BEGIN, END = "<!-- table: written by ./dev report falls -->\n", "<!-- end of table -->"
 FIGURES = {"descent": "descent_speed", "frequency": "frequency", "amplitude": "inclination_amplitude",
            "angular_speed": "rms_angular_speed"}
 DEFAULT, BEST, SHAPE, ALONE, OURS = ("MuJoCo default", "MuJoCo best", "MuJoCo best for each shape",

@@ -8,7 +8,7 @@ import json
 import sys
 from pathlib import Path
 
-BEGIN = "<!-- table: written by ./dev report -->\n"
+BEGIN = "<!-- table: written by ./dev report stability -->\n"
 END = "<!-- end of table -->"
 HEAD = "| case | step | what is checked | bound | figure |\n|---|---|---|---|---|\n"
 
