@@ -53,7 +53,7 @@ BakeQuality standard_quality() {
     quality.stationarity = 0.01;
     quality.meshes = {coarse_mesh(), medium_mesh(), fine_mesh()};
     quality.further_reynolds_numbers = {0.1, 0.3};
-    quality.falls = 3;
+    quality.falls = 2;
     return quality;
 }
 
@@ -64,7 +64,7 @@ BakeQuality high_quality() {
     quality.most_directions = 28;
     quality.table_subdivisions = 12;
     quality.further_reynolds_numbers = {0.1, 0.3, 3.0};
-    quality.falls = 3;
+    quality.falls = 2;
     quality.fall_mesh = 2;
     quality.other_closures = {"realizableKE", "RNGkEpsilon"};
     return quality;

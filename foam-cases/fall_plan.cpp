@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "foam-cases/terminal_speed.hpp"
-#include "samara/dynamics/dynamic_coefficients.hpp"
 
 namespace samara {
 namespace {
@@ -69,15 +68,8 @@ void take_inertia(const Matrix3d& inertia, FreeFall& fall) {
     fall.principal_moments = (fall.principal_axes.transpose() * inertia * fall.principal_axes).diagonal();
 }
 
-// Where gravity points at the start, along the principal axes from the shortest extent to the longest, and
-// how fast the tips turn about the shortest one then, over the speed of the fall: broadside, in between, and
-// half endwise with a spin, which a body of three different axes may take up in time.
-struct Start {
-    double direction[3];
-    double spin;
-};
-constexpr Start starts[] = {
-    {{-0.86, 0.27, 0.433}, 0.0}, {{-0.64, 0.5, 0.58}, 0.0}, {{-0.5, -0.5, 0.7}, 0.5}};
+// Where gravity points at the start, along the principal axes from the shortest extent to the longest.
+constexpr double start_directions[][3] = {{-0.86, 0.27, 0.433}, {-0.64, 0.5, 0.58}, {-0.35, 0.8, -0.48}};
 
 }  // namespace
 
@@ -139,13 +131,12 @@ FreeFall plan_fall(const Body& body, const ImmersedBody& immersed, const BodySta
     return fall;
 }
 
-BodyState identification_start(const Body& body, int index, double speed) {
-    const auto& [direction, spin] = starts[static_cast<std::size_t>(index) % std::size(starts)];
-    const Matrix3d axes = principal_axes(body.moments);
-    const Vector3d gravity = axes * Vector3d(direction[0], direction[1], direction[2]).normalized();
+BodyState identification_start(const Body& body, int index) {
+    const auto& direction = start_directions[static_cast<std::size_t>(index) % std::size(start_directions)];
+    const Vector3d gravity =
+        principal_axes(body.moments) * Vector3d(direction[0], direction[1], direction[2]).normalized();
     BodyState start;
     start.orientation = Quaterniond::FromTwoVectors(gravity, -Vector3d::UnitZ());
-    start.velocity.head<3>() = spin * speed / default_dynamic_coefficients(body).half_length * axes.col(0);
     return start;
 }
 
@@ -159,7 +150,7 @@ void add_falls(const Body& body, const Fluid& fluid, const MassSpecification& ma
     const ImmersedBody immersed = make_immersed_body(body, scene_body, fluid);
     const double duration = identification_fall_duration * plan.reference_length / speed;
     for (int i = 0; i < plan.quality.falls; ++i) {
-        FreeFall fall = plan_fall(body, immersed, identification_start(body, i, speed), gravity * -Vector3d::UnitZ(),
+        FreeFall fall = plan_fall(body, immersed, identification_start(body, i), gravity * -Vector3d::UnitZ(),
                                   speed, duration);
         fall.name = fmt::format("fall_{:02}", i);
         fall.mesh = plan.quality.meshes.at(plan.quality.fall_mesh).name;

@@ -27,10 +27,9 @@ double fall_speed(const Body& body, const ImmersedBody& immersed, const BodyStat
 /// How long a fall that coefficients are identified from lasts, over L/U: some six swings.
 inline constexpr double identification_fall_duration = 30.0;
 
-/// The states from which such falls start, each in its way oblique to all of the body's principal axes, so
-/// that none of its motions is left out: the first two from rest, the third spinning about the shortest
-/// extent. `index`: of the fall; `speed` (m/s): about that at which it falls.
-BodyState identification_start(const Body& body, int index, double speed);
+/// The states from rest from which such falls start, each in its way oblique to all of the body's principal
+/// axes, so that none of its motions is left out. `index`: of the fall.
+BodyState identification_start(const Body& body, int index);
 
 /// Adds the quality's falls to a plan and its estimated cost: of the body with that mass in the fluid, under
 /// a gravity of that size (m/s^2), `speed` (m/s) being about that at which it falls. The body must have its
