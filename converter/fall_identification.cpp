@@ -21,10 +21,20 @@ constexpr double first_segment = 0.5;
 constexpr double horizon = 3.0;
 constexpr double spacing = 0.5;
 constexpr double flown_step = 0.03;
-constexpr int looks = 4;                       // at the fall, in each segment
-constexpr int numbers_of_look = 9;             // velocity, tip speed, rotation
-constexpr double usual_miss = 0.2;             // beyond it a residual counts less
-constexpr double expected_miss = 0.1;          // as far as expectations weigh
+constexpr int looks = 4;               // at the fall, in each segment
+constexpr int numbers_of_look = 9;     // velocity, tip speed, rotation
+constexpr double usual_miss = 0.2;     // beyond it a residual counts less
+constexpr double expected_miss = 0.1;  // as far as expectations weigh
+// What the flights of segments miss is forgiven where the swings die: they are fitted best by a body that
+// swings less than it should. So the figures of the whole flight count too: as so many numbers of segments,
+// each where it is off by these shares as much as a number by `usual_miss`.
+constexpr int figures_of_fall = 4;
+constexpr double count_of_figure = 40.0;
+constexpr double least_count = 1e-3;  // of them, to begin with
+constexpr double usual_miss_of_descent = 0.05;
+constexpr double usual_miss_of_frequency = 0.15;
+constexpr double usual_miss_of_swing = 0.25;
+constexpr double farthest_figure = 10.0;       // over those
 constexpr int stretches = 6;                   // of the jackknife
 constexpr int least_segments = 2 * stretches;  // of each fall
 // Of any number of a miss: coefficients with which a body flies off are bad, but no worse than that.
@@ -39,6 +49,7 @@ struct ReadyFall {
     std::vector<BodyState> states;
     Vector3d gravity;
     std::size_t stride;  // states to a flown step
+    Measures measures;
 };
 
 struct Segment {
@@ -63,15 +74,6 @@ void require_even_steps(const FallRecord& record) {
             fmt::format("{}: the fall's steps are not of one length: {:.6g} L/U at first, but not at {:.6g}",
                         record.fall.name, step, time));
     }
-}
-
-ReadyFall ready(const Body& body, const FallRecord& record) {
-    if (record.samples.empty()) throw too_short(record);
-    require_even_steps(record);
-    ReadyFall fall{record, falling_body(body, record.fall), states_of(record), gravity_of(record.fall), 1};
-    const double step = record.samples.front().time;
-    fall.stride = static_cast<std::size_t>(std::max(1.0, std::round(flown_step / step)));
-    return fall;
 }
 
 double step_of(const ReadyFall& fall) {
@@ -133,39 +135,109 @@ void fly_segment(const ReadyFall& fall, const ImmersedBody& body, std::size_t be
     }
 }
 
-VectorXd residuals_of(const std::vector<ReadyFall>& falls, const std::vector<Segment>& segments,
-                      const DynamicCoefficients& coefficients) {
-    constexpr Eigen::Index each = looks * numbers_of_look;
-    VectorXd residuals(each * static_cast<Eigen::Index>(segments.size()));
-    std::size_t of = falls.size();
-    ImmersedBody body;
-    for (std::size_t i = 0; i < segments.size(); ++i) {
-        const Segment& segment = segments[i];
-        if (segment.fall != of) {
-            of = segment.fall;
-            body = falls[of].body;
-            body.dynamic = coefficients;
-            prepare(body);
-        }
-        fly_segment(falls[of], body, segment.begin,
-                    residuals.segment(each * static_cast<Eigen::Index>(i), each));
+// A fall's first state has the momenta of body and fluid as the body's own, while the fluid is still at rest
+// (free_fall.hpp): this one has them shared.
+BodyState start_of(const ReadyFall& fall) {
+    BodyState start = fall.states.front();
+    Vector6d momenta;
+    momenta << fall.body.own_inertia * start.velocity.head<3>(), fall.body.mass * start.velocity.tail<3>();
+    start.velocity = fall.body.inverse_inertia * momenta;
+    return start;
+}
+
+// Of every `stride`th state.
+Measures measures_of(const Body& body, const ReadyFall& fall, const std::vector<BodyState>& states) {
+    const Motion motion =
+        motion_of(body, fall.gravity, step_of(fall) * static_cast<double>(fall.stride), states);
+    return measure(motion, motion.bodies.front());
+}
+
+ReadyFall ready(const Body& body, const FallRecord& record) {
+    if (record.samples.empty()) throw too_short(record);
+    require_even_steps(record);
+    ReadyFall fall{record, falling_body(body, record.fall), states_of(record), gravity_of(record.fall), 1,
+                   {}};
+    const double step = record.samples.front().time;
+    fall.stride = static_cast<std::size_t>(std::max(1.0, std::round(flown_step / step)));
+    std::vector<BodyState> solved;
+    for (std::size_t i = 0; i < fall.states.size(); i += fall.stride) solved.push_back(fall.states[i]);
+    fall.measures = measures_of(body, fall, solved);
+    return fall;
+}
+
+Measures fly_whole(const Body& body, const ReadyFall& fall, const ImmersedBody& flying) {
+    const double time_step = step_of(fall) * static_cast<double>(fall.stride);
+    std::vector<BodyState> flown;
+    BodyState state = start_of(fall);
+    for (std::size_t i = 0; i < fall.states.size(); i += fall.stride) {
+        flown.push_back(state);
+        state = implicit_step(flying, fall.gravity, time_step, state);
+    }
+    return measures_of(body, fall, flown);
+}
+
+// How far two figures are apart, over `usual`; as far as can be where there is but one of them.
+double figure_miss(double flown, double solved, double usual) {
+    if (!(flown > 0.0) && !(solved > 0.0)) return 0.0;
+    const double miss = std::log(flown / solved) / usual;
+    if (!std::isfinite(miss)) return farthest_figure;
+    return std::clamp(miss, -farthest_figure, farthest_figure);
+}
+
+Eigen::Matrix<double, figures_of_fall, 1> figures_miss(const Measures& flown, const Measures& solved) {
+    return {
+        figure_miss(flown.descent_speed, solved.descent_speed, usual_miss_of_descent),
+        figure_miss(flown.frequency.value_or(0.0), solved.frequency.value_or(0.0), usual_miss_of_frequency),
+        figure_miss(flown.inclination_amplitude, solved.inclination_amplitude, usual_miss_of_swing),
+        figure_miss(flown.rms_angular_speed, solved.rms_angular_speed, usual_miss_of_swing)};
+}
+
+constexpr Eigen::Index numbers_of_segment = looks * numbers_of_look;
+
+Eigen::Index count(const std::vector<Segment>& segments) {
+    return numbers_of_segment * static_cast<Eigen::Index>(segments.size());
+}
+
+// Of the segments, and of the figures of each fall as a whole.
+VectorXd residuals_of(const Body& body, const std::vector<ReadyFall>& falls,
+                      const std::vector<Segment>& segments, const DynamicCoefficients& coefficients) {
+    std::vector<ImmersedBody> flying;
+    for (const ReadyFall& fall : falls) {
+        flying.push_back(fall.body);
+        flying.back().dynamic = coefficients;
+        prepare(flying.back());
+    }
+    VectorXd residuals(count(segments) + figures_of_fall * static_cast<Eigen::Index>(falls.size()));
+    Eigen::Index at = 0;
+    for (const Segment& segment : segments) {
+        fly_segment(falls[segment.fall], flying[segment.fall], segment.begin,
+                    residuals.segment(at, numbers_of_segment));
+        at += numbers_of_segment;
+    }
+    for (std::size_t i = 0; i < falls.size(); ++i) {
+        const Measures flown = fly_whole(body, falls[i], flying[i]);
+        residuals.segment<figures_of_fall>(at) = usual_miss * figures_miss(flown, falls[i].measures);
+        at += figures_of_fall;
     }
     return residuals;
 }
 
-LeastSquaresProblem problem_of(const std::vector<ReadyFall>& falls, const std::vector<Segment>& segments,
-                               const MotionParameters& parameters) {
+LeastSquaresProblem problem_of(const Body& body, const std::vector<ReadyFall>& falls,
+                               const std::vector<Segment>& segments, const MotionParameters& parameters) {
     LeastSquaresProblem problem;
-    problem.residuals = [&falls, &parameters, segments](const VectorXd& numbers) {
-        return residuals_of(falls, segments, parameters.coefficients(numbers));
+    problem.residuals = [&body, &falls, &parameters, segments](const VectorXd& numbers) {
+        return residuals_of(body, falls, segments, parameters.coefficients(numbers));
     };
-    const auto count = static_cast<Eigen::Index>(parameters.all().size());
+    problem.counts =
+        VectorXd::Ones(count(segments) + figures_of_fall * static_cast<Eigen::Index>(falls.size()));
+    problem.counts.tail(figures_of_fall * static_cast<Eigen::Index>(falls.size())).array() = count_of_figure;
+    const auto size = static_cast<Eigen::Index>(parameters.all().size());
     problem.start = parameters.expected();
     problem.expected = problem.start;
-    problem.lower.resize(count);
-    problem.upper.resize(count);
-    problem.deviation.resize(count);
-    for (Eigen::Index i = 0; i < count; ++i) {
+    problem.lower.resize(size);
+    problem.upper.resize(size);
+    problem.deviation.resize(size);
+    for (Eigen::Index i = 0; i < size; ++i) {
         const MotionParameter& parameter = parameters.all()[static_cast<std::size_t>(i)];
         problem.lower[i] = parameter.lower;
         problem.upper[i] = parameter.upper;
@@ -179,15 +251,15 @@ LeastSquaresProblem problem_of(const std::vector<ReadyFall>& falls, const std::v
 
 // From leaving out one stretch at a time (Efron & Tibshirani, An Introduction to the Bootstrap, 1993,
 // section 11.2), which knows nothing of the pull of what is expected: that is the same whatever is left out.
-VectorXd standard_errors_of(const std::vector<ReadyFall>& falls, const std::vector<Segment>& segments,
-                            const MotionParameters& parameters, const VectorXd& solution,
-                            const std::function<void(double)>& progress) {
+VectorXd standard_errors_of(const Body& body, const std::vector<ReadyFall>& falls,
+                            const std::vector<Segment>& segments, const MotionParameters& parameters,
+                            const VectorXd& solution, const std::function<void(double)>& progress) {
     VectorXd sum = VectorXd::Zero(solution.size());
     VectorXd squares = VectorXd::Zero(solution.size());
     for (int stretch = 0; stretch < stretches; ++stretch) {
         std::vector<Segment> others = segments;
         std::erase_if(others, [&](const Segment& segment) { return segment.stretch == stretch; });
-        LeastSquaresProblem problem = problem_of(falls, others, parameters);
+        LeastSquaresProblem problem = problem_of(body, falls, others, parameters);
         problem.start = solution;
         problem.most_iterations = 8;
         const VectorXd x = solve_least_squares(problem).x;
@@ -197,38 +269,16 @@ VectorXd standard_errors_of(const std::vector<ReadyFall>& falls, const std::vect
     }
     const VectorXd mean = sum / stretches;
     const VectorXd variance = (stretches - 1.0) * (squares / stretches - mean.cwiseAbs2()).cwiseMax(0.0);
-    const VectorXd of_expectation = errors_by_expectation(problem_of(falls, segments, parameters), solution);
+    const VectorXd of_expectation =
+        errors_by_expectation(problem_of(body, falls, segments, parameters), solution);
     return (variance + of_expectation.cwiseAbs2()).cwiseSqrt();
 }
 
-// A fall's first state has the momenta of body and fluid as the body's own, while the fluid is still at rest
-// (free_fall.hpp): this one has them shared.
-BodyState start_of(const ReadyFall& fall) {
-    BodyState start = fall.states.front();
-    Vector6d momenta;
-    momenta << fall.body.own_inertia * start.velocity.head<3>(), fall.body.mass * start.velocity.tail<3>();
-    start.velocity = fall.body.inverse_inertia * momenta;
-    return start;
-}
-
-FlownFall fly_whole(const Body& body, const ReadyFall& fall, const DynamicCoefficients& coefficients) {
+FlownFall flown_fall(const Body& body, const ReadyFall& fall, const DynamicCoefficients& coefficients) {
     ImmersedBody flying = fall.body;
     flying.dynamic = coefficients;
     prepare(flying);
-    const double time_step = step_of(fall) * static_cast<double>(fall.stride);
-    std::vector<BodyState> solved;
-    std::vector<BodyState> flown;
-    BodyState state = start_of(fall);
-    for (std::size_t i = 0; i < fall.states.size(); i += fall.stride) {
-        solved.push_back(fall.states[i]);
-        flown.push_back(state);
-        state = implicit_step(flying, fall.gravity, time_step, state);
-    }
-    const auto measured = [&](const std::vector<BodyState>& states) {
-        const Motion motion = motion_of(body, fall.gravity, time_step, states);
-        return measure(motion, motion.bodies.front());
-    };
-    return {fall.record.fall.name, measured(solved), measured(flown), balance_of(fall.record)};
+    return {fall.record.fall.name, fall.measures, fly_whole(body, fall, flying), balance_of(fall.record)};
 }
 
 std::string origin_of(const std::vector<FallRecord>& falls, double error) {
@@ -247,7 +297,7 @@ std::string origin_of(const std::vector<FallRecord>& falls, double error) {
 
 FlownFall fly_fall(const Body& body, const FallRecord& record) {
     const ReadyFall fall = ready(body, record);
-    return fly_whole(body, fall, fall.body.dynamic);
+    return flown_fall(body, fall, fall.body.dynamic);
 }
 
 Identification identify_motion(const Body& body, const std::vector<FallRecord>& records,
@@ -260,17 +310,26 @@ Identification identify_motion(const Body& body, const std::vector<FallRecord>& 
     for (const FallRecord& record : records) falls.push_back(ready(body, record));
     const std::vector<Segment> segments = segments_of(falls);
     const MotionParameters parameters(body, without);
-    const LeastSquaresSolution solution = solve_least_squares(problem_of(falls, segments, parameters));
+    // The figures are rough functions of the coefficients far from the solution, the segments' flights
+    // smooth.
+    const LeastSquaresProblem problem = problem_of(body, falls, segments, parameters);
+    LeastSquaresProblem of_segments = problem;
+    of_segments.counts.tail(figures_of_fall * static_cast<Eigen::Index>(falls.size()))
+        .setConstant(least_count);
+    LeastSquaresProblem of_all = problem;
+    of_all.start = solve_least_squares(of_segments).x;
+    const LeastSquaresSolution solution = solve_least_squares(of_all);
     if (progress) progress(1.0 / (1.0 + stretches));
     Identification result;
-    result.prediction_error = solution.rms;
+    const VectorXd missed = solution.residuals.head(count(segments));
+    result.prediction_error = std::sqrt(missed.squaredNorm() / static_cast<double>(missed.size()));
     result.segments = static_cast<int>(segments.size());
     result.coefficients.values = parameters.coefficients(solution.x);
-    result.coefficients.standard_errors =
-        parameters.standard_errors(standard_errors_of(falls, segments, parameters, solution.x, progress));
-    result.coefficients.values.origin = origin_of(records, solution.rms);
+    result.coefficients.standard_errors = parameters.standard_errors(
+        standard_errors_of(body, falls, segments, parameters, solution.x, progress));
+    result.coefficients.values.origin = origin_of(records, result.prediction_error);
     for (const ReadyFall& fall : falls) {
-        result.falls.push_back(fly_whole(body, fall, result.coefficients.values));
+        result.falls.push_back(flown_fall(body, fall, result.coefficients.values));
     }
     return result;
 }

@@ -11,7 +11,8 @@ namespace samara {
 namespace {
 
 nlohmann::json coefficients_as_json(const DynamicCoefficients& coefficients) {
-    nlohmann::json json = {{"rotational_transport", coefficients.rotational_transport}};
+    nlohmann::json json;
+    for (const NumberOfMotion& number : numbers_of_motion) json[number.name] = coefficients.*number.member;
     for (const TensorOfMotion& tensor : tensors_of_motion) {
         nlohmann::json rows = nlohmann::json::array();
         for (int row = 0; row < 3; ++row) {

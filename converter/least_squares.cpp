@@ -29,20 +29,22 @@ struct Point {
 Point point_at(const LeastSquaresProblem& problem, const VectorXd& x) {
     Point point{x, problem.residuals(x)};
     const double square = problem.scale * problem.scale;
-    for (const double r : point.residuals) point.cost += square * std::log1p(r * r / square);
+    const VectorXd costs = square * (point.residuals.array().square() / square).log1p();
+    point.cost += problem.counts.size() == 0 ? costs.sum() : problem.counts.dot(costs);
     point.cost +=
         problem.prior_weight * ((x - problem.expected).cwiseQuotient(problem.deviation)).squaredNorm();
     return point;
 }
 
-// Half the second derivatives of the prior, which is a diagonal, and the weights that Cauchy's loss gives the
-// residuals.
+// Half the second derivatives of the prior, which is a diagonal, and the weights that Cauchy's loss and their
+// counts give the residuals.
 VectorXd prior_of(const LeastSquaresProblem& problem) {
     return problem.prior_weight * problem.deviation.cwiseAbs2().cwiseInverse();
 }
 
 VectorXd weights_of(const LeastSquaresProblem& problem, const VectorXd& residuals) {
-    return (1.0 + residuals.array().square() / (problem.scale * problem.scale)).inverse();
+    const VectorXd weights = (1.0 + residuals.array().square() / (problem.scale * problem.scale)).inverse();
+    return problem.counts.size() == 0 ? weights : VectorXd(weights.cwiseProduct(problem.counts));
 }
 
 MatrixXd jacobian(const LeastSquaresProblem& problem, const Point& point) {
@@ -114,7 +116,7 @@ LeastSquaresSolution solve_least_squares(const LeastSquaresProblem& problem) {
         solution.converged = before - point.cost <= least_gain * before;
     }
     solution.x = point.x;
-    solution.rms = std::sqrt(point.residuals.squaredNorm() / static_cast<double>(point.residuals.size()));
+    solution.residuals = point.residuals;
     return solution;
 }
 

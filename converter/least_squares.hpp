@@ -7,7 +7,7 @@
 namespace samara {
 
 /// A least-squares problem with bounds: the parameters x in [lower, upper] with the smallest
-///     sum of s^2 log(1 + r_i(x)^2/s^2) + p |(x - expected)/deviation|^2,
+///     sum of c_i s^2 log(1 + r_i(x)^2/s^2) + p |(x - expected)/deviation|^2,
 /// Cauchy's loss, for which residuals r_i beyond s count less and less, and what is known of x beforehand.
 struct LeastSquaresProblem {
     /// All residuals at x; always as many. Called from several threads at once.
@@ -18,6 +18,8 @@ struct LeastSquaresProblem {
     Eigen::VectorXd expected;
     Eigen::VectorXd
         deviation;  ///< of what is expected, above 0; differences for the gradient are a thousandth of it
+    /// c, as many as residuals, above 0: for how many residuals each counts; one where it is empty.
+    Eigen::VectorXd counts;
     double scale = 1.0;         ///< s
     double prior_weight = 0.0;  ///< p
     int most_iterations = 40;
@@ -26,7 +28,7 @@ struct LeastSquaresProblem {
 
 struct LeastSquaresSolution {
     Eigen::VectorXd x;
-    double rms = 0.0;  ///< of the residuals
+    Eigen::VectorXd residuals;  ///< at x
     int iterations = 0;
     bool converged = false;  ///< false: the iterations ran out
 };

@@ -28,9 +28,16 @@ constexpr Expectation expectations[] = {
      0.7, 0.0, 6.0},
     {&DynamicCoefficients::wake_by_velocity, "wake by velocity", 0.0, 0.5, -3.0, 3.0},
     {&DynamicCoefficients::wake_by_turning, "wake by turning", 0.0, 0.5, -3.0, 3.0},
+    {&DynamicCoefficients::entrained_inertia, "entrained inertia", 0.0, 1.0, -6.0, 6.0},
 };
 
-constexpr const char* turning_transport = "turning transport";
+struct NumberExpectation {
+    double expected, deviation, lower, upper;
+};
+// Of numbers_of_motion.
+constexpr NumberExpectation number_expectations[] = {{usual_rotational_transport, 0.3, -2.0, 4.0},
+                                                     {1.0, 0.3, 0.3, 3.0}};
+static_assert(std::size(number_expectations) == std::size(numbers_of_motion));
 
 // Axes along which the body moves alike: within this, relative.
 constexpr double alike = 0.01;
@@ -43,13 +50,17 @@ Eigen::Vector3i tied_axes(const Matrix3d& axes, const Body& body) {
     const Vector3d masses = along(fluid.bottomRightCorner<3, 3>());
     const Vector3d inertias = along(fluid.topLeftCorner<3, 3>());
     const Vector3d extents = along(body.moments.second_moments);
-    const auto equal = [](const Vector3d& values, int i, int j) {
-        return std::abs(values[i] - values[j]) <= alike * values.maxCoeff();
+    // The inertia of a body of revolution about its axis, and all of a sphere's, is nothing but rounding.
+    const double usual_inertia =
+        masses.maxCoeff() * std::pow(default_dynamic_coefficients(body).half_length, 2);
+    const auto equal = [](const Vector3d& values, int i, int j, double least = 0.0) {
+        return std::abs(values[i] - values[j]) <= alike * std::max(values.maxCoeff(), least);
     };
     Eigen::Vector3i tied(0, 1, 2);
     for (int i = 1; i < 3; ++i) {
         for (int j = i - 1; j >= 0; --j) {
-            if (equal(masses, i, j) && equal(inertias, i, j) && equal(extents, i, j)) tied[i] = tied[j];
+            if (equal(masses, i, j) && equal(inertias, i, j, 0.1 * usual_inertia) && equal(extents, i, j))
+                tied[i] = tied[j];
         }
     }
     return tied;
@@ -66,7 +77,7 @@ Vector3d projected_areas(const Body& body, const Matrix3d& axes) {
 std::vector<std::string> MotionParameters::names() {
     std::vector<std::string> names;
     for (const Expectation& expectation : expectations) names.emplace_back(expectation.name);
-    names.emplace_back(turning_transport);
+    for (const NumberOfMotion& number : numbers_of_motion) names.emplace_back(number.title);
     return names;
 }
 
@@ -80,12 +91,20 @@ MotionParameters::MotionParameters(const Body& body, const std::vector<std::stri
         (axes_.transpose() * rotational_drag_tensor(body.surface, body.moments.centroid) * axes_).diagonal();
     const Vector3d none = Vector3d::Zero();
     const Vector3d of_wake = Vector3d::Constant(largest * half_length_);
-    const Vector3d offsets[] = {added_mass.diagonal(), none, none, none, none, none, none};
+    const Vector3d of_entrained = Vector3d::Constant(
+        (axes_.transpose() * body.kirchhoff->matrix.topLeftCorner<3, 3>() * axes_).diagonal().maxCoeff());
+    const Vector3d offsets[] = {added_mass.diagonal(), none, none, none, none, none, none, none};
     // A body of revolution has no rotational drag about its axis by its pressure: friction is a small share.
     const Vector3d of_turning = turning.cwiseMax(0.02 * turning.maxCoeff());
     const Vector3d areas = projected_areas(body, axes_);
-    const Vector3d units[] = {
-        Vector3d::Constant(0.25 * largest), areas, areas, of_turning, of_turning, of_wake, of_wake};
+    const Vector3d units[] = {Vector3d::Constant(0.25 * largest),
+                              areas,
+                              areas,
+                              of_turning,
+                              of_turning,
+                              of_wake,
+                              of_wake,
+                              of_entrained};
     for (std::size_t t = 0; t < std::size(expectations); ++t) {
         const Expectation& expectation = expectations[t];
         Tensor tensor{expectation.member, offsets[t], units[t], {}};
@@ -100,8 +119,11 @@ MotionParameters::MotionParameters(const Body& body, const std::vector<std::stri
         }
         tensors_.push_back(tensor);
     }
-    turning_place_ = static_cast<Eigen::Index>(parameters_.size());
-    parameters_.push_back({turning_transport, usual_rotational_transport, 0.3, -2.0, 4.0});
+    first_number_ = static_cast<Eigen::Index>(parameters_.size());
+    for (std::size_t i = 0; i < std::size(numbers_of_motion); ++i) {
+        const auto& [expected, deviation, lower, upper] = number_expectations[i];
+        parameters_.push_back({numbers_of_motion[i].title, expected, deviation, lower, upper});
+    }
     for (const std::string& name : without) leave_out(name);
 }
 
@@ -119,7 +141,8 @@ void MotionParameters::leave_out(const std::string& name) {
             parameter.name.find_first_not_of(" 123", name.size()) != std::string::npos) {
             continue;
         }
-        parameter.expected = parameter.lower = parameter.upper = 0.0;
+        const double left_out = name == "unsteady factor" ? 1.0 : 0.0;
+        parameter.expected = parameter.lower = parameter.upper = left_out;
     }
 }
 
@@ -136,6 +159,12 @@ Eigen::Vector3d MotionParameters::principal_values(const Tensor& tensor,
             tensor.unit[2] * numbers[tensor.place[2]]};
 }
 
+void MotionParameters::set_numbers(const Eigen::VectorXd& numbers, DynamicCoefficients& coefficients) const {
+    for (std::size_t i = 0; i < std::size(numbers_of_motion); ++i) {
+        coefficients.*numbers_of_motion[i].member = numbers[first_number_ + static_cast<Eigen::Index>(i)];
+    }
+}
+
 DynamicCoefficients MotionParameters::coefficients(const Eigen::VectorXd& numbers) const {
     DynamicCoefficients coefficients;
     for (const Tensor& tensor : tensors_) {
@@ -143,7 +172,7 @@ DynamicCoefficients MotionParameters::coefficients(const Eigen::VectorXd& number
         const Matrix3d matrix = axes_ * values.asDiagonal() * axes_.transpose();
         coefficients.*tensor.member = 0.5 * (matrix + matrix.transpose());
     }
-    coefficients.rotational_transport = numbers[turning_place_];
+    set_numbers(numbers, coefficients);
     coefficients.half_length = half_length_;
     return coefficients;
 }
@@ -160,7 +189,7 @@ DynamicCoefficients MotionParameters::standard_errors(const Eigen::VectorXd& err
         }
         coefficients.*tensor.member = squares.cwiseSqrt();
     }
-    coefficients.rotational_transport = errors[turning_place_];
+    set_numbers(errors, coefficients);
     return coefficients;
 }
 

@@ -24,7 +24,8 @@ struct MotionParameter {
 class MotionParameters {
   public:
     /// The body must have its Kirchhoff tensor. Terms whose names are in `without`, as names() has them, stay
-    /// out: zero, and for the transports as in potential flow. Throws Error where there is no such term.
+    /// out: zero, for the transports as in potential flow, and for the unsteady factor one. Throws Error
+    /// where there is no such term.
     explicit MotionParameters(const Body& body, const std::vector<std::string>& without = {});
 
     /// The terms: transport, drag in motion, ...
@@ -45,6 +46,7 @@ class MotionParameters {
         Eigen::Vector3i place;
     };
     void leave_out(const std::string& name);
+    void set_numbers(const Eigen::VectorXd& numbers, DynamicCoefficients& coefficients) const;
     [[nodiscard]] Eigen::Vector3d principal_values(const Tensor& tensor,
                                                    const Eigen::VectorXd& numbers) const;
 
@@ -53,7 +55,7 @@ class MotionParameters {
     double half_length_ = 0.0;
     std::vector<Tensor> tensors_;
     std::vector<MotionParameter> parameters_;
-    Eigen::Index turning_place_ = 0;
+    Eigen::Index first_number_ = 0;  // of numbers_of_motion
 };
 
 }  // namespace samara

@@ -132,8 +132,9 @@ void print_dynamic(const IdentifiedCoefficients& dynamic) {
     const auto& [values, errors] = dynamic;
     fmt::print("Dynamic coefficients, +- standard errors (body axes, about the centroid)\n");
     print_row("origin", "{}", values.origin);
-    print_row("turning transport", "{:.3g} +- {:.2g}", values.rotational_transport,
-              errors.rotational_transport);
+    for (const NumberOfMotion& number : numbers_of_motion) {
+        print_row(number.title, "{:.3g} +- {:.2g}", values.*number.member, errors.*number.member);
+    }
     for (const TensorOfMotion& tensor : tensors_of_motion) {
         print_tensor(tensor.title, tensor.unit, values.*tensor.member, errors.*tensor.member);
     }
@@ -152,7 +153,8 @@ nlohmann::json rows_of(const Matrix& matrix) {
 }
 
 nlohmann::json numbers_as_json(const DynamicCoefficients& numbers) {
-    nlohmann::json json = {{"rotational_transport", numbers.rotational_transport}};
+    nlohmann::json json;
+    for (const NumberOfMotion& number : numbers_of_motion) json[number.name] = numbers.*number.member;
     for (const TensorOfMotion& tensor : tensors_of_motion)
         json[tensor.name] = rows_of(numbers.*tensor.member);
     return json;

@@ -23,8 +23,8 @@ using testing::Not;
 // Of a body that flutters without end, with numbers (motion_parameters.hpp) about which what is expected is
 // wrong, in turn above and below the first of each pair by the second.
 DynamicCoefficients true_coefficients(const Body& body) {
-    const std::pair<double, double> terms[] = {{0.0, 0.5},  {0.6, 0.3},  {0.3, 0.3}, {0.3, 0.25},
-                                               {0.3, 0.25}, {0.0, 0.25}, {0.0, 0.25}};
+    const std::pair<double, double> terms[] = {{0.0, 0.5},  {0.6, 0.3},  {0.3, 0.3},  {0.3, 0.25},
+                                               {0.3, 0.25}, {0.0, 0.25}, {0.0, 0.25}, {0.0, 0.25}};
     const MotionParameters parameters(body);
     Eigen::VectorXd numbers(static_cast<Eigen::Index>(parameters.all().size()));
     Eigen::Index next = 0;
@@ -34,6 +34,7 @@ DynamicCoefficients true_coefficients(const Body& body) {
         }
     }
     numbers[next] = 0.85;
+    numbers[next + 1] = 1.1;
     return parameters.coefficients(numbers);
 }
 
@@ -110,7 +111,9 @@ TEST_F(FallIdentification, StatesErrorsThatHoldTheTruth) {
         const Vector3d error = (errors.*tensor.member).diagonal();
         for (int i = 0; i < 3; ++i) EXPECT_LT(std::abs(difference[i]), 3.0 * error[i]) << tensor.name << i;
     }
-    EXPECT_NEAR(found.rotational_transport, true_.rotational_transport, 3.0 * errors.rotational_transport);
+    for (const NumberOfMotion& number : numbers_of_motion) {
+        EXPECT_NEAR(found.*number.member, true_.*number.member, 3.0 * (errors.*number.member)) << number.name;
+    }
 }
 
 // Else the test above would hold of any coefficients.
@@ -168,8 +171,8 @@ TEST_F(FallIdentification, IsLessCertainOfANoisyFall) {
     const Identification noisy = identify_motion(body_, {with_noise(record_, noise)});
     EXPECT_GT(noisy.prediction_error, noise);
     EXPECT_LT(noisy.prediction_error, 2.0 * noise);
-    EXPECT_GT(noisy.coefficients.standard_errors.transport.norm(),
-              1.2 * found_.coefficients.standard_errors.transport.norm());
+    EXPECT_GT(noisy.coefficients.standard_errors.wake_by_velocity.norm(),
+              1.2 * found_.coefficients.standard_errors.wake_by_velocity.norm());
     EXPECT_LT(relative_difference(noisy.coefficients.values.transport, true_.transport), 0.1);
 }
 

@@ -48,7 +48,22 @@ TEST(LeastSquares, FollowsACurvedValleyToItsEnd) {
     EXPECT_TRUE(solution.converged);
     EXPECT_NEAR(solution.x[0], 1.0, 1e-4);
     EXPECT_NEAR(solution.x[1], 1.0, 1e-4);
-    EXPECT_LT(solution.rms, 1e-4);
+    EXPECT_LT(solution.residuals.norm(), 1e-4);
+}
+
+TEST(LeastSquares, CountsAResidualAsOftenAsItIsTold) {
+    LeastSquaresProblem problem = plain_problem(VectorXd::Zero(1));
+    problem.scale = 0.5;
+    problem.residuals = [](const VectorXd& x) { return VectorXd(Vector2d(x[0] - 1.0, x[0] - 2.0)); };
+    problem.counts = Vector2d(3.0, 1.0);
+    LeastSquaresProblem repeated = problem;
+    repeated.counts.resize(0);
+    repeated.residuals = [](const VectorXd& x) {
+        return VectorXd(Eigen::Vector4d(x[0] - 1.0, x[0] - 1.0, x[0] - 1.0, x[0] - 2.0));
+    };
+    const double counted = solve_least_squares(problem).x[0];
+    EXPECT_NEAR(counted, solve_least_squares(repeated).x[0], 1e-9);
+    EXPECT_LT(counted, 1.5);
 }
 
 TEST(LeastSquares, SaysThatItRanOutOfIterations) {

@@ -73,6 +73,8 @@ TEST(MotionParameters, ExpectTheTransportThatTakesThePotentialFlowsOwnAway) {
     const Matrix3d added_mass = body.kirchhoff->matrix.bottomRightCorner<3, 3>();
     EXPECT_LT((expected.transport - added_mass).norm(), 1e-12 * added_mass.norm());
     EXPECT_EQ(expected.rotational_transport, 1.0);
+    EXPECT_EQ(expected.unsteady_factor, 1.0);
+    EXPECT_EQ(expected.entrained_inertia, Matrix3d::Zero());
     EXPECT_EQ(expected.wake_by_velocity, Matrix3d::Zero());
     EXPECT_EQ(expected.wake_by_turning, Matrix3d::Zero());
     EXPECT_EQ(expected.half_length, default_dynamic_coefficients(body).half_length);
@@ -90,7 +92,7 @@ TEST(MotionParameters, GiveSymmetricTensorsAndNoNegativeDragAnywhereWithinTheBou
 
 TEST(MotionParameters, OfABodyWithoutEqualAxesHaveANumberForEach) {
     const MotionParameters parameters(ellipsoid_of(uneven));
-    EXPECT_EQ(parameters.all().size(), 7u * 3u + 1u);
+    EXPECT_EQ(parameters.all().size(), 8u * 3u + 2u);
     EXPECT_EQ(count_named(parameters, "transport"), 3);
     EXPECT_EQ(count_named(parameters, "wake by turning"), 3);
 }
@@ -98,7 +100,7 @@ TEST(MotionParameters, OfABodyWithoutEqualAxesHaveANumberForEach) {
 TEST(MotionParameters, OfASpheroidHaveOneNumberForBothEqualAxes) {
     for (const Vector3d& semi_axes : {Vector3d(1.0, 4.0, 4.0), Vector3d(1.0, 1.0, 4.0)}) {
         const MotionParameters parameters(ellipsoid_of(semi_axes));
-        EXPECT_EQ(parameters.all().size(), 7u * 2u + 1u);
+        EXPECT_EQ(parameters.all().size(), 8u * 2u + 2u);
         EXPECT_EQ(count_named(parameters, "rotational drag"), 2 + 2);  // and that in spin
         const int other = semi_axes.y() == semi_axes.z() ? 1 : 0;      // y and z are equal, or x and y
         const DynamicCoefficients coefficients =
@@ -118,13 +120,24 @@ TEST(MotionParameters, OfASphereHaveOneNumberForAllAxes) {
     body.surface = test::ellipsoid(sphere.semi_axes, 3);
     body.moments = test::exact_moments(sphere);
     body.kirchhoff->matrix = test::exact_tensor(sphere);
-    EXPECT_EQ(MotionParameters(body).all().size(), 7u + 1u);
+    EXPECT_EQ(MotionParameters(body).all().size(), 8u + 2u);
+}
+
+// The added inertia of a sphere, and of a body of revolution about its axis, is rounding.
+TEST(MotionParameters, TieAxesWhoseAddedInertiasDifferByRounding) {
+    Body body = ellipsoid_of(Vector3d(1.0, 1.0, 2.0));
+    const test::ExactEllipsoid& sphere = test::exact_ellipsoid("sphere");
+    body.surface = test::ellipsoid(sphere.semi_axes, 3);
+    body.moments = test::exact_moments(sphere);
+    body.kirchhoff->matrix = test::exact_tensor(sphere);
+    for (int i = 0; i < 3; ++i) body.kirchhoff->matrix(i, i) += 1e-9 * (i + 1);
+    EXPECT_EQ(MotionParameters(body).all().size(), 8u + 2u);
 }
 
 TEST(MotionParameters, TieNoAxesThatMassAloneMakesEqual) {
     Body body = ellipsoid_of(Vector3d(1.0, 4.0, 4.0));
     body.moments.second_moments(2, 2) *= 1.1;
-    EXPECT_EQ(MotionParameters(body).all().size(), 7u * 3u + 1u);
+    EXPECT_EQ(MotionParameters(body).all().size(), 8u * 3u + 2u);
 }
 
 TEST(MotionParameters, AreNothingWhereTheTermIsLeftOut) {
@@ -134,12 +147,14 @@ TEST(MotionParameters, AreNothingWhereTheTermIsLeftOut) {
         const DynamicCoefficients coefficients = parameters.coefficients(parameters.expected());
         std::ptrdiff_t fixed = 0;
         for (const MotionParameter& one : parameters.all()) fixed += one.lower == one.upper ? 1 : 0;
-        const bool is_scalar = name == "turning transport";
+        const bool is_scalar = name == "turning transport" || name == "unsteady factor";
         EXPECT_EQ(fixed, is_scalar ? 1 : 3) << name;
+        EXPECT_EQ(coefficients.unsteady_factor, 1.0) << name;
         const bool of_turning = name == "turning transport";
         EXPECT_EQ(coefficients.rotational_transport, of_turning ? 0.0 : 1.0) << name;
         for (const TensorOfMotion& tensor : tensors_of_motion) {
-            const bool is_wake = std::string(tensor.title).starts_with("wake");
+            const bool is_wake = std::string(tensor.title).starts_with("wake") ||
+                                 tensor.member == &DynamicCoefficients::entrained_inertia;
             const bool is_none = coefficients.*tensor.member == Matrix3d::Zero();
             EXPECT_EQ(is_none, is_wake || name == tensor.title) << name << ", " << tensor.title;
         }
@@ -167,7 +182,7 @@ TEST(MotionParameters, GrowWithTheBodyAsTheirUnitsSay) {
     const DynamicCoefficients of_small = small.coefficients(numbers);
     const DynamicCoefficients of_large = MotionParameters(ellipsoid_of(10.0 * uneven)).coefficients(numbers);
     for (const TensorOfMotion& tensor : tensors_of_motion) {
-        const double unit = std::pow(10.0, tensor.unit[2] - '0');  // m^2, m^3 or m^4
+        const double unit = std::pow(10.0, tensor.unit[2] - '0');  // m^2 to m^5
         EXPECT_LT((of_large.*tensor.member - unit * of_small.*tensor.member).norm(),
                   1e-6 * (of_large.*tensor.member).norm())
             << tensor.name;
@@ -185,7 +200,8 @@ TEST(MotionParameters, GiveTheErrorOfEachEntryAlongPrincipalAxes) {
         const Matrix3d change = moved.*tensor.member - coefficients.*tensor.member;
         EXPECT_LT((standard_errors.*tensor.member - change).norm(), 1e-9 * change.norm()) << tensor.name;
     }
-    EXPECT_NEAR(standard_errors.rotational_transport, errors[errors.size() - 1], 1e-15);
+    EXPECT_NEAR(standard_errors.rotational_transport, errors[errors.size() - 2], 1e-15);
+    EXPECT_NEAR(standard_errors.unsteady_factor, errors[errors.size() - 1], 1e-15);
 }
 
 // Of a turned body every entry depends on several numbers: the spread of entries under numbers that are

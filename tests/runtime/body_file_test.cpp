@@ -39,7 +39,9 @@ void expect_equal(const ErrorShare& a, const ErrorShare& b) {
 }
 
 void expect_equal(const DynamicCoefficients& a, const DynamicCoefficients& b) {
-    EXPECT_EQ(a.rotational_transport, b.rotational_transport);
+    for (const NumberOfMotion& number : numbers_of_motion) {
+        EXPECT_EQ(a.*number.member, b.*number.member) << number.name;
+    }
     for (const TensorOfMotion& tensor : tensors_of_motion) {
         EXPECT_EQ(a.*tensor.member, b.*tensor.member) << tensor.name;
     }
@@ -240,8 +242,13 @@ TEST(BodyFile, DynamicCoefficientsThatAreNoneAreNamed) {
         EXPECT_EQ(fault.find('\n'), std::string::npos);
     };
     using Identified = IdentifiedCoefficients;
-    refused([&](Identified& c) { c.values.rotational_transport = std::nan(""); },
-            "rotational_transport is not finite");
+    for (const NumberOfMotion& number : numbers_of_motion) {
+        const std::string name = number.name;
+        refused([&](Identified& c) { c.values.*number.member = std::nan(""); }, name + " is not finite");
+        refused([&](Identified& c) { c.standard_errors.*number.member = -1.0; }, name + "_error");
+        refused([&](Identified& c) { c.standard_errors.*number.member = infinity; }, name + "_error");
+    }
+    refused([&](Identified& c) { c.values.unsteady_factor = 0.0; }, "unsteady_factor is not positive");
     refused([&](Identified& c) { c.values.half_length = 0.0; }, "half_length is not a positive");
     refused([&](Identified& c) { c.values.half_length = infinity; }, "half_length is not a positive");
     refused([&](Identified& c) { c.values.drag_in_motion(2, 2) = -0.1; },
@@ -256,10 +263,6 @@ TEST(BodyFile, DynamicCoefficientsThatAreNoneAreNamed) {
         refused([&](Identified& c) { (c.standard_errors.*tensor.member)(2, 2) = std::nan(""); },
                 name + "_error");
     }
-    refused([&](Identified& c) { c.standard_errors.rotational_transport = -1.0; },
-            "rotational_transport_error");
-    refused([&](Identified& c) { c.standard_errors.rotational_transport = infinity; },
-            "rotational_transport_error");
 }
 
 TEST(BodyFile, DynamicCoefficientsOfAnEarlierFormAreRefusedWithARemedy) {
@@ -280,6 +283,23 @@ TEST(BodyFile, DynamicCoefficientsOfAnEarlierFormAreRefusedWithARemedy) {
     EXPECT_THAT(fault, AllOf(HasSubstr("a.body.h5: /dynamic_coefficients is of an earlier form"),
                              HasSubstr("remove the group to fly with defaults")));
     EXPECT_EQ(fault.find('\n'), std::string::npos);
+}
+
+TEST(BodyFile, DynamicCoefficientsFromBeforeThereWasEntrainedInertiaAndUnsteadyFactorHaveNeither) {
+    const test::TemporaryFolder folder;
+    Body body = test::full_body();
+    write_body_file(folder / "a.body.h5", body);
+    {
+        H5::H5File file((folder / "a.body.h5").string(), H5F_ACC_RDWR);
+        H5::Group group = file.openGroup("/dynamic_coefficients");
+        for (const char* name : {"entrained_inertia", "entrained_inertia_error"}) group.unlink(name);
+        for (const char* name : {"unsteady_factor", "unsteady_factor_error"}) group.removeAttr(name);
+    }
+    body.dynamic->values.entrained_inertia.setZero();
+    body.dynamic->standard_errors.entrained_inertia.setZero();
+    body.dynamic->values.unsteady_factor = 1.0;
+    body.dynamic->standard_errors.unsteady_factor = 0.0;
+    expect_equal(read_body_file(folder / "a.body.h5"), body);
 }
 
 TEST(BodyFile, DynamicCoefficientsOfRankOneAndZeroAndIndefiniteWhereTheyMayAreAllowed) {

@@ -144,6 +144,7 @@ TEST(ImmersedBody, WithoutAddedMassHasItsOwnInertiaAloneAndNeedsNoTensor) {
     EXPECT_TRUE(body.dynamic.transport.isZero(0.0));
     EXPECT_TRUE(with_tensor.dynamic.transport.isZero(0.0));
     EXPECT_EQ(with_tensor.dynamic.rotational_transport, 0.0);
+    EXPECT_TRUE(with_tensor.dynamic.entrained_inertia.isZero(0.0));
     given.scene_body.added_mass = true;
     EXPECT_THAT(test::error_of([&] { (void)given.made(); }), HasSubstr("no Kirchhoff tensor"));
 }
@@ -165,6 +166,7 @@ TEST(ImmersedBody, TakesTheDynamicCoefficientsThatTheSceneAsksFor) {
             EXPECT_TRUE((none.*tensor.member).isZero(0.0)) << tensor.name;
         }
         EXPECT_EQ(none.rotational_transport, 0.0);
+        EXPECT_EQ(none.unsteady_factor, 1.0);
         EXPECT_EQ(none.half_length, standard.half_length);
     }
 }

@@ -114,6 +114,10 @@ Vector6d wake_by_turning(const Motion& m) {
     const Vector3d wake = reach * m.omega.cross(m.body.dynamic.wake_by_turning * m.omega);
     return motion_of(m.body.fluid_density / m.combined * m.omega.cross(wake), Vector3d::Zero());
 }
+Vector6d entrained_inertia(const Motion& m) {
+    const Vector3d angular = m.body.dynamic.entrained_inertia * m.omega;
+    return motion_of(m.body.fluid_density * m.omega.cross(angular), Vector3d::Zero());
+}
 Vector6d drag_in_motion(const Motion& m) {
     const double tip = m.tip * m.tip;
     const double share = tip / (motion_onset * m.v.squaredNorm() + tip);
@@ -187,6 +191,7 @@ const std::vector<Term>& terms() {
          rotational_transport, true},
         {"wake by velocity", keeping(&Coefficients::wake_by_velocity), wake_by_velocity, true},
         {"wake by turning", keeping(&Coefficients::wake_by_turning), wake_by_turning, true},
+        {"entrained inertia", keeping(&Coefficients::entrained_inertia), entrained_inertia, true},
         {"drag in motion", keeping(&Coefficients::drag_in_motion), drag_in_motion, false},
         {"drag in spin", keeping(&Coefficients::drag_in_spin), drag_in_spin, false},
         {"rotational drag", keeping(&Coefficients::rotational_drag), rotational_drag, false},
@@ -252,6 +257,7 @@ TEST(MovingLoads, TransportOfTheWholeAddedMassTakesThePotentialFlowsOwnAway) {
     ImmersedBody body = bare(test::lopsided_body(), false);
     body.dynamic.transport = body.added_mass / body.fluid_density;
     body.dynamic.rotational_transport = 1.0;
+    body.dynamic.entrained_inertia.setZero();
     prepare(body);
     std::mt19937 generator(4);
     for (int i = 0; i < 300; ++i) {
@@ -267,7 +273,7 @@ TEST(MovingLoads, TransportOfTheWholeAddedMassTakesThePotentialFlowsOwnAway) {
     }
 }
 
-TEST(MovingLoads, LeaveASteadyTowAsItIsTabulatedWhateverTheCoefficients) {
+TEST(MovingLoads, LeaveASteadyTowAsItIsTabulatedTimesTheUnsteadyFactorWhateverTheOtherCoefficients) {
     std::mt19937 generator(6);
     const ImmersedBody lopsided = test::lopsided_body();
     for (int i = 0; i < 200; ++i) {
@@ -276,6 +282,8 @@ TEST(MovingLoads, LeaveASteadyTowAsItIsTabulatedWhateverTheCoefficients) {
         body.dynamic.rotational_transport = random_vector(generator).x();
         body.dynamic.wake_by_velocity = random_symmetric(generator, 1e-6);
         body.dynamic.wake_by_turning = random_symmetric(generator, 1e-6);
+        body.dynamic.entrained_inertia = random_symmetric(generator, 1e-8);
+        body.dynamic.unsteady_factor = std::pow(2.0, i % 3 - 1);
         body.dynamic.drag_in_motion *= std::pow(10.0, i % 5 - 2);
         prepare(body);
         const double reynolds = std::pow(10.0, 3.0 + 2.0 * i / 199.0);
@@ -285,8 +293,9 @@ TEST(MovingLoads, LeaveASteadyTowAsItIsTabulatedWhateverTheCoefficients) {
         load.head<3>() += (body.added_mass * velocity).cross(velocity);
         const auto& [force, moment] = tabulated(body, velocity);
         const double pressure = 0.5 * body.fluid_density * speed * speed * body.reference_area;
-        EXPECT_LT((load.tail<3>() - force).norm(), 1e-12 * pressure);
-        EXPECT_LT((load.head<3>() - moment).norm(), 1e-12 * pressure * body.length);
+        const double factor = body.dynamic.unsteady_factor;
+        EXPECT_LT((load.tail<3>() - factor * force).norm(), 1e-12 * pressure);
+        EXPECT_LT((load.head<3>() - factor * moment).norm(), 1e-12 * pressure * body.length);
     }
 }
 
@@ -447,8 +456,8 @@ TEST(MovingLoads, OfABodyThatTurnsOnTheSpotAreFiniteAndThoseOfTheTurningAlone) {
     for (const double rate : {1e-3, 1.0, 1e3}) {
         const Vector3d omega = rate * Vector3d(0.3, -1.0, 0.5);
         const Motion m(body, motion_of(omega, Vector3d::Zero()));
-        const Vector6d expected = rotational_transport(m) + wake_by_turning(m) + rotational_drag(m) +
-                                  rotational_drag_in_spin(m) + creeping_turn(m);
+        const Vector6d expected = rotational_transport(m) + entrained_inertia(m) + wake_by_turning(m) +
+                                  rotational_drag(m) + rotational_drag_in_spin(m) + creeping_turn(m);
         for (const double speed : {0.0, 1e-200, 1e-30}) {
             const Vector6d loads = loads_at(body, motion_of(omega, speed * Vector3d(0.5, 0.3, -0.4)));
             ASSERT_TRUE(loads.allFinite());

@@ -227,6 +227,8 @@ Body full_body() {
     dynamic.rotational_drag << 0.003, 0.0, 0.001, 0.0, 0.002, 0.0, 0.001, 0.0, 0.004;
     dynamic.wake_by_velocity << -0.02, 0.0, 0.0, 0.0, 0.03, 0.0, 0.0, 0.0, 0.0;
     dynamic.wake_by_turning << 0.001, 0.0005, 0.0, 0.0005, -0.002, 0.0, 0.0, 0.0, 0.003;
+    dynamic.entrained_inertia << 0.002, 0.0, 0.0001, 0.0, -0.001, 0.0, 0.0001, 0.0, 0.004;
+    dynamic.unsteady_factor = 1.3;
     dynamic.drag_in_spin = Vector3d(0.5, 0.6, 0.0).asDiagonal();
     dynamic.rotational_drag_in_spin = Vector3d(0.005, 0.006, 0.007).asDiagonal();
     dynamic.half_length = 0.41;
@@ -238,6 +240,8 @@ Body full_body() {
     errors.rotational_drag = Matrix3d::Constant(0.0008);
     errors.wake_by_velocity = Vector3d(0.001, 0.002, 0.003).asDiagonal();
     errors.wake_by_turning = Matrix3d::Constant(0.0001);
+    errors.entrained_inertia = Matrix3d::Constant(0.0002);
+    errors.unsteady_factor = 0.05;
     errors.drag_in_spin = Matrix3d::Constant(0.009);
     errors.rotational_drag_in_spin = Matrix3d::Constant(0.0003);
     body.dynamic = {.values = dynamic, .standard_errors = errors};

@@ -24,7 +24,11 @@ std::string fault_of(const Matrix3d& tensor, const char* name, bool is_drag) {
 }  // namespace
 
 std::string fault_of(const DynamicCoefficients& coefficients) {
-    if (!std::isfinite(coefficients.rotational_transport)) return "rotational_transport is not finite";
+    for (const NumberOfMotion& number : numbers_of_motion) {
+        const double value = coefficients.*number.member;
+        if (!std::isfinite(value)) return std::string(number.name) + " is not finite";
+        if (number.is_positive && value <= 0.0) return std::string(number.name) + " is not positive";
+    }
     if (!(coefficients.half_length > 0.0) || !std::isfinite(coefficients.half_length)) {
         return "half_length is not a positive number";
     }

@@ -11,9 +11,9 @@ namespace samara {
 /// 0.1. Where |v| and Q have changed places, half of the tow's moment is gone.
 inline constexpr double motion_onset = 0.03;
 
-/// What a moving body feels beyond the tabulated loads of a steady tow; none of it changes a steady tow
-/// without rotation (docs/theory, "Loads of a moving body"). Body axes about the centroid of the volume; rho
-/// the fluid's density, v and omega relative to the fluid, H = sqrt(|v|^2 + c^2 |omega|^2). Q is the tip
+/// What a free body feels beyond the tabulated loads of a steady tow (docs/theory, "Loads of a moving body");
+/// but for f none of it changes a steady tow without rotation. Body axes about the centroid of the volume;
+/// rho the fluid's density, v and omega relative to the fluid, H = sqrt(|v|^2 + c^2 |omega|^2). Q is the tip
 /// speed c |omega| of the body's own turning: what turbulence turns is in the table already. In still fluid
 /// they are one.
 struct DynamicCoefficients {
@@ -23,6 +23,9 @@ struct DynamicCoefficients {
     /// t: the same for the rest of the fluid's momenta, its angular momentum J omega + C v and the linear one
     /// C^T omega that turning makes; J, C: blocks of K_fluid. 1 takes the potential flow's own away.
     double rotational_transport = 0.0;
+    /// f: what the steady solution of a tow misses of the flow around a free body, which is never steady: the
+    /// tabulated force and moment are taken times f.
+    double unsteady_factor = 1.0;
     /// C_m A (m^2), symmetric and positive semidefinite: drag in motion, the force -rho/2 H s C_m A v with s
     /// = Q^2/(motion_onset |v|^2 + Q^2).
     Matrix3d drag_in_motion = Matrix3d::Zero();
@@ -39,6 +42,9 @@ struct DynamicCoefficients {
     Matrix3d wake_by_velocity = Matrix3d::Zero();
     /// N_w (m^4), symmetric: likewise, rho omega x (c^2 omega x (N_w omega))/H.
     Matrix3d wake_by_turning = Matrix3d::Zero();
+    /// E (m^5), symmetric: the fluid behind the body that turns with it, the moment rho omega x (E omega),
+    /// which does no work.
+    Matrix3d entrained_inertia = Matrix3d::Zero();
     /// c (m): the body's half-length.
     double half_length = 0.0;
     std::string origin;  ///< where they come from, in words, for reports
@@ -50,8 +56,9 @@ struct TensorOfMotion {
     const char* name;   ///< in files
     const char* title;  ///< in reports
     const char* unit;
-    const char* meaning;  ///< the formula's symbol
-    bool is_drag;         ///< and so positive semidefinite
+    const char* meaning;   ///< the formula's symbol
+    bool is_drag;          ///< and so positive semidefinite
+    bool is_late = false;  ///< absent in files from before, which were identified without it
 };
 inline constexpr TensorOfMotion tensors_of_motion[] = {
     {&DynamicCoefficients::transport, "transport", "transport", "m^3", "T, body axes", false},
@@ -66,6 +73,21 @@ inline constexpr TensorOfMotion tensors_of_motion[] = {
      false},
     {&DynamicCoefficients::wake_by_turning, "wake_by_turning", "wake by turning", "m^4", "N_w, body axes",
      false},
+    {&DynamicCoefficients::entrained_inertia, "entrained_inertia", "entrained inertia", "m^5",
+     "E about the centroid, body axes", false, true},
+};
+
+/// Likewise of the plain numbers.
+struct NumberOfMotion {
+    double DynamicCoefficients::*member;
+    const char* name;   ///< in files
+    const char* title;  ///< in reports
+    bool is_positive;
+    bool is_late;  ///< absent in files from before, which were identified without it
+};
+inline constexpr NumberOfMotion numbers_of_motion[] = {
+    {&DynamicCoefficients::rotational_transport, "rotational_transport", "turning transport", false, false},
+    {&DynamicCoefficients::unsteady_factor, "unsteady_factor", "unsteady factor", true, true},
 };
 
 /// Coefficients with the standard error of each.
@@ -75,8 +97,8 @@ struct IdentifiedCoefficients {
 };
 
 /// What is wrong with the coefficients, such as "drag_in_motion is not symmetric": a number that is not
-/// finite, a tensor that is not symmetric, a drag that is not positive semidefinite, a half-length that is
-/// not positive. Empty where nothing is.
+/// finite, a tensor that is not symmetric, a drag that is not positive semidefinite, a half-length or factor
+/// that is not positive. Empty where nothing is.
 std::string fault_of(const DynamicCoefficients& coefficients);
 
 }  // namespace samara

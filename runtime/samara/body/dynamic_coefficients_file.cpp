@@ -22,9 +22,16 @@ Matrix3d read_tensor(const Hdf5Reader& file, const char* name, const char* name_
 /// The numbers that values and standard errors have in common.
 DynamicCoefficients read_numbers(const Hdf5Reader& file, const char* name_end) {
     DynamicCoefficients numbers;
-    numbers.rotational_transport =
-        file.number_attribute(group, fmt::format("rotational_transport{}", name_end));
+    for (const NumberOfMotion& number : numbers_of_motion) {
+        const std::string name = fmt::format("{}{}", number.name, name_end);
+        if (number.is_late && !file.has_attribute(group, name)) {
+            if (*name_end != '\0') numbers.*number.member = 0.0;
+        } else {
+            numbers.*number.member = file.number_attribute(group, name);
+        }
+    }
     for (const TensorOfMotion& tensor : tensors_of_motion) {
+        if (tensor.is_late && !file.has(place(tensor.name, name_end))) continue;
         numbers.*tensor.member = read_tensor(file, tensor.name, name_end);
     }
     return numbers;
@@ -36,13 +43,16 @@ void write_numbers(Hdf5Writer& file, const DynamicCoefficients& numbers, const c
         file.write(place(tensor.name, name_end), row_major(numbers.*tensor.member), {3, 3}, tensor.unit,
                    is_value ? tensor.meaning : "standard error of the tensor of the same name");
     }
-    file.attribute(group, fmt::format("rotational_transport{}", name_end), numbers.rotational_transport);
+    for (const NumberOfMotion& number : numbers_of_motion) {
+        file.attribute(group, fmt::format("{}{}", number.name, name_end), numbers.*number.member);
+    }
 }
 
 /// A standard error that is none; empty where all are.
 std::string fault_of_errors(const DynamicCoefficients& errors) {
-    if (!(errors.rotational_transport >= 0.0) || !std::isfinite(errors.rotational_transport)) {
-        return "rotational_transport_error";
+    for (const NumberOfMotion& number : numbers_of_motion) {
+        const double error = errors.*number.member;
+        if (!(error >= 0.0) || !std::isfinite(error)) return std::string(number.name) + "_error";
     }
     for (const TensorOfMotion& tensor : tensors_of_motion) {
         if ((errors.*tensor.member).minCoeff() < 0.0) return std::string(tensor.name) + "_error";

@@ -93,6 +93,7 @@ DynamicCoefficients dynamic_coefficients_of(const Body& body, const SceneBody& s
         // What separated flow lacks of the fluid's momentum goes with that momentum.
         coefficients.transport.setZero();
         coefficients.rotational_transport = 0.0;
+        coefficients.entrained_inertia.setZero();
     }
     return coefficients;
 }

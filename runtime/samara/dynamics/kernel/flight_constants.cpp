@@ -54,8 +54,8 @@ template <class Real>
 DirectionTable<Real> load_table(const ImmersedBody& body) {
     const double arm = body.length / length_scale(body);
     return direction_table<Real, 8>(*body.tables, [&](const LoadEntry& entry) {
-        const Vector3d& f = entry.force;
-        const Vector3d m = arm * entry.moment;
+        const Vector3d f = body.dynamic.unsteady_factor * entry.force;
+        const Vector3d m = body.dynamic.unsteady_factor * arm * entry.moment;
         return std::array<double, 8>{f.x(), f.y(), f.z(), 0.0, m.x(), m.y(), m.z(), 0.0};
     });
 }
@@ -124,8 +124,10 @@ void set_transport(const ImmersedBody& body, double mass, double length, FlightC
     c.isotropic_transport = static_cast<Real>(transport.trace() / 3.0);
     c.directed_transport = square<Real>(directed(transport));
     const double share = body.dynamic.rotational_transport / mass;
-    c.transports_turning = share != 0.0;
-    c.turning_transport = square<Real>(share / (length * length) * body.added_inertia);
+    const Matrix3d& entrained = body.dynamic.entrained_inertia;
+    c.transports_turning = share != 0.0 || !entrained.isZero(0.0);
+    c.turning_transport = square<Real>((share * body.added_inertia + body.fluid_density / mass * entrained) /
+                                       (length * length));
     c.coupling_transport = square<Real>(share / length * body.added_coupling);
 }
 
