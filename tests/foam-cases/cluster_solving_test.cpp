@@ -114,7 +114,7 @@ TEST_F(Cluster, EndsTheJobsOfABakeThatWasKilledBeforeItGoesOn) {
 TEST_F(Cluster, SaysThatNoSlurmAnswers) {
     const fs::path body = write_body(test::sphere(0.01));
     const std::string configuration = ::getenv("SLURM_CONF");
-    ::setenv("SLURM_CONF", (slurm_->path() / "missing.conf").c_str(), 1);
+    ::setenv("SLURM_CONF", temporary_.file("of_no_cluster.conf", "").c_str(), 1);
     const test::ProgramRun run = bake_there(body);
     ::setenv("SLURM_CONF", configuration.c_str(), 1);
     EXPECT_EQ(run.status, 1);
