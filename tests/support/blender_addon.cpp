@@ -18,10 +18,10 @@ nlohmann::json found_by(const std::vector<std::string>& blender, const std::vect
                                       fmt::format("BLENDER_USER_CONFIG={}", (folder / "config").string()),
                                       fmt::format("TMPDIR={}", folder.path().string())};
     words.insert(words.end(), blender.begin(), blender.end());
-    for (const char* word : {"--factory-startup", "--python-exit-code", "3", "--python",
-                             SAMARA_SOURCE_DIRECTORY "/tests/tools/use_addon.py", "--", SAMARA_BLENDER_ZIP}) {
-        words.emplace_back(word);
-    }
+    const std::string script = SAMARA_SOURCE_DIRECTORY "/tests/tools/use_addon.py";
+    const std::vector<std::string> options = {
+        "--factory-startup", "--python-exit-code", "3", "--python", script, "--", SAMARA_BLENDER_ZIP};
+    words.insert(words.end(), options.begin(), options.end());
     words.insert(words.end(), task.begin(), task.end());
     const int status = run_subprocess(words, folder / "log");
     const std::string log = read_bytes(folder / "log");
