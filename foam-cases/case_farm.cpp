@@ -281,9 +281,11 @@ void require_solvers(const FarmOptions& options, int ranks) {
         missing += fmt::format("{}{}", missing.empty() ? "" : ", ", need.program);
         if (packages.find(need.package) == std::string::npos) packages += fmt::format(" {}", need.package);
     }
-    if (missing.empty()) return;
-    throw Error(fmt::format("{} needs programs that are not on PATH: {}; on Debian: apt install{}",
-                            options.work, missing, packages));
+    if (!missing.empty()) {
+        throw Error(fmt::format("{} needs programs that are not on PATH: {}; on Debian: apt install{}",
+                                options.work, missing, packages));
+    }
+    if (!options.cluster.empty()) require_slurm();
 }
 
 std::vector<LeftOutCase> solve_cases(const fs::path& folder, const BakePlan& plan, const FarmOptions& options,

@@ -61,6 +61,17 @@ void require_sbatch(const std::string& command) {
         command));
 }
 
+void require_slurm() {
+    try {
+        output_of({"squeue", "--noheader", "--name=samara"});
+    } catch (const Error& fault) {
+        throw Error(
+            fmt::format("--cluster: Slurm does not answer ({}); is this a machine of the cluster, or is "
+                        "SLURM_CONF to be set?",
+                        fault.what()));
+    }
+}
+
 std::string job_name(const fs::path& folder) {
     return "samara-" + content_hash(fs::weakly_canonical(folder).string()).substr(0, 12);
 }

@@ -11,6 +11,9 @@ struct FarmOptions;
 /// Throws Error where the command that submits jobs is not one of Slurm's sbatch.
 void require_sbatch(const std::string& command);
 
+/// Throws Error where no Slurm answers.
+void require_slurm();
+
 /// The words for Snakemake that send the cases of a folder to a Slurm cluster: each job has the name of the
 /// folder's jobs, writes log.slurm in the folder of its mesh or case, and is asked for its state, so that one
 /// that was killed or ran out of time is noticed. A note in the folder says that jobs may run.

@@ -29,7 +29,7 @@ extern "C" {
 #endif
 
 /* The version of this header: it grows with every addition, and what was there stays as it was. */
-#define SAMARA_API_VERSION 1
+#define SAMARA_API_VERSION 2
 
 /* The SAMARA_API_VERSION of the library that is linked: at least that of the header, or functions may lack.
  */
@@ -68,7 +68,7 @@ SAMARA_API void samara_body_free(samara_body* body);
 SAMARA_API const char* samara_body_name(const samara_body* body);
 SAMARA_API const char* samara_body_source(const samara_body* body); /* one line: the shape file it is from */
 SAMARA_API double samara_body_volume(const samara_body* body);      /* m^3 */
-SAMARA_API int samara_body_has_added_mass(const samara_body* body); /* without it the body cannot fly */
+SAMARA_API int samara_body_has_added_mass(const samara_body* body); /* which a kind needs by default */
 SAMARA_API int samara_body_has_tables(const samara_body* body);     /* of loads and turbulence */
 
 /* The surface as flat triangles, to show the body. Curved triangles are cut into four. */
@@ -118,6 +118,12 @@ enum {
     SAMARA_TURBULENCE_AS_LOADS = 3 /* from the table where the loads are, else none */
 };
 enum { SAMARA_LANGEVIN_SEEN_FLUID = 0, SAMARA_LANGEVIN_BODY_VELOCITY = 1 };
+/* Whose coefficients give the loads of a body in motion beyond those of a steady tow. */
+enum {
+    SAMARA_DYNAMIC_OF_BODY = 0, /* the body file's, or the defaults where it has none */
+    SAMARA_DYNAMIC_DEFAULT = 1, /* the defaults */
+    SAMARA_DYNAMIC_NONE = 2     /* none; with loads by coefficients: no rotational drag */
+};
 
 /* One kind of bodies in a simulation. Fill it with samara_default_kind; it has no default mass. */
 typedef struct samara_kind {
@@ -150,6 +156,11 @@ typedef struct samara_kind {
     double turbulent_kinetic_energy; /* m^2/s^2, with CONSTANT */
     double dissipation_rate;         /* m^2/s^3, with CONSTANT */
     int32_t langevin;                /* SAMARA_LANGEVIN_...; default: SEEN_FLUID */
+
+    /* since SAMARA_API_VERSION 2 */
+    double table_reynolds_number; /* read the tables at this one alone; default (0): at the body's own */
+    int32_t added_mass;           /* whether the fluid's inertia is part of the body's; default: 1 */
+    int32_t dynamic_coefficients; /* SAMARA_DYNAMIC_...; default: OF_BODY */
 } samara_kind;
 
 SAMARA_API samara_status samara_default_kind(samara_kind* kind, size_t size, char* error, size_t error_size);

@@ -33,7 +33,10 @@ class Pose(ctypes.Structure):  # samara_pose
 
 
 def main(library, body_file):
-    samara = ctypes.CDLL(library)
+    try:
+        samara = ctypes.CDLL(library)
+    except OSError as fault:
+        sys.exit(f"fall.py: {fault}")
     error = ctypes.create_string_buffer(256)
 
     def call(function, *words):

@@ -3,11 +3,12 @@
   blender -b --factory-startup --python hundred_leaves.py -- ADD-ON.zip leaf.body.h5 PICTURE.png [LEAVES.blend]
 """
 
+import os
 import sys
 
 import bpy
 
-zip_file, body_file, picture, *blend_file = sys.argv[sys.argv.index("--") + 1 :]
+zip_file, body_file, picture, *blend_file = map(os.path.abspath, sys.argv[sys.argv.index("--") + 1 :])
 bpy.ops.preferences.addon_install(filepath=zip_file)
 bpy.ops.preferences.addon_enable(module="samara")
 scene = bpy.context.scene

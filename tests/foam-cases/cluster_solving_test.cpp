@@ -111,6 +111,17 @@ TEST_F(Cluster, EndsTheJobsOfABakeThatWasKilledBeforeItGoesOn) {
     EXPECT_EQ(jobs(), "");
 }
 
+TEST_F(Cluster, SaysThatNoSlurmAnswers) {
+    const fs::path body = write_body(test::sphere(0.01));
+    const std::string configuration = ::getenv("SLURM_CONF");
+    ::setenv("SLURM_CONF", temporary_.file("of_no_cluster.conf", "").c_str(), 1);
+    const test::ProgramRun run = bake_there(body);
+    ::setenv("SLURM_CONF", configuration.c_str(), 1);
+    EXPECT_EQ(run.status, 1);
+    EXPECT_TRUE(test::is_one_line(run.fault)) << run.fault;
+    EXPECT_THAT(run.fault, HasSubstr("Slurm does not answer (squeue failed"));
+}
+
 TEST_F(Cluster, TakesNoOtherSchedulerThanSlurm) {
     const test::ProgramRun run = bake("sphere.geo -o out.body.h5 --cluster qsub");
     EXPECT_EQ(run.status, 1);

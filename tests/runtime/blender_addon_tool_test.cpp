@@ -22,9 +22,11 @@ namespace {
 using nlohmann::json;
 using test::TemporaryFolder;
 using test::use_addon;
+using test::use_addon_in_window;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::MatchesRegex;
 using testing::Not;
 
 constexpr double unit = 0.1;  // metres, of the task's scene
@@ -188,6 +190,33 @@ TEST(BlenderAddon, ReportsWhatItCannotFly) {
     EXPECT_EQ(error("good"), "");
     EXPECT_THAT(error("no_library"), HasSubstr("install the add-on's zip anew"));
     EXPECT_EQ(error("library_again"), "");
+}
+
+TEST(BlenderAddon, SimulatesBesideTheWindowAndEscapeLeavesTheSceneAsItWas) {
+    const TemporaryFolder folder;
+    const json found = use_addon_in_window({"simulate_in_window", rubber_file(folder)});
+    EXPECT_THAT(found["pressed"].get<std::vector<std::string>>(), ElementsAre("RUNNING_MODAL"));
+    EXPECT_THAT(found["half_way"].get<std::string>(), MatchesRegex("samara simulates: [1-9][0-9]? %"));
+    EXPECT_EQ(found["cancelled"], "CANCELLED");
+    EXPECT_EQ(found["unchanged"], true);
+    EXPECT_EQ(found["finished"], "FINISHED");
+    EXPECT_THAT(found["keys"].get<std::vector<int>>(), ElementsAre(61));
+    EXPECT_THAT(found["refused"].get<std::string>(), HasSubstr("its scale is"));
+}
+
+TEST(BlenderAddon, BakesBesideTheWindowAndEscapeEndsTheProgram) {
+    const TemporaryFolder folder;
+    const json found =
+        use_addon_in_window({"bake_in_window", SAMARA_PROGRAMS "/samara", folder.path().string()});
+    EXPECT_THAT(found["pressed"].get<std::vector<std::string>>(), ElementsAre("RUNNING_MODAL"));
+    EXPECT_THAT(found["half_way"].get<std::string>(), HasSubstr("case 3 of 10"));
+    EXPECT_EQ(found["while_running"], "PASS_THROUGH") << "the user goes on working";
+    EXPECT_EQ(found["cancelled"], "CANCELLED");
+    EXPECT_EQ(found["process_lives"], false);
+    EXPECT_EQ(found["file_when_cancelled"], "");
+    EXPECT_EQ(found["refused"], "CANCELLED");
+    EXPECT_EQ(found["finished"], "FINISHED");
+    EXPECT_THAT(found["file"].get<std::string>(), HasSubstr("Sphere.body.h5"));
 }
 
 TEST(BlenderAddon, RendersAFrameOfTheMotion) {

@@ -84,13 +84,20 @@ const Difference differences[] = {
          kind.dissipation_rate = 2e-2;
      }},
     {"langevin", [](samara_settings&, samara_kind& kind) { kind.langevin = SAMARA_LANGEVIN_BODY_VELOCITY; }},
+    {"no added mass", [](samara_settings&, samara_kind& kind) { kind.added_mass = 0; }},
+    {"dynamic coefficients by default",
+     [](samara_settings&, samara_kind& kind) { kind.dynamic_coefficients = SAMARA_DYNAMIC_DEFAULT; }},
+    {"no dynamic coefficients",
+     [](samara_settings&, samara_kind& kind) { kind.dynamic_coefficients = SAMARA_DYNAMIC_NONE; }},
+    {"Reynolds number", [](samara_settings&, samara_kind& kind) { kind.table_reynolds_number = 1e5; }},
     {"fluid", [](samara_settings& settings, samara_kind&) { settings.fluid_density = 1025.0; }},
     {"viscosity", [](samara_settings& settings, samara_kind&) { settings.fluid_viscosity = 2e-3; }},
     {"name", [](samara_settings&, samara_kind& kind) { kind.name = "another"; }},
 };
 
 TEST(CCrowd, SimulationsThatShareABodyFlyAsIfItWereTheirOwn) {
-    const BodyOnDisk shared;
+    const Body rubber = rubber_with_own_coefficients();
+    const BodyOnDisk shared(rubber);
     std::vector<std::vector<samara_pose>> motions;
     for (int round = 0; round < 2; ++round) {
         for (const Difference& difference : differences) {
@@ -98,7 +105,7 @@ TEST(CCrowd, SimulationsThatShareABodyFlyAsIfItWereTheirOwn) {
             samara_settings settings = default_settings();
             samara_kind kind = rubber_kind();
             difference.apply(settings, kind);
-            const BodyOnDisk own;
+            const BodyOnDisk own(rubber);
             const auto alone = poses_at(simulation_of(own, kind, settings), 0.4);
             EXPECT_TRUE(same_bytes(poses_at(simulation_of(shared, kind, settings), 0.4), alone));
             if (round == 0) motions.push_back(alone);

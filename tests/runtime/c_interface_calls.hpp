@@ -39,6 +39,13 @@ inline Body rubber() {
     return body;
 }
 
+/// The rubber body with coefficients of a moving body that are not the defaults.
+inline Body rubber_with_own_coefficients() {
+    Body body = rubber();
+    body.dynamic = test::lopsided_shape().dynamic;
+    return body;
+}
+
 /// A body's file, in a folder of its own, and the body as the interface reads it.
 class BodyOnDisk {
   public:

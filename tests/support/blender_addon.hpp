@@ -11,4 +11,7 @@ namespace samara::test {
 /// returns what it found. A Blender that fails, or shows an exception's trace, fails the test.
 nlohmann::json use_addon(const std::vector<std::string>& task);
 
+/// The same with a window, on a screen that is memory alone: buttons run beside it, and keys reach them.
+nlohmann::json use_addon_in_window(const std::vector<std::string>& task);
+
 }  // namespace samara::test

@@ -11,6 +11,12 @@ fail() {
     exit 1
 }
 
+# What was started already is ended.
+give_up() {
+    stop
+    fail "$@"
+}
+
 free_ports() {
     python3 - <<'PYTHON'
 import socket
@@ -70,15 +76,14 @@ start() {
         --log-file="$folder/munged.log" --seed-file="$folder/munged.seed" > munged.out 2>&1 ||
         fail "munged did not start: $(tail -n 1 munged.out)"
     write_configuration
-    slurmctld -f "$folder/slurm.conf" || fail "slurmctld did not start; see $folder/slurmctld.log"
-    slurmd -f "$folder/slurm.conf" || fail "slurmd did not start; see $folder/slurmd.log"
+    slurmctld -f "$folder/slurm.conf" || give_up "slurmctld did not start; see $folder/slurmctld.log"
+    slurmd -f "$folder/slurm.conf" || give_up "slurmd did not start; see $folder/slurmd.log"
     for _ in $(seq 150); do
         state=$(sinfo --noheader --format=%T 2>> sinfo.out || true)
         [ "$state" = idle ] && return
         sleep 0.2
     done
-    stop
-    fail "the node does not come up: state '$state'; see $folder/slurmctld.log and slurmd.log"
+    give_up "the node does not come up: state '$state'; see $folder/slurmctld.log and slurmd.log"
 }
 
 # Ends the process whose id a file holds, and waits for it.

@@ -12,6 +12,11 @@ bl_info = {
 
 import bpy
 
+try:
+    import numpy  # Debian's Blender comes without it
+except ImportError:
+    raise ImportError("samara needs numpy in Blender's Python; on Debian: apt install python3-numpy") from None
+
 from . import add_bodies, bake, live, panel, properties, simulate
 
 _CLASSES = bake.CLASSES + simulate.CLASSES + add_bodies.CLASSES + panel.CLASSES

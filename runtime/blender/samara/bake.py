@@ -9,6 +9,7 @@ from bpy.props import EnumProperty
 
 from .bake_job import BakeJob, bake_command, find_program, write_stl
 from .conventions import metres_per_unit, noise_name
+from .job_operator import JobOperator
 from .objects import fluid_of
 from .samara_library import SamaraError
 
@@ -51,11 +52,13 @@ def output_folder():
     return folder
 
 
-class SAMARA_OT_bake(bpy.types.Operator):
+class SAMARA_OT_bake(JobOperator, bpy.types.Operator):
     bl_idname = "samara.bake"
     bl_label = "Bake Body"
     bl_description = "Makes a body file of the active object's closed mesh, with the program samara"
     bl_options = {"UNDO"}  # not REGISTER: to change a past call must not run it all again
+    WHILE_RUNNING = {"PASS_THROUGH"}
+    CANCELLED = "bake cancelled; what is solved is kept, and the next bake goes on from there"
 
     quality: EnumProperty(
         name="Quality",
@@ -72,7 +75,7 @@ class SAMARA_OT_bake(bpy.types.Operator):
     def poll(cls, context):
         return context.object is not None
 
-    def _start(self, context):
+    def start(self, context):
         o = context.object
         program = find_program(preferences(context).program)
         corners = mesh_corners(context, o)
@@ -84,9 +87,12 @@ class SAMARA_OT_bake(bpy.types.Operator):
             raise SamaraError(f"{fault.filename}: {fault.strerror}") from None
         self._name, self._scale = o.name, tuple(o.scale)
         self._file = os.path.join(folder, f"{name}.body.h5")
-        self._job = BakeJob(command)
+        return BakeJob(command)
 
-    def _finish(self):
+    def status(self):
+        return f"samara bakes. {self.job.line}"
+
+    def finish(self, context):
         o = bpy.data.objects.get(self._name)
         if o is None:
             self.report({"WARNING"}, f"{self._file}: is baked, but the object {self._name} is gone")
@@ -95,54 +101,6 @@ class SAMARA_OT_bake(bpy.types.Operator):
         o.samara.body_scale = self._scale
         self.report({"INFO"}, f"{self._file}: is baked")
         return {"FINISHED"}
-
-    def execute(self, context):
-        try:
-            self._start(context)
-            self._job.wait()
-        except SamaraError as fault:
-            self.report({"ERROR"}, str(fault))
-            return {"CANCELLED"}
-        return self._finish()
-
-    def invoke(self, context, event):
-        if bpy.app.background:
-            return self.execute(context)
-        try:
-            self._start(context)
-        except SamaraError as fault:
-            self.report({"ERROR"}, str(fault))
-            return {"CANCELLED"}
-        manager = context.window_manager
-        manager.progress_begin(0, 100)
-        self._timer = manager.event_timer_add(0.2, window=context.window)
-        manager.modal_handler_add(self)
-        return {"RUNNING_MODAL"}
-
-    def modal(self, context, event):
-        if event.type == "ESC":
-            self.cancel(context)
-            self.report({"WARNING"}, "bake cancelled; what is solved is kept, and the next bake goes on from there")
-            return {"CANCELLED"}
-        if event.type != "TIMER":
-            return {"PASS_THROUGH"}
-        context.window_manager.progress_update(100.0 * self._job.progress())
-        context.workspace.status_text_set(f"samara bakes (Esc cancels). {self._job.line}")
-        try:
-            if not self._job.is_done():
-                return {"PASS_THROUGH"}
-        except SamaraError as fault:
-            self.cancel(context)
-            self.report({"ERROR"}, str(fault))
-            return {"CANCELLED"}
-        self.cancel(context)
-        return self._finish()
-
-    def cancel(self, context):
-        self._job.cancel()
-        context.window_manager.event_timer_remove(self._timer)
-        context.window_manager.progress_end()
-        context.workspace.status_text_set(None)
 
 
 def preferences(context):

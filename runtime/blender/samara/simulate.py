@@ -4,6 +4,7 @@ import bpy
 
 from . import keyframes, live
 from .flight import FlightJob
+from .job_operator import JobOperator
 from .objects import flown_objects, has_keys, request_of
 from .samara_library import SamaraError
 
@@ -32,70 +33,25 @@ def insert_flights(context, objects, flights):
     scene.frame_set(scene.frame_current, subframe=scene.frame_subframe)
 
 
-class SAMARA_OT_simulate(bpy.types.Operator):
+class SAMARA_OT_simulate(JobOperator, bpy.types.Operator):
     bl_idname = "samara.simulate"
     bl_label = "Simulate to Keyframes"
     bl_description = "Flies the selected objects over the scene's frame range and keys their location and rotation"
     bl_options = {"UNDO"}  # not REGISTER: to change a past call must not run it all again
+    CANCELLED = "simulation cancelled; nothing has changed"
 
-    def _start(self, context):
+    def start(self, context):
         self._objects = flown_objects(context)
-        self._job = FlightJob(requests_of(context, self._objects))
+        return FlightJob(requests_of(context, self._objects))
 
-    def _finish(self, context):
-        insert_flights(context, self._objects, self._job.flights)
-        frames = self._job.flights[0].request.frames
+    def status(self):
+        return f"samara simulates: {100.0 * self.job.progress():.0f} %"
+
+    def finish(self, context):
+        insert_flights(context, self._objects, self.job.flights)
+        frames = self.job.flights[0].request.frames
         self.report({"INFO"}, f"{len(self._objects)} objects simulated over {frames} frames")
         return {"FINISHED"}
-
-    def execute(self, context):
-        try:
-            self._start(context)
-            self._job.wait()
-        except SamaraError as fault:
-            self.report({"ERROR"}, str(fault))
-            return {"CANCELLED"}
-        return self._finish(context)
-
-    def invoke(self, context, event):
-        if bpy.app.background:
-            return self.execute(context)
-        try:
-            self._start(context)
-        except SamaraError as fault:
-            self.report({"ERROR"}, str(fault))
-            return {"CANCELLED"}
-        manager = context.window_manager
-        manager.progress_begin(0, 100)
-        self._timer = manager.event_timer_add(0.05, window=context.window)
-        manager.modal_handler_add(self)
-        return {"RUNNING_MODAL"}
-
-    def modal(self, context, event):
-        if event.type == "ESC":
-            self.cancel(context)
-            self.report({"WARNING"}, "simulation cancelled; nothing has changed")
-            return {"CANCELLED"}
-        if event.type != "TIMER":
-            return {"RUNNING_MODAL"}
-        percent = 100.0 * self._job.progress()
-        context.window_manager.progress_update(percent)
-        context.workspace.status_text_set(f"samara simulates: {percent:.0f} % (Esc cancels)")
-        try:
-            if not self._job.is_done():
-                return {"RUNNING_MODAL"}
-        except SamaraError as fault:
-            self.cancel(context)
-            self.report({"ERROR"}, str(fault))
-            return {"CANCELLED"}
-        self.cancel(context)
-        return self._finish(context)
-
-    def cancel(self, context):
-        self._job.cancel()
-        context.window_manager.event_timer_remove(self._timer)
-        context.window_manager.progress_end()
-        context.workspace.status_text_set(None)
 
 
 class SAMARA_OT_live(bpy.types.Operator):

@@ -20,9 +20,11 @@ constexpr std::uint64_t steps_between_looks = 32;
 
 /// Says what the body lacks in the words of the C interface.
 void require_data(const Body& body, const SceneBody& kind) {
-    if (!body.kirchhoff) {
+    if (kind.added_mass && !body.kirchhoff) {
         throw Fault(SAMARA_MISSING_DATA,
-                    fmt::format("body '{}' holds no added mass; add it with 'samara kirchhoff'", kind.name));
+                    fmt::format("body '{}' holds no added mass; add it with 'samara kirchhoff', or set "
+                                "added_mass to 0",
+                                kind.name));
     }
     const bool loads = kind.loads == Loads::table;
     if ((loads || kind.turbulence == Turbulence::table) && !body.tables) {
@@ -42,14 +44,15 @@ std::string text_of(const Vector3d& v) {
 std::string description_of(const SceneBody& kind, const ImmersedBody& body, const std::string& hash) {
     const Matrix3d inertia = body.inertia.topLeftCorner<3, 3>();
     const CoefficientLoads& coefficients = body.coefficients;
-    return fmt::format("{} {} {} {} {} {} {} {} {} loads {} {} {} {} {} {} turbulence {} {} {} {}\n",
-                       kind.name, kind.count, kind.start, hash, body.mass, text_of(body.center_of_mass),
-                       text_of(inertia.col(0)), text_of(inertia.col(1)), text_of(inertia.col(2)),
-                       static_cast<int>(kind.loads), coefficients.drag_coefficient,
-                       coefficients.lift_coefficient, coefficients.reference_area.value_or(0.0),
-                       text_of(*coefficients.normal), text_of(coefficients.center_of_pressure),
-                       static_cast<int>(kind.turbulence), kind.turbulent_kinetic_energy,
-                       kind.dissipation_rate, static_cast<int>(kind.langevin));
+    return fmt::format(
+        "{} {} {} {} {} {} {} {} {} loads {} {} {} {} {} {} turbulence {} {} {} {} models {} {} {}\n",
+        kind.name, kind.count, kind.start, hash, body.mass, text_of(body.center_of_mass),
+        text_of(inertia.col(0)), text_of(inertia.col(1)), text_of(inertia.col(2)),
+        static_cast<int>(kind.loads), coefficients.drag_coefficient, coefficients.lift_coefficient,
+        coefficients.reference_area.value_or(0.0), text_of(*coefficients.normal),
+        text_of(coefficients.center_of_pressure), static_cast<int>(kind.turbulence),
+        kind.turbulent_kinetic_energy, kind.dissipation_rate, static_cast<int>(kind.langevin),
+        kind.added_mass, static_cast<int>(kind.dynamic), kind.table_reynolds_number.value_or(0.0));
 }
 
 /// The pose after steady motion over `duration` (s).

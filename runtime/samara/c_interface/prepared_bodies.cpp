@@ -19,15 +19,16 @@ std::string text_of(const Numbers& numbers) {
 std::string key_of(const SceneBody& kind, const Fluid& fluid) {
     const MassSpecification& mass = kind.mass;
     const CoefficientLoads& coefficients = kind.coefficients;
-    return fmt::format("{} {} {} {} | {} {} {} {} {} {} | {} {} {} {} | {} {}", mass.density.value_or(0.0),
-                       mass.mass.value_or(0.0), mass.center_of_mass ? text_of(*mass.center_of_mass) : "-",
-                       mass.inertia ? text_of(*mass.inertia) : "-", static_cast<int>(kind.loads),
-                       coefficients.drag_coefficient, coefficients.lift_coefficient,
-                       coefficients.reference_area.value_or(0.0),
-                       coefficients.normal ? text_of(*coefficients.normal) : "-",
-                       text_of(coefficients.center_of_pressure), static_cast<int>(kind.turbulence),
-                       kind.turbulent_kinetic_energy, kind.dissipation_rate, static_cast<int>(kind.langevin),
-                       fluid.density, fluid.viscosity);
+    return fmt::format(
+        "{} {} {} {} | {} {} {} {} {} {} | {} {} {} {} | {} {} {} | {} {}", mass.density.value_or(0.0),
+        mass.mass.value_or(0.0), mass.center_of_mass ? text_of(*mass.center_of_mass) : "-",
+        mass.inertia ? text_of(*mass.inertia) : "-", static_cast<int>(kind.loads),
+        coefficients.drag_coefficient, coefficients.lift_coefficient,
+        coefficients.reference_area.value_or(0.0), coefficients.normal ? text_of(*coefficients.normal) : "-",
+        text_of(coefficients.center_of_pressure), static_cast<int>(kind.turbulence),
+        kind.turbulent_kinetic_energy, kind.dissipation_rate, static_cast<int>(kind.langevin),
+        kind.added_mass, static_cast<int>(kind.dynamic), kind.table_reynolds_number.value_or(0.0),
+        fluid.density, fluid.viscosity);
 }
 
 }  // namespace

@@ -18,6 +18,9 @@ constexpr int most_threads = 1024;
 // Up to the last member that version 1 had.
 constexpr std::size_t first_settings_size = offsetof(samara_settings, ground) + sizeof(double);
 constexpr std::size_t first_kind_size = offsetof(samara_kind, langevin) + sizeof(std::int32_t);
+// The first member of a version lies where the struct of the one before ended, and not in its padding, which
+// callers do not fill.
+static_assert(offsetof(samara_kind, table_reynolds_number) % alignof(samara_kind) == 0);
 
 [[noreturn]] void refuse(const char* member, const std::string& why) {
     throw Fault(SAMARA_INVALID_ARGUMENT, fmt::format("{} {}", member, why));
@@ -119,6 +122,17 @@ void read_turbulence(const samara_kind& kind, SceneBody& body) {
     body.langevin = choice<Langevin>(kind.langevin, SAMARA_LANGEVIN_BODY_VELOCITY, "langevin");
 }
 
+/// What the equations hold, beside loads, coefficients and turbulence, which are read before.
+void read_models(const samara_kind& kind, SceneBody& body) {
+    body.added_mass = kind.added_mass != 0;
+    body.dynamic = choice<Dynamic>(kind.dynamic_coefficients, SAMARA_DYNAMIC_NONE, "dynamic_coefficients");
+    if (!(non_negative(kind.table_reynolds_number, "table_reynolds_number") > 0.0)) return;
+    if (body.loads != Loads::table && body.turbulence != Turbulence::table) {
+        refuse("table_reynolds_number", "is for loads or turbulence from the table");
+    }
+    body.table_reynolds_number = kind.table_reynolds_number;
+}
+
 void read_start(const samara_kind& kind, SceneBody& body) {
     body.position = vector(kind.position, "position");
     const auto& q = kind.orientation;
@@ -187,6 +201,8 @@ samara_kind default_kind() {
     kind.lift_coefficient = body.coefficients.lift_coefficient;
     kind.turbulence = SAMARA_TURBULENCE_AS_LOADS;
     kind.langevin = SAMARA_LANGEVIN_SEEN_FLUID;
+    kind.added_mass = 1;
+    kind.dynamic_coefficients = SAMARA_DYNAMIC_OF_BODY;
     return kind;
 }
 
@@ -204,6 +220,7 @@ SceneBody read_kind(const samara_kind& given) {
     body.loads = choice<Loads>(kind.loads, SAMARA_LOADS_TABLE, "loads");
     body.coefficients = read_coefficients(kind);
     read_turbulence(kind, body);
+    read_models(kind, body);
     return body;
 }
 

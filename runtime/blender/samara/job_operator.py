@@ -1,0 +1,72 @@
+"""What operators that take their time have in common: they run beside Blender, show progress, and Esc cancels them."""
+
+import bpy
+
+from .samara_library import SamaraError
+
+
+class JobOperator:
+    """For an operator with three methods of its own:
+
+    start(context): prepares the job and returns it; the scene stays as it is. May raise a SamaraError.
+    finish(context): puts what the job made into the scene, and returns what an operator returns.
+    status(): one line for the time while it runs.
+
+    A job has progress() from 0 to 1, is_done(), wait() and cancel(); is_done() and wait() raise the SamaraError that
+    ended it.
+    """
+
+    WHILE_RUNNING = {"RUNNING_MODAL"}  # keeps all else from the user; {"PASS_THROUGH"} does not
+    CANCELLED = "cancelled; nothing has changed"
+
+    job = None
+
+    def execute(self, context):
+        try:
+            self.job = self.start(context)
+            self.job.wait()
+        except SamaraError as fault:
+            return self._refuse(fault)
+        return self.finish(context)
+
+    def invoke(self, context, event):
+        if bpy.app.background:  # where no timer would ever tick
+            return self.execute(context)
+        try:
+            self.job = self.start(context)
+        except SamaraError as fault:
+            return self._refuse(fault)
+        manager = context.window_manager
+        manager.progress_begin(0, 100)
+        self._timer = manager.event_timer_add(0.1, window=context.window)
+        manager.modal_handler_add(self)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context, event):
+        if event.type == "ESC":
+            self.cancel(context)
+            self.report({"WARNING"}, self.CANCELLED)
+            return {"CANCELLED"}
+        if event.type != "TIMER":
+            return self.WHILE_RUNNING
+        context.window_manager.progress_update(100.0 * self.job.progress())
+        context.workspace.status_text_set(f"{self.status()} (Esc cancels)")
+        try:
+            if not self.job.is_done():
+                return self.WHILE_RUNNING
+        except SamaraError as fault:
+            self.cancel(context)
+            return self._refuse(fault)
+        self.cancel(context)
+        return self.finish(context)
+
+    def cancel(self, context):
+        """Ends the job where it still runs, and takes the progress away. Blender calls it too, where it closes."""
+        self.job.cancel()
+        context.window_manager.event_timer_remove(self._timer)
+        context.window_manager.progress_end()
+        context.workspace.status_text_set(None)
+
+    def _refuse(self, fault):
+        self.report({"ERROR"}, str(fault))
+        return {"CANCELLED"}
