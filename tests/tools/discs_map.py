@@ -16,7 +16,7 @@ import tempfile
 
 from falls_report import run
 from gnuplot_picture import draw, flights
-from peers_report import write_tables
+from report_tables import mark, write_tables
 
 DISC = "docs/falls/disc.geo"
 DIAMETER, THICKNESS, FLUID_DENSITY, GRAVITY = 0.04, 0.004, 998.2, 9.81
@@ -24,7 +24,6 @@ INERTIAS = [0.0055, 0.007, 0.01, 0.014, 0.02, 0.03, 0.045, 0.07, 0.1, 0.15]
 REYNOLDS_NUMBERS = [30, 100, 300, 1000, 3000, 10000]  # aimed at; those of the fall are measured
 STARTS = 12
 REGIMES = ("steady", "fluttering", "chaotic", "tumbling")
-BEGIN = "<!-- table: written by ./dev report scenes -->\n"
 
 
 def expected(inertia, reynolds):
@@ -206,7 +205,7 @@ def main(words):
             writer.writerows([model] + [f"{cell:.4g}" if isinstance(cell, float) else cell for cell in row.values()]
                              for row in rows)
     picture(maps, os.path.join(folder, "discs.png"))
-    write_tables(os.path.join(folder, os.pardir, "discs.md"), [table(maps), thin_table(programs)], BEGIN)
+    write_tables(os.path.join(folder, os.pardir, "discs.md"), [table(maps), thin_table(programs)], mark("scenes"))
     print(f"Written: discs.csv and discs.png in {folder}, and discs.md")
     return 0
 

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """The runtime against the reference falls, and what each term of the loads does.
 
-    falls_report.py BIN BODIES falls ROWS.csv    bakes what is missing in BODIES, flies every scene, compares
-    falls_report.py BIN BODIES terms ROWS.csv    identifies anew without each term, and holds the falls again
+    falls_report.py BIN BODIES    bakes what is missing in BODIES, flies every scene and compares; then identifies
+                                  anew without each term, and holds the falls again
 
-BIN: the folder of the programs; BODIES: a folder for baked bodies. Run from the project's folder.
+Writes docs/falls/falls.csv and terms.csv, and the tables of docs/falls.md. BIN: the folder of the programs; BODIES: a folder for baked bodies. Run from the project's folder.
 """
 
 import csv
@@ -13,6 +13,8 @@ import os
 import subprocess
 import sys
 import tempfile
+
+from report_tables import mark, write_tables
 
 FALLS = "docs/falls"
 # The body of each scene: its shape, and what it is baked for. No body is baked from a reference fall.
@@ -31,7 +33,9 @@ SCENES = {
     "disc-light": "disc-light", "disc-heavy": "disc-heavy", "plate": "plate", "sheet": "sheet",
 }
 TERMS = ("transport", "turning transport", "drag in motion", "drag in spin", "rotational drag",
-         "rotational drag in spin", "wake by velocity", "wake by turning")
+         "rotational drag in spin", "wake by velocity", "wake by turning", "entrained inertia", "unsteady factor")
+# The limits of `samara compare`, and narrower ones: of descent, frequency, amplitude and rms angular speed.
+WIDE, NARROW = (0.1, 0.2, 0.3, None), (0.05, 0.15, 0.25, 0.25)
 FIGURES = ("descent_speed", "frequency", "inclination_amplitude", "rms_angular_speed")
 
 
@@ -78,13 +82,42 @@ def row_of(scene, comparison):
         row += [of_motion.get("value"), of_reference.get("value"), of_reference.get("error"),
                 measure.get("relative_difference")]
     return row + [comparison["first_swing"]["path_distance"]["value"] if comparison["first_swing"] else None,
-                  "yes" if comparison["agrees"] else "no"]
+                  "yes" if comparison["agrees"] else "no", "yes" if agrees_narrowly(comparison) else "no"]
+
+
+def differences_of(comparison):
+    """Of the figures, over the reference's; None where there is nothing to compare."""
+    measures = comparison["measures"] if comparison["judges_inclination"] else {
+        "descent_speed": comparison["measures"]["descent_speed"]}
+    return [(measures.get(figure) or {}).get("relative_difference") for figure in FIGURES]
+
+
+def agrees_narrowly(comparison):
+    """Whether the figures are within the narrow limits and the regime, where it means anything, is the same."""
+    if comparison["judges_inclination"] and comparison["motion"]["regime"] != comparison["reference"]["regime"]:
+        return False
+    return all(difference is None or abs(difference) <= limit
+               for difference, limit in zip(differences_of(comparison), NARROW))
+
+
+def percent(difference):
+    return "-" if difference is None else f"{100 * difference:+.1f} %"
+
+
+def line_of(scene, comparison):
+    """The row of docs/falls.md."""
+    regimes = "-"
+    if comparison["judges_inclination"]:
+        regimes = f"{comparison['motion']['regime']} / {comparison['reference']['regime']}"
+    cells = [scene] + [percent(difference) for difference in differences_of(comparison)]
+    cells += [regimes, "yes" if comparison["agrees"] else "no", "yes" if agrees_narrowly(comparison) else "no"]
+    return "| " + " | ".join(cells) + " |"
 
 
 def heading():
     columns = [f"{figure}_{what}" for figure in FIGURES
                for what in ("runtime", "cfd", "cfd_error", "difference")]
-    return ["fall", "regime_runtime", "regime_cfd"] + columns + ["first_swing_apart", "agrees"]
+    return ["fall", "regime_runtime", "regime_cfd"] + columns + ["first_swing_apart", "agrees", "agrees_narrowly"]
 
 
 def written(target, rows):
@@ -95,18 +128,26 @@ def written(target, rows):
     print(f"Written: {target}")
 
 
-def report_falls(programs, folder, target):
+def falls_table(programs, folder):
+    """Writes falls.csv; the table of docs/falls.md."""
     rows = [heading()]
+    lines = ["| fall | descent | frequency | amplitude | rms angular speed | regime (runtime / CFD) "
+             "| within 10, 20, 30 % | within 5, 15, 25, 25 % |", "|---" * 8 + "|"]
     with tempfile.TemporaryDirectory() as work:
         for scene, body in SCENES.items():
             file, _ = baked(programs, folder, body)
-            rows.append(row_of(scene, compared(programs, file, scene, work)))
-            print(rows[-1][0], "agrees" if rows[-1][-1] == "yes" else "differs")
-    written(target, rows)
+            comparison = compared(programs, file, scene, work)
+            rows.append(row_of(scene, comparison))
+            lines.append(line_of(scene, comparison))
+            print(lines[-1])
+    counts = [sum(row[column] == "yes" for row in rows) for column in (-2, -1)]
+    lines.append(f"| within the limits | | | | | | {counts[0]} of {len(SCENES)} | {counts[1]} of {len(SCENES)} |")
+    written(f"{FALLS}/falls.csv", rows)
+    return "\n".join(lines) + "\n"
 
 
-def report_terms(programs, folder, target):
-    """Every body but the sphere identified anew without each term: how well it predicts its own fall, and which
+def terms_table(programs, folder):
+    """Writes terms.csv; the table of docs/falls.md. Every body but the sphere identified anew without each term: how well it predicts its own fall, and which
     references agree."""
     scenes = {scene: body for scene, body in SCENES.items() if body != "sphere"}
     rows = [["without", "prediction_error"] + list(scenes) + ["agree"]]
@@ -127,15 +168,21 @@ def report_terms(programs, folder, target):
             agree = sum(verdict.startswith("yes") for verdict in verdicts)
             rows.append([term or "nothing", sum(errors) / len(errors)] + verdicts + [agree])
             print(rows[-1][0], f"{rows[-1][1]:.3f}", agree)
-    written(target, rows)
+    written(f"{FALLS}/terms.csv", rows)
+    lines = ["| without | misses | " + " | ".join(scenes) + " | within 10, 20, 30 % |",
+             "|---" * (len(scenes) + 3) + "|"]
+    lines += ["| " + " | ".join([row[0], f"{100 * row[1]:.1f} %"] + [str(cell) for cell in row[2:]]) + " |"
+              for row in rows[1:]]
+    return "\n".join(lines) + "\n"
 
 
 def main(words):
-    if len(words) != 5 or words[3] not in ("falls", "terms"):
+    if len(words) != 3:
         sys.stderr.write(__doc__)
         return 2
     os.makedirs(words[2], exist_ok=True)
-    (report_falls if words[3] == "falls" else report_terms)(words[1], words[2], words[4])
+    tables = [make(words[1], words[2]) for make in (falls_table, terms_table)]
+    write_tables("docs/falls.md", tables, mark("falls"))
     return 0
 
 

@@ -16,19 +16,20 @@ import tempfile
 
 from falls_report import BODIES as SHAPES
 from falls_report import FALLS, SCENES, baked_file, run
-from peers_report import write_tables
+from report_tables import mark, write_tables
 
-# The models, cheapest first: what the body of a scene is given, and the body file that it needs.
+# The models, cheapest first: what the body of a scene is given, the body file that it needs, and how many steps of the
+# scene are made one.
 MODELS = (
-    ("inertia alone", 'loads = "none"\n', "standard"),
-    ("drag coefficient 1", 'loads = "coefficients"\n', "standard"),
-    ("preview tables", "", "preview"),
-    ("standard tables with default coefficients", 'dynamic_coefficients = "default"\n', "standard"),
-    ("standard tables with identified coefficients", "", "standard"),
+    ("inertia alone", 'loads = "none"\n', "standard", 1),
+    ("drag coefficient 1", 'loads = "coefficients"\n', "standard", 1),
+    ("preview tables", "", "preview", 1),
+    ("standard tables with default coefficients", 'dynamic_coefficients = "default"\n', "standard", 1),
+    ("standard tables with identified coefficients", "", "standard", 1),
+    ("the same with five times the step", "", "standard", 5),
 )
 CFD = "full CFD"
 SHARES = {"descent_speed": 1, "frequency": 2, "inclination_amplitude": 3}
-MARK = "<!-- table: written by ./dev report falls -->\n"
 
 
 def preview_of(programs, folder, body):
@@ -39,11 +40,12 @@ def preview_of(programs, folder, body):
     return file
 
 
-def flown(programs, scene, keys, file, folder):
+def flown(programs, scene, keys, file, steps, folder):
     """The comparison of a scene with other keys with its reference, and the seconds for a simulated second."""
     with open(f"{FALLS}/{scene}.toml") as opened:
         text = opened.read()
     text = re.sub(r'shape = ".*"', f'shape = "{os.path.abspath(file)}"', text).rstrip() + "\n" + keys
+    text = re.sub(r"step = ([0-9.]+)", lambda step: f"step = {steps * float(step.group(1)):.6g}", text)
     with open(os.path.join(folder, "scene.toml"), "w") as changed:
         changed.write(text)
     motion = os.path.join(folder, "motion.h5")
@@ -56,7 +58,7 @@ def flown(programs, scene, keys, file, folder):
 def error_of(comparison):
     """The worst of the measures' differences over 1 (descent), 2 (frequency) and 3 (amplitude); a measure that only
     one of the two falls has counts as all of itself."""
-    judged = SHARES if comparison.get("judges_inclination", True) else {"descent_speed": 1}
+    judged = SHARES if comparison["judges_inclination"] else {"descent_speed": 1}
     worst = 0.0
     for figure, share in judged.items():
         measure = comparison["measures"].get(figure) or {}
@@ -89,9 +91,9 @@ def report(programs, bodies, target):
             if not os.path.exists(baked_file(bodies, body)):
                 print(f"{scene}: no {baked_file(bodies, body)}, left out")
                 continue
-            for model, keys, quality in MODELS:
+            for model, keys, quality, steps in MODELS:
                 file = baked_file(bodies, body) if quality == "standard" else preview_of(programs, bodies, body)
-                comparison, seconds = flown(programs, scene, keys, file, work)
+                comparison, seconds = flown(programs, scene, keys, file, steps, work)
                 agrees = comparison["motion"]["regime"] == comparison["reference"]["regime"]
                 rows.append([scene, model, seconds, error_of(comparison), comparison["motion"]["regime"],
                              "yes" if agrees else "no"])
@@ -121,7 +123,7 @@ def write(target):
                      " | ".join(f"{100 * error:.0f} %" for error in errors) +
                      f" | {100 * sum(errors) / len(errors):.0f} % | "
                      f"{sum(row['regime_agrees'] == 'yes' for row in of_model)} of {len(of_model)} |")
-    write_tables(target.replace(".csv", ".md"), ["\n".join(lines) + "\n"], MARK)
+    write_tables(target.replace(".csv", ".md"), ["\n".join(lines) + "\n"], mark("falls"))
     picture = target.replace(".csv", "")
     subprocess.run(["gnuplot", "-e", f"rows='{target}'; picture='{picture}.png'", f"{picture}.gp"], check=True)
     print(f"Written: {target}, its table and picture")

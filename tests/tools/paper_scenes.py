@@ -14,13 +14,12 @@ import tempfile
 
 from falls_report import run
 from gnuplot_picture import block, draw, ellipsoid_outline, flights, turned
-from peers_report import write_tables
+from report_tables import mark, write_tables
 
 SCENES = "docs/scenes"
 RUNS = 20
 FRONT_TURN = math.radians(20)  # how far the nose dips before it comes up to level again
 SIDE_TURN = math.radians(45)   # how far the course turns
-BEGIN = "<!-- table: written by ./dev report scenes -->\n"
 
 STYLE = '''set border 3 lc rgb "#6b6b6b"
 set tics nomirror textcolor rgb "#1a1a1a"
@@ -271,7 +270,7 @@ def main(words):
     os.makedirs(folder, exist_ok=True)
     with tempfile.TemporaryDirectory() as work:
         tables = [rubber(programs, folder, work, docs), airplane(programs, folder, work, docs)]
-    write_tables(f"{docs}/paper-scenes.md", tables, BEGIN)
+    write_tables(f"{docs}/paper-scenes.md", tables, mark("scenes"))
     print(f"Written: paper-scenes.md, pictures/rubber-three-ways.png and pictures/paper-airplane.png in {docs}")
     return 0
 

@@ -17,8 +17,8 @@ import sys
 import tempfile
 
 from falls_report import FALLS, SCENES, baked_file, compared, run
+from report_tables import mark, write_tables
 
-BEGIN, END = "<!-- table: written by ./dev report falls -->\n", "<!-- end of table -->"
 FIGURES = {"descent": "descent_speed", "frequency": "frequency", "amplitude": "inclination_amplitude",
            "angular_speed": "rms_angular_speed"}
 DEFAULT, BEST, SHAPE, ALONE, OURS = ("MuJoCo default", "MuJoCo best", "MuJoCo best for each shape",
@@ -153,17 +153,6 @@ def coefficients_table(search, default):
     return "\n".join(lines) + "\n"
 
 
-def write_tables(document, tables, begin=BEGIN):
-    """Puts the tables between the document's marks, in their order."""
-    with open(document, encoding="utf-8") as file:
-        parts = file.read().split(begin)
-    if len(parts) != len(tables) + 1:
-        sys.exit(f"{document}: has not the {len(tables)} marks that hold its tables")
-    text = parts[0] + "".join(begin + table + END + part.split(END, 1)[1] for table, part in zip(tables, parts[1:]))
-    with open(document, "w", encoding="utf-8") as file:
-        file.write(text)
-
-
 def main(words):
     if len(words) not in (4, 5):
         sys.stderr.write(__doc__)
@@ -188,7 +177,8 @@ def main(words):
         writer.writeheader()
         for row in rows:
             writer.writerow({key: f"{value:.4g}" if isinstance(value, float) else value for key, value in row.items()})
-    write_tables(os.path.join(folder, "peers.md"), [coefficients_table(search, default), table(rows), times(rows)])
+    write_tables(os.path.join(folder, "peers.md"), [coefficients_table(search, default), table(rows), times(rows)],
+                 mark("falls"))
     subprocess.run(["gnuplot", "-e", f"rows='{folder}/peers.csv'; picture='{folder}/peers.png'", f"{folder}/peers.gp"],
                    check=True)
     print(f"Written: peers.csv, peers.md and peers.png in {folder}")

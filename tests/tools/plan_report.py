@@ -17,7 +17,7 @@ import shutil
 import subprocess
 import sys
 
-from peers_report import write_tables
+from report_tables import mark, write_tables
 
 SCENES = "docs/plan"
 BODIES = ("sphere", "ellipsoid", "sheet", "airplane", "samara", "leaf")
@@ -217,7 +217,7 @@ def write(target):
                        f"{now[0]} of {now[1]} | {good['directions']}, {good['cpu_seconds']} |")
     summary.append(f"| together | | | | | | {kept} of {measured} | |")
     write_tables(target.replace(".csv", ".md"), ["\n".join(summary) + "\n", "\n".join(lines) + "\n"],
-                 "<!-- table: written by ./dev report plan -->\n")
+                 mark("plan"))
     picture = target.replace(".csv", "")
     subprocess.run(["gnuplot", "-e", f"rows='{target}'; picture='{picture}.png'", f"{picture}.gp"], check=True)
 

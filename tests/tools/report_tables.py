@@ -1,0 +1,21 @@
+"""The tables of pages that a report writes stand between two marks; what is around them is written by hand."""
+
+import sys
+
+END = "<!-- end of table -->"
+
+
+def mark(part):
+    """The line before a table of `./dev report PART`."""
+    return f"<!-- table: written by ./dev report {part} -->\n"
+
+
+def write_tables(document, tables, begin):
+    """Puts the tables between the document's marks, in their order."""
+    with open(document, encoding="utf-8") as file:
+        parts = file.read().split(begin)
+    if len(parts) != len(tables) + 1:
+        sys.exit(f"{document}: has not the {len(tables)} marks that hold its tables")
+    text = parts[0] + "".join(begin + table + END + part.split(END, 1)[1] for table, part in zip(tables, parts[1:]))
+    with open(document, "w", encoding="utf-8") as file:
+        file.write(text)
