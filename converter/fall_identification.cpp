@@ -21,14 +21,14 @@ constexpr double first_segment = 0.5;
 constexpr double horizon = 3.0;
 constexpr double spacing = 0.5;
 constexpr double flown_step = 0.03;
-constexpr int looks = 4;               // at the fall, in each segment
-constexpr int numbers_of_look = 9;     // velocity, tip speed, rotation
-constexpr double usual_miss = 0.2;     // beyond it a residual counts less
-constexpr double expected_miss = 0.1;  // as far as expectations weigh
+constexpr int looks = 4;                     // at the fall, in each segment
+constexpr Eigen::Index numbers_of_look = 9;  // velocity, tip speed, rotation
+constexpr double usual_miss = 0.2;           // beyond it a residual counts less
+constexpr double expected_miss = 0.1;        // as far as expectations weigh
 // What the flights of segments miss is forgiven where the swings die: they are fitted best by a body that
 // swings less than it should. So the figures of the whole flight count too: as so many numbers of segments,
 // each where it is off by these shares as much as a number by `usual_miss`.
-constexpr int figures_of_fall = 4;
+constexpr Eigen::Index figures_of_fall = 4;
 constexpr double count_of_figure = 40.0;
 constexpr double least_count = 1e-3;  // of them, to begin with
 constexpr double usual_miss_of_descent = 0.05;
@@ -198,16 +198,21 @@ Eigen::Index count(const std::vector<Segment>& segments) {
     return numbers_of_segment * static_cast<Eigen::Index>(segments.size());
 }
 
+Eigen::Index figures_of(const std::vector<ReadyFall>& falls) {
+    return figures_of_fall * static_cast<Eigen::Index>(falls.size());
+}
+
 // Of the segments, and of the figures of each fall as a whole.
 VectorXd residuals_of(const Body& body, const std::vector<ReadyFall>& falls,
                       const std::vector<Segment>& segments, const DynamicCoefficients& coefficients) {
     std::vector<ImmersedBody> flying;
+    flying.reserve(falls.size());
     for (const ReadyFall& fall : falls) {
         flying.push_back(fall.body);
         flying.back().dynamic = coefficients;
         prepare(flying.back());
     }
-    VectorXd residuals(count(segments) + figures_of_fall * static_cast<Eigen::Index>(falls.size()));
+    VectorXd residuals(count(segments) + figures_of(falls));
     Eigen::Index at = 0;
     for (const Segment& segment : segments) {
         fly_segment(falls[segment.fall], flying[segment.fall], segment.begin,
@@ -228,9 +233,8 @@ LeastSquaresProblem problem_of(const Body& body, const std::vector<ReadyFall>& f
     problem.residuals = [&body, &falls, &parameters, segments](const VectorXd& numbers) {
         return residuals_of(body, falls, segments, parameters.coefficients(numbers));
     };
-    problem.counts =
-        VectorXd::Ones(count(segments) + figures_of_fall * static_cast<Eigen::Index>(falls.size()));
-    problem.counts.tail(figures_of_fall * static_cast<Eigen::Index>(falls.size())).array() = count_of_figure;
+    problem.counts = VectorXd::Ones(count(segments) + figures_of(falls));
+    problem.counts.tail(figures_of(falls)).array() = count_of_figure;
     const auto size = static_cast<Eigen::Index>(parameters.all().size());
     problem.start = parameters.expected();
     problem.expected = problem.start;
@@ -307,6 +311,7 @@ Identification identify_motion(const Body& body, const std::vector<FallRecord>& 
         throw Error(fmt::format("{}: there is no fall to identify coefficients from", body.name));
     if (progress) progress(0.0);
     std::vector<ReadyFall> falls;
+    falls.reserve(records.size());
     for (const FallRecord& record : records) falls.push_back(ready(body, record));
     const std::vector<Segment> segments = segments_of(falls);
     const MotionParameters parameters(body, without);
@@ -314,8 +319,7 @@ Identification identify_motion(const Body& body, const std::vector<FallRecord>& 
     // smooth.
     const LeastSquaresProblem problem = problem_of(body, falls, segments, parameters);
     LeastSquaresProblem of_segments = problem;
-    of_segments.counts.tail(figures_of_fall * static_cast<Eigen::Index>(falls.size()))
-        .setConstant(least_count);
+    of_segments.counts.tail(figures_of(falls)).setConstant(least_count);
     LeastSquaresProblem of_all = problem;
     of_all.start = solve_least_squares(of_segments).x;
     const LeastSquaresSolution solution = solve_least_squares(of_all);

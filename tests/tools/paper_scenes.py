@@ -3,7 +3,7 @@
 
     paper_scenes.py BIN BODIES DOCS
 
-BIN: the folder of the programs; BODIES: of rubber.body.h5 and airplane.body.h5, which are baked at quality preview where
+BIN: the folder of the programs; BODIES: of rubber.body.h5 (standard) and airplane.body.h5 (preview), which are baked where
 they are missing; DOCS: the documents' folder, which gets pictures/. Run from the project's folder.
 """
 
@@ -27,9 +27,9 @@ set key off
 '''
 
 
-def baked(programs, folder, scene, body):
+def baked(programs, folder, scene, body, quality):
     if not os.path.exists(os.path.join(folder, f"{body}.body.h5")):
-        run([f"{programs}/samara", "bake", f"{SCENES}/{scene}.toml", "-o", folder, "--quality", "preview", "--json"])
+        run([f"{programs}/samara", "bake", f"{SCENES}/{scene}.toml", "-o", folder, "--quality", quality, "--json"])
 
 
 def flown(programs, folder, scene, work, runs=1):
@@ -121,7 +121,7 @@ def rubber_row(title, falls):
 
 def rubber(programs, folder, work, docs):
     """Figure 3; returns its table."""
-    baked(programs, folder, "rubber-ellipsoid", "rubber")
+    baked(programs, folder, "rubber-ellipsoid", "rubber", "standard")
 
     def falls_of(motion):
         return list(flights(programs, motion).values())
@@ -245,7 +245,7 @@ def airplane_row(title, told, all_flights):
 
 def airplane(programs, folder, work, docs):
     """Figure 1; returns its table."""
-    baked(programs, folder, "paper-airplane", "airplane")
+    baked(programs, folder, "paper-airplane", "airplane", "preview")
     lines = ["| form | runs | in the air | descent | landing: mean, rms distance from it | turns front | turns aside | regimes |",
              "|---|---|---|---|---|---|---|---|"]
     flights_of, body = {}, ""
