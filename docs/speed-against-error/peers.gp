@@ -33,7 +33,7 @@ do for [p = 1:3] {
   if (p == 3) {
     set xtics ("sphere" 1)
     do for [i = 1:words(falls)] { set xtics add (title(i) i) }
-    set key at screen 0.5, 0.035 center bottom maxrows 1 samplen 1.5 width 1
+    set key at screen 0.5, 0.035 center bottom maxrows 1 samplen 1 width -5
   } else {
     set xtics ("" 1)
   }
