@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "converter/case_folder_reduction.hpp"
-#include "converter/plan_coverage.hpp"
-#include "converter/table_filling.hpp"
+#include "converter/cases/case_folder_reduction.hpp"
+#include "converter/cases/plan_coverage.hpp"
+#include "converter/tables/table_filling.hpp"
 #include "samara/base/error.hpp"
 #include "samara/body/body_file.hpp"
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "converter/case_reduction.hpp"
-#include "converter/fall_identification.hpp"
+#include "converter/cases/case_reduction.hpp"
+#include "converter/falls/fall_identification.hpp"
 #include "samara/body/body.hpp"
 
 namespace samara {

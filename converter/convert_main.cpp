@@ -8,16 +8,17 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "converter/case_folder_reduction.hpp"
+#include "converter/cases/case_folder_reduction.hpp"
+#include "converter/cases/samples_csv.hpp"
 #include "converter/convert.hpp"
-#include "converter/identification_report.hpp"
-#include "converter/samples_csv.hpp"
+#include "converter/falls/identification_report.hpp"
+#include "internal/base/vector_json.hpp"
+#include "internal/command/arguments.hpp"
+#include "internal/command/print.hpp"
+#include "internal/command/progress.hpp"
+#include "internal/files/replace_file.hpp"
 #include "samara/base/error.hpp"
-#include "samara/base/vector_json.hpp"
 #include "samara/body/body_file.hpp"
-#include "samara/command/arguments.hpp"
-#include "samara/command/progress.hpp"
-#include "samara/files/replace_file.hpp"
 
 namespace samara {
 namespace {
@@ -64,7 +65,7 @@ nlohmann::json case_as_json(const SolvedCase& solved) {
             {"reynolds_number", solved.reynolds_number},
             {"purpose", name_of(solved.purpose)},
             {"mesh", solved.mesh},
-            {"closure", solved.closure},
+            {"closure", name_of(solved.closure)},
             {"drag_coefficient", summary.drag},
             {"drag_coefficient_error", summary.drag_error},
             {"force", as_json(entry.force)},
@@ -116,25 +117,25 @@ std::string with_error(double value, double error) {
 }
 
 void print_errors(const LoadTables& tables) {
-    fmt::print(
+    print_result(
         "\nThe errors above are those of the iterations and of the symmetry. Of the tables, root mean "
         "square\nstandard errors by source, over the quantity's own:\n");
     for (const ErrorShare& share : tables.error_sources) {
-        fmt::print("  {:<14} force {:.2g} %, moment {:.2g} %, k {:.2g} %, epsilon {:.2g} %\n",
-                   name_of(share.source), 100.0 * share.force, 100.0 * share.moment,
-                   100.0 * share.turbulent_kinetic_energy, 100.0 * share.dissipation_rate);
+        print_result("  {:<14} force {:.2g} %, moment {:.2g} %, k {:.2g} %, epsilon {:.2g} %\n",
+                     name_of(share.source), 100.0 * share.force, 100.0 * share.moment,
+                     100.0 * share.turbulent_kinetic_energy, 100.0 * share.dissipation_rate);
     }
     for (const LeftOutCase& one : tables.left_out) {
-        fmt::print("Left out and filled from the others: {}: {}\n", one.name, one.reason);
+        print_result("Left out and filled from the others: {}: {}\n", one.name, one.reason);
     }
 }
 
 void print_cases(const Conversion& conversion) {
     const LoadTables& tables = *conversion.body.tables;
-    fmt::print("{}: L = {:.6g} m, quality {}, {} solved cases -> {} table nodes\n\n", conversion.body.name,
-               tables.reference_length, tables.quality, conversion.cases.size(), tables.entries.size());
+    print_result("{}: L = {:.6g} m, quality {}, {} solved cases -> {} table nodes\n\n", conversion.body.name,
+                 tables.reference_length, tables.quality, conversion.cases.size(), tables.entries.size());
     const auto row = [](const auto&... cells) {
-        fmt::print("{:<26} {:<8} {:>9} {:>20} {:>20} {:>20} {:>24} {:>24}\n", cells...);
+        print_result("{:<26} {:<8} {:>9} {:>20} {:>20} {:>20} {:>24} {:>24}\n", cells...);
     };
     row("direction (table axes)", "for", "Re", "drag", "lift", "moment", "k/U^2", "epsilon L/U^3");
     for (const SolvedCase& solved : conversion.cases) {
@@ -159,9 +160,9 @@ nlohmann::json write_samples(const std::string& cases, const std::string& output
     nlohmann::json left_out = nlohmann::json::array();
     for (const LeftOutCase& left : reduction.left_out) {
         left_out.push_back({{"name", left.name}, {"reason", left.reason}});
-        if (print) fmt::print("left out: {}: {}\n", left.name, left.reason);
+        if (print) print_result("left out: {}: {}\n", left.name, left.reason);
     }
-    if (print) fmt::print("{}: {} solved cases of {}\n", output, reduction.cases.size(), plan.cases.size());
+    if (print) print_result("{}: {} solved cases of {}\n", output, reduction.cases.size(), plan.cases.size());
     return {{"output", output}, {"cases", reduction.cases.size()}, {"left_out", left_out}};
 }
 
@@ -178,7 +179,7 @@ nlohmann::json write_tables(const std::string& cases, const std::string& output,
     nlohmann::json json = conversion_as_json(conversion, output);
     if (conversion.identification) {
         json["dynamic_coefficients"] = identification_as_json(*conversion.identification);
-        if (print) fmt::print("\n{}", identification_as_text(*conversion.identification));
+        if (print) print_result("\n{}", identification_as_text(*conversion.identification));
     }
     return json;
 }

@@ -10,13 +10,14 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "converter/fall_identification.hpp"
-#include "converter/identification_report.hpp"
-#include "converter/motion_parameters.hpp"
+#include "converter/falls/fall_identification.hpp"
+#include "converter/falls/identification_report.hpp"
+#include "converter/falls/motion_parameters.hpp"
+#include "internal/command/arguments.hpp"
+#include "internal/command/print.hpp"
+#include "internal/command/progress.hpp"
 #include "samara/base/error.hpp"
 #include "samara/body/body_file.hpp"
-#include "samara/command/arguments.hpp"
-#include "samara/command/progress.hpp"
 
 namespace samara {
 namespace {
@@ -56,11 +57,11 @@ nlohmann::json identify(const IdentifyOptions& options, bool quiet) {
     body.dynamic = identification.coefficients;
     nlohmann::json json = identification_as_json(identification);
     json["held"] = nlohmann::json::array();
-    if (!quiet) fmt::print("{}", identification_as_text(identification));
+    if (!quiet) print_result("{}", identification_as_text(identification));
     for (const FallRecord& record : records_of(options.hold)) {
         const FlownFall flown = fly_fall(body, record);
         json["held"].push_back(flown_fall_as_json(flown));
-        if (!quiet) fmt::print("{}", flown_fall_as_text(flown));
+        if (!quiet) print_result("{}", flown_fall_as_text(flown));
     }
     if (!options.output.empty()) write_body_file(options.output, body);
     return json;

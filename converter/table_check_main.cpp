@@ -6,12 +6,13 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "converter/samples_csv.hpp"
-#include "converter/table_check.hpp"
+#include "converter/cases/samples_csv.hpp"
+#include "converter/tables/table_check.hpp"
+#include "internal/base/vector_json.hpp"
+#include "internal/command/arguments.hpp"
+#include "internal/command/print.hpp"
 #include "samara/base/error.hpp"
-#include "samara/base/vector_json.hpp"
 #include "samara/body/body_file.hpp"
-#include "samara/command/arguments.hpp"
 
 namespace samara {
 namespace {
@@ -40,25 +41,25 @@ nlohmann::json check_as_json(const TableCheck& check) {
 }
 
 void print_row(const char* name, const QuantityCheck& check) {
-    fmt::print("{:<10} {:10.1f} {:10.1f} {:12.0f}\n", name, 100.0 * check.error, 100.0 * check.stated,
-               100.0 * check.within_two);
+    print_result("{:<10} {:10.1f} {:10.1f} {:12.0f}\n", name, 100.0 * check.error, 100.0 * check.stated,
+                 100.0 * check.within_two);
 }
 
 void print_check(const TableCheck& check) {
-    fmt::print("{:<14} {:>26} {:>8} {:>9} {:>9} {:>9}\n", "case", "moving along", "Reynolds", "|F|", "off by",
-               "stated");
+    print_result("{:<14} {:>26} {:>8} {:>9} {:>9} {:>9}\n", "case", "moving along", "Reynolds", "|F|",
+                 "off by", "stated");
     for (const CheckedCase& one : check.cases) {
-        fmt::print("{:<14} ({:7.4f} {:7.4f} {:7.4f}) {:8.0f} {:9.4f} {:9.4f} {:9.4f}\n", one.name,
-                   one.direction.x(), one.direction.y(), one.direction.z(), one.reynolds_number,
-                   one.value.force.norm(), one.difference.force.norm(), one.stated.force.norm());
+        print_result("{:<14} ({:7.4f} {:7.4f} {:7.4f}) {:8.0f} {:9.4f} {:9.4f} {:9.4f}\n", one.name,
+                     one.direction.x(), one.direction.y(), one.direction.z(), one.reynolds_number,
+                     one.value.force.norm(), one.difference.force.norm(), one.stated.force.norm());
     }
-    fmt::print("\n{:<10} {:>10} {:>10} {:>12}\n", "", "error %", "stated %", "within two %");
+    print_result("\n{:<10} {:>10} {:>10} {:>12}\n", "", "error %", "stated %", "within two %");
     print_row("force", check.force);
     print_row("moment", check.moment);
     print_row("k", check.turbulent_kinetic_energy);
     print_row("epsilon", check.dissipation_rate);
-    fmt::print("{:.0f} % of all differences are within two stated standard errors\n",
-               100.0 * check.within_two);
+    print_result("{:.0f} % of all differences are within two stated standard errors\n",
+                 100.0 * check.within_two);
 }
 
 int run(int argc, const char* const* argv) {

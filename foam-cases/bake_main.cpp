@@ -9,14 +9,14 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "foam-cases/bake.hpp"
-#include "foam-cases/bake_report.hpp"
-#include "foam-cases/cluster_jobs.hpp"
-#include "foam-cases/scene_requests.hpp"
-#include "foam-cases/terminal_speed.hpp"
+#include "foam-cases/bake/bake.hpp"
+#include "foam-cases/bake/bake_report.hpp"
+#include "foam-cases/farm/cluster_jobs.hpp"
+#include "foam-cases/scene/scene_requests.hpp"
+#include "internal/command/arguments.hpp"
+#include "internal/flight/terminal_speed.hpp"
 #include "samara/base/error.hpp"
 #include "samara/body/body_file.hpp"
-#include "samara/command/arguments.hpp"
 #include "samara/scene/scene_file.hpp"
 
 namespace samara {
@@ -166,7 +166,8 @@ int run(int argc, const char* const* argv) {
     arguments.option("--rounds", options.rounds, "for a scene: the most rounds of cases", 1, 100);
     arguments.flag("--whole-grid", options.whole_grid,
                    "for a scene: solves all directions, not only those that its bodies visit");
-    arguments.flag("--dry-run", options.dry_run, "only say what would be solved and how long it would take");
+    arguments.flag("--dry-run", options.dry_run,
+                   "only say what would be solved, how long it would take and how much of the disk");
     arguments.footer(fmt::format(
         "A scene's bodies are baked in rounds, in the directions in which they move ('samara plan' shows "
         "them);\n"
@@ -176,7 +177,7 @@ int run(int argc, const char* const* argv) {
         "beside the output: plain\n"
         "OpenFOAM cases with their logs, of which the next run reuses those whose inputs are unchanged.\n"
         "Needs OpenFOAM and Snakemake (Debian: apt install openfoam snakemake).\n"
-        "Examples: samara bake meshes/ellipsoid.geo -o rubber.body.h5 --density 1200 --jobs 2\n"
+        "Examples: samara bake meshes/shapes/ellipsoid.geo -o rubber.body.h5 --density 1200 --jobs 2\n"
         "          samara bake scene.toml -o bodies",
         terminal_drag_coefficient));
     return run_program(argc, argv, arguments, [&] {

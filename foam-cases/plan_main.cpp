@@ -7,18 +7,19 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "foam-cases/bake_report.hpp"
-#include "foam-cases/scene_plan_picture.hpp"
-#include "foam-cases/scene_plan_report.hpp"
-#include "foam-cases/scene_requests.hpp"
+#include "foam-cases/bake/bake_report.hpp"
+#include "foam-cases/scene/scene_plan_picture.hpp"
+#include "foam-cases/scene/scene_plan_report.hpp"
+#include "foam-cases/scene/scene_requests.hpp"
+#include "internal/advice/model_advice.hpp"
+#include "internal/base/vector_json.hpp"
+#include "internal/command/arguments.hpp"
+#include "internal/command/print.hpp"
+#include "internal/command/progress.hpp"
+#include "internal/plot/gnuplot.hpp"
 #include "samara/base/error.hpp"
-#include "samara/base/vector_json.hpp"
 #include "samara/body/body_file.hpp"
-#include "samara/command/arguments.hpp"
-#include "samara/command/progress.hpp"
-#include "samara/plot/gnuplot.hpp"
 #include "samara/scene/scene_file.hpp"
-#include "samara/simulation/model_advice.hpp"
 
 namespace samara {
 namespace {
@@ -45,8 +46,8 @@ nlohmann::json visits_as_json(const std::vector<VisitedDirection>& places) {
 }
 
 void print_places(const std::vector<VisitedDirection>& places) {
-    fmt::print("{:>26} {:>6} {:>6} {:>20} {:>7}\n", "moving along (map axes)", "time", "load",
-               "Reynolds numbers", "images");
+    print_result("{:>26} {:>6} {:>6} {:>20} {:>7}\n", "moving along (map axes)", "time", "load",
+                 "Reynolds numbers", "images");
     constexpr std::size_t most_rows = 20;
     for (std::size_t i = 0; i < std::min(places.size(), most_rows); ++i) {
         const VisitedDirection& place = places[i];
@@ -54,11 +55,11 @@ void print_places(const std::vector<VisitedDirection>& places) {
             place.share > 0.0
                 ? fmt::format("{:.0f} to {:.0f}", place.lowest_reynolds_number, place.highest_reynolds_number)
                 : "-";
-        fmt::print("({:7.4f} {:7.4f} {:7.4f}) {:5.1f}% {:5.1f}% {:>20} {:>7}{}\n", place.direction.x(),
-                   place.direction.y(), place.direction.z(), 100.0 * place.share, 100.0 * place.load_share,
-                   range, place.images, place.solved ? "  case" : "");
+        print_result("({:7.4f} {:7.4f} {:7.4f}) {:5.1f}% {:5.1f}% {:>20} {:>7}{}\n", place.direction.x(),
+                     place.direction.y(), place.direction.z(), 100.0 * place.share, 100.0 * place.load_share,
+                     range, place.images, place.solved ? "  case" : "");
     }
-    if (places.size() > most_rows) fmt::print("and {} more\n", places.size() - most_rows);
+    if (places.size() > most_rows) print_result("and {} more\n", places.size() - most_rows);
 }
 
 nlohmann::json plan_body(const BakeRequest& request, const BakePreparation& preparation,
@@ -67,13 +68,14 @@ nlohmann::json plan_body(const BakeRequest& request, const BakePreparation& prep
     json["name"] = request.name;
     if (!preparation.scene_plan) {
         if (!quiet)
-            fmt::print("{}: asks for no tables: mesh and Kirchhoff tensor alone, no CFD\n", request.name);
+            print_result("{}: asks for no tables: mesh and Kirchhoff tensor alone, no CFD\n", request.name);
         return json;
     }
     const ScenePlan& plan = *preparation.scene_plan;
     const std::vector<VisitedDirection> places =
         visited_directions(preparation.flight.visits, preparation.body.symmetry, plan);
-    json["regime"] = name_of(preparation.flight.regime);
+    const RegimeCounts regimes = preparation.flight.regimes();
+    json["regime"] = name_of(regimes.commonest());
     json["visited"] = visits_as_json(places);
     json["whole_grid"] = cost_as_json(whole_grid(plan, false));
     json["symmetric_grid"] = cost_as_json(whole_grid(plan, true));
@@ -83,26 +85,26 @@ nlohmann::json plan_body(const BakeRequest& request, const BakePreparation& prep
     if (quiet) return json;
     const GridCost all = whole_grid(plan, false);
     const GridCost wedge = whole_grid(plan, true);
-    fmt::print("{}: with guessed loads it is {} ({:.0f} % of the falls)\n", request.name,
-               name_of(preparation.flight.regime), 100.0 * preparation.flight.regime_share);
+    print_result("{}: with guessed loads it is {} ({:.0f} % of the falls)\n", request.name,
+                 name_of(regimes.commonest()), 100.0 * regimes.share(regimes.commonest()));
     print_places(places);
-    fmt::print(
+    print_result(
         "first round: {} directions at Reynolds number {:.6g}, {} cases, about {:.0f} CPU s; further rounds "
         "until\nthe motion is certain to {:.3g} % in descent speed\n",
-        plan.chosen.size(), fmt::join(plan.cases.reynolds_numbers, ", "), plan.cases.cases.size(),
+        plan.chosen.size(), fmt::join(plan.cases.reynolds_numbers(), ", "), plan.cases.cases.size(),
         plan.cases.cpu_seconds, 100.0 * options.tolerance);
-    fmt::print("all directions of that spacing: {} ({:.0f} CPU s), {} after symmetry ({:.0f} CPU s)\n\n",
-               all.directions, all.cpu_seconds, wedge.directions, wedge.cpu_seconds);
+    print_result("all directions of that spacing: {} ({:.0f} CPU s), {} after symmetry ({:.0f} CPU s)\n\n",
+                 all.directions, all.cpu_seconds, wedge.directions, wedge.cpu_seconds);
     return json;
 }
 
 /// The body with which the scene flies: the baked one where there is one.
-CastBody as_baked(const BakeRequest& request, const BakePreparation& preparation, bool has_bodies) {
+LoadedBody as_baked(const BakeRequest& request, const BakePreparation& preparation, bool has_bodies) {
     if (has_bodies && std::filesystem::exists(request.output)) return {read_body_file(request.output), ""};
     return {preparation.body, ""};
 }
 
-ModelAdvice advised(const Scene& scene, const std::vector<CastBody>& cast, double tolerance) {
+ModelAdvice advised(const Scene& scene, const std::vector<LoadedBody>& cast, double tolerance) {
     Progress progress("judging the physics", "flights");
     AdviceOptions options;
     options.tolerance = tolerance;
@@ -127,14 +129,14 @@ nlohmann::json run(const PlanOptions& options, const Arguments& arguments) {
     wanted.quality = bake_quality(options.quality);
     wanted.tolerance = options.tolerance;
     nlohmann::json result = {{"bodies", nlohmann::json::array()}};
-    std::vector<CastBody> cast;
+    std::vector<LoadedBody> cast;
     for (const BakeRequest& request : requests_for_scene(scene, folder, wanted)) {
         const BakePreparation preparation = prepare_bake(request);
         result["bodies"].push_back(plan_body(request, preparation, options, arguments.json()));
         cast.push_back(as_baked(request, preparation, !options.bodies.empty()));
     }
     const ModelAdvice advice = advised(scene, cast, options.tolerance);
-    if (!arguments.json()) fmt::print("{}", as_text(advice));
+    if (!arguments.json()) print_result("{}", as_text(advice));
     result["models"] = as_json(advice);
     return result;
 }

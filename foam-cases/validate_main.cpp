@@ -6,11 +6,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "foam-cases/cluster_jobs.hpp"
-#include "foam-cases/validate.hpp"
+#include "foam-cases/falls/validate.hpp"
+#include "foam-cases/farm/cluster_jobs.hpp"
+#include "internal/command/arguments.hpp"
+#include "internal/command/print.hpp"
+#include "internal/motion/description.hpp"
 #include "samara/base/error.hpp"
-#include "samara/command/arguments.hpp"
-#include "samara/motion/description.hpp"
 #include "samara/scene/scene_file.hpp"
 
 namespace samara {
@@ -26,11 +27,11 @@ struct ValidateOptions {
 };
 
 nlohmann::json as_json(const BakePlan& plan) {
-    const FreeFall& fall = plan.falls.front();
+    const FreeFall& fall = plan.only_fall();
     return {{"mesh", fall.mesh},
-            {"estimated_cells", plan.cells.front()},
+            {"estimated_cells", cells_of(plan, fall.mesh)},
             {"reynolds_number", fall.reynolds_number},
-            {"closure", fall.closure},
+            {"closure", name_of(fall.closure)},
             {"time_step", fall.time_step * fall.time_unit()},
             {"steps", fall.duration / fall.time_step},
             {"acceleration_relaxation", fall.acceleration_relaxation},
@@ -38,16 +39,15 @@ nlohmann::json as_json(const BakePlan& plan) {
 }
 
 void print_plan(const BakePlan& plan) {
-    const FreeFall& fall = plan.falls.front();
-    fmt::print("{} cells, {:.0f} steps of {:.3g} ms, Reynolds number {:.3g}, {}: about {:.0f} CPU s\n",
-               fmt::format("{:.0f}", plan.cells.front()), fall.duration / fall.time_step,
-               1e3 * fall.time_step * fall.time_unit(), fall.reynolds_number, fall.closure, plan.cpu_seconds);
+    const FreeFall& fall = plan.only_fall();
+    print_result("{} cells, {:.0f} steps of {:.3g} ms, Reynolds number {:.3g}, {}: about {:.0f} CPU s\n",
+                 fmt::format("{:.0f}", cells_of(plan, fall.mesh)), fall.duration / fall.time_step,
+                 1e3 * fall.time_step * fall.time_unit(), fall.reynolds_number, name_of(fall.closure),
+                 plan.cpu_seconds);
 }
 
 void warn_of_doubts(const ValidationResult& result) {
-    const auto note = [](const std::string& text) {
-        fmt::print(stderr, "samara validate: note: {}\n", text);
-    };
+    const auto note = [](const std::string& text) { print_note("samara validate: note: {}\n", text); };
     const FallBalance& balance = result.balance;
     const FallSolution& solution = result.solution;
     if (balance.force > doubtful_balance.force || balance.moment > doubtful_balance.moment) {
@@ -87,14 +87,14 @@ nlohmann::json run_validation(const ValidateOptions& options, bool quiet) {
     json["output"] = options.output;
     json["reused"] = result.reused;
     json["cpu_seconds"] = result.cpu_seconds;
-    json["time_step"] = result.solution.time_step * result.plan.falls.front().time_unit();
+    json["time_step"] = result.solution.time_step * result.plan.only_fall().time_unit();
     json["cells"] = result.solution.cells;
     json["attempts"] = result.solution.attempts;
     json["largest_courant_number"] = result.solution.largest_courant_number;
     json["balance"] = {{"force", result.balance.force}, {"moment", result.balance.moment}};
     json["body"] = as_json(measures);
     if (!quiet) {
-        fmt::print(
+        print_result(
             "{}\n{}  momenta balance to {:.1f} % (force) and {:.1f} % (moment), largest Courant number "
             "{:.2g}\n"
             "{:.0f} CPU s{} -> {}\n",

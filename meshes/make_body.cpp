@@ -5,19 +5,21 @@
 
 #include <fmt/format.h>
 
-#include "meshes/gmsh_session.hpp"
-#include "meshes/image_comparison.hpp"
-#include "meshes/mesh_geometry.hpp"
-#include "meshes/remesh.hpp"
-#include "meshes/shape_reader.hpp"
-#include "meshes/surface_check.hpp"
-#include "meshes/symmetry.hpp"
-#include "meshes/volume_moments.hpp"
-#include "samara/base/content_hash.hpp"
+#include "internal/base/content_hash.hpp"
+#include "internal/base/labelled.hpp"
+#include "internal/body/curved_surface.hpp"
+#include "internal/body/surface_edges.hpp"
+#include "internal/body/welded_surface.hpp"
+#include "meshes/checks/sound_surface.hpp"
+#include "meshes/checks/volume_moments.hpp"
+#include "meshes/reading/gmsh_session.hpp"
+#include "meshes/reading/shape_reader.hpp"
+#include "meshes/remeshing/mesh_geometry.hpp"
+#include "meshes/remeshing/remesh.hpp"
+#include "meshes/symmetry/image_comparison.hpp"
+#include "meshes/symmetry/symmetry.hpp"
 #include "samara/base/error.hpp"
 #include "samara/body/body_file.hpp"
-#include "samara/body/curved_surface.hpp"
-#include "samara/body/surface_edges.hpp"
 
 namespace samara {
 namespace {
@@ -57,15 +59,15 @@ void tell(const ProgressCall& progress, double share) {
 Surface sound_triangles(const std::filesystem::path& shape, const MeshOptions& options,
                         const ProgressCall& progress) {
     const std::string label = shape.string();
-    const Surface read = read_triangles(shape);
+    const Surface read = read_triangles(shape, shape_format(shape), options.time_limit);
     tell(progress, triangles_read);
-    Surface surface = welded(read, label);
+    Surface surface = labelled(label, [&] { return welded(read); });
     tell(progress, triangles_welded);
     if (options.flip) {
         for (std::size_t t = 0; t < surface.triangle_count(); ++t) turn_round(surface, t);
     }
     // Before scaling: errors name places as the file has them.
-    require_sound_surface(surface, label);
+    labelled(label, [&] { require_sound_surface(surface); });
     tell(progress, triangles_checked);
     for (Vector3d& vertex : surface.vertices) vertex *= options.scale;
     return surface;
@@ -107,8 +109,7 @@ std::string source_line(const std::filesystem::path& shape, const MeshOptions& o
     std::string line =
         fmt::format("{} (xxh128 {}), {}, order {}, scale {}{}", shape.filename().string(),
                     file_content_hash(shape), sizes, order, options.scale, options.flip ? ", flipped" : "");
-    if (shape_kind(shape) == ShapeKind::geometry || options.sizing != MeshOptions::Sizing::keep)
-        line += ", gmsh " + gmsh_version();
+    if (is_read_by_gmsh(shape_format(shape))) line += ", gmsh " + gmsh_version();
     return line;
 }
 
@@ -119,7 +120,7 @@ Body make_body(const std::filesystem::path& shape, const MeshOptions& options,
     require_sane(options, shape.string());
     Body body;
     body.name = body_name_of(shape);
-    if (shape_kind(shape) == ShapeKind::geometry) {
+    if (is_geometry(shape_format(shape))) {
         mesh_exact_geometry(body, shape, options, progress);
     } else {
         mesh_triangles(body, shape, options, progress);

@@ -7,12 +7,13 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "internal/command/arguments.hpp"
+#include "internal/command/print.hpp"
+#include "internal/command/progress.hpp"
 #include "meshes/make_body.hpp"
-#include "meshes/symmetry.hpp"
+#include "meshes/symmetry/symmetry.hpp"
 #include "samara/base/error.hpp"
 #include "samara/body/body_file.hpp"
-#include "samara/command/arguments.hpp"
-#include "samara/command/progress.hpp"
 
 namespace {
 
@@ -48,20 +49,21 @@ void print_for_people(const Body& body, const MeshOptions& options, const std::s
     for (const samara::Vector3d& vertex : body.surface.vertices) box.extend(vertex);
     const samara::Vector3d size = box.sizes();
     const samara::VolumeMoments& moments = body.moments;
-    fmt::print("{}: {} triangles of order {}, {} vertices, in {:.2f} s\n", output,
-               body.surface.triangle_count(), body.surface.order(), body.surface.vertices.size(), seconds);
+    samara::print_result("{}: {} triangles of order {}, {} vertices, in {:.2f} s\n", output,
+                         body.surface.triangle_count(), body.surface.order(), body.surface.vertices.size(),
+                         seconds);
     const auto count = static_cast<double>(body.surface.triangle_count());
     if (options.sizing == MeshOptions::Sizing::triangles && count > 1.15 * options.triangles) {
-        fmt::print("  note      {} triangles were asked for; the shape's own edges need more\n",
-                   options.triangles);
+        samara::print_result("  note      {} triangles were asked for; the shape's own edges need more\n",
+                             options.triangles);
     }
-    fmt::print("  extent    {:.5g} x {:.5g} x {:.5g} m\n", size.x(), size.y(), size.z());
-    fmt::print("  volume    {:.6g} m^3 (of this surface)\n", moments.volume);
-    fmt::print("  area      {:.6g} m^2\n", moments.surface_area);
-    fmt::print("  centroid  ({:.5g}, {:.5g}, {:.5g}) m\n", moments.centroid.x(), moments.centroid.y(),
-               moments.centroid.z());
-    fmt::print("  symmetry  {} (within {:.2g} of the size)\n", samara::describe(body.symmetry),
-               body.symmetry.tolerance);
+    samara::print_result("  extent    {:.5g} x {:.5g} x {:.5g} m\n", size.x(), size.y(), size.z());
+    samara::print_result("  volume    {:.6g} m^3 (of this surface)\n", moments.volume);
+    samara::print_result("  area      {:.6g} m^2\n", moments.surface_area);
+    samara::print_result("  centroid  ({:.5g}, {:.5g}, {:.5g}) m\n", moments.centroid.x(),
+                         moments.centroid.y(), moments.centroid.z());
+    samara::print_result("  symmetry  {} (within {:.2g} of the size)\n", samara::describe(body.symmetry),
+                         body.symmetry.tolerance);
 }
 
 MeshOptions::Sizing sizing_of(const samara::Arguments& arguments, bool keep) {
@@ -98,10 +100,12 @@ int main(int argc, char** argv) {
                      "has curved faces (--keep: as the file has them)");
     arguments.option("--scale", options.scale,
                      "metres for one unit of the file (STEP states its unit: left at 1)", 1e-12, 1e12);
+    arguments.option("--time-limit", options.time_limit,
+                     "seconds of computing that gmsh may take to read the shape and mesh it", 1.0, 1e9);
     arguments.flag("--flip", options.flip, "turn every triangle round: for a surface that is inside out");
     arguments.footer(
         "The surface must be closed. Triangles are smaller where the body curves and near its edges.\n"
-        "Example: samara mesh meshes/ellipsoid.geo -o ellipsoid.body.h5 --triangles 1280");
+        "Example: samara mesh meshes/shapes/ellipsoid.geo -o ellipsoid.body.h5 --triangles 1280");
     return samara::run_program(argc, argv, arguments, [&] {
         const auto start = std::chrono::steady_clock::now();
         options.sizing = sizing_of(arguments, keep);

@@ -18,6 +18,7 @@ struct MeshOptions {
     int order = automatic_order;  ///< 1: flat; 2: curved triangles with nodes in the middle of their edges
     double scale = 1.0;           ///< metres for one unit of the file
     bool flip = false;            ///< turn every face of a file of triangles round
+    double time_limit = 300.0;    ///< s: the most computing that gmsh may do on the file
 };
 
 }  // namespace samara

@@ -25,7 +25,6 @@ do for [q = 1:3] {
          with linespoints lc rgb color[b] pt 7 ps 1.4 title word(bodies, b), \
        for [b = 1:2] rows using (strcol(1) eq word(bodies, b) ? $3 : NaN):(column(error_column[q] + 1)) \
          with linespoints lc rgb color[b] dt 2 pt 6 ps 1.2 title word(bodies, b)." as stated", \
-       for [b = 1:2] rows using (strcol(1) eq word(bodies, b) ? $3 : NaN):(column(error_column[q])):(strcol(2)) \
-         with labels offset 0, -1 textcolor rgb color[b] notitle
+       rows using (strcol(1) eq "ellipsoid" ? $3 : NaN):(0.026):(strcol(2)) with labels textcolor rgb "#6b6b6b" notitle
 }
 unset multiplot

@@ -6,8 +6,8 @@ set logscale xy
 set format x "10^{%T}"
 set format y "10^{%T}"
 set xlabel "time, ms"
-set xrange [0.1:10000]
-set yrange [1e-7:3]
+set xrange [0.03:100000]
+set yrange [1e-7:100]
 set grid xtics ytics lc rgb "#e4e4e4" lt 1 lw 0.8
 set border 3 lc rgb "#6b6b6b"
 set tics nomirror textcolor rgb "#1a1a1a"
@@ -17,7 +17,7 @@ bodies = "'ellipsoid 1:2:4' 'oblate 1:1:0.01' 'cube' 'plate 1:1:0.0001'"
 methods = "'offset sources (0.1)' 'offset sources (0.6)' 'samara hypersingular' 'samara from flat mesh' 'samara from curved mesh' 'samara to a tolerance'"
 array color[6] = ["#b0b0b0", "#7a7a7a", "#2a7f8e", "#d98c1f", "#c0392b", "#5b3a8e"]
 
-set multiplot layout 1, 4 margins 0.05, 0.99, 0.23, 0.92 spacing 0.035
+set multiplot layout 1, 4 margins 0.06, 0.985, 0.23, 0.92 spacing 0.035
 do for [b = 1:4] {
   body = word(bodies, b)
   set title body

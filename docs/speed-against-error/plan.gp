@@ -3,7 +3,7 @@ set terminal pngcairo size 1900, 1050 font "DejaVu Sans,14" linewidth 1.6
 set output picture
 set datafile separator ","
 set logscale xy
-set xrange [4:2000]
+set xrange [4:4000]
 set yrange [0.05:200]
 set grid xtics ytics lc rgb "#e4e4e4" lt 1 lw 0.8
 set border 3 lc rgb "#6b6b6b"
@@ -17,12 +17,13 @@ do for [b = 1:6] {
   set title word(bodies, b)
   set xlabel (b > 3 ? "CPU seconds of the bake" : "")
   set ylabel (b % 3 == 1 ? "worst measure off by, %" : "")
-  if (b == 5) { set key at screen 0.5, 0.01 center bottom maxrows 1 width 2 samplen 3 } else { set key off }
+  if (b == 5) { set key at screen 0.5, 0.01 center bottom maxrows 1 width -2 samplen 3 } else { set key off }
   plot rows using (strcol(1) eq word(bodies, b) && strcol(2) ne "plan" ? $6 : NaN):(floored(column("worst"))) \
          with linespoints lc rgb "#2a7f8e" pt 7 ps 1.4 title "uniform grid, after symmetry", \
        rows using (strcol(1) eq word(bodies, b) && strcol(2) ne "plan" ? $6 * $4 / $3 : NaN):(floored(column("worst"))) \
          with linespoints lc rgb "#9a9a9a" dt 2 pt 6 ps 1.2 title "uniform grid without symmetry", \
-       rows using (strcol(1) eq word(bodies, b) && strcol(2) eq "plan" ? $6 : NaN):(floored(column("worst"))):(2 * floored(column("worst_chance"))) \
+       rows using (strcol(1) eq word(bodies, b) && strcol(2) eq "plan" ? $6 : NaN):(floored(column("worst"))): \
+           (floored(column("worst") - 2 * column("worst_chance"))):(floored(column("worst") + 2 * column("worst_chance"))) \
          with yerrorbars lc rgb "#c0392b" pt 5 ps 2 lw 2 title "what the scene needs, with twice its chance"
 }
 unset multiplot

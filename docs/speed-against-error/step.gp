@@ -5,8 +5,8 @@ set datafile separator ","
 set logscale xy
 set format x "10^{%T}"
 set format y "10^{%T}"
-set yrange [1e-10:10]
-set ytics 1e-10, 100
+set yrange [5e-13:10]
+set ytics 1e-12, 100
 set grid xtics ytics lc rgb "#e4e4e4" lt 1 lw 0.8
 set border 3 lc rgb "#6b6b6b"
 set tics nomirror textcolor rgb "#1a1a1a"
@@ -17,7 +17,7 @@ methods = "'explicit Euler' 'Runge-Kutta 4' 'samara reference' 'samara implicit'
 array color[4] = ["#b0b0b0", "#7a7a7a", "#2a7f8e", "#c0392b"]
 array mark[4] = [4, 8, 6, 7]
 
-set multiplot layout 2, 5 rowsfirst margins 0.045, 0.992, 0.125, 0.955 spacing 0.034, 0.12
+set multiplot layout 2, 5 rowsfirst margins 0.05, 0.992, 0.125, 0.945 spacing 0.034, 0.12
 do for [r = 1:2] {
   do for [b = 1:5] {
     body = word(bodies, b)

@@ -10,13 +10,14 @@
 
 #include "commands/body_report.hpp"
 #include "commands/commands.hpp"
-#include "samara/base/content_hash.hpp"
+#include "internal/base/content_hash.hpp"
+#include "internal/base/vector_json.hpp"
+#include "internal/command/arguments.hpp"
+#include "internal/command/print.hpp"
+#include "internal/files/hdf5_reader.hpp"
+#include "internal/files/replace_file.hpp"
 #include "samara/base/error.hpp"
-#include "samara/base/vector_json.hpp"
 #include "samara/body/body_file.hpp"
-#include "samara/command/arguments.hpp"
-#include "samara/files/hdf5_file.hpp"
-#include "samara/files/replace_file.hpp"
 #include "samara/scene/ready_bodies.hpp"
 
 namespace samara {
@@ -99,24 +100,24 @@ std::string size_in_words(const nlohmann::json& extents) {
 
 void print_list(const nlohmann::json& result) {
     constexpr const char* row = "{:<11}{:<15}{:<20}{:<7}{:<19}{:<10}{:>6}  {}\n";
-    fmt::print(fmt::runtime(row), "name", "shape", "size (mm)", "fluid", "Reynolds numbers", "quality",
-               "force", "for");
+    print_result(fmt::runtime(row), "name", "shape", "size (mm)", "fluid", "Reynolds numbers", "quality",
+                 "force", "for");
     for (const nlohmann::json& body : result["bodies"]) {
         const std::string error = body["force_error"].is_null()
                                       ? "-"
                                       : fmt::format("{:.0f} %", 100.0 * body["force_error"].get<double>());
-        fmt::print(fmt::runtime(row), body["name"].get<std::string>(), body["shape"].get<std::string>(),
-                   size_in_words(body["extents"]), text_or_dash(body["fluid"]),
-                   numbers_in_words(body["reynolds_numbers"]), text_or_dash(body["quality"]), error,
-                   text_or_dash(body["purpose"]));
+        print_result(fmt::runtime(row), body["name"].get<std::string>(), body["shape"].get<std::string>(),
+                     size_in_words(body["extents"]), text_or_dash(body["fluid"]),
+                     numbers_in_words(body["reynolds_numbers"]), text_or_dash(body["quality"]), error,
+                     text_or_dash(body["purpose"]));
     }
     if (result["bodies"].empty()) {
-        fmt::print("There are none in {}\n", result["folder"].get<std::string>());
+        print_result("There are none in {}\n", result["folder"].get<std::string>());
         return;
     }
     const nlohmann::json& missing = result["not_baked"];
     if (!missing.empty()) {
-        fmt::print("Not baked yet: {}\n", fmt::join(missing.get<std::vector<std::string>>(), ", "));
+        print_result("Not baked yet: {}\n", fmt::join(missing.get<std::vector<std::string>>(), ", "));
     }
 }
 
@@ -148,7 +149,7 @@ nlohmann::json one(const std::string& name, const std::string& output, bool quie
     }
     replace_file_with(output, read_bytes(file));
     result["output"] = output;
-    if (!quiet) fmt::print("{}: a copy of {}\n", output, file.string());
+    if (!quiet) print_result("{}: a copy of {}\n", output, file.string());
     return result;
 }
 

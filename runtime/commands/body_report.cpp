@@ -10,14 +10,15 @@
 
 #include "commands/provenance_summary.hpp"
 #include "commands/table_errors_report.hpp"
-#include "samara/base/vector_json.hpp"
+#include "internal/base/vector_json.hpp"
+#include "internal/command/print.hpp"
 
 namespace samara {
 namespace {
 
 template <typename... Values>
 void print_row(const char* name, fmt::format_string<Values...> format, Values&&... values) {
-    fmt::print("  {:<26}{}\n", name, fmt::format(format, std::forward<Values>(values)...));
+    print_result("  {:<26}{}\n", name, fmt::format(format, std::forward<Values>(values)...));
 }
 
 std::string in_words(const Vector3d& vector) {
@@ -75,7 +76,7 @@ int direction_count(const LoadTables& tables) {
 }
 
 void print_kirchhoff(const KirchhoffTensor& kirchhoff) {
-    fmt::print("Kirchhoff tensor (fluid of 1 kg/m^3, about the centroid, shape axes)\n");
+    print_result("Kirchhoff tensor (fluid of 1 kg/m^3, about the centroid, shape axes)\n");
     print_row("added inertia", "{} kg m^2", in_words(Vector3d(kirchhoff.matrix.diagonal().head<3>())));
     print_row("added mass", "{} kg", in_words(Vector3d(kirchhoff.matrix.diagonal().tail<3>())));
     print_row("error estimate", "{:.2g} %, asymmetry {:.2g} %", 100.0 * kirchhoff.error_estimate,
@@ -87,19 +88,19 @@ void print_table_errors(const LoadTables& tables) {
     if (tables.error_sources.empty()) {
         print_row("standard errors hold", "{}", error_sources_in_words(tables));
     } else {
-        fmt::print("  {:<26}{:>10}{:>10}{:>10}{:>10}\n", "standard error (rms) from", "force", "moment", "k",
-                   "epsilon");
+        print_result("  {:<26}{:>10}{:>10}{:>10}{:>10}\n", "standard error (rms) from", "force", "moment",
+                     "k", "epsilon");
     }
     for (const ErrorShare& share : tables.error_sources) {
-        fmt::print("    {:<24}{:>8.2g} %{:>8.2g} %{:>8.2g} %{:>8.2g} %\n", name_of(share.source),
-                   100.0 * share.force, 100.0 * share.moment, 100.0 * share.turbulent_kinetic_energy,
-                   100.0 * share.dissipation_rate);
+        print_result("    {:<24}{:>8.2g} %{:>8.2g} %{:>8.2g} %{:>8.2g} %\n", name_of(share.source),
+                     100.0 * share.force, 100.0 * share.moment, 100.0 * share.turbulent_kinetic_energy,
+                     100.0 * share.dissipation_rate);
     }
     for (const LeftOutCase& one : tables.left_out) print_row("left out", "{}: {}", one.name, one.reason);
 }
 
 void print_tables(const LoadTables& tables) {
-    fmt::print("Tables\n");
+    print_result("Tables\n");
     print_row("quality", "{}", tables.quality);
     print_row("reference length L", "{:.6g} m", tables.reference_length);
     std::string reynolds_numbers;
@@ -130,7 +131,7 @@ void print_tensor(const char* name, const char* unit, const Matrix3d& tensor, co
 
 void print_dynamic(const IdentifiedCoefficients& dynamic) {
     const auto& [values, errors] = dynamic;
-    fmt::print("Dynamic coefficients, +- standard errors (body axes, about the centroid)\n");
+    print_result("Dynamic coefficients, +- standard errors (body axes, about the centroid)\n");
     print_row("origin", "{}", values.origin);
     for (const NumberOfMotion& number : numbers_of_motion) {
         print_row(number.title, "{:.3g} +- {:.2g}", values.*number.member, errors.*number.member);
@@ -141,22 +142,11 @@ void print_dynamic(const IdentifiedCoefficients& dynamic) {
     print_row("half-length", "{:.6g} m", values.half_length);
 }
 
-template <typename Matrix>
-nlohmann::json rows_of(const Matrix& matrix) {
-    nlohmann::json rows;
-    for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
-        std::vector<double> values;
-        for (Eigen::Index column = 0; column < matrix.cols(); ++column) values.push_back(matrix(row, column));
-        rows.push_back(values);
-    }
-    return rows;
-}
-
 nlohmann::json numbers_as_json(const DynamicCoefficients& numbers) {
     nlohmann::json json;
     for (const NumberOfMotion& number : numbers_of_motion) json[number.name] = numbers.*number.member;
     for (const TensorOfMotion& tensor : tensors_of_motion)
-        json[tensor.name] = rows_of(numbers.*tensor.member);
+        json[tensor.name] = rows_as_json(numbers.*tensor.member);
     return json;
 }
 
@@ -217,7 +207,7 @@ Vector3d principal_extents(const Body& body) {
 
 void print_body(const Body& body) {
     const VolumeMoments& moments = body.moments;
-    fmt::print("Body {} (metres, shape axes)\n", body.name);
+    print_result("Body {} (metres, shape axes)\n", body.name);
     print_row("source", "{}", body.source);
     print_row("surface", "{} triangles of order {}, {} vertices", body.surface.triangle_count(),
               body.surface.order(), body.surface.vertices.size());
@@ -229,17 +219,17 @@ void print_body(const Body& body) {
     if (body.kirchhoff) {
         print_kirchhoff(*body.kirchhoff);
     } else {
-        fmt::print("No Kirchhoff tensor: 'samara kirchhoff' adds it\n");
+        print_result("No Kirchhoff tensor: 'samara kirchhoff' adds it\n");
     }
     if (body.tables) {
         print_tables(*body.tables);
     } else {
-        fmt::print("No tables: 'samara bake' adds them\n");
+        print_result("No tables: 'samara bake' adds them\n");
     }
     if (body.dynamic) {
         print_dynamic(*body.dynamic);
     } else {
-        fmt::print("No dynamic coefficients: 'samara simulate' uses defaults\n");
+        print_result("No dynamic coefficients: 'samara simulate' uses defaults\n");
     }
 }
 
@@ -262,7 +252,7 @@ nlohmann::json body_as_json(const Body& body) {
     };
     if (body.symmetry.kind == Symmetry::Kind::axial) result["symmetry"]["axis"] = as_json(body.symmetry.axis);
     if (body.kirchhoff) {
-        result["kirchhoff"] = {{"added_mass", rows_of(body.kirchhoff->matrix)},
+        result["kirchhoff"] = {{"added_mass", rows_as_json(body.kirchhoff->matrix)},
                                {"error_estimate", body.kirchhoff->error_estimate},
                                {"asymmetry", body.kirchhoff->asymmetry},
                                {"triangles", body.kirchhoff->triangles},

@@ -25,4 +25,7 @@ int compare_command(int argc, const char* const* argv);
 /// samara info: what a file holds.
 int info_command(int argc, const char* const* argv);
 
+/// samara check: whether a file from elsewhere is sound.
+int check_command(int argc, const char* const* argv);
+
 }  // namespace samara

@@ -8,12 +8,14 @@
 
 #include "commands/commands.hpp"
 #include "commands/motion_choice.hpp"
+#include "internal/command/arguments.hpp"
+#include "internal/command/print.hpp"
+#include "internal/command/progress.hpp"
+#include "internal/comparison/comparison_report.hpp"
+#include "internal/motion/file_check.hpp"
+#include "internal/plot/comparison_plot.hpp"
+#include "internal/plot/gnuplot.hpp"
 #include "samara/base/error.hpp"
-#include "samara/command/arguments.hpp"
-#include "samara/command/progress.hpp"
-#include "samara/motion/comparison_report.hpp"
-#include "samara/plot/comparison_plot.hpp"
-#include "samara/plot/gnuplot.hpp"
 
 namespace samara {
 namespace {
@@ -92,6 +94,8 @@ nlohmann::json run(const Request& request, const Arguments& arguments) {
     ComparisonSettings settings = request.settings;
     settings.window = window_of_words(request.window);
     if (!request.output.empty()) require_picture_format(request.output);
+    check_before_reading(request.motion);
+    check_before_reading(request.reference);
     const MotionReader motion(request.motion);
     const MotionReader reference(request.reference);
     const std::string body = common_body(request, motion.motion(), reference.motion());
@@ -101,13 +105,13 @@ nlohmann::json run(const Request& request, const Arguments& arguments) {
     Progress progress("measuring", "falls");
     const Comparison comparison = compare(compared, held_against, settings,
                                           [&](double done, double total) { progress.update(done, total); });
-    if (!arguments.json()) fmt::print("{}", as_text(comparison));
+    if (!arguments.json()) print_result("{}", as_text(comparison));
     nlohmann::json result = as_json(comparison);
     if (!request.output.empty()) {
         plot_comparison(request.output, comparison, std::filesystem::path(request.motion).filename(),
                         std::filesystem::path(request.reference).filename());
         result["output"] = request.output;
-        if (!arguments.json()) fmt::print("picture: {}\n", request.output);
+        if (!arguments.json()) print_result("picture: {}\n", request.output);
     }
     result["motion"]["file"] = request.motion;
     result["reference"]["file"] = request.reference;
@@ -118,7 +122,6 @@ nlohmann::json run(const Request& request, const Arguments& arguments) {
 
 int compare_command(int argc, const char* const* argv) {
     Request request;
-    Tolerances& tolerances = request.settings.tolerances;
     Arguments arguments("samara compare", "Holds a motion against a reference, such as a fall by full CFD.");
     constexpr int most = 1'000'000'000;
     arguments.positional("MOTION", request.motion, "motion file, from 'samara simulate'");
@@ -137,10 +140,14 @@ int compare_command(int argc, const char* const* argv) {
                      most);
     arguments.option("--reference-copy", request.reference_copy, "the reference's copy; all by default", 0,
                      most);
-    arguments.option("--descent-tolerance", tolerances.descent_speed, "of the descent speed", 0.0, 1e3);
-    arguments.option("--frequency-tolerance", tolerances.frequency, "of the frequency", 0.0, 1e3);
-    arguments.option("--amplitude-tolerance", tolerances.inclination_amplitude,
-                     "of the amplitude; one degree is always allowed", 0.0, 1e3);
+    for (const Figure figure : compared_figures) {
+        const CataloguedFigure& entry = catalogued(figure);
+        const std::string always = entry.allowed.always_words;
+        arguments.option(fmt::format("--{}-tolerance", entry.heading), request.settings.tolerances[figure],
+                         fmt::format("of the {}{}", entry.title,
+                                     always.empty() ? "" : fmt::format("; {} is always allowed", always)),
+                         0.0, 1e3);
+    }
     arguments.footer(footer);
     return run_program(argc, argv, arguments, [&] { return run(request, arguments); });
 }

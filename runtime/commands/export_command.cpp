@@ -10,16 +10,18 @@
 
 #include "commands/commands.hpp"
 #include "commands/motion_choice.hpp"
+#include "internal/command/arguments.hpp"
+#include "internal/command/print.hpp"
+#include "internal/command/progress.hpp"
+#include "internal/motion/file_check.hpp"
+#include "internal/motion/resample.hpp"
 #include "samara/base/error.hpp"
-#include "samara/command/arguments.hpp"
-#include "samara/command/progress.hpp"
 #include "samara/export/chan_file.hpp"
 #include "samara/export/csv_file.hpp"
 #include "samara/export/gltf_file.hpp"
 #include "samara/export/page_file.hpp"
 #include "samara/export/usd_file.hpp"
 #include "samara/motion/motion_file.hpp"
-#include "samara/motion/resample.hpp"
 
 namespace samara {
 namespace {
@@ -109,6 +111,7 @@ nlohmann::json export_motion(const ExportOptions& options) {
         throw Error(fmt::format("{}: --tolerance is for .glb and .usda; other formats have every frame",
                                 options.output));
     }
+    check_before_reading(options.input);
     Motion motion = read_motion_file(options.input);
     require_run(options.input, motion, options.run.value_or(0));
     if (options.frame_rate) motion = resampled(motion, *options.frame_rate);
@@ -143,8 +146,8 @@ void print_summary(const nlohmann::json& result) {
         const std::size_t count = result["files"].size();
         counts += fmt::format("{} file{}, ", count, count == 1 ? "" : "s");
     }
-    fmt::print("{}: {}{} frames, {} bytes\n", result["output"].get<std::string>(), counts,
-               result["frames"].get<int>(), result["bytes"].get<std::uintmax_t>());
+    print_result("{}: {}{} frames, {} bytes\n", result["output"].get<std::string>(), counts,
+                 result["frames"].get<int>(), result["bytes"].get<std::uintmax_t>());
 }
 
 }  // namespace

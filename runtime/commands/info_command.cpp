@@ -11,12 +11,14 @@
 #include "commands/commands.hpp"
 #include "commands/table_lookup_report.hpp"
 #include "commands/vector_words.hpp"
+#include "internal/command/arguments.hpp"
+#include "internal/command/print.hpp"
+#include "internal/command/progress.hpp"
+#include "internal/files/hdf5_reader.hpp"
+#include "internal/motion/description.hpp"
+#include "internal/motion/file_check.hpp"
 #include "samara/base/error.hpp"
 #include "samara/body/body_file.hpp"
-#include "samara/command/arguments.hpp"
-#include "samara/command/progress.hpp"
-#include "samara/files/hdf5_file.hpp"
-#include "samara/motion/description.hpp"
 #include "samara/motion/motion_file.hpp"
 
 namespace samara {
@@ -33,26 +35,20 @@ nlohmann::json report_motion(const std::string& path, bool json) {
     Progress progress("measuring", "poses");
     const std::vector<BodyMeasures> measures =
         measure_file(file, 0, [&](double done, double total) { progress.update(done, total); });
-    if (!json) fmt::print("{}", describe_motion_text(file.motion(), measures));
+    if (!json) print_result("{}", describe_motion_text(file.motion(), measures));
     return describe_motion(file.motion(), measures);
 }
 
-/// A kind of file, known by a group that it alone has.
-struct FileKind {
-    const char* group;
-    nlohmann::json (*report)(const std::string& path, bool json);
-};
-
-constexpr FileKind file_kinds[] = {
-    {"/surface", report_body},
-    {"/bodies", report_motion},
-};
-
 nlohmann::json report(const std::string& path, bool json) {
-    for (const FileKind& kind : file_kinds) {
-        if (Hdf5Reader(path).has(kind.group)) return kind.report(path, json);
+    check_before_reading(path);
+    const Hdf5Reader file(path);
+    if (!file.has("/surface") && !file.has("/bodies")) {
+        throw Error(fmt::format("{}: is an HDF5 file, but neither a body nor a motion of samara's", path));
     }
-    throw Error(fmt::format("{}: is an HDF5 file, but neither a body nor a motion of samara's", path));
+    nlohmann::json result = file.has("/surface") ? report_body(path, json) : report_motion(path, json);
+    result["digest"] = file.has_digest();
+    if (!json && !file.has_digest()) print_result("without a digest of its content\n");
+    return result;
 }
 
 Vector3d parse_direction(const std::string& text) {
@@ -66,6 +62,7 @@ Vector3d parse_direction(const std::string& text) {
 nlohmann::json report_lookup(const std::string& path, const std::string& words, double reynolds_number,
                              bool json) {
     const Vector3d direction = parse_direction(words);
+    check_before_reading(path);
     const Body body = read_body_file(path);
     if (!body.tables) throw Error(fmt::format("{}: has no tables; make them with 'samara bake'", path));
     const double at = reynolds_number > 0.0 ? reynolds_number : body.tables->reynolds_numbers.back();

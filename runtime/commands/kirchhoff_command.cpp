@@ -11,12 +11,14 @@
 
 #include "commands/commands.hpp"
 #include "commands/vector_words.hpp"
+#include "internal/base/labelled.hpp"
+#include "internal/base/vector_json.hpp"
+#include "internal/command/arguments.hpp"
+#include "internal/command/load_body.hpp"
+#include "internal/command/print.hpp"
+#include "internal/command/progress.hpp"
 #include "samara/base/error.hpp"
-#include "samara/base/vector_json.hpp"
 #include "samara/body/body_file.hpp"
-#include "samara/command/arguments.hpp"
-#include "samara/command/load_body.hpp"
-#include "samara/command/progress.hpp"
 #include "samara/kirchhoff/kirchhoff_solver.hpp"
 
 namespace samara {
@@ -44,28 +46,18 @@ Vector3d parse_point(const std::string& text) {
 void print_matrix(const Matrix6d& matrix) {
     constexpr const char* columns[] = {"omega_x", "omega_y", "omega_z", "v_x", "v_y", "v_z"};
     constexpr const char* rows[] = {"l_x", "l_y", "l_z", "p_x", "p_y", "p_z"};
-    fmt::print("     ");
-    for (const char* column : columns) fmt::print("{:>13}", column);
-    fmt::print("\n");
+    print_result("     ");
+    for (const char* column : columns) print_result("{:>13}", column);
+    print_result("\n");
     for (int row = 0; row < 6; ++row) {
-        fmt::print("  {}", rows[row]);
-        for (int column = 0; column < 6; ++column) fmt::print("{:>13.5g}", matrix(row, column));
-        fmt::print("\n");
+        print_result("  {}", rows[row]);
+        for (int column = 0; column < 6; ++column) print_result("{:>13.5g}", matrix(row, column));
+        print_result("\n");
     }
 }
 
 std::string in_words(const Vector3d& point) {
     return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", point.x(), point.y(), point.z());
-}
-
-nlohmann::json rows(const Matrix6d& matrix) {
-    nlohmann::json rows;
-    for (int row = 0; row < 6; ++row) {
-        nlohmann::json values;
-        for (int column = 0; column < 6; ++column) values.push_back(matrix(row, column));
-        rows.push_back(values);
-    }
-    return rows;
 }
 
 KirchhoffTensor solve(const Body& body, const Request& request) {
@@ -74,11 +66,7 @@ KirchhoffTensor solve(const Body& body, const Request& request) {
     options.threads = request.threads;
     options.tolerance = request.tolerance;
     options.progress = [&](double share) { progress.update(100.0 * share, 100.0); };
-    try {
-        return kirchhoff_tensor(body.surface, body.moments, options);
-    } catch (const Error& fault) {
-        throw Error(fmt::format("{}: {}", request.file, fault.what()));
-    }
+    return labelled(request.file, [&] { return kirchhoff_tensor(body.surface, body.moments, options); });
 }
 
 bool within_tolerance(const Body& body, const Request& request) {
@@ -116,19 +104,20 @@ Body solved_body(const Request& request) {
 void print_text(const Body& body, const Matrix6d& matrix, const std::optional<Vector3d>& about,
                 double seconds) {
     const KirchhoffTensor& kirchhoff = *body.kirchhoff;
-    fmt::print("{}: added mass (Kirchhoff tensor) for a fluid of density 1 kg/m^3\n\n", body.name);
+    print_result("{}: added mass (Kirchhoff tensor) for a fluid of density 1 kg/m^3\n\n", body.name);
     print_matrix(matrix);
-    fmt::print("\n  {:<16}kg m^2 (l of omega), kg m (l of v, p of omega), kg (p of v)\n", "units");
-    fmt::print("  {:<16}l, p: angular and linear momentum; omega, v: angular velocity, velocity\n", "order");
-    fmt::print("  {:<16}of the shape file\n", "axes");
-    fmt::print("  {:<16}{}{}\n", "reference point", in_words(about.value_or(body.moments.centroid)),
-               about ? "" : ", the centroid of the volume");
-    fmt::print("  {:<16}{:.6g} m^3, centroid {}\n", "volume", body.moments.volume,
-               in_words(body.moments.centroid));
-    fmt::print("  {:<16}{:.2g} % (estimate), asymmetry {:.2g} %\n", "error", 100.0 * kirchhoff.error_estimate,
-               100.0 * kirchhoff.asymmetry);
-    fmt::print("  {:<16}{}, {} triangles, {:.3g} s\n", "method", kirchhoff.method, kirchhoff.triangles,
-               seconds);
+    print_result("\n  {:<16}kg m^2 (l of omega), kg m (l of v, p of omega), kg (p of v)\n", "units");
+    print_result("  {:<16}l, p: angular and linear momentum; omega, v: angular velocity, velocity\n",
+                 "order");
+    print_result("  {:<16}of the shape file\n", "axes");
+    print_result("  {:<16}{}{}\n", "reference point", in_words(about.value_or(body.moments.centroid)),
+                 about ? "" : ", the centroid of the volume");
+    print_result("  {:<16}{:.6g} m^3, centroid {}\n", "volume", body.moments.volume,
+                 in_words(body.moments.centroid));
+    print_result("  {:<16}{:.2g} % (estimate), asymmetry {:.2g} %\n", "error",
+                 100.0 * kirchhoff.error_estimate, 100.0 * kirchhoff.asymmetry);
+    print_result("  {:<16}{}, {} triangles, {:.3g} s\n", "method", kirchhoff.method, kirchhoff.triangles,
+                 seconds);
 }
 
 nlohmann::json run(const Request& request, bool json) {
@@ -147,7 +136,7 @@ nlohmann::json run(const Request& request, bool json) {
         about ? about_point(body.kirchhoff->matrix, centroid, *about) : body.kirchhoff->matrix;
     if (!json) print_text(body, matrix, about, seconds.count());
     nlohmann::json result = {
-        {"added_mass", rows(matrix)},
+        {"added_mass", rows_as_json(matrix)},
         {"reference_point", as_json(about.value_or(centroid))},
         {"volume", body.moments.volume},
         {"centroid", as_json(centroid)},

@@ -5,15 +5,17 @@
 
 #include "commands/commands.hpp"
 #include "commands/motion_choice.hpp"
+#include "internal/base/vector_json.hpp"
+#include "internal/command/arguments.hpp"
+#include "internal/command/print.hpp"
+#include "internal/motion/description.hpp"
+#include "internal/motion/file_check.hpp"
+#include "internal/plot/gnuplot.hpp"
+#include "internal/plot/landing_plot.hpp"
+#include "internal/plot/motion_plot.hpp"
+#include "internal/plot/phase_plot.hpp"
 #include "samara/base/error.hpp"
-#include "samara/base/vector_json.hpp"
-#include "samara/command/arguments.hpp"
-#include "samara/motion/description.hpp"
 #include "samara/motion/motion_file.hpp"
-#include "samara/plot/gnuplot.hpp"
-#include "samara/plot/landing_plot.hpp"
-#include "samara/plot/motion_plot.hpp"
-#include "samara/plot/phase_plot.hpp"
 
 namespace samara {
 namespace {
@@ -72,6 +74,7 @@ nlohmann::json landing_as_json(const LandingPlot& shown) {
 
 nlohmann::json plot(const PlotOptions& options) {
     require_picture_format(options.output);
+    check_before_reading(options.input);
     const Motion motion = read_motion_file(options.input);
     const BodyMotion& body = find_body(options.input, motion, options.body);
     nlohmann::json result = options.kind == "landing"
@@ -121,7 +124,7 @@ int plot_command(int argc, const char* const* argv) {
             }
         }
         nlohmann::json result = plot(options);
-        if (!arguments.json()) fmt::print("{}\n", in_words(result));
+        if (!arguments.json()) print_result("{}\n", in_words(result));
         return result;
     });
 }

@@ -1,16 +1,19 @@
 // The program `samara`: runs one of its own commands, or the program samara-COMMAND.
 
-#include <cstdio>
+#include <cerrno>
+#include <cstring>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include "commands/commands.hpp"
+#include "internal/command/guarded_program.hpp"
+#include "internal/command/print.hpp"
+#include "internal/command/subprocess.hpp"
+#include "samara/base/error.hpp"
 #include "samara/base/version.hpp"
-#include "samara/command/subprocess.hpp"
 
 namespace {
 
@@ -36,6 +39,7 @@ constexpr Command commands[] = {
     {"compare", "motion held against another, such as a fall by full CFD", samara::compare_command},
     {"validate", "scene -> the same motion by full CFD, to hold the runtime against", nullptr},
     {"info", "what a file holds, its units and its provenance", samara::info_command},
+    {"check", "a file from elsewhere, read in a process of its own: is it sound", samara::check_command},
 };
 
 bool is_installed(const Command& command) {
@@ -43,62 +47,50 @@ bool is_installed(const Command& command) {
 }
 
 void print_help() {
-    fmt::print(
+    samara::print_result(
         "samara: rigid bodies that fall, flutter and tumble through water or air\n\n"
         "Usage: samara COMMAND [options]; 'samara COMMAND --help' tells more\n\n");
     for (const Command& command : commands) {
-        fmt::print("  {:<13}{}{}\n", command.name, command.does,
-                   is_installed(command) ? "" : " (not installed)");
+        samara::print_result("  {:<13}{}{}\n", command.name, command.does,
+                             is_installed(command) ? "" : " (not installed)");
     }
 }
 
 /// For a shell's completion.
 void list_commands() {
     for (const Command& command : commands) {
-        if (is_installed(command)) fmt::print("{}\n", command.name);
+        if (is_installed(command)) samara::print_result("{}\n", command.name);
     }
 }
 
-int run_other_program(const std::string& name, int argc, char** argv) {
+/// Becomes the program; returns only by throwing.
+void run_other_program(const std::string& name, char** argv) {
     const auto program = samara::find_program("samara-" + name);
     if (!program) {
         for (const Command& command : commands) {
-            if (command.name == name) {
-                fmt::print(stderr,
-                           "samara: the program samara-{} is not installed; it belongs to the baking tools "
-                           "(build with SAMARA_BAKING=ON)\n",
-                           name);
-                return 1;
-            }
+            if (command.name != name) continue;
+            throw samara::Error(fmt::format(
+                "the program samara-{} is not installed; it belongs to the baking tools (build with "
+                "SAMARA_BAKING=ON)",
+                name));
         }
-        fmt::print(stderr, "samara: there is no command '{}'; see 'samara --help'\n", name);
-        return 1;
+        throw samara::Error(fmt::format("there is no command '{}'; see 'samara --help'", name));
     }
-    std::vector<char*> words(argv + 1, argv + argc);
-    words.push_back(nullptr);
-    ::execv(program->c_str(), words.data());
-    fmt::print(stderr, "samara: {} cannot be started\n", program->string());
-    return 1;
+    ::execv(program->c_str(), argv + 1);
+    throw samara::Error(fmt::format("{}: cannot be started: {}", program->string(), std::strerror(errno)));
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
     const std::string name = argc > 1 ? argv[1] : "--help";
-    if (name == "--help" || name == "-h" || name == "help") {
-        print_help();
-        return 0;
-    }
-    if (name == "--list-commands") {
-        list_commands();
-        return 0;
-    }
-    if (name == "--version") {
-        fmt::print("samara {}\n", samara::version);
-        return 0;
-    }
     for (const Command& command : commands) {
         if (command.name == name && command.run != nullptr) return command.run(argc - 1, argv + 1);
     }
-    return run_other_program(name, argc, argv);
+    return samara::run_guarded("samara", [&] {
+        if (name == "--help" || name == "-h" || name == "help") return print_help();
+        if (name == "--list-commands") return list_commands();
+        if (name == "--version") return samara::print_result("samara {}\n", samara::version);
+        run_other_program(name, argv);
+    });
 }

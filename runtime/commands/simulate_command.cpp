@@ -1,9 +1,14 @@
 // samara simulate: a scene -> a motion file.
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <csignal>
+#include <map>
 #include <optional>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -11,20 +16,26 @@
 
 #include "commands/commands.hpp"
 #include "commands/table_errors_report.hpp"
-#include "samara/base/content_hash.hpp"
+#include "internal/advice/model_advice.hpp"
+#include "internal/base/content_hash.hpp"
+#include "internal/base/labelled.hpp"
+#include "internal/base/vector_json.hpp"
+#include "internal/command/arguments.hpp"
+#include "internal/command/load_body.hpp"
+#include "internal/command/print.hpp"
+#include "internal/command/progress.hpp"
+#include "internal/dynamics/immersed_body.hpp"
+#include "internal/files/input_file.hpp"
+#include "internal/flight/run_needs.hpp"
+#include "internal/kernel/body_state.hpp"
+#include "internal/motion/description.hpp"
+#include "internal/motion/motion_writer.hpp"
 #include "samara/base/error.hpp"
-#include "samara/base/vector_json.hpp"
 #include "samara/body/body_file.hpp"
-#include "samara/command/arguments.hpp"
-#include "samara/command/load_body.hpp"
-#include "samara/command/progress.hpp"
+#include "samara/flight/simulation.hpp"
 #include "samara/kirchhoff/kirchhoff_solver.hpp"
-#include "samara/motion/description.hpp"
 #include "samara/motion/motion_file.hpp"
-#include "samara/motion/motion_writer.hpp"
 #include "samara/scene/scene_file.hpp"
-#include "samara/simulation/model_advice.hpp"
-#include "samara/simulation/simulation.hpp"
 
 namespace samara {
 namespace {
@@ -45,26 +56,53 @@ extern "C" void note_interrupt(int /*signal*/) {
     interrupted = true;
 }
 
+/// While it lives, what would end the program is noted instead, and the flight ends with a file. A signal
+/// that is ignored, as nohup and a shell's background have it, stays so.
+class NotedInterrupts {
+  public:
+    NotedInterrupts() {
+        struct sigaction noting = {};
+        noting.sa_handler = note_interrupt;
+        noting.sa_flags = SA_RESTART;
+        for (std::size_t i = 0; i < signals.size(); ++i) {
+            ::sigaction(signals[i], nullptr, &before_[i]);
+            if (before_[i].sa_handler != SIG_IGN) ::sigaction(signals[i], &noting, nullptr);
+        }
+    }
+    ~NotedInterrupts() {
+        for (std::size_t i = 0; i < signals.size(); ++i) ::sigaction(signals[i], &before_[i], nullptr);
+    }
+    NotedInterrupts(const NotedInterrupts&) = delete;
+    NotedInterrupts& operator=(const NotedInterrupts&) = delete;
+
+  private:
+    static constexpr std::array signals = {SIGINT, SIGTERM, SIGHUP};
+    std::array<struct sigaction, signals.size()> before_ = {};
+};
+
 /// The file a body of the scene flies with: the baked one where a folder of them is given.
 std::filesystem::path file_of(const SceneBody& scene_body, const std::string& bodies) {
     if (bodies.empty()) return scene_body.shape;
     const auto baked = std::filesystem::path(bodies) / (scene_body.name + ".body.h5");
-    if (!std::filesystem::exists(baked)) {
-        throw Error(fmt::format("{}: there is no such file; bake it with 'samara bake SCENE -o {}'",
-                                baked.string(), bodies));
+    if (const std::string fault = reading_fault(baked); !fault.empty()) {
+        throw Error(
+            fmt::format("{}: {}; bake it with 'samara bake SCENE -o {}'", baked.string(), fault, bodies));
     }
     return baked;
+}
+
+void note(const std::string& text) {
+    print_note("samara simulate: note: {}\n", text);
 }
 
 /// Says where the added mass is too uncertain to trust the motion.
 void warn_of_added_mass(const SceneBody& scene_body, const KirchhoffTensor& kirchhoff) {
     constexpr double doubtful = 0.2;
     if (kirchhoff.error_estimate <= doubtful) return;
-    fmt::print(stderr,
-               "samara simulate: note: the added mass of '{}' may be wrong by {:.0f} % (error estimate): the "
-               "body is "
-               "thin or its mesh coarse\n",
-               scene_body.name, 100.0 * kirchhoff.error_estimate);
+    note(
+        fmt::format("the added mass of '{}' may be wrong by {:.0f} % (error estimate): the body is thin or "
+                    "its mesh coarse",
+                    scene_body.name, 100.0 * kirchhoff.error_estimate));
 }
 
 /// Refuses a body that was baked before its shape was changed.
@@ -75,25 +113,38 @@ void require_same_shape(const std::filesystem::path& file, const Body& body, con
                             file.string(), scene_body.shape.string()));
 }
 
-CastBody cast_body(const SceneBody& scene_body, const std::string& bodies) {
-    const std::filesystem::path file = file_of(scene_body, bodies);
-    // A baked body is in metres already: the scene's scale went into it.
-    CastBody cast{load_body(file, bodies.empty() ? scene_body.scale : 1.0), file_content_hash(file)};
-    if (!bodies.empty()) require_same_shape(file, cast.body, scene_body);
-    if (!scene_body.added_mass) return cast;
-    if (!cast.body.kirchhoff) {
-        cast.body.kirchhoff = kirchhoff_tensor(cast.body.surface, cast.body.moments);
-    }
-    warn_of_added_mass(scene_body, *cast.body.kirchhoff);
-    return cast;
-}
+/// The bodies of a scene: what several have in common is read, meshed and solved once.
+class Casting {
+  public:
+    explicit Casting(std::string folder) : folder_(std::move(folder)) {}
 
-void note(const std::string& text) {
-    fmt::print(stderr, "samara simulate: note: {}\n", text);
-}
+    LoadedBody operator()(const SceneBody& scene_body) {
+        const std::filesystem::path file = file_of(scene_body, folder_);
+        // A baked body is in metres already: the scene's scale went into it.
+        const double scale = folder_.empty() ? scene_body.scale : 1.0;
+        const auto [place, is_new] = known_.try_emplace({file, scale, scene_body.added_mass});
+        if (is_new) place->second = cast(file, scale, scene_body.added_mass);
+        if (!folder_.empty()) require_same_shape(file, *place->second->body, scene_body);
+        if (scene_body.added_mass) warn_of_added_mass(scene_body, *place->second->body->kirchhoff);
+        return *place->second;
+    }
+
+  private:
+    static LoadedBody cast(const std::filesystem::path& file, double scale, bool added_mass) {
+        Body body = load_body(file, scale);
+        if (added_mass && !body.kirchhoff) {
+            body.kirchhoff =
+                labelled(file.string(), [&] { return kirchhoff_tensor(body.surface, body.moments); });
+        }
+        return {std::move(body), file_content_hash(file)};
+    }
+
+    std::string folder_;
+    std::map<std::tuple<std::filesystem::path, double, bool>, std::optional<LoadedBody>> known_;
+};
 
 /// Says where coefficients were held at an end of their tables.
-void warn_of_reynolds_numbers(const SceneBody& scene_body, const Body& body, const FlightReport& report) {
+void warn_of_reynolds_numbers(const SceneBody& scene_body, const Body& body, const BodyReport& report) {
     if (scene_body.loads != Loads::table && scene_body.turbulence != Turbulence::table) return;
     if (scene_body.table_reynolds_number) return;  // as the scene asks
     const double lowest = body.tables->reynolds_numbers.front();
@@ -105,7 +156,7 @@ void warn_of_reynolds_numbers(const SceneBody& scene_body, const Body& body, con
                         "were held",
                         scene_body.name, report.highest_reynolds_number, highest));
     }
-    const double share = share_below_table(report);
+    const double share = report.share_below_table();
     if (scene_body.loads == Loads::table && share > 0.5) {
         note(fmt::format(
             "'{}' moved below half its table's lowest Reynolds number, {:.3g}, for {:.0f} % of its "
@@ -123,11 +174,12 @@ void warn_of_substeps(const SimulationReport& report) {
 }
 
 /// Chooses the models of the bodies that leave them to the advice, and says which; nothing where none does.
-std::optional<ModelAdvice> choose_models(Scene& scene, const std::vector<CastBody>& cast, int threads) {
+std::optional<ModelAdvice> choose_models(Scene& scene, const std::vector<LoadedBody>& cast, int threads) {
     bool any = false;
     for (std::size_t i = 0; i < cast.size(); ++i) {
         if (!scene.bodies[i].models_auto) continue;
-        (void)make_immersed_body(cast[i].body, scene.bodies[i], scene.fluid);  // throws where tables lack
+        (void)make_immersed_body(*cast[i].body, scene.bodies[i], scene.fluid,
+                                 scene.bodies[i].name);  // throws where tables lack
         any = true;
     }
     if (!any) return std::nullopt;
@@ -141,8 +193,20 @@ std::optional<ModelAdvice> choose_models(Scene& scene, const std::vector<CastBod
     return advice;
 }
 
+/// Says what a large run will take, and refuses one that the machine has not the room for.
+RunNeeds judged_needs(const Scene& scene, const Request& request) {
+    constexpr double large = 1e9;
+    const RunNeeds needs = needs_of(scene, request.runs);
+    if (std::max(needs.memory, needs.disk) > large) note("takes about " + in_words(needs));
+    require_room(needs, request.scene, request.output);
+    return needs;
+}
+
 /// Flies the scene into the motion file.
-SimulationReport fly(Simulation& simulation, const std::string& output) {
+SimulationReport fly(const Scene& scene, const std::vector<LoadedBody>& cast, const Request& request) {
+    const std::string& output = request.output;
+    const NotedInterrupts interrupts;
+    Simulation simulation(scene, cast, request.runs, request.threads);
     SimulationReport report;
     write_motion_file(output, simulation.motion(), [&](MotionWriter& writer) {
         Progress progress("simulating", "steps");
@@ -163,15 +227,15 @@ SimulationReport fly(Simulation& simulation, const std::string& output) {
 }
 
 nlohmann::json body_result(const MotionReader& file, std::size_t index, const BodyMeasures& measures,
-                           const FlightReport& report, const std::optional<LoadTables>& tables) {
+                           const BodyReport& report, const std::optional<LoadTables>& tables) {
     const BodyMotion& body = file.motion().bodies[index];
     nlohmann::json result = as_json(measures);
     result["name"] = body.name;
     result["models"] = body.models;
-    result["mean_descent_speed"] = measures.descent_speed;
+    result["mean_descent_speed"] = measures.value(Figure::descent_speed);
     result["final_position"] = as_json(file.poses(index, {}).back().position);
     result["highest_reynolds_number"] = report.highest_reynolds_number;
-    result["share_below_table"] = share_below_table(report);
+    result["share_below_table"] = report.share_below_table();
     result["table_errors"] = table_errors_as_json(tables, report.table_errors);
     return result;
 }
@@ -181,20 +245,18 @@ nlohmann::json run(const Request& request, const Arguments& arguments) {
     if (arguments.given("--seed")) scene.seed = request.seed;
     if (arguments.given("--step")) scene.step = request.step;
 
-    std::vector<CastBody> cast;
-    for (const SceneBody& body : scene.bodies) cast.push_back(cast_body(body, request.bodies));
+    const RunNeeds needs = judged_needs(scene, request);
+
+    std::vector<LoadedBody> cast;
+    Casting casting(request.bodies);
+    for (const SceneBody& body : scene.bodies) cast.push_back(casting(body));
 
     const std::optional<ModelAdvice> advice = choose_models(scene, cast, request.threads);
-    if (advice && !arguments.json()) fmt::print("models = \"auto\" chose:\n{}", as_text(*advice));
+    if (advice && !arguments.json()) print_result("models = \"auto\" chose:\n{}", as_text(*advice));
 
-    std::signal(SIGINT, note_interrupt);
-    std::signal(SIGTERM, note_interrupt);
-    Simulation simulation(scene, cast, request.runs, request.threads);
-    const SimulationReport report = fly(simulation, request.output);
-    std::signal(SIGINT, SIG_DFL);  // the file stands
-    std::signal(SIGTERM, SIG_DFL);
+    const SimulationReport report = fly(scene, cast, request);
     for (std::size_t i = 0; i < cast.size(); ++i) {
-        warn_of_reynolds_numbers(scene.bodies[i], cast[i].body, report.bodies[i]);
+        warn_of_reynolds_numbers(scene.bodies[i], *cast[i].body, report.bodies[i]);
         for (const std::string& warning :
              table_error_warnings(scene.bodies[i].name, report.bodies[i].table_errors)) {
             note(warning);
@@ -208,20 +270,21 @@ nlohmann::json run(const Request& request, const Arguments& arguments) {
         measure_file(file, request.threads, [&](double done, double total) { progress.update(done, total); });
     nlohmann::json bodies = nlohmann::json::array();
     for (std::size_t i = 0; i < measures.size(); ++i) {
-        bodies.push_back(body_result(file, i, measures[i], report.bodies[i], cast[i].body.tables));
+        bodies.push_back(body_result(file, i, measures[i], report.bodies[i], cast[i].body->tables));
         if (arguments.json()) continue;
         const BodyMotion& body = file.motion().bodies[i];
-        fmt::print("{}\n{}  {}\n{}", body.name, as_text(measures[i]), body.models,
-                   table_errors_as_text(cast[i].body.tables, report.bodies[i].table_errors));
+        print_result("{}\n{}  {}\n{}", body.name, as_text(measures[i]), body.models,
+                     table_errors_as_text(cast[i].body->tables, report.bodies[i].table_errors));
     }
     const auto steps = static_cast<double>(report.steps);
     const double nanoseconds = steps > 0.0 ? 1e9 * report.seconds / steps : 0.0;
     if (!arguments.json()) {
-        fmt::print("{} steps in {:.3g} s, {:.0f} ns each -> {}\n", report.steps, report.seconds, nanoseconds,
-                   request.output);
+        print_result("{} steps in {:.3g} s, {:.0f} ns each -> {}\n", report.steps, report.seconds,
+                     nanoseconds, request.output);
     }
     return {{"bodies", bodies},
             {"models", advice ? as_json(*advice) : nlohmann::json(nullptr)},
+            {"needs", {{"memory", needs.memory}, {"disk", needs.disk}}},
             {"frames", report.frames},
             {"steps", report.steps},
             {"implicit_steps", report.implicit_steps},

@@ -7,7 +7,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "samara/body/load_tables.hpp"
-#include "samara/simulation/table_errors_met.hpp"
+#include "samara/flight/table_errors_met.hpp"
 
 namespace samara {
 

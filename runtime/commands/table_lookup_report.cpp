@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "samara/base/vector_json.hpp"
+#include "internal/base/vector_json.hpp"
+#include "internal/command/print.hpp"
 
 namespace samara {
 namespace {
@@ -17,8 +18,8 @@ double drag_error(const LoadEntryError& error, const Vector3d& direction) {
 }
 
 void print_vector(const char* name, const Vector3d& value, const Vector3d& error) {
-    fmt::print("  {:<18}({:.4f}, {:.4f}, {:.4f}) +- ({:.4f}, {:.4f}, {:.4f})\n", name, value.x(), value.y(),
-               value.z(), error.x(), error.y(), error.z());
+    print_result("  {:<18}({:.4f}, {:.4f}, {:.4f}) +- ({:.4f}, {:.4f}, {:.4f})\n", name, value.x(), value.y(),
+                 value.z(), error.x(), error.y(), error.z());
 }
 
 }  // namespace
@@ -26,17 +27,18 @@ void print_vector(const char* name, const Vector3d& value, const Vector3d& error
 void print_lookup(const LoadTables& tables, const Vector3d& direction, double reynolds_number) {
     const LoadEntry entry = look_up(tables, direction, reynolds_number);
     const LoadEntryError error = look_up_error(tables, direction, reynolds_number);
-    fmt::print("moving along ({:.4f}, {:.4f}, {:.4f}) in shape axes at Reynolds number {:.6g}\n",
-               direction.x(), direction.y(), direction.z(), reynolds_number);
-    fmt::print("  {:<18}{:.4f} +- {:.4f}\n", "drag coefficient", drag(entry, direction),
-               drag_error(error, direction));
+    print_result("moving along ({:.4f}, {:.4f}, {:.4f}) in shape axes at Reynolds number {:.6g}\n",
+                 direction.x(), direction.y(), direction.z(), reynolds_number);
+    print_result("  {:<18}{:.4f} +- {:.4f}\n", "drag coefficient", drag(entry, direction),
+                 drag_error(error, direction));
     print_vector("force", entry.force, error.force);
     print_vector("moment", entry.moment, error.moment);
-    fmt::print("  {:<18}{:.5f} +- {:.5f}\n", "k/U^2", entry.turbulent_kinetic_energy,
-               error.turbulent_kinetic_energy);
-    fmt::print("  {:<18}{:.5f} +- {:.5f}\n", "epsilon L/U^3", entry.dissipation_rate, error.dissipation_rate);
-    fmt::print("coefficients on A = pi L^2/4 and L = {:.6g} m, with standard errors\n",
-               tables.reference_length);
+    print_result("  {:<18}{:.5f} +- {:.5f}\n", "k/U^2", entry.turbulent_kinetic_energy,
+                 error.turbulent_kinetic_energy);
+    print_result("  {:<18}{:.5f} +- {:.5f}\n", "epsilon L/U^3", entry.dissipation_rate,
+                 error.dissipation_rate);
+    print_result("coefficients on A = pi L^2/4 and L = {:.6g} m, with standard errors\n",
+                 tables.reference_length);
 }
 
 nlohmann::json lookup_as_json(const LoadTables& tables, const Vector3d& direction, double reynolds_number) {

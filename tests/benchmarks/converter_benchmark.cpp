@@ -7,9 +7,9 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include "converter/case_reduction.hpp"
+#include "converter/cases/case_reduction.hpp"
 #include "converter/gzip.hpp"
-#include "samara/files/temporary_folder.hpp"
+#include "internal/files/temporary_folder.hpp"
 
 namespace samara {
 namespace {

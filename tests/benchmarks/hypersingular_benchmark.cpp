@@ -6,8 +6,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include "samara/kirchhoff/hypersingular.hpp"
-#include "samara/kirchhoff/tensor_error.hpp"
+#include "internal/kirchhoff/operators/hypersingular.hpp"
+#include "internal/kirchhoff/solvers/tensor_error.hpp"
 #include "support/known_bodies.hpp"
 #include "support/test_shapes.hpp"
 

@@ -12,9 +12,9 @@
 
 #include <fmt/format.h>
 
+#include "internal/kirchhoff/solvers/tensor_error.hpp"
 #include "peers/offset_sources.hpp"
 #include "samara/kirchhoff/kirchhoff_solver.hpp"
-#include "samara/kirchhoff/tensor_error.hpp"
 #include "support/exact_bodies.hpp"
 #include "support/test_shapes.hpp"
 

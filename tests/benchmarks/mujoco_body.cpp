@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
+#include "internal/command/load_body.hpp"
 #include "samara/base/error.hpp"
 #include "samara/body/body.hpp"
-#include "samara/command/load_body.hpp"
 
 namespace samara {
 namespace {

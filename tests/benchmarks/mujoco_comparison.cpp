@@ -18,8 +18,8 @@
 #include <fmt/format.h>
 #include <mujoco/mujoco.h>
 
-#include "samara/dynamics/batch.hpp"
-#include "samara/dynamics/step.hpp"
+#include "internal/dynamics/batch.hpp"
+#include "internal/dynamics/step.hpp"
 #include "support/known_bodies.hpp"
 
 namespace samara {

@@ -14,12 +14,12 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "internal/command/arguments.hpp"
+#include "internal/command/progress.hpp"
+#include "internal/comparison/comparison.hpp"
+#include "internal/figures/inclination.hpp"
 #include "mujoco_body.hpp"
 #include "samara/base/error.hpp"
-#include "samara/command/arguments.hpp"
-#include "samara/command/progress.hpp"
-#include "samara/motion/inclination.hpp"
-#include "samara/motion/measures.hpp"
 #include "samara/motion/motion_file.hpp"
 #include "samara/scene/scene_file.hpp"
 
@@ -75,7 +75,7 @@ std::vector<Fall> read_falls(const std::string& folder_or_names, int integrator)
         falls.push_back({file.stem().string(), scene.bodies.front().shape.stem().string(),
                          MujocoBody(scene, reference, integrator),
                          measure(reference, reference.bodies.front()),
-                         has_shortest_axis(reference.bodies.front())});
+                         has_shortest_axis(reference.bodies.front().surface)});
     }
     if (falls.empty()) throw Error(folder_or_names + ": there is no scene with its motion beside it");
     return falls;
@@ -95,16 +95,16 @@ double misfit(const Fall& fall, const FluidCoefficients& coefficients) {
     if (flown.poses.empty()) return worst_loss * figures;
     const Motion motion = fall.body.motion(flown, coefficients);
     const Measures a = measure(motion, motion.bodies.front());
-    const Measures& b = fall.measures;
-    double sum = loss(a.descent_speed - b.descent_speed, 0.1 * std::abs(b.descent_speed));
-    if (!fall.judges_inclination) return sum;
-    sum += loss(a.inclination_amplitude - b.inclination_amplitude, 0.3 * b.inclination_amplitude);
-    if (a.frequency && b.frequency) {
-        sum += loss(*a.frequency - *b.frequency, 0.2 * *b.frequency);
-    } else if (a.frequency || b.frequency) {
-        sum += worst_loss;
+    double sum = 0.0;
+    for (const Figure figure : compared_figures) {
+        const CataloguedFigure& entry = catalogued(figure);
+        if (entry.subject == FigureSubject::inclination && !fall.judges_inclination) continue;
+        const auto is = entry.measured(a);
+        const auto should = entry.measured(fall.measures);
+        if (is && should) sum += loss(*is - *should, usual_tolerances()[figure] * std::abs(*should));
+        if (is.has_value() != should.has_value()) sum += worst_loss;
     }
-    return sum + (a.regime == b.regime ? 0.0 : 1.0);
+    return sum + (fall.judges_inclination && a.regime != fall.measures.regime ? 1.0 : 0.0);
 }
 
 /// A set of coefficients and what each fall misses with it.

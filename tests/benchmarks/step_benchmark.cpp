@@ -2,8 +2,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include "samara/dynamics/batch.hpp"
-#include "samara/dynamics/step.hpp"
+#include "internal/dynamics/batch.hpp"
+#include "internal/dynamics/step.hpp"
 #include "support/known_bodies.hpp"
 
 namespace samara {
@@ -38,6 +38,24 @@ void step_with_tables_and_every_term(benchmark::State& state) {
 // Without gravity: nothing would slow the fall, and the steps would be cut ever finer.
 void step_without_loads(benchmark::State& state) {
     fall(state, test::ideal_ellipsoid(), false, Vector3d::Zero());
+}
+
+/// The same body where it lies on the ground.
+void step_at_rest(benchmark::State& state) {
+    const ImmersedBody body = test::blunt_ellipsoid();
+    const Surroundings surroundings{.ground = 0.0};
+    const Noise noise(1, "rubber", 0, 0);
+    BodyState body_state;
+    body_state.position.z() = 2.0 * body.contact_points.bounding_radius;
+    std::uint64_t step = 0;
+    while (!body_state.at_rest) {
+        body_state = advance(body, surroundings, 0.0, 0.002, body_state, noise, step++).state;
+    }
+    while (state.KeepRunning()) {
+        body_state = advance(body, surroundings, 0.0, 0.002, body_state, noise, step++).state;
+        benchmark::DoNotOptimize(body_state);
+    }
+    state.SetItemsProcessed(state.iterations());
 }
 
 /// Items a second are body-steps; `threads`: 1 or all cores.
@@ -113,6 +131,7 @@ BENCHMARK(step_with_tables_and_noise);
 BENCHMARK(step_with_tables);
 BENCHMARK(step_with_tables_and_every_term);
 BENCHMARK(step_without_loads);
+BENCHMARK(step_at_rest);
 
 }  // namespace
 }  // namespace samara

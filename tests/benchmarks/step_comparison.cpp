@@ -15,8 +15,8 @@
 
 #include <fmt/format.h>
 
+#include "internal/dynamics/reference_step.hpp"
 #include "peers/explicit_steps.hpp"
-#include "samara/dynamics/reference_step.hpp"
 #include "support/hard_bodies.hpp"
 #include "support/known_bodies.hpp"
 

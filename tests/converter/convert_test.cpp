@@ -9,14 +9,15 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "converter/direction_sampling.hpp"
-#include "converter/motion_parameters.hpp"
+#include "converter/falls/motion_parameters.hpp"
+#include "converter/tables/direction_sampling.hpp"
+#include "internal/base/content_hash.hpp"
+#include "internal/body/octahedral_map.hpp"
+#include "internal/command/subprocess.hpp"
 #include "load_laws.hpp"
-#include "samara/base/content_hash.hpp"
+#include "paths.hpp"
 #include "samara/base/error.hpp"
 #include "samara/body/body_file.hpp"
-#include "samara/body/octahedral_map.hpp"
-#include "samara/command/subprocess.hpp"
 #include "solved_folder.hpp"
 #include "support/expect_error.hpp"
 #include "support/known_bodies.hpp"
@@ -272,14 +273,16 @@ TEST_F(Convert, NamesTheCaseThatDiverged) {
 }
 
 TEST_F(Convert, RefusesThrust) {
-    folder_.write("case_00/postProcessing/forces/0/force.dat",
-                  "# Time total_x total_y total_z\n11 1 0 0\n12 1 0 0\n13 1 0 0\n14 1 0 0\n");
+    std::string rows = "# Time total_x total_y total_z\n";
+    for (int i = 1; i <= 20; ++i) rows += fmt::format("{} 1 0 0\n", i);
+    folder_.write("case_00/postProcessing/forces/0/force.dat", rows);
     EXPECT_THAT(fault(), HasSubstr("case_00: diverged: the drag coefficient is -2.546, not positive"));
 }
 
 TEST_F(Convert, RefusesFieldsAndHistoriesOfDifferentRuns) {
-    folder_.write("case_01/postProcessing/shell/0/volFieldValue.dat",
-                  "# Time volAverage(k) volAverage(epsilon)\n17 1 1\n18 1 1\n19 1 1\n20 1 1\n");
+    std::string rows = "# Time volAverage(k) volAverage(epsilon)\n";
+    for (int i = 1; i <= 20; ++i) rows += fmt::format("{} 1 1\n", i);
+    folder_.write("case_01/postProcessing/shell/0/volFieldValue.dat", rows);
     EXPECT_THAT(fault(), HasSubstr("case_01: the mean k over the shell at the time 20 is"));
     EXPECT_THAT(fault(), HasSubstr("they are of different runs"));
 }

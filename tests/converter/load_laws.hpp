@@ -1,6 +1,6 @@
 #pragma once
 
-#include "converter/symmetric_loads.hpp"
+#include "converter/tables/symmetric_loads.hpp"
 
 namespace samara::test {
 

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "converter/direction_sampling.hpp"
-#include "samara/base/content_hash.hpp"
+#include "converter/tables/direction_sampling.hpp"
+#include "internal/base/content_hash.hpp"
 #include "samara/body/body_file.hpp"
 #include "symmetry_groups.hpp"
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "converter/fall_record.hpp"
+#include "converter/falls/fall_record.hpp"
+#include "internal/dynamics/step.hpp"
 #include "samara/body/body.hpp"
-#include "samara/dynamics/step.hpp"
 
 namespace samara::test {
 
@@ -17,8 +17,8 @@ FreeFall oblique_fall(const Body& body, double duration);
 /// loads are not filled in.
 FallRecord flown_record(const Body& body, const FreeFall& fall, const DynamicCoefficients& coefficients);
 
-/// One sample of a fall in the units and axes of its case: converter/falling_body.hpp's states_of the other
-/// way.
+/// One sample of a fall in the units and axes of its case: converter/falls/falling_body.hpp's states_of the
+/// other way.
 FallSample sample_of(const FreeFall& fall, double time, const BodyState& state);
 
 }  // namespace samara::test

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "converter/table_filling.hpp"
+#include "converter/tables/table_filling.hpp"
 
 namespace samara::test {
 

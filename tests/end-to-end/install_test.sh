@@ -22,7 +22,11 @@ grep -q 'built without the page' "$work/fault"
 cmake -S "$source_folder/tests/end-to-end/consumer" -B "$work/consumer" -G Ninja -DCMAKE_PREFIX_PATH="$work/installed" \
   -DEXAMPLES="$source_folder/docs/examples"
 cmake --build "$work/consumer"
-"$work/consumer/consumer"
+"$work/consumer/fall-cpp" "$source_folder/runtime/bodies/leaf.body.h5" | grep -q '3000 steps'
+if [ "$(find "$work/installed/include" -name '*.hpp' | wc -l)" -gt 35 ] || [ -e "$work/installed/include/internal" ]; then
+  echo "more headers are installed than are public" >&2
+  exit 1
+fi
 if "$work/consumer/fall" "$work/missing.body.h5" 2> "$work/fault"; then
   echo "the example flew a body that is not there" >&2
   exit 1

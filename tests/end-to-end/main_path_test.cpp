@@ -10,9 +10,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "samara/base/content_hash.hpp"
+#include "internal/base/content_hash.hpp"
+#include "internal/dynamics/loads.hpp"
+#include "paths.hpp"
 #include "samara/body/body_file.hpp"
-#include "samara/dynamics/loads.hpp"
 #include "samara/scene/scene_file.hpp"
 #include "support/program_run.hpp"
 
@@ -25,7 +26,7 @@ using testing::AnyOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-const std::string shapes = std::string(SAMARA_SOURCE_DIRECTORY) + "/meshes/";
+const std::string shapes = std::string(SAMARA_SOURCE_DIRECTORY) + "/meshes/shapes/";
 
 std::string write_scene(const test::TemporaryFolder& folder, const std::string& shape,
                         const std::string& more = "") {

@@ -29,7 +29,7 @@ dpkg-deb -c "$runtime" | awk '{ print $6 }' >"$work/runtime"
 dpkg-deb -c "$baking" | awk '{ print $6 }' >"$work/baking"
 grep -v '/$' "$work/runtime" | grep -Fxf "$work/baking" && fail "both packages hold these files"
 grep -q 'bin/samara-bake$' "$work/baking" || fail "there is no samara-bake among the baking tools"
-grep -q 'foam-cases/Snakefile$' "$work/baking" || fail "there are no case templates among the baking tools"
+grep -q 'foam-cases/farm/Snakefile$' "$work/baking" || fail "there are no case templates among the baking tools"
 if command -v help2man >/dev/null; then
   grep -q 'man1/samara-simulate\.1$' "$work/runtime" || fail "the runtime has no manual pages"
   grep -q 'man1/samara-bake\.1$' "$work/baking" || fail "the baking tools have no manual pages"

@@ -15,7 +15,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "samara/base/content_hash.hpp"
+#include "internal/base/content_hash.hpp"
+#include "paths.hpp"
 #include "samara/body/body_file.hpp"
 #include "support/program_run.hpp"
 #include "support/temporary_folder.hpp"

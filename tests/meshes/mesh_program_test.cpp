@@ -9,10 +9,11 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "internal/base/content_hash.hpp"
+#include "internal/command/subprocess.hpp"
 #include "meshes/shape_files.hpp"
-#include "samara/base/content_hash.hpp"
+#include "paths.hpp"
 #include "samara/body/body_file.hpp"
-#include "samara/command/subprocess.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_shapes.hpp"
 

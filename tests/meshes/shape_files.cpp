@@ -7,7 +7,8 @@
 #include <fmt/ostream.h>
 #include <gmsh.h>
 
-#include "meshes/gmsh_session.hpp"
+#include "meshes/reading/gmsh_session.hpp"
+#include "paths.hpp"
 
 namespace samara::test {
 namespace {
@@ -63,7 +64,7 @@ void write_with_gmsh(const std::filesystem::path& file, const std::function<void
 }
 
 std::filesystem::path shape_of_samara(const std::string& name) {
-    return std::filesystem::path(SAMARA_SOURCE_DIRECTORY) / "meshes" / name;
+    return std::filesystem::path(SAMARA_SOURCE_DIRECTORY) / "meshes/shapes" / name;
 }
 
 }  // namespace samara::test

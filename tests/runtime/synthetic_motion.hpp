@@ -7,11 +7,12 @@
 #include <string>
 #include <utility>
 
+#include "internal/base/angles.hpp"
 #include "samara/motion/motion.hpp"
 
 namespace samara::test {
 
-inline constexpr double degree = std::numbers::pi / 180.0;
+using samara::degree;
 
 /// A sphere of 20 * 4^levels triangles from an icosahedron, stretched to the semi-axes (m).
 inline Surface ellipsoid_surface(const Vector3d& semi_axes, int levels) {

@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "samara/base/content_hash.hpp"
-#include "samara/command/subprocess.hpp"
+#include "internal/base/content_hash.hpp"
+#include "internal/command/subprocess.hpp"
+#include "paths.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace samara::test {

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "samara/kirchhoff/kirchhoff_solver.hpp"
+#include "samara/physics/body_physics.hpp"
 #include "support/test_shapes.hpp"
 
 namespace samara::test {
@@ -14,8 +15,7 @@ ImmersedBody uniform_body(const Surface& surface, double density, const Fluid& f
     body.surface = surface;
     body.moments = moments_of(surface);
     body.kirchhoff = kirchhoff_tensor(body.surface, body.moments);
-    SceneBody given;
-    given.name = "body";
+    BodyPhysics given;
     given.mass.density = density;
     given.loads = loads;
     given.coefficients.drag_coefficient = 1.2;

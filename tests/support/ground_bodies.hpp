@@ -1,8 +1,8 @@
 #pragma once
 
-#include "samara/dynamics/immersed_body.hpp"
-#include "samara/dynamics/step.hpp"
-#include "samara/dynamics/surroundings.hpp"
+#include "internal/dynamics/immersed_body.hpp"
+#include "internal/dynamics/step.hpp"
+#include "internal/dynamics/surroundings.hpp"
 
 namespace samara::test {
 

@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "samara/body/octahedral_map.hpp"
+#include "internal/body/octahedral_map.hpp"
 #include "support/exact_bodies.hpp"
 #include "support/known_bodies.hpp"
 #include "support/test_shapes.hpp"

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "internal/dynamics/immersed_body.hpp"
+#include "internal/dynamics/step.hpp"
 #include "samara/body/body.hpp"
-#include "samara/dynamics/immersed_body.hpp"
-#include "samara/dynamics/step.hpp"
 #include "samara/scene/scene.hpp"
 
 namespace samara::test {

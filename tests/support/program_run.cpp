@@ -4,8 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "samara/base/content_hash.hpp"
-#include "samara/command/subprocess.hpp"
+#include "internal/base/content_hash.hpp"
+#include "internal/command/subprocess.hpp"
+#include "paths.hpp"
 
 namespace samara::test {
 

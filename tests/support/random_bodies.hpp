@@ -2,8 +2,8 @@
 
 #include <random>
 
-#include "samara/dynamics/immersed_body.hpp"
-#include "samara/dynamics/step.hpp"
+#include "internal/dynamics/immersed_body.hpp"
+#include "internal/dynamics/step.hpp"
 
 namespace samara::test {
 

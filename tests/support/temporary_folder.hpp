@@ -5,7 +5,7 @@
 #include <iterator>
 #include <string_view>
 
-#include "samara/files/temporary_folder.hpp"
+#include "internal/files/temporary_folder.hpp"
 
 namespace samara::test {
 

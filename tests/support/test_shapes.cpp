@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "samara/body/octahedral_map.hpp"
+#include "internal/body/octahedral_map.hpp"
 
 namespace samara::test {
 namespace {
@@ -187,7 +187,7 @@ LoadTables smooth_tables(int subdivisions) {
                 entry.force = -direction * (1.0 + 10.0 / reynolds) + Vector3d(0.1, 0.2, 0.3);
                 entry.moment = direction.cross(Vector3d(1.0, 2.0, 3.0)) * std::log(reynolds);
                 entry.turbulent_kinetic_energy = 0.01 + direction.x() * direction.x();
-                entry.dissipation_rate = 0.02 + direction.y() * direction.z() + 1.0 / reynolds;
+                entry.dissipation_rate = 0.6 + direction.y() * direction.z() + 1.0 / reynolds;
                 tables.entries.push_back(entry);
                 entry.force = 0.01 * entry.force.cwiseAbs();
                 entry.moment = 0.02 * entry.moment.cwiseAbs();
@@ -210,7 +210,7 @@ Body full_body() {
     body.symmetry.axes = Eigen::AngleAxisd(0.3, Vector3d::UnitY()).toRotationMatrix();
     body.symmetry.tolerance = 1e-6;
     KirchhoffTensor kirchhoff;
-    for (int i = 0; i < 36; ++i) kirchhoff.matrix(i / 6, i % 6) = 1.0 / (1.0 + i / 6 + i % 6);
+    for (int i = 0; i < 36; ++i) kirchhoff.matrix(i / 6, i % 6) = 1e-3 / (1.0 + i / 6 + i % 6);
     kirchhoff.error_estimate = 0.0125;
     kirchhoff.asymmetry = 0.001;
     kirchhoff.triangles = 320;

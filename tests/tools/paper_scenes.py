@@ -147,7 +147,7 @@ def rubber(programs, folder, work, docs):
 
 # The paper airplane.
 
-# The dart of meshes/airplane.geo as three flat faces, m, shape axes.
+# The dart of meshes/shapes/airplane.geo as three flat faces, m, shape axes.
 WING = ((0.015, 0.0, 0.0), (0.0415, 0.0261, 0.0046), (0.083, 0.0261, 0.0046), (0.083, 0.0, 0.0))
 FACES = (WING, tuple((x, -y, z) for x, y, z in WING),
          ((0.0, 0.0, -0.015), (0.015, 0.0, 0.0), (0.083, 0.0, 0.0), (0.083, 0.0, -0.015)))

@@ -8,8 +8,8 @@ import json
 import sys
 from pathlib import Path
 
-BEGIN = "<!-- table: written by ./dev report stability -->\n"
-END = "<!-- end of table -->"
+from report_tables import mark, write_tables
+
 HEAD = "| case | step | what is checked | bound | figure |\n|---|---|---|---|---|\n"
 
 
@@ -31,14 +31,10 @@ def main(results, document):
     if failed:
         sys.exit("stability_table.py: not written, since tests failed: " + ", ".join(failed))
     lines = [table_line(row) for test in tests for row in rows_of(test)]
-    text = document.read_text()
-    if BEGIN not in text or END not in text:
-        sys.exit(f"stability_table.py: {document} lacks the marks that hold its table")
-    before, rest = text.split(BEGIN)
-    document.write_text(before + BEGIN + HEAD + "".join(lines) + END + rest.split(END)[1])
+    write_tables(document, [HEAD + "".join(lines)], mark("stability"))
 
 
 if __name__ == "__main__":
     if len(sys.argv) != 3:
         sys.exit(__doc__)
-    main(Path(sys.argv[1]), Path(sys.argv[2]))
+    main(Path(sys.argv[1]), sys.argv[2])

@@ -1,17 +1,21 @@
 #include "samara/body/body_file.hpp"
 
-#include <cmath>
+#include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 
-#include "samara/base/content_hash.hpp"
+#include "internal/base/content_hash.hpp"
+#include "internal/body/body_check.hpp"
+#include "internal/body/dynamic_coefficients_file.hpp"
+#include "internal/body/planned_region_file.hpp"
+#include "internal/body/surface_file.hpp"
+#include "internal/body/table_errors_file.hpp"
+#include "internal/files/hdf5_reader.hpp"
+#include "internal/files/hdf5_writer.hpp"
+#include "internal/files/row_major.hpp"
 #include "samara/base/error.hpp"
 #include "samara/base/version.hpp"
-#include "samara/body/dynamic_coefficients_file.hpp"
-#include "samara/body/planned_region_file.hpp"
-#include "samara/body/surface_file.hpp"
-#include "samara/body/table_errors_file.hpp"
-#include "samara/files/hdf5_file.hpp"
 
 namespace samara {
 namespace {
@@ -77,7 +81,8 @@ KirchhoffTensor read_kirchhoff(const Hdf5Reader& file) {
     kirchhoff.matrix = from_row_major<Matrix6d>(file.finite_doubles("/kirchhoff/added_mass", {6, 6}));
     kirchhoff.error_estimate = file.number_attribute("/kirchhoff", "error_estimate");
     kirchhoff.asymmetry = file.number_attribute("/kirchhoff", "asymmetry");
-    kirchhoff.triangles = static_cast<int>(file.integer_attribute("/kirchhoff", "triangles"));
+    kirchhoff.triangles = static_cast<int>(std::clamp<std::int64_t>(
+        file.integer_attribute("/kirchhoff", "triangles"), -1, std::numeric_limits<int>::max()));
     kirchhoff.method = file.text_attribute("/kirchhoff", "method");
     return kirchhoff;
 }
@@ -126,13 +131,14 @@ void write_entries(Hdf5Writer& file, const LoadTables& tables, std::vector<LoadE
 
 std::vector<LoadEntry> read_entries(const Hdf5Reader& file, const LoadTables& tables, const char* name_end) {
     const auto size = static_cast<hsize_t>(tables.map_size());
-    std::vector<LoadEntry> entries(tables.reynolds_numbers.size() * size * size);
+    std::vector<LoadEntry> entries;
     for (std::size_t column = 0; column < std::size(table_columns); ++column) {
         const auto& [name, components, meaning] = table_columns[column];
         std::vector<hsize_t> dimensions = {tables.reynolds_numbers.size(), size, size};
         if (components > 1) dimensions.push_back(static_cast<hsize_t>(components));
         const std::vector<double> values =
             file.finite_doubles(fmt::format("/tables/{}{}", name, name_end), dimensions);
+        entries.resize(values.size() / static_cast<std::size_t>(components));
         std::size_t next = 0;
         for (LoadEntry& entry : entries) {
             for (int i = 0; i < components; ++i) component(entry, column, i) = values[next++];
@@ -159,14 +165,15 @@ void write_tables(Hdf5Writer& file, const LoadTables& tables) {
 LoadTables read_tables(const Hdf5Reader& file) {
     LoadTables tables;
     tables.reference_length = file.number_attribute("/tables", "reference_length");
-    tables.subdivisions = static_cast<int>(file.integer_attribute("/tables", "subdivisions"));
+    const std::int64_t subdivisions = file.integer_attribute("/tables", "subdivisions");
     tables.quality = file.text_attribute("/tables", "quality");
     tables.axes = from_row_major<Matrix3d>(file.finite_doubles("/tables/axes", {3, 3}));
     tables.reynolds_numbers = file.finite_doubles("/tables/reynolds_number", {0});
     const auto fault = [&](const char* what) {
         return Error(fmt::format("{}: /tables {}; bake the body again", file.path().string(), what));
     };
-    if (tables.subdivisions < 1 || tables.subdivisions > 1024) throw fault("has a map of no sane size");
+    if (subdivisions < 1 || subdivisions > 1024) throw fault("has a map of no sane size");
+    tables.subdivisions = static_cast<int>(subdivisions);
     if (!(tables.reference_length > 0.0)) throw fault("has no positive reference length");
     if (tables.reynolds_numbers.empty() || tables.reynolds_numbers.front() <= 0.0) {
         throw fault("holds no positive Reynolds number");
@@ -182,6 +189,14 @@ LoadTables read_tables(const Hdf5Reader& file) {
     tables.plan = read_planned_region(file);
     tables.provenance = file.text("/tables/provenance");
     return tables;
+}
+
+/// More than the file will take (bytes). HDF5 crashes where it finds no room on the way.
+std::uintmax_t expected_size(const Body& body) {
+    constexpr std::uintmax_t texts_and_small_parts = 4U << 20U;
+    std::uintmax_t bytes = body.surface.vertices.size() * 24 + body.surface.corners.size() * 24;
+    if (body.tables) bytes += body.tables->entries.size() * (sizeof(LoadEntry) + sizeof(LoadEntryError));
+    return 2 * bytes + texts_and_small_parts;
 }
 
 }  // namespace
@@ -206,18 +221,23 @@ Body read_body_file(const std::filesystem::path& path) {
     body.moments.centroid = as_vector(file.finite_doubles("/moments/centroid", {3}));
     body.moments.second_moments =
         from_row_major<Matrix3d>(file.finite_doubles("/moments/second_moments", {3, 3}));
-    if (!(body.moments.volume > 0.0) || !std::isfinite(body.moments.volume)) {
-        throw Error(fmt::format("{}: the volume is not positive; make the file again", path.string()));
-    }
     body.symmetry = read_symmetry(file);
     if (file.has("/kirchhoff")) body.kirchhoff = read_kirchhoff(file);
     if (file.has("/tables")) body.tables = read_tables(file);
     if (file.has("/dynamic_coefficients")) body.dynamic = read_dynamic_coefficients(file);
+    if (const std::string fault = fault_of(body); !fault.empty()) {
+        throw Error(fmt::format("{}: {}; make the file again", path.string(), fault));
+    }
     return body;
 }
 
 void write_body_file(const std::filesystem::path& path, const Body& body) {
     write_hdf5(path, [&](Hdf5Writer& file) {
+        try {
+            file.expect_size(expected_size(body));
+        } catch (const Error& fault) {
+            throw Error(fmt::format("{}: {}; write elsewhere", path.string(), fault.what()));
+        }
         file.attribute("/", "format_version", format_version);
         file.attribute("/", "samara_version", std::string_view(version));
         file.attribute("/", "name", std::string_view(body.name));

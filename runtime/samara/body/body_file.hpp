@@ -7,8 +7,8 @@
 namespace samara {
 
 /// Reads NAME.body.h5 (docs/file-formats). Throws Error where the file is missing, cut short, damaged, of
-/// another kind or from a newer version, or where its content breaks a rule (indices out of range, values
-/// that are not finite).
+/// another kind or from a newer version, or where its content breaks a rule: indices out of range, values
+/// that are not finite, and what no real body can be (body_check.hpp).
 Body read_body_file(const std::filesystem::path& file);
 
 /// Writes NAME.body.h5 whole, through a temporary file: equal bodies give equal bytes. Throws Error.

@@ -5,15 +5,20 @@
 #include <limits>
 #include <numbers>
 
-#include "samara/body/octahedral_map.hpp"
-#include "samara/body/surface_edges.hpp"
+#include "internal/body/octahedral_map.hpp"
+#include "internal/body/surface_edges.hpp"
 
 namespace samara {
 namespace {
 
-constexpr double sharp = 0.6;           // rad between the normals of two faces
-constexpr double smoothing = 0.01;      // of the bounding radius
-constexpr int directions = 512;         // in which corners are looked for
+// An edge is sharp from this angle between the normals of its faces (rad): a prism of up to ten sides (0.63)
+// has edges, one of more is round.
+constexpr double sharp = 0.6;
+// The width over which facets are smoothed, over the bounding radius, and so the most that a round side
+// stands off its place (docs/scene-file.md#ground). The facets of a sphere of 1280 triangles reach 0.4 %
+// inwards.
+constexpr double smoothing = 0.01;
+constexpr int directions = 512;         // in which corners are looked for: 9 degrees apart
 constexpr int subdivisions = 16;        // of the map of round points
 constexpr std::size_t enough = 20'000;  // vertices to smooth a side over
 
@@ -122,7 +127,7 @@ WeightedPoints thinned(const std::vector<Vector3d>& vertices, const std::vector<
 /// The mean of the points near the farthest one, whose reaches along a direction are given, weighted by how
 /// near they are to it and by their area.
 Vector3d smoothed_extreme(const WeightedPoints& points, const Eigen::VectorXd& reaches, double width) {
-    constexpr double vanishing = 12.0;  // widths
+    constexpr double vanishing = 12.0;  // widths, at which the weight is 6e-6
     const double farthest = reaches.maxCoeff();
     const double nearest = farthest - vanishing * width;
     double weights = 0.0;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "samara/body/octahedral_map.hpp"
+#include "internal/body/octahedral_map.hpp"
 
 namespace samara {
 namespace {

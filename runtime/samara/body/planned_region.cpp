@@ -1,6 +1,6 @@
 #include "samara/body/planned_region.hpp"
 
-#include "samara/body/octahedral_map.hpp"
+#include "internal/body/octahedral_map.hpp"
 
 namespace samara {
 bool PlannedRegion::holds(const Vector3d& direction) const noexcept {

@@ -6,9 +6,11 @@
 
 #include <fmt/format.h>
 
+#include "internal/base/angles.hpp"
+#include "internal/base/printable.hpp"
+#include "internal/export/shape_pose.hpp"
+#include "internal/files/replace_file.hpp"
 #include "samara/base/error.hpp"
-#include "samara/export/shape_pose.hpp"
-#include "samara/files/replace_file.hpp"
 
 namespace samara {
 namespace {
@@ -51,10 +53,10 @@ std::string channels(const Motion& motion, const BodyMotion& body, int run, int 
         const Vector3d place = y_up * poses[frame].position;
         angles =
             continued_angles(y_up * poses[frame].orientation.toRotationMatrix() * y_up.transpose(), angles);
-        const Vector3d degrees = angles * (180.0 / std::numbers::pi);
+        const Vector3d in_degrees = angles * degrees;
         fmt::format_to(std::back_inserter(text), "{} {} {} {} {} {} {}\n",
                        std::lround(motion.times[frame] * motion.frame_rate), place.x(), place.y(), place.z(),
-                       degrees.x(), degrees.y(), degrees.z());
+                       in_degrees.x(), in_degrees.y(), in_degrees.z());
     }
     return fmt::to_string(text);
 }
@@ -83,7 +85,7 @@ std::vector<std::filesystem::path> write_chan(const std::filesystem::path& file,
         for (int copy = 0; copy < body.copies; ++copy) {
             std::filesystem::path target = file;
             if (!single) {
-                std::string name = copy_name(body, copy);
+                std::string name = printable(copy_name(body, copy));
                 for (char& letter : name) letter = letter == '/' ? '_' : letter;
                 target.replace_filename(
                     fmt::format("{}_{}{}", file.stem().string(), name, file.extension().string()));

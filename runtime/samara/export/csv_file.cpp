@@ -5,8 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "samara/export/shape_pose.hpp"
-#include "samara/files/replace_file.hpp"
+#include "internal/base/printable.hpp"
+#include "internal/export/shape_pose.hpp"
+#include "internal/files/replace_file.hpp"
 
 namespace samara {
 namespace {
@@ -16,9 +17,12 @@ constexpr const char* column_names =
     "orientation_z,velocity_x,velocity_y,velocity_z,angular_velocity_x,angular_velocity_y,"
     "angular_velocity_z\n";
 
-/// A field of RFC 4180: in quotes where it holds a comma, a quote or a line's end.
-std::string csv_field(const std::string& text) {
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+/// A field of RFC 4180: in quotes where it holds a comma or a quote. An apostrophe before it tells
+/// spreadsheets that a text that begins like a formula is none.
+std::string csv_field(const std::string& name) {
+    std::string text = printable(name);
+    if (text.find_first_of("=+-@") == 0) text.insert(0, 1, '\'');
+    if (text.find_first_of(",\"") == std::string::npos) return text;
     std::string quoted = "\"";
     for (const char letter : text) {
         if (letter == '"') quoted += '"';

@@ -7,12 +7,13 @@
 #include <fmt/format.h>
 #include <tiny_gltf.h>
 
+#include "internal/base/printable.hpp"
+#include "internal/export/key_reduction.hpp"
+#include "internal/export/shaded_mesh.hpp"
+#include "internal/export/shape_pose.hpp"
+#include "internal/files/replace_file.hpp"
 #include "samara/base/error.hpp"
 #include "samara/base/version.hpp"
-#include "samara/export/key_reduction.hpp"
-#include "samara/export/shaded_mesh.hpp"
-#include "samara/export/shape_pose.hpp"
-#include "samara/files/replace_file.hpp"
 
 namespace samara {
 namespace {
@@ -120,7 +121,7 @@ int add_mesh(Builder& builder, const BodyMotion& body, const std::filesystem::pa
     builder.begin_view(TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
     primitive.indices = builder.add_indices(shaded.triangles);
     tinygltf::Mesh mesh;
-    mesh.name = body.name;
+    mesh.name = printable(body.name);
     mesh.primitives.push_back(primitive);
     builder.model().meshes.push_back(mesh);
     return static_cast<int>(builder.model().meshes.size()) - 1;
@@ -129,7 +130,7 @@ int add_mesh(Builder& builder, const BodyMotion& body, const std::filesystem::pa
 /// Returns the node's index.
 int add_node(tinygltf::Model& model, const std::string& name, int mesh, const ShapePose& start) {
     tinygltf::Node node;
-    node.name = name;
+    node.name = printable(name);
     node.mesh = mesh;
     const Vector3d translation = y_up(start.position);
     const Eigen::Vector4d rotation = y_up(start.orientation);

@@ -9,12 +9,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "internal/export/page_bytes.hpp"
+#include "internal/export/shaded_mesh.hpp"
+#include "internal/export/shape_pose.hpp"
+#include "internal/figures/inclination.hpp"
+#include "internal/files/replace_file.hpp"
 #include "samara/base/error.hpp"
-#include "samara/export/page_bytes.hpp"
-#include "samara/export/shaded_mesh.hpp"
-#include "samara/export/shape_pose.hpp"
-#include "samara/files/replace_file.hpp"
-#include "samara/motion/inclination.hpp"
 
 namespace samara {
 namespace {
@@ -94,7 +94,7 @@ void write_body(std::ostream& stream, const Motion& motion, const BodyMotion& bo
     write_array(stream, fmt::format("{}-poses", index), poses_of(motion, body, run));
 }
 
-/// JSON that no "</script>" ends.
+/// JSON in ASCII and without "<": nothing in it ends or opens an element of the page.
 std::string header_of(const Motion& motion, const std::string& title, const std::string& detail) {
     nlohmann::json header = {{"title", title}, {"detail", detail}, {"frame_rate", motion.frame_rate}};
     header["ground"] = motion.ground ? nlohmann::json(*motion.ground) : nlohmann::json(nullptr);
@@ -103,8 +103,8 @@ std::string header_of(const Motion& motion, const std::string& title, const std:
             {{"name", body.name}, {"copies", body.copies}, {"radius", radius_of(body)}});
     }
     std::string text = header.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
-    for (std::size_t at = text.find("</"); at != std::string::npos; at = text.find("</", at)) {
-        text.replace(at, 2, "<\\/");
+    for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) {
+        text.replace(at, 1, "\\u003c");
     }
     return text;
 }

@@ -8,12 +8,12 @@
 
 #include <fmt/format.h>
 
+#include "internal/export/key_reduction.hpp"
+#include "internal/export/shape_pose.hpp"
+#include "internal/export/usd_mesh.hpp"
+#include "internal/files/replace_file.hpp"
 #include "samara/base/error.hpp"
 #include "samara/base/version.hpp"
-#include "samara/export/key_reduction.hpp"
-#include "samara/export/shape_pose.hpp"
-#include "samara/export/usd_mesh.hpp"
-#include "samara/files/replace_file.hpp"
 
 namespace samara {
 namespace {

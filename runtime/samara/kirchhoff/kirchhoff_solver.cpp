@@ -9,14 +9,15 @@
 
 #include <fmt/format.h>
 
+#include "internal/body/curved_surface.hpp"
+#include "internal/body/surface_check.hpp"
+#include "internal/body/welded_surface.hpp"
+#include "internal/kirchhoff/operators/hypersingular.hpp"
+#include "internal/kirchhoff/panels/curved_collocation.hpp"
+#include "internal/kirchhoff/solvers/tensor_error.hpp"
+#include "internal/kirchhoff/surfaces/surface_ladder.hpp"
+#include "internal/kirchhoff/surfaces/thickness.hpp"
 #include "samara/base/error.hpp"
-#include "samara/body/curved_surface.hpp"
-#include "samara/kirchhoff/curved_collocation.hpp"
-#include "samara/kirchhoff/hypersingular.hpp"
-#include "samara/kirchhoff/surface_checks.hpp"
-#include "samara/kirchhoff/surface_ladder.hpp"
-#include "samara/kirchhoff/tensor_error.hpp"
-#include "samara/kirchhoff/thickness.hpp"
 
 namespace samara {
 namespace {
@@ -27,7 +28,7 @@ constexpr double zero_block = 1e-3;
 // A sound surface's solid angles sum up better than this, even where it is very thin; one that overlaps
 // itself is off by 1.
 constexpr double most_closure_fault = 0.05;
-// Of the curved method, whose matrix takes 16 bytes for each pair of triangles.
+// The curved method takes no more: its matrix takes 16 bytes for each pair of triangles.
 constexpr std::size_t most_curved_triangles = 6000;
 constexpr std::size_t most_flat_triangles = 120000;
 // A surface with creases is refined up to this count.
@@ -47,8 +48,8 @@ constexpr double order_curved = 4.0;
 constexpr double order_rebuilt = 2.0;
 constexpr double order_flat = 4.0 / 3.0;
 constexpr double order_at_creases = 0.6;  // where triangles are not graded to them
-// Of the change from the given corners to their refinement: what rebuilt and given curvature, and the luck of
-// extrapolation may leave.
+// Shares of the change from the given corners to their refinement: what rebuilt and given curvature, and the
+// luck of extrapolation may leave.
 constexpr double rebuilt_share = 2.0;
 constexpr double curved_share = 0.03;
 constexpr double least_share = 0.05;
@@ -292,7 +293,8 @@ class Solver {
 
 KirchhoffTensor kirchhoff_tensor(const Surface& given, const VolumeMoments& moments,
                                  const KirchhoffOptions& options) {
-    const Surface surface = sound_surface(given);
+    const Surface surface = welded(given);
+    require_bounding_surface(surface);
     return Solver(surface, moments, options).run();
 }
 

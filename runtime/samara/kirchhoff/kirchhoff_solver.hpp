@@ -34,9 +34,9 @@ struct KirchhoffOptions {
 /// the elements and the surface's curvature; it cannot see details that the given triangles leave out of the
 /// body. 1: nothing is known.
 ///
-/// Throws Error, without a file name, where the surface is empty, turned inside out, open, has flipped,
-/// repeated, overlapping or degenerate triangles or a cavity. A tolerance out of reach of the surface's
-/// triangles shows in error_estimate alone.
+/// Throws Error, without a file name, where the surface is no body's: empty, inside out, open, with turned,
+/// repeated, overlapping or degenerate triangles, sheets that touch or a cavity. A tolerance out of reach of
+/// the surface's triangles shows in error_estimate alone.
 KirchhoffTensor kirchhoff_tensor(const Surface& surface, const VolumeMoments& moments,
                                  const KirchhoffOptions& options = {});
 

@@ -2,17 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
+#include "internal/base/angles.hpp"
+#include "internal/figures/inclination.hpp"
 #include "samara/base/error.hpp"
-#include "samara/motion/inclination.hpp"
 
 namespace samara {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
 constexpr double rest_share = 1e-6;
 constexpr double touching = 1e-3;
 constexpr double steady_range = 5.0 * degree;

@@ -6,10 +6,12 @@
 
 #include <fmt/format.h>
 
+#include "internal/body/surface_file.hpp"
+#include "internal/files/hdf5_reader.hpp"
+#include "internal/files/row_major.hpp"
+#include "internal/motion/motion_rules.hpp"
+#include "internal/motion/motion_writer.hpp"
 #include "samara/base/error.hpp"
-#include "samara/body/surface_file.hpp"
-#include "samara/motion/motion_rules.hpp"
-#include "samara/motion/motion_writer.hpp"
 
 namespace samara {
 namespace {
@@ -77,23 +79,27 @@ bool holds_motion(const Hdf5Reader& file) {
 
 }  // namespace
 
-MotionReader::MotionReader(const std::filesystem::path& path) : file_(path) {
-    if (!holds_motion(file_)) {
+MotionReader::~MotionReader() = default;
+MotionReader::MotionReader(MotionReader&&) noexcept = default;
+MotionReader& MotionReader::operator=(MotionReader&&) noexcept = default;
+
+MotionReader::MotionReader(const std::filesystem::path& path) : file_(std::make_unique<Hdf5Reader>(path)) {
+    if (!holds_motion(*file_)) {
         throw Error(fmt::format("{}: is an HDF5 file, but not a motion file; make one with 'samara simulate'",
                                 path.string()));
     }
-    if (const auto found = file_.integer_attribute("/", "format_version"); found > format_version) {
+    if (const auto found = file_->integer_attribute("/", "format_version"); found > format_version) {
         throw Error(
             fmt::format("{}: was written by a newer version of samara (format {}, this one reads {}); update",
                         path.string(), found, format_version));
     }
-    motion_.times = file_.finite_doubles("/time", {0});
-    motion_.frame_rate = file_.number_attribute("/", "frame_rate");
-    motion_.seed = file_.unsigned_attribute("/", "seed");
-    if (file_.has_attribute("/", "ground")) motion_.ground = file_.number_attribute("/", "ground");
-    motion_.gravity = from_row_major<Vector3d>(file_.finite_doubles("/gravity", {3}));
-    motion_.scene_text = file_.text("/scene");
-    read_bodies_but_poses(file_, motion_);
+    motion_.times = file_->finite_doubles("/time", {0});
+    motion_.frame_rate = file_->number_attribute("/", "frame_rate");
+    motion_.seed = file_->unsigned_attribute("/", "seed");
+    if (file_->has_attribute("/", "ground")) motion_.ground = file_->number_attribute("/", "ground");
+    motion_.gravity = from_row_major<Vector3d>(file_->finite_doubles("/gravity", {3}));
+    motion_.scene_text = file_->text("/scene");
+    read_bodies_but_poses(*file_, motion_);
     check_motion_but_poses(path, motion_);
     if (!motion_.ground) return;
     for (BodyMotion& body : motion_.bodies) {
@@ -108,7 +114,7 @@ std::vector<Pose> MotionReader::poses(std::size_t body, const PoseBlock& block) 
     const auto copies = static_cast<hsize_t>(block.copies);
     std::vector<Pose> poses(runs * frames * copies);
     const auto read = [&](const char* name, hsize_t components, const auto& put) {
-        const std::vector<double> values = file_.finite_block(
+        const std::vector<double> values = file_->finite_block(
             group + "/" + name,
             {static_cast<hsize_t>(block.first_run), 0, static_cast<hsize_t>(block.first_copy), 0},
             {runs, frames, copies, components});
@@ -119,7 +125,7 @@ std::vector<Pose> MotionReader::poses(std::size_t body, const PoseBlock& block) 
          [](Pose& pose, const double* q) { pose.orientation = Quaterniond(q[0], q[1], q[2], q[3]); });
     read("velocity", 3, [](Pose& pose, const double* v) { pose.velocity = Vector3d(v); });
     read("angular_velocity", 3, [](Pose& pose, const double* v) { pose.angular_velocity = Vector3d(v); });
-    check_poses(file_.path(), motion_.bodies[body].name, poses);
+    check_poses(file_->path(), motion_.bodies[body].name, poses);
     return poses;
 }
 
@@ -128,8 +134,14 @@ void MotionReader::for_each_block(std::size_t body,
     const BodyMotion& all = motion_.bodies[body];
     const std::size_t column = motion_.times.size() * sizeof(Pose);
     const int columns = static_cast<int>(std::clamp<std::size_t>(read_bytes_at_once / column, 1, 1U << 20U));
-    Motion part = motion_;
-    part.bodies = {all};
+    Motion part{.times = motion_.times,
+                .runs = motion_.runs,
+                .frame_rate = motion_.frame_rate,
+                .gravity = motion_.gravity,
+                .ground = motion_.ground,
+                .seed = motion_.seed,
+                .scene_text = {},
+                .bodies = {all}};
     const int copies = std::min(columns, all.copies);
     const int runs = std::clamp(columns / copies, 1, motion_.runs);
     for (int run = 0; run < motion_.runs; run += runs) {

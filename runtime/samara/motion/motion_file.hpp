@@ -2,11 +2,14 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
+#include <vector>
 
-#include "samara/files/hdf5_file.hpp"
 #include "samara/motion/motion.hpp"
 
 namespace samara {
+
+class Hdf5Reader;
 
 /// Writes a motion file (docs/file-formats) through a temporary file: equal motions give equal bytes. It
 /// stands alone: it holds the bodies' surfaces, the scene's text and all that measures, pictures and exports
@@ -32,18 +35,21 @@ struct PoseBlock {
 class MotionReader {
   public:
     explicit MotionReader(const std::filesystem::path& file);
+    ~MotionReader();
+    MotionReader(MotionReader&&) noexcept;
+    MotionReader& operator=(MotionReader&&) noexcept;
 
     /// All but the poses.
     [[nodiscard]] const Motion& motion() const { return motion_; }
     /// The poses of a block at all frames, (run, frame, copy) in row-major order.
     [[nodiscard]] std::vector<Pose> poses(std::size_t body, const PoseBlock& block) const;
     /// Calls `use` for all copies and runs of a body, some 64 MB at a time: with a motion that holds them as
-    /// its one body, and with their place in the whole.
+    /// its one body, without the scene's text, and with their place in the whole.
     void for_each_block(std::size_t body,
                         const std::function<void(const Motion& part, const PoseBlock& block)>& use) const;
 
   private:
-    Hdf5Reader file_;
+    std::unique_ptr<const Hdf5Reader> file_;
     Motion motion_;
 };
 

@@ -1,15 +1,15 @@
 #include "samara/scene/ready_bodies.hpp"
 
-#include <cstdlib>
 #include <map>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "samara/base/content_hash.hpp"
+#include "internal/base/content_hash.hpp"
+#include "internal/files/share_folder.hpp"
+#include "internal/scene/toml_table.hpp"
 #include "samara/base/error.hpp"
 #include "samara/body/body_file.hpp"
-#include "samara/scene/toml_table.hpp"
 
 namespace samara {
 namespace {
@@ -42,21 +42,7 @@ BodiesByName read_index(const fs::path& file) {
 }  // namespace
 
 fs::path ready_bodies_folder() {
-    const char* chosen = std::getenv("SAMARA_BODIES");
-    if (chosen != nullptr && *chosen != '\0') {
-        if (fs::is_directory(chosen)) return chosen;
-        throw Error(fmt::format("SAMARA_BODIES names {}, which is no folder; unset it or name one", chosen));
-    }
-    std::error_code unknown;
-    const fs::path program = fs::read_symlink("/proc/self/exe", unknown);
-    const fs::path installed = program.parent_path().parent_path() / "share/samara/bodies";
-    if (!unknown && fs::is_directory(installed)) return installed;
-    const fs::path source = SAMARA_BODIES_SOURCE;
-    if (fs::is_directory(source)) return source;
-    throw Error(
-        fmt::format("{}: the ready-baked bodies are not installed there; install samara again, or name their "
-                    "folder in SAMARA_BODIES",
-                    installed.string()));
+    return find_share_folder({"bodies", "the ready-baked bodies", "SAMARA_BODIES", "", SAMARA_BODIES_SOURCE});
 }
 
 std::vector<ReadyBody> ready_bodies(const fs::path& folder) {

@@ -21,8 +21,8 @@ struct ReadyBody {
     std::string purpose;            ///< what it is for, a few words
 };
 
-/// Where the ready-baked bodies are: the environment's SAMARA_BODIES, or ../share/samara/bodies beside the
-/// running program's folder, or this source tree. Throws Error where none of them is a folder.
+/// Where the ready-baked bodies are (find_share_folder): in SAMARA_BODIES, share/samara/bodies or this source
+/// tree. Throws Error where none of them is a folder.
 std::filesystem::path ready_bodies_folder();
 
 /// The bodies of a folder by name: its body files, and what its index lists but is not baked. Throws Error

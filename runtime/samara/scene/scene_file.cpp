@@ -9,13 +9,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "samara/base/content_hash.hpp"
+#include "internal/files/input_file.hpp"
+#include "internal/scene/toml_table.hpp"
 #include "samara/base/error.hpp"
 #include "samara/scene/ready_bodies.hpp"
-#include "samara/scene/toml_table.hpp"
 
 namespace samara {
 namespace {
+
+constexpr std::size_t most_bytes_of_a_scene = 64'000'000;  // devices have no end
 
 template <typename Choice>
 using Words = std::map<std::string, Choice, std::less<>>;
@@ -83,8 +85,9 @@ std::optional<Matrix3d> read_inertia(TomlTable& table) {
             if (values.size() != 3) throw table.fault("inertia", "must be three rows of three numbers");
             for (std::size_t column = 0; column < 3; ++column) {
                 const auto value = values.get(column)->value<double>();
-                if (!value || !std::isfinite(*value))
-                    throw table.fault("inertia", "must hold finite numbers");
+                if (!value || !(std::abs(*value) <= largest_number)) {
+                    throw table.fault("inertia", "must hold finite numbers, 1e30 at most");
+                }
                 inertia(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)) = *value;
             }
         }
@@ -148,7 +151,8 @@ CoefficientLoads read_coefficients(TomlTable& table, Loads loads) {
     coefficients.reference_area = table.number("reference_area", positive_number);
     coefficients.normal = table.vector("normal");
     if (coefficients.normal) {
-        if (coefficients.normal->norm() == 0.0) throw table.fault("normal", "must not be the zero vector");
+        if (coefficients.normal->norm() < smallest_number)
+            throw table.fault("normal", "must not be the zero vector");
         coefficients.normal->normalize();
     }
     assign(coefficients.center_of_pressure, table.vector("center_of_pressure"));
@@ -195,7 +199,7 @@ void read_start(TomlTable& table, SceneBody& body) {
     if (auto spread = table.table("spread")) {
         assign(body.spread_position, spread->vector("position"));
         assign(body.spread_angle,
-               spread->number("angle", {0.0, std::numbers::pi, false, "must lie between 0 and pi"}));
+               spread->number("angle", {0.0, std::numbers::pi, "must lie between 0 and pi"}));
         spread->finish();
     }
 }
@@ -216,8 +220,8 @@ std::filesystem::path shape_file(const TomlTable& table, const std::string& shap
         }
     }
     const std::filesystem::path file = folder / shape;  // an absolute path stays as it is
-    if (!std::filesystem::is_regular_file(file)) {
-        throw table.fault("shape", fmt::format("names {}, but there is no such file", file.string()));
+    if (const std::string fault = reading_fault(file); !fault.empty()) {
+        throw table.fault("shape", fmt::format("cannot be had: {}: {}", file.string(), fault));
     }
     return file;
 }
@@ -268,16 +272,10 @@ void read_settings(TomlTable& table, Scene& scene) {
 
 }  // namespace
 
-std::optional<Fluid> fluid_preset(const std::string& name) {
-    if (name == "water") return Fluid{.density = 998.2, .viscosity = 1.002e-3};
-    if (name == "air") return Fluid{.density = 1.204, .viscosity = 1.825e-5};
-    return std::nullopt;
-}
-
 Scene read_scene_file(const std::filesystem::path& file) {
     Scene scene;
     scene.file = file;
-    scene.text = read_bytes(file);
+    scene.text = read_at_most(file, most_bytes_of_a_scene);
     const toml::table document = parse_toml(scene.text, file.string());
     TomlTable top(document, file.string(), "the scene");
     auto settings = top.table("scene");

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "samara/dynamics/equations_of_motion.hpp"
+#include "internal/dynamics/equations_of_motion.hpp"
 
 namespace samara::peers {
 

@@ -1,0 +1,72 @@
+#include "converter/cases/case_folder_reduction.hpp"
+
+#include <optional>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "internal/base/content_hash.hpp"
+#include "samara/base/error.hpp"
+
+namespace samara {
+namespace {
+
+/// What stands in a folder's failed.json; nothing where there is none. Throws Error where it is damaged.
+std::optional<std::string> failure_reason(const std::filesystem::path& folder) {
+    const std::filesystem::path file = folder / "failed.json";
+    if (!std::filesystem::exists(file)) return std::nullopt;
+    try {
+        return nlohmann::json::parse(read_bytes(file)).at("reason").get<std::string>();
+    } catch (const nlohmann::json::exception& reason) {
+        throw Error(fmt::format("{}: has no text 'reason' ({}); remove it and run 'samara bake' again",
+                                file.string(), reason.what()));
+    }
+}
+
+Error not_solved(const std::filesystem::path& folder, const CasePlan& plan,
+                 const std::vector<std::string>& names) {
+    return Error(
+        fmt::format("{}: the case {} is not solved ({} of {} are not); run 'samara bake' again, which goes "
+                    "on where it stopped",
+                    folder.string(), names.front(), names.size(), plan.cases.size()));
+}
+
+}  // namespace
+
+std::optional<std::string> failure_of(const std::filesystem::path& folder, const std::string& name,
+                                      const std::string& mesh) {
+    if (is_solved(folder / name)) return std::nullopt;
+    if (std::optional<std::string> reason = failure_reason(folder / name)) return reason;
+    const std::optional<std::string> reason = failure_reason(folder / mesh);
+    if (!reason) return std::nullopt;
+    return fmt::format("its mesh {} could not be made: {}", mesh, *reason);
+}
+
+FolderReduction reduce_folder(const std::filesystem::path& folder, const CasePlan& plan,
+                              const std::function<void(std::size_t, std::size_t)>& progress,
+                              UnsolvedCases unsolved) {
+    FolderReduction reduction;
+    std::vector<const PlannedCase*> solved;
+    std::vector<std::string> missing;
+    for (const PlannedCase& planned : plan.cases) {
+        if (planned.purpose == CasePurpose::start) continue;
+        if (const std::optional<std::string> reason = failure_of(folder, planned.name, planned.mesh)) {
+            reduction.left_out.push_back({planned.name, *reason});
+        } else if (plan.solved_by_user || is_solved(folder / planned.name)) {
+            solved.push_back(&planned);
+        } else {
+            missing.push_back(planned.name);
+            reduction.left_out.push_back({planned.name, "is not solved yet"});
+        }
+    }
+    if (!missing.empty() && unsolved == UnsolvedCases::refuse) throw not_solved(folder, plan, missing);
+
+    Shells shells;
+    for (const PlannedCase* const planned : solved) {
+        reduction.cases.push_back(reduce_case(folder, plan, *planned, shells));
+        if (progress) progress(reduction.cases.size(), solved.size());
+    }
+    return reduction;
+}
+
+}  // namespace samara

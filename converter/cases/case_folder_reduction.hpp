@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "converter/cases/case_reduction.hpp"
+
+namespace samara {
+
+/// What the cases of a folder give.
+struct FolderReduction {
+    std::vector<SolvedCase> cases;      ///< in the plan's order, map axes; of every purpose but start
+    std::vector<LeftOutCase> left_out;  ///< of the same
+};
+
+/// What becomes of cases that are neither solved nor failed.
+enum class UnsolvedCases { refuse, leave_out };
+
+/// Reduces every case of the plan (reduce_case), each with the shell of the mesh FOLDER/MESH that it names,
+/// or of its own constant/polyMesh where there is no such folder; a mesh is read once. A case
+/// with failed.json, or whose mesh has one, is left out with the reason that stands there. `progress` is told
+/// how many cases of how many are done. Throws Error where a case is damaged, and, unless `unsolved` says
+/// otherwise, where a case is neither solved nor failed (the message names the first).
+FolderReduction reduce_folder(const std::filesystem::path& folder, const CasePlan& plan,
+                              const std::function<void(std::size_t done, std::size_t total)>& progress = {},
+                              UnsolvedCases unsolved = UnsolvedCases::refuse);
+
+/// Why the case or fall FOLDER/NAME failed, by its failed.json or that of FOLDER/MESH; nothing where neither
+/// is there, or it was solved after all. Throws Error where that file is damaged.
+std::optional<std::string> failure_of(const std::filesystem::path& folder, const std::string& name,
+                                      const std::string& mesh);
+
+}  // namespace samara

@@ -1,0 +1,186 @@
+#include "converter/cases/case_plan.hpp"
+
+#include <array>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "internal/base/content_hash.hpp"
+#include "internal/base/vector_json.hpp"
+#include "samara/base/error.hpp"
+#include "samara/body/body_file.hpp"
+
+namespace samara {
+namespace {
+
+Error fault(const std::filesystem::path& file, const std::string& what) {
+    return Error(fmt::format(
+        "{}: {}; make the cases again with 'samara bake', or, where the plan is yours, correct it",
+        file.string(), what));
+}
+
+nlohmann::json read_json(const std::filesystem::path& file) {
+    try {
+        return nlohmann::json::parse(read_bytes(file));
+    } catch (const nlohmann::json::exception& reason) {
+        throw fault(file, fmt::format("is no JSON ({})", reason.what()));
+    }
+}
+
+constexpr std::array<std::pair<CasePurpose, const char*>, 4> purposes = {{{CasePurpose::table, "table"},
+                                                                          {CasePurpose::mesh, "mesh"},
+                                                                          {CasePurpose::closure, "closure"},
+                                                                          {CasePurpose::start, "start"}}};
+
+CaseScales as_scales(const nlohmann::json& values, const CaseScales& defaults) {
+    return {values.value("length", defaults.length), values.value("speed", defaults.speed),
+            values.value("density", defaults.density)};
+}
+
+PlannedCase as_case(const nlohmann::json& values, const CasePlan& plan, const CaseScales& scales) {
+    PlannedCase planned{values.at("name").get<std::string>(), vector_of(values.at("direction")),
+                        values.at("reynolds_number").get<double>()};
+    planned.direction = plan.to_map_axes() * planned.direction;
+    planned.mesh = values.value("mesh", planned.mesh);
+    planned.purpose = purpose_of(values.value("purpose", "table"));
+    planned.closure = closure_of(values.value("closure", ""));
+    planned.scales = as_scales(values, scales);
+    if (values.contains("averaging_start")) planned.averaging_start = values["averaging_start"].get<double>();
+    return planned;
+}
+
+bool solved_by_user(const nlohmann::json& values) {
+    const std::string who = values.value("solved_by", "samara");
+    if (who != "samara" && who != "user") {
+        throw Error(fmt::format("'solved_by' is \"{}\", not samara or user", who));
+    }
+    return who == "user";
+}
+
+CasePlan as_plan(const nlohmann::json& values, const std::filesystem::path& folder) {
+    CasePlan plan;
+    plan.solved_by_user = solved_by_user(values);
+    plan.quality =
+        plan.solved_by_user ? values.value("quality", "user") : values.at("quality").get<std::string>();
+    plan.subdivisions = values.at("subdivisions").get<int>();
+    plan.covers_scene = values.value("covers", "all") == "scene";
+    std::optional<Body> body;
+    if (plan.solved_by_user && !(values.contains("reference_length") && values.contains("axes"))) {
+        body = read_body_file(folder / "body.body.h5");
+    }
+    plan.reference_length = body && !values.contains("reference_length")
+                                ? reference_length(body->moments.surface_area)
+                                : values.at("reference_length").get<double>();
+    plan.axes = body && !values.contains("axes") ? body->symmetry.axes : matrix_of(values.at("axes"));
+    plan.case_axes = values.contains("case_axes") ? matrix_of(values["case_axes"]) : plan.axes;
+    const CaseScales scales = as_scales(values, {});
+    for (const nlohmann::json& entry : values.at("cases")) plan.cases.push_back(as_case(entry, plan, scales));
+    if (values.contains("falls")) {
+        for (const nlohmann::json& entry : values["falls"]) {
+            PlannedFall fall{entry.at("name").get<std::string>()};
+            fall.mesh = entry.value("mesh", fall.mesh);
+            plan.falls.push_back(std::move(fall));
+        }
+    }
+    return plan;
+}
+
+void check_case(const PlannedCase& planned) {
+    const auto refuse = [&](const char* what) {
+        return Error(fmt::format("the {} of case {} is not positive", what, planned.name));
+    };
+    if (!(std::abs(planned.direction.norm() - 1.0) < 1e-6)) {
+        throw Error(fmt::format("the direction of case {} is no unit vector", planned.name));
+    }
+    if (!(planned.reynolds_number > 0.0)) throw refuse("Reynolds number");
+    if (!(planned.scales.length > 0.0)) throw refuse("length");
+    if (!(planned.scales.speed > 0.0)) throw refuse("speed");
+    if (!(planned.scales.density > 0.0)) throw refuse("density");
+}
+
+/// Whether the two are one flow for one purpose; of table cases there is one for each flow past the body.
+bool are_same(const PlannedCase& a, const PlannedCase& b) {
+    if (a.purpose != b.purpose || a.reynolds_number != b.reynolds_number) return false;
+    if ((a.direction - b.direction).norm() > 1e-6) return false;
+    return a.purpose == CasePurpose::table || (a.mesh == b.mesh && a.closure == b.closure);
+}
+
+void check_cases(const std::vector<PlannedCase>& cases) {
+    if (cases.empty()) throw Error("'cases' is empty");
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        check_case(cases[i]);
+        if (!names.insert(cases[i].name).second) throw Error("two cases are named " + cases[i].name);
+        for (std::size_t j = 0; j < i; ++j) {
+            if (!are_same(cases[i], cases[j])) continue;
+            throw Error(
+                fmt::format("the cases {} and {} are of the same direction, Reynolds number and purpose",
+                            cases[j].name, cases[i].name));
+        }
+    }
+}
+
+void check_falls(const CasePlan& plan) {
+    std::set<std::string> names;
+    for (const PlannedCase& planned : plan.cases) names.insert(planned.name);
+    for (const PlannedFall& fall : plan.falls) {
+        if (!names.insert(fall.name).second) throw Error("two cases or falls are named " + fall.name);
+    }
+}
+
+void check(const CasePlan& plan) {
+    const auto is_rotation = [](const Matrix3d& axes) {
+        return (axes.transpose() * axes - Matrix3d::Identity()).norm() < 1e-6 && axes.determinant() > 0.0;
+    };
+    if (!is_rotation(plan.axes)) throw Error("'axes' is no rotation");
+    if (!is_rotation(plan.case_axes)) throw Error("'case_axes' is no rotation");
+    if (plan.subdivisions < 1 || plan.subdivisions > 1024) throw Error("'subdivisions' is not sane");
+    if (!(plan.reference_length > 0.0)) throw Error("'reference_length' is not positive");
+    check_cases(plan.cases);
+    check_falls(plan);
+}
+
+}  // namespace
+
+CasePurpose purpose_of(const std::string& name) {
+    for (const auto& [purpose, word] : purposes) {
+        if (word == name) return purpose;
+    }
+    throw Error(fmt::format("'purpose' is \"{}\", not table, mesh, closure or start", name));
+}
+
+std::string name_of(CasePurpose purpose) {
+    for (const auto& [one, name] : purposes) {
+        if (one == purpose) return name;
+    }
+    return {};
+}
+
+CasePlan read_case_plan(const std::filesystem::path& folder) {
+    const std::filesystem::path file = folder / "plan.json";
+    if (!std::filesystem::is_directory(folder)) {
+        throw Error(fmt::format("{}: is no folder; give the folder NAME.cases that 'samara bake' made",
+                                folder.string()));
+    }
+    if (!std::filesystem::exists(file)) {
+        throw Error(
+            fmt::format("{}: is no folder of cases (it has no plan.json); give the folder NAME.cases that "
+                        "'samara bake' made",
+                        folder.string()));
+    }
+    const nlohmann::json values = read_json(file);
+    try {
+        CasePlan plan = as_plan(values, folder);
+        check(plan);
+        return plan;
+    } catch (const nlohmann::json::exception& reason) {
+        throw fault(file, fmt::format("an entry is missing or of the wrong kind ({})", reason.what()));
+    } catch (const Error& reason) {
+        throw fault(file, reason.what());
+    }
+}
+
+}  // namespace samara

@@ -1,0 +1,316 @@
+#include "converter/cases/case_reduction.hpp"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "converter/cases/load_history.hpp"
+#include "converter/cases/quantity_history.hpp"
+#include "converter/openfoam/foam_dictionary.hpp"
+#include "converter/openfoam/foam_history.hpp"
+#include "converter/tables/standard_error.hpp"
+#include "internal/base/content_hash.hpp"
+#include "samara/base/error.hpp"
+
+namespace samara {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Fields and history are of the same time of the same run: they differ by the rounding of what was written,
+/// six digits or more, alone.
+constexpr double largest_disagreement = 1e-4;
+
+/// Means of the same numbers, by two programs, of which one wrote its own down in full.
+constexpr double largest_drift = 1e-6;
+
+/// One case on its way to a sample.
+struct CaseSource {
+    const fs::path& cases;  ///< the folder of cases
+    const CasePlan& plan;
+    const PlannedCase& planned;
+
+    [[nodiscard]] fs::path folder() const { return cases / planned.name; }
+    [[nodiscard]] std::string remedy() const {
+        if (plan.solved_by_user) return "solve it again, or take it out of plan.json";
+        return fmt::format("remove the folder {} and run 'samara bake' again", planned.name);
+    }
+    [[nodiscard]] Error fault(const std::string& what) const {
+        return Error(fmt::format("{}: {}; {}", folder().string(), what, remedy()));
+    }
+};
+
+/// The means of one quantity over the times that count, and their standard errors.
+struct Tail {
+    Vector3d mean;
+    Vector3d error;
+};
+
+/// Throws where a value whose time is in the window is not finite.
+Tail tail_of(const CaseSource& source, const QuantityHistory& history, double start) {
+    std::array<std::vector<double>, 3> window;
+    for (std::size_t i = 0; i < history.times.size(); ++i) {
+        if (history.times[i] < start) continue;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double value = history.values[i][axis];
+            if (!std::isfinite(value)) {
+                const fs::path& file = history.files.at(history.times[i]);
+                throw source.fault(fmt::format("diverged: {} holds {} at the time {:.10g}",
+                                               file.lexically_relative(source.folder()).string(), value,
+                                               history.times[i]));
+            }
+            window[static_cast<std::size_t>(axis)].push_back(value);
+        }
+    }
+    constexpr std::size_t fewest = 4;
+    if (window.front().size() < fewest) {
+        throw Error(fmt::format("{}: has {} iterations from {:.10g} on, too few for a mean with an error",
+                                history.files.at(start).string(), window.front().size(), start));
+    }
+    return {{mean(window[0]), mean(window[1]), mean(window[2])},
+            {standard_error(window[0]), standard_error(window[1]), standard_error(window[2])}};
+}
+
+void require_agreement(const CaseSource& source, const std::string& field, double in_fields,
+                       double in_history, double time) {
+    if (!(std::abs(in_fields - in_history) <= largest_disagreement * std::abs(in_history))) {
+        throw source.fault(fmt::format(
+            "the mean {} over the shell at the time {:.10g} is {:.6g} by the fields and {:.6g} by "
+            "postProcessing/shell: they are of different runs",
+            field, time, in_fields, in_history));
+    }
+}
+
+/// The place of a time in the history. Throws where it has none.
+std::size_t place_of(const CaseSource& source, const QuantityHistory& history, double time) {
+    for (std::size_t i = 0; i < history.times.size(); ++i) {
+        if (std::abs(history.times[i] - time) <= 1e-6 * time) return i;
+    }
+    throw source.fault(
+        fmt::format("the fields were last written at the time {:.10g}, which postProcessing/shell does not "
+                    "hold",
+                    time));
+}
+
+fs::path mesh_folder(const CaseSource& source) {
+    const fs::path shared = source.cases / source.planned.mesh;
+    return fs::exists(shared / "constant" / "polyMesh") ? shared : source.folder();
+}
+
+// No flow has more, over the units of the coefficients: plates have force coefficients of 2.5, spheres of
+// Stokes' flow 24/Re; the paper's inflow has k = 1.5 U^2 and epsilon = 1.2 U^3/L, and wakes have a hundredth
+// of it.
+constexpr double largest_coefficient = 100.0;
+constexpr double largest_viscous_coefficient = 1000.0;  // over the Reynolds number
+constexpr double largest_k = 100.0;
+constexpr double largest_epsilon = 1000.0;
+
+/// The units of a case's coefficients, in its own units.
+struct CaseUnits {
+    double force;
+    double moment;
+    double k;
+    double epsilon;
+};
+
+CaseUnits units_of(const CaseScales& scales) {
+    const auto& [length, speed, density] = scales;
+    const double force = std::numbers::pi / 8.0 * density * speed * speed * length * length;
+    return {force, force * length, speed * speed, speed * speed * speed / length};
+}
+
+QuantityHistory scalar_history(const FoamHistory& history, const std::string& name, double largest) {
+    QuantityHistory scalar{name, history.files, {}, {}, largest, 0.0, true};
+    const std::size_t column = history.index("volAverage(" + name + ")");
+    for (const std::vector<double>& row : history.rows) {
+        scalar.times.push_back(row.front());
+        scalar.values.emplace_back(row[column], 0.0, 0.0);
+    }
+    return scalar;
+}
+
+/// Vectors in map axes.
+QuantityHistory vector_history(const CaseSource& source, const VectorHistory& history,
+                               const std::string& name, double largest) {
+    QuantityHistory vectors{name, history.files, history.times, {}, largest};
+    const Matrix3d to_map = source.plan.to_map_axes();
+    for (const Vector3d& value : history.values) vectors.values.emplace_back(to_map * value);
+    return vectors;
+}
+
+/// Force, moment and, where the flow is not laminar, k and epsilon.
+std::vector<QuantityHistory> histories_of(const CaseSource& source, bool laminar) {
+    const fs::path folder = source.folder() / "postProcessing";
+    const LoadHistory loads = read_load_history(folder / "forces");
+    const CaseUnits units = units_of(source.planned.scales);
+    const double largest = largest_coefficient + largest_viscous_coefficient / source.planned.reynolds_number;
+    std::vector<QuantityHistory> histories = {
+        vector_history(source, loads.force, "force", largest * units.force),
+        vector_history(source, loads.moment, "moment", largest * units.moment)};
+    if (laminar) return histories;
+    const FoamHistory shell = read_joined_history(folder / "shell", "volFieldValue");
+    histories.push_back(scalar_history(shell, "k", largest_k * units.k));
+    histories.push_back(scalar_history(shell, "epsilon", largest_epsilon * units.epsilon));
+    return histories;
+}
+
+/// Holds the histories of k and epsilon against the fields that were written last.
+void require_fields_agree(const CaseSource& source, const QuantityHistory& k, const QuantityHistory& epsilon,
+                          Shells& shells) {
+    const ShellMeans written = mean_over_shell(source.folder(), mesh_folder(source), shells);
+    const std::size_t last = place_of(source, k, written.time);
+    require_agreement(source, "k", written.turbulent_kinetic_energy, k.values[last].x(), written.time);
+    require_agreement(source, "epsilon", written.dissipation_rate, epsilon.values[last].x(), written.time);
+}
+
+/// What was solved last is in the histories.
+void require_reach_of_fields(const CaseSource& source, const QuantityHistory& force) {
+    const double written = last_written_time(source.folder());
+    if (written <= force.times.back() * (1.0 + 1e-6)) return;
+    throw source.fault(
+        fmt::format("the fields were last written at the time {:.10g}, but postProcessing/forces ends at the "
+                    "time {:.10g}",
+                    written, force.times.back()));
+}
+
+/// Means and errors of the times from `start` on, of histories that are whole and plausible.
+std::vector<Tail> tails_of(const CaseSource& source, std::vector<QuantityHistory>& histories, double start) {
+    require_whole(histories, start, source.remedy());
+    std::vector<Tail> tails;
+    for (const QuantityHistory& history : histories) tails.push_back(tail_of(source, history, start));
+    // A moment is a force on an arm: that of a sphere is noise.
+    histories[1].noise = source.planned.scales.length * tails[0].mean.norm();
+    for (const QuantityHistory& history : histories) require_plausible(history, start, source.remedy());
+    return tails;
+}
+
+void require_noted(const CaseSource& source, const std::string& name, const Vector3d& mean,
+                   const Vector3d& noted, double noise) {
+    if ((mean - noted).norm() <= largest_drift * (noted.norm() + noise)) return;
+    throw source.fault(fmt::format(
+        "the mean {} over the times that count has changed by {:.3g} % since the case was solved: its "
+        "history in postProcessing is damaged",
+        name, 100.0 * (mean - noted).norm() / (noted.norm() + noise)));
+}
+
+/// The means are those that provenance.json noted when the case was solved, where it did.
+void require_as_noted(const CaseSource& source, const nlohmann::json& provenance,
+                      const std::vector<Tail>& tails) {
+    const auto vector = [&](const nlohmann::json& numbers) -> Vector3d {
+        const auto values = numbers.get<std::array<double, 3>>();
+        return source.plan.to_map_axes() * Vector3d(values[0], values[1], values[2]);
+    };
+    const auto scalar = [](const nlohmann::json& number) { return Vector3d(number.get<double>(), 0.0, 0.0); };
+    try {
+        if (!provenance.contains("force")) return;
+        const Vector3d force = vector(provenance.at("force"));
+        require_noted(source, "force", tails[0].mean, force, 0.0);
+        require_noted(source, "moment", tails[1].mean, vector(provenance.at("moment")),
+                      1e-3 * source.planned.scales.length * force.norm());
+        if (tails.size() == 2) return;
+        require_noted(source, "k", tails[2].mean, scalar(provenance.at("shell").at("k")), 0.0);
+        require_noted(source, "epsilon", tails[3].mean, scalar(provenance.at("shell").at("epsilon")), 0.0);
+    } catch (const nlohmann::json::exception& reason) {
+        throw source.fault(
+            fmt::format("in provenance.json an entry is missing or of the wrong kind ({})", reason.what()));
+    }
+}
+
+void require_as_planned(const CaseSource& source) {
+    const FoamDictionary parameters(source.folder() / "parameters");
+    const PlannedCase& planned = source.planned;
+    const Vector3d direction = source.plan.to_map_axes() * parameters.vector("direction");
+    const double reynolds_number = parameters.number("reynoldsNumber");
+    if (!((direction - planned.direction).norm() < 1e-6)) {
+        throw source.fault(
+            fmt::format("was solved for the direction ({:.6g}, {:.6g}, {:.6g}), but plan.json has ({:.6g}, "
+                        "{:.6g}, {:.6g})",
+                        direction.x(), direction.y(), direction.z(), planned.direction.x(),
+                        planned.direction.y(), planned.direction.z()));
+    }
+    if (!(std::abs(reynolds_number - planned.reynolds_number) < 1e-6 * planned.reynolds_number)) {
+        throw source.fault(fmt::format("was solved for the Reynolds number {:.6g}, but plan.json has {:.6g}",
+                                       reynolds_number, planned.reynolds_number));
+    }
+}
+
+void require_sane(const CaseSource& source, const DirectionSample& sample, bool laminar) {
+    const auto refuse = [&](const std::string& what) { return source.fault("diverged: " + what); };
+    const double drag = -sample.entry.force.dot(sample.direction);
+    if (!(drag > 0.0)) throw refuse(fmt::format("the drag coefficient is {:.4g}, not positive", drag));
+    if (laminar) return;
+    if (!(sample.entry.turbulent_kinetic_energy > 0.0)) throw refuse("k in the shell is not positive");
+    if (!(sample.entry.dissipation_rate > 0.0)) throw refuse("epsilon in the shell is not positive");
+}
+
+nlohmann::json read_provenance(const CaseSource& source) {
+    const fs::path file = source.folder() / "provenance.json";
+    if (source.plan.solved_by_user && !fs::exists(file)) return {{"solved_by", "user"}};
+    nlohmann::json provenance = nlohmann::json::parse(read_bytes(file), nullptr, false);
+    if (!provenance.is_object()) {
+        throw Error(
+            fmt::format("{}: is no JSON object; remove it and run 'samara bake' again", file.string()));
+    }
+    return provenance;
+}
+
+/// The first time that counts for means.
+double averaging_start(const CaseSource& source, const nlohmann::json& provenance,
+                       const std::vector<double>& times) {
+    if (source.planned.averaging_start) return *source.planned.averaging_start;
+    if (provenance.contains("averaging_start")) {
+        if (provenance["averaging_start"].is_number()) return provenance["averaging_start"].get<double>();
+        throw source.fault("'averaging_start' in provenance.json is no number");
+    }
+    return times[times.size() - (times.size() + 3) / 4];
+}
+
+Closure solved_closure(const CaseSource& source, const nlohmann::json& provenance) {
+    const auto found = provenance.find("closure");
+    return found != provenance.end() && found->is_string() ? closure_of(found->get<std::string>())
+                                                           : source.planned.closure;
+}
+
+}  // namespace
+
+bool is_solved(const fs::path& folder) {
+    return fs::exists(folder / "provenance.json");
+}
+
+SolvedCase reduce_case(const fs::path& folder, const CasePlan& plan, const PlannedCase& planned,
+                       Shells& shells) {
+    const CaseSource source{folder, plan, planned};
+    if (!fs::is_directory(source.folder())) throw source.fault("the case's folder is missing");
+    const nlohmann::json provenance = read_provenance(source);
+    if (!plan.solved_by_user) require_as_planned(source);
+    SolvedCase solved{
+        planned.name, planned.reynolds_number, {planned.direction, {}, {}},       provenance.dump(),
+        planned.mesh, planned.purpose,         solved_closure(source, provenance)};
+    const bool laminar = solved.closure == Closure::laminar;
+    std::vector<QuantityHistory> histories = histories_of(source, laminar);
+    const double start = averaging_start(source, provenance, histories.front().times);
+    const std::vector<Tail> tails = tails_of(source, histories, start);
+    require_as_noted(source, provenance, tails);
+    DirectionSample& sample = solved.sample;
+    const CaseUnits units = units_of(planned.scales);
+    sample.entry.force = tails[0].mean / units.force;
+    sample.error.force = tails[0].error / units.force;
+    sample.entry.moment = tails[1].mean / units.moment;
+    sample.error.moment = tails[1].error / units.moment;
+    if (laminar) {
+        require_reach_of_fields(source, histories.front());
+    } else {
+        require_fields_agree(source, histories[2], histories[3], shells);
+        sample.entry.turbulent_kinetic_energy = tails[2].mean.x() / units.k;
+        sample.error.turbulent_kinetic_energy = tails[2].error.x() / units.k;
+        sample.entry.dissipation_rate = tails[3].mean.x() / units.epsilon;
+        sample.error.dissipation_rate = tails[3].error.x() / units.epsilon;
+    }
+    require_sane(source, sample, laminar);
+    return solved;
+}
+
+}  // namespace samara

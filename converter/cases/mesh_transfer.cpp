@@ -1,0 +1,43 @@
+#include "converter/cases/mesh_transfer.hpp"
+
+#include <algorithm>
+
+#include "converter/tables/reynolds_fit.hpp"
+
+namespace samara {
+namespace {
+
+// Unit vectors that plan.json holds in full are this near to each other where they are one: they differ by
+// the rounding of a turn of axes alone.
+constexpr double same_direction = 1e-6;
+
+const SolvedCase* partner(const std::vector<SolvedCase>& cases, const SolvedCase& of, CasePurpose purpose,
+                          double reynolds_number) {
+    const auto found = std::ranges::find_if(cases, [&](const SolvedCase& one) {
+        return one.purpose == purpose && one.reynolds_number == reynolds_number &&
+               (one.sample.direction - of.sample.direction).norm() < same_direction;
+    });
+    return found == cases.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+void transfer_to_main_mesh(std::vector<SolvedCase>& cases, double main) {
+    for (SolvedCase& further : cases) {
+        if (further.purpose != CasePurpose::table || further.reynolds_number == main) continue;
+        const SolvedCase* const fine = partner(cases, further, CasePurpose::table, main);
+        const SolvedCase* const coarse = partner(cases, further, CasePurpose::mesh, main);
+        if (fine == nullptr || coarse == nullptr) continue;
+        if (fine->mesh == further.mesh || coarse->mesh != further.mesh) continue;
+        LoadEntry& entry = further.sample.entry;
+        const LoadEntry& finer = fine->sample.entry;
+        const LoadEntry& coarser = coarse->sample.entry;
+        entry.force += finer.force - coarser.force;
+        entry.moment += finer.moment - coarser.moment;
+        if (!is_turbulent(entry) || !is_turbulent(finer) || !is_turbulent(coarser)) continue;
+        entry.turbulent_kinetic_energy *= finer.turbulent_kinetic_energy / coarser.turbulent_kinetic_energy;
+        entry.dissipation_rate *= finer.dissipation_rate / coarser.dissipation_rate;
+    }
+}
+
+}  // namespace samara

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "converter/cases/case_folder_reduction.hpp"
+#include "converter/cases/case_plan.hpp"
+#include "samara/body/body.hpp"
+
+namespace samara {
+
+/// Throws Error where the plan's cases cannot make tables that are worth it. The main Reynolds number, the
+/// one with most directions planned, must plan at least the required_directions of a map with one
+/// subdivision, unless the plan covers a scene alone, and at most one in five of its directions may be left
+/// out.
+void require_enough_directions(const CasePlan& plan, const Symmetry& symmetry,
+                               const FolderReduction& reduction);
+
+}  // namespace samara

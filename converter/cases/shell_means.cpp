@@ -1,0 +1,218 @@
+#include "converter/cases/shell_means.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "converter/openfoam/cell_volumes.hpp"
+#include "converter/openfoam/foam_bytes.hpp"
+#include "converter/openfoam/foam_dictionary.hpp"
+#include "converter/openfoam/foam_file.hpp"
+#include "converter/openfoam/time_folders.hpp"
+#include "samara/base/error.hpp"
+
+namespace samara {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The digits after "processor" in a folder's name; nothing for other names.
+std::optional<int> processor_number(const std::string& name) {
+    constexpr std::string_view prefix = "processor";
+    if (!name.starts_with(prefix)) return std::nullopt;
+    int number = 0;
+    const char* const start = name.data() + prefix.size();
+    const auto [end, status] = std::from_chars(start, name.data() + name.size(), number);
+    const bool whole = status == std::errc() && end == name.data() + name.size();
+    return whole ? std::optional(number) : std::nullopt;
+}
+
+/// How many parts the case says it was cut into; 0 where it does not say.
+int stated_processors(const fs::path& folder) {
+    const fs::path file = folder / "system" / "decomposeParDict";
+    if (!fs::exists(file)) return 0;
+    const FoamDictionary dictionary(file);
+    return dictionary.has("numberOfSubdomains") ? static_cast<int>(dictionary.number("numberOfSubdomains"))
+                                                : 0;
+}
+
+/// The folders processor0, processor1, ...; empty where the case is not decomposed.
+std::vector<fs::path> processor_folders(const fs::path& folder) {
+    int count = 0;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        if (const auto number = processor_number(entry.path().filename().string())) {
+            count = std::max(count, *number + 1);
+        }
+    }
+    if (count > 0) count = std::max(count, stated_processors(folder));
+    std::vector<fs::path> processors;
+    for (int i = 0; i < count; ++i) {
+        processors.push_back(folder / fmt::format("processor{}", i));
+        if (!fs::is_directory(processors.back())) {
+            throw Error(
+                fmt::format("{}: is missing, but the case is cut into {} parts; copy all of them, or "
+                            "run 'reconstructPar -latestTime' where they are",
+                            processors.back().string(), count));
+        }
+    }
+    return processors;
+}
+
+/// Whether the parts lie together in one folder processors2 or several processors4_0-1.
+bool is_collated(const fs::path& folder) {
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        const std::string name = entry.path().filename().string();
+        if (name.starts_with("processors") && name.size() > 10 && name[10] >= '0' && name[10] <= '9') {
+            return true;
+        }
+    }
+    return false;
+}
+
+double last_time(const fs::path& folder) {
+    const std::vector<TimeFolder> times = time_folders(folder);
+    return times.empty() ? 0.0 : times.back().time;
+}
+
+/// Some of the fields of a time, and the folder of the mesh that they are on.
+struct FieldPart {
+    fs::path fields;
+    fs::path mesh;
+};
+
+struct WrittenTime {
+    double time = 0.0;
+    std::vector<FieldPart> parts;
+};
+
+WrittenTime last_written(const fs::path& folder, const fs::path& mesh) {
+    WrittenTime written;
+    const std::vector<fs::path> processors = processor_folders(folder);
+    const double whole = last_time(folder);
+    const double cut = processors.empty() ? 0.0 : last_time(processors.front());
+    if (whole >= cut && whole > 0.0) {
+        return {whole, {{time_folders(folder).back().path, mesh}}};
+    }
+    for (const fs::path& processor : processors) {
+        const std::vector<TimeFolder> times = time_folders(processor);
+        if (times.empty() || times.back().time != cut || cut == 0.0) {
+            throw Error(
+                fmt::format("{}: did not write the time {:.10g} as processor0 did; let the solver go on",
+                            processor.string(), cut));
+        }
+        written.time = cut;
+        written.parts.push_back({times.back().path, processor});
+    }
+    if (written.parts.empty()) {
+        throw Error(
+            fmt::format("{}: {}", folder.string(),
+                        is_collated(folder)
+                            ? "is decomposed in the collated layout; run 'reconstructPar -latestTime' there"
+                            : "has no written iteration; let the solver write its last one"));
+    }
+    return written;
+}
+
+/// The field's values in the cells.
+std::vector<double> values_at(const FoamField<double>& field, const std::vector<std::int64_t>& cells,
+                              const fs::path& file) {
+    std::vector<double> values;
+    values.reserve(cells.size());
+    for (const std::int64_t cell : cells) {
+        const auto index = static_cast<std::size_t>(cell);
+        if (cell < 0 || !field.covers(index)) {
+            throw Error(
+                fmt::format("{}: has no value for cell {} of the shell; mesh and field do not belong "
+                            "together",
+                            file.string(), cell));
+        }
+        values.push_back(field[index]);
+    }
+    return values;
+}
+
+/// k, epsilon and volumes are.
+void require_positive(double value, std::int64_t cell, const fs::path& file) {
+    if (value >= 0.0 && std::isfinite(value)) return;
+    throw Error(
+        fmt::format("{}: is {} in cell {}, where it cannot be: diverged or damaged; solve the case again",
+                    file.string(), value, cell));
+}
+
+/// The volumes of the shell's cells.
+std::vector<double> shell_volumes(const fs::path& fields, Shell& shell) {
+    const fs::path file = fields / "V";
+    if (!foam_file_exists(file)) {
+        if (foam_file_exists(shell.poly_mesh / "points")) return Shells::volumes(shell);
+        throw Error(
+            fmt::format("{}: is missing, and so is the mesh that would give it; run 'postProcess -func "
+                        "writeCellVolumes -latestTime' in the case",
+                        file.string()));
+    }
+    std::vector<double> volumes = values_at(read_scalar_field(file), shell.cells, file);
+    for (std::size_t i = 0; i < volumes.size(); ++i) require_positive(volumes[i], shell.cells[i], file);
+    return volumes;
+}
+
+struct Sums {
+    double volume = 0.0;
+    double turbulent_kinetic_energy = 0.0;
+    double dissipation_rate = 0.0;
+};
+
+void add_part(const FieldPart& part, Shells& shells, Sums& sums) {
+    Shell& shell = shells.of(part.mesh);
+    const std::vector<double> volumes = shell_volumes(part.fields, shell);
+    const auto integral = [&](const char* name) {
+        const fs::path file = part.fields / name;
+        const std::vector<double> values = values_at(read_scalar_field(file), shell.cells, file);
+        double sum = 0.0;
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            require_positive(values[i], shell.cells[i], file);
+            sum += values[i] * volumes[i];
+        }
+        return sum;
+    };
+    for (const double volume : volumes) sums.volume += volume;
+    sums.turbulent_kinetic_energy += integral("k");
+    sums.dissipation_rate += integral("epsilon");
+}
+
+}  // namespace
+
+Shell& Shells::of(const fs::path& folder) {
+    const auto found = shells_.find(folder);
+    if (found != shells_.end()) return found->second;
+    const fs::path poly_mesh = folder / "constant" / "polyMesh";
+    Shell shell{poly_mesh, read_cell_zone(poly_mesh / "cellZones", "shell"), {}};
+    return shells_.emplace(folder, std::move(shell)).first->second;
+}
+
+const std::vector<double>& Shells::volumes(Shell& shell) {
+    if (shell.volumes.empty()) shell.volumes = cell_volumes(shell.poly_mesh, shell.cells);
+    return shell.volumes;
+}
+
+double last_written_time(const fs::path& folder) {
+    const std::vector<fs::path> processors = processor_folders(folder);
+    return std::max(last_time(folder), processors.empty() ? 0.0 : last_time(processors.front()));
+}
+
+ShellMeans mean_over_shell(const fs::path& folder, const fs::path& mesh, Shells& shells) {
+    const WrittenTime written = last_written(folder, mesh);
+    Sums sums;
+    for (const FieldPart& part : written.parts) add_part(part, shells, sums);
+    if (!(sums.volume > 0.0)) {
+        throw Error(
+            fmt::format("{}: the zone 'shell' has no cells; the mesh is too coarse",
+                        (written.parts.front().mesh / "constant" / "polyMesh" / "cellZones").string()));
+    }
+    return {written.parts.front().fields, written.time, sums.turbulent_kinetic_energy / sums.volume,
+            sums.dissipation_rate / sums.volume};
+}
+
+}  // namespace samara

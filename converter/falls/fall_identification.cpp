@@ -1,0 +1,347 @@
+#include "converter/falls/fall_identification.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "converter/falls/falling_body.hpp"
+#include "converter/falls/motion_parameters.hpp"
+#include "converter/tables/least_squares.hpp"
+#include "internal/figures/figure_catalogue.hpp"
+#include "samara/base/error.hpp"
+
+namespace samara {
+namespace {
+
+using Eigen::VectorXd;
+
+// These numbers were chosen by looking at the ten reference falls and at how the bodies that are identified
+// fly them (docs/falls.md#how-the-coefficients-are-found).
+//
+// Times are over L/U. The horizon is about a swing of a fluttering body: long enough for its energy to
+// matter, short enough not to be chaotic.
+constexpr double first_segment = 0.5;
+constexpr double horizon = 3.0;
+constexpr double spacing = 0.5;
+constexpr double flown_step = 0.03;
+constexpr int looks = 4;                     // at the fall, in each segment
+constexpr Eigen::Index numbers_of_look = 9;  // velocity, tip speed, rotation
+constexpr double usual_miss = 0.2;           // beyond it a residual counts less
+constexpr double expected_miss = 0.1;        // as far as expectations weigh
+// What the flights of segments miss is forgiven where the swings die: they are fitted best by a body that
+// swings less than it should. So the figures of the whole flight count too: as so many numbers of segments,
+// each where it is off by its fitted_miss as much as a number by `usual_miss`. 15 to 80 numbers in place of
+// the 40 give the same falls within their limits, 160 a disc that falls too fast (docs/falls.md, "How the
+// coefficients are found").
+constexpr Eigen::Index figures_of_fall = fitted_figures.size();
+constexpr double count_of_figure = 40.0;
+constexpr double least_count = 1e-3;           // of them, to begin with
+constexpr double farthest_figure = 10.0;       // over those
+constexpr int stretches = 6;                   // of the jackknife
+constexpr int least_segments = 2 * stretches;  // of each fall
+// No number of a miss counts more: coefficients with which a body flies off are bad, but no worse than that.
+constexpr double farthest_flight = 10.0;
+// A sample's time may be off by this share of its step: the flights take steps of one length.
+constexpr double uneven_time = 0.01;
+
+// A fall made ready for many flights.
+struct ReadyFall {
+    FallRecord record;
+    ImmersedBody body;
+    std::vector<BodyState> states;
+    Vector3d gravity;
+    std::size_t stride;  // states to a flown step
+    Measures measures;
+};
+
+struct Segment {
+    std::size_t fall;
+    std::size_t begin;  // state
+    int stretch;
+};
+
+Error too_short(const FallRecord& record) {
+    return Error(
+        fmt::format("{}: the fall is too short to identify coefficients from: {:.3g} L/U, needs {:.3g}",
+                    record.fall.name, record.samples.empty() ? 0.0 : record.samples.back().time,
+                    first_segment + horizon + (least_segments - 1) * spacing));
+}
+
+void require_even_steps(const FallRecord& record) {
+    const double step = record.samples.front().time;
+    for (std::size_t i = 0; i < record.samples.size(); ++i) {
+        const double time = record.samples[i].time;
+        if (std::abs(time - static_cast<double>(i + 1) * step) <= uneven_time * step) continue;
+        throw Error(
+            fmt::format("{}: the fall's steps are not of one length: {:.6g} L/U at first, but not at {:.6g}",
+                        record.fall.name, step, time));
+    }
+}
+
+double step_of(const ReadyFall& fall) {
+    return fall.record.samples.front().time * fall.record.fall.time_unit();
+}
+
+int steps_to_look(const ReadyFall& fall) {
+    const double step = fall.record.samples.front().time * static_cast<double>(fall.stride);
+    return std::max(1, static_cast<int>(std::lround(horizon / looks / step)));
+}
+
+std::vector<Segment> segments_of(const std::vector<ReadyFall>& falls) {
+    std::vector<Segment> segments;
+    for (std::size_t i = 0; i < falls.size(); ++i) {
+        const ReadyFall& fall = falls[i];
+        const double step = fall.record.samples.front().time;
+        const std::size_t length = fall.stride * static_cast<std::size_t>(looks * steps_to_look(fall));
+        const auto every = static_cast<std::size_t>(std::max(1.0, std::round(spacing / step)));
+        const std::size_t first = segments.size();
+        for (auto begin = static_cast<std::size_t>(std::ceil(first_segment / step));
+             begin + length < fall.states.size(); begin += every) {
+            segments.push_back({i, begin, 0});
+        }
+        const std::size_t count = segments.size() - first;
+        if (count < least_segments) throw too_short(fall.record);
+        for (std::size_t k = 0; k < count; ++k) {
+            segments[first + k].stretch = static_cast<int>(k * stretches / count);
+        }
+    }
+    return segments;
+}
+
+// What the flight misses of the fall at one look, over the fall's scales.
+Eigen::Matrix<double, numbers_of_look, 1> miss(const ReadyFall& fall, const BodyState& flown,
+                                               const BodyState& solved) {
+    const double speed = fall.record.fall.speed;
+    const double tip = fall.body.dynamic.half_length / speed;
+    const Matrix3d to_world = flown.orientation.toRotationMatrix();
+    const Matrix3d solved_to_world = solved.orientation.toRotationMatrix();
+    const Eigen::AngleAxisd turn(Matrix3d(solved_to_world.transpose() * to_world));
+    Eigen::Matrix<double, numbers_of_look, 1> result;
+    result << (to_world * flown.velocity.tail<3>() - solved_to_world * solved.velocity.tail<3>()) / speed,
+        (to_world * flown.velocity.head<3>() - solved_to_world * solved.velocity.head<3>()) * tip,
+        turn.angle() * turn.axis();
+    if (!result.allFinite()) result.setConstant(farthest_flight);
+    return result.cwiseMin(farthest_flight).cwiseMax(-farthest_flight);
+}
+
+void fly_segment(const ReadyFall& fall, const ImmersedBody& body, std::size_t begin,
+                 Eigen::Ref<VectorXd> residuals) {
+    const double time_step = step_of(fall) * static_cast<double>(fall.stride);
+    const int steps = steps_to_look(fall);
+    BodyState state = fall.states[begin];
+    std::size_t at = begin;
+    for (int look = 0; look < looks; ++look) {
+        for (int step = 0; step < steps; ++step) state = implicit_step(body, fall.gravity, time_step, state);
+        at += fall.stride * static_cast<std::size_t>(steps);
+        residuals.segment<numbers_of_look>(numbers_of_look * look) = miss(fall, state, fall.states[at]);
+    }
+}
+
+// A fall's first state has the momenta of body and fluid as the body's own, while the fluid is still at rest
+// (free_fall.hpp): this one has them shared.
+BodyState start_of(const ReadyFall& fall) {
+    BodyState start = fall.states.front();
+    Vector6d momenta;
+    momenta << fall.body.own_inertia * start.velocity.head<3>(), fall.body.mass * start.velocity.tail<3>();
+    start.velocity = fall.body.inverse_inertia * momenta;
+    return start;
+}
+
+// Of every `stride`th state.
+Measures measures_of(const Body& body, const ReadyFall& fall, const std::vector<BodyState>& states) {
+    const Motion motion =
+        motion_of(body, fall.gravity, step_of(fall) * static_cast<double>(fall.stride), states);
+    return measure(motion, motion.bodies.front());
+}
+
+ReadyFall ready(const Body& body, const FallRecord& record) {
+    if (record.samples.empty()) throw too_short(record);
+    require_even_steps(record);
+    ReadyFall fall{record, falling_body(body, record.fall), states_of(record), gravity_of(record.fall), 1,
+                   {}};
+    const double step = record.samples.front().time;
+    fall.stride = static_cast<std::size_t>(std::max(1.0, std::round(flown_step / step)));
+    std::vector<BodyState> solved;
+    for (std::size_t i = 0; i < fall.states.size(); i += fall.stride) solved.push_back(fall.states[i]);
+    fall.measures = measures_of(body, fall, solved);
+    return fall;
+}
+
+Measures fly_whole(const Body& body, const ReadyFall& fall, const ImmersedBody& flying) {
+    const double time_step = step_of(fall) * static_cast<double>(fall.stride);
+    std::vector<BodyState> flown;
+    BodyState state = start_of(fall);
+    for (std::size_t i = 0; i < fall.states.size(); i += fall.stride) {
+        flown.push_back(state);
+        state = implicit_step(flying, fall.gravity, time_step, state);
+    }
+    return measures_of(body, fall, flown);
+}
+
+// How far two figures are apart, over `usual`; as far as can be where there is but one of them.
+double figure_miss(double flown, double solved, double usual) {
+    if (!(flown > 0.0) && !(solved > 0.0)) return 0.0;
+    const double miss = std::log(flown / solved) / usual;
+    if (!std::isfinite(miss)) return farthest_figure;
+    return std::clamp(miss, -farthest_figure, farthest_figure);
+}
+
+Eigen::Matrix<double, figures_of_fall, 1> figures_miss(const Measures& flown, const Measures& solved) {
+    Eigen::Matrix<double, figures_of_fall, 1> result;
+    Eigen::Index i = 0;
+    for (const Figure figure : fitted_figures) {
+        const CataloguedFigure& entry = catalogued(figure);
+        result[i++] = figure_miss(entry.measured(flown).value_or(0.0), entry.measured(solved).value_or(0.0),
+                                  entry.fitted_miss);
+    }
+    return result;
+}
+
+constexpr Eigen::Index numbers_of_segment = looks * numbers_of_look;
+
+Eigen::Index count(const std::vector<Segment>& segments) {
+    return numbers_of_segment * static_cast<Eigen::Index>(segments.size());
+}
+
+Eigen::Index figures_of(const std::vector<ReadyFall>& falls) {
+    return figures_of_fall * static_cast<Eigen::Index>(falls.size());
+}
+
+// Of the segments, and of the figures of each fall as a whole.
+VectorXd residuals_of(const Body& body, const std::vector<ReadyFall>& falls,
+                      const std::vector<Segment>& segments, const DynamicCoefficients& coefficients) {
+    std::vector<ImmersedBody> flying;
+    flying.reserve(falls.size());
+    for (const ReadyFall& fall : falls) {
+        flying.push_back(fall.body);
+        flying.back().dynamic = coefficients;
+        prepare(flying.back());
+    }
+    VectorXd residuals(count(segments) + figures_of(falls));
+    Eigen::Index at = 0;
+    for (const Segment& segment : segments) {
+        fly_segment(falls[segment.fall], flying[segment.fall], segment.begin,
+                    residuals.segment(at, numbers_of_segment));
+        at += numbers_of_segment;
+    }
+    for (std::size_t i = 0; i < falls.size(); ++i) {
+        const Measures flown = fly_whole(body, falls[i], flying[i]);
+        residuals.segment<figures_of_fall>(at) = usual_miss * figures_miss(flown, falls[i].measures);
+        at += figures_of_fall;
+    }
+    return residuals;
+}
+
+LeastSquaresProblem problem_of(const Body& body, const std::vector<ReadyFall>& falls,
+                               const std::vector<Segment>& segments, const MotionParameters& parameters) {
+    LeastSquaresProblem problem;
+    problem.residuals = [&body, &falls, &parameters, segments](const VectorXd& numbers) {
+        return residuals_of(body, falls, segments, parameters.coefficients(numbers));
+    };
+    problem.counts = VectorXd::Ones(count(segments) + figures_of(falls));
+    problem.counts.tail(figures_of(falls)).array() = count_of_figure;
+    const auto size = static_cast<Eigen::Index>(parameters.all().size());
+    problem.start = parameters.expected();
+    problem.expected = problem.start;
+    problem.lower.resize(size);
+    problem.upper.resize(size);
+    problem.deviation.resize(size);
+    for (Eigen::Index i = 0; i < size; ++i) {
+        const MotionParameter& parameter = parameters.all()[static_cast<std::size_t>(i)];
+        problem.lower[i] = parameter.lower;
+        problem.upper[i] = parameter.upper;
+        problem.deviation[i] = parameter.deviation;
+    }
+    problem.scale = usual_miss;
+    // A segment's looks are not independent, nor are segments that overlap: about one number in a dozen is.
+    problem.prior_weight = 12.0 * expected_miss * expected_miss;
+    return problem;
+}
+
+// They come from leaving out one stretch at a time (Efron & Tibshirani, An Introduction to the Bootstrap,
+// 1993, section 11.2), which knows nothing of the pull of what is expected: that is the same whatever is left
+// out.
+VectorXd standard_errors_of(const Body& body, const std::vector<ReadyFall>& falls,
+                            const std::vector<Segment>& segments, const MotionParameters& parameters,
+                            const VectorXd& solution, const std::function<void(double)>& progress) {
+    VectorXd sum = VectorXd::Zero(solution.size());
+    VectorXd squares = VectorXd::Zero(solution.size());
+    for (int stretch = 0; stretch < stretches; ++stretch) {
+        std::vector<Segment> others = segments;
+        std::erase_if(others, [&](const Segment& segment) { return segment.stretch == stretch; });
+        LeastSquaresProblem problem = problem_of(body, falls, others, parameters);
+        problem.start = solution;
+        problem.most_iterations = 8;
+        const VectorXd x = solve_least_squares(problem).x;
+        sum += x;
+        squares += x.cwiseAbs2();
+        if (progress) progress((2.0 + stretch) / (1.0 + stretches));
+    }
+    const VectorXd mean = sum / stretches;
+    const VectorXd variance = (stretches - 1.0) * (squares / stretches - mean.cwiseAbs2()).cwiseMax(0.0);
+    const VectorXd of_expectation =
+        errors_by_expectation(problem_of(body, falls, segments, parameters), solution);
+    return (variance + of_expectation.cwiseAbs2()).cwiseSqrt();
+}
+
+FlownFall flown_fall(const Body& body, const ReadyFall& fall, const DynamicCoefficients& coefficients) {
+    ImmersedBody flying = fall.body;
+    flying.dynamic = coefficients;
+    prepare(flying);
+    return {fall.record.fall.name, fall.measures, fly_whole(body, fall, flying), balance_of(fall.record)};
+}
+
+std::string origin_of(const std::vector<FallRecord>& falls, double error) {
+    std::string names;
+    for (const FallRecord& record : falls) {
+        names += fmt::format("{}{} ({:.3g} L/U, Reynolds number {:.3g}, density {:.4g})",
+                             names.empty() ? "" : ", ", record.fall.name, record.fall.duration,
+                             record.fall.reynolds_number, record.fall.mass / record.fall.volume);
+    }
+    return fmt::format(
+        "dynamic coefficients identified from free falls in OpenFOAM: {}; prediction error {:.2g}", names,
+        error);
+}
+
+}  // namespace
+
+FlownFall fly_fall(const Body& body, const FallRecord& record) {
+    const ReadyFall fall = ready(body, record);
+    return flown_fall(body, fall, fall.body.dynamic);
+}
+
+Identification identify_motion(const Body& body, const std::vector<FallRecord>& records,
+                               const std::vector<std::string>& without,
+                               const std::function<void(double)>& progress) {
+    if (records.empty())
+        throw Error(fmt::format("{}: there is no fall to identify coefficients from", body.name));
+    if (progress) progress(0.0);
+    std::vector<ReadyFall> falls;
+    falls.reserve(records.size());
+    for (const FallRecord& record : records) falls.push_back(ready(body, record));
+    const std::vector<Segment> segments = segments_of(falls);
+    const MotionParameters parameters(body, without);
+    // The figures are rough functions of the coefficients far from the solution, the segments' flights
+    // smooth.
+    LeastSquaresProblem problem = problem_of(body, falls, segments, parameters);
+    LeastSquaresProblem of_segments = problem;
+    of_segments.counts.tail(figures_of(falls)).setConstant(least_count);
+    problem.start = solve_least_squares(of_segments).x;
+    const LeastSquaresSolution solution = solve_least_squares(problem);
+    if (progress) progress(1.0 / (1.0 + stretches));
+    Identification result;
+    const VectorXd missed = solution.residuals.head(count(segments));
+    result.prediction_error = std::sqrt(missed.squaredNorm() / static_cast<double>(missed.size()));
+    result.segments = static_cast<int>(segments.size());
+    result.coefficients.values = parameters.coefficients(solution.x);
+    result.coefficients.standard_errors = parameters.standard_errors(
+        standard_errors_of(body, falls, segments, parameters, solution.x, progress));
+    result.coefficients.values.origin = origin_of(records, result.prediction_error);
+    for (const ReadyFall& fall : falls) {
+        result.falls.push_back(flown_fall(body, fall, result.coefficients.values));
+    }
+    return result;
+}
+
+}  // namespace samara

@@ -1,0 +1,159 @@
+#include "converter/falls/fall_record.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "converter/cases/load_history.hpp"
+#include "converter/openfoam/foam_history.hpp"
+#include "samara/base/error.hpp"
+
+namespace samara {
+namespace {
+
+Vector3d vector_at(const FoamHistory& history, std::size_t row, std::size_t first) {
+    const std::vector<double>& values = history.rows[row];
+    return {values[first], values[first + 1], values[first + 2]};
+}
+
+// OpenFOAM's eulerAngles(XYZ).
+Matrix3d turn_of(const Vector3d& angles) {
+    using Turn = Eigen::AngleAxisd;
+    return (Turn(angles.x(), Vector3d::UnitX()) * Turn(angles.y(), Vector3d::UnitY()) *
+            Turn(angles.z(), Vector3d::UnitZ()))
+        .toRotationMatrix();
+}
+
+// Over L/U: the jolt of a body let go in fluid at rest has died away by then.
+constexpr double longest_jolt = 0.5;
+// Over L: with less than this as arm, a force turns no body that matters; what is smaller is noise of the
+// pressure, as the moment on a sphere.
+constexpr double least_arm = 0.01;
+
+// In the case's units: a fall has blown up at a speed of 10, its angular velocity stays below 100, and fluid
+// that is set in motion within one short step answers with a force of some hundred.
+constexpr double largest_value = 1e4;
+
+Error damaged(const std::filesystem::path& folder, const std::string& what) {
+    return Error(fmt::format("{}: {}; the fall's history is damaged: remove that folder and run again",
+                             folder.string(), what));
+}
+
+// States, forces and moments are of the same times, which follow one another in even steps to the fall's end.
+void require_whole(const std::filesystem::path& folder, const FreeFall& fall, const FoamHistory& state,
+                   const LoadHistory& loads) {
+    const double same = 1e-6 * fall.duration;
+    const std::size_t rows = state.rows.size();
+    const std::size_t shortest = std::min({rows, loads.force.times.size(), loads.moment.times.size()});
+    double longest_step = 0.0;
+    for (std::size_t i = 0; i < shortest; ++i) {
+        const double time = state.rows[i].front();
+        if (std::abs(time - loads.force.times[i]) > same || std::abs(time - loads.moment.times[i]) > same) {
+            throw damaged(
+                folder, fmt::format("its states, forces and moments at the time {:.10g} are not of the same "
+                                    "times",
+                                    time));
+        }
+        const double before = i == 0 ? 0.0 : state.rows[i - 1].front();
+        longest_step = std::max(longest_step, time - before);
+        if (time - before > fall.time_step * (1.0 + 1e-3) + same) {
+            throw damaged(folder,
+                          fmt::format("it has nothing between the times {:.10g} and {:.10g}", before, time));
+        }
+    }
+    const double end = shortest == 0 ? 0.0 : state.rows[shortest - 1].front();
+    const std::size_t longest = std::max({rows, loads.force.times.size(), loads.moment.times.size()});
+    if (end < fall.duration - 1.5 * longest_step || shortest < longest) {
+        throw damaged(folder, fmt::format("its states, forces or moments end at the time {:.10g} of {:.10g}",
+                                          end, fall.duration));
+    }
+}
+
+// The rate of change of a vector between the samples beside sample i.
+template <typename Quantity>
+Vector3d rate(const std::vector<FallSample>& samples, std::size_t i, Quantity quantity) {
+    const FallSample& before = samples[i - 1];
+    const FallSample& after = samples[i + 1];
+    return (quantity(after) - quantity(before)) / (after.time - before.time);
+}
+
+}  // namespace
+
+FallRecord read_fall_record(const std::filesystem::path& folder) {
+    FallRecord record;
+    record.fall = read_free_fall(folder);
+    const FoamHistory state = read_joined_history(folder / "postProcessing/state", "sixDoFRigidBodyState");
+    const LoadHistory loads = read_load_history(folder / "postProcessing/forces");
+    const std::size_t position = state.index("centreOfMass_x");
+    const std::size_t angles = state.index("rotation_x");
+    const std::size_t velocity = state.index("velocity_x");
+    const std::size_t angular_velocity = state.index("omega_x");
+    require_whole(folder, record.fall, state, loads);
+    record.samples.resize(state.rows.size());
+    for (std::size_t i = 0; i < record.samples.size(); ++i) {
+        FallSample& sample = record.samples[i];
+        sample.time = state.rows[i].front();
+        sample.position = vector_at(state, i, position);
+        const Vector3d angle = vector_at(state, i, angles);
+        // The solver turns the axes of its inertia.
+        sample.turn = turn_of(angle) * record.fall.principal_axes.transpose();
+        sample.velocity = vector_at(state, i, velocity);
+        sample.angular_velocity = vector_at(state, i, angular_velocity);
+        sample.force = loads.force.values[i];
+        sample.moment = loads.moment.values[i] - sample.position.cross(sample.force);
+        for (const Vector3d& value : {sample.position, angle, sample.velocity, sample.angular_velocity,
+                                      sample.force, sample.moment}) {
+            if (value.norm() < largest_value) continue;
+            throw damaged(
+                folder, fmt::format("a state, force or moment at the time {:.10g} is {:.3g} in size, beyond "
+                                    "any fall's",
+                                    sample.time, value.norm()));
+        }
+    }
+    return record;
+}
+
+FallBalance balance_of(const FallRecord& record) {
+    const FreeFall& fall = record.fall;
+    const std::vector<FallSample>& samples = record.samples;
+    if (samples.size() < 3) return {};
+    const Matrix3d inertia = fall.inertia();
+    const auto spin = [&](const FallSample& sample) -> Vector3d {
+        return sample.turn * (inertia * (sample.turn.transpose() * sample.angular_velocity));
+    };
+    const auto velocity = [](const FallSample& sample) -> Vector3d { return sample.velocity; };
+    const Vector3d weight = (fall.mass - fall.volume) * fall.gravity;
+    const double settled = std::min(longest_jolt, 0.25 * samples.back().time);
+    // Sums of squares.
+    double force_residual = 0.0;
+    double force = 0.0;
+    double moment_residual = 0.0;
+    double moment = 0.0;
+    double gyroscopic = 0.0;
+    double of_weights = 0.0;
+    double of_buoyancies = 0.0;
+    for (std::size_t i = 1; i + 1 < samples.size(); ++i) {
+        const FallSample& sample = samples[i];
+        if (sample.time < settled) continue;
+        const Vector3d acceleration = rate(samples, i, velocity);
+        force_residual += (fall.mass * acceleration - weight - sample.force).squaredNorm();
+        force += sample.force.squaredNorm();
+        of_weights += weight.squaredNorm();
+        // The buoyancy's arm is from the centre of mass to the centroid, and it is opposed to gravity.
+        const Vector3d of_buoyancy = (sample.turn * fall.center_of_mass).cross(fall.volume * fall.gravity);
+        moment_residual += (rate(samples, i, spin) - of_buoyancy - sample.moment).squaredNorm();
+        moment += sample.moment.squaredNorm();
+        of_buoyancies += of_buoyancy.squaredNorm();
+        gyroscopic += sample.angular_velocity.cross(spin(sample)).squaredNorm();
+    }
+    const auto ratio = [](double residual, double scale) {
+        return scale > 0.0 ? std::sqrt(residual / scale) : 0.0;
+    };
+    const double force_scale = std::max(force, of_weights);
+    return {ratio(force_residual, force_scale),
+            ratio(moment_residual,
+                  std::max({moment, gyroscopic, of_buoyancies, least_arm * least_arm * force_scale}))};
+}
+
+}  // namespace samara

@@ -1,0 +1,62 @@
+#include "converter/falls/identification_report.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "internal/base/angles.hpp"
+#include "internal/base/vector_json.hpp"
+#include "internal/motion/description.hpp"
+
+namespace samara {
+namespace {
+
+nlohmann::json coefficients_as_json(const DynamicCoefficients& coefficients) {
+    nlohmann::json json;
+    for (const NumberOfMotion& number : numbers_of_motion) json[number.name] = coefficients.*number.member;
+    for (const TensorOfMotion& tensor : tensors_of_motion) {
+        json[tensor.name] = rows_as_json(coefficients.*tensor.member);
+    }
+    return json;
+}
+
+std::string figures(const char* what, const Measures& measures) {
+    return fmt::format(
+        "    {:<9} descends at {:.4g} m/s, {} Hz, inclination up to {:.1f} degrees, {:.3g} rad/s rms, {}\n",
+        what, measures.descent_speed, measures.frequency ? fmt::format("{:.3g}", *measures.frequency) : "-",
+        degrees * measures.inclination_amplitude, measures.rms_angular_speed, name_of(measures.regime));
+}
+
+}  // namespace
+
+nlohmann::json flown_fall_as_json(const FlownFall& fall) {
+    return {{"name", fall.name},
+            {"solved", as_json(fall.solved)},
+            {"flown", as_json(fall.flown)},
+            {"balance", {{"force", fall.balance.force}, {"moment", fall.balance.moment}}}};
+}
+
+nlohmann::json identification_as_json(const Identification& identification) {
+    nlohmann::json falls = nlohmann::json::array();
+    for (const FlownFall& fall : identification.falls) falls.push_back(flown_fall_as_json(fall));
+    return {{"prediction_error", identification.prediction_error},
+            {"segments", identification.segments},
+            {"coefficients", coefficients_as_json(identification.coefficients.values)},
+            {"standard_errors", coefficients_as_json(identification.coefficients.standard_errors)},
+            {"falls", falls}};
+}
+
+std::string flown_fall_as_text(const FlownFall& fall) {
+    return fmt::format("  {} (momenta balance to {:.1f} % and {:.1f} %)\n", fall.name,
+                       100.0 * fall.balance.force, 100.0 * fall.balance.moment) +
+           figures("full CFD", fall.solved) + figures("flown", fall.flown);
+}
+
+std::string identification_as_text(const Identification& identification) {
+    std::string text = fmt::format(
+        "Dynamic coefficients from {} stretches of free fall, missed by {:.1f} % of the fall's speed:\n",
+        identification.segments, 100.0 * identification.prediction_error);
+    for (const FlownFall& fall : identification.falls) text += flown_fall_as_text(fall);
+    return text;
+}
+
+}  // namespace samara

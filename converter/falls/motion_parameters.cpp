@@ -1,0 +1,196 @@
+#include "converter/falls/motion_parameters.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "internal/dynamics/dynamic_coefficients.hpp"
+#include "samara/base/error.hpp"
+
+namespace samara {
+namespace {
+
+struct Expectation {
+    Matrix3d DynamicCoefficients::*member;
+    const char* name;
+    double expected, deviation, lower, upper;
+};
+
+// What the falls in docs/falls have in common (docs/falls.md), and how far they differ.
+constexpr Expectation expectations[] = {
+    {&DynamicCoefficients::transport, "transport", 0.0, 1.0, -6.0, 6.0},
+    {&DynamicCoefficients::drag_in_motion, "drag in motion", usual_drag_in_motion, 0.6, 0.0, 6.0},
+    {&DynamicCoefficients::drag_in_spin, "drag in spin", usual_drag_in_spin, 0.6, 0.0, 6.0},
+    {&DynamicCoefficients::rotational_drag, "rotational drag", usual_rotational_drag, 0.7, 0.0, 6.0},
+    {&DynamicCoefficients::rotational_drag_in_spin, "rotational drag in spin", usual_rotational_drag_in_spin,
+     0.7, 0.0, 6.0},
+    {&DynamicCoefficients::wake_by_velocity, "wake by velocity", 0.0, 0.5, -3.0, 3.0},
+    {&DynamicCoefficients::wake_by_turning, "wake by turning", 0.0, 0.5, -3.0, 3.0},
+    {&DynamicCoefficients::entrained_inertia, "entrained inertia", 0.0, 1.0, -6.0, 6.0},
+};
+
+struct NumberExpectation {
+    double expected, deviation, lower, upper;
+};
+// Of numbers_of_motion.
+constexpr NumberExpectation number_expectations[] = {{usual_rotational_transport, 0.3, -2.0, 4.0},
+                                                     {1.0, 0.3, 0.3, 3.0}};
+static_assert(std::size(number_expectations) == std::size(numbers_of_motion));
+
+// Axes along which the body moves alike: within this, relative.
+constexpr double alike = 0.01;
+
+Eigen::Vector3i tied_axes(const Matrix3d& axes, const Body& body) {
+    const auto along = [&](const Matrix3d& tensor) -> Vector3d {
+        return (axes.transpose() * tensor * axes).diagonal();
+    };
+    const Matrix6d& fluid = body.kirchhoff->matrix;
+    const Vector3d masses = along(fluid.bottomRightCorner<3, 3>());
+    const Vector3d inertias = along(fluid.topLeftCorner<3, 3>());
+    const Vector3d extents = along(body.moments.second_moments);
+    // The inertia of a body of revolution about its axis, and all of a sphere's, is nothing but rounding.
+    const double usual_inertia =
+        masses.maxCoeff() * std::pow(default_dynamic_coefficients(body).half_length, 2);
+    const auto equal = [](const Vector3d& values, int i, int j, double least = 0.0) {
+        return std::abs(values[i] - values[j]) <= alike * std::max(values.maxCoeff(), least);
+    };
+    Eigen::Vector3i tied(0, 1, 2);
+    for (int i = 1; i < 3; ++i) {
+        for (int j = i - 1; j >= 0; --j) {
+            if (equal(masses, i, j) && equal(inertias, i, j, 0.1 * usual_inertia) && equal(extents, i, j))
+                tied[i] = tied[j];
+        }
+    }
+    return tied;
+}
+
+Vector3d projected_areas(const Body& body, const Matrix3d& axes) {
+    Vector3d areas;
+    for (int i = 0; i < 3; ++i) areas[i] = projected_area(body.surface, axes.col(i));
+    return areas;
+}
+
+}  // namespace
+
+std::vector<std::string> MotionParameters::names() {
+    std::vector<std::string> names;
+    for (const Expectation& expectation : expectations) names.emplace_back(expectation.name);
+    for (const NumberOfMotion& number : numbers_of_motion) names.emplace_back(number.title);
+    return names;
+}
+
+MotionParameters::MotionParameters(const Body& body, const std::vector<std::string>& without) {
+    axes_ = principal_axes(body.moments);
+    tied_ = tied_axes(axes_, body);
+    half_length_ = default_dynamic_coefficients(body).half_length;
+    const Matrix3d added_mass = axes_.transpose() * body.kirchhoff->matrix.bottomRightCorner<3, 3>() * axes_;
+    const double largest = added_mass.diagonal().maxCoeff();
+    const Vector3d turning =
+        (axes_.transpose() * rotational_drag_tensor(body.surface, body.moments.centroid) * axes_).diagonal();
+    const Vector3d none = Vector3d::Zero();
+    const Vector3d of_wake = Vector3d::Constant(largest * half_length_);
+    const Vector3d of_entrained = Vector3d::Constant(
+        (axes_.transpose() * body.kirchhoff->matrix.topLeftCorner<3, 3>() * axes_).diagonal().maxCoeff());
+    const Vector3d offsets[] = {added_mass.diagonal(), none, none, none, none, none, none, none};
+    // A body of revolution has no rotational drag about its axis by its pressure: friction is a small share.
+    const Vector3d of_turning = turning.cwiseMax(0.02 * turning.maxCoeff());
+    const Vector3d areas = projected_areas(body, axes_);
+    const Vector3d units[] = {Vector3d::Constant(0.25 * largest),
+                              areas,
+                              areas,
+                              of_turning,
+                              of_turning,
+                              of_wake,
+                              of_wake,
+                              of_entrained};
+    for (std::size_t t = 0; t < std::size(expectations); ++t) {
+        const Expectation& expectation = expectations[t];
+        Tensor tensor{expectation.member, offsets[t], units[t], {}};
+        for (int i = 0; i < 3; ++i) {
+            if (tied_[i] == i) {
+                tensor.place[i] = static_cast<int>(parameters_.size());
+                parameters_.push_back({fmt::format("{} {}", expectation.name, i + 1), expectation.expected,
+                                       expectation.deviation, expectation.lower, expectation.upper});
+            } else {
+                tensor.place[i] = tensor.place[tied_[i]];
+            }
+        }
+        tensors_.push_back(tensor);
+    }
+    first_number_ = static_cast<Eigen::Index>(parameters_.size());
+    for (std::size_t i = 0; i < std::size(numbers_of_motion); ++i) {
+        const auto& [expected, deviation, lower, upper] = number_expectations[i];
+        parameters_.push_back({numbers_of_motion[i].title, expected, deviation, lower, upper});
+    }
+    for (const std::string& name : without) leave_out(name);
+}
+
+void MotionParameters::leave_out(const std::string& name) {
+    const std::vector<std::string> known = names();
+    if (std::ranges::find(known, name) == known.end()) {
+        throw Error(fmt::format("there is no term '{}'; the terms are {}", name, fmt::join(known, ", ")));
+    }
+    // Transport's numbers are added to the added mass; as in potential flow there is none.
+    for (Tensor& tensor : tensors_) {
+        if (name == "transport" && tensor.member == &DynamicCoefficients::transport) tensor.offset.setZero();
+    }
+    for (MotionParameter& parameter : parameters_) {
+        if (!parameter.name.starts_with(name) ||
+            parameter.name.find_first_not_of(" 123", name.size()) != std::string::npos) {
+            continue;
+        }
+        const double left_out = name == "unsteady factor" ? 1.0 : 0.0;
+        parameter.expected = parameter.lower = parameter.upper = left_out;
+    }
+}
+
+Eigen::VectorXd MotionParameters::expected() const {
+    Eigen::VectorXd numbers(static_cast<Eigen::Index>(parameters_.size()));
+    for (Eigen::Index i = 0; i < numbers.size(); ++i)
+        numbers[i] = parameters_[static_cast<std::size_t>(i)].expected;
+    return numbers;
+}
+
+Eigen::Vector3d MotionParameters::principal_values(const Tensor& tensor,
+                                                   const Eigen::VectorXd& numbers) const {
+    return {tensor.unit[0] * numbers[tensor.place[0]], tensor.unit[1] * numbers[tensor.place[1]],
+            tensor.unit[2] * numbers[tensor.place[2]]};
+}
+
+void MotionParameters::set_numbers(const Eigen::VectorXd& numbers, DynamicCoefficients& coefficients) const {
+    for (std::size_t i = 0; i < std::size(numbers_of_motion); ++i) {
+        coefficients.*numbers_of_motion[i].member = numbers[first_number_ + static_cast<Eigen::Index>(i)];
+    }
+}
+
+DynamicCoefficients MotionParameters::coefficients(const Eigen::VectorXd& numbers) const {
+    DynamicCoefficients coefficients;
+    for (const Tensor& tensor : tensors_) {
+        const Vector3d values = tensor.offset + principal_values(tensor, numbers);
+        const Matrix3d matrix = axes_ * values.asDiagonal() * axes_.transpose();
+        coefficients.*tensor.member = 0.5 * (matrix + matrix.transpose());
+    }
+    set_numbers(numbers, coefficients);
+    coefficients.half_length = half_length_;
+    return coefficients;
+}
+
+DynamicCoefficients MotionParameters::standard_errors(const Eigen::VectorXd& errors) const {
+    DynamicCoefficients coefficients;
+    for (const Tensor& tensor : tensors_) {
+        const Vector3d values = principal_values(tensor, errors);
+        // Each entry is a sum of the values times squares or products of the axes' components.
+        Matrix3d squares = Matrix3d::Zero();
+        for (int i = 0; i < 3; ++i) {
+            const Matrix3d share = axes_.col(i) * axes_.col(i).transpose();
+            squares += (values[i] * share).cwiseAbs2();
+        }
+        coefficients.*tensor.member = squares.cwiseSqrt();
+    }
+    set_numbers(errors, coefficients);
+    return coefficients;
+}
+
+}  // namespace samara

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace samara {
+
+/// The files that a history was read from.
+class HistoryFiles {
+  public:
+    /// Appends a file whose times begin with `first`; those from there on of earlier files do not count.
+    void add(double first, std::filesystem::path file);
+    /// The file in which a time of the history stands. There is one at least.
+    [[nodiscard]] const std::filesystem::path& at(double time) const;
+
+  private:
+    std::vector<std::pair<double, std::filesystem::path>> files_;  // by their first times, which ascend
+};
+
+/// What an OpenFOAM function object wrote at every iteration: a table with named columns.
+struct FoamHistory {
+    std::filesystem::path file;             ///< the last that was read
+    std::vector<std::string> columns;       ///< "Time", "total_x", "volAverage(k)", ...
+    std::vector<std::vector<double>> rows;  ///< one for each time, as long as `columns`; times ascend
+    HistoryFiles files;
+
+    [[nodiscard]] bool has(const std::string& name) const;
+    /// The place of a column. Throws Error where there is none.
+    [[nodiscard]] std::size_t index(const std::string& name) const;
+    /// The values of a column in the rows whose Time is at least `start`. Throws Error where there is no such
+    /// column.
+    [[nodiscard]] std::vector<double> column(const std::string& name, double start) const;
+};
+
+/// Whether a history that ends within a line, as one whose writer was killed, is refused or loses that line.
+enum class CutLine { refuse, drop };
+
+/// Reads one file postProcessing/NAME/TIME/FILE.dat: comments that begin with '#', of which the last before
+/// the numbers names the columns; brackets around vectors are passed over, so that the layouts of OpenFOAM
+/// v1912 (vectors in brackets) and v2112 (none) read alike. The heading "forces(pressure viscous)" of
+/// OpenFOAM 8 to 11 names the vectors forces_pressure_x, forces_pressure_y, ... Throws Error with file and
+/// line, and where the times do not ascend.
+FoamHistory read_history(const std::filesystem::path& file, CutLine cut_line = CutLine::refuse);
+
+/// The files of a history in the order of the solver's runs: FOLDER/TIME/NAME.dat for every start time TIME
+/// in ascending order, each followed by NAME_TIME.dat, which OpenFOAM writes where a run starts at a time
+/// from which another had started. Empty where there is none.
+std::vector<std::filesystem::path> history_files(const std::filesystem::path& folder,
+                                                 const std::string& name);
+
+/// Reads history_files as one history: from the first time of a file on, it replaces what stood in earlier
+/// ones. A line on which a killed run ended is dropped where a later run has gone on; at the history's end it
+/// is refused. Throws Error where there is no such file, where none has values, where they differ in their
+/// columns, or where a file begins before the start time of its folder.
+FoamHistory read_joined_history(const std::filesystem::path& folder, const std::string& name);
+
+}  // namespace samara

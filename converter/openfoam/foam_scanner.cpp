@@ -1,0 +1,149 @@
+#include "converter/openfoam/foam_scanner.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "converter/openfoam/foam_number.hpp"
+
+namespace samara {
+namespace {
+
+bool is_blank(char c) {
+    return c == ' ' || c == '\n' || c == '\t' || c == '\r';
+}
+
+bool ends_word(char c) {
+    return is_blank(c) || std::string_view("(){}[];\"").find(c) != std::string_view::npos;
+}
+
+}  // namespace
+
+FoamScanner::FoamScanner(const std::filesystem::path& file) : FoamScanner(read_foam_bytes(file)) {}
+
+FoamScanner::FoamScanner(FoamBytes bytes) : path_(std::move(bytes.path)), text_(std::move(bytes.text)) {}
+
+void FoamScanner::skip_comment() {
+    const bool to_line_end = text_[place_ + 1] == '/';
+    const std::size_t end = to_line_end ? text_.find('\n', place_) : text_.find("*/", place_ + 2);
+    if (end == std::string::npos && !to_line_end) throw fault("this comment has no end");
+    place_ = end == std::string::npos ? text_.size() : end + (to_line_end ? 1 : 2);
+}
+
+void FoamScanner::skip_blanks() {
+    while (place_ < text_.size()) {
+        if (is_blank(text_[place_])) {
+            ++place_;
+        } else if (text_.compare(place_, 2, "//") == 0 || text_.compare(place_, 2, "/*") == 0) {
+            skip_comment();
+        } else {
+            return;
+        }
+    }
+}
+
+bool FoamScanner::at_end() {
+    skip_blanks();
+    return place_ == text_.size();
+}
+
+char FoamScanner::peek() {
+    return at_end() ? '\0' : text_[place_];
+}
+
+bool FoamScanner::accept(char symbol) {
+    if (peek() != symbol) return false;
+    ++place_;
+    return true;
+}
+
+void FoamScanner::expect(char symbol) {
+    if (!accept(symbol)) throw fault(fmt::format("expected '{}', found {}", symbol, found()));
+}
+
+std::string_view FoamScanner::word() {
+    skip_blanks();
+    const std::size_t start = place_;
+    if (start < text_.size() && text_[start] == '"') {
+        const std::size_t end = text_.find('"', start + 1);
+        if (end == std::string::npos) throw fault("this text has no closing quotation mark");
+        place_ = end + 1;
+        return std::string_view(text_).substr(start + 1, end - start - 1);
+    }
+    while (place_ < text_.size() && !ends_word(text_[place_])) ++place_;
+    if (place_ == start) throw fault(fmt::format("expected a word, found {}", found()));
+    return std::string_view(text_).substr(start, place_ - start);
+}
+
+double FoamScanner::number() {
+    skip_blanks();
+    double value = 0.0;
+    const char* const start = text_.data() + place_;
+    const char* const end = read_foam_number(start, text_.data() + text_.size(), value);
+    if (end == start || (*end != '\0' && !ends_word(*end))) {
+        throw fault(fmt::format("expected a number, found {}", found()));
+    }
+    place_ += static_cast<std::size_t>(end - start);
+    return value;
+}
+
+std::int64_t FoamScanner::integer() {
+    skip_blanks();
+    std::int64_t value = 0;
+    const char* const start = text_.data() + place_;
+    const auto [end, status] = std::from_chars(start, text_.data() + text_.size(), value);
+    if (status != std::errc() || (*end != '\0' && !ends_word(*end))) {
+        throw fault(fmt::format("expected a whole number, found {}", found()));
+    }
+    place_ += static_cast<std::size_t>(end - start);
+    return value;
+}
+
+std::string_view FoamScanner::text_before(char symbol) {
+    skip_blanks();
+    const std::size_t start = place_;
+    int depth = 0;
+    for (; place_ < text_.size(); ++place_) {
+        const char c = text_[place_];
+        if (c == symbol && depth == 0) {
+            std::size_t end = place_++;
+            while (end > start && is_blank(text_[end - 1])) --end;
+            return std::string_view(text_).substr(start, end - start);
+        }
+        if (c == '"') {
+            place_ = std::min(text_.find('"', place_ + 1), text_.size() - 1);
+        } else if (c == '(' || c == '{' || c == '[') {
+            ++depth;
+        } else if ((c == ')' || c == '}' || c == ']') && --depth < 0) {
+            break;
+        }
+    }
+    place_ = start;
+    throw fault(fmt::format("this entry is not ended by '{}'", symbol));
+}
+
+std::string_view FoamScanner::bytes(std::size_t count) {
+    if (count > text_.size() - place_) {
+        throw fault(fmt::format("the file ends {} bytes too early", count - (text_.size() - place_)));
+    }
+    const std::string_view block = std::string_view(text_).substr(place_, count);
+    place_ += count;
+    return block;
+}
+
+std::string FoamScanner::found() const {
+    if (place_ >= text_.size()) return "the end of the file";
+    std::size_t end = place_ + 1;
+    while (end < text_.size() && end - place_ < 24 && !ends_word(text_[end])) ++end;
+    return fmt::format("'{}'", text_.substr(place_, end - place_));
+}
+
+Error FoamScanner::fault(std::string_view what) const {
+    const auto end = text_.begin() + static_cast<std::ptrdiff_t>(std::min(place_, text_.size()));
+    const auto line = 1 + std::count(text_.begin(), end, '\n');
+    return Error(fmt::format("{}:{}: {}", path_.string(), line, what));
+}
+
+}  // namespace samara

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "converter/openfoam/foam_bytes.hpp"
+#include "samara/base/error.hpp"
+
+namespace samara {
+
+/// Reads the words, numbers and brackets of an OpenFOAM file one after another; blanks and comments between
+/// them are passed over. Every fault is an Error that names the file and the line.
+class FoamScanner {
+  public:
+    /// Reads the file, or its compressed copy, whole (read_foam_bytes).
+    explicit FoamScanner(const std::filesystem::path& file);
+
+    /// The file that was read.
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+    /// Whether nothing but blanks and comments is left.
+    bool at_end();
+    /// The next character that is not blank; '\0' at the end.
+    char peek();
+    /// Passes over `symbol` if it is next, and says whether it was.
+    bool accept(char symbol);
+    /// Passes over `symbol`, or throws.
+    void expect(char symbol);
+    /// The next word, or the next text in quotes (without them). Throws at a bracket, a semicolon or the end.
+    std::string_view word();
+    double number();
+    std::int64_t integer();
+    /// All up to the next `symbol` outside brackets and quotes, which is passed over; blanks at both ends
+    /// removed.
+    std::string_view text_before(char symbol);
+    /// The next `count` bytes as they are.
+    std::string_view bytes(std::size_t count);
+
+    /// "FILE:LINE: what", for the place last read.
+    [[nodiscard]] Error fault(std::string_view what) const;
+
+  private:
+    explicit FoamScanner(FoamBytes bytes);
+    void skip_blanks();
+    void skip_comment();
+    /// What stands at the place, in words for a message.
+    [[nodiscard]] std::string found() const;
+
+    std::filesystem::path path_;
+    std::string text_;
+    std::size_t place_ = 0;
+};
+
+}  // namespace samara

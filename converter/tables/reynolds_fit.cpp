@@ -1,0 +1,118 @@
+#include "converter/tables/reynolds_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "converter/tables/student.hpp"
+#include "samara/base/error.hpp"
+
+namespace samara {
+namespace {
+
+std::vector<Vector3d> directions_of(const std::vector<DirectionSample>& samples) {
+    std::vector<Vector3d> directions;
+    for (const DirectionSample& sample : samples) directions.push_back(sample.direction);
+    return directions;
+}
+
+bool all_turbulent(const std::vector<DirectionSample>& samples) {
+    const auto turbulent = std::count_if(samples.begin(), samples.end(), [](const DirectionSample& sample) {
+        return is_turbulent(sample.entry);
+    });
+    if (turbulent != 0 && turbulent != static_cast<std::ptrdiff_t>(samples.size())) {
+        throw Error("laminar and turbulent cases are mixed");
+    }
+    return turbulent != 0;
+}
+
+/// A mean of squares over the values that were left out.
+class MeanSquare {
+  public:
+    void add(double squares, int components, double spread) {
+        if (components == 0) return;
+        sum_ += squares / (components * spread * spread);
+        ++count_;
+    }
+    [[nodiscard]] double widened_root() const {
+        // From one value nothing can be learnt about the next: what is taken then is no estimate.
+        if (count_ < 2) return std::sqrt(sum_);
+        return student_widening(count_) * std::sqrt(sum_ / count_);
+    }
+
+  private:
+    double sum_ = 0.0;
+    int count_ = 0;
+};
+
+double hypot_scaled(double scale, double spread, double other) {
+    return std::hypot(scale * spread, other);
+}
+
+}  // namespace
+
+bool is_turbulent(const LoadEntry& entry) {
+    return entry.turbulent_kinetic_energy > 0.0 && entry.dissipation_rate > 0.0;
+}
+
+LoadEntry in_logarithms(const LoadEntry& entry) {
+    if (!is_turbulent(entry)) return {entry.force, entry.moment, 0.0, 0.0};
+    return {entry.force, entry.moment, std::log(entry.turbulent_kinetic_energy),
+            std::log(entry.dissipation_rate)};
+}
+
+ReynoldsFit::ReynoldsFit(const Symmetry& symmetry, const std::vector<DirectionSample>& samples,
+                         const ReynoldsFit* main)
+    : fit_(symmetry, directions_of(samples)), main_(main), turbulent_(all_turbulent(samples)) {
+    for (const DirectionSample& sample : samples) {
+        LoadEntry value = in_logarithms(sample.entry);
+        if (main_ != nullptr) value = plus(value, -1.0, main_->logarithms_at(sample.direction));
+        values_.push_back(value);
+    }
+    if (!fit_.is_spherical()) leave_out_each(symmetry, samples);
+}
+
+LoadEntry ReynoldsFit::logarithms_at(const Vector3d& direction) const {
+    const LoadEntry value = fit_.at(values_, direction);
+    return main_ == nullptr ? value : plus(value, 1.0, main_->logarithms_at(direction));
+}
+
+LoadEntry ReynoldsFit::at(const Vector3d& direction) const {
+    LoadEntry entry = logarithms_at(direction);
+    entry.turbulent_kinetic_energy = turbulent_ ? std::exp(entry.turbulent_kinetic_energy) : 0.0;
+    entry.dissipation_rate = turbulent_ ? std::exp(entry.dissipation_rate) : 0.0;
+    return entry;
+}
+
+void ReynoldsFit::leave_out_each(const Symmetry& symmetry, const std::vector<DirectionSample>& samples) {
+    MeanSquare force;
+    MeanSquare moment;
+    MeanSquare turbulent_kinetic_energy;
+    MeanSquare dissipation_rate;
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+        LoadEntry error = plus(values_[i], -1.0, fit_.without(values_, i));
+        // A lone logarithm says nothing of its changes with the direction: a factor of e stands for them.
+        if (values_.size() == 1 && main_ == nullptr) {
+            error.turbulent_kinetic_energy = error.dissipation_rate = 1.0;
+        }
+        const double spread = fit_.spread_without(i);
+        const AllowedComponents allowed = allowed_components(symmetry, samples[i].direction);
+        force.add(error.force.squaredNorm(), allowed.force, spread);
+        moment.add(error.moment.squaredNorm(), allowed.moment, spread);
+        turbulent_kinetic_energy.add(error.turbulent_kinetic_energy * error.turbulent_kinetic_energy, 1,
+                                     spread);
+        dissipation_rate.add(error.dissipation_rate * error.dissipation_rate, 1, spread);
+    }
+    scale_ = {force.widened_root(), moment.widened_root(), turbulent_kinetic_energy.widened_root(),
+              dissipation_rate.widened_root()};
+}
+
+ErrorFigures ReynoldsFit::interpolation_error(const Vector3d& direction) const {
+    const double spread = fit_.spread(direction);
+    const ErrorFigures other = main_ == nullptr ? ErrorFigures{} : main_->interpolation_error(direction);
+    return {hypot_scaled(scale_.force, spread, other.force),
+            hypot_scaled(scale_.moment, spread, other.moment),
+            hypot_scaled(scale_.turbulent_kinetic_energy, spread, other.turbulent_kinetic_energy),
+            hypot_scaled(scale_.dissipation_rate, spread, other.dissipation_rate)};
+}
+
+}  // namespace samara

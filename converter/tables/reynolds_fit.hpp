@@ -1,0 +1,65 @@
+#pragma once
+
+#include <vector>
+
+#include "converter/tables/direction_fit.hpp"
+#include "converter/tables/symmetric_loads.hpp"
+
+namespace samara {
+
+/// One standard error for all components of a force or moment alike; those of k and epsilon are of their
+/// natural logarithms.
+struct ErrorFigures {
+    double force = 0.0;
+    double moment = 0.0;
+    double turbulent_kinetic_energy = 0.0;
+    double dissipation_rate = 0.0;
+};
+
+/// The entry with the natural logarithms of k and epsilon. Where either is 0 (laminar flow) both become 0.
+LoadEntry in_logarithms(const LoadEntry& entry);
+
+/// Whether k and epsilon are positive.
+bool is_turbulent(const LoadEntry& entry);
+
+/// The loads over the direction at one Reynolds number: a smooth function through its samples (map axes).
+/// Forces and moments are interpolated as they are, k and epsilon by their logarithms, so that they stay
+/// positive; in laminar flow they are 0 everywhere. Beside another, denser fit (`main`, at another Reynolds
+/// number) it is main's value that stands, plus a smooth interpolation of the samples' differences from it:
+/// few samples then give a whole table.
+class ReynoldsFit {
+  public:
+    /// `samples` already passed through keep_symmetric_part, at least one; no two directions are images of
+    /// each other. `main` must outlive the fit. Throws Error where laminar and turbulent samples are mixed.
+    ReynoldsFit(const Symmetry& symmetry, const std::vector<DirectionSample>& samples,
+                const ReynoldsFit* main = nullptr);
+
+    /// The entry in a direction.
+    [[nodiscard]] LoadEntry at(const Vector3d& direction) const;
+
+    /// The standard error of `at` from the interpolation alone. The interpolation's spread
+    /// (DirectionFit::spread) is scaled by leaving each sample out and predicting it from the others: the
+    /// mean square of (error / spread) over the samples, for each allowed component, widened for their small
+    /// number (student_widening). Beside a main fit, its errors and those of the differences in quadrature.
+    [[nodiscard]] ErrorFigures interpolation_error(const Vector3d& direction) const;
+
+    /// The standard errors of samples as they stand in a direction (DirectionFit::error_at).
+    [[nodiscard]] LoadEntryError error_at(const std::vector<LoadEntryError>& errors,
+                                          const Vector3d& direction) const {
+        return fit_.error_at(errors, direction);
+    }
+
+    [[nodiscard]] bool turbulent() const { return turbulent_; }
+
+  private:
+    [[nodiscard]] LoadEntry logarithms_at(const Vector3d& direction) const;
+    void leave_out_each(const Symmetry& symmetry, const std::vector<DirectionSample>& samples);
+
+    DirectionFit fit_;
+    std::vector<LoadEntry> values_;  ///< in logarithms; differences from main
+    ErrorFigures scale_;             ///< of the error per spread
+    const ReynoldsFit* main_;
+    bool turbulent_;
+};
+
+}  // namespace samara

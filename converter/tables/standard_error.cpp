@@ -1,0 +1,42 @@
+#include "converter/tables/standard_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace samara {
+namespace {
+
+double mean_of(const double* first, std::size_t count) {
+    return std::accumulate(first, first + count, 0.0) / static_cast<double>(count);
+}
+
+/// The standard error from `batches` equal batches; values that are left over are those at the start.
+double batch_error(const std::vector<double>& series, std::size_t batches) {
+    const std::size_t length = series.size() / batches;
+    const double* const start = series.data() + (series.size() - batches * length);
+    std::vector<double> means;
+    for (std::size_t batch = 0; batch < batches; ++batch) {
+        means.push_back(mean_of(start + batch * length, length));
+    }
+    const double center = mean(means);
+    double squares = 0.0;
+    for (const double value : means) squares += (value - center) * (value - center);
+    const auto count = static_cast<double>(batches);
+    return std::sqrt(squares / (count * (count - 1.0)));
+}
+
+}  // namespace
+
+double mean(const std::vector<double>& series) {
+    return series.empty() ? 0.0 : mean_of(series.data(), series.size());
+}
+
+double standard_error(const std::vector<double>& series) {
+    if (series.size() < 2) return 0.0;
+    const auto batches = static_cast<std::size_t>(std::sqrt(static_cast<double>(series.size())));
+    // The error by two batches is half the difference of their means.
+    return std::hypot(batch_error(series, std::max<std::size_t>(batches, 2)), batch_error(series, 2));
+}
+
+}  // namespace samara

@@ -1,0 +1,319 @@
+#include "converter/tables/table_filling.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "converter/cases/mesh_transfer.hpp"
+#include "converter/falls/model_errors.hpp"
+#include "converter/tables/direction_sampling.hpp"
+#include "converter/tables/reynolds_fit.hpp"
+#include "converter/tables/reynolds_interpolation.hpp"
+#include "internal/body/octahedral_map.hpp"
+#include "samara/base/error.hpp"
+
+namespace samara {
+namespace {
+
+/// The table cases of one Reynolds number, and what comes of them in map axes.
+struct ReynoldsTable {
+    double reynolds_number = 0.0;
+    std::vector<DirectionSample> samples;
+    std::vector<LoadEntryError> tail;
+    std::vector<LoadEntryError> asymmetry;
+    std::unique_ptr<ReynoldsFit> fit;
+    std::vector<LoadEntry> nodes;  ///< row by row
+    LoadScale scale;
+};
+
+/// Variances by source, those of k and epsilon of their logarithms.
+using SourceVariances = std::array<LoadEntryError, error_source_count>;
+
+LoadEntryError& of(SourceVariances& variances, ErrorSource source) {
+    return variances[static_cast<std::size_t>(source)];
+}
+
+const LoadEntryError& of(const SourceVariances& variances, ErrorSource source) {
+    return variances[static_cast<std::size_t>(source)];
+}
+
+/// The variance of each component and logarithm from standard errors that are the same for all components
+/// that are free.
+LoadEntryError variance_of(const ErrorFigures& figures, const FreeComponents& free) {
+    return {figures.force * figures.force * free.force, figures.moment * figures.moment * free.moment,
+            figures.turbulent_kinetic_energy * figures.turbulent_kinetic_energy,
+            figures.dissipation_rate * figures.dissipation_rate};
+}
+
+/// The errors of k and epsilon over k and epsilon, as those of their logarithms are to first order.
+LoadEntryError relative_to(const LoadEntry& entry, LoadEntryError error) {
+    const bool turbulent = is_turbulent(entry);
+    error.turbulent_kinetic_energy =
+        turbulent ? error.turbulent_kinetic_energy / entry.turbulent_kinetic_energy : 0.0;
+    error.dissipation_rate = turbulent ? error.dissipation_rate / entry.dissipation_rate : 0.0;
+    return error;
+}
+
+/// Standard errors from variances, those of k and epsilon from their logarithms' to their own.
+LoadEntryError absolute(const LoadEntry& entry, const LoadEntryError& variance) {
+    LoadEntryError error = rooted(variance);
+    error.turbulent_kinetic_energy =
+        entry.turbulent_kinetic_energy * std::expm1(error.turbulent_kinetic_energy);
+    error.dissipation_rate = entry.dissipation_rate * std::expm1(error.dissipation_rate);
+    return error;
+}
+
+/// Takes from the cases of all purposes what the symmetry forbids; the table's, by ascending Reynolds number.
+std::vector<ReynoldsTable> symmetric_tables(const Symmetry& symmetry, std::vector<SolvedCase>& cases) {
+    std::map<std::pair<CasePurpose, double>, std::vector<SolvedCase*>> sets;
+    for (SolvedCase& solved : cases) sets[{solved.purpose, solved.reynolds_number}].push_back(&solved);
+    std::vector<ReynoldsTable> tables;
+    for (const auto& [key, members] : sets) {
+        ReynoldsTable table;
+        table.reynolds_number = key.second;
+        for (const SolvedCase* member : members) {
+            table.samples.push_back(member->sample);
+            table.tail.push_back(relative_to(member->sample.entry, member->sample.error));
+        }
+        table.asymmetry = keep_symmetric_part(symmetry, table.samples);
+        for (std::size_t i = 0; i < members.size(); ++i) members[i]->sample = table.samples[i];
+        if (key.first == CasePurpose::table) tables.push_back(std::move(table));
+    }
+    if (tables.empty()) throw Error("has no solved case for the table");
+    return tables;
+}
+
+/// That of most table cases; the lowest of equals.
+double main_reynolds_number(const std::vector<SolvedCase>& cases) {
+    std::map<double, int> counts;
+    for (const SolvedCase& solved : cases) {
+        if (solved.purpose == CasePurpose::table) ++counts[solved.reynolds_number];
+    }
+    const auto most = std::ranges::max_element(counts, {}, [](const auto& pair) { return pair.second; });
+    return most == counts.end() ? 0.0 : most->first;
+}
+
+void fit(std::vector<ReynoldsTable>& tables, const Symmetry& symmetry) {
+    const auto main = std::max_element(
+        tables.begin(), tables.end(),
+        [](const ReynoldsTable& a, const ReynoldsTable& b) { return a.samples.size() < b.samples.size(); });
+    const auto fit_one = [&](ReynoldsTable& table) {
+        try {
+            table.fit = std::make_unique<ReynoldsFit>(symmetry, table.samples, main->fit.get());
+        } catch (const Error& fault) {
+            throw Error(fmt::format("Reynolds number {:.6g}: {}", table.reynolds_number, fault.what()));
+        }
+    };
+    fit_one(*main);
+    for (ReynoldsTable& table : tables) {
+        if (&table != &*main) fit_one(table);
+    }
+}
+
+/// Calls visit(row, column) for the nodes of the map (one_less = 0) or its cells (1).
+template <typename Visit>
+void for_each(int subdivisions, int one_less, const Visit& visit) {
+    for (int row = 0; row <= 2 * subdivisions - one_less; ++row) {
+        for (int column = 0; column <= 2 * subdivisions - one_less; ++column) visit(row, column);
+    }
+}
+
+std::size_t node_index(int subdivisions, int row, int column) {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(2 * subdivisions + 1) +
+           static_cast<std::size_t>(column);
+}
+
+void fill_nodes(ReynoldsTable& table, int subdivisions) {
+    double force = 0.0;
+    double moment = 0.0;
+    double directions = 0.0;
+    for_each(subdivisions, 0, [&](int row, int column) {
+        const LoadEntry entry = table.fit->at(octahedral_node(subdivisions, row, column));
+        const std::size_t here = node_index(subdivisions, row, column);
+        table.nodes.push_back(entry);
+        if (unique_node(subdivisions, row, column) != here) return;
+        force += entry.force.squaredNorm();
+        moment += entry.moment.squaredNorm();
+        directions += 1.0;
+    });
+    table.scale = {std::sqrt(force / directions), std::sqrt(moment / directions)};
+}
+
+/// What the interpolation leaves uncertain at the centre of a cell, as variances.
+LoadEntryError variance_in_cell(const ReynoldsTable& table, const Symmetry& symmetry, int subdivisions,
+                                int row, int column) {
+    const double middle = 0.5;
+    const Vector3d center =
+        octahedral_direction({(column + middle) / subdivisions - 1.0, (row + middle) / subdivisions - 1.0});
+    LoadEntry bilinear;
+    for (const auto& [down, right] : {std::pair{0, 0}, {0, 1}, {1, 0}, {1, 1}}) {
+        bilinear = plus(bilinear, 0.25, table.nodes[node_index(subdivisions, row + down, column + right)]);
+    }
+    const LoadEntry lookup = plus(in_logarithms(bilinear), -1.0, in_logarithms(table.fit->at(center)));
+    return plus(variance_of(table.fit->interpolation_error(center), free_components(symmetry, center)), 1.0,
+                squared(lookup));
+}
+
+/// The mean variances of the cells around each node, row by row.
+std::vector<LoadEntryError> variances_around_nodes(const ReynoldsTable& table, const Symmetry& symmetry,
+                                                   int subdivisions) {
+    std::vector<LoadEntryError> sums(table.nodes.size());
+    std::vector<double> cells(table.nodes.size(), 0.0);
+    for_each(subdivisions, 1, [&](int row, int column) {
+        const LoadEntryError variance = variance_in_cell(table, symmetry, subdivisions, row, column);
+        for (const auto& [down, right] : {std::pair{0, 0}, {0, 1}, {1, 0}, {1, 1}}) {
+            const std::size_t node = unique_node(subdivisions, row + down, column + right);
+            sums[node] = plus(sums[node], 1.0, variance);
+            cells[node] += 1.0;
+        }
+    });
+    std::vector<LoadEntryError> means;
+    for_each(subdivisions, 0, [&](int row, int column) {
+        const std::size_t node = unique_node(subdivisions, row, column);
+        means.push_back(plus({}, 1.0 / cells[node], sums[node]));
+    });
+    return means;
+}
+
+LoadEntryError model_variance(const RelativeErrors& errors, const LoadEntry& entry, const LoadScale& scale,
+                              const FreeComponents& free) {
+    return variance_of(
+        {errors.force * scale.of_force(entry.force), errors.moment * scale.of_moment(entry.moment),
+         errors.turbulent_kinetic_energy, errors.dissipation_rate},
+        free);
+}
+
+/// What the whole tables' errors are made of.
+struct ModelErrors {
+    std::optional<RelativeErrors> mesh;
+    std::optional<RelativeErrors> closure;
+};
+
+std::vector<SourceVariances> source_variances(const ReynoldsTable& table, const Symmetry& symmetry,
+                                              const ModelErrors& model,
+                                              const LoadEntryError& between_reynolds_numbers,
+                                              int subdivisions) {
+    const std::vector<LoadEntryError> interpolation = variances_around_nodes(table, symmetry, subdivisions);
+    std::vector<SourceVariances> result(table.nodes.size());
+    for_each(subdivisions, 0, [&](int row, int column) {
+        const std::size_t node = node_index(subdivisions, row, column);
+        const Vector3d direction = octahedral_node(subdivisions, row, column);
+        SourceVariances& variances = result[node];
+        of(variances, ErrorSource::tail) = squared(table.fit->error_at(table.tail, direction));
+        of(variances, ErrorSource::symmetry) = squared(table.fit->error_at(table.asymmetry, direction));
+        const LoadEntry& entry = table.nodes[node];
+        const FreeComponents free = free_components(symmetry, direction);
+        const auto of_model = [&](const std::optional<RelativeErrors>& errors) {
+            return errors ? model_variance(*errors, entry, table.scale, free) : LoadEntryError{};
+        };
+        of(variances, ErrorSource::mesh) = of_model(model.mesh);
+        of(variances, ErrorSource::closure) = of_model(model.closure);
+        of(variances, ErrorSource::interpolation) = plus(interpolation[node], 1.0, between_reynolds_numbers);
+    });
+    return result;
+}
+
+/// Squares summed over the whole tables: of the values, and of their errors by source.
+struct Totals {
+    LoadEntry values;
+    SourceVariances errors;
+};
+
+void add(Totals& totals, const LoadEntry& entry, const SourceVariances& variances) {
+    totals.values = plus(totals.values, 1.0, squared(entry));
+    for (std::size_t source = 0; source < variances.size(); ++source) {
+        totals.errors[source] = plus(totals.errors[source], 1.0, squared(absolute(entry, variances[source])));
+    }
+}
+
+double root_ratio(double squares, double of_squares) {
+    return of_squares > 0.0 ? std::sqrt(squares / of_squares) : 0.0;
+}
+
+std::vector<ErrorShare> shares_of(const Totals& totals, const ModelErrors& model, bool has_symmetry) {
+    std::vector<ErrorShare> shares;
+    for (std::size_t i = 0; i < error_source_count; ++i) {
+        const auto source = static_cast<ErrorSource>(i);
+        if (source == ErrorSource::mesh && !model.mesh) continue;
+        if (source == ErrorSource::closure && !model.closure) continue;
+        if (source == ErrorSource::symmetry && !has_symmetry) continue;
+        const LoadEntryError& error = totals.errors[i];
+        const LoadEntry& value = totals.values;
+        shares.push_back({source, root_ratio(error.force.sum(), value.force.sum()),
+                          root_ratio(error.moment.sum(), value.moment.sum()),
+                          root_ratio(error.turbulent_kinetic_energy, value.turbulent_kinetic_energy),
+                          root_ratio(error.dissipation_rate, value.dissipation_rate)});
+    }
+    return shares;
+}
+
+bool forbids_something(const Symmetry& symmetry, const std::vector<ReynoldsTable>& tables) {
+    return std::any_of(tables.begin(), tables.end(), [&](const ReynoldsTable& table) {
+        return std::any_of(table.samples.begin(), table.samples.end(), [&](const DirectionSample& sample) {
+            const AllowedComponents allowed = allowed_components(symmetry, sample.direction);
+            return allowed.force + allowed.moment < 6;
+        });
+    });
+}
+
+ModelErrors errors_of_models(const Symmetry& symmetry, const std::vector<SolvedCase>& cases,
+                             const std::vector<ReynoldsTable>& tables) {
+    std::vector<double> reynolds_numbers;
+    std::vector<LoadScale> scales;
+    for (const ReynoldsTable& table : tables) {
+        reynolds_numbers.push_back(table.reynolds_number);
+        scales.push_back(table.scale);
+    }
+    const auto errors = [&](CasePurpose purpose) {
+        return model_errors(purpose, symmetry, cases, reynolds_numbers, scales);
+    };
+    return {errors(CasePurpose::mesh), errors(CasePurpose::closure)};
+}
+
+LoadEntryError variance_between(const std::vector<ReynoldsTable>& tables) {
+    std::vector<double> reynolds_numbers;
+    std::vector<std::vector<LoadEntry>> nodes;
+    for (const ReynoldsTable& table : tables) {
+        reynolds_numbers.push_back(table.reynolds_number);
+        nodes.push_back(table.nodes);
+    }
+    return reynolds_interpolation_variance(reynolds_numbers, nodes);
+}
+
+}  // namespace
+
+std::vector<LoadEntryError> fill_tables(LoadTables& tables, const Symmetry& symmetry,
+                                        std::vector<SolvedCase>& cases) {
+    transfer_to_main_mesh(cases, main_reynolds_number(cases));
+    std::vector<ReynoldsTable> parts = symmetric_tables(symmetry, cases);
+    fit(parts, symmetry);
+    for (ReynoldsTable& part : parts) fill_nodes(part, tables.subdivisions);
+    const ModelErrors model = errors_of_models(symmetry, cases, parts);
+    const LoadEntryError between = variance_between(parts);
+    Totals totals;
+    std::vector<LoadEntryError> sampling;
+    for (const ReynoldsTable& part : parts) {
+        tables.reynolds_numbers.push_back(part.reynolds_number);
+        const std::vector<SourceVariances> variances =
+            source_variances(part, symmetry, model, between, tables.subdivisions);
+        for (std::size_t node = 0; node < part.nodes.size(); ++node) {
+            const LoadEntry& entry = part.nodes[node];
+            LoadEntryError sum;
+            for (const LoadEntryError& variance : variances[node]) sum = plus(sum, 1.0, variance);
+            tables.entries.push_back(transformed(entry, tables.axes));
+            tables.errors.push_back(transformed_error(absolute(entry, sum), tables.axes));
+            const LoadEntryError of_sampling = of(variances[node], ErrorSource::interpolation);
+            sampling.push_back(transformed_error(absolute(entry, of_sampling), tables.axes));
+            add(totals, entry, variances[node]);
+        }
+    }
+    tables.error_sources = shares_of(totals, model, forbids_something(symmetry, parts));
+    return sampling;
+}
+
+}  // namespace samara

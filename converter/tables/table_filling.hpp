@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "converter/cases/case_reduction.hpp"
+#include "samara/body/body.hpp"
+
+namespace samara {
+
+/// Fills the tables (Reynolds numbers, entries, errors, error sources) over all directions from the solved
+/// table cases, with `subdivisions` and `axes` of the tables as they stand. The Reynolds number with most
+/// directions is the main one; the others may have any of its directions (ReynoldsFit).
+///
+/// In `cases` the loads that the symmetry forbids are taken from every case, and the table cases' errors are
+/// widened by them (keep_symmetric_part).
+///
+/// The error of an entry has five sources, in quadrature, for k and epsilon as errors of their logarithms,
+/// from which k's is k (exp(s) - 1):
+///  - tail: of the iterations;
+///  - symmetry: keep_symmetric_part;
+///  - mesh and closure: model_errors;
+///  - interpolation: since a table is used between its nodes, the mean square over the centres of the cells
+///    around the node, of the interpolation between samples (ReynoldsFit::interpolation_error) and of the
+///    difference that the bilinear lookup makes to it; and that between Reynolds numbers
+///    (reynolds_interpolation_variance).
+/// Sources of which the cases say nothing are absent from error_sources: mesh and closure without such
+/// cases, symmetry where it forbids nothing.
+///
+/// Returns the standard errors of the interpolation alone, entry by entry: what more directions and Reynolds
+/// numbers would lower.
+///
+/// Throws Error where there is no table case, or where a Reynolds number mixes laminar and turbulent ones.
+std::vector<LoadEntryError> fill_tables(LoadTables& tables, const Symmetry& symmetry,
+                                        std::vector<SolvedCase>& cases);
+
+}  // namespace samara

@@ -1,0 +1,228 @@
+#include "foam-cases/bake/bake.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "converter/cases/case_folder_reduction.hpp"
+#include "converter/cases/samples_csv.hpp"
+#include "foam-cases/bake/body_preparation.hpp"
+#include "foam-cases/falls/fall_plan.hpp"
+#include "foam-cases/farm/case_farm.hpp"
+#include "foam-cases/farm/case_folder.hpp"
+#include "foam-cases/farm/cluster_jobs.hpp"
+#include "foam-cases/farm/folder_lock.hpp"
+#include "foam-cases/scene/scene_plan_report.hpp"
+#include "internal/command/print.hpp"
+#include "internal/command/progress.hpp"
+#include "internal/files/replace_file.hpp"
+#include "internal/files/temporary_folder.hpp"
+#include "samara/base/error.hpp"
+#include "samara/body/body_file.hpp"
+
+namespace samara {
+namespace {
+
+namespace fs = std::filesystem;
+using Planned = std::function<void(const BakePreparation&)>;
+
+// Seconds since the last call.
+class Stopwatch {
+  public:
+    double lap() {
+        const auto now = std::chrono::steady_clock::now();
+        const std::chrono::duration<double> passed = now - last_;
+        last_ = now;
+        return passed.count();
+    }
+
+  private:
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+bool plans_falls(const BakeRequest& request) {
+    return request.tables && request.probes == 0 && request.quality.falls > 0;
+}
+
+BakePreparation plan_of(const BakeRequest& request, const Body& body) {
+    BakePreparation preparation;
+    preparation.body = body;
+    if (!request.tables) return preparation;
+    preparation.terminal_speed =
+        bake_speed(body, request.fluid, mass_of(request.mass, body), request.gravity);
+    const double reynolds_number =
+        rounded_reynolds_number(preparation.terminal_speed * reference_length(body.moments.surface_area) /
+                                request.fluid.kinematic_viscosity());
+    if (request.goal) {
+        preparation.flight = fly_for_bake(request.goal->scene, request.goal->body, body, request.goal->falls);
+        preparation.scene_plan =
+            first_plan(*request.goal, body, request.quality, request.inflow, preparation.flight);
+        preparation.plan = preparation.scene_plan->cases;
+    } else if (request.probes > 0) {
+        preparation.plan = plan_probes(body, request.quality, reynolds_number, request.probes);
+    } else {
+        preparation.plan = plan_bake(body, request.quality, reynolds_number, request.inflow);
+    }
+    preparation.plan->ranks = request.ranks;
+    if (plans_falls(request)) {
+        add_falls(body, request.fluid, request.mass, request.gravity, preparation.terminal_speed,
+                  *preparation.plan);
+    }
+    if (preparation.scene_plan) preparation.scene_plan->cases = *preparation.plan;
+    return preparation;
+}
+
+Body named_body(const BakeRequest& request, const fs::path& folder) {
+    Body body = prepare_body(request.shape, request.scale, folder);
+    body.tables.reset();
+    body.dynamic.reset();
+    if (!request.name.empty()) body.name = request.name;
+    return body;
+}
+
+/// A folder of cases that one bake solves, perhaps in rounds.
+class CaseSolving {
+  public:
+    CaseSolving(const BakeRequest& request, const Body& body, FarmOptions farm, BakeResult& result)
+        : folder_(case_folder_of(request.output)),
+          foam_cases_(foam_cases_folder()),
+          body_(body),
+          farm_(std::move(farm)),
+          result_(result),
+          lock_(folder_) {
+        require_cases_of(CaseKind::bake, folder_);
+        end_earlier_jobs(folder_);
+    }
+
+    /// Solves what is not solved yet of a plan.
+    void solve(const BakePlan& plan, Unplanned unplanned) {
+        write_case_folder(folder_, body_, plan, foam_cases_, unplanned);
+        const std::size_t solved_before = count_solved(folder_, plan);
+        result_.reused += solved_before - std::min(solved_before, solved_);
+        const std::vector<LeftOutCase> left_out = solve_cases(folder_, plan, farm_, foam_cases_);
+        solved_ = plan.cases.size() + plan.falls.size() - left_out.size();
+        result_.left_out = left_out;
+        result_.cpu_seconds = spent_cpu_seconds(folder_, plan);
+        result_.case_seconds += watch_.lap();
+    }
+
+    [[nodiscard]] Conversion converted() {
+        watch_.lap();
+        Progress progress("converting", "cases");
+        std::optional<Progress> identification;
+        Conversion conversion = convert_folder(
+            folder_,
+            [&](std::size_t done, std::size_t total) {
+                progress.update(static_cast<double>(done), static_cast<double>(total));
+            },
+            [&](double share) {
+                if (!identification) identification.emplace("identifying", "%");
+                identification->update(100.0 * share, 100.0);
+            });
+        result_.conversion_seconds += watch_.lap();
+        return conversion;
+    }
+
+    [[nodiscard]] FolderReduction reduced() {
+        Progress progress("converting", "cases");
+        return reduce_folder(folder_, read_case_plan(folder_), [&](std::size_t done, std::size_t total) {
+            progress.update(static_cast<double>(done), static_cast<double>(total));
+        });
+    }
+
+    /// Removes the cases that no round planned.
+    void remove_unplanned(const BakePlan& plan) {
+        write_case_folder(folder_, body_, plan, foam_cases_, Unplanned::removed);
+    }
+
+    void name_work(std::string work) { farm_.work = std::move(work); }
+
+  private:
+    fs::path folder_;
+    fs::path foam_cases_;
+    const Body& body_;
+    FarmOptions farm_;
+    BakeResult& result_;
+    FolderLock lock_;
+    Stopwatch watch_;
+    std::size_t solved_ = 0;
+};
+
+void bake_for_scene(const BakeRequest& request, CaseSolving& solving, BakeResult& result) {
+    ScenePlan plan = *result.preparation.scene_plan;
+    Conversion conversion;
+    while (plan.stopped_because.empty()) {
+        solving.name_work(fmt::format("baking, round {}", plan.rounds.size() + 1));
+        solving.solve(plan.cases, Unplanned::kept);
+        conversion = solving.converted();
+        judge_round(*request.goal, conversion, result.cpu_seconds, plan);
+        print_note("{}\n", round_as_line(*request.goal, plan));
+    }
+    solving.remove_unplanned(plan.cases);
+    if (!request.goal->whole_grid) conversion.body.tables->plan = plan.region;
+    conversion.body.tables->plan.report = scene_plan_as_json(*request.goal, plan).dump();
+    result.conversion = std::move(conversion);
+    result.preparation.plan = plan.cases;
+    result.preparation.scene_plan = std::move(plan);
+    write_body_file(request.output, result.conversion->body);
+}
+
+void solve_and_convert(const BakeRequest& request, const Body& body, const FarmOptions& farm,
+                       BakeResult& result) {
+    CaseSolving solving(request, body, farm, result);
+    if (request.goal) {
+        bake_for_scene(request, solving, result);
+        return;
+    }
+    const BakePlan plan = *result.preparation.plan;
+    solving.solve(plan, Unplanned::removed);
+    if (request.probes > 0) {
+        const FolderReduction reduction = solving.reduced();
+        result.probes = reduction.cases.size();
+        replace_file_with(request.output, samples_csv(reduction.cases, plan.axes));
+        return;
+    }
+    result.conversion = solving.converted();
+    write_body_file(request.output, result.conversion->body);
+}
+
+}  // namespace
+
+fs::path case_folder_of(const fs::path& output) {
+    const std::string name = is_body_file_name(output) ? body_name_of(output) : output.stem().string();
+    return output.parent_path() / (name + ".cases");
+}
+
+BakePreparation prepare_bake(const BakeRequest& request) {
+    const TemporaryFolder folder;
+    Body body = named_body(request, folder.path());
+    add_kirchhoff_tensor(body, case_folder_of(request.output) / case_body_name, folder.path());
+    return plan_of(request, body);
+}
+
+BakeResult bake_body(const BakeRequest& request, const FarmOptions& farm, const Planned& planned) {
+    const TemporaryFolder temporary;
+    const fs::path folder = case_folder_of(request.output);
+    BakeResult result;
+    Stopwatch watch;
+    if (request.tables) require_solvers(farm, request.ranks);
+    Body body = named_body(request, temporary.path());
+    result.mesh_seconds = watch.lap();
+    add_kirchhoff_tensor(body, folder / case_body_name, temporary.path());
+    result.kirchhoff_seconds = watch.lap();
+    result.preparation = plan_of(request, body);
+    planned(result.preparation);
+    if (request.tables) {
+        solve_and_convert(request, body, farm, result);
+    } else {
+        write_body_file(request.output, body);
+    }
+    return result;
+}
+
+}  // namespace samara

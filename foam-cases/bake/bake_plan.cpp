@@ -1,0 +1,391 @@
+#include "foam-cases/bake/bake_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "converter/tables/direction_sampling.hpp"
+#include "foam-cases/falls/fall_plan.hpp"
+#include "internal/base/vector_json.hpp"
+#include "internal/body/octahedral_map.hpp"
+#include "internal/flight/terminal_speed.hpp"
+#include "samara/base/error.hpp"
+
+namespace samara {
+namespace {
+
+// Measured with simpleFoam v1912 on meshes of 6,000 to 58,000 cells; snappyHexMesh per cell of the result.
+constexpr double seconds_per_cell_and_iteration = 1.5e-6;
+constexpr double seconds_per_case = 1.0;  // starting programs, reading, writing
+constexpr double seconds_per_cell_of_mesh = 1.2e-4;
+
+// What plan.json has in place of a bake's quality where it is of one fall.
+constexpr const char* quality_of_fall = "fall";
+
+double largest_distance_from_centroid(const Body& body) {
+    double largest = 0.0;
+    for (const Vector3d& vertex : body.surface.vertices) {
+        largest = std::max(largest, (vertex - body.moments.centroid).norm());
+    }
+    return largest;
+}
+
+double mean_width(const Surface& surface) {
+    constexpr int subdivisions = 4;
+    constexpr int nodes = 2 * subdivisions + 1;
+    double sum = 0.0;
+    for (int row = 0; row < nodes; ++row) {
+        for (int column = 0; column < nodes; ++column) {
+            const Vector3d direction = octahedral_node(subdivisions, row, column);
+            double lowest = direction.dot(surface.vertices.front());
+            double highest = lowest;
+            for (const Vector3d& vertex : surface.vertices) {
+                const double height = direction.dot(vertex);
+                lowest = std::min(lowest, height);
+                highest = std::max(highest, height);
+            }
+            sum += highest - lowest;
+        }
+    }
+    return sum / (nodes * nodes);
+}
+
+// The second smallest extent in case axes (m): that of a rod's thickness, but of a sheet's width.
+double second_extent(const Body& body) {
+    Eigen::Array3d lowest = Eigen::Array3d::Constant(std::numeric_limits<double>::infinity());
+    Eigen::Array3d highest = -lowest;
+    for (const Vector3d& vertex : body.surface.vertices) {
+        const Eigen::Array3d place = (body.symmetry.axes.transpose() * vertex).array();
+        lowest = lowest.min(place);
+        highest = highest.max(place);
+    }
+    Eigen::Array3d extents = highest - lowest;
+    std::sort(extents.data(), extents.data() + 3);
+    return extents[1];
+}
+
+// A rod's surface is to have at least three cells across; snappyHexMesh would not see a thinner one. A sheet,
+// thin in one direction alone, needs no cells inside it.
+int surface_level_for(const FlowMesh& mesh, double second_extent_over_length) {
+    constexpr int cells_across = 3;
+    constexpr int most_further_levels = 3;
+    int level = mesh.surface_level;
+    while (level < mesh.surface_level + most_further_levels &&
+           cells_across * mesh.background_cell > std::ldexp(second_extent_over_length, level)) {
+        ++level;
+    }
+    return level;
+}
+
+// Twice the box, of as many background cells; those that there were fill one more shell.
+void widen(FlowMesh& mesh) {
+    const double shell = mesh.refinement_shells.back().first + 4.0 * mesh.background_cell;
+    for (auto& [distance, level] : mesh.refinement_shells) ++level;
+    mesh.refinement_shells.emplace_back(shell, 1);
+    ++mesh.surface_level;
+    mesh.background_cell *= 2.0;
+    mesh.box_half_width *= 2;
+}
+
+// The far boundary is to be at least ten L away, and four times the body's own reach.
+FlowMesh fitted_mesh(FlowMesh mesh, const Body& body, double length) {
+    const double reach = largest_distance_from_centroid(body) / length;
+    while (mesh.box_half_width < 4.0 * reach) widen(mesh);
+    const int planned_level = mesh.surface_level;
+    mesh.surface_level = surface_level_for(mesh, second_extent(body) / length);
+    // snappyHexMesh refines at a surface that its cells can see, and cells as large as the body do not see
+    // it: so each level is reached through a shell, for the further ones of two cells' thickness.
+    for (int level = planned_level + 1; level <= mesh.surface_level; ++level) {
+        const double thickness = 2.0 * mesh.background_cell / std::ldexp(1.0, level);
+        mesh.refinement_shells.insert(mesh.refinement_shells.begin(), {thickness, level});
+    }
+    return mesh;
+}
+
+// The most subdivisions whose directions the quality affords, and a stored map whose nodes hold theirs.
+void choose_subdivisions(const Symmetry& symmetry, BakePlan& plan) {
+    const BakeQuality& quality = plan.quality;
+    plan.solved_subdivisions = quality.least_subdivisions;
+    // In multiples, so that the directions of the coarsest map are among them.
+    for (int finer = 2 * quality.least_subdivisions; finer <= quality.most_subdivisions;
+         finer += quality.least_subdivisions) {
+        const std::size_t directions = required_directions(symmetry, finer).size();
+        if (directions > static_cast<std::size_t>(quality.most_directions)) break;
+        plan.solved_subdivisions = finer;
+    }
+    const int solved = plan.solved_subdivisions;
+    plan.subdivisions = solved * ((quality.table_subdivisions + solved - 1) / solved);
+}
+
+std::string case_name(const char* kind, std::size_t index, const FlowMesh& mesh) {
+    return fmt::format("{}_{:02}_{}", kind, index, mesh.name.substr(mesh.name.find('_') + 1));
+}
+
+// Adds a case beside another, which differs from it in what `change` does to it.
+template <typename Change>
+void add_beside(const BakeCase& main, const std::string& more, Change change, BakePlan& plan) {
+    BakeCase entry = main;
+    entry.name = main.name + more;
+    entry.start_from = main.name;
+    change(entry);
+    plan.cases.push_back(entry);
+}
+
+// The mesh that further Reynolds numbers and closures are solved on: that before the last.
+const std::string& mesh_of_few(const BakePlan& plan) {
+    const std::vector<FlowMesh>& meshes = plan.quality.meshes;
+    return meshes[meshes.size() < 2 ? 0 : meshes.size() - 2].name;
+}
+
+// The main case in a direction on that mesh.
+BakeCase case_of_few(const Vector3d& direction, const BakePlan& plan) {
+    const auto found = std::ranges::find_if(plan.cases, [&](const BakeCase& entry) {
+        return entry.mesh == mesh_of_few(plan) && entry.direction == direction &&
+               entry.reynolds_number == plan.main_reynolds_number;
+    });
+    if (found == plan.cases.end()) throw std::logic_error("the direction has no ladder in the plan");
+    return *found;
+}
+
+// The main cases in the directions of the coarsest map on the mesh before the last.
+std::vector<BakeCase> few_of(const Symmetry& symmetry, const BakePlan& plan) {
+    const std::string& mesh = mesh_of_few(plan);
+    std::vector<BakeCase> few;
+    for (const Vector3d& direction : required_directions(symmetry, plan.quality.least_subdivisions)) {
+        const auto found = std::ranges::find_if(plan.cases, [&](const BakeCase& entry) {
+            return entry.mesh == mesh && (entry.direction - direction).norm() < direction_tolerance(symmetry);
+        });
+        if (found != plan.cases.end()) few.push_back(*found);
+    }
+    return few;
+}
+
+void plan_cases(const Symmetry& symmetry, double main_reynolds_number, BakePlan& plan) {
+    const BakeQuality& quality = plan.quality;
+    plan.main_reynolds_number = main_reynolds_number;
+    const std::vector<Vector3d> directions = required_directions(symmetry, plan.solved_subdivisions);
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+        add_ladder("direction", i, directions[i], main_reynolds_number, plan);
+    }
+    const std::vector<BakeCase> few = few_of(symmetry, plan);
+    for (const double factor : quality.further_reynolds_numbers) {
+        const double reynolds_number = rounded_reynolds_number(factor * main_reynolds_number);
+        for (const BakeCase& main : few) add_further_reynolds_number(main.direction, reynolds_number, plan);
+    }
+    for (const BakeCase& main : few) add_other_closures(main.direction, plan);
+}
+
+}  // namespace
+
+std::vector<double> BakePlan::reynolds_numbers() const {
+    std::vector<double> numbers = {main_reynolds_number};
+    numbers.insert(numbers.end(), further_reynolds_numbers.begin(), further_reynolds_numbers.end());
+    return numbers;
+}
+
+const FreeFall& BakePlan::only_fall() const {
+    if (kind != CaseKind::fall || falls.size() != 1) throw std::logic_error("the plan is not of one fall");
+    return falls.front();
+}
+
+void add_ladder(const char* kind, std::size_t index, const Vector3d& direction, double reynolds_number,
+                BakePlan& plan) {
+    const std::vector<FlowMesh>& meshes = plan.quality.meshes;
+    std::string before;
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+        BakeCase entry;
+        entry.name = case_name(kind, index, meshes[i]);
+        entry.direction = direction;
+        entry.reynolds_number = reynolds_number;
+        entry.mesh = meshes[i].name;
+        entry.closure = closure_at(reynolds_number);
+        entry.purpose = i + 1 == meshes.size()   ? CasePurpose::table
+                        : i + 2 == meshes.size() ? CasePurpose::mesh
+                                                 : CasePurpose::start;
+        entry.start_from = before;
+        before = entry.name;
+        plan.cases.push_back(entry);
+    }
+}
+
+double mass_of(const MassSpecification& mass, const Body& body) {
+    if (mass.mass) return *mass.mass;
+    if (mass.density) return *mass.density * body.moments.volume;
+    throw Error(fmt::format("{}: has neither a density nor a mass; give one", body.name));
+}
+
+double bake_speed(const Body& body, const Fluid& fluid, double mass, double gravity) {
+    const double speed = terminal_speed(body, fluid, mass, gravity);
+    if (speed > 0.0) return speed;
+    if (gravity > 0.0) {
+        throw Error(
+            fmt::format("{}: the body weighs as much as the fluid it displaces ({:.6g} kg/m^3) and so has no "
+                        "terminal speed to bake at; choose another density",
+                        body.name, fluid.density));
+    }
+    throw Error(fmt::format(
+        "{}: without gravity the body has no terminal speed to bake at; choose another gravity", body.name));
+}
+
+double rounded_reynolds_number(double reynolds_number) {
+    const double unit = std::pow(10.0, std::floor(std::log10(reynolds_number)) - 2.0);
+    return std::round(reynolds_number / unit) * unit;
+}
+
+void add_further_reynolds_number(const Vector3d& direction, double reynolds_number, BakePlan& plan) {
+    const std::vector<double> known = plan.reynolds_numbers();
+    if (std::ranges::find(known, reynolds_number) == known.end()) {
+        plan.further_reynolds_numbers.push_back(reynolds_number);
+    }
+    const auto change = [&](BakeCase& entry) {
+        entry.reynolds_number = reynolds_number;
+        entry.closure = closure_at(reynolds_number);
+        entry.purpose = CasePurpose::table;
+    };
+    add_beside(case_of_few(direction, plan), fmt::format("_re_{:.6g}", reynolds_number), change, plan);
+}
+
+void add_other_closures(const Vector3d& direction, BakePlan& plan) {
+    if (closure_at(plan.main_reynolds_number) == Closure::laminar) return;
+    for (const Closure closure : plan.quality.other_closures) {
+        const auto change = [&](BakeCase& entry) {
+            entry.closure = closure;
+            entry.purpose = CasePurpose::closure;
+        };
+        add_beside(case_of_few(direction, plan), fmt::format("_{}", name_of(closure)), change, plan);
+    }
+}
+
+BakePlan plan_of_meshes(const Body& body, const BakeQuality& quality) {
+    BakePlan plan;
+    plan.quality = quality;
+    plan.reference_length = reference_length(body.moments.surface_area);
+    plan.axes = body.symmetry.axes;
+    for (FlowMesh& mesh : plan.quality.meshes) {
+        mesh = fitted_mesh(mesh, body, plan.reference_length);
+        plan.cells.push_back(estimated_cells(body, mesh));
+    }
+    return plan;
+}
+
+void estimate_cost(BakePlan& plan) {
+    plan.cpu_seconds = 0.0;
+    for (const double cells : plan.cells) plan.cpu_seconds += seconds_per_cell_of_mesh * cells;
+    for (const BakeCase& entry : plan.cases) plan.cpu_seconds += estimated_seconds(plan, entry);
+    for (const FreeFall& fall : plan.falls) {
+        plan.cpu_seconds += estimated_fall_seconds(fall, cells_of(plan, fall.mesh));
+    }
+}
+
+const FlowMesh& mesh_of(const BakePlan& plan, const std::string& name) {
+    const auto found = std::ranges::find(plan.quality.meshes, name, &FlowMesh::name);
+    if (found == plan.quality.meshes.end()) throw std::logic_error("the plan has no mesh " + name);
+    return *found;
+}
+
+double cells_of(const BakePlan& plan, const std::string& mesh) {
+    return plan.cells.at(static_cast<std::size_t>(&mesh_of(plan, mesh) - plan.quality.meshes.data()));
+}
+
+Closure closure_at(double reynolds_number) {
+    return reynolds_number < laminar_reynolds_number ? Closure::laminar : Closure::k_epsilon;
+}
+
+double estimated_iterations(const BakePlan& plan, const BakeCase& entry) {
+    // Means over the bakes in docs/bake.md.
+    return (entry.start_from.empty() ? 0.35 : 0.25) * plan.quality.most_iterations;
+}
+
+double estimated_seconds(const BakePlan& plan, const BakeCase& entry) {
+    return seconds_per_case +
+           seconds_per_cell_and_iteration * cells_of(plan, entry.mesh) * estimated_iterations(plan, entry);
+}
+
+double estimated_cells(const Body& body, const FlowMesh& mesh) {
+    const double length = reference_length(body.moments.surface_area);
+    const double width = mean_width(body.surface) / length;
+    const double pi = std::numbers::pi;
+    // Steiner's formula for a convex body of surface pi L^2 and mean width w, less the body itself.
+    const auto volume_within = [&](double distance) {
+        return pi * distance + 2.0 * pi * width * distance * distance +
+               4.0 / 3.0 * pi * distance * distance * distance;
+    };
+    const double background_cell = 2.0 * mesh.box_half_width / mesh.background_cells();
+    const auto cells_per_volume = [&](int level) {
+        return std::pow(std::ldexp(1.0, level) / background_cell, 3.0);
+    };
+    double inner = 0.0;
+    double cells = 0.0;
+    for (const auto& [distance, level] : mesh.refinement_shells) {
+        cells += (volume_within(distance) - inner) * cells_per_volume(level);
+        inner = volume_within(distance);
+    }
+    cells += (std::pow(2.0 * mesh.box_half_width, 3.0) - inner) * cells_per_volume(0);
+    const double surface_cell = background_cell / std::ldexp(1.0, mesh.surface_level);
+    return cells + mesh.layers * pi / (surface_cell * surface_cell);
+}
+
+BakePlan plan_bake(const Body& body, const BakeQuality& quality, double reynolds_number,
+                   const Inflow& inflow) {
+    BakePlan plan = plan_of_meshes(body, quality);
+    plan.inflow = inflow;
+    choose_subdivisions(body.symmetry, plan);
+    plan_cases(body.symmetry, reynolds_number, plan);
+    estimate_cost(plan);
+    return plan;
+}
+
+BakePlan plan_probes(const Body& body, const BakeQuality& quality, double reynolds_number, int count) {
+    BakePlan plan = plan_of_meshes(body, quality);
+    plan.main_reynolds_number = reynolds_number;
+    const auto fraction = [](double value) { return value - std::floor(value); };
+    for (int i = 0; i < count; ++i) {
+        const double z = 1.0 - 2.0 * fraction(0.5 + 0.7548776662466927 * i);
+        const double angle = 2.0 * std::numbers::pi * fraction(0.5 + 0.5698402909980532 * i);
+        const double radius = std::sqrt(1.0 - z * z);
+        const Vector3d direction(radius * std::cos(angle), radius * std::sin(angle), z);
+        const double decades = i % 3 == 2 ? fraction(0.6180339887498949 * i) : 0.0;
+        add_ladder("probe", static_cast<std::size_t>(i), direction.normalized(),
+                   rounded_reynolds_number(reynolds_number * std::pow(10.0, -decades)), plan);
+    }
+    estimate_cost(plan);
+    return plan;
+}
+
+nlohmann::json plan_json(const BakePlan& plan) {
+    nlohmann::json json;
+    json["quality"] = plan.kind == CaseKind::fall ? quality_of_fall : plan.quality.name;
+    json["subdivisions"] = plan.subdivisions;
+    json["reference_length"] = plan.reference_length;
+    json["ranks"] = plan.ranks;
+    if (plan.covers_scene) json["covers"] = "scene";
+    json["axes"] = rows_as_json(plan.axes);
+    for (const FlowMesh& mesh : plan.quality.meshes) json["meshes"].push_back({{"name", mesh.name}});
+    json["cases"] = nlohmann::json::array();
+    for (const FreeFall& fall : plan.falls) {
+        json["falls"].push_back({{"name", fall.name}, {"mesh", fall.mesh}});
+    }
+    for (const BakeCase& entry : plan.cases) {
+        json["cases"].push_back(
+            {{"name", entry.name},
+             {"direction", {entry.direction.x(), entry.direction.y(), entry.direction.z()}},
+             {"reynolds_number", entry.reynolds_number},
+             {"mesh", entry.mesh},
+             {"purpose", name_of(entry.purpose)},
+             {"closure", name_of(entry.closure)},
+             {"start_from", entry.start_from}});
+    }
+    return json;
+}
+
+CaseKind kind_of_plan(const nlohmann::json& json) {
+    const auto quality = json.find("quality");
+    return quality != json.end() && *quality == quality_of_fall ? CaseKind::fall : CaseKind::bake;
+}
+
+}  // namespace samara

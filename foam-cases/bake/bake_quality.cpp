@@ -1,0 +1,91 @@
+#include "foam-cases/bake/bake_quality.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "samara/base/error.hpp"
+
+namespace samara {
+namespace {
+
+// Each halves the cells of the one before along the surface and in most of the wake: about 6,000, 19,000,
+// 58,000 and 190,000 cells around an ellipsoid of 1:2:4.
+FlowMesh coarse_mesh() {
+    return {"mesh_coarse", 10, 2.0, 4, 2, {{0.4, 4}, {1.2, 3}, {3.0, 2}, {5.0, 1}}};
+}
+
+FlowMesh medium_mesh() {
+    return {"mesh_medium", 10, 1.0, 4, 3, {{0.2, 4}, {0.6, 3}, {1.5, 2}, {3.0, 1}}};
+}
+
+FlowMesh fine_mesh() {
+    return {"mesh_fine", 10, 1.0, 5, 4, {{0.15, 5}, {0.35, 4}, {0.9, 3}, {2.0, 2}, {4.0, 1}}};
+}
+
+FlowMesh finest_mesh() {
+    return {"mesh_finest", 10, 1.0, 6, 5, {{0.1, 6}, {0.22, 5}, {0.5, 4}, {1.2, 3}, {2.6, 2}, {5.0, 1}}};
+}
+
+BakeQuality smoke_quality() {
+    BakeQuality quality;
+    quality.name = "smoke";
+    quality.meshes = {coarse_mesh()};
+    quality.most_subdivisions = 2;
+    quality.table_subdivisions = 2;
+    quality.stationarity = 0.05;
+    quality.most_iterations = 200;
+    return quality;
+}
+
+BakeQuality preview_quality() {
+    BakeQuality quality;
+    quality.name = "preview";
+    quality.meshes = {coarse_mesh(), medium_mesh()};
+    quality.stationarity = 0.01;
+    return quality;
+}
+
+BakeQuality standard_quality() {
+    BakeQuality quality;
+    quality.name = "standard";
+    quality.stationarity = 0.01;
+    quality.meshes = {coarse_mesh(), medium_mesh(), fine_mesh()};
+    quality.further_reynolds_numbers = {0.1, 0.3};
+    quality.falls = 2;
+    return quality;
+}
+
+BakeQuality high_quality() {
+    BakeQuality quality;
+    quality.name = "high";
+    quality.meshes = {coarse_mesh(), medium_mesh(), fine_mesh(), finest_mesh()};
+    quality.most_directions = 28;
+    quality.table_subdivisions = 12;
+    quality.further_reynolds_numbers = {0.1, 0.3, 3.0};
+    quality.falls = 2;
+    quality.fall_mesh = 2;
+    quality.other_closures = {Closure::realizable_k_epsilon, Closure::rng_k_epsilon};
+    return quality;
+}
+
+}  // namespace
+
+int FlowMesh::background_cells() const {
+    return static_cast<int>(std::lround(2.0 * box_half_width / background_cell));
+}
+
+std::vector<std::string> bake_quality_names() {
+    return {"smoke", "preview", "standard", "high"};
+}
+
+BakeQuality bake_quality(const std::string& name) {
+    for (const auto make : {smoke_quality, preview_quality, standard_quality, high_quality}) {
+        if (BakeQuality quality = make(); quality.name == name) return quality;
+    }
+    throw Error(fmt::format("there is no bake quality '{}'; choose one of {}", name,
+                            fmt::join(bake_quality_names(), ", ")));
+}
+
+}  // namespace samara

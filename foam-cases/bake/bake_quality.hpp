@@ -1,0 +1,51 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "converter/cases/closure.hpp"
+
+namespace samara {
+
+/// How the mesh around a body is made; lengths over L.
+struct FlowMesh {
+    std::string name = "mesh";  ///< of its folder
+    int box_half_width = 10;
+    double background_cell = 1.0;                           ///< edge
+    int surface_level = 4;                                  ///< each level halves the background cells
+    int layers = 3;                                         ///< of cells along the surface
+    std::vector<std::pair<double, int>> refinement_shells;  ///< (distance from the body, level), outwards
+
+    /// Cells along each edge of the box.
+    [[nodiscard]] int background_cells() const;
+};
+
+/// What --quality stands for. All directions are solved on every mesh, coarsest first, each from the solution
+/// of the same direction on the mesh before: the start costs little, settles what is slow, and depends on no
+/// other direction. The last mesh's solution is the table's, the one's before it tells the mesh's error.
+struct BakeQuality {
+    std::string name;
+    std::vector<FlowMesh> meshes;  ///< for a compact body; a long one gets a wider box
+    int least_subdivisions = 2;    ///< of the map of directions that are solved, whatever the cost
+    int most_subdivisions = 8;
+    int most_directions = 16;    ///< multiples of the least subdivisions are taken up to so many directions
+    int table_subdivisions = 8;  ///< of the stored map, at least; its nodes hold those that are solved
+    /// Further Reynolds numbers, over the main one; solved in the directions of the map of the least
+    /// subdivisions on the mesh before the last, from the main one's solution there.
+    std::vector<double> further_reynolds_numbers;
+    /// Other closures, solved likewise: the spread is the closure's error.
+    std::vector<Closure> other_closures;
+    int falls = 0;                ///< free falls that the dynamic coefficients are identified from
+    std::size_t fall_mesh = 1;    ///< the mesh they are solved on
+    double stationarity = 0.005;  ///< tolerance of the tail (body-flow/stationarity.py)
+    int most_iterations = 800;    ///< of each attempt
+};
+
+/// The quality of that name; throws Error where there is none.
+BakeQuality bake_quality(const std::string& name);
+
+/// The names that bake_quality knows, cheapest first.
+std::vector<std::string> bake_quality_names();
+
+}  // namespace samara

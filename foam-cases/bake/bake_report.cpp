@@ -1,0 +1,216 @@
+#include "foam-cases/bake/bake_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "converter/falls/identification_report.hpp"
+#include "foam-cases/farm/case_record.hpp"
+#include "foam-cases/farm/disk_need.hpp"
+#include "foam-cases/scene/scene_plan_report.hpp"
+#include "internal/base/vector_json.hpp"
+#include "internal/command/print.hpp"
+#include "samara/body/body_file.hpp"
+
+namespace samara {
+namespace {
+
+nlohmann::json provenance_of(const SolvedCase& solved) {
+    return nlohmann::json::parse(solved.provenance, nullptr, false);
+}
+
+double drag_coefficient(const SolvedCase& solved) {
+    return -solved.sample.entry.force.dot(solved.sample.direction);
+}
+
+nlohmann::json case_as_json(const SolvedCase& solved) {
+    return {
+        {"name", solved.name},
+        {"direction", as_json(solved.sample.direction)},
+        {"reynolds_number", solved.reynolds_number},
+        {"drag_coefficient", drag_coefficient(solved)},
+        {"drag_coefficient_error", solved.sample.error.force.cwiseProduct(solved.sample.direction).norm()},
+        {"force", as_json(solved.sample.entry.force)},
+        {"moment", as_json(solved.sample.entry.moment)},
+        {"turbulent_kinetic_energy", solved.sample.entry.turbulent_kinetic_energy},
+        {"dissipation_rate", solved.sample.entry.dissipation_rate},
+        {"cpu_seconds", number_in(provenance_of(solved), "cpu_seconds")}};
+}
+
+nlohmann::json base_json(const BakeRequest& request, const BakePreparation& preparation) {
+    nlohmann::json json = {{"body", request.output.string()}};
+    if (!preparation.plan) return json;
+    const BakePlan& plan = *preparation.plan;
+    json["cases_folder"] = case_folder_of(request.output).string();
+    json["quality"] = plan.quality.name;
+    json["terminal_speed"] = preparation.terminal_speed;
+    json["reynolds_numbers"] = plan.reynolds_numbers();
+    json["reference_length"] = plan.reference_length;
+    json["subdivisions"] = plan.subdivisions;
+    return json;
+}
+
+nlohmann::json mesh_json(const SolvedCase& solved) {
+    const nlohmann::json provenance = provenance_of(solved);
+    return provenance.contains("mesh") ? provenance["mesh"] : nlohmann::json();
+}
+
+// The records of the meshes that the cases were solved on, coarsest first.
+std::vector<nlohmann::json> meshes_of(const std::vector<SolvedCase>& cases) {
+    std::vector<nlohmann::json> meshes;
+    for (const SolvedCase& solved : cases) {
+        const nlohmann::json mesh = mesh_json(solved);
+        if (mesh.is_object() && std::ranges::find(meshes, mesh) == meshes.end()) meshes.push_back(mesh);
+    }
+    std::ranges::sort(meshes, {}, [](const nlohmann::json& mesh) { return number_in(mesh, "cells"); });
+    return meshes;
+}
+
+std::string remedy_of(const nlohmann::json& mesh) {
+    const std::string remedy = text_in(mesh, "remedy");
+    return remedy.empty() || remedy == "as planned" ? "" : fmt::format(" (remedy: {})", remedy);
+}
+
+}  // namespace
+
+nlohmann::json bake_as_json(const BakeRequest& request, const BakePreparation& preparation) {
+    nlohmann::json json = base_json(request, preparation);
+    json["dry_run"] = true;
+    json["cases"] = nlohmann::json::array();
+    if (!preparation.plan) return json;
+    for (const BakeCase& entry : preparation.plan->cases) {
+        json["cases"].push_back({{"name", entry.name},
+                                 {"direction", as_json(entry.direction)},
+                                 {"reynolds_number", entry.reynolds_number}});
+    }
+    json["falls"] = nlohmann::json::array();
+    for (const FreeFall& fall : preparation.plan->falls) {
+        json["falls"].push_back({{"name", fall.name},
+                                 {"mesh", fall.mesh},
+                                 {"duration", fall.duration * fall.time_unit()},
+                                 {"reynolds_number", fall.reynolds_number}});
+    }
+    for (const double cells : preparation.plan->cells) json["estimated_cells"].push_back(std::round(cells));
+    json["estimated_cpu_seconds"] = std::round(preparation.plan->cpu_seconds);
+    json["estimated_bytes"] = std::round(bytes_to_solve(case_folder_of(request.output), *preparation.plan));
+    return json;
+}
+
+nlohmann::json bake_as_json(const BakeRequest& request, const BakeResult& result) {
+    nlohmann::json json = base_json(request, result.preparation);
+    json["cases"] = nlohmann::json::array();
+    json["cpu_seconds"] = result.cpu_seconds;
+    json["seconds"] = {{"mesh", result.mesh_seconds},
+                       {"kirchhoff", result.kirchhoff_seconds},
+                       {"cases", result.case_seconds},
+                       {"convert", result.conversion_seconds}};
+    json["probes"] = result.probes;
+    if (!result.conversion) return json;
+    for (const SolvedCase& solved : result.conversion->cases) json["cases"].push_back(case_as_json(solved));
+    const LoadTables& tables = *result.conversion->body.tables;
+    json["tables"] = {{"map_size", tables.map_size()},
+                      {"subdivisions", tables.subdivisions},
+                      {"reynolds_numbers", tables.reynolds_numbers},
+                      {"reference_length", tables.reference_length},
+                      {"entries", tables.entries.size()}};
+    json["meshes"] = meshes_of(result.conversion->cases);
+    json["reused_cases"] = result.reused;
+    if (request.goal) json["plan"] = scene_plan_as_json(*request.goal, *result.preparation.scene_plan);
+    if (result.conversion->identification) {
+        json["dynamic_coefficients"] = identification_as_json(*result.conversion->identification);
+    }
+    json["left_out"] = nlohmann::json::array();
+    for (const LeftOutCase& failed : result.left_out) {
+        json["left_out"].push_back({{"name", failed.name}, {"reason", failed.reason}});
+    }
+    return json;
+}
+
+void print_preparation(const BakeRequest& request, const BakePreparation& preparation, int jobs) {
+    if (!preparation.plan) {
+        print_result("{}: mesh and Kirchhoff tensor alone; the scene asks for no tables\n",
+                     request.output.string());
+        return;
+    }
+    const BakePlan& plan = *preparation.plan;
+    print_result("{}: {} cases at Reynolds number {:.0f} (terminal speed about {:.3g} m/s, L = {:.4g} m)\n",
+                 request.output.string(), plan.cases.size(), plan.main_reynolds_number,
+                 preparation.terminal_speed, plan.reference_length);
+    for (const BakeCase& entry : plan.cases) {
+        print_result("  {}  moving along ({:7.4f} {:7.4f} {:7.4f})\n", entry.name, entry.direction.x(),
+                     entry.direction.y(), entry.direction.z());
+    }
+    for (const FreeFall& fall : plan.falls) {
+        print_result("  {}  a free fall of {:.3g} s on {}\n", fall.name, fall.duration * fall.time_unit(),
+                     fall.mesh);
+    }
+    const double at_once = std::min<double>(jobs, static_cast<double>(plan.cases.size()));
+    print_result(
+        "meshes of about {:.0f} cells, {:.0f} CPU seconds in all, {:.0f} s with {} jobs, {:.2g} MB on the "
+        "disk\n",
+        fmt::join(plan.cells, ", "), plan.cpu_seconds, plan.cpu_seconds / at_once, jobs,
+        1e-6 * bytes_to_solve(case_folder_of(request.output), plan));
+}
+
+void print_result(const BakeRequest& request, const BakeResult& result) {
+    if (result.probes > 0) {
+        print_result("{}: {} cases, in {:.0f} s; they are kept in {}\n", request.output.string(),
+                     result.probes, result.case_seconds, case_folder_of(request.output).string());
+        return;
+    }
+    if (!result.conversion) {
+        print_result("{}: mesh and Kirchhoff tensor; the scene asks for no tables\n",
+                     request.output.string());
+        return;
+    }
+    const BakePlan& plan = *result.preparation.plan;
+    const auto& cases = result.conversion->cases;
+    print_result("{}: quality {}, {} cases at Reynolds numbers {:.6g}", request.output.string(),
+                 plan.quality.name, plan.cases.size(), fmt::join(plan.reynolds_numbers(), ", "));
+    if (result.reused > 0) print_result(", {} of them solved before", result.reused);
+    print_result("\n{:<28} {:>26} {:>8} {:>10} {:>13} {:>7}\n", "case", "moving along", "drag", "k/U^2",
+                 "epsilon L/U^3", "CPU s");
+    for (const SolvedCase& solved : cases) {
+        const Vector3d& direction = solved.sample.direction;
+        print_result("{:<28} ({:7.4f} {:7.4f} {:7.4f}) {:8.3f} {:10.5f} {:13.5f} {:7.1f}\n", solved.name,
+                     direction.x(), direction.y(), direction.z(), drag_coefficient(solved),
+                     solved.sample.entry.turbulent_kinetic_energy, solved.sample.entry.dissipation_rate,
+                     number_in(provenance_of(solved), "cpu_seconds"));
+    }
+    if (request.goal) {
+        print_result("{}", scene_plan_as_text(*request.goal, *result.preparation.scene_plan));
+    }
+    for (const nlohmann::json& mesh : meshes_of(cases)) {
+        print_result("{:.0f} cells, checkMesh: {}{}\n", number_in(mesh, "cells"), text_in(mesh, "verdict"),
+                     remedy_of(mesh));
+    }
+    if (result.conversion->identification) {
+        print_result("{}", identification_as_text(*result.conversion->identification));
+    }
+    print_result(
+        "surface {:.1f} s, Kirchhoff tensor {:.1f} s, cases {:.1f} s ({:.0f} CPU s in all), tables {:.1f} s; "
+        "the cases are in {}\n",
+        result.mesh_seconds, result.kirchhoff_seconds, result.case_seconds, result.cpu_seconds,
+        result.conversion_seconds, case_folder_of(request.output).string());
+}
+
+void note_laminar_flow(const BakePreparation& preparation) {
+    if (!preparation.plan || preparation.plan->main_reynolds_number >= laminar_reynolds_number) return;
+    print_note(
+        "samara-bake: note: at Reynolds number {:.3g}, below {:.0f}, the flow is taken as laminar: "
+        "loads, but no turbulence\n",
+        preparation.plan->main_reynolds_number, laminar_reynolds_number);
+}
+
+void warn_of_left_out_cases(const BakeRequest& request, const BakeResult& result) {
+    for (const LeftOutCase& failed : result.left_out) {
+        print_note("samara-bake: warning: {}: left out after its retries: {}\n",
+                   (case_folder_of(request.output) / failed.name).string(), failed.reason);
+    }
+}
+
+}  // namespace samara

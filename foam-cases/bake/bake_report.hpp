@@ -1,0 +1,23 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "foam-cases/bake/bake.hpp"
+
+namespace samara {
+
+/// What samara-bake prints as JSON of one body with --dry-run, and after baking it.
+nlohmann::json bake_as_json(const BakeRequest& request, const BakePreparation& preparation);
+nlohmann::json bake_as_json(const BakeRequest& request, const BakeResult& result);
+
+/// The same for people, on standard output.
+void print_preparation(const BakeRequest& request, const BakePreparation& preparation, int jobs);
+void print_result(const BakeRequest& request, const BakeResult& result);
+
+/// One line on standard error where the Reynolds number is below laminar_reynolds_number.
+void note_laminar_flow(const BakePreparation& preparation);
+
+/// One line on standard error for each case that was left out.
+void warn_of_left_out_cases(const BakeRequest& request, const BakeResult& result);
+
+}  // namespace samara

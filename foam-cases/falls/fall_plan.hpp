@@ -1,0 +1,52 @@
+#pragma once
+
+#include <string>
+
+#include "converter/falls/free_fall.hpp"
+#include "foam-cases/bake/bake_plan.hpp"
+#include "internal/dynamics/immersed_body.hpp"
+#include "internal/dynamics/step.hpp"
+#include "samara/scene/scene.hpp"
+
+namespace samara {
+
+/// Steps of free falls over L/U: at twice that, momenta are kept to 3 to 6 % and the descent of a swinging
+/// ellipsoid is off by 5 %, at this to 1 to 3 % and 1 % (docs/validate.md).
+inline constexpr double fall_time_step = 0.01;
+
+/// The largest of the fluid's inertia over the body's own, over all ways to move and turn: what makes a
+/// solver that takes flow and motion in turn unstable, and so sets how much of a new acceleration it may
+/// take.
+double largest_inertia_ratio(const ImmersedBody& body);
+
+/// About the speed (m/s) at which the body will move, rims included: the largest of that at the start, of the
+/// terminal speed, and of a body hung off its centre of buoyancy that swings. Zero where nothing moves it.
+double fall_speed(const Body& body, const ImmersedBody& immersed, const BodyState& start, const Fluid& fluid,
+                  double gravity);
+
+/// How long a fall that coefficients are identified from lasts, over L/U: some six swings.
+inline constexpr double identification_fall_duration = 30.0;
+
+/// The states from rest from which such falls start, each in its way oblique to all of the body's principal
+/// axes, so that none of its motions is left out. `index`: of the fall.
+BodyState identification_start(const Body& body, int index);
+
+/// Adds the quality's falls to a plan and its estimated cost: of the body with that mass in the fluid, under
+/// a gravity of that size (m/s^2), `speed` (m/s) being about that at which it falls. The body must have its
+/// Kirchhoff tensor.
+void add_falls(const Body& body, const Fluid& fluid, const MassSpecification& mass, double gravity,
+               double speed, BakePlan& plan);
+
+/// A free fall of the body from a state, over `duration` (s), under a gravity (m/s^2, world axes). `speed`
+/// (m/s): of the case's units, about that at which it falls. The body's added mass must be there.
+FreeFall plan_fall(const Body& body, const ImmersedBody& immersed, const BodyState& start,
+                   const Vector3d& gravity, double speed, double duration);
+
+/// A plan of the kind fall: with no case but the fall, on the mesh of those of all qualities whose number of
+/// cells around the body is nearest to `cells`, as a ratio.
+BakePlan plan_single_fall(const Body& body, double cells, FreeFall fall);
+
+/// CPU seconds of a fall on a mesh of so many cells, an estimate.
+double estimated_fall_seconds(const FreeFall& fall, double cells);
+
+}  // namespace samara

@@ -1,0 +1,155 @@
+#include "foam-cases/falls/motion_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "converter/tables/direction_fit.hpp"
+#include "converter/tables/symmetric_loads.hpp"
+#include "internal/base/angles.hpp"
+#include "internal/body/octahedral_map.hpp"
+#include "internal/figures/inclination.hpp"
+#include "internal/kernel/noise.hpp"
+
+namespace samara {
+namespace {
+
+/// A deviation of an entry by its standard errors, k and epsilon by their logarithms.
+LoadEntry deviate(const LoadEntry& entry, const LoadEntryError& error, const Noise& noise,
+                  std::size_t direction) {
+    const auto of_vectors = [&](std::size_t number) {
+        const auto normals = noise.normals(3 * direction + number, NoiseStream::table_error);
+        return Vector3d(normals[0], normals[1], normals[2]);
+    };
+    const auto scalars = noise.normals(3 * direction + 2, NoiseStream::table_error);
+    const auto logarithm = [](double value, double of_error) {
+        return value > 0.0 ? std::log1p(of_error / value) : 0.0;
+    };
+    return {error.force.cwiseProduct(of_vectors(0)), error.moment.cwiseProduct(of_vectors(1)),
+            scalars[0] * logarithm(entry.turbulent_kinetic_energy, error.turbulent_kinetic_energy),
+            scalars[1] * logarithm(entry.dissipation_rate, error.dissipation_rate)};
+}
+
+/// The deviations in the solved directions (none) and the unsolved ones, map axes.
+std::vector<DirectionSample> drawn_samples(const LoadTables& tables, const Symmetry& symmetry,
+                                           const UncertainTables& uncertain, std::uint32_t draw) {
+    LoadTables sampling = tables;
+    sampling.errors = uncertain.sampling_errors;
+    const Noise noise(1, "table", draw, 0);
+    const Matrix3d to_map = tables.axes.transpose();
+    std::vector<DirectionSample> samples;
+    for (const Vector3d& direction : uncertain.solved) samples.push_back({direction, {}, {}});
+    for (std::size_t i = 0; i < uncertain.unsolved.size(); ++i) {
+        const Vector3d& direction = uncertain.unsolved[i];
+        const Vector3d in_body = tables.axes * direction;
+        const LoadEntry entry = look_up(tables, in_body, uncertain.reynolds_number);
+        const LoadEntryError error =
+            transformed_error(look_up_error(sampling, in_body, uncertain.reynolds_number), to_map);
+        samples.push_back({direction, deviate(entry, error, noise, i), {}});
+    }
+    keep_symmetric_part(symmetry, samples);
+    return samples;
+}
+
+/// A difference of a figure that nobody sees, in its SI unit.
+double unseen(const CataloguedFigure& entry, const SampledFalls& flight, double length) {
+    const auto descent = flight.mean(Figure::descent_speed);
+    if (entry.figure != Figure::rms_angular_speed || !descent) return entry.allowed.always;
+    return degree * std::abs(descent->value) / length;
+}
+
+/// The largest error over what the tolerance allows.
+double largest_share(const MotionError& error, double tolerance, double MotionError::OfFigure::*member) {
+    double largest = 0.0;
+    for (const Figure figure : baked_figures) {
+        const auto& one = error.figures[figure];
+        if (!one) continue;
+        const double allowed = std::max(catalogued(figure).allowed.share * tolerance, one->always_allowed);
+        largest = std::max(largest, (*one).*member / allowed);
+    }
+    return largest;
+}
+
+double variance_of(const std::vector<double>& values, double about) {
+    double sum = 0.0;
+    for (const double value : values) sum += (value - about) * (value - about);
+    return sum / static_cast<double>(values.size());
+}
+
+}  // namespace
+
+double MotionError::worst(double tolerance) const {
+    return largest_share(*this, tolerance, &OfFigure::of_table);
+}
+
+double MotionError::worst_chance(double tolerance) const {
+    return largest_share(*this, tolerance, &OfFigure::of_chance);
+}
+
+LoadTables drawn_tables(const LoadTables& tables, const Symmetry& symmetry, const UncertainTables& uncertain,
+                        std::uint32_t draw) {
+    const std::vector<DirectionSample> samples = drawn_samples(tables, symmetry, uncertain, draw);
+    std::vector<Vector3d> directions;
+    std::vector<LoadEntry> deviations;
+    for (const DirectionSample& sample : samples) {
+        directions.push_back(sample.direction);
+        deviations.push_back(sample.entry);
+    }
+    const DirectionFit fit(symmetry, directions);
+    LoadTables drawn = tables;
+    for (int row = 0; row < tables.map_size(); ++row) {
+        for (int column = 0; column < tables.map_size(); ++column) {
+            const LoadEntry deviation = transformed(
+                fit.at(deviations, octahedral_node(tables.subdivisions, row, column)), tables.axes);
+            for (std::size_t i = 0; i < tables.reynolds_numbers.size(); ++i) {
+                LoadEntry& entry = drawn.entries[tables.index(static_cast<int>(i), row, column)];
+                entry.force += deviation.force;
+                entry.moment += deviation.moment;
+                entry.turbulent_kinetic_energy *= std::exp(deviation.turbulent_kinetic_energy);
+                entry.dissipation_rate *= std::exp(deviation.dissipation_rate);
+            }
+        }
+    }
+    return drawn;
+}
+
+SampledFalls fly_for_bake(const Scene& scene, std::size_t body, const Body& of_body, int falls) {
+    return sample_falls(scene, body, LoadedBody{of_body, ""}, {.falls = falls, .most_steps = INFINITY});
+}
+
+MotionError motion_error(const Scene& scene, std::size_t body, const Body& of_body,
+                         const UncertainTables& uncertain, const SampledFalls& flight, int falls, int draws) {
+    MotionError result;
+    PerFigure<std::vector<double>> drawn;
+    if (!uncertain.unsolved.empty()) {
+        Body other = of_body;
+        for (int draw = 0; draw < draws; ++draw) {
+            other.tables =
+                drawn_tables(*of_body.tables, of_body.symmetry, uncertain, static_cast<std::uint32_t>(draw));
+            const SampledFalls flown = fly_for_bake(scene, body, other, falls);
+            for (const Figure figure : baked_figures) {
+                if (const auto mean = flown.mean(figure)) drawn[figure].push_back(mean->value);
+            }
+        }
+    }
+    for (const Figure figure : baked_figures) {
+        const CataloguedFigure& entry = catalogued(figure);
+        const auto mean = flight.mean(figure);
+        if (!mean || !(std::abs(mean->value) > 0.0) || !tells(entry.subject, of_body)) continue;
+        const double value = mean->value;
+        const double chance = mean->error.value_or(0.0);
+        const double length = reference_length(of_body.moments.surface_area);
+        MotionError::OfFigure error{0.0, chance / std::abs(value),
+                                    unseen(entry, flight, length) / std::abs(value)};
+        if (2 * drawn[figure].size() > static_cast<std::size_t>(draws)) {
+            // Both ensembles of a difference have their chance, of which a few draws leave a part unseen.
+            const double of_chance = 2.0 * chance * chance;
+            const double of_table = std::max(variance_of(drawn[figure], value) - of_chance, 0.0) +
+                                    of_chance * std::sqrt(2.0 / static_cast<double>(draws));
+            error.of_table = std::sqrt(of_table) / std::abs(value);
+        }
+        result.figures[figure] = error;
+    }
+    return result;
+}
+
+}  // namespace samara

@@ -1,0 +1,152 @@
+#include "foam-cases/falls/validate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "foam-cases/bake/bake.hpp"
+#include "foam-cases/bake/body_preparation.hpp"
+#include "foam-cases/falls/fall_motion.hpp"
+#include "foam-cases/farm/case_folder.hpp"
+#include "foam-cases/farm/cluster_jobs.hpp"
+#include "foam-cases/farm/folder_lock.hpp"
+#include "internal/base/content_hash.hpp"
+#include "internal/files/temporary_folder.hpp"
+#include "internal/flight/flight_kind.hpp"
+#include "internal/flight/world_pose.hpp"
+#include "samara/base/error.hpp"
+#include "samara/flight/simulation.hpp"
+#include "samara/motion/motion_file.hpp"
+
+namespace samara {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The scene with its body as full CFD takes it: its loads are what is solved.
+struct Falling {
+    Scene scene;
+    Body body;
+    ImmersedBody immersed;
+    BodyState start;
+};
+
+double speed_unit(const Falling& falling) {
+    const double speed = fall_speed(falling.body, falling.immersed, falling.start, falling.scene.fluid,
+                                    falling.scene.gravity.norm());
+    if (speed > 0.0) return speed;
+    throw Error(fmt::format(
+        "{}: the body '{}' is as dense as the fluid and does not move at the start, so that there "
+        "is nothing to solve; give it another density or a velocity",
+        falling.scene.file.string(), falling.immersed.name));
+}
+
+Falling make_falling(const Scene& scene, const fs::path& earlier, const fs::path& temporary) {
+    Falling falling;
+    falling.scene = scene;
+    SceneBody& scene_body = falling.scene.bodies.front();
+    scene_body.loads = Loads::none;
+    scene_body.turbulence = Turbulence::none;
+    scene_body.added_mass = true;  // full CFD has it, whatever the scene's model leaves out
+    scene_body.table_reynolds_number.reset();
+    falling.body = prepare_body(scene_body.shape, scene_body.scale, temporary);
+    falling.body.name = scene_body.name;
+    falling.body.tables.reset();
+    falling.body.dynamic.reset();
+    add_kirchhoff_tensor(falling.body, earlier, temporary);
+    falling.immersed = make_immersed_body(falling.body, scene_body, scene.fluid, scene_body.name);
+    const Noise unused(scene.seed, scene_body.name, 0, 0);
+    falling.start =
+        initial_state(scene_body, falling.immersed.center_of_mass, surroundings_of(falling.scene), unused);
+    return falling;
+}
+
+BakePlan plan_of(const ValidationRequest& request, const Falling& falling) {
+    const SceneBody& scene_body = falling.scene.bodies.front();
+    FreeFall fall = plan_fall(falling.body, falling.immersed, falling.start, falling.scene.gravity,
+                              speed_unit(falling), falling.scene.duration - scene_body.start);
+    fall.time_step = request.time_step;
+    return plan_single_fall(falling.body, request.cells, fall);
+}
+
+FallSolution read_solution(const fs::path& fall_folder) {
+    const fs::path file = fall_folder / "provenance.json";
+    try {
+        const auto json = nlohmann::json::parse(read_bytes(file));
+        FallSolution solution;
+        for (const auto& attempt : json.at("attempts")) solution.attempts.push_back(attempt.at("what"));
+        solution.time_step = json.at("time_step");
+        solution.largest_courant_number = json.at("largest_courant_number");
+        if (json.at("mesh").is_object()) solution.cells = json.at("mesh").at("cells");
+        return solution;
+    } catch (const nlohmann::json::exception& reason) {
+        throw Error(fmt::format("{}: an entry is missing or of the wrong kind ({}); remove it and run again",
+                                file.string(), reason.what()));
+    }
+}
+
+Motion motion_of(const Falling& falling, const FallRecord& record, const fs::path& body_file) {
+    Simulation simulation(falling.scene, {LoadedBody{falling.body, file_content_hash(body_file)}}, 1, 1);
+    Motion motion = simulation.motion();
+    motion.bodies.front().models =
+        fmt::format("full CFD: OpenFOAM pimpleFoam with six degrees of freedom, {}, mesh {}",
+                    name_of(record.fall.closure), record.fall.mesh);
+    take_fall(record, falling.start, falling.scene.bodies.front().start, surroundings_of(falling.scene),
+              motion);
+    return motion;
+}
+
+}  // namespace
+
+void require_one_fall(const Scene& scene) {
+    const auto refuse = [&](const char* what) {
+        return Error(fmt::format("{}: {}", scene.file.string(), what));
+    };
+    if (scene.bodies.size() != 1) {
+        throw refuse("full CFD solves one body at a time; make a scene for each body");
+    }
+    const SceneBody& body = scene.bodies.front();
+    if (body.count != 1) throw refuse("full CFD solves one copy of a body; drop 'count'");
+    if (scene.ground)
+        throw refuse("full CFD knows no ground; drop 'ground' and let the scene end before the landing");
+    if (scene.fluid.gust.amplitude.norm() > 0.0) throw refuse("full CFD knows no gust; drop 'gust'");
+    if (!(scene.duration > body.start)) throw refuse("the scene ends before its body starts");
+}
+
+BakePlan prepare_validation(const ValidationRequest& request) {
+    require_one_fall(request.scene);
+    const TemporaryFolder temporary;
+    const fs::path folder = case_folder_of(request.output);
+    return plan_of(request, make_falling(request.scene, folder / case_body_name, temporary.path()));
+}
+
+ValidationResult validate_scene(const ValidationRequest& request, const FarmOptions& farm,
+                                const std::function<void(const BakePlan&)>& planned) {
+    require_one_fall(request.scene);
+    require_solvers(farm, 1);
+    const TemporaryFolder temporary;
+    const fs::path folder = case_folder_of(request.output);
+    const fs::path foam_cases = foam_cases_folder();
+    const Falling falling = make_falling(request.scene, folder / case_body_name, temporary.path());
+    ValidationResult result;
+    result.plan = plan_of(request, falling);
+    planned(result.plan);
+    const FolderLock lock(folder);
+    require_cases_of(CaseKind::fall, folder);
+    end_earlier_jobs(folder);
+    write_case_folder(folder, falling.body, result.plan, foam_cases);
+    result.reused = count_solved(folder, result.plan) > 0;
+    solve_cases(folder, result.plan, farm, foam_cases);  // throws where the one fall is not solved
+    result.cpu_seconds = spent_cpu_seconds(folder, result.plan);
+    const fs::path fall_folder = folder / result.plan.only_fall().name;
+    const FallRecord record = read_fall_record(fall_folder);
+    result.solution = read_solution(fall_folder);
+    result.balance = balance_of(record);
+    result.motion = motion_of(falling, record, folder / case_body_name);
+    write_motion_file(request.output, result.motion);
+    return result;
+}
+
+}  // namespace samara

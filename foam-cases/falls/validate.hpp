@@ -1,0 +1,61 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "converter/falls/fall_record.hpp"
+#include "foam-cases/bake/bake_plan.hpp"
+#include "foam-cases/falls/fall_plan.hpp"
+#include "foam-cases/farm/case_farm.hpp"
+#include "samara/motion/motion.hpp"
+#include "samara/scene/scene.hpp"
+
+namespace samara {
+
+/// A scene that is to be solved by full CFD.
+struct ValidationRequest {
+    Scene scene;
+    std::filesystem::path output;       ///< the motion file
+    double cells = 20'000.0;            ///< of the mesh, about
+    double time_step = fall_time_step;  ///< over L/U
+};
+
+/// Above these the momenta of a fall are said not to balance: twice what the worst of ten reference falls has
+/// (docs/validate.md).
+inline constexpr FallBalance doubtful_balance = {0.05, 0.15};
+
+/// Above this a step moves the fluid past several cells at once, and the solution is smeared.
+inline constexpr double doubtful_courant_number = 5.0;
+
+/// How the fall was solved in the end.
+struct FallSolution {
+    std::vector<std::string> attempts;  ///< in words; the last is the one that held
+    double time_step = 0.0;             ///< over L/U
+    double largest_courant_number = 0.0;
+    int cells = 0;  ///< of the mesh
+};
+
+struct ValidationResult {
+    BakePlan plan;  ///< of one fall
+    FallSolution solution;
+    FallBalance balance;
+    Motion motion;
+    double cpu_seconds = 0.0;  ///< of the mesh and the fall
+    bool reused = false;       ///< an earlier run had solved it
+};
+
+/// Throws Error where full CFD cannot solve the scene: it has one body without copies, no ground and no gust.
+void require_one_fall(const Scene& scene);
+
+/// Meshes the body and plans its fall; writes nothing. Throws Error.
+BakePlan prepare_validation(const ValidationRequest& request);
+
+/// Solves the scene's fall in full CFD, in the folder of cases beside the output, and writes the motion file.
+/// What an earlier call solved on the same inputs is reused; one that was interrupted goes on. `planned` is
+/// told of the plan before anything long begins. Throws Error.
+ValidationResult validate_scene(const ValidationRequest& request, const FarmOptions& farm,
+                                const std::function<void(const BakePlan&)>& planned);
+
+}  // namespace samara

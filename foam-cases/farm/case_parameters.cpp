@@ -1,0 +1,194 @@
+#include "foam-cases/farm/case_parameters.hpp"
+
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "samara/base/error.hpp"
+
+namespace samara {
+namespace {
+
+using Entries = std::vector<std::pair<std::string, std::string>>;
+
+constexpr const char* mesh_entries[] = {"boxHalfWidth",   "backgroundCells", "surfaceLevel",    "layers",
+                                        "layerThickness", "pointInFluid",    "refinementShells"};
+
+// C_mu of the k-epsilon model (Launder & Spalding 1974).
+constexpr double c_mu = 0.09;
+
+std::string foam_vector(const Vector3d& vector) {
+    // Adding zero turns a negative zero into zero.
+    return fmt::format("({} {} {})", vector.x() + 0.0, vector.y() + 0.0, vector.z() + 0.0);
+}
+
+struct ValueRange {
+    std::size_t begin;
+    std::size_t end;
+};
+
+ValueRange find_value(const std::string& text, const std::string& name) {
+    std::size_t line = 0;
+    while (line < text.size()) {
+        const std::string_view rest = std::string_view(text).substr(line);
+        if (rest.starts_with(name) && rest.size() > name.size() && rest[name.size()] == ' ') {
+            const std::size_t begin = text.find_first_not_of(' ', line + name.size());
+            const std::size_t end = text.find(';', begin);
+            if (end != std::string::npos) return {begin, end};
+        }
+        const std::size_t next = text.find('\n', line);
+        if (next == std::string::npos) break;
+        line = next + 1;
+    }
+    throw Error(fmt::format("the case template's file parameters has no entry '{}'; restore it", name));
+}
+
+Entries fluid_entries(const Inflow& inflow, double reynolds_number) {
+    const double viscosity = 1.0 / reynolds_number;
+    const double k = 1.5 * inflow.intensity * inflow.intensity;
+    const double epsilon =
+        inflow.length ? std::pow(c_mu, 0.75) * std::pow(k, 1.5) / *inflow.length : c_mu * k * k / viscosity;
+    return {{"reynoldsNumber", fmt::format("{}", reynolds_number)},
+            {"viscosity", fmt::format("{}", viscosity)},
+            {"inflowK", fmt::format("{:.6g}", k)},
+            {"inflowEpsilon", fmt::format("{:.6g}", epsilon)},
+            {"inflowNut", fmt::format("{:.6g}", c_mu * k * k / epsilon)}};
+}
+
+Entries flow_entries(const BakeCase& entry) {
+    return {{"direction", foam_vector(entry.direction)}, {"flowVelocity", foam_vector(-entry.direction)}};
+}
+
+std::string foam_tensor(const Matrix3d& matrix) {
+    std::string text = "(";
+    for (int row = 0; row < 3; ++row) {
+        text += fmt::format("{}{} {} {}", row == 0 ? "" : "  ", matrix(row, 0) + 0.0, matrix(row, 1) + 0.0,
+                            matrix(row, 2) + 0.0);
+    }
+    return text + ")";
+}
+
+// So far up that the pull from there does not change while the body falls by some hundred lengths.
+constexpr double anchor_height = 1e7;
+
+Entries body_entries(const FreeFall& fall) {
+    const double gravity = fall.gravity.norm();
+    const Vector3d up = gravity > 0.0 ? Vector3d(-fall.gravity / gravity) : Vector3d::UnitZ();
+    const Vector3d spin =
+        fall.principal_moments.cwiseProduct(fall.principal_axes.transpose() * fall.angular_velocity);
+    return {{"mass", fmt::format("{}", fall.mass)},
+            {"centreOfMass", foam_vector(fall.center_of_mass)},
+            {"momentsOfInertia", foam_vector(fall.principal_moments)},
+            {"principalAxes", foam_tensor(fall.principal_axes)},
+            {"startVelocity", foam_vector(fall.velocity)},
+            {"startAngularMomentum", foam_vector(spin)},
+            {"gravity", foam_vector(fall.gravity)},
+            {"buoyancyAnchor", foam_vector(anchor_height * up)},
+            {"buoyancyStiffness", fmt::format("{}", fall.volume * gravity / anchor_height)}};
+}
+
+Entries step_entries(const FreeFall& fall) {
+    return {{"timeStep", fmt::format("{}", fall.time_step)},
+            {"duration", fmt::format("{}", fall.duration)},
+            {"outerCorrectors", fmt::format("{}", fall.outer_correctors)},
+            {"accelerationRelaxation", fmt::format("{:.4g}", fall.acceleration_relaxation)}};
+}
+
+Entries closure_entries(Closure closure) {
+    if (closure == Closure::laminar) return {{"simulationType", "laminar"}};
+    return {{"simulationType", "RAS"}, {"closure", std::string(name_of(closure))}};
+}
+
+Entries mesh_entries_of(const FlowMesh& mesh) {
+    const double corner = mesh.box_half_width;
+    std::string shells;
+    for (const auto& [distance, level] : mesh.refinement_shells) {
+        shells += fmt::format("{}({} {})", shells.empty() ? "" : " ", distance, level);
+    }
+    return {{"boxHalfWidth", fmt::format("{}", mesh.box_half_width)},
+            {"backgroundCells", fmt::format("{}", mesh.background_cells())},
+            {"surfaceLevel", fmt::format("{}", mesh.surface_level)},
+            {"layers", fmt::format("{}", mesh.layers)},
+            {"pointInFluid",
+             fmt::format("({:.3f} {:.3f} {:.3f})", corner - 0.783, corner - 0.681, corner - 0.577)},
+            {"refinementShells", "(" + shells + ")"}};
+}
+
+Entries model_entries(const BakeQuality& quality, const BakeCase& entry) {
+    Entries entries = {
+        {"stationarity", fmt::format("{}", quality.stationarity)},
+        {"mostIterations",
+         fmt::format("{}", entry.start_from.empty() ? quality.most_iterations : quality.most_iterations / 2)},
+        {"startFrom", entry.start_from.empty() ? "none" : entry.start_from}};
+    // A solution on a coarser mesh, or of a neighbouring model, is most of the way.
+    if (!entry.start_from.empty()) entries.emplace_back("leastIterations", "100");
+    return entries;
+}
+
+// The ranks along x, y and z: as even as can be, the most along x.
+std::array<int, 3> ranks_along_axes(int ranks) {
+    std::array<int, 3> best = {ranks, 1, 1};
+    for (int z = 1; z * z * z <= ranks; ++z) {
+        for (int y = z; ranks % z == 0 && z * y * y <= ranks; ++y) {
+            if (ranks / z % y != 0) continue;
+            const int x = ranks / z / y;
+            if (x - z <= best[0] - best[2]) best = {x, y, z};
+        }
+    }
+    return best;
+}
+
+Entries process_entries(int ranks) {
+    const auto [x, y, z] = ranks_along_axes(ranks);
+    return {{"ranks", fmt::format("{}", ranks)}, {"ranksAlong", fmt::format("({} {} {})", x, y, z)}};
+}
+
+void replace_values(std::string& text, const Entries& entries) {
+    for (const auto& [name, value] : entries) {
+        const auto [begin, end] = find_value(text, name);
+        text.replace(begin, end - begin, value);
+    }
+}
+
+}  // namespace
+
+std::string case_parameters(const std::string& template_text, const BakePlan& plan, const BakeCase& entry) {
+    std::string text = template_text;
+    replace_values(text, flow_entries(entry));
+    replace_values(text, fluid_entries(plan.inflow, entry.reynolds_number));
+    replace_values(text, mesh_entries_of(mesh_of(plan, entry.mesh)));
+    replace_values(text, closure_entries(entry.closure));
+    replace_values(text, model_entries(plan.quality, entry));
+    replace_values(text, process_entries(plan.ranks));
+    return text;
+}
+
+std::string fall_parameters(const std::string& template_text, const BakePlan& plan, const FreeFall& fall) {
+    std::string text = template_text;
+    replace_values(text, fluid_entries(plan.inflow, fall.reynolds_number));
+    replace_values(text, body_entries(fall));
+    replace_values(text, closure_entries(fall.closure));
+    replace_values(text, step_entries(fall));
+    return text;
+}
+
+std::string mesh_case_parameters(const std::string& template_text, const FlowMesh& mesh) {
+    std::string text = template_text;
+    replace_values(text, mesh_entries_of(mesh));
+    return text;
+}
+
+std::string mesh_parameters_of(const std::string& parameters) {
+    std::string text;
+    for (const char* name : mesh_entries) {
+        const auto [begin, end] = find_value(parameters, name);
+        text += fmt::format("{} {};\n", name, parameters.substr(begin, end - begin));
+    }
+    return text;
+}
+
+}  // namespace samara

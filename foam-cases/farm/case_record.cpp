@@ -1,0 +1,23 @@
+#include "foam-cases/farm/case_record.hpp"
+
+#include "internal/base/content_hash.hpp"
+
+namespace samara {
+
+nlohmann::json read_record(const std::filesystem::path& file) {
+    if (!std::filesystem::is_regular_file(file)) return nlohmann::json::object();
+    nlohmann::json record = nlohmann::json::parse(read_bytes(file), nullptr, false);
+    return record.is_object() ? record : nlohmann::json::object();
+}
+
+std::string text_in(const nlohmann::json& record, const char* name) {
+    const auto found = record.find(name);
+    return found != record.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+double number_in(const nlohmann::json& record, const char* name) {
+    const auto found = record.find(name);
+    return found != record.end() && found->is_number() ? found->get<double>() : 0.0;
+}
+
+}  // namespace samara

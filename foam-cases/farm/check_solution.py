@@ -1,0 +1,102 @@
+#!/usr/bin/env python3
+"""Judges a solution from the files that OpenFOAM left behind.
+
+    check_solution.py FOLDER   writes FOLDER/provenance.json where the solution holds
+
+Else exit 1 with one line that says what is wrong and names the log; where the flow diverged or did not converge
+(not where the solver was only stopped) also FOLDER/failed.json with that reason. provenance.json is written last
+and whole, so that its existence means success. The folder above holds plan.json, whose hash of the case's inputs
+it repeats.
+"""
+
+import math
+import os
+import re
+import sys
+
+from farm_script import input_hash, mesh_record, run_on_folder, stopping_fault
+from case_files import Failure, Fault, parameter, read, read_record, word, write_json
+from stationarity import AREA_UNIT, whole_histories
+
+
+def mean_and_deviation(rows, columns):
+    means, deviations = [], []
+    for column in columns:
+        values = [row[column] for row in rows]
+        mean = math.fsum(values) / len(values)
+        means.append(mean)
+        deviations.append(math.sqrt(math.fsum((value - mean) ** 2 for value in values) / len(values)))
+    return means, deviations
+
+
+def final_residuals(log_text, log):
+    """The initial residuals of the last iteration."""
+    last = log_text.rfind("\nTime = ")
+    found = {}
+    for field, value in re.findall(r"Solving for (\w+), Initial residual = (\S+?),", log_text[last:]):
+        found.setdefault(field, float(value))
+    if not found:
+        raise Fault(f"no residual in {log}")
+    return found
+
+
+def check_solution(folder):
+    rounds = read_record(os.path.join(folder, "rounds.json"))
+    if not rounds:
+        raise Fault("was stopped before its first round; run again to go on")
+    log = os.path.join(folder, "log.simpleFoam")
+    last = rounds["attempts"][-1]
+    if rounds["verdict"] == "failed":
+        raise Failure(f"{last['end']} (attempts: {', '.join(one['what'] for one in rounds['attempts'])})")
+    if rounds["verdict"] is None:
+        raise Fault(stopping_fault(folder, log))
+    text = read(log)
+    parameters = read(os.path.join(folder, "parameters"))
+    start = rounds["averaging_start"]
+    turbulent = word(parameters, "simulationType") != "laminar"
+
+    forces, moments, shell = (
+        [row[1:] for row in rows if row[0] >= start]
+        for rows in whole_histories(folder, last["iterations"], turbulent))
+    force, force_deviation = mean_and_deviation(forces, range(3))
+    moment, moment_deviation = mean_and_deviation(moments, range(3))
+    flow = parameter(parameters, "flowVelocity")
+    drag = math.fsum(f * u for f, u in zip(force, flow)) / AREA_UNIT
+    if drag <= 0.0:
+        raise Failure(f"diverged: the drag coefficient is {drag:.3g}, not positive; see {log}")
+
+    build = re.search(r"^Build\s*:\s*(.*)$", text, re.MULTILINE)
+    record = {
+        "case": os.path.basename(os.path.abspath(folder)),
+        "openfoam": build.group(1).strip() if build else "",
+        "closure": word(parameters, "closure") if turbulent else "laminar",
+        "convection": word(parameters, "convection"),
+        "gradient": word(parameters, "gradient"),
+        "direction": parameter(parameters, "direction"),
+        "reynolds_number": parameter(parameters, "reynoldsNumber"),
+        "inflow": {"k": parameter(parameters, "inflowK"), "epsilon": parameter(parameters, "inflowEpsilon"),
+                   "eddy_viscosity": parameter(parameters, "inflowNut")},
+        "verdict": rounds["verdict"],
+        "attempts": rounds["attempts"],
+        "iterations": last["iterations"],
+        "averaging_start": start,
+        "averaged_iterations": len(forces),
+        "final_residuals": final_residuals(text, log),
+        "drag_coefficient": drag,
+        "force": force,
+        "force_deviation": force_deviation,
+        "moment": moment,
+        "moment_deviation": moment_deviation,
+        "mesh": mesh_record(folder),
+        "cpu_seconds": rounds["cpu_seconds"],
+        "inputs_hash": input_hash(folder),
+    }
+    if turbulent:
+        means, deviation = mean_and_deviation(shell, range(2))
+        record["shell"] = {"k": means[0], "epsilon": means[1],
+                           "k_deviation": deviation[0], "epsilon_deviation": deviation[1]}
+    write_json(os.path.join(folder, "provenance.json"), record)
+
+
+if __name__ == "__main__":
+    sys.exit(run_on_folder(sys.argv, __doc__, check_solution))

@@ -1,0 +1,158 @@
+#!/usr/bin/env python3
+"""Makes the mesh of a case, and tries remedies in a stated order until it is good.
+
+    make_mesh.py FOLDER   runs FOLDER/Allrun mesh and writes FOLDER/mesh.json where the mesh can be solved on
+
+A mesh is good where checkMesh finds no fault and the body's whole surface is there (check_mesh.py). Else the
+remedies below are tried, each in place of the one before, by a file `remedy` that `parameters` includes at its end;
+mesh.json says which were tried, and what each gave. Where none gives a good mesh, the one with the fewest faults is
+taken, if it can be solved on at all; its verdict says what is wrong with it.
+
+Else exit 1 with one line that says what is wrong; where the body is at fault (not where a program was only stopped)
+also FOLDER/failed.json with that reason. mesh.json is written last and whole, so that its existence means success.
+"""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+
+from farm_script import input_hash, run_on_folder
+from case_files import Failure, Fault, parameter, read, write_entries, write_json
+from check_mesh import PROGRAMS, judge
+
+# What `Allrun mesh` makes.
+PRODUCTS = ("constant/polyMesh", "constant/extendedFeatureEdgeMesh", "constant/triSurface/body.eMesh")
+
+
+def thinner_layers(plan):
+    return {"layerThickness": 0.3}
+
+
+def one_layer(plan):
+    return {"layers": 1, "layerThickness": 0.3}
+
+
+def no_layers(plan):
+    return {"layers": 0}
+
+
+def finer_background(plan):
+    """Cells smaller by a tenth, which cut the body elsewhere."""
+    return {"backgroundCells": round(1.1 * plan["backgroundCells"])}
+
+
+def more_levels(plan, count):
+    """Smaller cells along the surface, two deep at each level, so that snappyHexMesh finds what it missed."""
+    cell = 2 * plan["boxHalfWidth"] / plan["backgroundCells"]
+    finest = plan["surfaceLevel"] + count
+    shells = [f"({2 * cell / 2 ** level:.6g} {level})" for level in range(finest, plan["surfaceLevel"], -1)]
+    return {"surfaceLevel": finest, "refinementShells": f"({' '.join(shells)} {plan['refinementShells'][1:]}"}
+
+
+def one_more_level(plan):
+    return more_levels(plan, 1)
+
+
+def two_more_levels(plan):
+    return more_levels(plan, 2)
+
+
+# In the order in which they are tried: those that cost the fewest cells and the least accuracy first. For meshes that
+# miss a part of the surface, and for those with other faults.
+REMEDIES_OF_SURFACE = {
+    "finer background": finer_background,
+    "one more surface level": one_more_level,
+    "two more surface levels": two_more_levels,
+}
+REMEDIES_OF_CELLS = {
+    "thinner layers": thinner_layers,
+    "one layer": one_layer,
+    "finer background": finer_background,
+    "one more surface level": one_more_level,
+    "no layers": no_layers,
+}
+
+
+def planned(folder):
+    """The entries of `parameters` that remedies start from."""
+    text = read(os.path.join(folder, "parameters"))
+    plan = {name: int(parameter(text, name)) for name in ("backgroundCells", "surfaceLevel", "layers")}
+    plan["boxHalfWidth"] = parameter(text, "boxHalfWidth")
+    shells = re.search(r"^refinementShells\s+(\(.*\));", text, re.MULTILINE)
+    if not shells:
+        raise Fault("parameters: has no entry refinementShells")
+    plan["refinementShells"] = shells.group(1)
+    return plan
+
+
+def clear(folder):
+    for name in PRODUCTS:
+        path = os.path.join(folder, name)
+        if os.path.isdir(path) and not os.path.islink(path):
+            shutil.rmtree(path)
+        elif os.path.lexists(path):
+            os.remove(path)
+    for name in ["remedy", "mesh.json", "failed.json"] + ["log." + program for program in PROGRAMS]:
+        if os.path.lexists(os.path.join(folder, name)):
+            os.remove(os.path.join(folder, name))
+
+
+def attempt(folder, remedy, entries):
+    """Makes the mesh with the remedy's entries and judges it."""
+    clear(folder)
+    if entries:
+        write_entries(os.path.join(folder, "remedy"), f"In place of entries of parameters: {remedy} (make_mesh.py)",
+                      entries)
+    # Its logs say what went wrong; what it prints is of use where there are none.
+    result = subprocess.run([os.path.join(folder, "Allrun"), "mesh"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                            text=True, check=False)
+    if not os.path.exists(os.path.join(folder, "log." + PROGRAMS[0])):
+        raise Fault((result.stdout.strip().splitlines() or ["Allrun mesh did nothing"])[-1])
+    return judge(folder)
+
+
+def attempts_until_good(folder):
+    """(remedy, entries, judgement) of each attempt; the last is of a good mesh, where there is one."""
+    plan = planned(folder)
+    attempts = [("as planned", {}, attempt(folder, "as planned", {}))]
+    remedies = REMEDIES_OF_SURFACE if attempts[0][2].misses_surface else REMEDIES_OF_CELLS
+    for remedy, change in remedies.items():
+        if attempts[-1][2].is_good:
+            break
+        entries = change(plan)
+        attempts.append((remedy, entries, attempt(folder, remedy, entries)))
+    return attempts
+
+
+def badness(tried):
+    """Orders meshes from the best to the worst; the first of equals counts."""
+    judgement = tried[2]
+    return (len(judgement.fatal), len(judgement.faults), round(abs(judgement.area - 1.0), 2))
+
+
+def make_mesh(folder):
+    attempts = attempts_until_good(folder)
+    best = min(attempts, key=badness)
+    remedy, entries, judgement = best
+    if judgement.fatal:
+        raise Failure(f"the body cannot be meshed: {judgement.fatal[0]}, and {len(attempts) - 1} remedies did not help: "
+                      f"parts may be too thin for the cells; thicken them, or take a finer --quality; "
+                      f"see {folder}/log.snappyHexMesh")
+    seconds = sum(tried[2].seconds for tried in attempts)
+    if best is not attempts[-1]:
+        judgement = attempt(folder, remedy, entries)
+        seconds += judgement.seconds
+    write_json(os.path.join(folder, "mesh.json"), {
+        **judgement.facts,
+        "verdict": judgement.verdict,
+        "remedy": remedy,
+        "attempts": [{"remedy": tried[0], "verdict": tried[2].verdict} for tried in attempts],
+        "cpu_seconds": round(seconds, 2),
+        "inputs_hash": input_hash(folder),
+    })
+
+
+if __name__ == "__main__":
+    sys.exit(run_on_folder(sys.argv, __doc__, make_mesh))

@@ -1,0 +1,276 @@
+#include "foam-cases/scene/scene_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "converter/tables/direction_sampling.hpp"
+#include "internal/dynamics/loads.hpp"
+
+namespace samara {
+namespace {
+
+// Chosen: the rounds that follow make up for what the first lacks.
+constexpr std::size_t first_directions = 3;  // beside the anchors
+constexpr std::size_t first_directions_of_arc = 1;
+constexpr double far_in_reynolds_number = 2.0;  // beyond that ratio coefficients may differ
+constexpr int most_falls_more = 2;              // times the goal's
+constexpr std::size_t further_directions = 3;   // with cases at another Reynolds number
+
+/// The quantile of the logarithm of the visits' Reynolds numbers by the squared loads met there.
+double reynolds_quantile(std::vector<FlowVisit> visits, double share) {
+    std::ranges::sort(visits, {}, &FlowVisit::reynolds_number);
+    double all = 0.0;
+    for (const FlowVisit& visit : visits) all += visit.pressure * visit.pressure;
+    double sum = 0.0;
+    for (const FlowVisit& visit : visits) {
+        sum += visit.pressure * visit.pressure;
+        if (sum >= share * all) return visit.reynolds_number;
+    }
+    return visits.back().reynolds_number;
+}
+
+double mean_reynolds_number(const std::vector<FlowVisit>& visits) {
+    double sum = 0.0;
+    double all = 0.0;
+    for (const FlowVisit& visit : visits) {
+        const double weight = visit.pressure * visit.pressure;
+        sum += weight * std::log(visit.reynolds_number);
+        all += weight;
+    }
+    return std::exp(sum / all);
+}
+
+/// A Reynolds number that counts and is far from the main one; 0 where there is none.
+double far_reynolds_number(const std::vector<FlowVisit>& visits, double main) {
+    const double low = reynolds_quantile(visits, 0.05);
+    const double high = reynolds_quantile(visits, 0.95);
+    if (main / low > far_in_reynolds_number && main / low >= high / main) {
+        return rounded_reynolds_number(low);
+    }
+    return high / main > far_in_reynolds_number ? rounded_reynolds_number(high) : 0.0;
+}
+
+void add_directions(const std::vector<std::size_t>& more, ScenePlan& plan) {
+    for (const std::size_t index : more) {
+        plan.chosen.push_back(index);
+        add_ladder("direction", index, plan.candidates.directions[index], plan.cases.main_reynolds_number,
+                   plan.cases);
+    }
+}
+
+/// The candidates that any table needs: without them its interpolation is extrapolated freely.
+std::vector<std::size_t> anchors(const Symmetry& symmetry, const Candidates& candidates) {
+    std::vector<std::size_t> found;
+    for (const Vector3d& direction : required_directions(symmetry, 1)) {
+        for (std::size_t i = 0; i < candidates.directions.size(); ++i) {
+            if ((candidates.directions[i] - direction).norm() < direction_tolerance(symmetry)) {
+                found.push_back(i);
+            }
+        }
+    }
+    return found;
+}
+
+/// The candidates that are not chosen, of so many.
+std::vector<std::size_t> without(const std::vector<std::size_t>& chosen, std::size_t count) {
+    std::vector<std::size_t> others;
+    for (std::size_t index = 0; index < count; ++index) {
+        if (std::ranges::find(chosen, index) == chosen.end()) others.push_back(index);
+    }
+    return others;
+}
+
+/// The chosen candidates, those first without which most would be uncertain.
+std::vector<std::size_t> by_weight(const std::vector<WeightedDirection>& weights, const Symmetry& symmetry,
+                                   const ScenePlan& plan) {
+    std::vector<std::pair<double, std::size_t>> loads;
+    for (const std::size_t index : plan.chosen) {
+        std::vector<std::size_t> without = plan.chosen;
+        std::erase(without, index);
+        loads.emplace_back(without.empty()
+                               ? 0.0
+                               : -mean_squared_spread(symmetry, plan.candidates.directions, without, weights),
+                           index);
+    }
+    std::ranges::stable_sort(loads, {}, &std::pair<double, std::size_t>::first);
+    std::vector<std::size_t> order;
+    for (const auto& [load, index] : loads) order.push_back(index);
+    return order;
+}
+
+/// Cases at the Reynolds number in the first `count` of the directions.
+void add_reynolds_number(double reynolds_number, std::size_t count, const std::vector<std::size_t>& order,
+                         ScenePlan& plan) {
+    for (std::size_t i = 0; i < std::min(count, order.size()); ++i) {
+        const Vector3d& direction = plan.candidates.directions[order[i]];
+        const bool there = std::ranges::any_of(plan.cases.cases, [&](const BakeCase& entry) {
+            return entry.direction == direction && entry.reynolds_number == reynolds_number;
+        });
+        if (!there) add_further_reynolds_number(direction, reynolds_number, plan.cases);
+    }
+}
+
+double share_strayed(const std::vector<FlowVisit>& visits, const ScenePlan& plan) {
+    const auto strayed = std::ranges::count_if(visits, [&](const FlowVisit& visit) {
+        return !plan.region.holds(plan.cases.axes.transpose() * visit.direction);
+    });
+    return visits.empty() ? 0.0 : static_cast<double>(strayed) / static_cast<double>(visits.size());
+}
+
+UncertainTables uncertain_tables(const Conversion& conversion, const ScenePlan& plan) {
+    UncertainTables uncertain;
+    uncertain.sampling_errors = conversion.sampling_errors;
+    uncertain.reynolds_number = plan.cases.main_reynolds_number;
+    const std::vector<Vector3d>& candidates = plan.candidates.directions;
+    for (const std::size_t index : plan.chosen) uncertain.solved.push_back(candidates[index]);
+    for (const std::size_t index : without(plan.chosen, candidates.size())) {
+        uncertain.unsolved.push_back(candidates[index]);
+    }
+    return uncertain;
+}
+
+/// The largest change of the force's coefficient from the main Reynolds number to another along the visits
+/// there, over the force: what the table would be wrong by without it.
+double change_with_reynolds_number(const LoadTables& tables, const std::vector<FlowVisit>& visits,
+                                   double main) {
+    double sum = 0.0;
+    double all = 0.0;
+    for (const FlowVisit& visit : visits) {
+        const double weight = visit.pressure * visit.pressure;
+        const Vector3d here = look_up(tables, visit.direction, visit.reynolds_number).force;
+        const Vector3d there = look_up(tables, visit.direction, main).force;
+        sum += weight * (here - there).squaredNorm();
+        all += weight * there.squaredNorm();
+    }
+    return all > 0.0 ? std::sqrt(sum / all) : 0.0;
+}
+
+bool adds_reynolds_numbers(const SceneGoal& goal, const LoadTables& tables, const Symmetry& symmetry,
+                           const std::vector<FlowVisit>& visits, ScenePlan& plan) {
+    const std::vector<double>& further = plan.cases.further_reynolds_numbers;
+    if (further.empty() || plan.reynolds_collapsed) return false;
+    if (change_with_reynolds_number(tables, visits, plan.cases.main_reynolds_number) < goal.tolerance) {
+        plan.reynolds_collapsed = true;
+        return false;
+    }
+    const std::size_t before = plan.cases.cases.size();
+    const std::vector<std::size_t> order = by_weight(direction_weights(visits, symmetry), symmetry, plan);
+    add_reynolds_number(further.front(), further_directions, order, plan);
+    return plan.cases.cases.size() > before;
+}
+
+/// How many directions the next round adds: a sixth of what there is, up to half where the error is far
+/// beyond the tolerance; two at least.
+std::size_t next_count(const ScenePlan& plan, const Symmetry& symmetry, double worst) {
+    if (symmetry.kind == Symmetry::Kind::axial) return 1;
+    const double share = std::clamp(worst, 1.0, 3.0) / 6.0;
+    return std::max<std::size_t>(
+        2, static_cast<std::size_t>(std::floor(share * static_cast<double>(plan.chosen.size()))));
+}
+
+}  // namespace
+
+ScenePlan first_plan(const SceneGoal& goal, const Body& body, const BakeQuality& quality,
+                     const Inflow& inflow, const SampledFalls& flight) {
+    const Symmetry& symmetry = body.symmetry;
+    ScenePlan plan;
+    plan.candidates = candidate_directions(symmetry);
+    plan.cases = plan_of_meshes(body, quality);
+    plan.cases.inflow = inflow;
+    plan.cases.covers_scene = true;
+    plan.cases.solved_subdivisions = plan.candidates.subdivisions;
+    // In multiples, so that the map's nodes hold the candidates.
+    const int solved = plan.candidates.subdivisions;
+    plan.cases.subdivisions = solved * ((quality.table_subdivisions + solved - 1) / solved);
+    plan.cases.main_reynolds_number = rounded_reynolds_number(mean_reynolds_number(flight.visits));
+    plan.region = visited_region(flight.visits, symmetry);
+    add_directions(anchors(symmetry, plan.candidates), plan);
+    const std::size_t few =
+        symmetry.kind == Symmetry::Kind::axial ? first_directions_of_arc : first_directions;
+    add_directions(goal.whole_grid ? without(plan.chosen, plan.candidates.directions.size())
+                                   : choose_directions(symmetry, plan.candidates.directions, plan.chosen,
+                                                       direction_weights(flight.visits, symmetry), few),
+                   plan);
+    const std::vector<std::size_t> order =
+        by_weight(direction_weights(flight.visits, symmetry), symmetry, plan);
+    if (const double far = far_reynolds_number(flight.visits, plan.cases.main_reynolds_number); far > 0.0) {
+        add_reynolds_number(far, 1, order, plan);
+    }
+    for (std::size_t i = 0; i < std::min(further_directions, order.size()); ++i) {
+        add_other_closures(plan.candidates.directions[order[i]], plan.cases);
+    }
+    estimate_cost(plan.cases);
+    return plan;
+}
+
+void judge_round(const SceneGoal& goal, const Conversion& conversion, double cpu_seconds, ScenePlan& plan) {
+    const Symmetry& symmetry = conversion.body.symmetry;
+    PlanRound round;
+    round.directions = plan.chosen.size();
+    round.cases = plan.cases.cases.size();
+    round.estimated_cpu_seconds = plan.cases.cpu_seconds;
+    round.cpu_seconds = cpu_seconds;
+    const UncertainTables uncertain = uncertain_tables(conversion, plan);
+    // Falls that differ much need more of them to see what the tables leave uncertain.
+    for (int falls = goal.falls; falls <= most_falls_more * goal.falls; falls *= 2) {
+        round.flight = fly_for_bake(goal.scene, goal.body, conversion.body, falls);
+        round.error =
+            motion_error(goal.scene, goal.body, conversion.body, uncertain, round.flight, falls, goal.draws);
+        if (round.error.worst_chance(goal.tolerance) <= 0.5) break;
+    }
+    round.strayed = share_strayed(round.flight.visits, plan);
+    const std::vector<FlowVisit> visits = std::move(round.flight.visits);
+    round.flight.visits = {};
+    const double worst = round.error.worst(goal.tolerance);
+    const bool good = worst <= 1.0;
+    plan.rounds.push_back(round);
+    // Where it strays to is judged with the rest, and planned from now on.
+    if (symmetry.kind != Symmetry::Kind::spherical) merge(plan.region, visited_region(visits, symmetry));
+    if (plan.rounds.size() >= static_cast<std::size_t>(goal.most_rounds)) {
+        plan.stopped_because = fmt::format("{} rounds are the most there may be", goal.most_rounds);
+    }
+
+    ScenePlan next = plan;
+    const bool more_reynolds_numbers =
+        adds_reynolds_numbers(goal, *conversion.body.tables, symmetry, visits, next);
+    plan.reynolds_collapsed = next.reynolds_collapsed;
+    if (good && !more_reynolds_numbers) {
+        plan.stopped_because = "the tolerance is met";
+    } else if (next.chosen.size() == next.candidates.directions.size() && !more_reynolds_numbers) {
+        plan.stopped_because = "every direction is solved";
+    }
+    if (!plan.stopped_because.empty()) return;
+    if (!good) {
+        add_directions(
+            choose_directions(symmetry, next.candidates.directions, next.chosen,
+                              direction_weights(visits, symmetry), next_count(next, symmetry, worst)),
+            next);
+    }
+    estimate_cost(next.cases);
+    if (goal.budget && next.cases.cpu_seconds > *goal.budget) {
+        plan.stopped_because = fmt::format(
+            "the next round would take {:.0f} CPU seconds in all, beyond the budget", next.cases.cpu_seconds);
+        return;
+    }
+    plan = std::move(next);
+}
+
+GridCost whole_grid(const ScenePlan& plan, bool with_symmetry) {
+    const int n = plan.candidates.subdivisions;
+    GridCost cost;
+    cost.directions =
+        with_symmetry ? plan.candidates.directions.size() : static_cast<std::size_t>(4 * n * n + 2);
+    BakePlan grid = plan.cases;
+    grid.cases.clear();
+    for (std::size_t i = 0; i < cost.directions; ++i) {
+        add_ladder("direction", i, Vector3d::UnitX(), grid.main_reynolds_number, grid);
+    }
+    estimate_cost(grid);
+    cost.cases = grid.cases.size();
+    cost.cpu_seconds = grid.cpu_seconds;
+    return cost;
+}
+
+}  // namespace samara

@@ -1,0 +1,199 @@
+#!/usr/bin/env -S python3 -B
+"""Runs simpleFoam in rounds until the case is statistically stationary (stationarity.py).
+
+    iterate.py      in the folder of the case, whose mesh is there
+
+A case that does not settle, or diverges, is tried again in the ways of ATTEMPTS, and fails after the last.
+rounds.json holds what was done. A round that was cut short is done again from the last whole one, so that a case
+that was killed ends with the same bytes as one that was not; where an input has changed, all starts afresh.
+
+Exit 0: rounds.json has the verdict "stationary", or "restless" where an attempt ended within ACCEPTED tolerances
+(a wake that swings about a mean that stays); its standard error then says how well it is known. Exit 1: one line says why; the verdict is "failed"
+where all attempts did, else something stopped the solver.
+"""
+
+import glob
+import os
+import resource
+import shutil
+import subprocess
+import sys
+
+from case_files import (Failure, Fault, breakdown, could_not_read_state, hash_of_inputs, read, read_record, say,
+                        time_folders, word, write_entries, write_json)
+from stationarity import whole_histories, worst_quantity
+
+# Each attempt: its changes to the parameters, those of its first round, and where it starts: as `startFrom` says,
+# from what stands, or from the undisturbed flow.
+ATTEMPTS = {
+    "as planned": ({}, {}, "startFrom"),
+    "damped": ({"momentumRelaxation": "0.7", "turbulenceRelaxation": "0.5"}, {}, "what stands"),
+    "cautious": ({"momentumRelaxation": "0.5", "turbulenceRelaxation": "0.4",
+                  "gradient": "cellLimited Gauss linear 1"}, {"convection": "upwind"}, "undisturbed"),
+}
+AFTER_RESTLESSNESS = {"as planned": "damped", "damped": "cautious"}
+AFTER_DIVERGENCE = {"as planned": "cautious", "damped": "cautious"}
+ACCEPTED = 3.0
+
+
+def own(name):
+    """The text of an entry of the case's file `parameters`."""
+    return word(read("parameters"), name)
+
+
+def start_folder():
+    """The folder of the solved case to start from; None where there is none, or where it failed."""
+    folder = os.path.join("..", own("startFrom"))
+    return folder if os.path.exists(os.path.join(folder, "provenance.json")) else None
+
+
+def run_program(words, log):
+    """Runs a program; returns its exit status and CPU seconds."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    with open(log, "w") as file:
+        status = subprocess.run(words, stdout=file, stderr=subprocess.STDOUT, check=False).returncode
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return status, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
+class Rounds:
+    """What was done, and so from where to go on. `goes_on`: from what an earlier run left, with no round done since."""
+
+    def __init__(self):
+        self.round_iterations = int(own("roundIterations"))
+        self.most_iterations = int(own("mostIterations"))
+        self.least_iterations = int(own("leastIterations"))
+        self.tolerance = float(own("stationarity"))
+        self.turbulent = own("simulationType") != "laminar"
+        self.inputs = hash_of_inputs([os.path.join(start_folder(), "rounds.json")] if start_folder() else [])
+        self.state = read_record("rounds.json")
+        self.goes_on = (self.state.get("inputs") == self.inputs and self.state.get("verdict") != "failed"
+                        and self.histories_are_whole())
+        if self.goes_on:
+            self.keep_whole_rounds()
+        else:
+            self.start_afresh()
+
+    @property
+    def attempt(self):
+        return self.state["attempts"][-1]
+
+    def histories_are_whole(self):
+        try:
+            whole_histories(".", self.attempt["iterations"], self.turbulent)
+        except Fault:
+            return False
+        return True
+
+    def start_afresh(self):
+        self.state = {"inputs": self.inputs, "verdict": None, "cpu_seconds": 0.0, "attempts": []}
+        self.begin("as planned")
+
+    def begin(self, what):
+        first = self.attempt["iterations"] if ATTEMPTS[what][2] == "what stands" else 0
+        self.state["attempts"].append({"what": what, "first": first, "iterations": first})
+        write_json("rounds.json", self.state)
+        self.keep_whole_rounds()
+
+    def keep_whole_rounds(self):
+        """Removes the fields of all but the last whole round, and the histories of later ones."""
+        whole = self.attempt["iterations"]
+        for time, path in time_folders(".").items():
+            if time not in (0, whole) or whole == 0:
+                shutil.rmtree(path)
+        for name in glob.glob("postProcessing/*"):
+            for start, path in time_folders(name).items():
+                if start >= whole:
+                    shutil.rmtree(path)
+        for path in glob.glob("processor*"):
+            shutil.rmtree(path)
+        if whole == 0:
+            self.make_start()
+
+    def make_start(self):
+        """The folder 0: the undisturbed flow, or the solution of another case on this mesh."""
+        shutil.copytree("0.orig", "0")
+        source = start_folder() if ATTEMPTS[self.attempt["what"]][2] == "startFrom" else None
+        self.attempt["started_from"] = own("startFrom") if source else "undisturbed flow"
+        if source:
+            status, seconds = run_program(["./Allrun", "map", source], "log.mapFields")
+            self.state["cpu_seconds"] += seconds
+            if status != 0:
+                raise Fault(f"mapFields failed; see {os.path.abspath('log.mapFields')}")
+
+    def run_round(self):
+        """One more round, and what it says of the case: a verdict, the end of the attempt, or neither."""
+        attempt = self.attempt
+        changes, first_changes, _ = ATTEMPTS[attempt["what"]]
+        if attempt["iterations"] == attempt["first"]:
+            changes = changes | first_changes
+        end = attempt["iterations"] + self.round_iterations
+        entries = {"endTime": end, "writeFormat": "binary", **changes}
+        write_entries("round", "What this round has of its own; written by iterate.py", entries)
+        status, seconds = run_program(["./Allrun", "round"], "log.simpleFoam")
+        self.state["cpu_seconds"] += seconds
+        if status != 0:
+            raise breakdown(os.path.abspath("log.simpleFoam"), "simpleFoam", "iteration")
+        attempt["iterations"] = end
+        unsteady, quantity, start = worst_quantity(".", attempt["first"], end, self.tolerance, self.turbulent)
+        attempt["unsteadiness_over_tolerance"] = unsteady
+        attempt["worst_quantity"] = quantity
+        self.state["averaging_start"] = start
+        self.goes_on = False
+        done = end - attempt["first"]
+        if unsteady <= 1.0 and done >= self.least_iterations:
+            self.state["verdict"] = "stationary"
+        elif done >= self.most_iterations:
+            attempt["end"] = f"the {quantity} did not settle: {unsteady:.2g} times its tolerance of {self.tolerance:g}"
+        write_json("rounds.json", self.state)
+        self.keep_whole_rounds()
+
+    def after(self, cause, following):
+        """Goes on to the next attempt, or ends."""
+        self.attempt["end"] = cause
+        following = following.get(self.attempt["what"])
+        if following:
+            self.begin(following)
+        elif self.attempt.get("unsteadiness_over_tolerance", ACCEPTED + 1) <= ACCEPTED:
+            self.state["verdict"] = "restless"
+        else:
+            self.state["verdict"] = "failed"
+        write_json("rounds.json", self.state)
+
+    def run(self):
+        while self.state["verdict"] is None:
+            # An attempt that had ended before a kill is not gone on with.
+            if "end" in self.attempt:
+                accepted = self.attempt["unsteadiness_over_tolerance"] <= ACCEPTED
+                self.after(self.attempt["end"], {} if accepted else AFTER_RESTLESSNESS)
+                continue
+            try:
+                self.run_round()
+            except Failure as cause:
+                self.attempt.pop("unsteadiness_over_tolerance", None)
+                self.after(str(cause), AFTER_DIVERGENCE)
+            except Fault:
+                # As where the disk was full when an earlier run wrote its last round.
+                if not self.goes_on or not could_not_read_state("log.simpleFoam"):
+                    raise
+                self.goes_on = False
+                self.start_afresh()
+
+
+def main():
+    os.chdir(os.path.dirname(os.path.abspath(__file__)))
+    try:
+        rounds = Rounds()
+        rounds.run()
+    except (Fault, OSError) as fault:
+        say(fault, sys.stderr)
+        return 1
+    if rounds.state["verdict"] == "failed":
+        attempts = ", ".join(one["what"] for one in rounds.state["attempts"])
+        say(f"{rounds.attempt['end']} (attempts: {attempts})", sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

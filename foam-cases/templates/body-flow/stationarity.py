@@ -1,0 +1,86 @@
+"""Whether a case has become statistically stationary, judged by what the tables are made of.
+
+Force, moment, k and epsilon over the shell are watched, not residuals: that of the pressure settles long before k
+does, and never does where the wake oscillates. The last half of the iterations is the window over which means are
+taken. A quantity is stationary when half the difference between the means of the window's two halves (a drift) and
+the standard error from six batches (an oscillation) are both within the tolerance.
+"""
+
+import math
+
+from case_files import Failure, Fault, history
+
+# k and epsilon settle later than forces and are less certain in any case: their tolerance over that of forces.
+TURBULENCE_TOLERANCES = 3.0
+BATCHES = 6
+# Loads below these are noise: coefficients over rho U^2 A/2 and rho U^2 A L/2.
+LEAST_FORCE = 0.1
+LEAST_MOMENT = 0.2
+# The largest force coefficient that is no sign of divergence: a plate broadside has 2.5.
+LARGEST_FORCE = 20.0
+AREA_UNIT = math.pi / 8  # rho U^2 A/2 with rho = U = L = 1 and A = pi L^2/4
+
+
+class Diverged(Failure):
+    """The iterations went to nonsense."""
+
+
+def mean(values):
+    return math.fsum(values) / len(values)
+
+
+def unsteadiness(values):
+    """The larger of the drift and the standard error from batches."""
+    half = len(values) // 2
+    drift = abs(mean(values[half:]) - mean(values[:half])) / 2
+    length = len(values) // BATCHES
+    batches = [mean(values[i * length:(i + 1) * length]) for i in range(BATCHES)]
+    center = mean(batches)
+    squares = math.fsum((batch - center) ** 2 for batch in batches)
+    return max(drift, math.sqrt(squares / (BATCHES * (BATCHES - 1))))
+
+
+def whole_history(folder, name, file, last):
+    """The history, one row for each iteration up to the `last`. Raises Fault where any is missing."""
+    rows = history(folder, name, file)
+    for iteration in range(1, int(last) + 1):
+        if len(rows) < iteration or rows[iteration - 1][0] != iteration:
+            raise Fault(f"postProcessing/{name}: {file} has no iteration {iteration} of {last:g}; was the disk full? "
+                        "./Allclean starts over")
+    return rows
+
+
+def whole_histories(folder, last, turbulent):
+    """The histories of force, moment, and k and epsilon (empty where the flow is laminar). Raises as whole_history."""
+    return (whole_history(folder, "forces", "force.dat", last), whole_history(folder, "forces", "moment.dat", last),
+            whole_history(folder, "shell", "volFieldValue.dat", last) if turbulent else [])
+
+
+def worst_quantity(folder, first, last, tolerance, turbulent):
+    """(unsteadiness over tolerance, its quantity, first iteration of the window) of the worst quantity.
+
+    `first`: the iteration after which the present settings were used; `last`: the one that was reached. Raises Diverged
+    where the values are not finite, not positive (k, epsilon) or absurd, Fault where a history is not whole."""
+    forces, moments, shell = whole_histories(folder, last, turbulent)
+    for row in forces + moments + shell:
+        if not all(map(math.isfinite, row)):
+            raise Diverged(f"a value at iteration {row[0]:g} is not finite")
+    start = int(first + (last - first) // 2 + 1)
+
+    def window(rows, column, unit=1.0):
+        return [row[column] / unit for row in rows if row[0] >= start]
+
+    weights = {}
+    for name, rows, least in (("force", forces, LEAST_FORCE), ("moment", moments, LEAST_MOMENT)):
+        components = [window(rows, i, AREA_UNIT) for i in (1, 2, 3)]
+        scale = max(least, math.hypot(*map(mean, components)))
+        if scale > LARGEST_FORCE:
+            raise Diverged(f"the {name} coefficient reached {scale:.3g}")
+        weights[name] = math.hypot(*map(unsteadiness, components)) / (tolerance * scale)
+    for i, name in enumerate(("k", "epsilon") if turbulent else (), 1):
+        values = window(shell, i)
+        if mean(values) <= 0.0:
+            raise Diverged(f"{name} in the shell is not positive")
+        weights[name] = unsteadiness(values) / (TURBULENCE_TOLERANCES * tolerance * mean(values))
+    worst = max(weights, key=weights.get)
+    return weights[worst], worst, start

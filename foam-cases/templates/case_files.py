@@ -1,0 +1,155 @@
+"""The files of a case, and how a fault is said: what the scripts in a case and the farm's scripts share. The writer of
+cases puts a copy into each, so that a case can be run by itself."""
+
+import glob
+import hashlib
+import json
+import os
+import re
+
+NUMBER = re.compile(r"[-+]?(?:\d[\d.]*(?:[eE][-+]?\d+)?|nan|inf)")
+TIME = re.compile(r"\d+(?:\.\d+)?(?:e[-+]?\d+)?")
+MESH_FILES = ("points", "faces", "owner", "neighbour", "boundary")
+
+
+class Fault(Exception):
+    """What is wrong, in one line for the user."""
+
+
+class Failure(Fault):
+    """A fault of the case itself, which would come again on the same inputs: the case is to be left out. Any
+    other fault (a program that was killed, a full disk) says nothing against the case."""
+
+
+def read(path):
+    try:
+        with open(path, errors="replace") as file:
+            return file.read()
+    except OSError as error:
+        raise Fault(f"{path}: {error.strerror}") from error
+
+
+def say(line, file=None):
+    """Prints the line, whatever bytes the names of folders in it are made of."""
+    print(str(line).encode(errors="surrogateescape").decode(errors="replace"), file=file)
+
+
+def write_json(path, content):
+    """Writes the file whole, or not at all."""
+    temporary = path + ".part"
+    with open(temporary, "w", encoding="utf-8", errors="replace") as file:
+        json.dump(content, file, indent=2, allow_nan=False, ensure_ascii=False)
+        file.write("\n")
+        file.flush()
+        os.fsync(file.fileno())
+    os.replace(temporary, path)
+
+
+def read_record(path):
+    """What write_json wrote; empty where there is no such file, or it is damaged."""
+    try:
+        with open(path) as file:
+            return json.load(file)
+    except (OSError, ValueError):
+        return {}
+
+
+def write_entries(path, remark, entries):
+    """Writes entries of OpenFOAM's dictionaries, which count in place of earlier ones where the file is included."""
+    with open(path, "w") as file:
+        file.write(f"// {remark}\n")
+        file.writelines(f"{name} {value};\n" for name, value in entries.items())
+
+
+def numbers(text):
+    """All the numbers in the text, `nan` and `inf` among them."""
+    return [float(word) for word in NUMBER.findall(text)]
+
+
+def word(text, name):
+    """The text of an entry of a case's file `parameters`."""
+    match = re.search(rf"^{name}\s+([^;]+);", text, re.MULTILINE)
+    if not match:
+        raise Fault(f"parameters: has no entry {name}; restore it")
+    return match.group(1).strip()
+
+
+def parameter(text, name):
+    """The number, or the numbers in brackets, of an entry."""
+    value = word(text, name)
+    return numbers(value) if value.startswith("(") else numbers(value)[0]
+
+
+def time_folders(folder):
+    """The paths of the folders in it that are named by a time, by their times, which ascend."""
+    names = os.listdir(folder) if os.path.isdir(folder) else []
+    paths = {float(name): os.path.join(folder, name) for name in names if TIME.fullmatch(name)}
+    return {time: paths[time] for time in sorted(paths) if os.path.isdir(paths[time])}
+
+
+def rows_of(path):
+    """The rows of numbers in a file of a history; a last line that was cut short is none."""
+    lines = read(path).split("\n")[:-1]
+    try:
+        rows = [numbers(line) for line in lines if line and not line.startswith("#")]
+    except ValueError as error:
+        raise Fault(f"{path}: is damaged ({error}); ./Allclean starts over") from error
+    if any(len(row) != len(rows[0]) for row in rows):
+        raise Fault(f"{path}: is damaged: its rows are not of one length; ./Allclean starts over")
+    return rows
+
+
+def history(folder, name, file):
+    """The rows [time, values...] of a function object over all runs; a later run counts where two overlap."""
+    rows = []
+    for start, path in time_folders(os.path.join(folder, "postProcessing", name)).items():
+        rows = [row for row in rows if row[0] <= start] + rows_of(os.path.join(path, file))
+    return rows
+
+
+def hash_of_inputs(more=()):
+    """Of all that the solution of the case in this folder depends on: its own files, its mesh, and the files `more`."""
+    own = ["parameters"] + [path for pattern in ("0.orig/*", "system/*", "constant/*") for path in glob.glob(pattern)]
+    mesh = [os.path.join("constant/polyMesh", name) for name in MESH_FILES]
+    total = hashlib.sha256()
+    for path in sorted(own) + mesh + list(more):
+        if os.path.isfile(path):
+            with open(path, "rb") as file:
+                total.update(os.fsencode(path) + b"\0" + file.read() + b"\0")
+    return total.hexdigest()
+
+
+def last_run(log):
+    """What the last run of a program wrote into the log."""
+    return re.split(r"^Build\s*:", read(log), flags=re.MULTILINE)[-1]
+
+
+def could_not_read_state(log):
+    """Whether the solver's last run could not read what it was to go on from, as where the disk had been full."""
+    run = last_run(log)
+    return "FOAM FATAL IO ERROR" in run and not re.search(r"^Time = ", run, re.MULTILINE)
+
+
+def breakdown(log, program, unit=None):
+    """The exception for a program whose last run in the log did not reach its end: Failure where the case is at
+    fault, Fault where the program was stopped or could not read a file. `unit`: of a solver's steps ("iteration"),
+    before the first of which nothing says that its case is at fault."""
+    text = last_run(log)
+    times = re.findall(r"^Time = (\S+)", text, re.MULTILINE)
+    where = f" at {unit} {times[-1]}" if unit and times else ""
+    see = f"; see {log}"
+    fatal = re.search(r"FOAM FATAL ([A-Z ]*ERROR)[^\n]*\n(?:\s*\n)*([^\n]*)", text)
+    if fatal:
+        of_case = "IO" not in fatal.group(1) and (times or not unit)
+        # Of a folder whose name OpenFOAM does not take, Allrun tells it this one.
+        said = fatal.group(2).strip().rstrip(".").replace("/proc/self/cwd", os.path.dirname(log) or ".")
+        return (Failure if of_case else Fault)(f"{program} failed{where}: {said}{see}")
+    # The signal's handler, in the stack that OpenFOAM prints; its banner speaks of floating point exceptions too.
+    if "sigFpe::sigHandler" in text:
+        return Failure(f"{program} diverged (floating point exception){where}{see}")
+    return Fault(f"{program} was stopped{where}, before its end{see}")
+
+
+def cpu_seconds(log_text):
+    times = re.findall(r"ExecutionTime = ([\d.]+) s", log_text)
+    return float(times[-1]) if times else 0.0

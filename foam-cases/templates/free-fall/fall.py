@@ -1,0 +1,246 @@
+#!/usr/bin/env -S python3 -B
+"""Runs pimpleFoam over a free fall, watches it, and tries again with shorter steps where it blows up.
+
+    fall.py      in the folder of the case, whose mesh is there
+
+The attempts are those of ATTEMPTS, each from the start; attempts.json holds what was done. A fall that was cut short
+goes on from the last state that was written whole; where an input has changed, it starts afresh. A fall that went on
+is not the same to the last bit as one that was never stopped: the solver takes its first step anew.
+
+Exit 0: attempts.json has the verdict "done". Exit 1: one line says why; the verdict is "failed" where all attempts
+blew up, else something stopped the solver.
+"""
+
+import glob
+import math
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+
+from case_files import (Failure, Fault, breakdown, could_not_read_state, cpu_seconds, hash_of_inputs, numbers,
+                        parameter, read, read_record, say, time_folders, write_entries, write_json)
+
+SOLVER = "pimpleFoam"
+LOG = "log." + SOLVER
+
+# Each: the factors on the step and on the relaxation of the acceleration, and the outer correctors. The relaxation is
+# lowered too, since what blows up may be the exchange of forces between body and fluid, which no step helps.
+ATTEMPTS = {
+    "as planned": (1.0, 1.0, None),
+    "half the step": (0.5, 0.7, None),
+    "a quarter of the step": (0.25, 0.5, 2),
+}
+# A body in free fall is about as fast as the case's unit: ten times that, or of the start, is no fall any more.
+LARGEST_SPEED = 10.0
+# Over U/L: some twenty times the turning of a coin that tumbles, whose rim is about as fast as its centre.
+LARGEST_TURNING = 100.0
+SECONDS_BETWEEN_LOOKS = 0.5
+MORE_THAN_A_ROW = 1024  # characters of a history
+
+
+def own(name):
+    return parameter(read("parameters"), name)
+
+
+def states():
+    """The paths of the written states by their times, without the start."""
+    return {time: path for time, path in time_folders(".").items() if time > 0}
+
+
+def last_row(path):
+    """The last whole row of a history; None where there is none."""
+    with open(path, "rb") as file:
+        size = file.seek(0, os.SEEK_END)
+        file.seek(max(0, size - MORE_THAN_A_ROW))
+        lines = file.read().decode(errors="replace").split("\n")
+    rows = [line for line in lines[1:-1] if line and not line.startswith("#")]
+    return numbers(rows[-1]) if rows else None
+
+
+def last_state():
+    """The time and the numbers of the last whole row of the body's state; None before the first."""
+    for start in reversed(time_folders("postProcessing/state").values()):
+        for path in glob.glob(os.path.join(start, "sixDoFRigidBodyState*.dat")):
+            row = last_row(path)
+            if row:
+                return row[0], row[1:]
+    return None
+
+
+def blow_up(state, start_speed):
+    """What shows that the state is of no fall any more; None where nothing does."""
+    velocity, turning = state[-6:-3], state[-3:]
+    speed = math.hypot(*velocity)
+    if not all(map(math.isfinite, state)):
+        return "its state is not finite"
+    if speed > LARGEST_SPEED * max(1.0, start_speed):
+        return f"its speed is {speed:.3g} U"
+    if math.hypot(*turning) > LARGEST_TURNING:
+        return f"its angular velocity is {math.hypot(*turning):.3g} U/L"
+    return None
+
+
+class Fall:
+    """What was done, and so from where to go on."""
+
+    def __init__(self):
+        inputs = hash_of_inputs()
+        self.state = read_record("attempts.json")
+        if self.state.get("inputs") != inputs or self.state.get("verdict") == "failed":
+            self.state = {"inputs": inputs, "verdict": None, "cpu_seconds": 0.0, "attempts": []}
+            self.begin("as planned")
+        elif self.state["verdict"] is None:
+            self.take_up()
+        elif not self.is_at_end():
+            self.state["verdict"] = None
+            self.begin("as planned")
+
+    @property
+    def attempt(self):
+        return self.state["attempts"][-1]
+
+    def is_at_end(self):
+        reached = last_state()
+        return reached is not None and reached[0] > own("duration") - 1.5 * self.time_step()
+
+    def time_step(self):
+        return float(self.attempt.get("timeStep", own("timeStep")))
+
+    def begin(self, what):
+        step, relaxation, correctors = ATTEMPTS[what]
+        entries = {}
+        if what != "as planned":
+            entries["timeStep"] = f"{step * own('timeStep'):g}"
+            entries["accelerationRelaxation"] = f"{relaxation * own('accelerationRelaxation'):g}"
+        if correctors:
+            entries["outerCorrectors"] = correctors
+        self.state["attempts"].append({"what": what, "started": False, **entries})
+        write_json("attempts.json", self.state)
+        self.make_start(entries)
+
+    def make_start(self, entries):
+        for path in [*states().values(), "0", "postProcessing"]:
+            shutil.rmtree(path, ignore_errors=True)
+        if os.path.exists(LOG):
+            os.remove(LOG)
+        shutil.copytree("0.orig", "0")
+        write_entries("remedy", "What this attempt has in place of the plan; written by fall.py", entries)
+        self.attempt["started"] = True
+        write_json("attempts.json", self.state)
+
+    def take_up(self):
+        """Goes on with an attempt that was cut short, or to the one after it."""
+        if "end" in self.attempt:
+            self.after_blow_up()
+        elif not self.attempt["started"]:
+            names = ("timeStep", "accelerationRelaxation", "outerCorrectors")
+            self.make_start({name: self.attempt[name] for name in names if name in self.attempt})
+        else:
+            self.go_on()
+
+    def go_on(self, before=math.inf):
+        """Removes the states from a time on, and those that may not be whole, since the solver did not go on after
+        them; and what had followed the last one that is left, or the start."""
+        reached = last_state()
+        bound = min(before, reached[0] if reached else 0.0)
+        last = max([time for time in states() if time < bound], default=0.0)
+        for time, path in states().items():
+            if time > last:
+                shutil.rmtree(path)
+        for name in glob.glob("postProcessing/*"):
+            for start, path in time_folders(name).items():
+                if start >= last:
+                    shutil.rmtree(path)
+        if last > 0.0:
+            self.attempt["went_on_from"] = self.attempt.get("went_on_from", []) + [last]
+            write_json("attempts.json", self.state)
+
+    def watch(self, solver):
+        start_speed = math.hypot(*own("startVelocity"))
+        ended = False
+        while not ended:
+            try:
+                solver.wait(SECONDS_BETWEEN_LOOKS)
+                ended = True
+            except subprocess.TimeoutExpired:
+                pass
+            reached = last_state()
+            fault = reached and blow_up(reached[1], start_speed)
+            if fault:
+                raise Failure(f"the fall blew up at time {reached[0]:g}: {fault}; see {os.path.abspath(LOG)}")
+
+    def run_solver(self):
+        """Runs the solver to the end of the fall; its log goes on where that of an earlier run ended."""
+        with open(LOG, "a") as log:
+            solver = subprocess.Popen([SOLVER], stdout=log, stderr=subprocess.STDOUT)
+            try:
+                self.watch(solver)
+            finally:
+                if solver.poll() is None:
+                    solver.terminate()
+                    solver.wait()
+        if solver.returncode != 0:
+            raise breakdown(os.path.abspath(LOG), SOLVER, "time")
+        if not self.is_at_end():
+            raise Fault(f"postProcessing/state ends before the fall does; is the disk full? See {os.path.abspath(LOG)}")
+
+    def note_cost(self):
+        """Of all the runs of this attempt, by its log."""
+        runs = re.split(r"^Build\s*:", read(LOG), flags=re.MULTILINE)
+        self.attempt["cpu_seconds"] = round(sum(map(cpu_seconds, runs)), 2)
+        self.state["cpu_seconds"] = round(sum(one["cpu_seconds"] for one in self.state["attempts"]), 2)
+
+    def after_blow_up(self):
+        following = list(ATTEMPTS)[len(self.state["attempts"]):]
+        if following:
+            self.begin(following[0])
+        else:
+            self.state["verdict"] = "failed"
+
+    def run_attempt(self):
+        try:
+            self.run_solver()
+            self.note_cost()
+            self.state["verdict"] = "done"
+        except Failure as cause:
+            self.note_cost()
+            kept = f"{LOG}.{len(self.state['attempts'])}"  # the next attempt has a log of its own
+            shutil.copyfile(LOG, kept)
+            self.attempt["end"] = str(cause).replace(LOG, kept)
+            write_json("attempts.json", self.state)
+            self.after_blow_up()
+        except Fault:
+            if not states() or not could_not_read_state(LOG):
+                raise
+            self.go_on(before=max(states()))
+
+    def run(self):
+        while self.state["verdict"] is None:
+            self.run_attempt()
+            write_json("attempts.json", self.state)
+
+
+def main():
+    os.chdir(os.path.dirname(os.path.abspath(__file__)))
+    # So that the solver is ended too.
+    signal.signal(signal.SIGTERM, lambda number, frame: sys.exit("stopped; ./Allrun goes on from the last state"))
+    try:
+        fall = Fall()
+        fall.run()
+    except KeyboardInterrupt:
+        print("stopped; ./Allrun goes on from the last state", file=sys.stderr)
+        return 1
+    except (Fault, OSError) as fault:
+        say(fault, sys.stderr)
+        return 1
+    if fall.state["verdict"] == "failed":
+        say(fall.attempt["end"], sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "samara/body/surface.hpp"
+
+namespace samara {
+
+/// Checks that the welded surface is a body's: as require_bounding_surface (internal/body/surface_check.hpp)
+/// does, and that no faces cross. Throws Error of one line, without a file name. Takes n log n time.
+void require_sound_surface(const Surface& surface);
+
+}  // namespace samara

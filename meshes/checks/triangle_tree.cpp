@@ -1,0 +1,139 @@
+#include "meshes/checks/triangle_tree.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace samara {
+namespace {
+
+constexpr std::uint32_t triangles_of_a_leaf = 4;
+constexpr std::size_t deepest_stack = 128;  // the tree halves at each level: 2^32 triangles need 32
+
+}  // namespace
+
+Vector3d closest_point_of_triangle(const Vector3d& p, const Vector3d& a, const Vector3d& b,
+                                   const Vector3d& c) {
+    const Vector3d ab = b - a;
+    const Vector3d ac = c - a;
+    const Vector3d ap = p - a;
+    const double d1 = ab.dot(ap);
+    const double d2 = ac.dot(ap);
+    if (d1 <= 0.0 && d2 <= 0.0) return a;
+    const Vector3d bp = p - b;
+    const double d3 = ab.dot(bp);
+    const double d4 = ac.dot(bp);
+    if (d3 >= 0.0 && d4 <= d3) return b;
+    const double vc = d1 * d4 - d3 * d2;
+    if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return a + d1 / (d1 - d3) * ab;
+    const Vector3d cp = p - c;
+    const double d5 = ab.dot(cp);
+    const double d6 = ac.dot(cp);
+    if (d6 >= 0.0 && d5 <= d6) return c;
+    const double vb = d5 * d2 - d1 * d6;
+    if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return a + d2 / (d2 - d6) * ac;
+    const double va = d3 * d6 - d5 * d4;
+    if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) {
+        return b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b);
+    }
+    const double sum = va + vb + vc;
+    return a + vb / sum * ab + vc / sum * ac;
+}
+
+TriangleTree::TriangleTree(std::vector<Vector3d> vertices, std::vector<Triangle> triangles)
+    : vertices_(std::move(vertices)), triangles_(std::move(triangles)), order_(triangles_.size()) {
+    std::iota(order_.begin(), order_.end(), 0U);
+    std::vector<Vector3d> centres(triangles_.size());
+    for (std::size_t t = 0; t < triangles_.size(); ++t) centres[t] = box_of(t).center();
+    if (!triangles_.empty()) build(0, static_cast<std::uint32_t>(triangles_.size()), centres);
+}
+
+TriangleTree::Box TriangleTree::box_of(std::size_t triangle) const {
+    Box box(corner(triangle, 0));
+    box.extend(corner(triangle, 1));
+    box.extend(corner(triangle, 2));
+    return box;
+}
+
+void TriangleTree::build(std::uint32_t first, std::uint32_t count, const std::vector<Vector3d>& centres) {
+    const std::size_t self = nodes_.size();
+    nodes_.emplace_back();
+    Box box;
+    Box box_of_centres;
+    for (std::uint32_t i = first; i < first + count; ++i) {
+        box.extend(box_of(order_[i]));
+        box_of_centres.extend(centres[order_[i]]);
+    }
+    nodes_[self].box = box;
+    nodes_[self].first = first;
+    if (count <= triangles_of_a_leaf) {
+        nodes_[self].count = count;
+        return;
+    }
+    Eigen::Index axis = 0;
+    box_of_centres.sizes().maxCoeff(&axis);
+    const std::uint32_t half = count / 2;
+    const auto begin = order_.begin() + first;
+    std::nth_element(begin, begin + half, begin + count, [&](std::uint32_t a, std::uint32_t b) {
+        return std::pair(centres[a][axis], a) < std::pair(centres[b][axis], b);
+    });
+    build(first, half, centres);
+    nodes_[self].right = static_cast<std::uint32_t>(nodes_.size());
+    build(first + half, count - half, centres);
+}
+
+TriangleTree::Nearest TriangleTree::search(const Vector3d& p, double bound, double good_enough) const {
+    Nearest best;
+    double limit = bound * bound;
+    const double enough = good_enough * good_enough;
+    std::array<std::pair<double, std::uint32_t>, deepest_stack> stack;
+    std::size_t depth = 0;
+    if (!nodes_.empty()) stack[depth++] = {nodes_[0].box.squaredExteriorDistance(p), 0U};
+    while (depth > 0) {
+        const auto [distance, index] = stack[--depth];
+        if (distance > limit) continue;
+        const Node& node = nodes_[index];
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+            const std::size_t t = order_[i];
+            const Vector3d point = closest_point_of_triangle(p, corner(t, 0), corner(t, 1), corner(t, 2));
+            const double squared = (point - p).squaredNorm();
+            if (squared > limit) continue;
+            limit = squared;
+            best = {t, point, squared};
+            if (squared <= enough) return best;
+        }
+        if (node.count > 0) continue;
+        const std::pair near{nodes_[index + 1].box.squaredExteriorDistance(p), index + 1};
+        const std::pair far{nodes_[node.right].box.squaredExteriorDistance(p), node.right};
+        stack[depth++] = std::max(near, far);
+        stack[depth++] = std::min(near, far);
+    }
+    return best;
+}
+
+TriangleTree::Nearest TriangleTree::nearest(const Vector3d& p, double bound) const {
+    return search(p, bound, 0.0);
+}
+
+bool TriangleTree::is_within(const Vector3d& p, double bound) const {
+    return search(p, bound, bound).squared_distance <= bound * bound;
+}
+
+void TriangleTree::visit_overlaps(const Box& box, const std::function<bool(std::size_t)>& visit) const {
+    std::array<std::uint32_t, deepest_stack> stack;
+    std::size_t depth = 0;
+    if (!nodes_.empty()) stack[depth++] = 0U;
+    while (depth > 0) {
+        const std::uint32_t index = stack[--depth];
+        const Node& node = nodes_[index];
+        if (!node.box.intersects(box)) continue;
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+            if (box_of(order_[i]).intersects(box) && !visit(order_[i])) return;
+        }
+        if (node.count > 0) continue;
+        stack[depth++] = node.right;
+        stack[depth++] = index + 1;
+    }
+}
+
+}  // namespace samara

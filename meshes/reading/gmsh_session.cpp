@@ -1,0 +1,116 @@
+#include "meshes/reading/gmsh_session.hpp"
+
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gmsh.h>
+
+#include "samara/base/error.hpp"
+
+namespace samara {
+namespace {
+
+constexpr std::string_view error_prefix = "Error: ";
+
+// The first error is the cause; the later ones follow from it.
+std::string first_logged_error() {
+    std::vector<std::string> log;
+    gmsh::logger::get(log);
+    for (const std::string& line : log) {
+        if (line.starts_with(error_prefix)) return line.substr(error_prefix.size());
+    }
+    return {};
+}
+
+std::string one_line(std::string text) {
+    for (char& character : text) {
+        if (character == '\n' || character == '\r') character = ' ';
+    }
+    return text;
+}
+
+[[noreturn]] void fail(const std::string& label, const std::string& what, const std::string& thrown) {
+    const std::string logged = first_logged_error();
+    const std::string reason = logged.empty() ? thrown : logged;
+    throw Error(fmt::format("{}: {}{}{}", label, what, reason.empty() ? "" : ": ", one_line(reason)));
+}
+
+}  // namespace
+
+GmshSession::GmshSession() {
+    constexpr bool read_user_options = false;
+    gmsh::initialize(0, nullptr, read_user_options);
+    gmsh::option::setNumber("General.Terminal", 0);
+    gmsh::logger::start();
+}
+
+GmshSession::~GmshSession() {
+    gmsh::logger::stop();
+    // Variables of .geo files would otherwise outlive the session and override the defaults of the next.
+    gmsh::onelab::clear();
+    gmsh::clear();
+    gmsh::finalize();
+}
+
+void GmshSession::run(const std::string& label, const std::string& what, const std::function<void()>& calls) {
+    try {
+        calls();
+    } catch (const Error&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& fault) {
+        fail(label, what, fault.what());
+    } catch (const std::string& fault) {
+        fail(label, what, fault);
+    } catch (const char* fault) {
+        fail(label, what, fault);
+    } catch (...) {
+        fail(label, what, {});
+    }
+}
+
+void GmshSession::open(const std::string& label) {
+    load(label, [&] { gmsh::open(label); });
+}
+
+void GmshSession::import_shapes(const std::string& label, const std::string& format) {
+    load(label, [&] {
+        gmsh::vectorpair shapes;
+        constexpr bool highest_dimension_alone = false;
+        gmsh::model::occ::importShapes(label, shapes, highest_dimension_alone, format);
+        gmsh::model::occ::synchronize();
+    });
+}
+
+void GmshSession::load(const std::string& label, const std::function<void()>& calls) {
+    constexpr const char* what = "gmsh cannot read it";
+    // An exception out of the parser would leave its state for the next file: let it go on to the end
+    // instead.
+    double abort_on_error = 0.0;
+    gmsh::option::getNumber("General.AbortOnError", abort_on_error);
+    gmsh::option::setNumber("General.AbortOnError", 0);
+    run(label, what, calls);
+    if (!first_logged_error().empty()) fail(label, what, {});
+    // A .geo file may have set these for itself.
+    gmsh::option::setNumber("General.AbortOnError", abort_on_error);
+    gmsh::option::setNumber("General.Terminal", 0);
+}
+
+void GmshSession::generate_surface_mesh() {
+    // gmsh meshes surfaces in parallel, and an exception out of there would end the program; and it mends
+    // much of what it reports as an error.
+    double abort_on_error = 0.0;
+    gmsh::option::getNumber("General.AbortOnError", abort_on_error);
+    gmsh::option::setNumber("General.AbortOnError", 0);
+    gmsh::model::mesh::clear();
+    gmsh::model::mesh::generate(2);
+    gmsh::option::setNumber("General.AbortOnError", abort_on_error);
+}
+
+std::string gmsh_version() {
+    return GMSH_API_VERSION;
+}
+
+}  // namespace samara

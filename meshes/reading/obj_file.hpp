@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+
+#include "samara/body/surface.hpp"
+
+namespace samara {
+
+/// The most corners of one face of an OBJ file: the time to cut it may grow with their square.
+inline constexpr std::size_t most_obj_corners = 10'000;
+
+/// The triangles of a Wavefront OBJ file: its vertices and faces, all else is left out; polygons are cut into
+/// triangles (polygon_triangles). Throws Error, which names the line, where a vertex or face is none.
+Surface read_obj_file(const std::filesystem::path& file);
+
+}  // namespace samara

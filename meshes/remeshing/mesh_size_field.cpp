@@ -1,0 +1,204 @@
+#include "meshes/remeshing/mesh_size_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <queue>
+#include <span>
+#include <utility>
+
+#include <Eigen/Eigenvalues>
+
+#include "internal/base/as_index.hpp"
+#include "internal/body/surface_edges.hpp"
+#include "samara/body/surface.hpp"
+
+namespace samara {
+namespace {
+
+// Edges grade out to this part of the body's reach.
+constexpr double edge_reach = 0.25;
+// How the size varies over a body (docs/shapes.md), found best by trial, for flat and curved triangles alike.
+constexpr double curvature_power = 0.4;    // of the radius of the strongest curvature
+constexpr double smallest = 0.2;           // by curvature, over the largest
+constexpr double smallest_at_edges = 0.3;  // over the largest
+constexpr double steepest = 3.0;           // change of the relative size over the body's reach
+
+// The greatest distance of a vertex from the middle of all.
+double reach_of(const Surface& surface) {
+    Vector3d middle = Vector3d::Zero();
+    double area = 0.0;
+    for (std::size_t t = 0; t < surface.triangle_count(); ++t) {
+        const double weight = area_vector(surface, t).norm();
+        middle += weight * triangle_centroid(surface, t);
+        area += weight;
+    }
+    middle /= area;
+    double reach = 0.0;
+    for (const Vector3d& vertex : surface.vertices) reach = std::max(reach, (vertex - middle).norm());
+    return reach;
+}
+
+// The angle (radians) by which the two triangles at the edge turn.
+double turn_at(const Surface& surface, std::span<const EdgeUse> edge) {
+    const Vector3d first = area_vector(surface, as_index(edge.front().triangle));
+    const Vector3d second = area_vector(surface, as_index(edge.back().triangle));
+    return std::atan2(first.cross(second).norm(), first.dot(second));
+}
+
+std::vector<TriangleTree::Triangle> sharp_edges(const Surface& surface) {
+    std::vector<TriangleTree::Triangle> sharp;
+    const std::vector<EdgeUse> uses = edge_uses(surface);
+    for (const auto& edge : edges_of(uses)) {
+        const EdgeUse& use = edge.front();
+        if (turn_at(surface, edge) > sharp_angle) sharp.push_back({use.low, use.high, use.high});
+    }
+    return sharp;
+}
+
+// The strongest normal curvature (1/m) at each vertex, sharp edges left out: of the curvature tensor of
+// Cohen- Steiner and Morvan, Restricted Delaunay Triangulations and Normal Cycle, SoCG 2003, summed over the
+// triangles around the vertex and its neighbours.
+class Curvature {
+  public:
+    explicit Curvature(const Surface& surface)
+        : surface_(surface),
+          tensors_(surface.vertices.size(), Matrix3d::Zero()),
+          areas_(surface.vertices.size(), 0.0),
+          neighbours_(surface.vertices.size()) {
+        const std::vector<EdgeUse> uses = edge_uses(surface);
+        for (const auto& edge : edges_of(uses)) add(edge);
+        for (std::size_t t = 0; t < surface.triangle_count(); ++t) {
+            for (const std::int32_t corner : surface.corners[t]) {
+                areas_[as_index(corner)] += area_vector(surface, t).norm() / 3.0;
+            }
+        }
+    }
+
+    [[nodiscard]] double strongest(std::size_t vertex) const {
+        Matrix3d tensor = tensors_[vertex];
+        double area = areas_[vertex];
+        for (const auto& [other, distance] : neighbours_[vertex]) {
+            tensor += tensors_[other];
+            area += areas_[other];
+        }
+        const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(tensor, Eigen::EigenvaluesOnly);
+        return solver.eigenvalues().cwiseAbs().maxCoeff() / area;
+    }
+
+    // Lowers values so that they differ by at most `slope` times the distance along the surface's edges:
+    // Dijkstra.
+    void spread(std::vector<double>& values, double slope) const {
+        using Entry = std::pair<double, std::size_t>;
+        std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+        for (std::size_t i = 0; i < values.size(); ++i) queue.emplace(values[i], i);
+        while (!queue.empty()) {
+            const auto [value, vertex] = queue.top();
+            queue.pop();
+            if (value > values[vertex]) continue;
+            for (const auto& [next, distance] : neighbours_[vertex]) {
+                const double candidate = value + slope * distance;
+                if (candidate >= values[next]) continue;
+                values[next] = candidate;
+                queue.emplace(candidate, next);
+            }
+        }
+    }
+
+  private:
+    void add(std::span<const EdgeUse> edge) {
+        const std::size_t low = as_index(edge.front().low);
+        const std::size_t high = as_index(edge.front().high);
+        const Vector3d along = surface_.vertices[high] - surface_.vertices[low];
+        const double length = along.norm();
+        neighbours_[low].emplace_back(high, length);
+        neighbours_[high].emplace_back(low, length);
+        const double turn = turn_at(surface_, edge);
+        if (turn > sharp_angle) return;
+        const Vector3d first = area_vector(surface_, as_index(edge.front().triangle));
+        const Vector3d second = area_vector(surface_, as_index(edge.back().triangle));
+        const bool hollow = first.cross(second).dot(along) * (edge.front().forward ? 1.0 : -1.0) < 0.0;
+        const Matrix3d part = 0.5 * (hollow ? -turn : turn) / length * along * along.transpose();
+        tensors_[low] += part;
+        tensors_[high] += part;
+    }
+
+    const Surface& surface_;
+    std::vector<Matrix3d> tensors_;
+    std::vector<double> areas_;
+    std::vector<std::vector<std::pair<std::size_t, double>>> neighbours_;
+};
+
+std::vector<double> sizes_by_curvature(const Surface& surface, double reach) {
+    const Curvature curvature(surface);
+    std::vector<double> sizes(surface.vertices.size());
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+        const double bent = std::max(1.0, curvature.strongest(i) * reach);
+        sizes[i] = std::max(smallest, std::pow(bent, -curvature_power));
+    }
+    curvature.spread(sizes, steepest / reach);
+    return sizes;
+}
+
+}  // namespace
+
+MeshSizeField::MeshSizeField(const Surface& reference)
+    : reach_(reach_of(reference)),
+      tree_(reference.vertices, reference.corners),
+      edges_(reference.vertices, sharp_edges(reference)),
+      by_curvature_(sizes_by_curvature(reference, reach_)) {}
+
+double MeshSizeField::by_edges(const Vector3d& point) const {
+    const TriangleTree::Nearest nearest = edges_.nearest(point, edge_reach * reach_);
+    if (!std::isfinite(nearest.squared_distance)) return 1.0;
+    const double distance = std::sqrt(nearest.squared_distance) / reach_;
+    return std::min(std::max(smallest_at_edges, std::sqrt(distance / edge_reach)),
+                    smallest_at_edges + steepest * distance);
+}
+
+double MeshSizeField::operator()(const Vector3d& point) const {
+    const TriangleTree::Nearest nearest = tree_.nearest(point);
+    const std::size_t t = nearest.triangle;
+    double weighted = 0.0;
+    double total = 0.0;
+    for (int i = 0; i < 3; ++i) {
+        const Vector3d one = tree_.corner(t, (i + 1) % 3) - nearest.point;
+        const Vector3d two = tree_.corner(t, (i + 2) % 3) - nearest.point;
+        const double weight = one.cross(two).norm();
+        weighted += weight * by_curvature_[as_index(tree_.triangles()[t][static_cast<std::size_t>(i)])];
+        total += weight;
+    }
+    const double by_curvature =
+        total > 0.0 ? weighted / total : by_curvature_[as_index(tree_.triangles()[t][0])];
+    return std::min(by_curvature, by_edges(nearest.point));
+}
+
+double MeshSizeField::triangle_count(double size) const {
+    constexpr double places_over_the_area = 4000.0;
+    std::vector<double> areas;
+    double whole = 0.0;
+    for (std::size_t t = 0; t < tree_.triangles().size(); ++t) {
+        const Vector3d& a = tree_.corner(t, 0);
+        areas.push_back(0.5 * (tree_.corner(t, 1) - a).cross(tree_.corner(t, 2) - a).norm());
+        whole += areas.back();
+    }
+    double count = 0.0;
+    for (std::size_t t = 0; t < areas.size(); ++t) {
+        // The middles of n^2 equal parts.
+        const int n = 1 + static_cast<int>(std::sqrt(areas[t] / whole * places_over_the_area));
+        for (int i = 0; i < n; ++i) {
+            for (int j = 0; j < 2 * (n - i) - 1; ++j) {
+                const int column = j / 2;
+                const double third = (j % 2 == 0 ? 1.0 : 2.0) / 3.0;
+                const double u = (i + third) / n;
+                const double v = (column + third) / n;
+                const double side = size * (*this)((1.0 - u - v) * tree_.corner(t, 0) +
+                                                   u * tree_.corner(t, 1) + v * tree_.corner(t, 2));
+                count += areas[t] / (n * n) / (std::sqrt(3.0) / 4.0 * side * side);
+            }
+        }
+    }
+    return count;
+}
+
+}  // namespace samara

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "internal/body/creases.hpp"
+#include "meshes/checks/triangle_tree.hpp"
+#include "samara/body/surface.hpp"
+
+namespace samara {
+
+/// Where a body's surface needs smaller triangles: the wanted length of sides at each place, over that where
+/// the body is flat and far from its edges. It falls with the strongest curvature, and within a quarter of
+/// the body's reach (its greatest distance from the middle) towards sharp edges with the square root of the
+/// distance, as the flow's potential varies there. Measured on a reference surface, which should resolve the
+/// curvature.
+class MeshSizeField {
+  public:
+    /// The reference must be closed, its vertices welded.
+    explicit MeshSizeField(const Surface& reference);
+
+    /// The relative size at the point of the reference that is nearest to `point`.
+    [[nodiscard]] double operator()(const Vector3d& point) const;
+
+    /// The number of equilateral triangles of the wanted size that cover the surface, where 1 stands for
+    /// sides of the length `size` (m).
+    [[nodiscard]] double triangle_count(double size) const;
+
+  private:
+    [[nodiscard]] double by_edges(const Vector3d& point) const;
+
+    double reach_;
+    TriangleTree tree_;
+    TriangleTree edges_;                // triangles without width
+    std::vector<double> by_curvature_;  // at each vertex
+};
+
+}  // namespace samara

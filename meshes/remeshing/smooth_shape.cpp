@@ -1,0 +1,192 @@
+#include "meshes/remeshing/smooth_shape.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <Eigen/Geometry>
+#include <Eigen/QR>
+
+#include "internal/base/as_index.hpp"
+#include "internal/body/surface_edges.hpp"
+
+namespace samara {
+namespace {
+
+using Triangle = TriangleTree::Triangle;
+
+constexpr std::int32_t none = -1;
+constexpr std::int32_t many = -2;
+
+std::vector<Triangle> crease_segments(const Surface& flat, double crease_angle) {
+    std::vector<Triangle> segments;
+    const double least_cosine = std::cos(crease_angle);
+    const std::vector<EdgeUse> uses = edge_uses(flat);
+    for (const auto& edge : edges_of(uses)) {
+        const Vector3d first = area_vector(flat, as_index(edge.front().triangle));
+        const Vector3d second = area_vector(flat, as_index(edge.back().triangle));
+        if (first.dot(second) >= least_cosine * first.norm() * second.norm()) continue;
+        segments.push_back({edge.front().low, edge.front().high, edge.front().high});
+    }
+    return segments;
+}
+
+// Barycentric coordinates of a point of the triangle.
+Vector3d weights_in(const TriangleTree& tree, std::size_t triangle, const Vector3d& point) {
+    const Vector3d& a = tree.corner(triangle, 0);
+    const Vector3d ab = tree.corner(triangle, 1) - a;
+    const Vector3d ac = tree.corner(triangle, 2) - a;
+    const Vector3d normal = ab.cross(ac);
+    const double v = normal.dot(ab.cross(point - a)) / normal.squaredNorm();
+    const double u = normal.dot((point - a).cross(ac)) / normal.squaredNorm();
+    return {1.0 - u - v, u, v};
+}
+
+}  // namespace
+
+SmoothShape::SmoothShape(const Surface& flat, double crease_angle)
+    : flat_(flat),
+      crease_angle_(crease_angle),
+      least_smooth_cosine_(std::cos(0.5 * crease_angle)),
+      triangles_(flat.vertices, flat.corners),
+      creases_(flat.vertices, crease_segments(flat, crease_angle)) {
+    gather_triangles_around();
+    gather_crease_neighbours();
+}
+
+void SmoothShape::gather_triangles_around() {
+    first_around_.assign(flat_.vertices.size() + 1, 0);
+    for (const Triangle& triangle : flat_.corners) {
+        for (const std::int32_t corner : triangle) ++first_around_[as_index(corner) + 1];
+    }
+    std::partial_sum(first_around_.begin(), first_around_.end(), first_around_.begin());
+    around_.resize(3 * flat_.corners.size());
+    std::vector<std::uint32_t> next(first_around_.begin(), first_around_.end() - 1);
+    for (std::size_t t = 0; t < flat_.corners.size(); ++t) {
+        for (const std::int32_t corner : flat_.corners[t]) {
+            around_[next[as_index(corner)]++] = static_cast<std::uint32_t>(t);
+        }
+    }
+}
+
+void SmoothShape::gather_crease_neighbours() {
+    crease_neighbours_.assign(flat_.vertices.size(), {none, none});
+    for (const Triangle& segment : creases_.triangles()) {
+        for (const auto& [from, to] :
+             {std::pair{segment[0], segment[1]}, std::pair{segment[1], segment[0]}}) {
+            auto& [one, two] = crease_neighbours_[as_index(from)];
+            if (one == none) {
+                one = to;
+            } else {
+                two = two == none ? to : many;
+            }
+        }
+    }
+}
+
+// The unit normal of the smooth side of the triangle's corner.
+Vector3d SmoothShape::normal_at(std::size_t triangle, std::size_t corner) const {
+    const std::size_t vertex = as_index(flat_.corners[triangle][corner]);
+    const auto begin = around_.begin() + first_around_[vertex];
+    const auto end = around_.begin() + first_around_[vertex + 1];
+    std::vector<std::size_t> side = {triangle};
+    const auto joins = [&](std::size_t one, std::size_t two) {
+        const Triangle& a = flat_.corners[one];
+        const auto shared =
+            std::count_if(flat_.corners[two].begin(), flat_.corners[two].end(),
+                          [&](auto index) { return std::find(a.begin(), a.end(), index) != a.end(); });
+        const Vector3d first = area_vector(flat_, one);
+        const Vector3d second = area_vector(flat_, two);
+        return shared == 2 && first.dot(second) >= least_smooth_cosine_ * first.norm() * second.norm();
+    };
+    Vector3d sum = Vector3d::Zero();
+    for (std::size_t next = 0; next < side.size(); ++next) {
+        const Triangle& corners = flat_.corners[side[next]];
+        const auto at = static_cast<std::size_t>(
+            std::find(corners.begin(), corners.end(), static_cast<std::int32_t>(vertex)) - corners.begin());
+        const Vector3d one = flat_.vertices[as_index(corners[(at + 1) % 3])] - flat_.vertices[vertex];
+        const Vector3d two = flat_.vertices[as_index(corners[(at + 2) % 3])] - flat_.vertices[vertex];
+        sum += one.cross(two) / (one.squaredNorm() * two.squaredNorm());
+        for (auto other = begin; other != end; ++other) {
+            if (std::find(side.begin(), side.end(), *other) == side.end() && joins(side[next], *other)) {
+                side.push_back(*other);
+            }
+        }
+    }
+    const Vector3d normal = sum.normalized();
+    const bool whole = side.size() == static_cast<std::size_t>(end - begin);
+    return whole && side.size() >= 5 ? fitted_normal(side, vertex, normal) : normal;
+}
+
+// The normal of the quadratic surface through the vertex that fits its neighbours best; `normal` is near it.
+Vector3d SmoothShape::fitted_normal(const std::vector<std::size_t>& around, std::size_t vertex,
+                                    const Vector3d& normal) const {
+    const Vector3d x = normal.unitOrthogonal();
+    const Vector3d y = normal.cross(x);
+    const auto count = static_cast<Eigen::Index>(around.size());
+    Eigen::Matrix<double, Eigen::Dynamic, 5> terms(count, 5);
+    Eigen::VectorXd heights(count);
+    double length = 0.0;
+    for (Eigen::Index i = 0; i < count; ++i) {
+        const Triangle& corners = flat_.corners[around[static_cast<std::size_t>(i)]];
+        const auto at = static_cast<std::size_t>(
+            std::find(corners.begin(), corners.end(), static_cast<std::int32_t>(vertex)) - corners.begin());
+        const Vector3d offset = flat_.vertices[as_index(corners[(at + 1) % 3])] - flat_.vertices[vertex];
+        if (i == 0) length = offset.norm();
+        const double u = offset.dot(x) / length;
+        const double v = offset.dot(y) / length;
+        terms.row(i) << u, v, u * u, u * v, v * v;
+        heights[i] = offset.dot(normal) / length;
+    }
+    const Eigen::Matrix<double, 5, 1> fit = terms.colPivHouseholderQr().solve(heights);
+    const Vector3d fitted = (normal - fit[0] * x - fit[1] * y).normalized();
+    // Noise, or neighbours on a conic.
+    constexpr double least_cosine = 0.95;
+    return fitted.dot(normal) > least_cosine ? fitted : normal;
+}
+
+// The unit tangent of the crease at an end of the segment: of the circle through its neighbours; along the
+// segment where creases meet, end or bend.
+Vector3d SmoothShape::tangent_at(std::size_t segment, int end) const {
+    const Vector3d& here = creases_.corner(segment, end);
+    const Vector3d along = (creases_.corner(segment, 1 - end) - here).normalized();
+    const auto& [one, two] = crease_neighbours_[as_index(creases_.triangles()[segment][as_index(end)])];
+    if (one < 0 || two < 0) return along;
+    const Vector3d before = here - flat_.vertices[as_index(one)];
+    const Vector3d after = flat_.vertices[as_index(two)] - here;
+    if (before.dot(after) < least_smooth_cosine_ * before.norm() * after.norm()) return along;
+    return (before / before.squaredNorm() + after / after.squaredNorm()).normalized();
+}
+
+std::optional<Vector3d> SmoothShape::on_surface(const Vector3d& point, const Vector3d& normal) const {
+    const TriangleTree::Nearest nearest = triangles_.nearest(point);
+    const std::size_t t = nearest.triangle;
+    if (!(area_vector(flat_, t).dot(normal) > 0.0)) return std::nullopt;
+    const Vector3d weights = weights_in(triangles_, t, nearest.point);
+    Vector3d lifted = nearest.point;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vector3d plane = normal_at(t, i);
+        const Vector3d from_corner = nearest.point - triangles_.corner(t, static_cast<int>(i));
+        lifted -= 0.5 * weights[static_cast<Eigen::Index>(i)] * from_corner.dot(plane) * plane;
+    }
+    return lifted;
+}
+
+std::optional<Vector3d> SmoothShape::on_crease(const Vector3d& point, double bound) const {
+    const TriangleTree::Nearest nearest = creases_.nearest(point, bound);
+    if (!std::isfinite(nearest.squared_distance)) return std::nullopt;
+    const std::size_t s = nearest.triangle;
+    const Vector3d& from = creases_.corner(s, 0);
+    const Vector3d& to = creases_.corner(s, 1);
+    const double place = (nearest.point - from).norm() / (to - from).norm();
+    Vector3d lifted = nearest.point;
+    for (const int end : {0, 1}) {
+        const Vector3d tangent = tangent_at(s, end);
+        const Vector3d from_end = nearest.point - creases_.corner(s, end);
+        const Vector3d off = tangent * tangent.dot(from_end) - from_end;
+        lifted += 0.5 * (end == 0 ? 1.0 - place : place) * off;
+    }
+    return lifted;
+}
+
+}  // namespace samara

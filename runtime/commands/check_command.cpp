@@ -1,0 +1,71 @@
+// samara check: whether a file from elsewhere is sound, found out in a process of its own.
+
+#include <filesystem>
+#include <string>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "commands/commands.hpp"
+#include "internal/command/arguments.hpp"
+#include "internal/command/load_body.hpp"
+#include "internal/command/print.hpp"
+#include "internal/files/file_digest.hpp"
+#include "internal/files/replace_file.hpp"
+#include "internal/motion/file_check.hpp"
+#include "samara/base/error.hpp"
+
+namespace samara {
+namespace {
+
+/// A shape is meshed, by samara-mesh, which reads it in a process of its own.
+CheckedFile check(const std::string& file) {
+    if (is_hdf5(file)) return check_file(file);
+    (void)load_body(file, 1.0);
+    return {"surface", false};
+}
+
+void add_digest(const std::filesystem::path& file) {
+    replace_file(file, [&](const std::filesystem::path& temporary) {
+        std::filesystem::copy_file(file, temporary, std::filesystem::copy_options::overwrite_existing);
+        append_digest(temporary);
+    });
+}
+
+}  // namespace
+
+int check_command(int argc, const char* const* argv) {
+    std::string file;
+    bool seal = false;
+    Arguments arguments(
+        "samara check",
+        "Whether a body, motion or surface file from elsewhere is sound: reads all of it in a "
+        "process of its own.");
+    arguments.positional("FILE", file, "body file (.body.h5), motion file (.h5) or shape");
+    arguments.flag(
+        "--add-digest", seal,
+        "write a digest of the content behind it, where a body or motion file is sound and has none");
+    arguments.footer(
+        "Exit status 0: the file is sound. 1: it is refused, or its reader crashed, took too long or too "
+        "much\n"
+        "memory. JSON: kind (body, motion or surface), digest (whether the file carries one, which is "
+        "right).");
+    return run_program(argc, argv, arguments, [&] {
+        CheckedFile found = check(file);
+        if (seal && found.kind == "surface")
+            throw Error(fmt::format("{}: is a shape, which takes no digest", file));
+        if (seal && !found.has_digest) {
+            add_digest(file);
+            found.has_digest = true;
+        }
+        if (!arguments.json()) {
+            print_result("{}: a sound {}{}\n", file, found.kind,
+                         found.kind == "surface" ? ""
+                         : found.has_digest      ? " file, with the digest of its content"
+                                                 : " file, without a digest (--add-digest writes one)");
+        }
+        return nlohmann::json{{"kind", found.kind}, {"digest", found.has_digest}};
+    });
+}
+
+}  // namespace samara

@@ -1,0 +1,95 @@
+#include "internal/body/dynamic_coefficients_file.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "internal/files/row_major.hpp"
+#include "samara/base/error.hpp"
+
+namespace samara {
+namespace {
+
+constexpr const char* group = "/dynamic_coefficients";
+
+std::string place(const char* name, const char* name_end = "") {
+    return fmt::format("{}/{}{}", group, name, name_end);
+}
+
+Matrix3d read_tensor(const Hdf5Reader& file, const char* name, const char* name_end) {
+    return from_row_major<Matrix3d>(file.finite_doubles(place(name, name_end), {3, 3}));
+}
+
+/// The numbers that values and standard errors have in common.
+DynamicCoefficients read_numbers(const Hdf5Reader& file, const char* name_end) {
+    DynamicCoefficients numbers;
+    for (const NumberOfMotion& number : numbers_of_motion) {
+        const std::string name = fmt::format("{}{}", number.name, name_end);
+        if (number.is_late && !file.has_attribute(group, name)) {
+            if (*name_end != '\0') numbers.*number.member = 0.0;
+        } else {
+            numbers.*number.member = file.number_attribute(group, name);
+        }
+    }
+    for (const TensorOfMotion& tensor : tensors_of_motion) {
+        if (tensor.is_late && !file.has(place(tensor.name, name_end))) continue;
+        numbers.*tensor.member = read_tensor(file, tensor.name, name_end);
+    }
+    return numbers;
+}
+
+void write_numbers(Hdf5Writer& file, const DynamicCoefficients& numbers, const char* name_end) {
+    for (const TensorOfMotion& tensor : tensors_of_motion) {
+        const bool is_value = *name_end == '\0';
+        file.write(place(tensor.name, name_end), row_major(numbers.*tensor.member), {3, 3}, tensor.unit,
+                   is_value ? tensor.meaning : "standard error of the tensor of the same name");
+    }
+    for (const NumberOfMotion& number : numbers_of_motion) {
+        file.attribute(group, fmt::format("{}{}", number.name, name_end), numbers.*number.member);
+    }
+}
+
+/// A standard error that is none; empty where all are.
+std::string fault_of_errors(const DynamicCoefficients& errors) {
+    for (const NumberOfMotion& number : numbers_of_motion) {
+        const double error = errors.*number.member;
+        if (!(error >= 0.0) || !std::isfinite(error)) return std::string(number.name) + "_error";
+    }
+    for (const TensorOfMotion& tensor : tensors_of_motion) {
+        if ((errors.*tensor.member).minCoeff() < 0.0) return std::string(tensor.name) + "_error";
+    }
+    return {};
+}
+
+}  // namespace
+
+void write_dynamic_coefficients(Hdf5Writer& file, const IdentifiedCoefficients& coefficients) {
+    write_numbers(file, coefficients.values, "");
+    write_numbers(file, coefficients.standard_errors, "_error");
+    file.attribute(group, "half_length", coefficients.values.half_length);
+    file.attribute(group, "origin", std::string_view(coefficients.values.origin));
+}
+
+IdentifiedCoefficients read_dynamic_coefficients(const Hdf5Reader& file) {
+    if (file.has_attribute(group, "force_transport")) {
+        throw Error(
+            fmt::format("{}: {} is of an earlier form, which this version does not fly; remove the group "
+                        "to fly with defaults",
+                        file.path().string(), group));
+    }
+    IdentifiedCoefficients coefficients{.values = read_numbers(file, ""),
+                                        .standard_errors = read_numbers(file, "_error")};
+    coefficients.values.half_length = file.number_attribute(group, "half_length");
+    coefficients.values.origin = file.text_attribute(group, "origin");
+    const auto refuse = [&](const std::string& what) {
+        throw Error(fmt::format("{}: {}/{}; put it right, or remove the group to fly with defaults",
+                                file.path().string(), group, what));
+    };
+    if (const std::string fault = fault_of(coefficients.values); !fault.empty()) refuse(fault);
+    if (const std::string name = fault_of_errors(coefficients.standard_errors); !name.empty()) {
+        refuse(name + " is not a standard error: negative or not finite");
+    }
+    return coefficients;
+}
+
+}  // namespace samara

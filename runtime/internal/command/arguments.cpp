@@ -1,0 +1,143 @@
+#include "internal/command/arguments.hpp"
+
+#include <map>
+#include <sstream>
+#include <stdexcept>
+#include <string_view>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "internal/command/guarded_program.hpp"
+#include "internal/command/print.hpp"
+#include "samara/base/version.hpp"
+
+namespace samara {
+
+struct Arguments::Parser {
+    CLI::App app;
+    std::string program;
+    bool json = false;
+    std::map<std::string, std::vector<std::string>> choices;  ///< by the option's name with its dashes
+};
+
+namespace {
+
+/// For shells: a line for each option, of its names and, after a tab, the words that it takes.
+void list_options(const CLI::App& app, const std::map<std::string, std::vector<std::string>>& choices) {
+    for (const CLI::Option* option : app.get_options()) {
+        std::vector<std::string> names;
+        for (const std::string& name : option->get_snames()) names.push_back('-' + name);
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+        if (names.empty()) continue;  // a word by its place
+        const auto words = choices.find(option->get_name());
+        print_result("{}\t{}\n", fmt::join(names, " "),
+                     words == choices.end() ? "" : fmt::format("{}", fmt::join(words->second, " ")));
+    }
+}
+
+}  // namespace
+
+Arguments::Arguments(std::string program, std::string description) : parser_(std::make_unique<Parser>()) {
+    parser_->app.description(std::move(description));
+    parser_->app.name(program);
+    parser_->program = std::move(program);
+    parser_->app.get_formatter()->column_width(34);
+    parser_->app.set_version_flag("--version", std::string("samara ") + version);
+    parser_->app.add_flag("--json", parser_->json, "print the result as one JSON object");
+}
+
+Arguments::~Arguments() = default;
+
+void Arguments::positional(const std::string& name, std::string& value, const std::string& help) {
+    parser_->app.add_option(name, value, help)->required();
+}
+
+void Arguments::optional_positional(const std::string& name, std::string& value, const std::string& help) {
+    parser_->app.add_option(name, value, help);
+}
+
+void Arguments::flag(const std::string& name, bool& value, const std::string& help) {
+    parser_->app.add_flag(name, value, help);
+}
+
+void Arguments::option(const std::string& name, std::string& value, const std::string& help) {
+    auto* option = parser_->app.add_option(name, value, help);
+    if (!value.empty()) option->capture_default_str();
+}
+
+void Arguments::required_option(const std::string& name, std::string& value, const std::string& help) {
+    parser_->app.add_option(name, value, help)->required();
+}
+
+void Arguments::option(const std::string& name, double& value, const std::string& help, double lowest,
+                       double highest) {
+    parser_->app.add_option(name, value, help)->check(CLI::Range(lowest, highest))->capture_default_str();
+}
+
+void Arguments::option(const std::string& name, int& value, const std::string& help, int lowest,
+                       int highest) {
+    parser_->app.add_option(name, value, help)->check(CLI::Range(lowest, highest))->capture_default_str();
+}
+
+void Arguments::option(const std::string& name, std::optional<int>& value, const std::string& help,
+                       int lowest, int highest) {
+    parser_->app.add_option(name, value, help)->check(CLI::Range(lowest, highest));
+}
+
+void Arguments::option(const std::string& name, std::optional<double>& value, const std::string& help,
+                       double lowest, double highest) {
+    parser_->app.add_option(name, value, help)->check(CLI::Range(lowest, highest));
+}
+
+void Arguments::option(const std::string& name, std::uint64_t& value, const std::string& help) {
+    parser_->app.add_option(name, value, help)->capture_default_str();
+}
+
+void Arguments::choice(const std::string& name, std::string& value, const std::vector<std::string>& words,
+                       const std::string& help) {
+    CLI::Option* option = parser_->app.add_option(name, value, help);
+    option->check(CLI::IsMember(words))->capture_default_str();
+    parser_->choices[option->get_name()] = words;
+}
+
+void Arguments::footer(const std::string& text) {
+    parser_->app.footer(text);
+}
+
+bool Arguments::given(const std::string& name) const {
+    return parser_->app.count(name) > 0;
+}
+
+bool Arguments::json() const {
+    return parser_->json;
+}
+
+int run_program(int argc, const char* const* argv, Arguments& arguments,
+                const std::function<nlohmann::json()>& body) {
+    Arguments::Parser& parser = *arguments.parser_;
+    return run_guarded(parser.program, [&] {
+        if (argc == 2 && std::string_view(argv[1]) == "--list-options") {
+            list_options(parser.app, parser.choices);
+            return;
+        }
+        try {
+            parser.app.parse(argc, argv);
+        } catch (const CLI::Success& asked_for_help) {
+            std::ostringstream help;
+            parser.app.exit(asked_for_help, help, help);
+            print_result("{}", help.str());
+            return;
+        } catch (const CLI::ParseError& fault) {
+            throw std::runtime_error(fmt::format("{}; see '{} --help'", fault.what(), parser.program));
+        }
+        const nlohmann::json result = body();
+        // Plain characters alone: a name in it that is no UTF-8, or a command to a terminal, does no harm.
+        if (parser.json)
+            print_result("{}\n", result.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace));
+    });
+}
+
+}  // namespace samara

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace samara {
+
+/// The command line of one program: a thin face of CLI11 that keeps its long compile in one place. Every
+/// program has
+/// --help, --version and --json. Values given here as references must outlive run_program.
+class Arguments {
+  public:
+    Arguments(std::string program, std::string description);
+    ~Arguments();
+    Arguments(const Arguments&) = delete;
+    Arguments& operator=(const Arguments&) = delete;
+
+    /// A required word, by its place.
+    void positional(const std::string& name, std::string& value, const std::string& help);
+    /// A word by its place that may be left out: then the value stays as it is.
+    void optional_positional(const std::string& name, std::string& value, const std::string& help);
+    /// A flag without a value, such as "--keep".
+    void flag(const std::string& name, bool& value, const std::string& help);
+    /// An option with a value, such as "-o,--output"; the default shown in the help is the value it has now.
+    /// Numbers that do not parse, and values outside [lowest, highest], are refused with the option's name.
+    void option(const std::string& name, std::string& value, const std::string& help);
+    void required_option(const std::string& name, std::string& value, const std::string& help);
+    void option(const std::string& name, double& value, const std::string& help, double lowest,
+                double highest);
+    void option(const std::string& name, int& value, const std::string& help, int lowest, int highest);
+    void option(const std::string& name, std::optional<int>& value, const std::string& help, int lowest,
+                int highest);
+    void option(const std::string& name, std::optional<double>& value, const std::string& help, double lowest,
+                double highest);
+    void option(const std::string& name, std::uint64_t& value, const std::string& help);
+    /// An option whose value is one of the given words.
+    void choice(const std::string& name, std::string& value, const std::vector<std::string>& words,
+                const std::string& help);
+    /// A text under the options in --help: examples, the meaning of the output.
+    void footer(const std::string& text);
+    /// Whether the user gave the option.
+    [[nodiscard]] bool given(const std::string& name) const;
+    /// Whether --json was given: then the command prints nothing else on standard output.
+    [[nodiscard]] bool json() const;
+
+  private:
+    friend int run_program(int argc, const char* const* argv, Arguments& arguments,
+                           const std::function<nlohmann::json()>& body);
+    struct Parser;
+    std::unique_ptr<Parser> parser_;
+};
+
+/// Parses the words and runs `body`, which does the command's work, prints its text for people unless --json
+/// was given, and returns its result, printed as one JSON object where --json was given, in ASCII: bytes of
+/// names that are no UTF-8 become U+FFFD. The single word --list-options instead prints the options and the
+/// words they take, for a shell's completion. Returns the exit status of run_guarded(): 0, or 1 after one
+/// line "PROGRAM: what is wrong" on standard error, for bad words as for an Error.
+int run_program(int argc, const char* const* argv, Arguments& arguments,
+                const std::function<nlohmann::json()>& body);
+
+}  // namespace samara

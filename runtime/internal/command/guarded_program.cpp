@@ -1,0 +1,73 @@
+#include "internal/command/guarded_program.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <new>
+#include <stdexcept>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "internal/command/print.hpp"
+
+namespace samara {
+namespace {
+
+/// Reads of standard input find an end, and writes to standard output fail, as with the closed streams.
+void open_closed_streams() {
+    constexpr int as_closed[] = {O_RDONLY, O_RDONLY, O_WRONLY};
+    for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream) {
+        // The lowest number that is free is given: this one, since those below are open.
+        if (::fcntl(stream, F_GETFD) < 0) (void)::open("/dev/null", as_closed[stream]);
+    }
+}
+
+/// A handler rather than SIG_IGN, since programs that are started would inherit that.
+void make_errors_of(int signal) {
+    struct sigaction action = {};
+    if (::sigaction(signal, nullptr, &action) != 0 || action.sa_handler != SIG_DFL) return;
+    action.sa_handler = [](int) {};
+    action.sa_flags = SA_RESTART;
+    ::sigaction(signal, &action, nullptr);
+}
+
+std::string one_line(std::string text) {
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())) != 0) text.pop_back();
+    return text;
+}
+
+int fail(const std::string& program, const std::string& text) {
+    std::fflush(stdout);
+    print_note("{}: {}\n", program, one_line(text));
+    return 1;
+}
+
+}  // namespace
+
+int run_guarded(const std::string& program, const std::function<void()>& work) {
+    open_closed_streams();
+    make_errors_of(SIGPIPE);
+    make_errors_of(SIGXFSZ);
+    try {
+        work();
+        flush_output();
+        return 0;
+    } catch (const std::bad_alloc&) {
+        return fail(program, "out of memory; use fewer triangles, bodies, frames or runs");
+    } catch (const std::length_error&) {
+        return fail(program, "more numbers are asked for than any memory holds; is a count or unit wrong?");
+    } catch (const std::filesystem::filesystem_error& fault) {
+        return fail(program,
+                    fmt::format("{}: cannot be used: {}", fault.path1().string(), fault.code().message()));
+    } catch (const std::exception& fault) {
+        return fail(program, fault.what());
+    }
+}
+
+}  // namespace samara

@@ -1,0 +1,45 @@
+#include "internal/command/print.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <string>
+
+#include <unistd.h>
+
+#include "internal/base/printable.hpp"
+#include "samara/base/error.hpp"
+
+namespace samara {
+namespace {
+
+[[noreturn]] void fail_to_print() {
+    const int reason = errno;
+    throw Error(fmt::format("standard output cannot be written: {}", std::strerror(reason)));
+}
+
+}  // namespace
+
+void print_result_text(std::string_view text) {
+    const std::string shown = printable_lines(text);
+    if (std::fwrite(shown.data(), 1, shown.size(), stdout) != shown.size()) fail_to_print();
+}
+
+void flush_output() {
+    if (std::fflush(stdout) != 0) fail_to_print();
+}
+
+void write_to_standard_error(std::string_view bytes) noexcept {
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(STDERR_FILENO, bytes.data(), bytes.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written <= 0) return;
+        bytes.remove_prefix(static_cast<std::size_t>(written));
+    }
+}
+
+void print_note_text(std::string_view text) {
+    write_to_standard_error(printable_lines(text));
+}
+
+}  // namespace samara

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace samara {
+
+/// Prints a program's result on standard output, with printable_lines() of it, so that no name in it reaches
+/// a terminal as a command. Throws Error where it cannot be written.
+void print_result_text(std::string_view text);
+
+template <typename... Values>
+void print_result(fmt::format_string<Values...> format, Values&&... values) {
+    print_result_text(fmt::format(format, std::forward<Values>(values)...));
+}
+
+/// Sees to it that all that was printed is written. Throws Error where it cannot be.
+void flush_output();
+
+/// Writes bytes as they are on standard error. What cannot be written, since it is closed or full, is lost:
+/// notes and progress are no reason to fail.
+void write_to_standard_error(std::string_view bytes) noexcept;
+
+/// A line for people on standard error, with its line feed; otherwise as print_result() and as
+/// write_to_standard_error().
+void print_note_text(std::string_view text);
+
+template <typename... Values>
+void print_note(fmt::format_string<Values...> format, Values&&... values) {
+    print_note_text(fmt::format(format, std::forward<Values>(values)...));
+}
+
+}  // namespace samara

@@ -1,0 +1,138 @@
+#include "internal/dynamics/batch.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <mutex>
+#include <type_traits>
+
+#include "internal/base/parallel_for.hpp"
+#include "internal/dynamics/flight_constants_of.hpp"
+#include "internal/dynamics/ground_contact.hpp"
+#include "internal/kernel/kernel.hpp"
+
+namespace samara {
+namespace {
+
+constexpr std::size_t blocks_a_piece = 64;
+
+/// The ground that the bodies of a batch touch.
+struct BatchGround {
+    const ImmersedBody& body;
+    const Surroundings& surroundings;
+
+    static void resolve(const void* context, double time, double substep, const BodyState& before,
+                        BodyState& state) noexcept {
+        const auto& ground = *static_cast<const BatchGround*>(context);
+        touch_ground(ground.body, ground_in_flow(ground.surroundings, time - substep, time), substep, before,
+                     state);
+    }
+
+    static void stay(const void* context, double begin, double end, BodyState& state) noexcept {
+        const auto& ground = *static_cast<const BatchGround*>(context);
+        stay_on(ground_in_flow(ground.surroundings, begin, end), state);
+    }
+
+    [[nodiscard]] kernel::Contact contact(double start, double time_step, std::uint64_t first_step,
+                                          std::uint64_t steps) const noexcept {
+        if (!surroundings.ground) return {};
+        const double radius = body.contact_points.bounding_radius;
+        const double fastest = surroundings.current.norm() + surroundings.gust.amplitude.norm();
+        double highest = -std::numeric_limits<double>::infinity();
+        for (std::uint64_t step = first_step; step <= first_step + steps; ++step) {
+            const double time = step_time(start, time_step, step);
+            highest = std::max(highest, *surroundings.ground - flow_displacement(surroundings, time).z());
+        }
+        return {.resolve = resolve,
+                .stay = is_steady(body, surroundings) ? stay : nullptr,
+                .moves = fastest > 0.0,
+                .context = this,
+                .reach = highest + radius + fastest * time_step,
+                .radius = radius,
+                .ground_speed = fastest};
+    }
+};
+
+/// One body alone: to the same bits as in a vector of them, and sooner.
+BatchReport advance_alone(const ImmersedBody& body, const Surroundings& surroundings,
+                          const kernel::BlockSteps& task, FlightBlock<double>& block) noexcept {
+    const Noise noise(std::array{block.noise[0][0], block.noise[1][0], block.noise[2][0], block.noise[3][0]});
+    BatchReport report;
+    BodyState state = state_of(block, 0);
+    for (std::uint64_t step = task.first_step; step < task.first_step + task.steps; ++step) {
+        const StepResult result = advance(body, surroundings, task.start, task.time_step, state, noise, step);
+        state = result.state;
+        report.count(result.substeps);
+    }
+    keep_state(state, block, 0);
+    return report;
+}
+
+}  // namespace
+
+template <class Real>
+BasicBatch<Real>::BasicBatch(const ImmersedBody& body, std::size_t count)
+    : body_(&body),
+      size_(count),
+      constants_(flight_constants<Real>(body)),
+      blocks_((count + FlightBlock<Real>::size - 1) / FlightBlock<Real>::size) {
+    for (std::size_t i = 0; i < blocks_.size(); ++i) {
+        blocks_[i].bodies = std::min(FlightBlock<Real>::size, count - i * FlightBlock<Real>::size);
+        for (std::size_t lane = 0; lane < FlightBlock<Real>::size; ++lane) {
+            keep_state(BodyState{}, blocks_[i], lane);
+        }
+    }
+    for (std::size_t i = 0; i < count; ++i) set_noise(i, Noise(0, "", 0, 0));
+}
+
+template <class Real>
+void BasicBatch<Real>::set_state(std::size_t index, const BodyState& state) noexcept {
+    keep_state(state, blocks_[index / FlightBlock<Real>::size], index % FlightBlock<Real>::size);
+}
+
+template <class Real>
+BodyState BasicBatch<Real>::state(std::size_t index) const noexcept {
+    return state_of(blocks_[index / FlightBlock<Real>::size], index % FlightBlock<Real>::size);
+}
+
+template <class Real>
+void BasicBatch<Real>::set_noise(std::size_t index, const Noise& noise) noexcept {
+    const auto words = noise.words();
+    FlightBlock<Real>& block = blocks_[index / FlightBlock<Real>::size];
+    for (std::size_t word = 0; word < words.size(); ++word) {
+        block.noise[word][index % FlightBlock<Real>::size] = words[word];
+    }
+}
+
+template <class Real>
+BatchReport BasicBatch<Real>::advance(const Surroundings& surroundings, double start, double time_step,
+                                      std::uint64_t first_step, std::uint64_t steps, int threads) {
+    std::vector<Vector3d> gravities;
+    for (std::uint64_t step = first_step; step < first_step + steps; ++step) {
+        gravities.push_back(apparent_gravity(surroundings, step_time(start, time_step, step),
+                                             step_time(start, time_step, step + 1)));
+    }
+    const BatchGround ground{*body_, surroundings};
+    const kernel::BlockSteps task{.gravities = gravities.data(),
+                                  .start = start,
+                                  .time_step = time_step,
+                                  .first_step = first_step,
+                                  .steps = steps,
+                                  .contact = ground.contact(start, time_step, first_step, steps)};
+    if constexpr (std::is_same_v<Real, double>) {
+        if (size_ == 1) return advance_alone(*body_, surroundings, task, blocks_.front());
+    }
+    BatchReport report;
+    std::mutex mutex;
+    parallel_for(blocks_.size(), blocks_a_piece, threads, [&](std::size_t begin, std::size_t end) {
+        const BatchReport piece = kernel::advance_blocks(constants_, task, &blocks_[begin], end - begin);
+        const std::lock_guard lock(mutex);
+        report.add(piece);
+    });
+    return report;
+}
+
+template class BasicBatch<float>;
+template class BasicBatch<double>;
+
+}  // namespace samara

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "internal/dynamics/immersed_body.hpp"
+#include "internal/dynamics/step.hpp"
+#include "internal/dynamics/surroundings.hpp"
+#include "internal/kernel/flight_block.hpp"
+#include "internal/kernel/noise.hpp"
+
+namespace samara {
+
+/// Many bodies of one kind that are stepped together, as many at a time as the machine's vectors hold. Each
+/// moves as advance() moves it alone, whatever its place in the batch, the number of threads and the way the
+/// steps are cut into calls: in double precision to the last bit; in single precision, for crowds, within
+/// what docs/theory states.
+template <class Real>
+class BasicBatch {
+  public:
+    /// `body` must outlive the batch. All start at rest at the origin.
+    BasicBatch(const ImmersedBody& body, std::size_t count);
+
+    [[nodiscard]] std::size_t size() const noexcept { return size_; }
+    void set_state(std::size_t index, const BodyState& state) noexcept;
+    [[nodiscard]] BodyState state(std::size_t index) const noexcept;
+    /// The source of the body's random numbers; without it, that of seed 0, no name, run 0 and copy 0.
+    void set_noise(std::size_t index, const Noise& noise) noexcept;
+
+    /// `steps` steps of `time_step` (s) each; the first is the bodies' step number `first_step`; their
+    /// flight began at `start` (s, of the world). `threads`: 0 for all cores.
+    BatchReport advance(const Surroundings& surroundings, double start, double time_step,
+                        std::uint64_t first_step, std::uint64_t steps, int threads = 1);
+
+  private:
+    const ImmersedBody* body_;
+    std::size_t size_;
+    FlightConstants<Real> constants_;
+    std::vector<FlightBlock<Real>> blocks_;
+};
+
+extern template class BasicBatch<float>;
+extern template class BasicBatch<double>;
+
+using Batch = BasicBatch<double>;
+using FloatBatch = BasicBatch<float>;
+
+}  // namespace samara

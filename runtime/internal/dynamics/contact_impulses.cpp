@@ -1,0 +1,300 @@
+#include "internal/dynamics/contact_impulses.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+#include "internal/dynamics/ground_contact.hpp"
+
+namespace samara {
+namespace {
+
+// Chosen by trial, not derived: what they must give, no energy, no sinking and rest to the last bit, is what
+// the tests GroundContact, GroundRest and Settling hold them to.
+constexpr int most_sweeps = 100;
+constexpr int most_attempts = 12;   // to find what holds
+constexpr double converged = 1e-6;  // change of an impulse in a sweep, over the largest
+constexpr double settling = 1e-2;   // the same, from which on further points are looked for
+constexpr double sinking = 1e-7;    // speed of a point through the ground that is let be, over the body's
+constexpr double stiffness = 1e3;   // of what holds the points that stick, over the body's inertia there
+
+using Block = Eigen::Matrix<double, 3, 6>;
+
+/// Impulses that act on the body together, along the rows of a block (world axes: x, y, z) and within a
+/// length that the normal impulse bounds.
+struct Impulses {
+    Block along;                           ///< J: velocity -> rates along the rows
+    Eigen::Matrix<double, 6, 3> response;  ///< K^-1 J^T
+    Matrix3d mobility;                     ///< J K^-1 J^T
+    Vector3d size;
+    Vector3d step;  ///< a change of the size
+    bool holds;     ///< within the bound: what it holds is at rest
+
+    void set(const Block& rows, const Matrix6d& inverse_inertia) {
+        along = rows;
+        response = inverse_inertia * rows.transpose();
+        mobility = rows * response;
+        size.setZero();
+        holds = false;
+    }
+
+    /// Holds the rows from `first` on by springs, the last of them at the rate -`allowed_speed`.
+    void brace(int first, double allowed_speed, const Vector6d& velocity, Matrix6d& stiff, Vector6d& pull) {
+        step.setZero();
+        for (int row = first; row < 3; ++row) {
+            const double spring = stiffness / mobility(row, row);
+            const double rate = along.row(row).dot(velocity) + (row == 2 ? allowed_speed : 0.0);
+            step[row] = -spring * rate;
+            stiff += along.row(row).transpose() * (spring * along.row(row));
+            pull += along.row(row).transpose() * step[row];
+        }
+    }
+    /// What the springs push with, once the velocity has changed.
+    void follow(int first, const Vector6d& change) {
+        for (int row = first; row < 3; ++row) {
+            step[row] -= stiffness / mobility(row, row) * along.row(row).dot(change);
+        }
+    }
+};
+
+struct Contact {
+    double allowed_speed;  ///< at which the point may come down
+    Impulses push;         ///< friction along x and y, the normal impulse along z
+    Impulses turn;         ///< rolling resistance
+};
+
+/// The share, up to 1, of a step that keeps a size within its bound, which changes with it.
+template <typename Part>
+double share_within(const Part& size, const Part& step, double bound, double bound_step) {
+    // |size + s step|^2 <= (bound + s bound_step)^2
+    const double a = step.squaredNorm() - bound_step * bound_step;
+    const double b = size.dot(step) - bound * bound_step;
+    const double c = std::min(0.0, size.squaredNorm() - bound * bound);
+    if (a + 2.0 * b + c <= 0.0 && bound + bound_step >= 0.0) return 1.0;
+    const double root = std::sqrt(std::max(0.0, b * b - a * c));
+    // The smallest root that is not negative, without cancellation.
+    if (b >= 0.0) return b + root > 0.0 ? std::clamp(-c / (b + root), 0.0, 1.0) : 0.0;
+    return a > 0.0 ? std::clamp((root - b) / a, 0.0, 1.0) : 1.0;
+}
+
+/// A contact point that no impulse acts on yet.
+struct Candidate {
+    Vector3d point;
+    double allowed_speed;
+};
+
+/// The points near the ground.
+class Candidates {
+  public:
+    Candidates(const ContactPoints& points, const Stance& stance) noexcept : up_(stance.to_world.row(2)) {
+        const auto look_at = [&](const Vector3d& point) {
+            const double gap = stance.height + up_.dot(point);
+            if (gap > stance.margin) return;
+            const double drift = up_.dot(stance.drift.tail<3>() + stance.drift.head<3>().cross(point));
+            const double left = std::max(0.0, gap - stance.touching) / stance.time_step;
+            candidates_[count_++] = {point, std::max(0.0, left + drift)};
+        };
+        for (const Vector3d& corner : points.corners) look_at(corner);
+        if (!points.round.empty()) look_at(lowest_round_point(points, -up_));
+    }
+
+    /// Takes out the candidate that sinks fastest, if any does by more than `tolerance` (m/s).
+    bool take_fastest(const Vector6d& velocity, double tolerance, Candidate& taken) noexcept {
+        const double moving = up_.dot(velocity.tail<3>());
+        const Vector3d turning = up_.cross(velocity.head<3>());
+        std::size_t fastest = count_;
+        double worst = -tolerance;
+        for (std::size_t i = 0; i < count_; ++i) {
+            const double speed = moving + turning.dot(candidates_[i].point) + candidates_[i].allowed_speed;
+            if (speed >= worst) continue;
+            worst = speed;
+            fastest = i;
+        }
+        if (fastest == count_) return false;
+        taken = candidates_[fastest];
+        candidates_[fastest] = candidates_[--count_];
+        return true;
+    }
+
+  private:
+    Vector3d up_;  // body axes
+    std::array<Candidate, most_corners + 1> candidates_;
+    std::size_t count_ = 0;
+};
+
+/// The velocity relative to the ground while impulses act on it.
+class ImpulseSolver {
+  public:
+    ImpulseSolver(const ImmersedBody& body, const Stance& stance, const Vector6d& velocity) noexcept
+        : body_(body), to_world_(stance.to_world), velocity_(velocity) {}
+
+    void solve(Candidates& candidates) noexcept {
+        const double radius = body_.contact_points.bounding_radius;
+        const double tolerance = sinking * (velocity_.tail<3>().norm() + radius * velocity_.head<3>().norm());
+        for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+            if (change_ <= settling * largest_) {
+                Candidate next;
+                if (count_ < most_contacts && candidates.take_fastest(velocity_, tolerance, next)) {
+                    add(next);
+                } else if (change_ <= converged * largest_) {
+                    return;
+                }
+            }
+            change_ = largest_ = 0.0;
+            for (std::size_t i = 0; i < count_; ++i) {
+                Contact& contact = contacts_[i];
+                press(contact.push, contact.allowed_speed);
+                const double normal = contact.push.size.z();
+                hold<2>(contact.push, ground_friction * normal);
+                hold<3>(contact.turn, rolling_resistance * radius * normal);
+            }
+            stick(radius);
+        }
+    }
+
+    [[nodiscard]] const Vector6d& velocity() const { return velocity_; }
+
+  private:
+    void add(const Candidate& candidate) noexcept {
+        Contact& contact = contacts_[count_++];
+        contact.allowed_speed = candidate.allowed_speed;
+        Block rows;
+        rows << -to_world_ * skew(candidate.point), to_world_;
+        contact.push.set(rows, body_.inverse_inertia);
+        rows << to_world_, Matrix3d::Zero();
+        contact.turn.set(rows, body_.inverse_inertia);
+    }
+
+    /// Lets the point come down no faster than is allowed.
+    void press(Impulses& impulses, double allowed_speed) noexcept {
+        const double mobility = impulses.mobility(2, 2);
+        const double speed = impulses.along.row(2).dot(velocity_) + allowed_speed;
+        const double before = impulses.size.z();
+        impulses.size.z() = std::max(0.0, before - speed / mobility);
+        velocity_ += impulses.response.col(2) * (impulses.size.z() - before);
+        note(std::abs(impulses.size.z() - before), impulses.size.z(), mobility);
+    }
+
+    /// Stops the first N rates where impulses within `bound` can, else slows them.
+    template <int N>
+    void hold(Impulses& impulses, double bound) noexcept {
+        using Part = Eigen::Matrix<double, N, 1>;
+        const Eigen::Matrix<double, N, N> mobility = impulses.mobility.topLeftCorner<N, N>();
+        const Part rates = impulses.along.topRows<N>() * velocity_;
+        const Part before = impulses.size.head<N>();
+        Part after = before - mobility.inverse() * rates;
+        impulses.holds = after.norm() <= bound;
+        if (!impulses.holds) {
+            // A step of projected gradients: no longer than the mobility's trace allows, so it never gains.
+            after = before - rates / mobility.trace();
+            const double size = after.norm();
+            if (size > bound) after *= bound / size;
+        }
+        impulses.size.head<N>() = after;
+        velocity_ += impulses.response.leftCols<N>() * (after - before);
+        note((after - before).norm(), after.norm(), mobility.trace());
+    }
+
+    /// Solves at once for all points that press and all that is held, as if by springs so stiff that they
+    /// leave next to nothing. Where one would pull at the ground or leave friction's bounds it goes as far as
+    /// that, lets go of it, and goes on. Sweeps alone take hundreds where points stand close together.
+    void stick(double radius) noexcept {
+        const double lever = rolling_resistance * radius;
+        for (int attempt = 0; attempt < most_attempts; ++attempt) {
+            Matrix6d stiff = body_.inertia;
+            Vector6d pull = Vector6d::Zero();
+            for_each_pressing([&](Contact& contact) {
+                contact.push.brace(contact.push.holds ? 0 : 2, contact.allowed_speed, velocity_, stiff, pull);
+                contact.turn.brace(contact.turn.holds ? 0 : 3, 0.0, velocity_, stiff, pull);
+            });
+            const Vector6d change = Eigen::LLT<Matrix6d>(stiff).solve(pull);
+            double share = 1.0;
+            Contact* lets_go = nullptr;
+            Impulses* which = nullptr;
+            const auto limit = [&](double most, Contact& contact, Impulses* impulses) {
+                if (most >= share) return;
+                share = most;
+                lets_go = &contact;
+                which = impulses;
+            };
+            for_each_pressing([&](Contact& contact) {
+                contact.push.follow(contact.push.holds ? 0 : 2, change);
+                contact.turn.follow(contact.turn.holds ? 0 : 3, change);
+                const double normal = contact.push.size.z();
+                const double more = contact.push.step.z();
+                if (contact.push.holds) {
+                    const Eigen::Vector2d size = contact.push.size.head<2>();
+                    const Eigen::Vector2d step = contact.push.step.head<2>();
+                    limit(share_within(size, step, ground_friction * normal, ground_friction * more), contact,
+                          &contact.push);
+                }
+                if (contact.turn.holds) {
+                    limit(share_within(contact.turn.size, contact.turn.step, lever * normal, lever * more),
+                          contact, &contact.turn);
+                }
+                if (more < 0.0) limit(-normal / more, contact, nullptr);
+            });
+            for_each_pressing([&](Contact& contact) {
+                contact.turn.size += share * contact.turn.step;
+                contact.push.size += share * contact.push.step;
+            });
+            velocity_ += share * change;
+            if (lets_go == nullptr) return;
+            if (which != nullptr) {
+                which->holds = false;
+            } else {
+                release(*lets_go);
+            }
+        }
+    }
+
+    void release(Contact& contact) noexcept {
+        velocity_ -= contact.push.response * contact.push.size + contact.turn.response * contact.turn.size;
+        contact.push.size.setZero();
+        contact.turn.size.setZero();
+    }
+
+    template <typename Function>
+    void for_each_pressing(const Function& function) noexcept {
+        for (std::size_t i = 0; i < count_; ++i) {
+            if (contacts_[i].push.size.z() > 0.0) function(contacts_[i]);
+        }
+    }
+
+    void note(double change, double size, double mobility) noexcept {
+        change_ = std::max(change_, change * std::sqrt(mobility));
+        largest_ = std::max(largest_, size * std::sqrt(mobility));
+    }
+
+    const ImmersedBody& body_;
+    const Matrix3d& to_world_;
+    std::array<Contact, most_contacts> contacts_;
+    std::size_t count_ = 0;
+    Vector6d velocity_;
+    double change_ = 0.0;
+    double largest_ = 0.0;
+};
+
+/// The change that was found, or as much of it as adds no energy: friction that was bounded by a normal
+/// impulse which later fell may add a little.
+Vector6d passive(const ImmersedBody& body, const Vector6d& velocity, const Vector6d& change) {
+    const Vector6d momentum = body.inertia * change;
+    const double gain = velocity.dot(momentum);
+    const double square = change.dot(momentum);
+    if (gain + 0.5 * square <= 0.0) return change;
+    return std::max(0.0, -gain / square) * change;
+}
+
+}  // namespace
+
+Vector6d after_impulses(const ImmersedBody& body, const Stance& stance, const Vector6d& velocity) noexcept {
+    Candidates candidates(body.contact_points, stance);
+    ImpulseSolver solver(body, stance, velocity);
+    solver.solve(candidates);
+    return velocity + passive(body, velocity, solver.velocity() - velocity);
+}
+
+}  // namespace samara

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "samara/body/body.hpp"
+
+namespace samara {
+
+/// What bodies have in common, by their free falls in full CFD (docs/falls.md): T over the added mass, t,
+/// C_m, C_s, C_w and C_r.
+inline constexpr double usual_transport = 1.0;
+inline constexpr double usual_rotational_transport = 1.0;
+inline constexpr double usual_drag_in_motion = 0.5;
+inline constexpr double usual_drag_in_spin = 0.3;
+inline constexpr double usual_rotational_drag = 0.7;
+inline constexpr double usual_rotational_drag_in_spin = 0.7;
+
+/// The defaults for a body whose file holds none: guided by free falls of spheroids and a 1:2:4 ellipsoid in
+/// OpenFOAM (docs/theory gives the figures and what they miss). Scaled by the body's own projected areas and
+/// its rotational drag tensor.
+DynamicCoefficients default_dynamic_coefficients(const Body& body);
+
+/// Rotational drag alone, for loads by drag and lift coefficients: the same C_w D, and no other term.
+DynamicCoefficients rotational_drag_alone(const Body& body);
+
+/// None: a body whose flow is that of a steady tow at every instant, but for the creeping turn.
+DynamicCoefficients no_dynamic_coefficients(const Body& body);
+
+/// D = 1/2 the integral over the surface of (r x n)(r x n)^T dA (m^4), r from the centroid: symmetric,
+/// positive semidefinite, zero for a sphere.
+Matrix3d rotational_drag_tensor(const Surface& surface, const Vector3d& centroid);
+
+}  // namespace samara

@@ -1,0 +1,173 @@
+#include "internal/dynamics/immersed_body.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <fmt/format.h>
+
+#include "internal/body/octahedral_map.hpp"
+#include "internal/dynamics/flight_constants_of.hpp"
+#include "internal/dynamics/immersed_body_check.hpp"
+#include "samara/base/error.hpp"
+
+namespace samara {
+namespace {
+
+struct Mass {
+    double mass;
+    Vector3d center;
+    Matrix3d inertia;
+};
+
+Mass mass_of(const Body& body, const MassSpecification& specification, const std::string& name) {
+    const VolumeMoments& moments = body.moments;
+    const double mass = specification.mass.value_or(specification.density.value_or(0.0) * moments.volume);
+    Mass result{mass, specification.center_of_mass.value_or(moments.centroid),
+                uniform_inertia(moments, mass / moments.volume)};
+    if (specification.inertia) result.inertia = *specification.inertia;
+    const Vector3d principal = Eigen::SelfAdjointEigenSolver<Matrix3d>(result.inertia).eigenvalues();
+    const bool sane = principal.x() > 0.0 && principal.z() <= (principal.x() + principal.y()) * (1.0 + 1e-9);
+    if (!sane) {
+        throw Error(fmt::format(
+            "body '{}': no body has the principal moments of inertia {:.4g}, {:.4g}, {:.4g}: each must "
+            "be positive and at most the sum of the others",
+            name, principal.x(), principal.y(), principal.z()));
+    }
+    return result;
+}
+
+/// Blocks about the centre of mass: diag(I, m 1).
+Matrix6d body_inertia(const Mass& mass) {
+    Matrix6d inertia = Matrix6d::Zero();
+    inertia.topLeftCorner<3, 3>() = mass.inertia;
+    inertia.bottomRightCorner<3, 3>() = mass.mass * Matrix3d::Identity();
+    return inertia;
+}
+
+double turning_scale(const Matrix6d& inertia, const Matrix3d& added_mass) {
+    const Vector3d masses = Eigen::SelfAdjointEigenSolver<Matrix3d>(added_mass).eigenvalues();
+    const Matrix3d rotational = inertia.topLeftCorner<3, 3>();
+    const double smallest = Eigen::SelfAdjointEigenSolver<Matrix3d>(rotational).eigenvalues().x();
+    return std::sqrt((masses.z() - masses.x()) / smallest);
+}
+
+void require_tables(const Body& body, const BodyPhysics& physics, const std::string& name) {
+    const bool needed = physics.loads == Loads::table || physics.turbulence == Turbulence::table;
+    if (!needed || body.tables) return;
+    throw Error(
+        fmt::format("body '{0}': {1} = \"table\", but its file holds no tables; make them with 'samara bake "
+                    "SCENE -o DIR' and simulate with --bodies DIR, or set {1} otherwise",
+                    name, physics.loads == Loads::table ? "loads" : "turbulence"));
+}
+
+/// projected_area() in all directions of the map, with each triangle's area vector worked out once.
+std::vector<double> projected_areas(const Surface& surface) {
+    constexpr int side = 2 * shadow_subdivisions + 1;
+    Eigen::MatrixX3d area_vectors(static_cast<Eigen::Index>(surface.triangle_count()), 3);
+    for (std::size_t t = 0; t < surface.triangle_count(); ++t) {
+        area_vectors.row(static_cast<Eigen::Index>(t)) = area_vector(surface, t).transpose();
+    }
+    std::vector<double> areas;
+    areas.reserve(std::size_t{side} * side);
+    for (int row = 0; row < side; ++row) {
+        for (int column = 0; column < side; ++column) {
+            const Vector3d direction = octahedral_node(shadow_subdivisions, row, column);
+            areas.push_back(0.5 * (area_vectors * direction).cwiseAbs().sum());
+        }
+    }
+    return areas;
+}
+
+DynamicCoefficients dynamic_coefficients_of(const Body& body, const BodyPhysics& physics) {
+    if (physics.loads == Loads::none) return {};
+    if (physics.dynamic == Dynamic::none) return no_dynamic_coefficients(body);
+    if (physics.loads == Loads::coefficients) return rotational_drag_alone(body);
+    const bool own = physics.dynamic == Dynamic::of_body && body.dynamic;
+    DynamicCoefficients coefficients = own ? body.dynamic->values : default_dynamic_coefficients(body);
+    if (!own && body.dynamic) coefficients.origin = "dynamic coefficients by default";
+    if (!physics.added_mass) {
+        // What separated flow lacks of the fluid's momentum goes with that momentum.
+        coefficients.transport.setZero();
+        coefficients.rotational_transport = 0.0;
+        coefficients.entrained_inertia.setZero();
+    }
+    return coefficients;
+}
+
+/// rho_f K_fluid; zero where the scene leaves it out.
+Matrix6d fluid_inertia_of(const Body& body, const BodyPhysics& physics, const Fluid& fluid,
+                          const std::string& name) {
+    if (!physics.added_mass) return Matrix6d::Zero();
+    if (!body.kirchhoff) {
+        throw Error(fmt::format(
+            "body '{}': its file holds no Kirchhoff tensor; add it with 'samara kirchhoff', or set "
+            "added_mass = false",
+            name));
+    }
+    return fluid.density * body.kirchhoff->matrix;
+}
+
+}  // namespace
+
+void prepare(ImmersedBody& body) {
+    body.inverse_inertia = body.inertia.inverse();
+    body.constants = flight_constants<double>(body);
+}
+
+ImmersedBody make_immersed_body(const Body& body, const BodyPhysics& physics, const Fluid& fluid,
+                                const std::string& name) {
+    const Matrix6d fluid_inertia = fluid_inertia_of(body, physics, fluid, name);
+    require_tables(body, physics, name);
+    require_sound(body, physics, fluid, name);
+    const Mass mass = mass_of(body, physics.mass, name);
+
+    ImmersedBody result;
+    result.name = name;
+    result.mass = mass.mass;
+    result.volume = body.moments.volume;
+    result.fluid_density = fluid.density;
+    result.viscosity = fluid.viscosity;
+    result.center_of_mass = mass.center;
+    result.center_of_buoyancy = body.moments.centroid - mass.center;
+    result.to_centroid.block<3, 3>(3, 0) = -skew(result.center_of_buoyancy);
+    result.own_inertia = mass.inertia;
+    result.added_mass = fluid_inertia.bottomRightCorner<3, 3>();
+    result.added_inertia = fluid_inertia.topLeftCorner<3, 3>();
+    result.added_coupling = fluid_inertia.topRightCorner<3, 3>();
+    result.inertia = body_inertia(mass) + result.to_centroid.transpose() * fluid_inertia * result.to_centroid;
+    if (Eigen::LLT<Matrix6d>(result.inertia).info() != Eigen::Success) {
+        throw Error(fmt::format(
+            "body '{}': its inertia with the fluid's is not positive definite; compute the Kirchhoff "
+            "tensor with more triangles",
+            name));
+    }
+    result.contact_points = contact_points(body.surface, mass.center);
+    result.turning_scale = turning_scale(result.inertia, result.added_mass);
+    result.length = reference_length(body.moments.surface_area);
+    result.reference_area = std::numbers::pi * result.length * result.length / 4.0;
+
+    result.loads = physics.loads;
+    result.coefficients = physics.coefficients;
+    if (!result.coefficients.normal) result.coefficients.normal = principal_axes(body.moments).col(0);
+    if (result.loads == Loads::coefficients && !physics.coefficients.reference_area) {
+        result.projected_areas = projected_areas(body.surface);
+    }
+    result.dynamic = dynamic_coefficients_of(body, physics);
+    result.turbulence = physics.turbulence;
+    result.turbulent_kinetic_energy = physics.turbulent_kinetic_energy;
+    result.dissipation_rate = physics.dissipation_rate;
+    result.langevin = physics.langevin;
+    if (result.loads == Loads::table || result.turbulence == Turbulence::table) {
+        result.tables = physics.table_reynolds_number
+                            ? at_reynolds_number(*body.tables, *physics.table_reynolds_number)
+                            : *body.tables;
+    }
+    prepare(result);
+    return result;
+}
+
+}  // namespace samara

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "internal/dynamics/immersed_body.hpp"
+#include "internal/kernel/body_state.hpp"
+#include "samara/base/linear_algebra.hpp"
+
+namespace samara {
+
+/// The matrix D (6x6, order omega then v) with which the loads beyond the Kirchhoff terms are -D u: u holds
+/// the body's angular velocity and the velocity of its centroid relative to the fluid (rad/s, m/s; body
+/// axes), the load moment about the centroid and force (N m, N). D depends on u; its symmetric part is
+/// positive semidefinite, so the loads never make energy in still fluid. docs/theory, "Loads of a moving
+/// body". Never throws.
+Matrix6d load_matrix(const ImmersedBody& body, const Vector6d& relative_velocity) noexcept;
+
+/// D in a fluid that turns with `seen_rotation` (rad/s, body axes): the loads are
+/// -whole u + relative (seen_rotation, 0), where u holds the body's own angular velocity and the velocity of
+/// its centroid relative to the fluid. Never throws.
+LoadMatrices load_matrices(const ImmersedBody& body, const Vector6d& velocity,
+                           const Vector3d& seen_rotation) noexcept;
+
+/// U L / nu of a speed (m/s).
+double reynolds_number(const ImmersedBody& body, double speed) noexcept;
+
+}  // namespace samara

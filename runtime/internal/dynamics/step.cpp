@@ -1,0 +1,55 @@
+#include "internal/dynamics/step.hpp"
+
+#include "internal/dynamics/ground_contact.hpp"
+#include "internal/kernel/kernel.hpp"
+
+namespace samara {
+
+BodyState implicit_step(const ImmersedBody& body, const Vector3d& gravity, double time_step,
+                        const BodyState& state) noexcept {
+    return implicit_step(body, gravity, time_step, state, state.seen_fluid);
+}
+
+BodyState implicit_step(const ImmersedBody& body, const Vector3d& gravity, double time_step,
+                        const BodyState& state, const SeenFluid& seen_fluid) noexcept {
+    BodyState result = state;
+    result.seen_fluid = seen_fluid;
+    const bool moves = !state.seen_fluid.velocity.isZero(0.0) || !seen_fluid.velocity.isZero(0.0) ||
+                       !seen_fluid.angular_velocity.isZero(0.0);
+    kernel::implicit_step(body.constants, gravity, time_step,
+                          {state.seen_fluid.velocity, seen_fluid.velocity, moves}, 0, 1, result);
+    return result;
+}
+
+StepResult advance(const ImmersedBody& body, const Surroundings& surroundings, double start, double time_step,
+                   const BodyState& state, const Noise& noise, std::uint64_t step) noexcept {
+    StepResult result{state, 0};
+    const double time = step_time(start, time_step, step);
+    const double end = step_time(start, time_step, step + 1);
+    const SeenFluid& seen = state.seen_fluid;
+    if (state.at_rest && seen.velocity.isZero(0.0) && seen.angular_velocity.isZero(0.0) &&
+        is_steady(body, surroundings)) {
+        stay_on(ground_in_flow(surroundings, time, end), result.state);
+        return result;
+    }
+    result.substeps = kernel::begin_step(body.constants, time_step, noise, step, result.state);
+    const Vector3d gravity = apparent_gravity(surroundings, time, end);
+    const double substep = time_step / result.substeps;
+    const bool sees_fluid = body.turbulence != Turbulence::none && body.langevin == Langevin::seen_fluid;
+    const kernel::SeenStream stream{state.seen_fluid.velocity, result.state.seen_fluid.velocity, sees_fluid};
+    BodyState before = state;
+    for (int i = 0; i < result.substeps; ++i) {
+        kernel::implicit_step(body.constants, gravity, substep, stream, i, result.substeps, result.state);
+        if (!surroundings.ground) continue;
+        const double now = time + (i + 1) * substep;
+        touch_ground(body, ground_in_flow(surroundings, now - substep, now), substep, before, result.state);
+        before = result.state;
+    }
+    return result;
+}
+
+double kinetic_energy(const ImmersedBody& body, const BodyState& state) noexcept {
+    return 0.5 * state.velocity.dot(body.inertia * state.velocity);
+}
+
+}  // namespace samara

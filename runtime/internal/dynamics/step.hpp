@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+
+#include "internal/dynamics/immersed_body.hpp"
+#include "internal/dynamics/surroundings.hpp"
+#include "internal/kernel/body_state.hpp"
+#include "internal/kernel/noise.hpp"
+#include "samara/base/linear_algebra.hpp"
+
+namespace samara {
+
+/// How the body moves from one step to the next: K (omega, v) = (l, p), the momenta of body and fluid.
+///
+/// l' = l x omega + p x v + tau, p' = p x omega + f (the paper's eq. 2 with its labels put right), weight
+/// less buoyancy, and the loads, in one implicit solve that splits nothing: docs/theory, "The step". In still
+/// fluid without gravity the energy u K u / 2 never grows, whatever the step; without loads it is kept to
+/// rounding. Second order in the step. Never throws or allocates. Returns the state a time `time_step` (s)
+/// later; the seen fluid is held.
+BodyState implicit_step(const ImmersedBody& body, const Vector3d& gravity, double time_step,
+                        const BodyState& state) noexcept;
+
+/// The same while the seen fluid's velocity goes evenly from the state's to that of `seen_fluid`, which is
+/// the result's; its rotation is that of `seen_fluid` throughout. The body feels the stream's acceleration as
+/// it feels a gust's.
+BodyState implicit_step(const ImmersedBody& body, const Vector3d& gravity, double time_step,
+                        const BodyState& state, const SeenFluid& seen_fluid) noexcept;
+
+/// One step of the scene: the Langevin update over the time step, then implicit steps over equal parts of it,
+/// so short that the body turns by at most 0.3 rad in each, or as the limit on their number allows. `step` is
+/// the number of the step in the body's flight, which began at `start` (s, of the world). A body at rest on
+/// the ground takes no implicit step where nothing that acts on it changes.
+struct StepResult {
+    BodyState state;
+    int substeps = 1;
+};
+StepResult advance(const ImmersedBody& body, const Surroundings& surroundings, double start, double time_step,
+                   const BodyState& state, const Noise& noise, std::uint64_t step) noexcept;
+
+/// u K u / 2 (J): the kinetic energy of body and fluid.
+double kinetic_energy(const ImmersedBody& body, const BodyState& state) noexcept;
+
+}  // namespace samara

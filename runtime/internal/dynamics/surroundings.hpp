@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+
+#include "samara/base/linear_algebra.hpp"
+#include "samara/physics/fluid.hpp"
+
+namespace samara {
+
+/// What surrounds the bodies. They move in the frame of the undisturbed flow (current and gust), which
+/// coincides with the world's at time 0: there a current is no fluid motion at all, and a gust is a swinging
+/// gravity.
+struct Surroundings {
+    Vector3d gravity = Vector3d(0.0, 0.0, -9.81);  ///< m/s^2, world axes
+    Vector3d current = Vector3d::Zero();           ///< m/s, world axes
+    Gust gust = {};
+    std::optional<double> ground = {};  ///< m: the height (world z) of level ground
+};
+
+/// The undisturbed flow's velocity (m/s) at a time (s).
+Vector3d flow_velocity(const Surroundings& surroundings, double time) noexcept;
+
+/// How far the undisturbed flow has come since time 0 (m).
+Vector3d flow_displacement(const Surroundings& surroundings, double time) noexcept;
+
+/// Gravity less the flow's mean acceleration between two times (m/s^2): what body and fluid both feel in the
+/// flow's frame, so that the buoyancy is that of a swinging fluid.
+Vector3d apparent_gravity(const Surroundings& surroundings, double begin, double end) noexcept;
+
+}  // namespace samara

@@ -1,0 +1,29 @@
+#include "internal/export/shape_pose.hpp"
+
+#include <fmt/format.h>
+
+namespace samara {
+
+std::vector<ShapePose> shape_poses(const Motion& motion, const BodyMotion& body, int run, int copy) {
+    std::vector<ShapePose> poses;
+    poses.reserve(motion.times.size());
+    for (int frame = 0; frame < motion.frames(); ++frame) {
+        const Pose& pose = motion.pose(body, run, frame, copy);
+        ShapePose shape;
+        shape.position = shape_origin(pose, body.center_of_mass);
+        shape.orientation = pose.orientation.normalized();
+        if (!poses.empty() && poses.back().orientation.dot(shape.orientation) < 0.0) {
+            shape.orientation.coeffs() = -shape.orientation.coeffs();
+        }
+        shape.angular_velocity = pose.angular_velocity;
+        shape.velocity = pose.velocity + pose.angular_velocity.cross(shape.position - pose.position);
+        poses.push_back(shape);
+    }
+    return poses;
+}
+
+std::string copy_name(const BodyMotion& body, int copy) {
+    return copy == 0 ? body.name : fmt::format("{}.{:03d}", body.name, copy);
+}
+
+}  // namespace samara

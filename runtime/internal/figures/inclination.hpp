@@ -1,0 +1,48 @@
+#pragma once
+
+#include <vector>
+
+#include "internal/figures/figure_catalogue.hpp"
+#include "samara/body/body.hpp"
+
+namespace samara {
+
+/// The unit vector that counts as down: gravity's direction, or -z of the world where there is no gravity.
+Vector3d down_direction(const Vector3d& gravity);
+
+/// The angle (rad, 0 to pi/2) between the body's shortest principal axis and gravity: 0 for a disc that lies
+/// flat, pi/2 for one that falls edgewise. Which end of the axis points down does not matter. Without gravity
+/// it is measured from the world's vertical.
+double inclination(const Motion& motion, const BodyMotion& body, const Pose& pose);
+
+/// Whether the surface's body has a shortest axis: false for a sphere or a cube, whose surface spreads alike
+/// in all directions, to 1 % of its extent. Then the inclination is that of an axis chosen by chance.
+bool has_shortest_axis(const Surface& surface);
+
+/// Whether figures of a subject tell something of a body.
+bool tells(FigureSubject subject, const Body& body);
+
+/// The inclination (rad) at every frame of one copy in one run.
+std::vector<double> inclination_series(const Motion& motion, const BodyMotion& body, int run, int copy);
+
+/// The value below which `percent` (0 to 100) of the values lie, linear between the order statistics; values
+/// must not be empty.
+double percentile(std::vector<double> values, double percent);
+
+/// The same of values that ascend.
+double percentile_of_sorted(const std::vector<double>& values, double percent);
+
+/// How deep a minimum of the inclination must be to count (rad), in a series of these inclinations: a tenth
+/// of the range from the 5th to the 95th percentile, and at least one degree.
+double required_prominence(const std::vector<double>& inclinations);
+
+/// The times (s, ascending) of the minima of the inclination: one for each swing through the flat attitude.
+///
+/// A minimum counts where the inclination falls by `prominence` (rad) to it and rises by as much after it,
+/// within the series: ripples of noise and the series' ends do not count. It is placed between the frames at
+/// the vertex of the parabola through cos^2 of the inclination at the lowest frame and its two neighbours:
+/// cos^2 is smooth where the folded angle has a corner. Needs about six frames for each swing.
+std::vector<double> inclination_minima(const std::vector<double>& times,
+                                       const std::vector<double>& inclinations, double prominence);
+
+}  // namespace samara

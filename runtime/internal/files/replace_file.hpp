@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <iosfwd>
+#include <string_view>
+
+namespace samara {
+
+/// Writes a file so that a reader never sees it half-written: `write` fills an empty temporary file on the
+/// same disk, which is then synced to the disk and put in the place of `target`. If `write` throws, `target`
+/// stays as it was, and the exception passes on. The temporary file has no name in the folder, where the file
+/// system can do without, so that nothing is left of it when the program is killed. Throws Error where the
+/// folder cannot be written or the disk is full.
+void replace_file(const std::filesystem::path& target,
+                  const std::function<void(const std::filesystem::path& temporary)>& write);
+
+/// The same for libraries that need a file's name: the temporary file has one in the folder, and the next
+/// call for a file there removes those that killed programs left.
+void replace_file_by_name(const std::filesystem::path& target,
+                          const std::function<void(const std::filesystem::path& temporary)>& write);
+
+/// replace_file for a file that is written from its beginning to its end: `write` fills a stream of bytes.
+void replace_file_by_stream(const std::filesystem::path& target,
+                            const std::function<void(std::ostream& stream)>& write);
+
+/// replace_file with the given bytes.
+void replace_file_with(const std::filesystem::path& target, std::string_view bytes);
+
+}  // namespace samara

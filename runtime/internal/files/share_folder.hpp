@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+
+namespace samara {
+
+/// Files that samara brings along.
+struct ShareFolder {
+    const char* name;      ///< below share/samara: "bodies"
+    const char* contents;  ///< in words, plural, for errors
+    const char* variable;  ///< of the environment: names another folder
+    const char* mark;      ///< what the folder must hold; empty: nothing in particular
+    const char* source;    ///< where it is in this source tree
+};
+
+/// Where such files are: in the folder that the environment's variable names, or ../share/samara/NAME beside
+/// the running program's folder, or in this source tree. Throws Error where the variable names no such
+/// folder, and where none of the others is one.
+std::filesystem::path find_share_folder(const ShareFolder& share);
+
+}  // namespace samara

@@ -1,0 +1,307 @@
+#include "internal/flight/flight_kind.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <mutex>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "internal/base/parallel_for.hpp"
+#include "internal/dynamics/loads.hpp"
+#include "internal/dynamics/prepared_bodies.hpp"
+#include "internal/flight/world_pose.hpp"
+
+namespace samara {
+namespace {
+
+/// The bodies' speeds and whether they are numbers are sampled after every so many steps of the grid,
+/// whatever times are asked for.
+constexpr std::uint64_t steps_between_samples = 32;
+
+/// The pose after steady motion over `duration` (s).
+Pose carried(const Pose& pose, double duration) {
+    Pose result = pose;
+    result.position += duration * pose.velocity;
+    const double angle = duration * pose.angular_velocity.norm();
+    if (angle > 0.0) {
+        result.orientation =
+            Quaterniond(Eigen::AngleAxisd(angle, pose.angular_velocity.normalized())) * pose.orientation;
+    }
+    return result;
+}
+
+bool is_finite(const BodyState& state) {
+    return state.position.allFinite() && state.velocity.allFinite() && state.orientation.coeffs().allFinite();
+}
+
+bool is_unit(const Quaterniond& orientation) {
+    return std::abs(orientation.norm() - 1.0) <= 1e-6;
+}
+
+bool is_sound(const BodyState& state) {
+    return is_finite(state) && is_unit(state.orientation) && state.seen_fluid.velocity.allFinite() &&
+           state.seen_fluid.angular_velocity.allFinite() && state.acceleration.allFinite();
+}
+
+bool is_sound(const Pose& pose) {
+    return pose.position.allFinite() && is_unit(pose.orientation) && pose.velocity.allFinite() &&
+           pose.angular_velocity.allFinite();
+}
+
+/// Appends a member's value so that it can be told from any other.
+struct ExactText {
+    std::string& text;
+
+    template <typename Value>
+    void operator()(const char* /*key*/, const Value& value) const {
+        if constexpr (std::is_enum_v<Value>) {
+            append(static_cast<int>(value));
+        } else if constexpr (std::is_arithmetic_v<Value>) {
+            append(value);
+        } else if constexpr (requires { value.has_value(); }) {
+            append(value.has_value());
+            if (value) (*this)("", *value);
+        } else {
+            for (const double number : value.reshaped()) append(number);
+        }
+    }
+    template <typename Number>
+    void append(const Number& number) const {
+        fmt::format_to(std::back_inserter(text), " {}", number);
+    }
+};
+
+template <typename AnyReport, typename Visit>
+void visit_report(AnyReport& report, const Visit& visit) {
+    visit(report.steps);
+    visit(report.implicit_steps);
+    visit(report.most_substeps);
+    visit(report.steps_at_limit);
+    visit(report.highest_reynolds_number);
+    visit(report.moving);
+    visit(report.below_table);
+}
+constexpr std::size_t report_bytes = 5 * sizeof(std::uint64_t) + sizeof(int) + sizeof(double);
+
+}  // namespace
+
+Surroundings surroundings_of(const FlightSettings& settings) {
+    return {.gravity = settings.gravity,
+            .current = settings.fluid.current,
+            .gust = settings.fluid.gust,
+            .ground = settings.ground};
+}
+
+FlightSettings flight_settings(const Scene& scene, int runs, int threads) {
+    return {.fluid = scene.fluid,
+            .gravity = scene.gravity,
+            .ground = scene.ground,
+            .step = scene.step,
+            .seed = scene.seed,
+            .runs = runs,
+            .threads = threads};
+}
+
+Surroundings surroundings_of(const Scene& scene) {
+    return surroundings_of(flight_settings(scene, 1, 1));
+}
+
+FlightKind::FlightKind(const FlightSettings& settings, const LoadedBody& body, const BodyPhysics& physics,
+                       const Release& release, std::string name, std::size_t first)
+    : name_(std::move(name)),
+      first_(first),
+      surroundings_(surroundings_of(settings)),
+      release_(release),
+      physics_(physics),
+      hash_(body.hash),
+      step_(settings.step),
+      threads_(settings.threads),
+      body_(body.prepared->get(*body.body, physics, settings.fluid, name_)),
+      batch_(*body_, static_cast<std::size_t>(settings.runs) * static_cast<std::size_t>(release.count)),
+      before_(batch_.size()),
+      before_time_(batch_.size(), 0.0) {
+    if (release.start / step_ > most_steps_off) {
+        throw FlightError(FlightError::Kind::invalid_argument,
+                          fmt::format("start {} s is more than {:.0e} steps off; is a unit wrong?",
+                                      release.start, most_steps_off));
+    }
+    set_seed(settings.seed, settings.first_run);
+    const auto copies = static_cast<std::size_t>(release.count);
+    for (std::size_t i = 0; i < batch_.size(); ++i) {
+        const BodyState state = initial_state(release, body_->center_of_mass, surroundings_,
+                                              noise_of(settings.seed, settings.first_run, i));
+        if (!is_sound(state)) {
+            throw FlightError(FlightError::Kind::invalid_argument,
+                              fmt::format("body {} of '{}' starts beyond the range of numbers", i, name_));
+        }
+        require_above_ground(*body_, name_, surroundings_, release.start, state, i % copies, copies);
+        batch_.set_state(i, state);
+        before_[i] = flow_pose(state);
+    }
+}
+
+Noise FlightKind::noise_of(std::uint64_t seed, std::uint32_t first_run, std::size_t index) const {
+    const auto copies = static_cast<std::size_t>(release_.count);
+    return {seed, name_, first_run + static_cast<std::uint32_t>(index / copies),
+            static_cast<std::uint32_t>(index % copies)};
+}
+
+void FlightKind::set_seed(std::uint64_t seed, std::uint32_t first_run) {
+    for (std::size_t i = 0; i < batch_.size(); ++i) batch_.set_noise(i, noise_of(seed, first_run, i));
+}
+
+std::uint64_t FlightKind::steps_until(double time) const {
+    const double reached = (time - release_.start) * (1.0 - 1e-12);
+    auto steps = static_cast<std::uint64_t>(std::max(0.0, std::floor(reached / step_)));
+    while (time_of(steps) < reached) ++steps;
+    return steps;
+}
+
+void FlightKind::advance_to(double time) {
+    const std::uint64_t needed = steps_until(time);
+    if (needed <= steps_) return;
+    step_to(needed - 1);
+    parallel_for(batch_.size(), poses_a_piece, threads_, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            before_[i] = flow_pose(batch_.state(i));
+            before_time_[i] = time_of(steps_);
+        }
+    });
+    step_to(needed);
+    require_finite();
+}
+
+void FlightKind::step_to(std::uint64_t steps) {
+    while (steps_ < steps) {
+        const std::uint64_t next_sample = (steps_ / steps_between_samples + 1) * steps_between_samples;
+        const std::uint64_t end = std::min(steps, next_sample);
+        const BatchReport done =
+            batch_.advance(surroundings_, release_.start, step_, steps_, end - steps_, threads_);
+        report_.add({.steps = (end - steps_) * batch_.size(),
+                     .implicit_steps = done.implicit_steps,
+                     .most_substeps = done.most_substeps,
+                     .steps_at_limit = done.steps_at_limit});
+        steps_ = end;
+        if (end == next_sample) {
+            require_finite();
+            report_.add(sampled());
+        }
+    }
+}
+
+void FlightKind::require_finite() const {
+    for (std::size_t i = 0; i < batch_.size(); ++i) {
+        if (is_finite(batch_.state(i))) continue;
+        throw FlightError(
+            FlightError::Kind::out_of_range,
+            fmt::format("body {} ('{}') left the range of numbers by {:.6g} s; use a smaller step",
+                        first_ + i, name_, release_.start + time_of(steps_)));
+    }
+}
+
+FlightReport FlightKind::sampled() const {
+    const double lowest = body_->tables ? 0.5 * body_->tables->reynolds_numbers.front() : 0.0;
+    FlightReport all;
+    std::mutex mutex;
+    parallel_for(batch_.size(), poses_a_piece, threads_, [&](std::size_t begin, std::size_t end) {
+        FlightReport piece;
+        for (std::size_t i = begin; i < end; ++i) {
+            const Vector3d velocity = batch_.state(i).velocity.tail<3>();
+            const double reynolds = reynolds_number(*body_, velocity.norm());
+            piece.highest_reynolds_number = std::max(piece.highest_reynolds_number, reynolds);
+            if (velocity.isZero(0.0)) continue;
+            ++piece.moving;
+            piece.below_table += reynolds < lowest ? 1 : 0;
+        }
+        const std::lock_guard lock(mutex);
+        all.add(piece);
+    });
+    return all;
+}
+
+FlightReport FlightKind::report() const {
+    FlightReport report = report_;
+    if (steps_ % steps_between_samples != 0) report.add(sampled());
+    return report;
+}
+
+Pose FlightKind::pose_in_flow(std::size_t index, double time) const {
+    const Pose after = flow_pose(batch_.state(index));
+    if (steps_ == 0) return after;
+    const double begin = before_time_[index];
+    const double duration = begin == time_of(steps_ - 1) ? step_ : time_of(steps_) - begin;
+    if (!(duration > 0.0)) return after;
+    return pose_between(before_[index], after, begin, duration, time - release_.start);
+}
+
+Pose FlightKind::pose(std::size_t index, double time) const {
+    if (time - release_.start < 0.0)
+        return held(flow_pose(batch_.state(index)), surroundings_, release_.start);
+    return in_world(pose_in_flow(index, time), surroundings_, time);
+}
+
+void FlightKind::set_pose(std::size_t index, const Pose& pose, double time) {
+    const double end = time_of(steps_);
+    const double begin = std::clamp(time - release_.start, 0.0, end);
+    const Pose in_flow_now = in_flow(pose, surroundings_, release_.start + begin);
+    BodyState state = state_of(carried(in_flow_now, end - begin));
+    state.seen_fluid = batch_.state(index).seen_fluid;
+    before_[index] = in_flow_now;
+    before_time_[index] = begin;
+    batch_.set_state(index, state);
+}
+
+std::string FlightKind::description() const {
+    std::string text = fmt::format("{} {} {} {} inertia {} models", name_, release_.count, release_.start,
+                                   hash_, fmt::join(body_->inertia.reshaped(), " "));
+    visit_members(physics_, ExactText{text});
+    return text + '\n';
+}
+
+std::size_t FlightKind::state_size() const {
+    return sizeof(steps_) + report_bytes + batch_.size() * (body_state_bytes + pose_bytes + sizeof(double));
+}
+
+void FlightKind::write(StateWriter& writer) const {
+    writer.write(steps_);
+    visit_report(report_, [&](auto number) { writer.write(number); });
+    for (std::size_t i = 0; i < batch_.size(); ++i) {
+        writer.write(batch_.state(i));
+        writer.write(before_[i]);
+        writer.write(before_time_[i]);
+    }
+}
+
+bool FlightKind::read(StateReader& reader, double time, bool keep) {
+    std::uint64_t steps = 0;
+    FlightReport report;
+    reader.read(steps);
+    visit_report(report, [&](auto& number) { reader.read(number); });
+    // Other steps would be caught up with in the next call, which may take for ever.
+    bool sound = steps == steps_until(time);
+    for (std::size_t i = 0; i < batch_.size(); ++i) {
+        BodyState state;
+        Pose before;
+        double before_time = 0.0;
+        reader.read(state);
+        reader.read(before);
+        reader.read(before_time);
+        sound = sound && is_sound(state) && is_sound(before) && std::isfinite(before_time);
+        if (!keep) continue;
+        batch_.set_state(i, state);
+        before_[i] = before;
+        before_time_[i] = before_time;
+    }
+    if (keep) {
+        steps_ = steps;
+        report_ = report;
+    }
+    return sound;
+}
+
+}  // namespace samara

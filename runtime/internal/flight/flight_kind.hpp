@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "internal/dynamics/batch.hpp"
+#include "internal/dynamics/immersed_body.hpp"
+#include "internal/dynamics/surroundings.hpp"
+#include "internal/flight/state_bytes.hpp"
+#include "internal/kernel/noise.hpp"
+#include "samara/flight/flight.hpp"
+#include "samara/scene/scene.hpp"
+
+namespace samara {
+
+/// A time that is more steps off than this is taken for a wrong unit.
+inline constexpr double most_steps_off = 1e10;
+/// How many poses a thread takes at a time.
+inline constexpr std::size_t poses_a_piece = 256;
+
+/// What surrounds the bodies of a flight.
+Surroundings surroundings_of(const FlightSettings& settings);
+/// What surrounds the bodies of a scene.
+Surroundings surroundings_of(const Scene& scene);
+/// How a scene is flown.
+FlightSettings flight_settings(const Scene& scene, int runs, int threads);
+
+/// The bodies of one kind in all runs, on their own grid of steps, which begins at their start. Bodies are
+/// numbered run by run, copy by copy; times are the world's (s).
+class FlightKind {
+  public:
+    /// Throws what Flight::add throws of the body and its release.
+    FlightKind(const FlightSettings& settings, const LoadedBody& body, const BodyPhysics& physics,
+               const Release& release, std::string name, std::size_t first);
+
+    [[nodiscard]] const std::string& name() const noexcept { return name_; }
+    [[nodiscard]] std::size_t first() const noexcept { return first_; }
+    [[nodiscard]] std::size_t size() const noexcept { return batch_.size(); }
+    [[nodiscard]] double start() const noexcept { return release_.start; }
+    [[nodiscard]] const ImmersedBody& body() const noexcept { return *body_; }
+    [[nodiscard]] FlightReport report() const;
+    /// Taken so far, over all bodies.
+    [[nodiscard]] std::uint64_t steps() const noexcept { return report_.steps; }
+
+    /// Steps on until the last step lies at the time or after it, the one before before it. Throws
+    /// FlightError where a body's motion leaves the range of numbers.
+    void advance_to(double time);
+    /// How many steps reach a time, to rounding.
+    [[nodiscard]] std::uint64_t steps_until(double time) const;
+
+    /// In the world, at a time between the last two steps; before the start, held in place.
+    [[nodiscard]] Pose pose(std::size_t index, double time) const;
+    /// The same in the flow's frame, and not held.
+    [[nodiscard]] Pose pose_in_flow(std::size_t index, double time) const;
+    void set_pose(std::size_t index, const Pose& pose, double time);
+    void set_seed(std::uint64_t seed, std::uint32_t first_run);
+
+    /// All that shapes the motion, exactly: states fit equal descriptions.
+    [[nodiscard]] std::string description() const;
+    [[nodiscard]] std::size_t state_size() const;
+    void write(StateWriter& writer) const;
+    /// Reads what was written, of a flight that is at `time`, and keeps it or not. Returns whether its
+    /// numbers are those of a flight.
+    bool read(StateReader& reader, double time, bool keep);
+
+  private:
+    [[nodiscard]] Noise noise_of(std::uint64_t seed, std::uint32_t first_run, std::size_t index) const;
+    [[nodiscard]] double time_of(std::uint64_t step) const { return static_cast<double>(step) * step_; }
+    void step_to(std::uint64_t steps);
+    void require_finite() const;
+    [[nodiscard]] FlightReport sampled() const;
+
+    std::string name_;
+    std::size_t first_;
+    Surroundings surroundings_;
+    Release release_;
+    BodyPhysics physics_;
+    std::string hash_;
+    double step_;
+    int threads_;
+    std::shared_ptr<const ImmersedBody> body_;
+    Batch batch_;
+    std::uint64_t steps_ = 0;
+    std::vector<Pose> before_;         ///< in the flow's frame: where the bodies were at before_time_
+    std::vector<double> before_time_;  ///< s, since the start
+    FlightReport report_;
+};
+
+}  // namespace samara

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "internal/dynamics/immersed_body.hpp"
+#include "internal/dynamics/surroundings.hpp"
+#include "samara/motion/motion.hpp"
+
+namespace samara {
+
+/// The flow that a body met at one frame: where its tables were read.
+struct FlowVisit {
+    Vector3d direction;  ///< unit vector, body axes: the centroid's velocity relative to the undisturbed flow
+    double reynolds_number;  ///< of that velocity
+    double pressure;         ///< rho |v|^2 / 2 (Pa)
+};
+
+/// The visit of one pose at one time (s); nothing where the body rests in the flow.
+std::optional<FlowVisit> flow_visit(const Pose& pose, double time, const ImmersedBody& immersed,
+                                    const Surroundings& surroundings);
+
+/// The visits of all runs and copies of a body of a motion with its poses, frame by frame, without those in
+/// which it rests in the world or in the flow: held until its start, or lying on the ground.
+std::vector<FlowVisit> flow_visits(const Motion& motion, std::size_t body, const ImmersedBody& immersed,
+                                   const Surroundings& surroundings);
+
+}  // namespace samara

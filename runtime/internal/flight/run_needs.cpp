@@ -1,0 +1,64 @@
+#include "internal/flight/run_needs.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "internal/base/machine_memory.hpp"
+#include "internal/kernel/flight_block.hpp"
+#include "samara/base/error.hpp"
+#include "samara/flight/table_errors_met.hpp"
+#include "samara/motion/pose.hpp"
+
+namespace samara {
+namespace {
+
+// Of a copy in a run while it flies (body_flight.hpp), and of its poses in a block while that is written.
+constexpr double bytes_of_a_flight =
+    static_cast<double>(sizeof(FlightBlock<double>)) / FlightBlock<double>::size + 2.0 * sizeof(Pose) +
+    sizeof(Quaterniond) + sizeof(TableErrorsMet);
+constexpr double bytes_in_file = 13.0 * sizeof(double);
+constexpr double bytes_of_a_written_pose = sizeof(Pose) + 4.0 * sizeof(double);
+constexpr double bytes_in_block = 64U << 20U;
+// Of a frame of the one copy that is measured at a time, and of its time.
+constexpr double bytes_of_a_measured_frame = 170.0;
+constexpr double bytes_of_all_else = 60e6;
+
+}  // namespace
+
+RunNeeds needs_of(const Scene& scene, int runs) {
+    const double frames = std::floor(scene.duration * scene.frame_rate) + 1.0;
+    double samples = 0.0;
+    for (const SceneBody& body : scene.bodies) samples += static_cast<double>(body.count) * runs;
+    const double block = std::min(frames * samples, std::max(samples, bytes_in_block / bytes_in_file));
+    const double flight =
+        samples * bytes_of_a_flight + block * bytes_of_a_written_pose + frames * 2.0 * sizeof(double);
+    const double measuring =
+        frames * bytes_of_a_measured_frame + std::min(frames * samples * sizeof(Pose), bytes_in_block);
+    RunNeeds needs;
+    needs.memory = std::max(flight, measuring) + bytes_of_all_else;
+    needs.disk = frames * samples * bytes_in_file + frames * sizeof(double);
+    needs.memory_for_copies = flight > measuring;
+    return needs;
+}
+
+std::string in_words(const RunNeeds& needs) {
+    return fmt::format("{:.3g} GB of memory and {:.3g} GB of disk", 1e-9 * needs.memory, 1e-9 * needs.disk);
+}
+
+void require_room(const RunNeeds& needs, const std::string& scene, const std::filesystem::path& output) {
+    require_memory(
+        needs.memory, scene + ": its flight",
+        needs.memory_for_copies ? "lower the count or --runs" : "lower the duration or frame_rate");
+    std::error_code unknown;
+    const std::filesystem::path folder = output.has_parent_path() ? output.parent_path() : ".";
+    const auto space = std::filesystem::space(folder, unknown);
+    if (unknown || needs.disk <= static_cast<double>(space.available)) return;
+    throw Error(
+        fmt::format("{}: there is no room for its {:.3g} GB: {:.3g} GB are free; lower the duration, "
+                    "frame_rate, count or runs, or write elsewhere",
+                    output.string(), 1e-9 * needs.disk, 1e-9 * static_cast<double>(space.available)));
+}
+
+}  // namespace samara

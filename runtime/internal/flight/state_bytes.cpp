@@ -1,0 +1,106 @@
+#include "internal/flight/state_bytes.hpp"
+
+#include <fmt/format.h>
+
+#include "internal/base/content_hash.hpp"
+#include "samara/flight/flight.hpp"
+
+namespace samara {
+namespace {
+
+constexpr std::string_view mark = "samara state\n\x1a";
+constexpr std::uint32_t state_version = 4;
+constexpr std::uint32_t byte_order = 0x01020304;
+constexpr std::size_t hash_size = 32;  // of content_hash
+
+// A member more would be lost: write it, and raise state_version.
+static_assert(sizeof(BodyState) == 224 && sizeof(SeenFluid) == 48);
+
+[[noreturn]] void refuse(const std::string& why) {
+    throw FlightError(FlightError::Kind::foreign_state, why);
+}
+
+/// Calls visit(coefficient) for each number.
+template <typename State, typename Visit>
+void visit_state(State& state, const Visit& visit) {
+    for (auto& number : state.position) visit(number);
+    for (auto& number : state.orientation.coeffs()) visit(number);
+    for (auto& number : state.velocity) visit(number);
+    for (auto& number : state.seen_fluid.velocity) visit(number);
+    for (auto& number : state.seen_fluid.angular_velocity) visit(number);
+    for (auto& number : state.acceleration) visit(number);
+}
+
+template <typename AnyPose, typename Visit>
+void visit_pose(AnyPose& pose, const Visit& visit) {
+    for (auto& number : pose.position) visit(number);
+    for (auto& number : pose.orientation.coeffs()) visit(number);
+    for (auto& number : pose.velocity) visit(number);
+    for (auto& number : pose.angular_velocity) visit(number);
+}
+
+}  // namespace
+
+void StateWriter::write(const BodyState& state) {
+    visit_state(state, [&](double number) { write(number); });
+    write(static_cast<std::uint8_t>(state.at_rest));
+}
+
+void StateWriter::write(const Pose& pose) {
+    visit_pose(pose, [&](double number) { write(number); });
+}
+
+void StateReader::read(BodyState& state) {
+    visit_state(state, [&](double& number) { read(number); });
+    std::uint8_t at_rest = 0;
+    read(at_rest);
+    state.at_rest = at_rest != 0;
+}
+
+void StateReader::read(Pose& pose) {
+    visit_pose(pose, [&](double& number) { read(number); });
+}
+
+std::size_t seal_size() {
+    return mark.size() + 2 * sizeof(std::uint32_t) + sizeof(std::uint64_t) + 2 * hash_size;
+}
+
+std::string sealed_state(std::string_view payload, std::string_view fingerprint) {
+    StateWriter numbers;
+    numbers.write(state_version);
+    numbers.write(byte_order);
+    numbers.write(static_cast<std::uint64_t>(payload.size()));
+    std::string bytes;
+    bytes.reserve(payload.size() + seal_size());
+    bytes.append(mark).append(numbers.bytes()).append(content_hash(fingerprint)).append(payload);
+    return bytes.append(content_hash(bytes));
+}
+
+std::string_view opened_state(std::string_view bytes, std::string_view fingerprint,
+                              std::size_t payload_size) {
+    if (bytes.substr(0, mark.size()) != mark) refuse("the bytes are no state of a simulation");
+    if (bytes.size() < seal_size()) refuse("the state is cut short");
+    StateReader numbers(bytes.substr(mark.size()));
+    std::uint32_t version = 0;
+    std::uint32_t order = 0;
+    std::uint64_t size = 0;
+    numbers.read(version);
+    numbers.read(order);
+    numbers.read(size);
+    if (order != byte_order) refuse("the state is from a machine with another byte order");
+    if (version != state_version) {
+        refuse(fmt::format("the state has version {}, this library reads {}", version, state_version));
+    }
+    if (bytes.size() - seal_size() != size) {
+        refuse(fmt::format("the state has {} bytes, but {} are there", size + seal_size(), bytes.size()));
+    }
+    const std::string_view whole = bytes.substr(0, bytes.size() - hash_size);
+    if (content_hash(whole) != bytes.substr(whole.size())) refuse("the state is damaged");
+    const std::size_t head = seal_size() - 2 * hash_size;
+    if (size != payload_size || content_hash(fingerprint) != bytes.substr(head, hash_size)) {
+        refuse("the state is of a simulation with other settings, kinds or bodies");
+    }
+    return whole.substr(head + hash_size);
+}
+
+}  // namespace samara

@@ -1,0 +1,91 @@
+#include "internal/flight/world_pose.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "samara/base/error.hpp"
+
+namespace samara {
+
+Pose flow_pose(const BodyState& state) {
+    return {.position = state.position,
+            .orientation = state.orientation,
+            .velocity = state.orientation * state.velocity.tail<3>(),
+            .angular_velocity = state.orientation * state.velocity.head<3>()};
+}
+
+Pose in_world(const Pose& in_flow, const Surroundings& surroundings, double time) {
+    Pose pose = in_flow;
+    pose.position += flow_displacement(surroundings, time);
+    pose.velocity += flow_velocity(surroundings, time);
+    return pose;
+}
+
+Pose in_flow(const Pose& in_world, const Surroundings& surroundings, double time) {
+    Pose pose = in_world;
+    pose.position -= flow_displacement(surroundings, time);
+    pose.velocity -= flow_velocity(surroundings, time);
+    return pose;
+}
+
+BodyState state_of(const Pose& in_flow) {
+    BodyState state;
+    state.position = in_flow.position;
+    state.orientation = in_flow.orientation;
+    const Quaterniond to_body = in_flow.orientation.conjugate();
+    state.velocity << to_body * in_flow.angular_velocity, to_body * in_flow.velocity;
+    return state;
+}
+
+Pose held(const Pose& in_flow, const Surroundings& surroundings, double start) {
+    Pose pose = in_world(in_flow, surroundings, start);
+    pose.velocity.setZero();
+    pose.angular_velocity.setZero();
+    return pose;
+}
+
+Pose pose_between(const Pose& before, const Pose& after, double begin, double duration, double time) {
+    return interpolated(before, after, std::clamp((time - begin) / duration, 0.0, 1.0), duration);
+}
+
+Vector3d centroid_velocity(const Pose& in_flow, const ImmersedBody& body) noexcept {
+    const Quaterniond to_body = in_flow.orientation.conjugate();
+    return to_body * in_flow.velocity + (to_body * in_flow.angular_velocity).cross(body.center_of_buoyancy);
+}
+
+BodyState initial_state(const Release& release, const Vector3d& center_of_mass,
+                        const Surroundings& surroundings, const Noise& noise) {
+    Pose pose{.position = release.position,
+              .orientation = release.orientation,
+              .velocity = release.velocity,
+              .angular_velocity = release.angular_velocity};
+    if (release.count > 1) {
+        const auto place = noise.uniforms(0, NoiseStream::start_position);
+        for (int axis = 0; axis < 3; ++axis) {
+            pose.position[axis] +=
+                (2.0 * place[static_cast<std::size_t>(axis)] - 1.0) * release.spread_position[axis];
+        }
+        const auto axis = noise.normals(0, NoiseStream::start_angle);
+        const double angle = release.spread_angle * place[3];
+        const Vector3d about(axis[0], axis[1], axis[2]);
+        pose.orientation = Quaterniond(Eigen::AngleAxisd(angle, about.normalized())) * pose.orientation;
+    }
+    pose.position += pose.orientation * center_of_mass;
+    return state_of(in_flow(pose, surroundings, release.start));
+}
+
+void require_above_ground(const ImmersedBody& body, const std::string& name, const Surroundings& surroundings,
+                          double start, const BodyState& state, std::size_t copy, std::size_t copies) {
+    if (!surroundings.ground) return;
+    const Vector3d down = state.orientation.conjugate() * -Vector3d::UnitZ();
+    const double height = state.position.z() + flow_displacement(surroundings, start).z();
+    const double depth = *surroundings.ground - height + reach(body.contact_points, down);
+    if (depth <= 1e-6 * body.contact_points.bounding_radius) return;
+    throw Error(
+        fmt::format("body '{}'{} starts {:.4g} m below the ground at {:g} m; start it higher, or "
+                    "lower the ground",
+                    name, copies > 1 ? fmt::format(", copy {},", copy) : "", depth, *surroundings.ground));
+}
+
+}  // namespace samara

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstddef>
+
+#include "internal/dynamics/immersed_body.hpp"
+#include "internal/dynamics/surroundings.hpp"
+#include "internal/kernel/body_state.hpp"
+#include "internal/kernel/noise.hpp"
+#include "samara/motion/pose.hpp"
+#include "samara/physics/release.hpp"
+
+namespace samara {
+
+/// The pose of a state, in the flow's frame as the state itself. Poses between two steps are interpolated
+/// there, where a body that the flow carries along stands still.
+Pose flow_pose(const BodyState& state);
+
+/// A pose of the flow's frame in the world's, at a time (s).
+Pose in_world(const Pose& in_flow, const Surroundings& surroundings, double time);
+
+/// The reverse of in_world.
+Pose in_flow(const Pose& in_world, const Surroundings& surroundings, double time);
+
+/// The state of a pose in the flow's frame. The seen fluid is at rest.
+BodyState state_of(const Pose& in_flow);
+
+/// The pose in the world of a body that is held at one of the flow's frame until its start (s).
+Pose held(const Pose& in_flow, const Surroundings& surroundings, double start);
+
+/// interpolated() between a pose at the time `begin` and one `duration` (s) later; before and after them,
+/// theirs.
+Pose pose_between(const Pose& before, const Pose& after, double begin, double duration, double time);
+
+/// The velocity (m/s, body axes) of the body's centroid at a pose of the flow's frame: relative to the
+/// undisturbed flow.
+Vector3d centroid_velocity(const Pose& in_flow, const ImmersedBody& body) noexcept;
+
+/// How one copy starts at release.start: as that says or, where there are several, drawn around it from
+/// `noise`. `center_of_mass`: m, shape axes.
+BodyState initial_state(const Release& release, const Vector3d& center_of_mass,
+                        const Surroundings& surroundings, const Noise& noise);
+
+/// Throws Error, which calls the body by `name` and says how deep, where the lowest point of copy number
+/// `copy` (of `copies`) starts below the ground of the surroundings. `start`: s.
+void require_above_ground(const ImmersedBody& body, const std::string& name, const Surroundings& surroundings,
+                          double start, const BodyState& state, std::size_t copy, std::size_t copies);
+
+}  // namespace samara

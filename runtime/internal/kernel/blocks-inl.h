@@ -1,0 +1,249 @@
+// Blocks of bodies over many steps.
+// Included once for each instruction set (Highway), hence no plain include guard.
+#if defined(SAMARA_BLOCKS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef SAMARA_BLOCKS_INL_H
+#undef SAMARA_BLOCKS_INL_H
+#else
+#define SAMARA_BLOCKS_INL_H
+#endif
+
+#include <algorithm>
+
+#include "internal/kernel/kernel.hpp"
+#include "internal/kernel/langevin-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace samara::HWY_NAMESPACE {
+
+template <class Tag>
+using BlockOf = FlightBlock<hn::TFromD<Tag>>;
+
+/// The lanes [first, first + N) of a block.
+template <class Tag>
+HWY_INLINE Flight<Lanes<Tag>> load_flight(Tag tag, const BlockOf<Tag>& block, std::size_t first) {
+    const auto field = [&](std::size_t i)
+                           HWY_ATTR { return Lanes<Tag>(hn::Load(tag, block.numbers[i] + first)); };
+    const auto triple = [&](std::size_t i) HWY_ATTR {
+        return Triple<Lanes<Tag>>{field(i), field(i + 1), field(i + 2)};
+    };
+    return {triple(0), {field(3), triple(4)}, triple(7), triple(10), triple(13), triple(16), triple(19),
+            triple(22)};
+}
+template <class Tag>
+HWY_INLINE void store_flight(Tag tag, const Flight<Lanes<Tag>>& flight, BlockOf<Tag>& block,
+                             std::size_t first) {
+    const auto keep = [&](std::size_t i, Lanes<Tag> value)
+                          HWY_ATTR { hn::Store(value.raw, tag, block.numbers[i] + first); };
+    const auto keep_triple = [&](std::size_t i, const Triple<Lanes<Tag>>& value) HWY_ATTR {
+        keep(i, value.x);
+        keep(i + 1, value.y);
+        keep(i + 2, value.z);
+    };
+    keep_triple(0, flight.position);
+    keep(3, flight.orientation.w);
+    keep_triple(4, flight.orientation.v);
+    keep_triple(7, flight.angular_velocity);
+    keep_triple(10, flight.velocity);
+    keep_triple(13, flight.seen_velocity);
+    keep_triple(16, flight.seen_rotation);
+    keep_triple(19, flight.angular_acceleration);
+    keep_triple(22, flight.acceleration);
+}
+
+template <class Tag>
+HWY_INLINE Flight<Lanes<Tag>> select_flight(hn::Mask<Tag> condition, const Flight<Lanes<Tag>>& a,
+                                            const Flight<Lanes<Tag>>& b) {
+    return {select(condition, a.position, b.position),
+            {select(condition, a.orientation.w, b.orientation.w),
+             select(condition, a.orientation.v, b.orientation.v)},
+            select(condition, a.angular_velocity, b.angular_velocity),
+            select(condition, a.velocity, b.velocity),
+            a.seen_velocity,
+            a.seen_rotation,
+            select(condition, a.angular_acceleration, b.angular_acceleration),
+            select(condition, a.acceleration, b.acceleration)};
+}
+
+/// The numbers that Noise::normals would give each lane.
+template <class Tag>
+HWY_INLINE SixNormals<Lanes<Tag>> normals_of(Tag tag, const BlockOf<Tag>& block, std::size_t first,
+                                             std::uint64_t step) {
+    const hn::Rebind<std::uint32_t, Tag> words;
+    const auto low = hn::Set(words, static_cast<std::uint32_t>(step));
+    const auto high = [&](NoiseStream stream) HWY_ATTR {
+        return hn::Set(words,
+                       static_cast<std::uint32_t>(step >> 32U) | (static_cast<std::uint32_t>(stream) << 16U));
+    };
+    const auto key0 = hn::Load(words, block.noise[0] + first);
+    const auto key1 = hn::Load(words, block.noise[1] + first);
+    const auto copy = hn::Load(words, block.noise[2] + first);
+    const auto run = hn::Load(words, block.noise[3] + first);
+    const auto a = philox(words, {low, high(NoiseStream::seen_fluid), copy, run}, key0, key1);
+    const auto b = philox(words, {low, high(NoiseStream::seen_rotation), copy, run}, key0, key1);
+    return six_normals<Lanes<Tag>>({unit_interval(tag, a[0]), unit_interval(tag, a[1]),
+                                    unit_interval(tag, a[2]), unit_interval(tag, a[3])},
+                                   unit_interval(tag, b[0]), unit_interval(tag, b[1]));
+}
+
+/// The bodies that may touch the ground by the end of the next substep: no fewer than touch_ground() would
+/// find.
+template <class Tag>
+HWY_INLINE hn::Mask<Tag> near_ground(const kernel::Contact& contact, const Flight<Lanes<Tag>>& flight,
+                                     Lanes<Tag> substep) {
+    using V = Lanes<Tag>;
+    const V turning = root(dot(flight.angular_velocity, flight.angular_velocity));
+    const V speed = root(dot(flight.velocity, flight.velocity));
+    const V margin = V(2.001) * substep * (speed + V(contact.ground_speed) + V(contact.radius) * turning);
+    return flight.position.z - V(contact.reach) < margin + V(1e-5 * contact.radius);
+}
+
+/// Lets the bodies of the lanes touch the ground. `before`: the block before the substep.
+template <class Real>
+void meet_ground(const kernel::Contact& contact, const FlightBlock<Real>& before, FlightBlock<Real>& block,
+                 std::size_t first, std::size_t lanes, int substep, const Real* substeps, double time,
+                 double h) {
+    for (std::size_t lane = first; lane < std::min<std::size_t>(first + lanes, block.bodies); ++lane) {
+        const double parts = static_cast<double>(substeps[lane - first]);
+        if (substep >= parts) continue;
+        BodyState state = state_of(block, lane);
+        contact.resolve(contact.context, time + (substep + 1) * (h / parts), h / parts,
+                        state_of(before, lane), state);
+        keep_state(state, block, lane);
+    }
+}
+
+/// The Langevin update of one step. `draw` gives its random numbers.
+template <class V, class Real, class Draw>
+HWY_INLINE void meet_turbulence(const FlightConstants<Real>& c, V h, const Draw& draw, Flight<V>& flight) {
+    if (c.turbulence == Turbulence::none) {
+        const V zero(0.0);
+        flight.seen_velocity = {zero, zero, zero};
+        flight.seen_rotation = {zero, zero, zero};
+        return;
+    }
+    const Level<V> level = turbulence_level(c, centroid_velocity(c, flight));
+    const SixNormals<V> normals = draw();
+    if (c.langevin == Langevin::seen_fluid) {
+        advance_seen_fluid(c, level, h, normals, flight);
+    } else {
+        advance_body_velocity(c, level, h, normals, flight);
+    }
+}
+
+/// Where bodies of the lanes [first, first + N) move: 1, and 0 in lanes without a body or with one that
+/// rests.
+template <class Real>
+struct MovingLanes {
+    MovingLanes(const kernel::Contact& contact, const FlightBlock<Real>& block, std::size_t first,
+                std::size_t lanes) {
+        for (std::size_t lane = 0; lane < lanes; ++lane) {
+            const bool used = first + lane < block.bodies;
+            const bool rests = used && contact.stay != nullptr && lies_in_stillness(block, first + lane);
+            moves[lane] = used && !rests ? Real{1} : Real{0};
+            any_moves = any_moves || (used && !rests);
+            any_rests = any_rests || rests;
+        }
+    }
+    HWY_ALIGN_MAX Real moves[FlightBlock<Real>::size];
+    bool any_moves = false;
+    bool any_rests = false;
+};
+
+/// Leaves the bodies of the lanes that rest on the ground there for a step.
+template <class Real>
+void stay_on_ground(const kernel::BlockSteps& task, std::uint64_t number, FlightBlock<Real>& block,
+                    std::size_t first, std::size_t lanes, const MovingLanes<Real>& lively) {
+    const std::uint64_t step = task.first_step + number;
+    for (std::size_t lane = first; lane < std::min<std::size_t>(first + lanes, block.bodies); ++lane) {
+        if (lively.moves[lane - first] != Real{0}) continue;
+        BodyState state = state_of(block, lane);
+        task.contact.stay(task.contact.context, step_time(task.start, task.time_step, step),
+                          step_time(task.start, task.time_step, step + 1), state);
+        keep_state(state, block, lane);
+    }
+}
+
+/// One step of the lanes [first, first + N) of a block; adds to the report.
+template <class Tag, class Real = hn::TFromD<Tag>>
+HWY_INLINE void advance_lanes(Tag tag, const FlightConstants<Real>& c, const kernel::BlockSteps& task,
+                              std::uint64_t number, FlightBlock<Real>& block, std::size_t first,
+                              Flight<Lanes<Tag>>& flight, BatchReport& report) {
+    using V = Lanes<Tag>;
+    const std::size_t lanes = hn::Lanes(tag);
+    const MovingLanes<Real> lively(task.contact, block, first, lanes);
+    const auto let_others_stay = [&]() HWY_ATTR {
+        if (!lively.any_rests || !task.contact.moves) return;
+        store_flight(tag, flight, block, first);
+        stay_on_ground(task, number, block, first, lanes, lively);
+        flight = load_flight(tag, block, first);
+    };
+    if (!lively.any_moves) return let_others_stay();
+
+    const V h(task.time_step);
+    const V moves(hn::Load(tag, lively.moves));
+    Flight<V> previous = flight;
+    meet_turbulence(
+        c, h, [&]() HWY_ATTR { return normals_of(tag, block, first, task.first_step + number); }, flight);
+    if (lively.any_rests) {
+        const auto stirred = V(0.5) < moves;
+        flight = select_flight<Tag>(stirred, flight, previous);
+        flight.seen_velocity = select(stirred, flight.seen_velocity, previous.seen_velocity);
+        flight.seen_rotation = select(stirred, flight.seen_rotation, previous.seen_rotation);
+    }
+
+    HWY_ALIGN_MAX Real parts[hn::MaxLanes(Tag())];
+    const V substeps = moves * substeps_of(c, h, previous.seen_velocity, flight);
+    hn::Store(substeps.raw, tag, parts);
+    int most = 0;
+    const std::size_t used_lanes = std::min<std::size_t>(lanes, block.bodies - first);
+    for (std::size_t lane = 0; lane < used_lanes; ++lane) {
+        const int taken = static_cast<int>(parts[lane]);
+        report.count(taken);
+        most = std::max(most, taken);
+    }
+
+    const V divisor = larger(V(1.0), substeps);
+    const V substep = h / divisor;
+    const Stream<V> stream{previous.seen_velocity, flight.seen_velocity};
+    const Vector3d& pull = task.gravities[number];
+    const Triple<V> gravity{V(pull.x()), V(pull.y()), V(pull.z())};
+    for (int i = 0; i < most; ++i) {
+        Flight<V> next = flight;
+        implicit_step(c, gravity, substep, sees_fluid(c), part_of(stream, i, divisor), next);
+        flight = select_flight<Tag>(V(i) < substeps, next, flight);
+        if (task.contact.resolve == nullptr) continue;
+        if (!hn::AllFalse(tag, near_ground(task.contact, flight, substep))) {
+            FlightBlock<Real> before;
+            std::copy_n(block.at_rest + first, lanes, before.at_rest + first);
+            store_flight(tag, previous, before, first);
+            store_flight(tag, flight, block, first);
+            const double begin = step_time(task.start, task.time_step, task.first_step + number);
+            meet_ground(task.contact, before, block, first, lanes, i, parts, begin, task.time_step);
+            flight = load_flight(tag, block, first);
+        }
+        previous = flight;
+    }
+    let_others_stay();
+}
+
+template <class Real>
+BatchReport advance_all(const FlightConstants<Real>& c, const kernel::BlockSteps& task,
+                        FlightBlock<Real>* blocks, std::size_t count) {
+    const hn::CappedTag<Real, FlightBlock<Real>::size> tag;
+    BatchReport report;
+    for (FlightBlock<Real>* block = blocks; block != blocks + count; ++block) {
+        for (std::size_t first = 0; first < block->bodies; first += hn::Lanes(tag)) {
+            auto flight = load_flight(tag, *block, first);
+            for (std::uint64_t number = 0; number < task.steps; ++number) {
+                advance_lanes(tag, c, task, number, *block, first, flight, report);
+            }
+            store_flight(tag, flight, *block, first);
+        }
+    }
+    return report;
+}
+
+}  // namespace samara::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "internal/kernel/body_state.hpp"
+#include "internal/kernel/flight_block.hpp"
+#include "internal/kernel/flight_constants.hpp"
+#include "internal/kernel/noise.hpp"
+#include "samara/base/linear_algebra.hpp"
+
+/// The step's formulas, compiled for every instruction set and chosen once at run time. In double precision
+/// each sum and product is rounded by itself, so that one body, or any number of them side by side, gives the
+/// same bytes on every instruction set.
+namespace samara::kernel {
+
+/// What is done with a body after each implicit step, where there is ground to meet.
+struct Contact {
+    /// Mends the state after a substep (s) that ended at a time (s, of the world) and began from `before`.
+    using Resolve = void (*)(const void* context, double time, double substep, const BodyState& before,
+                             BodyState& state) noexcept;
+    Resolve resolve = nullptr;
+    /// Leaves a body at rest on the ground over a step between two times; null where rest must be judged anew
+    /// in each step.
+    using Stay = void (*)(const void* context, double begin, double end, BodyState& state) noexcept;
+    Stay stay = nullptr;
+    bool moves = false;  ///< whether the ground does, in the flow's frame
+    const void* context = nullptr;
+    double reach = 0.0;   ///< m, in the flow's frame: bodies whose centre is higher do not touch the ground
+    double radius = 0.0;  ///< m: of the sphere about the centre that holds the body
+    double ground_speed = 0.0;  ///< m/s, at most
+};
+
+/// Steps for blocks to take.
+struct BlockSteps {
+    const Vector3d* gravities = nullptr;  ///< m/s^2 in each step
+    double start = 0.0;                   ///< s, of the world: when step 0 began
+    double time_step = 0.0;               ///< s
+    std::uint64_t first_step = 0;
+    std::uint64_t steps = 0;
+    Contact contact = {};
+};
+
+BatchReport advance_blocks(const FlightConstants<double>& constants, const BlockSteps& steps,
+                           FlightBlock<double>* blocks, std::size_t count) noexcept;
+BatchReport advance_blocks(const FlightConstants<float>& constants, const BlockSteps& steps,
+                           FlightBlock<float>* blocks, std::size_t count) noexcept;
+
+/// The seen fluid's velocity over a whole step (m/s, world axes): it changes evenly from `begin` to `end`.
+struct SeenStream {
+    Vector3d begin, end;
+    bool moves = false;  ///< false: the seen fluid is taken to be at rest, and not to turn
+};
+
+/// implicit_step() of step.hpp over h, which is the part `part` of `parts` equal ones of a whole step.
+void implicit_step(const FlightConstants<double>& constants, const Vector3d& gravity, double h,
+                   const SeenStream& stream, int part, int parts, BodyState& state) noexcept;
+
+/// The Langevin update over the whole step; returns the number of parts that the step is cut into.
+int begin_step(const FlightConstants<double>& constants, double h, const Noise& noise, std::uint64_t step,
+               BodyState& state) noexcept;
+
+/// load_matrices() of loads.hpp.
+LoadMatrices load_matrices(const FlightConstants<double>& constants, const Vector6d& velocity,
+                           const Vector3d& seen_rotation) noexcept;
+
+/// The functions of langevin.hpp; the velocities are the state's.
+TurbulenceLevel turbulence_level(const FlightConstants<double>& constants, const Vector3d& velocity) noexcept;
+void advance_seen_fluid(const FlightConstants<double>& constants, const TurbulenceLevel& level, double h,
+                        const Noise& noise, std::uint64_t step, BodyState& state) noexcept;
+void advance_body_velocity(const FlightConstants<double>& constants, const TurbulenceLevel& level, double h,
+                           const Noise& noise, std::uint64_t step, BodyState& state) noexcept;
+
+/// Two independent normal numbers of two that are uniform in (0, 1): Box and Muller's.
+void normal_pair(double first, double second, double& a, double& b) noexcept;
+
+}  // namespace samara::kernel

@@ -1,0 +1,80 @@
+// The turbulence that a body sees, over one time step (docs/theory, "Langevin").
+// Included once for each instruction set (Highway), hence no plain include guard.
+#if defined(SAMARA_LANGEVIN_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef SAMARA_LANGEVIN_INL_H
+#undef SAMARA_LANGEVIN_INL_H
+#else
+#define SAMARA_LANGEVIN_INL_H
+#endif
+
+#include "internal/kernel/random-inl.h"
+#include "internal/kernel/step-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace samara::HWY_NAMESPACE {
+
+inline constexpr double kolmogorov_constant = 2.1;  // C_k of the paper's eq. 7; Pope, Phys. Fluids 26 (1983)
+
+/// k (m^2/s^2), epsilon (m^2/s^3).
+template <class V>
+struct Level {
+    V turbulent_kinetic_energy, dissipation_rate;
+};
+
+template <class V, class Real>
+HWY_INLINE Level<V> turbulence_level(const FlightConstants<Real>& c, const Triple<V>& velocity) {
+    if (c.turbulence != Turbulence::table) {
+        return {V(c.turbulent_kinetic_energy), V(c.dissipation_rate)};
+    }
+    const Heading<V> heading = heading_of(velocity);
+    Place<V> place;
+    find_place(c.turbulence_by_direction, heading.direction, V(c.reynolds_factor) * heading.speed, place);
+    Quad<V> row;
+    look_up<1>(c.turbulence_by_direction, place, &row);
+    const V square = (V(c.length) * heading.speed) * (V(c.length) * heading.speed);
+    return {row.a * square, row.b * square * heading.speed};
+}
+
+/// epsilon / k, zero where there is no turbulence.
+template <class V>
+HWY_INLINE V turbulence_rate(const Level<V>& level) {
+    const V least(in_single_precision<V> ? 1e-30 : 1e-200);
+    return select(least < level.turbulent_kinetic_energy,
+                  level.dissipation_rate / larger(least, level.turbulent_kinetic_energy), V(0.0));
+}
+
+template <class V, class Real>
+HWY_INLINE void advance_seen_fluid(const FlightConstants<Real>& c, const Level<V>& level, V h,
+                                   const SixNormals<V>& normals, Flight<V>& flight) {
+    const V zero(0.0);
+    const V decay = V(-0.75 * kolmogorov_constant) * turbulence_rate(level) * h;
+    const V lost = exponential_less_one(decay);
+    const auto alive = decay < zero;
+    // Without turbulence there is no time scale: what was seen is gone.
+    const V kept = select(alive, V(1.0) + lost, zero);
+    const V variance = V(2.0 / 3.0) * level.turbulent_kinetic_energy * (-lost * (V(2.0) + lost));
+    const V deviation = select(alive, root(larger(zero, variance)), zero);
+    flight.seen_velocity = kept * flight.seen_velocity + deviation * normals.velocity;
+    flight.seen_rotation =
+        kept * flight.seen_rotation + (deviation * V(c.inverse_eddy_length)) * normals.rotation;
+}
+
+template <class V, class Real>
+HWY_INLINE void advance_body_velocity(const FlightConstants<Real>& c, const Level<V>& level, V h,
+                                      const SixNormals<V>& normals, Flight<V>& flight) {
+    const V zero(0.0);
+    const V rate = V(0.5 + 0.75 * kolmogorov_constant) * turbulence_rate(level);
+    const V lost = exponential_less_one(-rate * h);
+    const V diffusion = V(kolmogorov_constant) * level.dissipation_rate;
+    const auto alive = zero < rate;
+    const V variance = diffusion * (-lost * (V(2.0) + lost)) / (V(2.0) * select(alive, rate, V(1.0)));
+    const V deviation = select(alive, root(larger(zero, variance)), zero);
+    const V turning = select(alive, root(larger(zero, diffusion * h)) * V(c.inverse_eddy_length), zero);
+    flight.angular_velocity = flight.angular_velocity + turning * normals.rotation;
+    flight.velocity = (V(1.0) + lost) * flight.velocity + deviation * normals.velocity;
+}
+
+}  // namespace samara::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,208 @@
+// The fluid's loads beyond the Kirchhoff terms, as a matrix (docs/theory, "Loads of a moving body").
+// Included once for each instruction set (Highway), hence no plain include guard.
+#if defined(SAMARA_LOADS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef SAMARA_LOADS_INL_H
+#undef SAMARA_LOADS_INL_H
+#else
+#define SAMARA_LOADS_INL_H
+#endif
+
+#include "internal/kernel/tables-inl.h"
+#include "samara/body/dynamic_coefficients.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace samara::HWY_NAMESPACE {
+
+/// The blocks of D, with which the moment and force are -D (omega, v).
+template <class V>
+struct LoadBlocks {
+    Square<V> moment_by_turning, moment_by_velocity, force_by_turning, force_by_velocity;
+};
+
+/// A velocity's length and direction (shorter than one where it has none).
+template <class V>
+struct Heading {
+    V speed;
+    Triple<V> direction;
+};
+template <class V>
+HWY_INLINE Heading<V> heading_of(const Triple<V>& velocity) {
+    const V speed = root(dot(velocity, velocity));
+    return {speed, (V(1.0) / larger(V(tiny<V>), speed)) * velocity};
+}
+
+/// Eq. 5 in its regular form: what a body of that area feels in a tow, over the dynamic pressure.
+template <class V, class Real>
+HWY_INLINE Triple<V> coefficient_force(const FlightConstants<Real>& c, const Triple<V>& direction, V area) {
+    const Triple<V> normal = broadcast<V>(c.normal);
+    const V along = dot(direction, normal);
+    const Triple<V> lift = (V(c.twice_lift_coefficient) * along) * (normal - along * direction);
+    return -area * (V(c.drag_coefficient) * direction + lift);
+}
+
+/// The force of a steady tow over rho A U^2 / 2, and its moment over rho A L U^2 / 2 about the centroid.
+template <class V>
+struct TowCoefficients {
+    Triple<V> force, moment;
+};
+
+template <bool with_moment, class V, class Real>
+HWY_INLINE TowCoefficients<V> tow_coefficients(const FlightConstants<Real>& c, const Heading<V>& heading) {
+    const V zero(0.0);
+    Place<V> place;
+    find_place(c.loads_by_direction, heading.direction, V(c.reynolds_factor) * heading.speed, place);
+    Quad<V> numbers[2];
+    look_up<with_moment ? 2 : 1>(c.loads_by_direction, place, numbers);
+    const Triple<V> force{numbers[0].a, numbers[0].b, numbers[0].c};
+    if (c.loads == Loads::coefficients) {
+        const Triple<V> of_area = coefficient_force(c, heading.direction, force.x);
+        return {of_area, cross(broadcast<V>(c.center_of_pressure), of_area)};
+    }
+    if constexpr (with_moment) return {force, {numbers[1].a, numbers[1].b, numbers[1].c}};
+    return {force, {zero, zero, zero}};
+}
+
+/// Where the tow's force acts, and the part of its moment that no arm can give (over the speed squared).
+template <class V>
+struct PressurePoint {
+    Triple<V> arm, moment_along_force;
+};
+template <class V, class Real>
+HWY_INLINE PressurePoint<V> pressure_point(const FlightConstants<Real>& c, const Heading<V>& heading,
+                                           V share) {
+    const TowCoefficients<V> tow = tow_coefficients<true>(c, heading);
+    // What transport leaves, in a steady tow, of the Kirchhoff moment on the equations' left side.
+    const Triple<V> kirchhoff =
+        cross(broadcast<V>(c.potential_transport) * heading.direction, heading.direction);
+    const Triple<V> moment = tow.moment - kirchhoff;
+    const V square = dot(tow.force, tow.force);
+    const V scale = share / larger(V(tiny<V>), square);
+    return {scale * cross(tow.force, moment), (V(c.tow_factor) * scale * dot(moment, tow.force)) * tow.force};
+}
+
+/// The tow's force at its point as -(drag + side x): the lift turns with the flow and does no work.
+template <class V>
+struct TowMatrix {
+    V drag;
+    Triple<V> side;
+};
+template <class V, class Real>
+HWY_INLINE TowMatrix<V> tow_matrix(const FlightConstants<Real>& c, const Triple<V>& velocity) {
+    const Heading<V> heading = heading_of(velocity);
+    const Triple<V> force = tow_coefficients<false>(c, heading).force;
+    const V scale = V(c.tow_factor) * heading.speed;
+    return {scale * larger(V(0.0), -dot(force, heading.direction)), scale * cross(force, heading.direction)};
+}
+
+/// The tow's matrix about the centroid, for a force that acts at the arm r.
+template <class V>
+HWY_INLINE LoadBlocks<V> moved_by_arm(const TowMatrix<V>& tow, const Triple<V>& r) {
+    const V along = dot(r, tow.side);
+    const Triple<V> drag_arm = tow.drag * r;
+    return {plus_cross(plus_diagonal(-outer(drag_arm, r), dot(drag_arm, r)), along * r),
+            plus_cross(plus_diagonal(outer(tow.side, r), -along), drag_arm),
+            plus_cross(plus_diagonal(-outer(r, tow.side), along), -drag_arm),
+            scaling_and_cross(tow.drag, tow.side)};
+}
+
+/// Adds the part of the tow's moment that no arm gives. What it does on a turning body it takes from its
+/// path, as wind does that turns a mill: workless.
+template <class V>
+HWY_INLINE void add_windmill(const Triple<V>& moment_along_force, const Triple<V>& velocity,
+                             LoadBlocks<V>& blocks) {
+    const Square<V> windmill = outer(moment_along_force, velocity);
+    blocks.moment_by_velocity = blocks.moment_by_velocity - windmill;
+    blocks.force_by_turning = blocks.force_by_turning + transposed(windmill);
+}
+
+/// Adds force omega x p and moment v x p + omega x l of the momenta (l, p) that separated flow lacks:
+/// workless.
+template <class V, class Real>
+HWY_INLINE void add_transport(const FlightConstants<Real>& c, const Triple<V>& omega,
+                              const Triple<V>& velocity, LoadBlocks<V>& blocks) {
+    // The isotropic part of T acts as a force alone: its moment v x v is none, and must not be made where D
+    // acts on another v than the one it was made with.
+    blocks.force_by_velocity = plus_cross(blocks.force_by_velocity, -V(c.isotropic_transport) * omega);
+    Triple<V> momentum = broadcast<V>(c.directed_transport) * velocity;
+    if (c.transports_turning) {
+        const Square<V> coupling = broadcast<V>(c.coupling_transport);
+        momentum = momentum + transposed_times(coupling, omega);
+        const Triple<V> angular_momentum = broadcast<V>(c.turning_transport) * omega + coupling * velocity;
+        blocks.moment_by_turning = plus_cross(blocks.moment_by_turning, angular_momentum);
+    }
+    blocks.moment_by_velocity = plus_cross(blocks.moment_by_velocity, momentum);
+    blocks.force_by_turning = plus_cross(blocks.force_by_turning, momentum);
+}
+
+/// Adds omega x the wake's angular momentum: workless.
+template <class V, class Real>
+HWY_INLINE void add_wake(const FlightConstants<Real>& c, const Triple<V>& omega, const Triple<V>& velocity,
+                         V combined, LoadBlocks<V>& blocks) {
+    const Triple<V> by_velocity = cross(velocity, broadcast<V>(c.wake_by_velocity) * velocity);
+    const Triple<V> by_turning = cross(omega, broadcast<V>(c.wake_by_turning) * omega);
+    const V inverse = V(1.0) / larger(V(tiny<V>), combined);
+    blocks.moment_by_turning = plus_cross(blocks.moment_by_turning, inverse * (by_velocity + by_turning));
+}
+
+/// The speed of moving and turning together, in l a second.
+template <class V, class Real>
+HWY_INLINE V combined_speed(const FlightConstants<Real>& c, const Triple<V>& omega,
+                            const Triple<V>& velocity) {
+    return root(dot(velocity, velocity) + V(c.half_length * c.half_length) * dot(omega, omega));
+}
+
+/// a / (a + b), and 0 where both are none.
+template <class V>
+HWY_INLINE V share_of(V a, V b) {
+    return a / larger(V(tiny<V>), a + b);
+}
+
+/// The part of D that acts on what the body does relative to the fluid. `omega` and `velocity`: its angular
+/// velocity and that of its centroid, relative to the fluid. `turning`: the angular velocity itself, by which
+/// the flow ceases to be that of a tow; what turbulence turns is in the table already.
+template <class V, class Real>
+HWY_INLINE LoadBlocks<V> relative_load_blocks(const FlightConstants<Real>& c, const Triple<V>& omega,
+                                              const Triple<V>& velocity, const Triple<V>& turning) {
+    const V zero(0.0);
+    const Heading<V> heading = heading_of(velocity);
+    const V speed_square = dot(velocity, velocity);
+    const V reach_square(c.half_length * c.half_length);
+    const V tip_square = reach_square * dot(turning, turning);
+    const V combined = combined_speed(c, omega, velocity);
+
+    // The tow's moment stays until the body does little but turn: a steady tow keeps it whole.
+    const PressurePoint<V> point =
+        pressure_point(c, heading, share_of(speed_square, V(motion_onset) * tip_square));
+    LoadBlocks<V> blocks = moved_by_arm(tow_matrix(c, velocity + cross(omega, point.arm)), point.arm);
+    add_windmill(point.moment_along_force, velocity, blocks);
+
+    const V in_motion = combined * share_of(tip_square, V(motion_onset) * speed_square);
+    const V below =
+        larger(zero, V(1.0) - V(c.reynolds_factor) * heading.speed * V(c.lowest_reynolds_inverse));
+    const V creeping_drag = select(zero < V(c.lowest_reynolds_inverse), V(c.creeping_drag) * below, zero);
+    blocks.moment_by_turning = plus_diagonal(
+        blocks.moment_by_turning + combined * broadcast<V>(c.rotational_drag), V(c.creeping_turn));
+    blocks.force_by_velocity =
+        plus_diagonal(blocks.force_by_velocity + in_motion * broadcast<V>(c.drag_in_motion), creeping_drag);
+    if (c.has_spin) {
+        const V in_spin = combined * share_of(tip_square, speed_square);
+        blocks.moment_by_turning =
+            blocks.moment_by_turning + in_spin * broadcast<V>(c.rotational_drag_in_spin);
+        blocks.force_by_velocity = blocks.force_by_velocity + in_spin * broadcast<V>(c.drag_in_spin);
+    }
+    return blocks;
+}
+
+/// Adds the part of D that acts on the turning of the body's axes themselves: momenta that turn with them,
+/// which belong to those of the equations' left side. `omega`: the body's own.
+template <class V, class Real>
+HWY_INLINE void add_transports(const FlightConstants<Real>& c, const Triple<V>& omega,
+                               const Triple<V>& velocity, LoadBlocks<V>& blocks) {
+    add_transport(c, omega, velocity, blocks);
+    if (c.has_wake) add_wake(c, omega, velocity, combined_speed(c, omega, velocity), blocks);
+}
+
+}  // namespace samara::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,316 @@
+// One implicit step (docs/theory, "The step").
+// Included once for each instruction set (Highway), hence no plain include guard.
+#if defined(SAMARA_STEP_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef SAMARA_STEP_INL_H
+#undef SAMARA_STEP_INL_H
+#else
+#define SAMARA_STEP_INL_H
+#endif
+
+#include "internal/kernel/body_state.hpp"
+#include "internal/kernel/loads-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace samara::HWY_NAMESPACE {
+
+/// BodyState (step.hpp) in the step's numbers.
+template <class V>
+struct Flight {
+    Triple<V> position;
+    Turn<V> orientation;
+    Triple<V> angular_velocity, velocity;
+    Triple<V> seen_velocity, seen_rotation;
+    Triple<V> angular_acceleration, acceleration;
+};
+
+/// The velocity (or acceleration) of the centroid from that of the centre of mass: l is taken out of it.
+template <class V, class Real>
+HWY_INLINE Triple<V> to_centroid(const FlightConstants<Real>& c, const Triple<V>& turning,
+                                 const Triple<V>& velocity) {
+    if (!c.off_center) return V(c.inverse_length) * velocity;
+    return V(c.inverse_length) * (velocity + cross(turning, broadcast<V>(c.center_of_buoyancy)));
+}
+/// The reverse of to_centroid.
+template <class V, class Real>
+HWY_INLINE Triple<V> from_centroid(const FlightConstants<Real>& c, const Triple<V>& turning,
+                                   const Triple<V>& velocity) {
+    if (!c.off_center) return V(c.length) * velocity;
+    return V(c.length) * velocity - cross(turning, broadcast<V>(c.center_of_buoyancy));
+}
+
+/// The velocity of the centroid, in l a second.
+template <class V, class Real>
+HWY_INLINE Triple<V> centroid_velocity(const FlightConstants<Real>& c, const Flight<V>& flight) {
+    return to_centroid(c, flight.angular_velocity, flight.velocity);
+}
+
+template <class V>
+struct VelocityChange {
+    Triple<V> omega, velocity;
+};
+
+/// The seen fluid's velocity (m/s, world axes) when a step begins and when it ends: between them it changes
+/// evenly.
+template <class V>
+struct Stream {
+    Triple<V> begin, end;
+};
+
+/// The stream of the part `i` of a step that is cut into `parts`, from that of the whole step.
+template <class V>
+HWY_INLINE Stream<V> part_of(const Stream<V>& whole, int i, V parts) {
+    const Triple<V> difference = whole.end - whole.begin;
+    const Triple<V> begin = i == 0 ? whole.begin : whole.begin + (V(i) / parts) * difference;
+    const Triple<V> end = whole.begin + (V(i + 1) / parts) * difference;
+    return {begin, select(V(i + 1) < parts, end, whole.end)};
+}
+
+/// What the passes over one step share: its start. Velocities are those relative to the seen fluid.
+template <class V>
+struct StepStart {
+    V h;
+    Triple<V> omega, velocity;
+    Triple<V> gravity, seen_rotation;  // body axes
+    bool sees_fluid;
+    /// Whether the body turns by more than a radian: its system is then solved once more for what rounding
+    /// left, since the elimination does not look for the best pivots.
+    typename NumberTraits<V>::Mask wild;
+};
+
+/// The velocities inside the step, how they differ from the start's, and the turn they were found with.
+template <class V>
+struct StepMiddle {
+    Triple<V> omega, velocity;
+    VelocityChange<V> change;
+    Triple<V> half_turn;
+    V theta;
+    V stiffness;  // of the moving
+};
+
+/// How stiff the drag is: h max(D_ii / K_ii) of the turning and of the moving.
+template <class V>
+struct Stiffness {
+    V turning, moving;
+};
+template <class V, class Real>
+HWY_INLINE Stiffness<V> stiffness(const FlightConstants<Real>& c, const LoadBlocks<V>& loads, V h) {
+    const Triple<V> w = broadcast<V>(c.inverse_turning);
+    const Triple<V> v = broadcast<V>(c.inverse_moving);
+    const Square<V>& a = loads.moment_by_turning;
+    const Square<V>& b = loads.force_by_velocity;
+    return {h * larger(larger(a.x.x * w.x, a.y.y * w.y), a.z.z * w.z),
+            h * larger(larger(b.x.x * v.x, b.y.y * v.y), b.z.z * v.z)};
+}
+
+/// The step's matrix by its blocks, ready to solve with.
+template <class V>
+struct StepMatrix {
+    Square<V> turning, coupling, back, moving;
+    Square<V> moving_factors, solutions, turning_factors;
+
+    /// Eliminates the velocity, whose block is factorised, and then what is left for the turning.
+    HWY_INLINE void factorise() {
+        moving_factors = factorised(moving);
+        const Square<V> columns = transposed(back);
+        solutions = {solved(moving_factors, columns.x), solved(moving_factors, columns.y),
+                     solved(moving_factors, columns.z)};
+        turning_factors =
+            factorised(Square<V>{turning.x - solutions * coupling.x, turning.y - solutions * coupling.y,
+                                 turning.z - solutions * coupling.z});
+    }
+    [[nodiscard]] HWY_INLINE VelocityChange<V> solved_for(const Triple<V>& moment,
+                                                          const Triple<V>& force) const {
+        const Triple<V> rest = solved(moving_factors, force);
+        const Triple<V> omega = solved(turning_factors, moment - coupling * rest);
+        return {omega, rest - transposed_times(solutions, omega)};
+    }
+};
+
+/// What stands still against the world while the body turns under it by half a step.
+template <class V>
+struct HalfTurn {
+    Triple<V> half_turn;
+    HWY_INLINE Triple<V> operator()(const Triple<V>& a) const { return turned_back(half_turn, a); }
+};
+
+/// Solves the step's system with the loads and the transport taken at the middle that was found or guessed
+/// before. Its unknowns are the velocities' changes: solving for the velocities themselves would drift by a
+/// rounding error a step.
+template <class V, class Real>
+HWY_INLINE void improve(const FlightConstants<Real>& c, const StepStart<V>& start, StepMiddle<V>& middle) {
+    middle.half_turn = (V(0.5) * start.h) * middle.omega;
+    const HalfTurn<V> under_body{middle.half_turn};
+    const Triple<V> gravity = under_body(start.gravity);
+    // Of the linear momentum the part along the velocity (m* v, of which the unit is m*) acts as a force
+    // alone: as p x v its moment would vanish only where the v inside p and the one it acts on are parallel,
+    // and else spin even a sphere.
+    Triple<V> angular_momentum = broadcast<V>(c.inertia_turning) * middle.omega;
+    Triple<V> momentum = broadcast<V>(c.directed_inertia) * middle.velocity;
+    if (c.coupled) {
+        const Square<V> coupling = broadcast<V>(c.inertia_coupling);
+        angular_momentum = angular_momentum + coupling * middle.velocity;
+        momentum = momentum + transposed_times(coupling, middle.omega);
+    }
+    StepMatrix<V> matrix;
+    matrix.turning = broadcast<V>(c.inertia_turning);
+    matrix.coupling = broadcast<V>(c.inertia_coupling);
+    matrix.back = transposed(matrix.coupling);
+    matrix.moving = plus_diagonal(broadcast<V>(c.directed_inertia), V(1.0));
+    Triple<V> moment = cross(angular_momentum, start.omega) + cross(momentum, start.velocity);
+    Triple<V> force =
+        V(c.weight) * gravity + cross(momentum, start.omega) - cross(middle.omega, start.velocity);
+    if (c.off_center) moment = moment + cross(broadcast<V>(c.weight_moment), gravity);
+    V step = V(0.5) * start.h;
+    middle.theta = V(0.5);
+    if (c.loads != Loads::none) {
+        LoadBlocks<V> loads;
+        if (start.sees_fluid) {
+            const Triple<V> fluid_turning = under_body(start.seen_rotation);
+            loads = relative_load_blocks(c, middle.omega - fluid_turning, middle.velocity, middle.omega);
+            moment = moment + loads.moment_by_turning * fluid_turning;
+            force = force + loads.force_by_turning * fluid_turning;
+        } else {
+            loads = relative_load_blocks(c, middle.omega, middle.velocity, middle.omega);
+        }
+        add_transports(c, middle.omega, middle.velocity, loads);
+        const Stiffness<V> stiff = stiffness(c, loads, start.h);
+        const V z = larger(stiff.turning, stiff.moving);
+        middle.theta = (V(3.0) + z) / (V(6.0) + z);
+        middle.stiffness = stiff.moving;
+        step = middle.theta * start.h;
+        matrix.turning = matrix.turning + step * loads.moment_by_turning;
+        matrix.coupling = matrix.coupling + step * loads.moment_by_velocity;
+        matrix.back = matrix.back + step * loads.force_by_turning;
+        matrix.moving = matrix.moving + step * loads.force_by_velocity;
+        moment = moment - (loads.moment_by_turning * start.omega + loads.moment_by_velocity * start.velocity);
+        force = force - (loads.force_by_turning * start.omega + loads.force_by_velocity * start.velocity);
+    }
+    matrix.turning = plus_cross(matrix.turning, -step * angular_momentum);
+    matrix.coupling = plus_cross(matrix.coupling, -step * momentum);
+    matrix.back = plus_cross(matrix.back, -step * momentum);
+    matrix.moving = plus_cross(matrix.moving, step * middle.omega);
+    matrix.factorise();
+
+    const Triple<V> right_moment = step * moment;
+    const Triple<V> right_force = step * force;
+    VelocityChange<V> change = matrix.solved_for(right_moment, right_force);
+    if (NumberTraits<V>::any_of(start.wild)) {
+        const VelocityChange<V> more = matrix.solved_for(
+            right_moment - matrix.turning * change.omega - matrix.coupling * change.velocity,
+            right_force - matrix.back * change.omega - matrix.moving * change.velocity);
+        change.omega = select(start.wild, change.omega + more.omega, change.omega);
+        change.velocity = select(start.wild, change.velocity + more.velocity, change.velocity);
+    }
+    middle.change = change;
+    middle.omega = start.omega + change.omega;
+    middle.velocity = start.velocity + change.velocity;
+}
+
+/// What a step starts from. `gravity`: world axes; `velocity`: of the centre of mass, relative to the seen
+/// fluid.
+template <class V, class Real>
+HWY_INLINE StepStart<V> step_start(const FlightConstants<Real>& c, const Square<V>& to_world,
+                                   const Triple<V>& gravity, V h, bool sees_fluid, const Triple<V>& velocity,
+                                   const Flight<V>& flight) {
+    StepStart<V> start;
+    start.h = h;
+    start.omega = flight.angular_velocity;
+    start.velocity = to_centroid(c, flight.angular_velocity, velocity);
+    start.gravity = transposed_times(to_world, gravity);
+    start.sees_fluid = sees_fluid;
+    if (sees_fluid) start.seen_rotation = transposed_times(to_world, flight.seen_rotation);
+    const V munk_rate(c.munk_rate);
+    start.wild = V(1.0) < (h * h) * (dot(start.omega, start.omega) +
+                                     (munk_rate * munk_rate) * dot(start.velocity, start.velocity));
+    return start;
+}
+
+/// Whether a body that meets turbulence sees it as a moving fluid.
+template <class Real>
+HWY_INLINE bool sees_fluid(const FlightConstants<Real>& c) {
+    return c.turbulence != Turbulence::none && c.langevin == Langevin::seen_fluid;
+}
+
+/// One implicit step over h under a gravity (world axes). The middle of the step is guessed by the
+/// acceleration of the step before; two passes make it good to second order and more.
+///
+/// Where the body sees fluid, the step is taken in the frame of that uniform stream, as in that of a current:
+/// velocities are relative to it, and its acceleration is taken off gravity, for body and displaced fluid
+/// alike (docs/theory, "The seen fluid").
+template <class V, class Real>
+HWY_INLINE void implicit_step(const FlightConstants<Real>& c, const Triple<V>& gravity, V h, bool sees_fluid,
+                              const Stream<V>& stream, Flight<V>& flight) {
+    const Square<V> to_world = rotation_matrix(flight.orientation);
+    const V half = V(0.5) * h;
+    const V rate = V(1.0) / h;
+    Triple<V> relative_velocity = flight.velocity;
+    Triple<V> apparent_gravity = gravity;
+    Triple<V> guess_acceleration = flight.acceleration;
+    Triple<V> pushed = broadcast<V>(Triple<double>{0.0, 0.0, 0.0});  // by the stream's acceleration, about
+    if (sees_fluid) {
+        const Triple<V> acceleration = rate * (stream.end - stream.begin);
+        relative_velocity = relative_velocity - transposed_times(to_world, stream.begin);
+        apparent_gravity = apparent_gravity - acceleration;
+        pushed = V(-c.weight * c.length) * transposed_times(to_world, acceleration);
+        guess_acceleration = guess_acceleration + pushed;
+    }
+    const StepStart<V> start =
+        step_start(c, to_world, apparent_gravity, h, sees_fluid, relative_velocity, flight);
+    StepMiddle<V> middle;
+    middle.stiffness = V(0.0);
+    middle.omega = start.omega + half * flight.angular_acceleration;
+    middle.velocity = start.velocity + half * to_centroid(c, flight.angular_acceleration, guess_acceleration);
+    const Triple<V> guess = middle.velocity;
+    improve(c, start, middle);
+    // Where drag is stiff, one made from the speed alone would swing about the terminal speed: halfway to the
+    // guess lies Newton's root. Where it is not, the middle stays, of second order.
+    const V square = middle.stiffness * middle.stiffness;
+    const V back = V(0.5) * square / (V(36.0) + square);
+    middle.velocity = middle.velocity + back * (guess - middle.velocity);
+    improve(c, start, middle);
+
+    // The same turn that carried gravity: what gravity works is then what the height gives.
+    const Triple<V> middle_velocity = from_centroid(c, middle.omega, middle.velocity);
+    flight.position = flight.position + h * (to_world * turned_back(-middle.half_turn, middle_velocity));
+    flight.orientation = turned_by(flight.orientation, middle.half_turn);
+    const V whole = V(1.0) / middle.theta;
+    const Triple<V> turning_change = whole * middle.change.omega;
+    const Triple<V> velocity_change = from_centroid(c, turning_change, whole * middle.change.velocity);
+    flight.angular_acceleration = rate * turning_change;
+    flight.acceleration = rate * velocity_change;
+    flight.angular_velocity = flight.angular_velocity + turning_change;
+    flight.velocity = relative_velocity + velocity_change;
+    if (sees_fluid) {
+        flight.position = flight.position + half * (stream.begin + stream.end);
+        flight.velocity = flight.velocity + transposed_times(rotation_matrix(flight.orientation), stream.end);
+        flight.acceleration = flight.acceleration - pushed;
+    }
+}
+
+/// The rate (1/s) at which the body turns, or would turn by its Munk moment in a seen fluid (m/s, world
+/// axes).
+template <class V, class Real>
+HWY_INLINE V turning_rate(const FlightConstants<Real>& c, const Triple<V>& seen_velocity,
+                          const Flight<V>& flight) {
+    Triple<V> velocity = centroid_velocity(c, flight);
+    if (sees_fluid(c)) {
+        velocity = velocity -
+                   V(c.inverse_length) * transposed_times(rotation_matrix(flight.orientation), seen_velocity);
+    }
+    return root(dot(flight.angular_velocity, flight.angular_velocity)) +
+           V(c.munk_rate) * root(dot(velocity, velocity));
+}
+
+/// Into how many equal parts the step is cut: each turns the body by at most 0.3 rad, as far as the limit on
+/// their number allows. `seen_velocity`: when the step begins (m/s, world axes).
+template <class V, class Real>
+HWY_INLINE V substeps_of(const FlightConstants<Real>& c, V h, const Triple<V>& seen_velocity,
+                         const Flight<V>& flight) {
+    const V turns = h * turning_rate(c, seen_velocity, flight) * V(1.0 / 0.3);
+    return -whole_part(-smaller(V(most_substeps), larger(V(1.0), turns)));
+}
+
+}  // namespace samara::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

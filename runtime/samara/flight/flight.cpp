@@ -1,0 +1,216 @@
+#include "samara/flight/flight.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "internal/base/parallel_for.hpp"
+#include "internal/flight/flight_kind.hpp"
+
+namespace samara {
+namespace {
+
+[[noreturn]] void refuse(FlightError::Kind kind, const std::string& why) {
+    throw FlightError(kind, why);
+}
+
+}  // namespace
+
+struct Flight::Parts {
+    FlightSettings settings;
+    std::vector<std::unique_ptr<FlightKind>> kinds;
+    std::size_t size = 0;
+    double time = 0.0;
+    bool has_begun = false;
+    std::string stopped;  ///< why; empty: it has not
+};
+
+void FlightReport::add(const FlightReport& other) {
+    steps += other.steps;
+    implicit_steps += other.implicit_steps;
+    most_substeps = std::max(most_substeps, other.most_substeps);
+    steps_at_limit += other.steps_at_limit;
+    highest_reynolds_number = std::max(highest_reynolds_number, other.highest_reynolds_number);
+    moving += other.moving;
+    below_table += other.below_table;
+}
+
+double FlightReport::share_below_table() const {
+    return moving == 0 ? 0.0 : static_cast<double>(below_table) / static_cast<double>(moving);
+}
+
+Flight::Flight(const FlightSettings& settings) : parts_(std::make_unique<Parts>()) {
+    if (!(settings.step > 0.0 && std::isfinite(settings.step)) || settings.runs < 1) {
+        refuse(FlightError::Kind::invalid_argument, "a flight needs a step above zero and one run at least");
+    }
+    parts_->settings = settings;
+}
+
+Flight::~Flight() = default;
+Flight::Flight(Flight&&) noexcept = default;
+Flight& Flight::operator=(Flight&&) noexcept = default;
+
+std::size_t Flight::add(const LoadedBody& body, const BodyPhysics& physics, const Release& release,
+                        const std::string& given_name) {
+    if (parts_->has_begun) {
+        refuse(FlightError::Kind::invalid_argument, "bodies cannot be added after the first advance");
+    }
+    const std::string name = given_name.empty() ? body.body->name : given_name;
+    for (const auto& other : parts_->kinds) {
+        if (other->name() != name) continue;
+        refuse(FlightError::Kind::invalid_argument,
+               fmt::format("the name '{}' is taken by another kind; give this one another", name));
+    }
+    const std::size_t first = parts_->size;
+    parts_->kinds.push_back(
+        std::make_unique<FlightKind>(parts_->settings, body, physics, release, name, first));
+    parts_->size += parts_->kinds.back()->size();
+    return first;
+}
+
+std::size_t Flight::size() const noexcept {
+    return parts_->size;
+}
+
+double Flight::time() const noexcept {
+    return parts_->time;
+}
+
+const std::vector<std::unique_ptr<FlightKind>>& Flight::kinds() const noexcept {
+    return parts_->kinds;
+}
+
+std::uint64_t Flight::steps() const noexcept {
+    std::uint64_t steps = 0;
+    for (const auto& kind : parts_->kinds) steps += kind->steps();
+    return steps;
+}
+
+FlightReport Flight::report() const {
+    FlightReport report;
+    for (const auto& kind : parts_->kinds) report.add(kind->report());
+    return report;
+}
+
+void Flight::require_running() const {
+    if (!parts_->stopped.empty()) refuse(FlightError::Kind::out_of_range, parts_->stopped);
+}
+
+void Flight::advance_to(double time) {
+    require_running();
+    if (!std::isfinite(time)) refuse(FlightError::Kind::invalid_argument, "time is not a finite number");
+    if (time < parts_->time) {
+        refuse(
+            FlightError::Kind::time_passed,
+            fmt::format("the simulation is at {} s and cannot go back to {} s; restore a state from before",
+                        parts_->time, time));
+    }
+    if (time / parts_->settings.step > most_steps_off) {
+        refuse(
+            FlightError::Kind::invalid_argument,
+            fmt::format("time {} s is more than {:.0e} steps off; is a unit wrong?", time, most_steps_off));
+    }
+    parts_->has_begun = true;
+    try {
+        for (const auto& kind : parts_->kinds) kind->advance_to(time);
+    } catch (const FlightError& lost) {
+        parts_->stopped = lost.what();
+        throw;
+    }
+    parts_->time = time;
+}
+
+FlightKind& Flight::kind_of(std::size_t index) const {
+    const auto next = std::upper_bound(parts_->kinds.begin(), parts_->kinds.end(), index,
+                                       [](std::size_t i, const auto& kind) { return i < kind->first(); });
+    return **std::prev(next);
+}
+
+Pose Flight::pose(std::size_t index) const {
+    const FlightKind& kind = kind_of(index);
+    return kind.pose(index - kind.first(), parts_->time);
+}
+
+void Flight::poses(std::size_t first, std::size_t count, Pose* poses) const {
+    parallel_for(count, poses_a_piece, parts_->settings.threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) poses[i] = pose(first + i);
+    });
+}
+
+void Flight::set_pose(std::size_t index, const Pose& pose) {
+    FlightKind& kind = kind_of(index);
+    kind.set_pose(index - kind.first(), pose, parts_->time);
+}
+
+const Vector3d& Flight::center_of_mass(std::size_t index) const {
+    return kind_of(index).body().center_of_mass;
+}
+
+void Flight::set_seed(std::uint64_t seed, std::uint32_t first_run) {
+    parts_->settings.seed = seed;
+    parts_->settings.first_run = first_run;
+    for (const auto& kind : parts_->kinds) kind->set_seed(seed, first_run);
+}
+
+std::string Flight::fingerprint() const {
+    const FlightSettings& all = parts_->settings;
+    std::string text = fmt::format("{} {} {} {} {} {} ground {} step {} runs {}\n", all.fluid.density,
+                                   all.fluid.viscosity, fmt::join(all.fluid.current.reshaped(), " "),
+                                   fmt::join(all.fluid.gust.amplitude.reshaped(), " "), all.fluid.gust.period,
+                                   fmt::join(all.gravity.reshaped(), " "),
+                                   all.ground ? fmt::format("{}", *all.ground) : "none", all.step, all.runs);
+    for (const auto& kind : parts_->kinds) text += kind->description();
+    return text;
+}
+
+std::size_t Flight::state_size() const {
+    std::size_t size = seal_size() + sizeof(parts_->time) + sizeof(std::uint8_t) +
+                       sizeof(parts_->settings.seed) + sizeof(parts_->settings.first_run);
+    for (const auto& kind : parts_->kinds) size += kind->state_size();
+    return size;
+}
+
+std::string Flight::state() const {
+    require_running();
+    StateWriter writer;
+    writer.write(parts_->time);
+    writer.write(static_cast<std::uint8_t>(parts_->has_begun));
+    writer.write(parts_->settings.seed);
+    writer.write(parts_->settings.first_run);
+    for (const auto& kind : parts_->kinds) kind->write(writer);
+    return sealed_state(writer.bytes(), fingerprint());
+}
+
+void Flight::set_state(std::string_view bytes) {
+    const std::string_view payload = opened_state(bytes, fingerprint(), state_size() - seal_size());
+    // Sealed by another hand it may hold anything: all of it is looked at before any of it is kept.
+    if (!read_state(payload, false)) {
+        refuse(FlightError::Kind::foreign_state, "the state holds numbers that no simulation has");
+    }
+    read_state(payload, true);
+}
+
+bool Flight::read_state(std::string_view payload, bool keep) {
+    StateReader reader(payload);
+    double time = 0.0;
+    std::uint8_t has_begun = 0;
+    std::uint64_t seed = 0;
+    std::uint32_t first_run = 0;
+    reader.read(time);
+    reader.read(has_begun);
+    reader.read(seed);
+    reader.read(first_run);
+    bool sound = time >= 0.0 && time / parts_->settings.step <= most_steps_off;
+    for (const auto& kind : parts_->kinds) sound = sound && kind->read(reader, time, keep);
+    if (!keep) return sound;
+    parts_->time = time;
+    parts_->has_begun = has_begun != 0;
+    parts_->stopped.clear();
+    set_seed(seed, first_run);
+    return sound;
+}
+
+}  // namespace samara

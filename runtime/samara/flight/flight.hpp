@@ -1,0 +1,132 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "samara/base/error.hpp"
+#include "samara/flight/loaded_body.hpp"
+#include "samara/motion/pose.hpp"
+#include "samara/physics/body_physics.hpp"
+#include "samara/physics/fluid.hpp"
+#include "samara/physics/release.hpp"
+
+namespace samara {
+
+/// What surrounds the bodies of a flight, and how it is stepped.
+struct FlightSettings {
+    Fluid fluid = {};
+    Vector3d gravity = Vector3d(0.0, 0.0, -9.81);  ///< m/s^2, world axes
+    std::optional<double> ground = {};             ///< m: the height (world z) of level ground
+    double step = 0.002;                           ///< s
+    std::uint64_t seed = 1;                        ///< of all random numbers
+    std::uint32_t first_run = 0;
+    int runs = 1;     ///< how many runs fly side by side, that differ by their random numbers alone
+    int threads = 1;  ///< 0: all cores; the poses are the same for any number
+};
+
+/// What happened on the way to the bodies of a kind, or to all of them.
+struct FlightReport {
+    std::uint64_t steps = 0;           ///< of the settings' step, over all bodies
+    std::uint64_t implicit_steps = 0;  ///< into which they were cut
+    int most_substeps = 1;             ///< that a body took in one step
+    std::uint64_t steps_at_limit = 0;  ///< steps that took the most substeps there may be
+    /// The rest is of the bodies as they were after every 32nd step, and are now.
+    double highest_reynolds_number = 0.0;
+    std::uint64_t moving = 0;       ///< bodies that moved through the fluid
+    std::uint64_t below_table = 0;  ///< those of them below half the table's lowest Reynolds number
+
+    void add(const FlightReport& other);
+    /// below_table / moving; 0 where none moved.
+    [[nodiscard]] double share_below_table() const;
+};
+
+/// A fault of what is asked of a flight; its kind tells programs what its text tells people.
+class FlightError : public Error {
+  public:
+    enum class Kind {
+        invalid_argument,
+        time_passed,   ///< the flight cannot go back
+        out_of_range,  ///< a body's motion left the range of numbers; the flight has stopped
+        foreign_state  ///< the bytes are not the state of this flight
+    };
+    FlightError(Kind kind, const std::string& text) : Error(text), kind_(kind) {}
+    [[nodiscard]] Kind kind() const noexcept { return kind_; }
+
+  private:
+    Kind kind_;
+};
+
+class FlightKind;
+
+/// Bodies that fall. Those of a kind share their physics and fly on a grid of steps that begins at their
+/// start; until then they are held in place. Any time may be asked for: poses between two steps are
+/// interpolated, so that the motion depends neither on the times asked for nor on how they are cut into
+/// calls. Not to be used by several threads at a time.
+class Flight {
+  public:
+    /// Throws FlightError where the step is not a positive number.
+    explicit Flight(const FlightSettings& settings = {});
+    ~Flight();
+    Flight(Flight&&) noexcept;
+    Flight& operator=(Flight&&) noexcept;
+
+    /// Adds all bodies of a kind, before the first advance, and returns the number of the first: copy c of
+    /// run r has the number first + r * count + c. `name`, on which the random numbers depend, is the body's
+    /// own where it is empty. Throws FlightError where the name is taken or the flight has begun; Error where
+    /// the body lacks what its physics asks for, the inertia is that of no body, or a copy starts below the
+    /// ground.
+    std::size_t add(const LoadedBody& body, const BodyPhysics& physics, const Release& release,
+                    const std::string& name = {});
+
+    /// How many bodies there are.
+    [[nodiscard]] std::size_t size() const noexcept;
+    /// s.
+    [[nodiscard]] double time() const noexcept;
+    [[nodiscard]] FlightReport report() const;
+    /// Steps taken so far, over all bodies.
+    [[nodiscard]] std::uint64_t steps() const noexcept;
+
+    /// Steps all bodies to a time (s). Throws FlightError where it lies before time() or more than 1e10 steps
+    /// off, and where a body's motion leaves the range of numbers: then, and from then on.
+    void advance_to(double time);
+
+    /// The pose of a body's centre of mass at time(). Needs index < size().
+    [[nodiscard]] Pose pose(std::size_t index) const;
+    /// Those of `count` bodies from number `first` on, `poses[i]` each.
+    void poses(std::size_t first, std::size_t count, Pose* poses) const;
+    /// Puts a body elsewhere, from time() on. Needs finite numbers and an orientation of length one.
+    void set_pose(std::size_t index, const Pose& pose);
+    /// Of a body: m, shape axes.
+    [[nodiscard]] const Vector3d& center_of_mass(std::size_t index) const;
+
+    /// Other random numbers from the next step on; run r of the flight is then run first_run + r.
+    void set_seed(std::uint64_t seed, std::uint32_t first_run);
+
+    /// Bytes of state().
+    [[nodiscard]] std::size_t state_size() const;
+    /// All that the rest of the flight depends on. Throws FlightError where the flight has stopped.
+    [[nodiscard]] std::string state() const;
+    /// Goes on from such a state, of a flight with the same settings, kinds and bodies. Throws FlightError,
+    /// and changes nothing, where the bytes are none.
+    void set_state(std::string_view bytes);
+
+    /// Throws FlightError where the flight has stopped, since a body's motion left the range of numbers.
+    void require_running() const;
+
+    /// The kinds in the order in which they were added (internal/flight/flight_kind.hpp).
+    [[nodiscard]] const std::vector<std::unique_ptr<FlightKind>>& kinds() const noexcept;
+
+  private:
+    struct Parts;
+    [[nodiscard]] FlightKind& kind_of(std::size_t index) const;
+    [[nodiscard]] std::string fingerprint() const;
+    bool read_state(std::string_view payload, bool keep);
+
+    std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace samara

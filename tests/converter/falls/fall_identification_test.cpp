@@ -1,0 +1,270 @@
+#include "converter/falls/fall_identification.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <utility>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "converter/falls/motion_parameters.hpp"
+#include "samara/body/body_file.hpp"
+#include "support/expect_error.hpp"
+#include "support/temporary_folder.hpp"
+#include "synthetic_fall.hpp"
+
+namespace samara {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+// Of a body that flutters without end, with numbers (motion_parameters.hpp) about which what is expected is
+// wrong, in turn above and below the first of each pair by the second.
+DynamicCoefficients true_coefficients(const Body& body) {
+    const std::pair<double, double> terms[] = {{0.0, 0.5},  {0.6, 0.3},  {0.3, 0.3},  {0.3, 0.25},
+                                               {0.3, 0.25}, {0.0, 0.25}, {0.0, 0.25}, {0.0, 0.25}};
+    const MotionParameters parameters(body);
+    Eigen::VectorXd numbers(static_cast<Eigen::Index>(parameters.all().size()));
+    Eigen::Index next = 0;
+    for (const auto& [middle, difference] : terms) {
+        for (int axis = 0; axis < 3; ++axis, ++next) {
+            numbers[next] = next % 2 == 0 ? middle + difference : middle - difference;
+        }
+    }
+    numbers[next] = 0.85;
+    numbers[next + 1] = 1.1;
+    return parameters.coefficients(numbers);
+}
+
+FallRecord with_noise(FallRecord record, double deviation) {
+    std::mt19937_64 generator(1);
+    std::normal_distribution<double> normal(0.0, deviation);
+    const auto noise = [&] { return Vector3d(normal(generator), normal(generator), normal(generator)); };
+    for (FallSample& sample : record.samples) {
+        sample.velocity += noise();
+        sample.angular_velocity += noise();
+    }
+    return record;
+}
+
+// N_v and N_w that are the same along all axes exert nothing: v x v is zero.
+Matrix3d uneven_part(const Matrix3d& tensor) {
+    return tensor - tensor.trace() / 3.0 * Matrix3d::Identity();
+}
+
+double relative_difference(const Matrix3d& found, const Matrix3d& expected) {
+    return (found - expected).norm() / expected.norm();
+}
+
+// Of what was wrong with the expectation (of a wake: all), which pulls: what one fall may leave.
+constexpr double remaining = 0.15;
+
+constexpr double noise = 0.05;  // over U, and U/L
+
+// One fall of known coefficients, and what is identified from it.
+class FallIdentification : public testing::Test {
+  protected:
+    static void SetUpTestSuite() {
+        body_ = test::ellipsoid_with_tables();
+        true_ = true_coefficients(body_);
+        record_ = test::flown_record(body_, test::oblique_fall(body_, 30.0), true_);
+        found_ = identify_motion(body_, {record_});
+    }
+
+    static inline Body body_;
+    static inline DynamicCoefficients true_;
+    static inline FallRecord record_;
+    static inline Identification found_;
+};
+
+TEST_F(FallIdentification, FindsTheCoefficientsThatAFallWasFlownWith) {
+    const DynamicCoefficients& found = found_.coefficients.values;
+    EXPECT_LT(relative_difference(found.transport, true_.transport), 0.03);
+    EXPECT_LT(relative_difference(uneven_part(found.wake_by_velocity), uneven_part(true_.wake_by_velocity)),
+              remaining);
+    EXPECT_LT(relative_difference(uneven_part(found.wake_by_turning), uneven_part(true_.wake_by_turning)),
+              remaining);
+    EXPECT_EQ(found.half_length, true_.half_length);
+}
+
+// Drag in motion and in spin are hard to tell from each other in one fall; what they do together is not.
+TEST_F(FallIdentification, FindsTheDragsOfAsMuchTurningAsTheFallHas) {
+    const DynamicCoefficients& found = found_.coefficients.values;
+    const double speed = found_.falls.front().solved.mean_velocity.norm();
+    const double tip_speed = true_.half_length * found_.falls.front().solved.rms_angular_speed;
+    const double height_squared = speed * speed + tip_speed * tip_speed;
+    const double spin = tip_speed * tip_speed / height_squared;
+    const double onset = tip_speed * tip_speed / (motion_onset * speed * speed + tip_speed * tip_speed);
+    const auto drag = [&](const DynamicCoefficients& of) -> Matrix3d {
+        return onset * of.drag_in_motion + spin * of.drag_in_spin;
+    };
+    EXPECT_LT((drag(found) - drag(true_)).norm(), 0.1 * drag(true_).norm());
+}
+
+TEST_F(FallIdentification, StatesErrorsThatHoldTheTruth) {
+    const DynamicCoefficients& found = found_.coefficients.values;
+    const DynamicCoefficients& errors = found_.coefficients.standard_errors;
+    for (const TensorOfMotion& tensor : tensors_of_motion) {
+        const Vector3d difference = (found.*tensor.member - true_.*tensor.member).diagonal();
+        const Vector3d error = (errors.*tensor.member).diagonal();
+        for (int i = 0; i < 3; ++i) EXPECT_LT(std::abs(difference[i]), 3.0 * error[i]) << tensor.name << i;
+    }
+    for (const NumberOfMotion& number : numbers_of_motion) {
+        EXPECT_NEAR(found.*number.member, true_.*number.member, 3.0 * (errors.*number.member)) << number.name;
+    }
+}
+
+// Else the test above would hold of any coefficients.
+TEST_F(FallIdentification, StatesSmallErrorsOfWhatAFallSays) {
+    const IdentifiedCoefficients& found = found_.coefficients;
+    EXPECT_LT(found.standard_errors.transport.norm(), 0.1 * found.values.transport.norm());
+}
+
+TEST_F(FallIdentification, PredictsTheFallItIsFrom) {
+    EXPECT_LT(found_.prediction_error, 0.01);
+    EXPECT_GT(found_.segments, 50);
+    ASSERT_EQ(found_.falls.size(), 1u);
+    const auto& [name, solved, flown, balance] = found_.falls.front();
+    EXPECT_EQ(name, "fall_00");
+    EXPECT_NEAR(flown.descent_speed, solved.descent_speed, 0.02 * solved.descent_speed);
+    EXPECT_NEAR(flown.mean_inclination, solved.mean_inclination, 0.02 * solved.mean_inclination);
+    EXPECT_NEAR(flown.inclination_amplitude, solved.inclination_amplitude,
+                0.02 * solved.inclination_amplitude);
+    EXPECT_NEAR(flown.rms_angular_speed, solved.rms_angular_speed, 0.02 * solved.rms_angular_speed);
+    ASSERT_TRUE(solved.frequency && flown.frequency);
+    EXPECT_NEAR(*flown.frequency, *solved.frequency, 0.02 * *solved.frequency);
+    EXPECT_EQ(flown.regime, solved.regime);
+}
+
+TEST_F(FallIdentification, PredictsWorseWithTheDefaults) {
+    const FallRecord by_default = test::flown_record(
+        body_, record_.fall, MotionParameters(body_).coefficients(MotionParameters(body_).expected()));
+    double largest = 0.0;
+    for (std::size_t i = 0; i < 300; ++i) {
+        largest = std::max(largest, (by_default.samples[i].velocity - record_.samples[i].velocity).norm());
+    }
+    EXPECT_GT(largest, 0.1);
+}
+
+TEST_F(FallIdentification, GivesCoefficientsThatABodyFileTakes) {
+    EXPECT_EQ(fault_of(found_.coefficients.values), "");
+    EXPECT_THAT(found_.coefficients.values.origin, HasSubstr("fall_00"));
+    Body body = body_;
+    body.dynamic = found_.coefficients;
+    const test::TemporaryFolder folder;
+    write_body_file(folder.path() / "body.body.h5", body);
+    const Body read = read_body_file(folder.path() / "body.body.h5");
+    ASSERT_TRUE(read.dynamic);
+    for (const TensorOfMotion& tensor : tensors_of_motion) {
+        EXPECT_EQ(read.dynamic->values.*tensor.member, found_.coefficients.values.*tensor.member)
+            << tensor.name;
+        EXPECT_EQ(read.dynamic->standard_errors.*tensor.member,
+                  found_.coefficients.standard_errors.*tensor.member)
+            << tensor.name;
+    }
+    EXPECT_EQ(read.dynamic->values.origin, found_.coefficients.values.origin);
+}
+
+TEST_F(FallIdentification, IsLessCertainOfANoisyFall) {
+    const Identification noisy = identify_motion(body_, {with_noise(record_, noise)});
+    EXPECT_GT(noisy.prediction_error, noise);
+    EXPECT_LT(noisy.prediction_error, 2.0 * noise);
+    EXPECT_GT(noisy.coefficients.standard_errors.wake_by_velocity.norm(),
+              1.2 * found_.coefficients.standard_errors.wake_by_velocity.norm());
+    EXPECT_LT(relative_difference(noisy.coefficients.values.transport, true_.transport), 0.1);
+}
+
+TEST_F(FallIdentification, HasTheSameBitsEachTime) {
+    const Identification again = identify_motion(body_, {record_});
+    for (const TensorOfMotion& tensor : tensors_of_motion) {
+        EXPECT_EQ(again.coefficients.values.*tensor.member, found_.coefficients.values.*tensor.member)
+            << tensor.name;
+    }
+    EXPECT_EQ(again.prediction_error, found_.prediction_error);
+}
+
+TEST_F(FallIdentification, SaysHowFarItIs) {
+    std::vector<double> shares;
+    FallRecord shorter = record_;
+    shorter.samples.resize(1000);
+    static_cast<void>(identify_motion(body_, {shorter}, {}, [&](double share) { shares.push_back(share); }));
+    ASSERT_GT(shares.size(), 2u);
+    EXPECT_TRUE(std::ranges::is_sorted(shares));
+    EXPECT_EQ(shares.front(), 0.0);
+    EXPECT_EQ(shares.back(), 1.0);
+}
+
+std::string fault_with(const Body& body, const FallRecord& record) {
+    return test::error_of([&] { static_cast<void>(identify_motion(body, {record})); });
+}
+
+// A case's start has the momenta of body and fluid in the body alone, which is faster than it will be.
+TEST_F(FallIdentification, FliesAFallFromTheSpeedItHasAfterTheFirstInstant) {
+    FreeFall fall = test::oblique_fall(body_, 2.0);
+    fall.velocity = {1.0, -3.0, 2.0};
+    fall.angular_velocity = {0.5, 4.0, -2.0};
+    Body body = body_;
+    body.dynamic = {.values = true_, .standard_errors = {}};
+    const auto& [name, solved, flown, balance] = fly_fall(body, test::flown_record(body, fall, true_));
+    EXPECT_LT((flown.mean_velocity - solved.mean_velocity).norm(), 0.01 * solved.mean_velocity.norm());
+    EXPECT_NEAR(flown.rms_angular_speed, solved.rms_angular_speed, 0.01 * solved.rms_angular_speed);
+}
+
+TEST_F(FallIdentification, LeavesOutTheTermsThatItIsToldTo) {
+    const Identification without = identify_motion(body_, {record_}, {"wake by velocity", "wake by turning"});
+    EXPECT_EQ(without.coefficients.values.wake_by_velocity, Matrix3d::Zero());
+    EXPECT_EQ(without.coefficients.standard_errors.wake_by_turning, Matrix3d::Zero());
+    EXPECT_GT(without.prediction_error, 3.0 * found_.prediction_error);
+    EXPECT_THAT(test::error_of([&] { static_cast<void>(identify_motion(body_, {record_}, {"wake"})); }),
+                HasSubstr("there is no term 'wake'; the terms are transport, "));
+}
+
+// Fitted to its segments alone the body falls 16 % too slowly here, and swings 35 % too seldom.
+TEST_F(FallIdentification, KeepsTheFiguresOfTheWholeFallWhereTheModelCannotFollowIt) {
+    const Identification without = identify_motion(body_, {record_}, {"transport"});
+    EXPECT_GT(without.prediction_error, 5.0 * found_.prediction_error);
+    const auto& [name, solved, flown, balance] = without.falls.front();
+    EXPECT_NEAR(flown.descent_speed, solved.descent_speed, 0.1 * solved.descent_speed);
+    ASSERT_TRUE(solved.frequency && flown.frequency);
+    EXPECT_NEAR(*flown.frequency, *solved.frequency, 0.15 * *solved.frequency);
+}
+
+TEST_F(FallIdentification, RefusesToIdentifyFromNothing) {
+    EXPECT_EQ(test::error_of([&] { static_cast<void>(identify_motion(body_, {})); }),
+              "exact: there is no fall to identify coefficients from");
+}
+
+TEST_F(FallIdentification, RefusesAFallThatIsTooShort) {
+    FallRecord record = record_;
+    record.fall.name = "fall_07";
+    record.samples.resize(899);
+    EXPECT_EQ(fault_with(body_, record),
+              "fall_07: the fall is too short to identify coefficients from: 8.99 L/U, needs 9");
+    record.samples.clear();
+    EXPECT_EQ(fault_with(body_, record),
+              "fall_07: the fall is too short to identify coefficients from: 0 L/U, needs 9");
+    record.samples.assign(record_.samples.begin(), record_.samples.begin() + 900);
+    EXPECT_EQ(identify_motion(body_, {record}).segments, 12);
+}
+
+TEST_F(FallIdentification, RefusesAFallOfAnotherBody) {
+    FallRecord record = record_;
+    record.fall.name = "fall_07";
+    record.fall.length *= 1.01;
+    const std::string fault = fault_with(body_, record);
+    EXPECT_THAT(fault, HasSubstr("fall_07: the fall is of another body"));
+    EXPECT_THAT(fault, Not(HasSubstr("\n")));
+}
+
+TEST_F(FallIdentification, RefusesAFallWhoseStepsAreUneven) {
+    FallRecord record = record_;
+    record.fall.name = "fall_07";
+    record.samples.erase(record.samples.begin() + 500);
+    EXPECT_EQ(fault_with(body_, record),
+              "fall_07: the fall's steps are not of one length: 0.01 L/U at first, but not at 5.02");
+}
+
+}  // namespace
+}  // namespace samara

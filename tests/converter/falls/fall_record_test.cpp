@@ -1,0 +1,281 @@
+#include "converter/falls/fall_record.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <functional>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/expect_error.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace samara {
+namespace {
+
+using testing::HasSubstr;
+
+// What OpenFOAM v1912 writes before the numbers.
+constexpr const char* state_heading =
+    "# Motion State      \n# Angle Units       : radians\n"
+    "# Time              \tcentreOfRotation\tcentreOfMass\trotation\tvelocity\tomega\n";
+constexpr const char* force_heading =
+    "# Force             \n# CofR              : (0.000000000000e+00 0.000000000000e+00 "
+    "0.000000000000e+00)\n#\n"
+    "# Time              \t(total_x total_y total_z)\t(pressure_x pressure_y pressure_z)\t(viscous_x "
+    "viscous_y viscous_z)\n";
+
+// The principal axes of a body that was given to pimpleFoam v1912, and the angles that it wrote of them.
+Matrix3d axes_given_to_openfoam() {
+    Matrix3d axes;
+    axes << -0.3337499770817988, 0.40521851895241373, -0.8511221444046158,  //
+        0.5379595723725796, -0.6595551249202286, -0.5249633660401203,       //
+        -0.7740868499662104, -0.6330758162254139, 0.0021353266532188053;
+    return axes;
+}
+constexpr const char* angles_openfoam_wrote = "(1.566728776533e+00 -1.018119153679e+00 -2.259780427167e+00)";
+
+class FallRecordFiles : public testing::Test {
+  protected:
+    void write(const char* function, const char* file, const std::string& text) {
+        static_cast<void>(folder_.file(std::string("postProcessing/") + function + "/0/" + file, text));
+    }
+    void write_fall(const FreeFall& fall) {
+        static_cast<void>(folder_.file("fall.json", free_fall_json(fall)));
+    }
+    [[nodiscard]] FallRecord record() const { return read_fall_record(folder_.path()); }
+
+    static FreeFall fall() {
+        FreeFall fall;
+        fall.reynolds_number = 1e4;
+        fall.volume = 0.4;
+        fall.mass = 0.5;
+        fall.duration = 1.0;
+        fall.time_step = 0.5;
+        return fall;
+    }
+
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(FallRecordFiles, GivePlaceVelocityAndLoadsAboutTheCentreOfMass) {
+    write_fall(fall());
+    write("state", "sixDoFRigidBodyState.dat",
+          state_heading + std::string("0.5\t(9 9 9)\t(1 2 3)\t(0 0 0)\t(0.1 0.2 0.3)\t(-1 -2 -3)\n"
+                                      "1\t(9 9 9)\t(1 2 4)\t(0 0 0.1)\t(0.4 0.5 0.6)\t(4 5 6)\n"));
+    write("forces", "force.dat",
+          force_heading + std::string("0.5\t(0 0 2)\t(0 0 1)\t(0 0 1)\n1\t(1 0 0)\t(1 0 0)\t(0 0 0)\n"));
+    write("forces", "moment.dat",
+          force_heading + std::string("0.5\t(5 5 5)\t(5 5 5)\t(0 0 0)\n1\t(5 5 5)\t(5 5 5)\t(0 0 0)\n"));
+    const FallRecord read = record();
+    ASSERT_EQ(read.samples.size(), 2u);
+    const FallSample& first = read.samples[0];
+    EXPECT_EQ(first.time, 0.5);
+    EXPECT_EQ(first.position, Vector3d(1, 2, 3));
+    EXPECT_EQ(first.velocity, Vector3d(0.1, 0.2, 0.3));
+    EXPECT_EQ(first.angular_velocity, Vector3d(-1, -2, -3));
+    EXPECT_EQ(first.force, Vector3d(0, 0, 2));
+    // (1, 2, 3) x (0, 0, 2) = (4, -2, 0)
+    EXPECT_EQ(first.moment, Vector3d(1, 7, 5));
+    // (1, 2, 4) x (1, 0, 0) = (0, 4, -2)
+    EXPECT_EQ(read.samples[1].moment, Vector3d(5, 1, 7));
+    EXPECT_NEAR(read.samples[1].turn(1, 0), std::sin(0.1), 1e-15);
+}
+
+TEST_F(FallRecordFiles, TakeTheSolversAnglesForTurnsOfThePrincipalAxes) {
+    FreeFall turned = fall();
+    turned.principal_axes = axes_given_to_openfoam();
+    turned.time_step = 1.0;
+    write_fall(turned);
+    write("state", "sixDoFRigidBodyState.dat",
+          fmt::format("{}1\t(0 0 0)\t(0 0 0)\t{}\t(0 0 0)\t(0 0 0)\n", state_heading, angles_openfoam_wrote));
+    for (const char* file : {"force.dat", "moment.dat"}) {
+        write("forces", file, force_heading + std::string("1\t(0 0 0)\t(0 0 0)\t(0 0 0)\n"));
+    }
+    EXPECT_LT((record().samples[0].turn - Matrix3d::Identity()).norm(), 1e-10);
+}
+
+TEST_F(FallRecordFiles, AreRefusedWhereOneIsMissingOrOfOtherTimes) {
+    const auto fault = [&] { return test::error_of([&] { static_cast<void>(record()); }); };
+    EXPECT_THAT(fault(), HasSubstr("fall.json: is not there"));
+    write_fall(fall());
+    EXPECT_THAT(fault(), HasSubstr("postProcessing/state"));
+    write("state", "sixDoFRigidBodyState.dat",
+          state_heading + std::string("1\t(0 0 0)\t(0 0 0)\t(0 0 0)\t(0 0 0)\t(0 0 0)\n"));
+    EXPECT_THAT(fault(), HasSubstr("postProcessing/forces"));
+    for (const char* file : {"force.dat", "moment.dat"}) {
+        write("forces", file, force_heading + std::string("0.5\t(0 0 0)\t(0 0 0)\t(0 0 0)\n"));
+    }
+    EXPECT_THAT(fault(), HasSubstr("are not of the same times"));
+}
+
+TEST_F(FallRecordFiles, AreRefusedWhereAnyIsCutShortEmptiedOrBeyondReason) {
+    write_fall(fall());
+    const std::string state =
+        "0.5 (0 0 0) (0 0 0) (0 0 0) (0 0 0) (0 0 0)\n1 (0 0 0) (0 0 0) (0 0 0) (0 0 0) (0 0 0)\n";
+    const std::string loads = "0.5 (0 0 0) (0 0 0) (0 0 0)\n1 (0 0 0) (0 0 0) (0 0 0)\n";
+    const auto write_all = [&](const std::string& states, const std::string& forces,
+                               const std::string& moments) {
+        write("state", "sixDoFRigidBodyState.dat", state_heading + states);
+        write("forces", "force.dat", force_heading + forces);
+        write("forces", "moment.dat", force_heading + moments);
+    };
+    const auto fault_with = [&](const std::string& states, const std::string& forces,
+                                const std::string& moments) {
+        write_all(states, forces, moments);
+        const std::string fault = test::error_of([&] { static_cast<void>(record()); });
+        EXPECT_EQ(fault.find('\n'), std::string::npos) << fault;
+        return fault;
+    };
+    const auto first_row = [](const std::string& text) { return text.substr(0, text.find('\n') + 1); };
+    const auto second_row = [](const std::string& text) { return text.substr(text.find('\n') + 1); };
+    write_all(state, loads, loads);
+    EXPECT_EQ(record().samples.size(), 2u);
+    EXPECT_THAT(fault_with(first_row(state), loads, loads), HasSubstr("end at the time 0.5 of 1"));
+    EXPECT_THAT(fault_with(state, first_row(loads), loads), HasSubstr("end at the time 0.5 of 1"));
+    EXPECT_THAT(fault_with(state, loads, first_row(loads)), HasSubstr("end at the time 0.5 of 1"));
+    EXPECT_THAT(fault_with(state, loads, second_row(loads)), HasSubstr("not of the same times"));
+    EXPECT_THAT(fault_with(second_row(state), second_row(loads), second_row(loads)),
+                HasSubstr("it has nothing between the times 0 and 1"));
+    EXPECT_THAT(fault_with(state, loads, ""), HasSubstr("moment.dat: holds no values"));
+    for (const char* value : {"1e20", "nan", "1e400", "-inf"}) {
+        // The first vector of a state, the centre of rotation, does not count.
+        const auto damaged = [&](std::string text, const char* before) {
+            return text.replace(text.find(before) + std::strlen(before), 1, value);
+        };
+        EXPECT_THAT(fault_with(damaged(state, ") ("), loads, loads), HasSubstr("at the time 0.5 is"))
+            << value;
+        EXPECT_THAT(fault_with(state, damaged(loads, "("), loads), HasSubstr("at the time 0.5 is")) << value;
+        EXPECT_THAT(fault_with(state, loads, damaged(loads, "(")), HasSubstr("at the time 0.5 is")) << value;
+    }
+}
+
+// A rigid body under known loads, in steps of 0.005.
+struct Motion {
+    FreeFall fall;
+    std::function<Vector3d(double)> force = [](double) { return Vector3d::Zero().eval(); };
+    /// Of (turn, angular velocity): the angular acceleration.
+    std::function<Vector3d(const Matrix3d&, const Vector3d&)> angular_acceleration;
+    std::function<Vector3d(const Matrix3d&)> moment = [](const Matrix3d&) { return Vector3d::Zero().eval(); };
+};
+
+// By steps a hundred times as short.
+FallRecord solved(const Motion& motion, const Vector3d& angular_velocity) {
+    constexpr int substeps = 100;
+    constexpr double step = 0.005;
+    FallRecord record;
+    record.fall = motion.fall;
+    FallSample now;
+    now.angular_velocity = angular_velocity;
+    const Vector3d weight = (motion.fall.mass - motion.fall.volume) * motion.fall.gravity;
+    for (int i = 1; i <= 600; ++i) {
+        for (int j = 0; j < substeps; ++j) {
+            const double h = step / substeps;
+            const double middle = now.time + 0.5 * h;
+            now.velocity += h / motion.fall.mass * (weight + motion.force(middle));
+            const Vector3d guess =
+                now.angular_velocity + 0.5 * h * motion.angular_acceleration(now.turn, now.angular_velocity);
+            const auto turned = [&](double duration) -> Matrix3d {
+                return Eigen::AngleAxisd(guess.norm() * duration, guess.normalized()).toRotationMatrix() *
+                       now.turn;
+            };
+            now.angular_velocity += h * motion.angular_acceleration(turned(0.5 * h), guess);
+            now.turn = turned(h);
+            now.time += h;
+        }
+        now.force = motion.force(now.time);
+        now.moment = motion.moment(now.turn);
+        record.samples.push_back(now);
+    }
+    return record;
+}
+
+FreeFall uneven_body() {
+    FreeFall fall;
+    fall.reynolds_number = 1e4;
+    fall.volume = 0.5;
+    fall.mass = 0.6;
+    fall.gravity = {0.5, -1.0, -3.0};
+    fall.principal_axes = Eigen::AngleAxisd(0.7, Vector3d(1, -2, 1).normalized()).toRotationMatrix();
+    fall.principal_moments = {0.02, 0.05, 0.08};
+    return fall;
+}
+
+// Euler's equations with the gyroscopic term times `share`, under the moment.
+auto eulers_equations(const FreeFall& fall, double share,
+                      const std::function<Vector3d(const Matrix3d&)>& moment) {
+    return [=](const Matrix3d& turn, const Vector3d& angular_velocity) -> Vector3d {
+        const Matrix3d inertia = turn * fall.inertia() * turn.transpose();
+        return inertia.ldlt().solve(moment(turn) -
+                                    share * angular_velocity.cross(inertia * angular_velocity));
+    };
+}
+
+const Vector3d tumble(1.5, 0.7, -2.0);
+
+TEST(FallBalance, IsZeroForARigidBodyUnderTheLoads) {
+    Motion motion;
+    motion.fall = uneven_body();
+    motion.force = [](double time) { return Vector3d(std::sin(time), 0.3, std::cos(2.0 * time)); };
+    motion.angular_acceleration = eulers_equations(motion.fall, 1.0, motion.moment);
+    const FallBalance balance = balance_of(solved(motion, tumble));
+    EXPECT_LT(balance.force, 1e-4);
+    EXPECT_LT(balance.moment, 1e-3);
+}
+
+TEST(FallBalance, HoldsTheMomentOfBuoyancyOnABodyHungOffItsCentroid) {
+    Motion motion;
+    motion.fall = uneven_body();
+    motion.fall.center_of_mass = {0.02, 0.05, -0.1};
+    // Buoyancy at the centroid: (-R c) x (-V g).
+    const auto of_buoyancy = [fall = motion.fall](const Matrix3d& turn) -> Vector3d {
+        return (turn * -fall.center_of_mass).cross(-fall.volume * fall.gravity);
+    };
+    motion.angular_acceleration = eulers_equations(motion.fall, 1.0, of_buoyancy);
+    EXPECT_LT(balance_of(solved(motion, tumble)).moment, 1e-3);
+}
+
+TEST(FallBalance, ShowsADroppedGyroscopicTermWhole) {
+    Motion motion;
+    motion.fall = uneven_body();
+    motion.angular_acceleration = eulers_equations(motion.fall, 0.0, motion.moment);
+    const FallBalance balance = balance_of(solved(motion, tumble));
+    EXPECT_LT(balance.force, 1e-4);
+    EXPECT_NEAR(balance.moment, 1.0, 0.01);
+}
+
+TEST(FallBalance, ShowsAForceThatIsOffByAsMuch) {
+    Motion motion;
+    motion.fall = uneven_body();
+    motion.force = [](double time) { return Vector3d(4.0 * std::sin(3.0 * time), 0.0, 0.0); };
+    motion.angular_acceleration = eulers_equations(motion.fall, 1.0, motion.moment);
+    FallRecord record = solved(motion, tumble);
+    for (FallSample& sample : record.samples) sample.force *= 1.05;
+    EXPECT_NEAR(balance_of(record).force, 0.05 / 1.05, 2e-3);
+}
+
+TEST(FallBalance, DoesNotTakeNoiseOnABodyThatDoesNotTurnForAnError) {
+    Motion motion;
+    motion.fall = uneven_body();
+    motion.fall.principal_moments.setConstant(0.05);
+    motion.force = [weight = Vector3d((0.6 - 0.5) * motion.fall.gravity)](double) {
+        return Vector3d(-weight);
+    };
+    motion.angular_acceleration = eulers_equations(motion.fall, 1.0, motion.moment);
+    FallRecord record = solved(motion, Vector3d(1e-9, 0, 0));
+    for (std::size_t i = 0; i < record.samples.size(); ++i) {
+        record.samples[i].moment.x() = (i % 2 == 0 ? 1e-5 : -1e-5) * record.samples[i].force.norm();
+    }
+    EXPECT_LT(balance_of(record).moment, 0.01);
+}
+
+TEST(FallBalance, IsZeroWithoutSamples) {
+    FallRecord record;
+    EXPECT_EQ(balance_of(record).force, 0.0);
+    record.samples.resize(2);
+    EXPECT_EQ(balance_of(record).moment, 0.0);
+}
+
+}  // namespace
+}  // namespace samara

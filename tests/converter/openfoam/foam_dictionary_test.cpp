@@ -1,0 +1,53 @@
+#include "converter/openfoam/foam_dictionary.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "samara/base/error.hpp"
+#include "support/expect_error.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace samara {
+namespace {
+
+using testing::EndsWith;
+
+class FoamDictionaryTest : public testing::Test {
+  protected:
+    FoamDictionary read(const char* text) { return FoamDictionary(folder_.file("parameters", text)); }
+    std::string number_fault(const char* text) {
+        return test::error_of([&] { static_cast<void>(read(text).number("a")); });
+    }
+    std::string vector_fault(const char* text) {
+        return test::error_of([&] { static_cast<void>(read(text).vector("a")); });
+    }
+
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(FoamDictionaryTest, ReadsNumbersVectorsAndTextBesideWhatItPassesOver) {
+    const FoamDictionary dictionary = read(
+        "// All that differs\nFoamFile { version 2.0; }\n#include \"other\"\n"
+        "direction           (1 0 -2.5e-1);    // unit vector\nreynoldsNumber      10000;\n"
+        "shells ((0.2 4) (0.6 3));\nRAS { model kEpsilon; coefficients { C1 1.44; } }\nlast 1e-4;");
+    EXPECT_EQ(dictionary.vector("direction"), Vector3d(1.0, 0.0, -0.25));
+    EXPECT_EQ(dictionary.number("reynoldsNumber"), 1e4);
+    EXPECT_EQ(dictionary.text("shells"), "((0.2 4) (0.6 3))");
+    EXPECT_EQ(dictionary.number("last"), 1e-4);
+}
+
+TEST_F(FoamDictionaryTest, FaultsNameFileAndEntry) {
+    EXPECT_THAT(number_fault("b 1;"), EndsWith("parameters: entry 'a' is missing"));
+    EXPECT_THAT(number_fault("a one;"), EndsWith("parameters: entry 'a' should be a number, is 'one'"));
+    EXPECT_THAT(number_fault("a 1 2;"), EndsWith("parameters: entry 'a' should be a number, is '1 2'"));
+    EXPECT_THAT(number_fault("a $b;"), EndsWith("parameters: entry 'a' should be a number, is '$b'"));
+    EXPECT_THAT(vector_fault("a (1 2);"), EndsWith("should be three numbers in brackets, is '(1 2)'"));
+    EXPECT_THAT(vector_fault("a (1 2 3 4);"),
+                EndsWith("should be three numbers in brackets, is '(1 2 3 4)'"));
+    EXPECT_THAT(vector_fault("a 1;"), EndsWith("should be three numbers in brackets, is '1'"));
+    EXPECT_THAT(number_fault("b 1;\na 2"), EndsWith("parameters:2: this entry is not ended by ';'"));
+    EXPECT_THAT(number_fault("b (1;\n"), EndsWith("parameters:1: this entry is not ended by ';'"));
+}
+
+}  // namespace
+}  // namespace samara

@@ -1,0 +1,213 @@
+#include "foam-cases/bake/bake_plan.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "internal/flight/terminal_speed.hpp"
+#include "samara/base/error.hpp"
+#include "support/expect_error.hpp"
+#include "test_bodies.hpp"
+
+namespace samara {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+BakePlan preview_of(const Body& body) {
+    return plan_bake(body, bake_quality("preview"), 1e4);
+}
+
+std::vector<BakeCase> of_purpose(const BakePlan& plan, CasePurpose purpose) {
+    std::vector<BakeCase> found;
+    std::ranges::copy_if(plan.cases, std::back_inserter(found),
+                         [&](const BakeCase& entry) { return entry.purpose == purpose; });
+    return found;
+}
+
+TEST(BakePlan, SolvesOneOctantOfAnEllipsoid) {
+    const BakePlan plan = preview_of(test::ellipsoid({0.01, 0.02, 0.04}));
+    EXPECT_EQ(plan.solved_subdivisions, 4);
+    EXPECT_EQ(plan.subdivisions, 8);
+    const std::vector<BakeCase> cases = of_purpose(plan, CasePurpose::table);
+    EXPECT_EQ(cases.size(), 15u);  // the nodes of one face of the octahedron, its edges cut into four
+    for (const BakeCase& entry : cases) {
+        EXPECT_NEAR(entry.direction.norm(), 1.0, 1e-12);
+        EXPECT_GE(entry.direction.minCoeff(), 0.0);
+        EXPECT_EQ(entry.reynolds_number, 1e4);
+        EXPECT_EQ(entry.mesh, plan.quality.meshes.back().name);
+    }
+}
+
+TEST(BakePlan, SolvesOneDirectionOfASphere) {
+    EXPECT_EQ(of_purpose(preview_of(test::sphere(0.01)), CasePurpose::table).size(), 1u);
+}
+
+TEST(BakePlan, SolvesEveryDirectionOfABodyWithoutSymmetry) {
+    Body body = test::ellipsoid({0.01, 0.02, 0.04});
+    body.symmetry.elements = {Matrix3d::Identity()};
+    const BakePlan plan = preview_of(body);
+    EXPECT_EQ(plan.solved_subdivisions, 2);
+    // 6 corners and 12 edge middles of the octahedron
+    EXPECT_EQ(of_purpose(plan, CasePurpose::table).size(), 18u);
+}
+
+TEST(BakePlan, StartsEachMainCaseFromTheSameDirectionOnTheNextCoarserMesh) {
+    const BakePlan plan = plan_bake(test::ellipsoid({0.01, 0.02, 0.04}), bake_quality("standard"), 1e4);
+    ASSERT_EQ(plan.quality.meshes.size(), 3u);
+    for (const BakeCase& entry : of_purpose(plan, CasePurpose::start)) EXPECT_EQ(entry.start_from, "");
+    EXPECT_EQ(of_purpose(plan, CasePurpose::start).size(), 15u);
+    EXPECT_EQ(of_purpose(plan, CasePurpose::mesh).size(), 15u);
+    for (std::size_t i = 0; i < plan.cases.size(); ++i) {
+        const BakeCase& entry = plan.cases[i];
+        if (entry.start_from.empty()) continue;
+        const auto start = std::ranges::find(plan.cases, entry.start_from, &BakeCase::name);
+        ASSERT_LT(start - plan.cases.begin(), static_cast<std::ptrdiff_t>(i));
+        EXPECT_EQ(start->direction, entry.direction);
+    }
+}
+
+TEST(BakePlan, SolvesFurtherReynoldsNumbersInFewDirectionsFromTheMainOne) {
+    const BakePlan plan = plan_bake(test::ellipsoid({0.01, 0.02, 0.04}), bake_quality("standard"), 10200.0);
+    EXPECT_THAT(plan.reynolds_numbers(), testing::ElementsAre(10200.0, 1020.0, 3060.0));
+    std::size_t further = 0;
+    for (const BakeCase& entry : plan.cases) {
+        if (entry.reynolds_number == 10200.0) continue;
+        ++further;
+        EXPECT_EQ(entry.purpose, CasePurpose::table);
+        EXPECT_EQ(entry.mesh, "mesh_medium");
+        const auto start = std::ranges::find(plan.cases, entry.start_from, &BakeCase::name);
+        ASSERT_NE(start, plan.cases.end());
+        EXPECT_EQ(start->mesh, entry.mesh);
+        EXPECT_EQ(start->direction, entry.direction);
+        EXPECT_EQ(start->purpose, CasePurpose::mesh);
+    }
+    EXPECT_EQ(further, 2u * 6u);  // an octant of the octahedron whose edges are cut into two
+}
+
+TEST(BakePlan, ComparesClosuresAtHighQuality) {
+    const BakePlan plan = plan_bake(test::ellipsoid({0.01, 0.02, 0.04}), bake_quality("high"), 1e4);
+    const std::vector<BakeCase> cases = of_purpose(plan, CasePurpose::closure);
+    EXPECT_EQ(cases.size(), 12u);
+    for (const BakeCase& entry : cases) EXPECT_NE(entry.closure, Closure::k_epsilon);
+}
+
+TEST(BakePlan, IsLaminarBelowTheStatedReynoldsNumber) {
+    const Body body = test::ellipsoid({0.01, 0.02, 0.04});
+    const BakePlan plan = plan_bake(body, bake_quality("standard"), 1000.0);
+    for (const BakeCase& entry : plan.cases) {
+        EXPECT_EQ(entry.closure, entry.reynolds_number < 300.0 ? Closure::laminar : Closure::k_epsilon);
+    }
+    EXPECT_TRUE(
+        std::ranges::any_of(plan.cases, [](const BakeCase& one) { return one.closure == Closure::laminar; }));
+}
+
+TEST(BakePlan, GivesEachCaseItsOwnName) {
+    const BakePlan plan = preview_of(test::ellipsoid({0.01, 0.02, 0.04}));
+    std::vector<std::string> names;
+    for (const BakeCase& entry : plan.cases) names.push_back(entry.name);
+    std::sort(names.begin(), names.end());
+    EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end());
+}
+
+TEST(BakePlan, DoesNotDependOnTheBodysSize) {
+    const BakePlan small = preview_of(test::ellipsoid({0.01, 0.02, 0.04}));
+    const BakePlan large = preview_of(test::ellipsoid({1.0, 2.0, 4.0}));
+    EXPECT_NEAR(small.cells.back(), large.cells.back(), 1e-9 * small.cells.back());
+    EXPECT_NEAR(100.0 * small.reference_length, large.reference_length, 1e-9);
+}
+
+TEST(BakePlan, WidensTheBoxAndRefinesTheSurfaceOfARod) {
+    const BakePlan cube = preview_of(test::box({0.02, 0.02, 0.02}));
+    const BakePlan sheet = preview_of(test::box({0.1, 0.1, 0.0001}));
+    const BakePlan rod = preview_of(test::box({0.002, 0.002, 0.1}));
+    EXPECT_EQ(cube.quality.meshes.back().box_half_width, 10);
+    EXPECT_EQ(cube.quality.meshes.back().surface_level, 4);
+    EXPECT_EQ(sheet.quality.meshes.back().surface_level, 4);
+    const double reach = 0.05 / rod.reference_length;
+    EXPECT_GE(rod.quality.meshes.back().box_half_width, 4.0 * reach);
+    const double cell = 1.0 / (1 << rod.quality.meshes.back().surface_level);
+    EXPECT_LE(3.0 * cell * rod.reference_length, 0.002);
+}
+
+TEST(BakePlan, ReachesTheSurfaceLevelThroughShellsThatThinInwards) {
+    const FlowMesh mesh = preview_of(test::ellipsoid({0.001, 0.001, 0.05})).quality.meshes.back();
+    EXPECT_GT(mesh.surface_level, 4);
+    EXPECT_EQ(mesh.refinement_shells.front().second, mesh.surface_level);
+    for (std::size_t i = 1; i < mesh.refinement_shells.size(); ++i) {
+        EXPECT_LT(mesh.refinement_shells[i - 1].first, mesh.refinement_shells[i].first);
+        EXPECT_EQ(mesh.refinement_shells[i - 1].second, mesh.refinement_shells[i].second + 1);
+    }
+}
+
+TEST(BakePlan, CostsMoreAtAHigherQuality) {
+    const Body body = test::ellipsoid({0.01, 0.02, 0.04});
+    double before = 0.0;
+    for (const std::string& name : bake_quality_names()) {
+        const double seconds = plan_bake(body, bake_quality(name), 1e4).cpu_seconds;
+        EXPECT_GT(seconds, 2.0 * before) << name;
+        before = seconds;
+    }
+}
+
+TEST(BakePlan, HalvesTheCellsAtTheSurfaceFromMeshToMesh) {
+    const BakePlan plan = plan_bake(test::sphere(0.01), bake_quality("high"), 1e4);
+    for (std::size_t i = 1; i < plan.cells.size(); ++i) EXPECT_GT(plan.cells[i], 2.0 * plan.cells[i - 1]);
+}
+
+TEST(BakePlan, CountsTheCellsOfABoxWithoutRefinementExactly) {
+    FlowMesh mesh;
+    mesh.layers = 0;
+    mesh.refinement_shells = {};
+    EXPECT_DOUBLE_EQ(estimated_cells(test::sphere(1.0), mesh), 8000.0);
+}
+
+TEST(BakePlan, IsWrittenWithAxesAsRowsAndDirectionsInCaseAxes) {
+    Body body = test::ellipsoid({0.01, 0.02, 0.04});
+    body.symmetry.axes << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+    const BakePlan plan = plan_bake(body, bake_quality("smoke"), 5000.0);
+    const nlohmann::json json = plan_json(plan);
+    EXPECT_EQ(json["quality"], "smoke");
+    EXPECT_EQ(json["subdivisions"], plan.subdivisions);
+    EXPECT_EQ(json["axes"][0], nlohmann::json({0.0, 0.0, 1.0}));
+    EXPECT_EQ(json["cases"].size(), plan.cases.size());
+    EXPECT_EQ(json["cases"][1]["direction"][0], plan.cases[1].direction.x());
+    EXPECT_EQ(json["cases"][1]["reynolds_number"], 5000.0);
+    EXPECT_EQ(json["cases"][1]["purpose"], "table");
+    EXPECT_EQ(json["meshes"][0]["name"], "mesh_coarse");
+}
+
+/// Of a sphere in water; density in kg/m^3.
+double speed_of(double density, double gravity = 9.81) {
+    const Body body = test::sphere(0.01);
+    return bake_speed(body, *fluid_preset("water"), density * body.moments.volume, gravity);
+}
+
+TEST(BakeSpeed, IsTheTerminalSpeed) {
+    const Body body = test::sphere(0.01);
+    EXPECT_EQ(speed_of(2000.0),
+              terminal_speed(body, *fluid_preset("water"), 2000.0 * body.moments.volume, 9.81));
+}
+
+TEST(BakeSpeed, OfABodyThatFloatsInTheFluidOrWithoutGravityIsRefusedWithItsName) {
+    const std::string neutral = test::error_of([] { (void)speed_of(fluid_preset("water")->density); });
+    EXPECT_THAT(neutral, AllOf(HasSubstr("sphere"), HasSubstr("choose another density")));
+    const std::string weightless = test::error_of([] { (void)speed_of(2000.0, 0.0); });
+    EXPECT_THAT(weightless, AllOf(HasSubstr("sphere"), HasSubstr("choose another gravity")));
+}
+
+TEST(BakeReynoldsNumber, HasThreeDigits) {
+    EXPECT_NEAR(rounded_reynolds_number(9963.7), 9960.0, 1e-9);
+    EXPECT_NEAR(rounded_reynolds_number(0.123456), 0.123, 1e-12);
+}
+
+TEST(BakeQuality, OfAnUnknownNameIsRefused) {
+    EXPECT_THROW(bake_quality("perfect"), Error);
+}
+
+}  // namespace
+}  // namespace samara

@@ -1,0 +1,303 @@
+#include "foam-cases/falls/fall_plan.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "internal/flight/terminal_speed.hpp"
+#include "internal/flight/world_pose.hpp"
+#include "test_bodies.hpp"
+
+namespace samara {
+namespace {
+
+const Fluid water = {1000.0, 1e-3, Vector3d::Zero(), {}};
+
+SceneBody of_density(double density) {
+    SceneBody body;
+    body.loads = Loads::none;
+    body.turbulence = Turbulence::none;
+    body.mass.density = density;
+    return body;
+}
+
+// Of a body that hangs off its centroid, and lies turned in the world.
+SceneBody uneven_and_turned() {
+    SceneBody body = of_density(1000.0);
+    body.mass = {};
+    body.mass.mass = 0.04;
+    body.mass.center_of_mass = Vector3d(0.001, -0.002, 0.004);
+    Matrix3d inertia;
+    inertia << 8e-6, 1e-6, -5e-7, 1e-6, 7e-6, 8e-7, -5e-7, 8e-7, 6e-6;
+    body.mass.inertia = inertia;
+    body.orientation = Quaterniond(Eigen::AngleAxisd(0.8, Vector3d(1, 2, -1).normalized()));
+    body.position = {3, 4, 5};
+    return body;
+}
+
+BodyState start_of(const SceneBody& scene_body, const ImmersedBody& immersed, const Fluid& fluid) {
+    Surroundings surroundings;
+    surroundings.current = fluid.current;
+    return initial_state(scene_body, immersed.center_of_mass, surroundings, Noise(1, "body", 0, 0));
+}
+
+const Vector3d gravity(0.0, 0.0, -9.81);
+constexpr double speed = 0.2;
+
+struct Planned {
+    Body body = test::ellipsoid({0.01, 0.02, 0.04}, {0.5, 0.0, 0.0});
+    SceneBody scene_body;
+    Fluid fluid = water;
+    ImmersedBody immersed;
+    BodyState start;
+    FreeFall fall;
+
+    explicit Planned(const SceneBody& of) : scene_body(of) {}
+    void plan() {
+        immersed = make_immersed_body(body, scene_body, fluid);
+        start = start_of(scene_body, immersed, fluid);
+        fall = plan_fall(body, immersed, start, gravity, speed, 3.0);
+    }
+};
+
+TEST(FallPlan, HasTheUnitsOfTheBodyTheSpeedAndTheFluid) {
+    Planned planned(of_density(1200.0));
+    planned.plan();
+    const FreeFall& fall = planned.fall;
+    const double length = reference_length(planned.body.moments.surface_area);
+    EXPECT_DOUBLE_EQ(fall.length, length);
+    EXPECT_DOUBLE_EQ(fall.reynolds_number, speed * length / 1e-6);
+    EXPECT_EQ(fall.closure, Closure::k_epsilon);
+    EXPECT_NEAR(fall.volume, planned.body.moments.volume / std::pow(length, 3.0), 1e-12);
+    EXPECT_NEAR(fall.mass, 1.2 * fall.volume, 1e-12);
+    EXPECT_NEAR(fall.duration, 3.0 * speed / length, 1e-9);
+    EXPECT_NEAR(fall.gravity.norm(), 9.81 * length / (speed * speed), 1e-9);
+    EXPECT_LT(fall.center_of_mass.norm(), 1e-12);
+    EXPECT_EQ(fall.principal_axes, Matrix3d::Identity());
+    // m (b^2 + c^2)/5
+    const double expected = 1.2 * fall.volume * (0.02 * 0.02 + 0.04 * 0.04) / 5.0 / (length * length);
+    EXPECT_NEAR(fall.principal_moments.x(), expected, 1e-9);
+    EXPECT_EQ(fall.velocity, Vector3d::Zero());
+    EXPECT_EQ(fall.time_step, fall_time_step);
+}
+
+TEST(FallPlan, TurnsEverythingIntoCaseAxes) {
+    Planned planned(uneven_and_turned());
+    Matrix3d& axes = planned.body.symmetry.axes;
+    axes << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+    planned.plan();
+    const FreeFall& fall = planned.fall;
+    const Matrix3d orientation = planned.scene_body.orientation.toRotationMatrix();
+    const double unit = fall.length / (speed * speed);
+    EXPECT_LT((orientation * axes * fall.gravity - gravity * unit).norm(), 1e-9);
+    const Vector3d from_centroid = *planned.scene_body.mass.center_of_mass - planned.body.moments.centroid;
+    EXPECT_LT((axes * fall.center_of_mass * fall.length - from_centroid).norm(), 1e-12);
+    const double inertia_unit = water.density * std::pow(fall.length, 5.0);
+    const Matrix3d inertia = axes * fall.inertia() * axes.transpose() * inertia_unit;
+    EXPECT_LT((inertia - *planned.scene_body.mass.inertia).norm(), 1e-15);
+    EXPECT_NEAR(fall.principal_axes.determinant(), 1.0, 1e-12);
+}
+
+// The solver writes angles about x, y and z, which are not unique where the third axis is the first of the
+// case.
+TEST(FallPlan, TakesPrincipalAxesThatAreLittleTurnedFromTheCases) {
+    SceneBody body = uneven_and_turned();
+    *body.mass.inertia << 9e-6, 0, 0, 0, 7e-6, 1e-7, 0, 1e-7, 6e-6;
+    Planned planned(body);
+    planned.plan();
+    EXPECT_GT(planned.fall.principal_axes.diagonal().minCoeff(), 0.9);
+    EXPECT_NEAR(planned.fall.principal_axes(0, 0), 1.0, 1e-12);
+}
+
+TEST(FallPlan, IsTheSameInAnyCurrentThatCarriesTheBodyAlong) {
+    SceneBody body = uneven_and_turned();
+    body.velocity = {0.1, 0.2, -0.3};
+    body.angular_velocity = {1, 2, 3};
+    Planned at_rest(body);
+    at_rest.plan();
+    const Vector3d current(0.5, -0.25, 0.125);
+    body.velocity += current;
+    Planned carried(body);
+    carried.fluid.current = current;
+    carried.plan();
+    EXPECT_LT((carried.fall.velocity - at_rest.fall.velocity).norm(), 1e-12);
+    EXPECT_LT((carried.fall.angular_velocity - at_rest.fall.angular_velocity).norm(), 1e-12);
+    EXPECT_EQ(carried.fall.gravity, at_rest.fall.gravity);
+}
+
+// Where the fluid is at rest and the body has the momenta of both, it keeps K^-1 of them, the velocity asked
+// for.
+TEST(FallPlan, StartsWithTheMomentaOfBodyAndFluid) {
+    SceneBody body = of_density(2000.0);
+    body.velocity = {0.0, 0.0, -0.3};
+    Planned planned(body);
+    planned.plan();
+    // The test body has the added mass of a sphere.
+    EXPECT_NEAR(planned.fall.velocity.z(), -0.3 * (2.0 + 0.5) / 2.0 / speed, 1e-9);
+
+    SceneBody uneven = uneven_and_turned();
+    uneven.velocity = {0.1, 0.2, -0.3};
+    uneven.angular_velocity = {1, 2, 3};
+    Planned turned(uneven);
+    turned.plan();
+    const FreeFall& fall = turned.fall;
+    Vector6d own;
+    own << turned.immersed.own_inertia * fall.angular_velocity / fall.time_unit(),
+        turned.immersed.mass * fall.velocity * speed;
+    const Vector6d left = turned.immersed.inverse_inertia * own;
+    EXPECT_LT((left - turned.start.velocity).norm(), 1e-9);
+}
+
+TEST(FallPlan, RelaxesBelowTheStabilityOfTakingFlowAndMotionInTurn) {
+    for (const double density : {20.0, 500.0, 1200.0, 8000.0}) {
+        Planned planned(of_density(density));
+        planned.plan();
+        // Of the test body: half its displaced mass, and no added moment of inertia.
+        const double ratio = 0.5 * 1000.0 / density;
+        EXPECT_NEAR(largest_inertia_ratio(planned.immersed), ratio, 1e-9);
+        EXPECT_NEAR(planned.fall.acceleration_relaxation, std::min(0.7, 0.75 * 2.0 / (1.0 + ratio)), 1e-12);
+    }
+}
+
+TEST(FallSpeed, IsTheTerminalSpeedOfABodyThatStartsFromRest) {
+    Planned planned(of_density(1200.0));
+    planned.plan();
+    const double expected = terminal_speed(planned.body, water, planned.immersed.mass, 9.81);
+    EXPECT_EQ(fall_speed(planned.body, planned.immersed, planned.start, water, 9.81), expected);
+}
+
+TEST(FallSpeed, IsThatOfTheStartWhereThatIsFaster) {
+    SceneBody body = of_density(1200.0);
+    body.velocity = {0, 3, 4};
+    Planned planned(body);
+    planned.plan();
+    EXPECT_NEAR(fall_speed(planned.body, planned.immersed, planned.start, water, 9.81), 5.0, 1e-12);
+    EXPECT_NEAR(fall_speed(planned.body, planned.immersed, planned.start, water, 0.0), 5.0, 1e-12);
+    planned.scene_body.velocity.setZero();
+    planned.scene_body.angular_velocity = {0, 0, 1000};
+    planned.plan();
+    EXPECT_NEAR(fall_speed(planned.body, planned.immersed, planned.start, water, 9.81),
+                500.0 * planned.fall.length, 1e-9);
+}
+
+TEST(FallSpeed, IsZeroForABodyAsDenseAsTheFluid) {
+    Planned planned(of_density(1000.0));
+    planned.plan();
+    EXPECT_EQ(fall_speed(planned.body, planned.immersed, planned.start, water, 9.81), 0.0);
+}
+
+// omega^2 = rho V g r / I, with the body's own inertia, for the test body has no added one about its
+// centroid.
+TEST(FallSpeed, OfAFloatingBodyHungOffItsCentroidIsThatOfItsSwings) {
+    SceneBody body = of_density(1000.0);
+    body.mass = {};
+    Planned planned(body);
+    planned.body = test::sphere(0.02);
+    planned.scene_body.mass.mass = 1000.0 * planned.body.moments.volume;
+    planned.scene_body.mass.center_of_mass = Vector3d(0, 0, -1e-4);
+    planned.plan();
+    const double inertia = 0.4 * *planned.scene_body.mass.mass * 0.02 * 0.02;
+    const double swing = std::sqrt(*planned.scene_body.mass.mass * 9.81 * 1e-4 / inertia);
+    EXPECT_NEAR(fall_speed(planned.body, planned.immersed, planned.start, water, 9.81),
+                swing * planned.fall.length, 0.01 * swing * planned.fall.length);
+}
+
+TEST(FallPlan, TakesTheMeshWhoseCellsAreNearestAsARatio) {
+    Planned planned(of_density(1200.0));
+    planned.plan();
+    const auto mesh_at = [&](double cells) { return plan_single_fall(planned.body, cells, planned.fall); };
+    EXPECT_EQ(mesh_at(5000).only_fall().mesh, "mesh_coarse");
+    EXPECT_EQ(mesh_at(20000).only_fall().mesh, "mesh_medium");
+    EXPECT_EQ(mesh_at(40000).only_fall().mesh, "mesh_fine");
+    const BakePlan plan = mesh_at(1e7);
+    EXPECT_EQ(plan.only_fall().mesh, "mesh_finest");
+    EXPECT_TRUE(plan.cases.empty());
+    ASSERT_EQ(plan.quality.meshes.size(), 1u);
+    EXPECT_EQ(plan.quality.meshes.front().name, "mesh_finest");
+    const double of_fall = estimated_fall_seconds(plan.only_fall(), plan.cells.front());
+    EXPECT_GT(plan.cpu_seconds, of_fall);
+    EXPECT_LT(plan.cpu_seconds, 2.0 * of_fall);
+}
+
+BakePlan bake_with_falls(const Body& body, const std::string& quality) {
+    MassSpecification mass;
+    mass.density = 1200.0;
+    BakePlan plan = plan_bake(body, bake_quality(quality), 1e4);
+    add_falls(body, water, mass, 9.81, speed, plan);
+    return plan;
+}
+
+TEST(FallPlan, IsOfItsOwnKindNotOfAQuality) {
+    Planned planned(of_density(1200.0));
+    planned.plan();
+    const BakePlan plan = plan_single_fall(planned.body, 5000.0, planned.fall);
+    EXPECT_EQ(plan.kind, CaseKind::fall);
+    EXPECT_EQ(plan_json(plan)["quality"], "fall");
+    EXPECT_EQ(kind_of_plan(plan_json(plan)), CaseKind::fall);
+    const BakePlan bake = bake_with_falls(planned.body, "standard");
+    EXPECT_EQ(kind_of_plan(plan_json(bake)), CaseKind::bake);
+    EXPECT_THROW(static_cast<void>(bake.only_fall()), std::logic_error);
+}
+
+TEST(IdentificationFalls, AreTwoAtStandardOnTheMediumMeshAndAtHighOnTheFine) {
+    const Body body = test::ellipsoid({0.01, 0.02, 0.04});
+    EXPECT_TRUE(bake_with_falls(body, "smoke").falls.empty());
+    EXPECT_TRUE(bake_with_falls(body, "preview").falls.empty());
+    const BakePlan standard = bake_with_falls(body, "standard");
+    ASSERT_EQ(standard.falls.size(), 2u);
+    EXPECT_EQ(standard.falls[0].name, "fall_00");
+    EXPECT_EQ(standard.falls[0].mesh, "mesh_medium");
+    const BakePlan high = bake_with_falls(body, "high");
+    ASSERT_EQ(high.falls.size(), 2u);
+    for (const FreeFall& fall : high.falls) EXPECT_EQ(fall.mesh, "mesh_fine");
+    EXPECT_EQ(high.falls[1].name, "fall_01");
+    EXPECT_GT((high.falls[0].gravity - high.falls[1].gravity).norm(), 0.3 * high.falls[0].gravity.norm());
+}
+
+TEST(IdentificationFalls, StartFromRestWithTheBodysMassAndLastThirtyUnits) {
+    const BakePlan plan = bake_with_falls(test::ellipsoid({0.01, 0.02, 0.04}), "standard");
+    const FreeFall& fall = plan.falls[0];
+    EXPECT_EQ(fall.velocity, Vector3d::Zero());
+    EXPECT_EQ(fall.angular_velocity, Vector3d::Zero());
+    EXPECT_NEAR(fall.mass, 1.2 * fall.volume, 1e-12);
+    EXPECT_NEAR(fall.duration, 30.0, 1e-12);
+    EXPECT_EQ(fall.speed, speed);
+}
+
+TEST(IdentificationFalls, CountInTheCostOfTheBake) {
+    const Body body = test::ellipsoid({0.01, 0.02, 0.04});
+    const BakePlan plan = bake_with_falls(body, "standard");
+    const double without = plan_bake(body, bake_quality("standard"), 1e4).cpu_seconds;
+    EXPECT_NEAR(plan.cpu_seconds - without,
+                2.0 * estimated_fall_seconds(plan.falls[0], cells_of(plan, "mesh_medium")), 1e-6 * without);
+    BakePlan again = plan;
+    estimate_cost(again);
+    EXPECT_EQ(again.cpu_seconds, plan.cpu_seconds);
+}
+
+TEST(IdentificationFalls, StandInThePlanWithTheirMeshes) {
+    const nlohmann::json json = plan_json(bake_with_falls(test::ellipsoid({0.01, 0.02, 0.04}), "high"));
+    EXPECT_EQ(json["falls"], (nlohmann::json{{{"name", "fall_00"}, {"mesh", "mesh_fine"}},
+                                             {{"name", "fall_01"}, {"mesh", "mesh_fine"}}}));
+}
+
+TEST(IdentificationStart, IsObliqueToAllPrincipalAxesHoweverTheShapeLies) {
+    Body body = test::ellipsoid({0.01, 0.02, 0.04});
+    const Matrix3d turn = Eigen::AngleAxisd(0.9, Vector3d(1, -2, 1).normalized()).toRotationMatrix();
+    for (int turned = 0; turned < 2; ++turned) {
+        for (int index = 0; index < 3; ++index) {
+            const BodyState start = identification_start(body, index);
+            EXPECT_EQ(start.velocity, Vector6d::Zero());
+            const Vector3d down = start.orientation.conjugate() * -Vector3d::UnitZ();
+            const Vector3d along = (principal_axes(body.moments).transpose() * down).cwiseAbs();
+            // No axis is nearer than 15 degrees to the horizontal, or than 30 to the vertical.
+            EXPECT_GT(along.minCoeff(), std::sin(0.26)) << index;
+            EXPECT_LT(along.maxCoeff(), std::cos(0.52)) << index;
+        }
+        body.moments.second_moments = turn * body.moments.second_moments * turn.transpose();
+    }
+}
+
+}  // namespace
+}  // namespace samara

@@ -1,0 +1,114 @@
+// What samara validate refuses, each in one line, before anything is solved.
+
+#include "foam-cases/falls/validate.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "samara/body/body_file.hpp"
+#include "support/program_run.hpp"
+#include "support/temporary_folder.hpp"
+#include "test_bodies.hpp"
+
+namespace samara {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class Validate : public testing::Test {
+  protected:
+    Validate() { write_body_file(folder_.path() / "ball.body.h5", test::sphere(0.02)); }
+
+    /// `scene`, `fluid` and `body`: further lines of these tables.
+    void write_scene(const std::string& scene, const std::string& fluid, const std::string& body) {
+        static_cast<void>(folder_.file(
+            "scene.toml", fmt::format("[scene]\nduration = 1\n{}\n[fluid]\npreset = \"water\"\n{}\n[[body]]\n"
+                                      "name = \"ball\"\nshape = \"ball.body.h5\"\n{}\n",
+                                      scene, fluid, body)));
+    }
+    [[nodiscard]] test::ProgramRun validate(const std::vector<std::string>& more,
+                                            const std::string& environment = "") const {
+        std::vector<std::string> words = {"samara-validate", "scene.toml", "-o", "out.h5"};
+        words.insert(words.end(), more.begin(), more.end());
+        return test::run_program_in(folder_, words, environment);
+    }
+    /// The one line of a refusal.
+    [[nodiscard]] std::string fault(const std::vector<std::string>& more = {},
+                                    const std::string& environment = "") const {
+        const test::ProgramRun run = validate(more, environment);
+        EXPECT_EQ(run.status, 1);
+        EXPECT_TRUE(test::is_one_line(run.fault)) << run.fault;
+        EXPECT_EQ(run.output, "");
+        EXPECT_FALSE(fs::exists(folder_.path() / "out.h5"));
+        EXPECT_FALSE(fs::exists(folder_.path() / "out.cases"));
+        return run.fault;
+    }
+
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(Validate, RefusesScenesThatFullCfdDoesNotSolve) {
+    const std::string body = "density = 1200\nturbulence = \"none\"";
+    write_scene("", "", body + "\n[[body]]\nname = \"other\"\nshape = \"ball.body.h5\"\ndensity = 1200");
+    EXPECT_THAT(fault(), HasSubstr("scene.toml: full CFD solves one body at a time"));
+    write_scene("", "", body + "\ncount = 3");
+    EXPECT_THAT(fault(), HasSubstr("'count'"));
+    write_scene("ground = -2.0", "", body);
+    EXPECT_THAT(fault(), HasSubstr("'ground'"));
+    write_scene("", "gust = { amplitude = [0.1, 0, 0], period = 1.0 }", body);
+    EXPECT_THAT(fault(), HasSubstr("'gust'"));
+    write_scene("", "", body + "\nstart = 1.5");
+    EXPECT_THAT(fault(), HasSubstr("ends before its body starts"));
+}
+
+TEST_F(Validate, RefusesABodyThatNothingMoves) {
+    write_scene("", "", "density = 998.2\nturbulence = \"none\"");
+    EXPECT_THAT(fault({"--dry-run"}), HasSubstr("'ball' is as dense as the fluid"));
+    write_scene("gravity = [0, 0, 0]", "", "density = 1200\nturbulence = \"none\"");
+    EXPECT_THAT(fault({"--dry-run"}), HasSubstr("there is nothing to solve"));
+}
+
+TEST_F(Validate, NamesTheProgramsThatAreMissing) {
+    write_scene("", "", "density = 1200\nturbulence = \"none\"");
+    const std::string text = fault({}, "PATH=/nowhere");
+    EXPECT_THAT(text, HasSubstr("solving needs programs that are not on PATH"));
+    EXPECT_THAT(text, HasSubstr("pimpleFoam"));
+    EXPECT_THAT(text, HasSubstr("apt install openfoam snakemake"));
+}
+
+TEST_F(Validate, RefusesNumbersOutOfRange) {
+    write_scene("", "", "density = 1200\nturbulence = \"none\"");
+    EXPECT_THAT(fault({"--cells", "10"}), HasSubstr("--cells"));
+    EXPECT_THAT(fault({"--step", "0"}), HasSubstr("--step"));
+    EXPECT_THAT(fault({"--cluster", "qsub"}), HasSubstr("sbatch"));
+}
+
+TEST_F(Validate, SaysInADryRunWhatItWouldSolve) {
+    write_scene("", "", "density = 1200\nturbulence = \"none\"");
+    const test::ProgramRun plain = validate({"--dry-run"});
+    EXPECT_EQ(plain.status, 0) << plain.fault;
+    EXPECT_THAT(plain.output, HasSubstr("steps of"));
+    const test::ProgramRun run = validate({"--dry-run", "--json", "--step", "0.5", "--cells", "6000"});
+    ASSERT_EQ(run.status, 0) << run.fault;
+    const nlohmann::json json = run.json();
+    EXPECT_EQ(json["mesh"], "mesh_coarse");
+    EXPECT_EQ(json["closure"], "kEpsilon");
+    EXPECT_NEAR(json["steps"].get<double>() * json["time_step"].get<double>(), 1.0, 1e-9);
+    EXPECT_GT(json["estimated_cpu_seconds"].get<double>(), 1.0);
+    EXPECT_FALSE(fs::exists(folder_.path() / "out.cases"));
+}
+
+TEST_F(Validate, LeavesTheCasesOfABakeAlone) {
+    write_scene("", "", "density = 1200\nturbulence = \"none\"");
+    static_cast<void>(folder_.file("out.cases/plan.json", R"({"quality": "standard", "cases": []})"));
+    const test::ProgramRun run = validate({});
+    EXPECT_EQ(run.status, 1);
+    EXPECT_TRUE(test::is_one_line(run.fault)) << run.fault;
+    EXPECT_THAT(run.fault, HasSubstr("out.cases: holds the cases of samara bake"));
+    EXPECT_TRUE(fs::exists(folder_.path() / "out.cases/plan.json"));
+}
+
+}  // namespace
+}  // namespace samara

@@ -1,0 +1,161 @@
+#include "foam-cases/scene/scene_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "../converter/load_laws.hpp"
+#include "../converter/table_cases.hpp"
+#include "foam-cases/scene/scene_plan_report.hpp"
+#include "support/known_bodies.hpp"
+#include "test_bodies.hpp"
+
+namespace samara {
+namespace {
+
+/// The rubber ellipsoid with its exact tensor and an ellipsoid's symmetry.
+Body rubber() {
+    Body body = test::rubber_ellipsoid();
+    body.symmetry = test::ellipsoid({0.01, 0.02, 0.04}).symmetry;
+    return body;
+}
+
+SceneGoal goal_of(double tolerance) {
+    SceneGoal goal;
+    goal.scene.duration = 3.0;
+    SceneBody body;
+    body.name = "rubber";
+    body.mass.density = 1200.0;
+    body.orientation = Quaterniond(0.8, 0.0, -0.55, 0.1).normalized();
+    goal.scene.bodies = {body};
+    goal.tolerance = tolerance;
+    goal.falls = 6;
+    goal.draws = 6;
+    return goal;
+}
+
+/// A box's law with a stall that no polynomial of low degree follows.
+LoadEntry law(const Vector3d& d) {
+    LoadEntry entry = test::BoxLaw()(d);
+    const double stall = 1.0 + 0.6 * std::tanh(6.0 * (std::abs(d.x()) - 0.8));
+    entry.force *= stall;
+    entry.moment *= stall;
+    return entry;
+}
+
+/// What solving the plan's cases would give if the flow obeyed the law.
+Conversion solved(const Body& body, const ScenePlan& plan) {
+    Conversion conversion;
+    conversion.body = body;
+    for (const BakeCase& entry : plan.cases.cases) {
+        if (entry.purpose != CasePurpose::table) continue;
+        SolvedCase one;
+        one.name = entry.name;
+        one.reynolds_number = entry.reynolds_number;
+        one.mesh = "mesh";
+        one.sample = {entry.direction, law(entry.direction), {}};
+        conversion.cases.push_back(one);
+    }
+    LoadTables tables;
+    tables.reference_length = reference_length(body.moments.surface_area);
+    tables.subdivisions = plan.cases.subdivisions;
+    tables.axes = plan.cases.axes;
+    conversion.sampling_errors = fill_tables(tables, body.symmetry, conversion.cases);
+    conversion.body.tables = tables;
+    return conversion;
+}
+
+ScenePlan planned(const SceneGoal& goal, const Body& body) {
+    return first_plan(goal, body, bake_quality("smoke"), {}, fly_for_bake(goal.scene, 0, body, goal.falls));
+}
+
+ScenePlan baked(const SceneGoal& goal, const Body& body) {
+    ScenePlan plan = planned(goal, body);
+    while (plan.stopped_because.empty()) judge_round(goal, solved(body, plan), 0.0, plan);
+    return plan;
+}
+
+TEST(ScenePlan, BeginsWithFewDirectionsAtTheReynoldsNumberOfTheFall) {
+    const ScenePlan plan = planned(goal_of(0.1), rubber());
+    EXPECT_EQ(plan.chosen.size(), 6u);       // the axes, and three where it moves
+    EXPECT_EQ(plan.cases.cases.size(), 6u);  // one mesh at smoke
+    EXPECT_EQ(plan.candidates.directions.size(), 45u);
+    EXPECT_GT(plan.cases.main_reynolds_number, 3e3);
+    EXPECT_LT(plan.cases.main_reynolds_number, 3e4);
+    EXPECT_TRUE(plan.cases.covers_scene);
+    EXPECT_EQ(plan_json(plan.cases)["covers"], "scene");
+}
+
+TEST(ScenePlan, NamesItsCasesByTheirDirectionSoThatRoundsGoOnFromOneAnother) {
+    const ScenePlan plan = baked(goal_of(0.005), rubber());
+    ASSERT_GT(plan.rounds.size(), 1u);
+    std::set<std::string> names;
+    for (const BakeCase& entry : plan.cases.cases) names.insert(entry.name);
+    EXPECT_EQ(names.size(), plan.cases.cases.size());
+    const ScenePlan first = planned(goal_of(0.005), rubber());
+    for (const BakeCase& entry : first.cases.cases) EXPECT_TRUE(names.contains(entry.name)) << entry.name;
+}
+
+TEST(ScenePlan, StopsWhereTheToleranceIsMet) {
+    const ScenePlan plan = baked(goal_of(0.5), rubber());
+    EXPECT_EQ(plan.stopped_because, "the tolerance is met");
+    EXPECT_LE(plan.rounds.back().error.worst(0.5), 1.0);
+    EXPECT_LT(plan.chosen.size(), plan.candidates.directions.size());
+}
+
+TEST(ScenePlan, SolvesMoreDirectionsForASmallerTolerance) {
+    EXPECT_GT(baked(goal_of(0.002), rubber()).chosen.size(), baked(goal_of(0.5), rubber()).chosen.size());
+}
+
+TEST(ScenePlan, LeavesLessUncertainWithMoreDirections) {
+    const ScenePlan plan = baked(goal_of(0.002), rubber());
+    ASSERT_GE(plan.rounds.size(), 3u);
+    EXPECT_LT(plan.rounds.back().error.worst(0.1), 0.5 * plan.rounds.front().error.worst(0.1));
+}
+
+TEST(ScenePlan, SpendsNoMoreThanItsBudget) {
+    SceneGoal goal = goal_of(0.002);
+    goal.budget = 1.3 * planned(goal, rubber()).cases.cpu_seconds;
+    const ScenePlan plan = baked(goal, rubber());
+    EXPECT_THAT(plan.stopped_because, testing::HasSubstr("budget"));
+    EXPECT_LE(plan.cases.cpu_seconds, *goal.budget);
+    EXPECT_GT(plan.rounds.size(), 0u);
+}
+
+TEST(ScenePlan, NeverTakesMoreRoundsThanThereMayBe) {
+    SceneGoal goal = goal_of(1e-4);
+    goal.most_rounds = 2;
+    const ScenePlan plan = baked(goal, rubber());
+    EXPECT_EQ(plan.rounds.size(), 2u);
+    EXPECT_THAT(plan.stopped_because, testing::HasSubstr("2 rounds"));
+}
+
+TEST(ScenePlan, IsTheSameEveryTime) {
+    const SceneGoal goal = goal_of(0.05);
+    EXPECT_EQ(scene_plan_as_json(goal, baked(goal, rubber())),
+              scene_plan_as_json(goal, baked(goal, rubber())));
+}
+
+TEST(ScenePlan, OfABallIsOneDirection) {
+    Body ball = test::exact_sphere(0.02);
+    ball.symmetry = test::sphere(0.02).symmetry;
+    const ScenePlan plan = planned(goal_of(0.1), ball);
+    EXPECT_EQ(plan.chosen.size(), 1u);
+    EXPECT_EQ(plan.candidates.directions.size(), 1u);
+}
+
+TEST(ScenePlan, HoldsTheDirectionsThatItsFlightsVisited) {
+    const SceneGoal goal = goal_of(0.1);
+    const Body body = rubber();
+    const SampledFalls flight = fly_for_bake(goal.scene, 0, body, goal.falls);
+    const ScenePlan plan = first_plan(goal, body, bake_quality("smoke"), {}, flight);
+    for (const FlowVisit& visit : flight.visits) EXPECT_TRUE(plan.region.holds(visit.direction));
+    EXPECT_FALSE(std::ranges::all_of(plan.region.planned, [](std::uint8_t one) { return one == 1; }));
+}
+
+}  // namespace
+}  // namespace samara

@@ -1,0 +1,51 @@
+#include "internal/files/input_file.hpp"
+
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "internal/base/content_hash.hpp"
+#include "samara/base/error.hpp"
+#include "support/expect_error.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace samara {
+namespace {
+
+using test::TemporaryFolder;
+using testing::HasSubstr;
+
+TEST(InputFile, SaysWhatIsWrongWithAPathAndNeverThrows) {
+    const TemporaryFolder folder;
+    EXPECT_EQ(reading_fault(folder.file("a.h5", "text")), "");
+    EXPECT_EQ(reading_fault("/dev/null"), "");
+    EXPECT_EQ(reading_fault(folder / "b.h5"), "there is no such file");
+    EXPECT_EQ(reading_fault(folder.path()), "is a folder; give a file");
+    EXPECT_EQ(reading_fault(folder / "a.h5/b.h5"), "cannot be read: Not a directory");
+    EXPECT_EQ(reading_fault(std::string(5000, 'a')), "cannot be read: File name too long");
+    std::filesystem::create_symlink("loop", folder / "loop");
+    EXPECT_EQ(reading_fault(folder / "loop"), "cannot be read: Too many levels of symbolic links");
+    std::filesystem::create_symlink("gone", folder / "dangling");
+    EXPECT_EQ(reading_fault(folder / "dangling"), "there is no such file");
+}
+
+TEST(InputFile, IsReadWholeOrRefused) {
+    const TemporaryFolder folder;
+    const std::string text(100'000, 'x');
+    EXPECT_EQ(read_at_most(folder.file("text", text), text.size()), text);
+    EXPECT_EQ(read_at_most("/dev/null", 1), "");
+    const auto refusal = [](const std::filesystem::path& file, std::size_t most) {
+        return test::error_of([&] { (void)read_at_most(file, most); });
+    };
+    EXPECT_THAT(refusal(folder / "text", text.size() - 1), HasSubstr("text: holds more than 99999 bytes"));
+    EXPECT_THAT(refusal("/dev/zero", 1'000'000), HasSubstr("/dev/zero: holds more than 1000000 bytes"));
+    EXPECT_THAT(refusal(folder / "none", 10), HasSubstr("none: there is no such file"));
+    EXPECT_THAT(refusal(folder.path(), 10), HasSubstr(": is a folder; give a file"));
+    EXPECT_THAT(test::error_of([&] { (void)read_bytes(folder.path()); }), HasSubstr("Is a directory"));
+    EXPECT_THAT(test::error_of([&] { (void)read_bytes(std::string(5000, 'a')); }),
+                HasSubstr("name too long"));
+}
+
+}  // namespace
+}  // namespace samara

@@ -1,0 +1,140 @@
+#include "internal/motion/resample.hpp"
+
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "internal/export/key_reduction.hpp"
+#include "paths.hpp"
+#include "samara/base/error.hpp"
+#include "samara/motion/motion_file.hpp"
+#include "synthetic_motion.hpp"
+
+namespace samara {
+namespace {
+
+struct Errors {
+    double position = 0.0;
+    double orientation = 0.0;
+    double velocity = 0.0;
+    double angular_velocity = 0.0;
+};
+
+/// The largest errors at 960 frames per second of a motion that was recorded at `frame_rate`.
+Errors errors_from(double frame_rate, const std::function<Pose(double)>& exact) {
+    const Motion fine = resampled(test::motion_of(exact, 1.0, frame_rate), 960.0);
+    EXPECT_EQ(fine.frames(), 961);
+    Errors errors;
+    for (std::size_t i = 0; i < fine.times.size(); ++i) {
+        const Pose is = fine.bodies[0].poses[i];
+        const Pose shall = exact(fine.times[i]);
+        const auto raise = [](double& error, double value) { error = std::max(error, value); };
+        raise(errors.position, (is.position - shall.position).norm());
+        raise(errors.orientation, is.orientation.angularDistance(shall.orientation));
+        raise(errors.velocity, (is.velocity - shall.velocity).norm());
+        raise(errors.angular_velocity, (is.angular_velocity - shall.angular_velocity).norm());
+    }
+    return errors;
+}
+
+TEST(Resample, IsOfTheFourthOrderInPlaceAndTurnAndOfTheThirdInTheirRates) {
+    const Errors coarse = errors_from(30.0, test::wander);
+    const Errors fine = errors_from(60.0, test::wander);
+    EXPECT_LT(fine.position, 1e-7);
+    EXPECT_LT(fine.orientation, 3e-6);
+    EXPECT_GT(coarse.position / fine.position, 13.0);
+    EXPECT_GT(coarse.orientation / fine.orientation, 13.0);
+    EXPECT_GT(coarse.velocity / fine.velocity, 7.0);
+    EXPECT_GT(coarse.angular_velocity / fine.angular_velocity, 7.0);
+}
+
+/// The largest error of a fall that is recorded at `frame_rate` and written at its own: in place over the
+/// body's radius, and in turn (rad).
+Errors errors_of_fall(const Motion& fall, double frame_rate) {
+    const Motion again = resampled(resampled(fall, frame_rate), fall.frame_rate);
+    const double radius = 500.0 * key_tolerance(fall.bodies[0], std::nullopt).position;
+    Errors errors;
+    for (std::size_t i = 0; i < again.times.size(); ++i) {
+        const Pose& is = again.bodies[0].poses[i];
+        const Pose& shall = fall.bodies[0].poses[i];
+        errors.position = std::max(errors.position, (is.position - shall.position).norm() / radius);
+        errors.orientation = std::max(errors.orientation, is.orientation.angularDistance(shall.orientation));
+    }
+    return errors;
+}
+
+// The figures of docs/output.md.
+TEST(Resample, FollowsTheReferenceFallsByFullCfd) {
+    int falls = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(SAMARA_SOURCE_DIRECTORY "/docs/falls")) {
+        if (entry.path().extension() != ".h5") continue;
+        const Motion fall = read_motion_file(entry.path());
+        const Errors at_60 = errors_of_fall(fall, 60.0);
+        const Errors at_24 = errors_of_fall(fall, 24.0);
+        EXPECT_LT(at_60.position, 0.0045) << entry.path();
+        EXPECT_LT(at_60.orientation, 0.11 * test::degree) << entry.path();
+        EXPECT_LT(at_24.position, 0.016) << entry.path();
+        EXPECT_LT(at_24.orientation, 0.23 * test::degree) << entry.path();
+        ++falls;
+    }
+    EXPECT_EQ(falls, 10);
+}
+
+TEST(Resample, FollowsABodyThatTurnsSeveralTimesBetweenFrames) {
+    const auto spin = [](double time) { return test::tumble(time, 500.0, 0.3); };
+    const Errors errors = errors_from(60.0, spin);
+    EXPECT_LT(errors.orientation, 1e-9);
+    EXPECT_LT(errors.angular_velocity, 1e-7);
+}
+
+TEST(Resample, KeepsFramesOfTheSameTime) {
+    const Motion motion = test::motion_of(test::wander, 1.0, 60.0);
+    const Motion same = resampled(motion, 60.0);
+    const Motion half = resampled(motion, 30.0);
+    EXPECT_EQ(same.times, motion.times);
+    ASSERT_EQ(half.frames(), 31);
+    EXPECT_EQ(half.frame_rate, 30.0);
+    for (std::size_t i = 0; i < motion.times.size(); ++i) {
+        const Pose& before = motion.bodies[0].poses[i];
+        EXPECT_EQ(same.bodies[0].poses[i].position, before.position);
+        EXPECT_EQ(same.bodies[0].poses[i].orientation.coeffs(), before.orientation.coeffs());
+        if (i % 2 == 0) {
+            EXPECT_EQ(half.bodies[0].poses[i / 2].velocity, before.velocity);
+        }
+    }
+}
+
+TEST(Resample, KeepsRunsAndCopiesApart) {
+    Motion motion = test::motion_of(test::wander, 0.5, 60.0);
+    motion.runs = 2;
+    motion.bodies[0].copies = 2;
+    motion.bodies[0].poses.clear();
+    for (int run = 0; run < 2; ++run) {
+        for (const double time : motion.times) {
+            for (int copy = 0; copy < 2; ++copy) {
+                motion.bodies[0].poses.push_back(test::wander(time + run + 10.0 * copy));
+            }
+        }
+    }
+    const Motion other = resampled(motion, 24.0);
+    ASSERT_EQ(other.bodies[0].poses.size(), 2U * 13U * 2U);
+    const Pose shall = test::wander(7.0 / 24.0 + 11.0);
+    EXPECT_LT((other.pose(other.bodies[0], 1, 7, 1).position - shall.position).norm(), 1e-6);
+}
+
+TEST(Resample, EndsWithinTheRecording) {
+    const Motion motion = test::motion_of(test::wander, 1.0, 60.0);
+    const Motion other = resampled(motion, 0.9);
+    EXPECT_EQ(other.frames(), 1);
+    EXPECT_EQ(resampled(motion, 1.1).times.back(), 1.0 / 1.1);
+}
+
+TEST(Resample, RefusesRatesThatGiveNoFrames) {
+    const Motion motion = test::motion_of(test::wander, 1.0, 60.0);
+    EXPECT_THROW(resampled(motion, 0.0), Error);
+    EXPECT_THROW(resampled(motion, -24.0), Error);
+    EXPECT_THROW(resampled(motion, 1e12), Error);
+}
+
+}  // namespace
+}  // namespace samara
