@@ -5,6 +5,7 @@ import { SeriesPlot } from './series.js';
 import { Stage } from './stage.js';
 
 const SPEEDS = [0.05, 0.1, 0.25, 0.5, 1, 2, 4];
+const LONGEST_TICK = 250;  // milliseconds
 const element = (id) => document.getElementById(id);
 
 const motion = readMotion();
@@ -64,7 +65,8 @@ function refresh() {
 
 function tick(now) {
     if (playing) {
-        if (before !== null) seek(time + (speed() * (now - before)) / 1000);
+        // A page that was hidden, or a machine that is busy, goes on where it was instead of leaping to the end.
+        if (before !== null) seek(time + (speed() * Math.min(now - before, LONGEST_TICK)) / 1000);
         before = now;
         if (time >= end) play(false);
     }

@@ -16,6 +16,7 @@ const browser = await chromium.launch({
     args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
 });
 const page = await browser.newPage({ viewport: { width: 1280, height: 800 } });
+page.setDefaultTimeout(240_000);  // a software renderer on a busy machine
 const faults = [];
 const requests = [];
 page.on('console', (message) => {
