@@ -98,7 +98,7 @@ SAMARA_API samara_status samara_body_get_triangles(const samara_body* body, int3
 /* A simulation. Fill it with samara_default_settings, then change what differs: later versions may add
  * members at the end, and `size` tells the library which ones are there. */
 typedef struct samara_settings {
-    size_t size;
+    size_t size;              /* sizeof(samara_settings): which members are there */
     double fluid_density;     /* kg/m^3; default: water at 20 degrees Celsius, 998.2 */
     double fluid_viscosity;   /* dynamic, Pa s; default: 1.002e-3 */
     double current[3];        /* m/s; uniform and steady */
@@ -134,14 +134,14 @@ enum {
 
 /* One kind of bodies in a simulation. Fill it with samara_default_kind; it has no default mass. */
 typedef struct samara_kind {
-    size_t size;
+    size_t size;      /* sizeof(samara_kind): which members are there */
     const char* name; /* keys the noise: letters, digits, - and _; default (null): the body file's name */
     uint32_t count;   /* how many, which do not feel each other; default: 1 */
 
-    double density; /* kg/m^3, uniform. This, or mass; 0: not given */
-    double mass;    /* kg */
-    int32_t has_center_of_mass;
-    double center_of_mass[3]; /* m, shape axes, with `mass`; else the centroid of the volume */
+    double density;             /* kg/m^3, uniform. This, or mass; 0: not given */
+    double mass;                /* kg */
+    int32_t has_center_of_mass; /* whether the next member counts */
+    double center_of_mass[3];   /* m, shape axes, with `mass`; else the centroid of the volume */
     double inertia[9]; /* kg m^2 about the centre of mass, shape axes, with `mass`; all 0: as if uniform */
 
     double position[3];         /* where the shape's origin starts, m */
@@ -237,7 +237,7 @@ SAMARA_API samara_status samara_set_state(samara_simulation* simulation, const v
 
 /* What the simulation did so far. Set `size` to sizeof(samara_report) before the call. */
 typedef struct samara_report {
-    size_t size;
+    size_t size;                    /* sizeof(samara_report): which members are there */
     uint64_t steps;                 /* of the grid, over all bodies */
     uint64_t substeps;              /* implicit steps: bodies that turn fast take several in a step */
     int32_t most_substeps;          /* that any body took in one step; 64 is the limit */

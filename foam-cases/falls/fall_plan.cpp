@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
+#include "internal/base/symmetric_matrix.hpp"
 #include "internal/flight/terminal_speed.hpp"
 
 namespace samara {
@@ -63,7 +63,7 @@ void take_inertia(const Matrix3d& inertia, FreeFall& fall) {
         fall.principal_moments = moments;
         return;
     }
-    fall.principal_axes = least_turned(Eigen::SelfAdjointEigenSolver<Matrix3d>(inertia).eigenvectors());
+    fall.principal_axes = least_turned(principal_values(inertia).directions);
     fall.principal_moments = (fall.principal_axes.transpose() * inertia * fall.principal_axes).diagonal();
 }
 
@@ -77,7 +77,7 @@ double largest_inertia_ratio(const ImmersedBody& body) {
     own.topLeftCorner<3, 3>() = body.own_inertia;
     own.bottomRightCorner<3, 3>() = body.mass * Matrix3d::Identity();
     const Matrix6d fluid = body.inertia - own;
-    return Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6d>(fluid, own).eigenvalues().maxCoeff();
+    return eigenvalues_of(fluid, own).maxCoeff();
 }
 
 double fall_speed(const Body& body, const ImmersedBody& immersed, const BodyState& start, const Fluid& fluid,
@@ -93,7 +93,7 @@ double fall_speed(const Body& body, const ImmersedBody& immersed, const BodyStat
     const Vector3d along = immersed.center_of_buoyancy / arm;
     const Matrix3d across = Matrix3d::Identity() - along * along.transpose();
     const Matrix3d mobility = across * immersed.inverse_inertia.topLeftCorner<3, 3>() * across;
-    const double largest = Eigen::SelfAdjointEigenSolver<Matrix3d>(mobility).eigenvalues().maxCoeff();
+    const double largest = eigenvalues_of(mobility).maxCoeff();
     return std::max(speed, immersed.length * std::sqrt(buoyant_mass * gravity * arm * largest));
 }
 
@@ -120,7 +120,7 @@ FreeFall plan_fall(const Body& body, const ImmersedBody& immersed, const BodySta
     fall.gravity = to_case * to_body * gravity * time_unit / speed;
     const Vector6d momentum = immersed.inertia * start.velocity;
     fall.velocity = to_case * momentum.tail<3>() / immersed.mass / speed;
-    fall.angular_velocity = to_case * immersed.own_inertia.ldlt().solve(momentum.head<3>()) * time_unit;
+    fall.angular_velocity = to_case * immersed.own_inertia.inverse() * momentum.head<3>() * time_unit;
     fall.duration = duration / time_unit;
     fall.time_step = fall_time_step;
     fall.acceleration_relaxation =

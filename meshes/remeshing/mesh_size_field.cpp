@@ -7,9 +7,8 @@
 #include <span>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
-
 #include "internal/base/as_index.hpp"
+#include "internal/base/symmetric_matrix.hpp"
 #include "internal/body/surface_edges.hpp"
 #include "samara/body/surface.hpp"
 
@@ -82,8 +81,7 @@ class Curvature {
             tensor += tensors_[other];
             area += areas_[other];
         }
-        const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(tensor, Eigen::EigenvaluesOnly);
-        return solver.eigenvalues().cwiseAbs().maxCoeff() / area;
+        return eigenvalues_of(tensor).cwiseAbs().maxCoeff() / area;
     }
 
     // Lowers values so that they differ by at most `slope` times the distance along the surface's edges:

@@ -7,9 +7,9 @@
 #include <optional>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
+#include "internal/base/symmetric_matrix.hpp"
 #include "meshes/symmetry/image_comparison.hpp"
 #include "meshes/symmetry/symmetry_frame.hpp"
 #include "meshes/symmetry/symmetry_group.hpp"
@@ -192,12 +192,11 @@ struct PrincipalDirections {
 };
 
 PrincipalDirections principal_directions(const VolumeMoments& moments, double tolerance) {
-    const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(moments.second_moments);
-    const Vector3d& values = solver.eigenvalues();
+    const auto [values, directions] = principal_values(moments.second_moments);
     const double limit = degenerate * tolerance * values[2];
     const bool low_pair = values[1] - values[0] < limit;
     const bool high_pair = values[2] - values[1] < limit;
-    PrincipalDirections result{solver.eigenvectors(), -1};
+    PrincipalDirections result{directions, -1};
     if (low_pair) result.free_axis = 2;
     if (high_pair) result.free_axis = 0;
     if (low_pair && high_pair) result.free_axis = 3;

@@ -5,8 +5,9 @@
 #include <numbers>
 #include <string_view>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
+
+#include "internal/base/symmetric_matrix.hpp"
 
 namespace samara {
 namespace {
@@ -73,7 +74,7 @@ std::string fault_of_moments(const Body& body, double radius) {
     }
     const Matrix3d& second = moments.second_moments;
     if (!is_symmetric(second)) return "/moments/second_moments is not symmetric";
-    const Vector3d spread = Eigen::SelfAdjointEigenSolver<Matrix3d>(second).eigenvalues() / volume;
+    const Vector3d spread = eigenvalues_of(second) / volume;
     // At most the volume at the radius; at least a cylinder as wide as the body and as long as its volume
     // takes.
     const double length = volume / (pi * radius * radius);
@@ -106,12 +107,12 @@ std::string fault_of(const KirchhoffTensor& kirchhoff, double radius) {
     scale << Vector3d::Constant(std::pow(radius, -2.5)), Vector3d::Constant(std::pow(radius, -1.5));
     const Matrix6d tensor = scale.asDiagonal() * kirchhoff.matrix * scale.asDiagonal();
     if (!is_symmetric(tensor)) return fmt::format("{} is not symmetric", place);
-    const Vector6d values = Eigen::SelfAdjointEigenSolver<Matrix6d>(tensor).eigenvalues();
+    const Vector6d values = eigenvalues_of(tensor);
     if (values.minCoeff() < -rounding * values.maxCoeff()) {
         return fmt::format("{} is not positive semidefinite", place);
     }
     const Matrix3d mass = tensor.bottomRightCorner<3, 3>();
-    if (!(Eigen::SelfAdjointEigenSolver<Matrix3d>(mass).eigenvalues().minCoeff() > 0.0)) {
+    if (!(eigenvalues_of(mass).minCoeff() > 0.0)) {
         return fmt::format("{} is not positive for every velocity", place);
     }
     // A body and the fluid that it moves weigh no more than the ball around it and what that moves: 2 pi.

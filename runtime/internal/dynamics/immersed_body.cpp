@@ -5,10 +5,10 @@
 #include <numbers>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <fmt/format.h>
 
+#include "internal/base/symmetric_matrix.hpp"
 #include "internal/body/octahedral_map.hpp"
 #include "internal/dynamics/flight_constants_of.hpp"
 #include "internal/dynamics/immersed_body_check.hpp"
@@ -29,7 +29,7 @@ Mass mass_of(const Body& body, const MassSpecification& specification, const std
     Mass result{mass, specification.center_of_mass.value_or(moments.centroid),
                 uniform_inertia(moments, mass / moments.volume)};
     if (specification.inertia) result.inertia = *specification.inertia;
-    const Vector3d principal = Eigen::SelfAdjointEigenSolver<Matrix3d>(result.inertia).eigenvalues();
+    const Vector3d principal = eigenvalues_of(result.inertia);
     const bool sane = principal.x() > 0.0 && principal.z() <= (principal.x() + principal.y()) * (1.0 + 1e-9);
     if (!sane) {
         throw Error(fmt::format(
@@ -49,9 +49,9 @@ Matrix6d body_inertia(const Mass& mass) {
 }
 
 double turning_scale(const Matrix6d& inertia, const Matrix3d& added_mass) {
-    const Vector3d masses = Eigen::SelfAdjointEigenSolver<Matrix3d>(added_mass).eigenvalues();
+    const Vector3d masses = eigenvalues_of(added_mass);
     const Matrix3d rotational = inertia.topLeftCorner<3, 3>();
-    const double smallest = Eigen::SelfAdjointEigenSolver<Matrix3d>(rotational).eigenvalues().x();
+    const double smallest = eigenvalues_of(rotational).x();
     return std::sqrt((masses.z() - masses.x()) / smallest);
 }
 

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
-
 #include "internal/base/angles.hpp"
+#include "internal/base/symmetric_matrix.hpp"
 
 namespace samara {
 namespace {
@@ -57,7 +56,7 @@ bool has_shortest_axis(const Surface& surface) {
     }
     middle /= area;
     const Matrix3d spread = squares / area - middle * middle.transpose();
-    const Vector3d extents = Eigen::SelfAdjointEigenSolver<Matrix3d>(spread).eigenvalues().cwiseSqrt();
+    const Vector3d extents = eigenvalues_of(spread).cwiseSqrt();
     return extents.maxCoeff() - extents.minCoeff() > alike * extents.maxCoeff();
 }
 

@@ -3,8 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/Eigenvalues>
-
+#include "internal/base/symmetric_matrix.hpp"
 #include "internal/figures/inclination.hpp"
 
 namespace samara {
@@ -43,8 +42,7 @@ std::vector<UpperEnd> upper_ends(const Motion& motion, const BodyMotion& body, i
 Vector3d main_side(const std::vector<UpperEnd>& ends) {
     Matrix3d squares = Matrix3d::Zero();
     for (const UpperEnd& end : ends) squares += end.horizontal * end.horizontal.transpose();
-    const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(squares);
-    Vector3d side = solver.eigenvectors().col(2);
+    Vector3d side = principal_values(squares).directions.col(2);
     Eigen::Index largest = 0;
     side.cwiseAbs().maxCoeff(&largest);
     return side[largest] < 0.0 ? Vector3d(-side) : side;  // along the world's axes, not against them

@@ -10,6 +10,7 @@ namespace samara {
 /// throws.
 class Error : public std::runtime_error {
   public:
+    /// An error of that text.
     explicit Error(const std::string& message) : std::runtime_error(message) {}
 };
 

@@ -1,12 +1,11 @@
 #include "samara/body/body.hpp"
 
-#include <Eigen/Eigenvalues>
+#include "internal/base/symmetric_matrix.hpp"
 
 namespace samara {
 
 Matrix3d principal_axes(const VolumeMoments& moments) {
-    const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(moments.second_moments);
-    Matrix3d axes = solver.eigenvectors();
+    Matrix3d axes = principal_values(moments.second_moments).directions;
     if (axes.determinant() < 0.0) axes.col(2) = -axes.col(2);
     return axes;
 }

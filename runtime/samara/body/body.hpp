@@ -31,12 +31,13 @@ Matrix3d uniform_inertia(const VolumeMoments& moments, double density);
 
 /// The rotations and reflections about the centroid that map the surface onto itself, in shape axes.
 struct Symmetry {
+    /// What kind of group they are.
     enum class Kind {
         finite,     ///< `elements` lists the whole group
         axial,      ///< every rotation about `axis`, beside `elements`
         spherical,  ///< every rotation
     };
-    Kind kind = Kind::finite;
+    Kind kind = Kind::finite;                                 ///< of the group
     Vector3d axis = Vector3d::UnitZ();                        ///< unit vector; of meaning where kind is axial
     std::vector<Matrix3d> elements = {Matrix3d::Identity()};  ///< orthogonal matrices, the identity first
     Matrix3d axes =
@@ -51,11 +52,11 @@ const char* name_of(Symmetry::Kind kind);
 /// The fluid's inertia: l and p of the fluid are K_fluid (omega, v), order omega then v, in shape axes, about
 /// the centroid of the volume, for a fluid of density 1 kg/m^3. Blocks: m^5, m^4, m^3.
 struct KirchhoffTensor {
-    Matrix6d matrix = Matrix6d::Zero();
-    double error_estimate = 0.0;  ///< relative tensor error (docs/theory, measures)
-    double asymmetry = 0.0;       ///< relative asymmetry before it was symmetrised
-    int triangles = 0;            ///< of the finest surface used
-    std::string method;           ///< in words: the boundary elements that were used
+    Matrix6d matrix = Matrix6d::Zero();  ///< symmetric 6x6 (rho_f = 1 kg/m^3)
+    double error_estimate = 0.0;         ///< relative tensor error (docs/theory, measures)
+    double asymmetry = 0.0;              ///< relative asymmetry before it was symmetrised
+    int triangles = 0;                   ///< of the finest surface used
+    std::string method;                  ///< in words: the boundary elements that were used
 };
 
 /// The same tensor about the point `point` (m) instead of the one it is about: K' = X^T K X with v = v' +
@@ -67,13 +68,13 @@ Matrix6d in_rotated_axes(const Matrix6d& tensor, const Matrix3d& rotation);
 
 /// All that a body file holds. Each stage adds a part: mesh the first five, kirchhoff and convert one each.
 struct Body {
-    std::string name;
+    std::string name;    ///< of the file it came from, or of the scene
     std::string source;  ///< how the surface was made, one line: the shape file's name and hash, the options
-    Surface surface;
-    VolumeMoments moments;
-    Symmetry symmetry;
-    std::optional<KirchhoffTensor> kirchhoff;
-    std::optional<LoadTables> tables;
+    Surface surface;     ///< in shape axes
+    VolumeMoments moments;                          ///< of the volume within the surface
+    Symmetry symmetry;                              ///< of the surface
+    std::optional<KirchhoffTensor> kirchhoff;       ///< none before `samara kirchhoff`
+    std::optional<LoadTables> tables;               ///< none before `samara bake`
     std::optional<IdentifiedCoefficients> dynamic;  ///< of a body in rotation; without them, defaults
 };
 

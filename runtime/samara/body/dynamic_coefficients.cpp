@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
+#include "internal/base/symmetric_matrix.hpp"
 
 namespace samara {
 namespace {
@@ -14,8 +14,7 @@ std::string fault_of(const Matrix3d& tensor, const char* name, bool is_drag) {
     if (!tensor.allFinite()) return is + "finite";
     const double scale = tensor.cwiseAbs().maxCoeff();
     if ((tensor - tensor.transpose()).cwiseAbs().maxCoeff() > rounding * scale) return is + "symmetric";
-    if (is_drag &&
-        Eigen::SelfAdjointEigenSolver<Matrix3d>(tensor).eigenvalues().minCoeff() < -rounding * scale) {
+    if (is_drag && eigenvalues_of(tensor).minCoeff() < -rounding * scale) {
         return is + "positive semidefinite";
     }
     return {};

@@ -52,13 +52,13 @@ struct DynamicCoefficients {
 
 /// A tensor among the coefficients, for what treats them all alike.
 struct TensorOfMotion {
-    Matrix3d DynamicCoefficients::*member;
-    const char* name;   ///< in files
-    const char* title;  ///< in reports
-    const char* unit;
-    const char* meaning;   ///< the formula's symbol
-    bool is_drag;          ///< and so positive semidefinite
-    bool is_late = false;  ///< absent in files from before, which were identified without it
+    Matrix3d DynamicCoefficients::*member;  ///< which tensor
+    const char* name;                       ///< in files
+    const char* title;                      ///< in reports
+    const char* unit;                       ///< of its entries
+    const char* meaning;                    ///< the formula's symbol
+    bool is_drag;                           ///< and so positive semidefinite
+    bool is_late = false;                   ///< absent in files from before, which were identified without it
 };
 inline constexpr TensorOfMotion tensors_of_motion[] = {
     {&DynamicCoefficients::transport, "transport", "transport", "m^3", "T, body axes", false},
@@ -79,11 +79,11 @@ inline constexpr TensorOfMotion tensors_of_motion[] = {
 
 /// Likewise of the plain numbers.
 struct NumberOfMotion {
-    double DynamicCoefficients::*member;
-    const char* name;   ///< in files
-    const char* title;  ///< in reports
-    bool is_positive;
-    bool is_late;  ///< absent in files from before, which were identified without it
+    double DynamicCoefficients::*member;  ///< which number
+    const char* name;                     ///< in files
+    const char* title;                    ///< in reports
+    bool is_positive;                     ///< whether it may not be below zero
+    bool is_late;                         ///< absent in files from before, which were identified without it
 };
 inline constexpr NumberOfMotion numbers_of_motion[] = {
     {&DynamicCoefficients::rotational_transport, "rotational_transport", "turning transport", false, false},
@@ -92,7 +92,7 @@ inline constexpr NumberOfMotion numbers_of_motion[] = {
 
 /// Coefficients with the standard error of each.
 struct IdentifiedCoefficients {
-    DynamicCoefficients values;
+    DynamicCoefficients values;           ///< as the falls say
     DynamicCoefficients standard_errors;  ///< without half-length and origin
 };
 

@@ -33,15 +33,17 @@ struct LoadTables {
     int subdivisions = 1;                  ///< n: each edge of the octahedron is cut into n
     Matrix3d axes = Matrix3d::Identity();  ///< columns: the map's axes, in body axes
     std::vector<double> reynolds_numbers;  ///< ascending
-    std::vector<LoadEntry> entries;
-    std::vector<LoadEntryError> errors;
-    std::string quality;     ///< of the bake: smoke, preview, ...
-    std::string provenance;  ///< JSON text: one object for each solved case (docs/file-formats)
+    std::vector<LoadEntry> entries;        ///< by index()
+    std::vector<LoadEntryError> errors;    ///< beside the entries; empty where unknown
+    std::string quality;                   ///< of the bake: smoke, preview, ...
+    std::string provenance;                ///< JSON text: one object for each solved case (docs/file-formats)
     std::vector<ErrorShare> error_sources;  ///< that `errors` hold; empty where the file does not say
     std::vector<LeftOutCase> left_out;      ///< what the bake could not solve
     PlannedRegion plan;                     ///< what a bake for a scene was planned for
 
+    /// Nodes along each side of the octahedral map.
     [[nodiscard]] int map_size() const { return 2 * subdivisions + 1; }
+    /// The place in `entries` of a node of the map at a Reynolds number, each counted from 0.
     [[nodiscard]] std::size_t index(int reynolds, int row, int column) const {
         const auto size = static_cast<std::size_t>(map_size());
         return (static_cast<std::size_t>(reynolds) * size + static_cast<std::size_t>(row)) * size +

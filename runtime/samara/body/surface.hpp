@@ -14,11 +14,13 @@ namespace samara {
 /// seen from outside. A surface of order 2 also has the middle node of each edge, `edge_nodes[t]`: nodes
 /// between the corners (0,1), (1,2) and (2,0). For order 1 `edge_nodes` is empty.
 struct Surface {
-    std::vector<Vector3d> vertices;
-    std::vector<std::array<std::int32_t, 3>> corners;
-    std::vector<std::array<std::int32_t, 3>> edge_nodes;
+    std::vector<Vector3d> vertices;                       ///< m
+    std::vector<std::array<std::int32_t, 3>> corners;     ///< of each triangle, anticlockwise from outside
+    std::vector<std::array<std::int32_t, 3>> edge_nodes;  ///< middles of edges, where order is 2
 
+    /// 1 where triangles are flat, 2 where they are curved.
     [[nodiscard]] int order() const { return edge_nodes.empty() ? 1 : 2; }
+    /// How many triangles there are.
     [[nodiscard]] std::size_t triangle_count() const { return corners.size(); }
 };
 

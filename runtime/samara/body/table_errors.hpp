@@ -20,16 +20,16 @@ std::optional<ErrorSource> error_source(std::string_view name);
 /// What one source adds to the standard errors of the tables: the root mean square over all entries, over
 /// that of the quantity itself. Vectors count by all their components together.
 struct ErrorShare {
-    ErrorSource source;
-    double force;
-    double moment;
-    double turbulent_kinetic_energy;
-    double dissipation_rate;
+    ErrorSource source;               ///< what causes it
+    double force;                     ///< relative, as a root mean square
+    double moment;                    ///< likewise
+    double turbulent_kinetic_energy;  ///< likewise
+    double dissipation_rate;          ///< likewise
 };
 
 /// A case that was planned but could not be solved: its direction is filled from the others.
 struct LeftOutCase {
-    std::string name;
+    std::string name;    ///< of the case's folder
     std::string reason;  ///< one line
 };
 

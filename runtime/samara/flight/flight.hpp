@@ -18,12 +18,12 @@ namespace samara {
 
 /// What surrounds the bodies of a flight, and how it is stepped.
 struct FlightSettings {
-    Fluid fluid = {};
+    Fluid fluid = {};                              ///< what the bodies are in
     Vector3d gravity = Vector3d(0.0, 0.0, -9.81);  ///< m/s^2, world axes
     std::optional<double> ground = {};             ///< m: the height (world z) of level ground
     double step = 0.002;                           ///< s
     std::uint64_t seed = 1;                        ///< of all random numbers
-    std::uint32_t first_run = 0;
+    std::uint32_t first_run = 0;                   ///< of the noise: runs differ by it
     int runs = 1;     ///< how many runs fly side by side, that differ by their random numbers alone
     int threads = 1;  ///< 0: all cores; the poses are the same for any number
 };
@@ -39,6 +39,7 @@ struct FlightReport {
     std::uint64_t moving = 0;       ///< bodies that moved through the fluid
     std::uint64_t below_table = 0;  ///< those of them below half the table's lowest Reynolds number
 
+    /// Adds the counts of another flight.
     void add(const FlightReport& other);
     /// below_table / moving; 0 where none moved.
     [[nodiscard]] double share_below_table() const;
@@ -47,13 +48,16 @@ struct FlightReport {
 /// A fault of what is asked of a flight; its kind tells programs what its text tells people.
 class FlightError : public Error {
   public:
+    /// What is at fault.
     enum class Kind {
         invalid_argument,
         time_passed,   ///< the flight cannot go back
         out_of_range,  ///< a body's motion left the range of numbers; the flight has stopped
         foreign_state  ///< the bytes are not the state of this flight
     };
+    /// An error of that kind and text.
     FlightError(Kind kind, const std::string& text) : Error(text), kind_(kind) {}
+    /// What is at fault.
     [[nodiscard]] Kind kind() const noexcept { return kind_; }
 
   private:
@@ -71,7 +75,9 @@ class Flight {
     /// Throws FlightError where the step is not a positive number.
     explicit Flight(const FlightSettings& settings = {});
     ~Flight();
+    /// The other is left without bodies, fit to be assigned to or destroyed.
     Flight(Flight&&) noexcept;
+    /// The other is left without bodies, fit to be assigned to or destroyed.
     Flight& operator=(Flight&&) noexcept;
 
     /// Adds all bodies of a kind, before the first advance, and returns the number of the first: copy c of
@@ -86,6 +92,7 @@ class Flight {
     [[nodiscard]] std::size_t size() const noexcept;
     /// s.
     [[nodiscard]] double time() const noexcept;
+    /// What has been counted since the start.
     [[nodiscard]] FlightReport report() const;
     /// Steps taken so far, over all bodies.
     [[nodiscard]] std::uint64_t steps() const noexcept;

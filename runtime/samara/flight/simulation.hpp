@@ -65,9 +65,10 @@ class Simulation {
     double total_steps_ = 0.0;
 };
 
+/// What a scene's flight gives.
 struct SimulationResult {
-    Motion motion;
-    SimulationReport report;
+    Motion motion;            ///< of all bodies, runs and frames
+    SimulationReport report;  ///< steps, time, what was met
 };
 
 /// A simulation whose poses are all kept in memory. Throws Error also where `progress` ends it.

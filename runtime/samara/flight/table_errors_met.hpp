@@ -10,13 +10,14 @@ struct ImmersedBody;
 
 /// The standard errors of a body's tables as it met them along its flight: sums over poses.
 struct TableErrorsMet {
-    double force = 0.0;                     ///< of the force, over the force
-    double turbulent_kinetic_energy = 0.0;  ///< of k, over k
-    std::uint64_t forces = 0;               ///< poses that the sums are over: without those at rest
-    std::uint64_t turbulent_kinetic_energies = 0;
-    std::uint64_t poses = 0;    ///< of a moving body with tables
+    double force = 0.0;                            ///< of the force, over the force
+    double turbulent_kinetic_energy = 0.0;         ///< of k, over k
+    std::uint64_t forces = 0;                      ///< poses that the sums are over: without those at rest
+    std::uint64_t turbulent_kinetic_energies = 0;  ///< how many of them were summed
+    std::uint64_t poses = 0;                       ///< of a moving body with tables
     std::uint64_t strayed = 0;  ///< those of them whose direction the tables were not planned for
 
+    /// Adds what another flight met.
     void add(const TableErrorsMet& other);
     [[nodiscard]] double mean_force() const;                     ///< 0 where there is none
     [[nodiscard]] double mean_turbulent_kinetic_energy() const;  ///< 0 where there is none

@@ -13,12 +13,13 @@ enum class KirchhoffMethod {
     hypersingular,  ///< Galerkin, linear on flat triangles: for edges, thin bodies and very many triangles
 };
 
+/// How the tensor is computed.
 struct KirchhoffOptions {
     int threads = 0;         ///< 0: all cores; the result does not depend on it
     double tolerance = 0.0;  ///< relative tensor error that will do: the coarsest surface whose estimate is
                              ///< below it is taken; 0: as good as the surface's own triangles give
-    KirchhoffMethod method = KirchhoffMethod::automatic;
-    std::function<void(double)> progress = {};  ///< called with the share of the work done, 0 to 1
+    KirchhoffMethod method = KirchhoffMethod::automatic;  ///< how it is solved
+    std::function<void(double)> progress = {};            ///< called with the share of the work done, 0 to 1
 };
 
 /// The Kirchhoff tensor (added mass) of a closed, outward surface in unbounded ideal fluid at rest: 6x6,

@@ -19,13 +19,13 @@ const char* name_of(Regime regime);
 
 /// A stretch of the motion (s).
 struct TimeWindow {
-    double begin = 0.0;
-    double end = 0.0;
+    double begin = 0.0;  ///< s
+    double end = 0.0;    ///< s
 };
 
 /// The figures of one copy in one run over a window of time.
 struct Measures {
-    TimeWindow window;
+    TimeWindow window;                          ///< that the figures are of
     Vector3d mean_velocity = Vector3d::Zero();  ///< m/s, world: way of the centre of mass over the duration
     double descent_speed = 0.0;                 ///< m/s: mean_velocity along gravity (along -z without it)
     double mean_inclination = 0.0;              ///< rad, mean over the frames
@@ -35,7 +35,7 @@ struct Measures {
     int swings = 0;                   ///< minima of the inclination in the window
     int turnovers = 0;                ///< half turns of the shortest axis, from one end up to the other
     double rms_angular_speed = 0.0;   ///< rad/s
-    Regime regime = Regime::steady;
+    Regime regime = Regime::steady;   ///< how it falls
 };
 
 /// The first frame at which a body touches the ground, to a thousandth of its bounding radius; nothing where

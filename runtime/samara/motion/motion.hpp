@@ -14,7 +14,7 @@ namespace samara {
 
 /// One body of the scene with all its copies, runs and frames.
 struct BodyMotion {
-    std::string name;
+    std::string name;  ///< in the scene
     Vector3d center_of_mass =
         Vector3d::Zero();  ///< m, shape axes: subtract R times this to place the shape's origin
     Vector3d shortest_axis =
@@ -23,22 +23,24 @@ struct BodyMotion {
     std::string models;            ///< in words: the loads, turbulence and defaults that were used
     Surface surface;               ///< shape axes, so that a motion file can be shown by itself
     ContactPoints contact_points;  ///< of the surface, where the motion has a ground
-    int copies = 1;
-    std::vector<Pose> poses;  ///< index ((run * frames) + frame) * copies + copy
+    int copies = 1;                ///< of the body, each with poses of its own
+    std::vector<Pose> poses;       ///< index ((run * frames) + frame) * copies + copy
 };
 
 /// What `samara simulate` writes: frames at even times.
 struct Motion {
-    std::vector<double> times;  ///< s
-    int runs = 1;
-    double frame_rate = 60.0;  ///< frames per second
-    Vector3d gravity = Vector3d(0.0, 0.0, -9.81);
-    std::optional<double> ground;  ///< m: the height of the ground, where there is one
-    std::uint64_t seed = 1;
-    std::string scene_text;  ///< the scene file as it was read
-    std::vector<BodyMotion> bodies;
+    std::vector<double> times;                     ///< s
+    int runs = 1;                                  ///< with other noise and starts
+    double frame_rate = 60.0;                      ///< frames per second
+    Vector3d gravity = Vector3d(0.0, 0.0, -9.81);  ///< m/s^2, world axes
+    std::optional<double> ground;                  ///< m: the height of the ground, where there is one
+    std::uint64_t seed = 1;                        ///< of the noise and the starts
+    std::string scene_text;                        ///< the scene file as it was read
+    std::vector<BodyMotion> bodies;                ///< in the scene's order
 
+    /// How many frames there are.
     [[nodiscard]] int frames() const { return static_cast<int>(times.size()); }
+    /// The pose of a copy in a run at a frame, each counted from 0.
     [[nodiscard]] const Pose& pose(const BodyMotion& body, int run, int frame, int copy) const {
         const auto row = static_cast<std::size_t>(run) * times.size() + static_cast<std::size_t>(frame);
         return body.poses[row * static_cast<std::size_t>(body.copies) + static_cast<std::size_t>(copy)];

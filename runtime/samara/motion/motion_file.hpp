@@ -24,19 +24,22 @@ Motion read_motion_file(const std::filesystem::path& file);
 
 /// Some copies in some runs of a body.
 struct PoseBlock {
-    int first_run = 0;
-    int runs = 1;
-    int first_copy = 0;
-    int copies = 1;
+    int first_run = 0;   ///< counted from 0
+    int runs = 1;        ///< how many
+    int first_copy = 0;  ///< counted from 0
+    int copies = 1;      ///< how many
 };
 
 /// Reads a motion file in parts, for files larger than memory. Throws like read_motion_file, each part when
 /// it is read.
 class MotionReader {
   public:
+    /// Opens the file; throws Error where it is no sound motion file.
     explicit MotionReader(const std::filesystem::path& file);
     ~MotionReader();
+    /// The other may then only be destroyed or assigned to.
     MotionReader(MotionReader&&) noexcept;
+    /// The other may then only be destroyed or assigned to.
     MotionReader& operator=(MotionReader&&) noexcept;
 
     /// All but the poses.

@@ -18,12 +18,13 @@ enum class Dynamic { of_body, by_default, none };
 
 /// The paper's eq. 5; what is absent is taken from the body (docs/theory.md).
 struct CoefficientLoads {
-    double drag_coefficient = 1.0;
-    double lift_coefficient = 0.0;
+    double drag_coefficient = 1.0;         ///< C_d of eq. 5
+    double lift_coefficient = 0.0;         ///< C_l of eq. 5
     std::optional<double> reference_area;  ///< m^2; default: the area projected along the direction of motion
     std::optional<Vector3d> normal;        ///< shape axes; default: the axis of the body's shortest extent
     Vector3d center_of_pressure = Vector3d::Zero();  ///< m from the centroid of the volume, shape axes
 
+    /// Member by member.
     bool operator==(const CoefficientLoads&) const = default;
 };
 
@@ -34,6 +35,7 @@ struct MassSpecification {
     std::optional<Vector3d> center_of_mass;  ///< m, shape axes; default: the centroid of the volume
     std::optional<Matrix3d> inertia;  ///< kg m^2 about the centre of mass, shape axes; default: as if uniform
 
+    /// Member by member.
     bool operator==(const MassSpecification&) const = default;
 };
 
@@ -41,17 +43,18 @@ struct MassSpecification {
 /// motion hold. A member more is to be listed in visit_members() below, on which the scene file, the C
 /// interface, saved states and what is shared between equal bodies rest.
 struct BodyPhysics {
-    MassSpecification mass;
-    Loads loads = Loads::table;
+    MassSpecification mass;                       ///< density, or mass and how it is distributed
+    Loads loads = Loads::table;                   ///< where force and moment come from
     CoefficientLoads coefficients;                ///< where the loads are coefficients
     std::optional<double> table_reynolds_number;  ///< at which alone tables are read
     bool added_mass = true;                       ///< whether the fluid's inertia is part of the body's
-    Dynamic dynamic = Dynamic::of_body;
-    Turbulence turbulence = Turbulence::table;  ///< default: table where the loads are, else none
-    double turbulent_kinetic_energy = 0.0;      ///< m^2/s^2, where turbulence is constant
-    double dissipation_rate = 0.0;              ///< m^2/s^3, where turbulence is constant
-    Langevin langevin = Langevin::seen_fluid;
+    Dynamic dynamic = Dynamic::of_body;           ///< whether the body's dynamic coefficients count
+    Turbulence turbulence = Turbulence::table;    ///< default: table where the loads are, else none
+    double turbulent_kinetic_energy = 0.0;        ///< m^2/s^2, where turbulence is constant
+    double dissipation_rate = 0.0;                ///< m^2/s^3, where turbulence is constant
+    Langevin langevin = Langevin::seen_fluid;     ///< what the noise drives
 
+    /// Member by member.
     bool operator==(const BodyPhysics&) const = default;
 };
 

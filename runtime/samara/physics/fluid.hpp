@@ -12,6 +12,7 @@ struct Gust {
     Vector3d amplitude = Vector3d::Zero();  ///< m/s
     double period = 1.0;                    ///< s
 
+    /// Member by member.
     bool operator==(const Gust&) const = default;
 };
 
@@ -20,10 +21,11 @@ struct Fluid {
     double density = 998.2;               ///< kg/m^3
     double viscosity = 1.002e-3;          ///< dynamic, Pa s
     Vector3d current = Vector3d::Zero();  ///< m/s, world axes
-    Gust gust = {};
+    Gust gust = {};                       ///< beside the current
 
     /// m^2/s.
     [[nodiscard]] double kinematic_viscosity() const { return viscosity / density; }
+    /// Member by member.
     bool operator==(const Fluid&) const = default;
 };
 

@@ -15,7 +15,7 @@ namespace samara {
 
 /// One [[body]] of a scene: what it is, and how it starts.
 struct SceneBody : BodyPhysics, Release {
-    std::string name;
+    std::string name;             ///< unique in the scene
     std::filesystem::path shape;  ///< a shape file or a .body.h5, as found from the scene file's folder
     double scale = 1.0;           ///< metres for one unit of the shape file
     bool models_auto = false;     ///< what the model advice says is to be flown (docs/plan.md)
@@ -23,16 +23,16 @@ struct SceneBody : BodyPhysics, Release {
 
 /// A scene file, checked: every number is finite and in its range.
 struct Scene {
-    double duration = 0.0;     ///< s
-    double step = 0.002;       ///< s
-    double frame_rate = 60.0;  ///< frames per second
-    std::uint64_t seed = 1;
+    double duration = 0.0;                         ///< s
+    double step = 0.002;                           ///< s
+    double frame_rate = 60.0;                      ///< frames per second
+    std::uint64_t seed = 1;                        ///< of the noise and the spread of starts
     Vector3d gravity = Vector3d(0.0, 0.0, -9.81);  ///< m/s^2
     std::optional<double> ground;                  ///< m: the height of level ground
-    Fluid fluid;
-    std::vector<SceneBody> bodies;
-    std::string text;            ///< the file as it was read
-    std::filesystem::path file;  ///< where it was read from
+    Fluid fluid;                                   ///< what the bodies are in
+    std::vector<SceneBody> bodies;                 ///< in the file's order
+    std::string text;                              ///< the file as it was read
+    std::filesystem::path file;                    ///< where it was read from
 };
 
 }  // namespace samara
