@@ -1,5 +1,7 @@
 #include "converter/tables/direction_fit.hpp"
 
+#include "internal/base/turn.hpp"
+
 namespace samara {
 namespace {
 
@@ -17,7 +19,7 @@ std::variant<TurnedSample, ArcFit, ScatteredFit> fit_of(const Symmetry& symmetry
 }
 
 Matrix3d turn_from(const TurnedSample& sample, const Vector3d& direction) {
-    return Eigen::Quaterniond::FromTwoVectors(sample.direction, direction).toRotationMatrix();
+    return turn_between(sample.direction, direction).toRotationMatrix();
 }
 
 LoadEntry turned(const TurnedSample& sample, const LoadEntry& entry, const Vector3d& direction) {

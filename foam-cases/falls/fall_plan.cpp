@@ -5,9 +5,11 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/LU>
 #include <fmt/format.h>
 
 #include "internal/base/symmetric_matrix.hpp"
+#include "internal/base/turn.hpp"
 #include "internal/flight/terminal_speed.hpp"
 
 namespace samara {
@@ -133,7 +135,7 @@ BodyState identification_start(const Body& body, int index) {
     const Vector3d gravity =
         principal_axes(body.moments) * Vector3d(direction[0], direction[1], direction[2]).normalized();
     BodyState start;
-    start.orientation = Quaterniond::FromTwoVectors(gravity, -Vector3d::UnitZ());
+    start.orientation = turn_between(gravity, -Vector3d::UnitZ());
     return start;
 }
 

@@ -5,6 +5,7 @@
 
 #include <Eigen/SVD>
 
+#include "internal/base/turn.hpp"
 #include "meshes/symmetry/symmetry_group.hpp"
 
 namespace samara {
@@ -126,7 +127,7 @@ Matrix3d frame_about(const Vector3d& axis) {
     axis.cwiseAbs().maxCoeff(&largest);
     const Vector3d along = axis[largest] < 0.0 ? Vector3d(-axis) : axis;
     // The smallest turn that takes the shape's axis there.
-    return Quaterniond::FromTwoVectors(Vector3d::Unit(largest), along).toRotationMatrix();
+    return turn_between(Vector3d::Unit(largest), along).toRotationMatrix();
 }
 
 AlignedGroup aligned_group(const std::vector<Matrix3d>& elements) {

@@ -28,6 +28,10 @@ struct NamedMotion {
     std::function<Motion()> make;
 };
 
+void PrintTo(const NamedMotion& motion, std::ostream* out) {
+    *out << motion.name;
+}
+
 Pose sinking(double time, double speed) {
     Pose pose;
     pose.position.z() = -speed * time;
