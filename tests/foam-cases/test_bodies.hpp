@@ -80,7 +80,7 @@ inline Body sphere(double radius, int rounds = 3) {
 
 /// A box of the given edges (m) about the origin, each side cut into `cells` x `cells` x 2 triangles, with
 /// the symmetry of a box of three different edges.
-inline Body box(const Vector3d& edges, int cells = 8) {
+inline Body box_body(const Vector3d& edges, int cells = 8) {
     Body body = ellipsoid(edges / 2.0);
     body.name = "box";
     body.source = "box of a test";

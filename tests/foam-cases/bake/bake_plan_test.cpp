@@ -122,9 +122,9 @@ TEST(BakePlan, DoesNotDependOnTheBodysSize) {
 }
 
 TEST(BakePlan, WidensTheBoxAndRefinesTheSurfaceOfARod) {
-    const BakePlan cube = preview_of(test::box({0.02, 0.02, 0.02}));
-    const BakePlan sheet = preview_of(test::box({0.1, 0.1, 0.0001}));
-    const BakePlan rod = preview_of(test::box({0.002, 0.002, 0.1}));
+    const BakePlan cube = preview_of(test::box_body({0.02, 0.02, 0.02}));
+    const BakePlan sheet = preview_of(test::box_body({0.1, 0.1, 0.0001}));
+    const BakePlan rod = preview_of(test::box_body({0.002, 0.002, 0.1}));
     EXPECT_EQ(cube.quality.meshes.back().box_half_width, 10);
     EXPECT_EQ(cube.quality.meshes.back().surface_level, 4);
     EXPECT_EQ(sheet.quality.meshes.back().surface_level, 4);

@@ -85,7 +85,7 @@ TEST_F(Bake, EstimatesTheCellsOfTheMeshThatIsMade) {
 }
 
 TEST_F(Bake, OfASheetOfATenthOfAPercentKeepsItsRim) {
-    const fs::path file = write_body(test::box({0.1, 0.1, 0.00012}));
+    const fs::path file = write_body(test::box_body({0.1, 0.1, 0.00012}));
     const test::ProgramRun made =
         bake(fmt::format("{} -o out.body.h5 --quality smoke --json", file.string()));
     ASSERT_EQ(made.status, 0) << made.fault;

@@ -47,7 +47,7 @@ class MeshMaking : public test::BakeFolder {
 };
 
 TEST_F(MeshMaking, TakesTheMeshAsPlannedWhereItIsGood) {
-    write_cases(test::box({0.02, 0.02, 0.02}));
+    write_cases(test::box_body({0.02, 0.02, 0.02}));
     ASSERT_EQ(make(), 0) << read_bytes(folder_ / "output");
     const nlohmann::json mesh = record("mesh.json");
     EXPECT_EQ(mesh["verdict"], "ok");
