@@ -16,7 +16,7 @@ import sys
 
 from farm_script import input_hash, mesh_record, run_on_folder, stopping_fault
 from case_files import Failure, Fault, parameter, read, read_record, word, write_json
-from stationarity import AREA_UNIT, whole_histories
+from stationarity import AREA_UNIT, has_k_and_epsilon, whole_histories
 
 
 def mean_and_deviation(rows, columns):
@@ -44,20 +44,21 @@ def check_solution(folder):
     rounds = read_record(os.path.join(folder, "rounds.json"))
     if not rounds:
         raise Fault("was stopped before its first round; run again to go on")
-    log = os.path.join(folder, "log.simpleFoam")
+    parameters = read(os.path.join(folder, "parameters"))
+    log = os.path.join(folder, "log." + word(parameters, "solver"))
     last = rounds["attempts"][-1]
     if rounds["verdict"] == "failed":
         raise Failure(f"{last['end']} (attempts: {', '.join(one['what'] for one in rounds['attempts'])})")
     if rounds["verdict"] is None:
         raise Fault(stopping_fault(folder, log))
     text = read(log)
-    parameters = read(os.path.join(folder, "parameters"))
     start = rounds["averaging_start"]
-    turbulent = word(parameters, "simulationType") != "laminar"
+    turbulent = has_k_and_epsilon(parameters)
+    time_step = last.get("time_step", 1)
 
     forces, moments, shell = (
         [row[1:] for row in rows if row[0] >= start]
-        for rows in whole_histories(folder, last["iterations"], turbulent))
+        for rows in whole_histories(folder, last["iterations"], turbulent, time_step))
     force, force_deviation = mean_and_deviation(forces, range(3))
     moment, moment_deviation = mean_and_deviation(moments, range(3))
     flow = parameter(parameters, "flowVelocity")
@@ -69,7 +70,7 @@ def check_solution(folder):
     record = {
         "case": os.path.basename(os.path.abspath(folder)),
         "openfoam": build.group(1).strip() if build else "",
-        "closure": word(parameters, "closure") if turbulent else "laminar",
+        "closure": "laminar" if word(parameters, "simulationType") == "laminar" else word(parameters, "closure"),
         "convection": word(parameters, "convection"),
         "gradient": word(parameters, "gradient"),
         "direction": parameter(parameters, "direction"),
@@ -79,7 +80,8 @@ def check_solution(folder):
         "verdict": rounds["verdict"],
         "attempts": rounds["attempts"],
         "iterations": last["iterations"],
-        "averaging_start": start,
+        # Half a step before its first, which no rounding misses.
+        "averaging_start": (start - 0.5) * time_step if "time_step" in last else start,
         "averaged_iterations": len(forces),
         "final_residuals": final_residuals(text, log),
         "drag_coefficient": drag,

@@ -1,9 +1,9 @@
 #!/usr/bin/env -S python3 -B
-"""Runs simpleFoam in rounds until the case is statistically stationary (stationarity.py).
+"""Runs the case's solver in rounds until the case is statistically stationary (stationarity.py).
 
     iterate.py      in the folder of the case, whose mesh is there
 
-A case that does not settle, or diverges, is tried again in the ways of ATTEMPTS, and fails after the last.
+A case that does not settle, or diverges, is tried again in the ways of ATTEMPTS, and fails after the last. Of an unsteady case an iteration is a step.
 rounds.json holds what was done. A round that was cut short is done again from the last whole one, so that a case
 that was killed ends with the same bytes as one that was not; where an input has changed, all starts afresh.
 
@@ -21,7 +21,7 @@ import sys
 
 from case_files import (Failure, Fault, breakdown, could_not_read_state, hash_of_inputs, read, read_record, say,
                         time_folders, word, write_entries, write_json)
-from stationarity import whole_histories, worst_quantity
+from stationarity import has_k_and_epsilon, whole_histories, worst_quantity
 
 # Each attempt: its changes to the parameters, those of its first round, and where it starts: as `startFrom` says,
 # from what stands, or from the undisturbed flow.
@@ -30,9 +30,13 @@ ATTEMPTS = {
     "damped": ({"momentumRelaxation": "0.7", "turbulenceRelaxation": "0.5"}, {}, "what stands"),
     "cautious": ({"momentumRelaxation": "0.5", "turbulenceRelaxation": "0.4",
                   "gradient": "cellLimited Gauss linear 1"}, {"convection": "upwind"}, "undisturbed"),
+    "half the step": ({}, {}, "startFrom"),
 }
 AFTER_RESTLESSNESS = {"as planned": "damped", "damped": "cautious"}
 AFTER_DIVERGENCE = {"as planned": "cautious", "damped": "cautious"}
+# Of an unsteady case: what swings is the flow itself, and no relaxation helps what blows up.
+AFTER_DIVERGENCE_IN_TIME = {"as planned": "half the step"}
+STEPS_OVER_PLANNED = {"half the step": 2}
 ACCEPTED = 3.0
 
 
@@ -64,7 +68,11 @@ class Rounds:
         self.most_iterations = int(own("mostIterations"))
         self.least_iterations = int(own("leastIterations"))
         self.tolerance = float(own("stationarity"))
-        self.turbulent = own("simulationType") != "laminar"
+        self.turbulent = has_k_and_epsilon(read("parameters"))
+        self.solver = own("solver")
+        self.log = f"log.{self.solver}"
+        self.planned_step = float(own("timeStep"))
+        self.unsteady = own("rateOfChange") != "steadyState"
         self.inputs = hash_of_inputs([os.path.join(start_folder(), "rounds.json")] if start_folder() else [])
         self.state = read_record("rounds.json")
         self.goes_on = (self.state.get("inputs") == self.inputs and self.state.get("verdict") != "failed"
@@ -78,9 +86,20 @@ class Rounds:
     def attempt(self):
         return self.state["attempts"][-1]
 
+    @property
+    def steps_over_planned(self):
+        return STEPS_OVER_PLANNED.get(self.attempt["what"], 1)
+
+    @property
+    def time_step(self):
+        return self.planned_step / self.steps_over_planned
+
+    def time_at(self, iterations):
+        return float(f"{iterations * self.time_step:.10g}")
+
     def histories_are_whole(self):
         try:
-            whole_histories(".", self.attempt["iterations"], self.turbulent)
+            whole_histories(".", self.attempt["iterations"], self.turbulent, self.time_step)
         except Fault:
             return False
         return True
@@ -92,12 +111,14 @@ class Rounds:
     def begin(self, what):
         first = self.attempt["iterations"] if ATTEMPTS[what][2] == "what stands" else 0
         self.state["attempts"].append({"what": what, "first": first, "iterations": first})
+        if self.unsteady:
+            self.attempt["time_step"] = self.time_step
         write_json("rounds.json", self.state)
         self.keep_whole_rounds()
 
     def keep_whole_rounds(self):
         """Removes the fields of all but the last whole round, and the histories of later ones."""
-        whole = self.attempt["iterations"]
+        whole = self.time_at(self.attempt["iterations"])
         for time, path in time_folders(".").items():
             if time not in (0, whole) or whole == 0:
                 shutil.rmtree(path)
@@ -128,22 +149,25 @@ class Rounds:
         if attempt["iterations"] == attempt["first"]:
             changes = changes | first_changes
         end = attempt["iterations"] + self.round_iterations
-        entries = {"endTime": end, "writeFormat": "binary", **changes}
+        if self.unsteady:
+            changes = {**changes, "timeStep": f"{self.time_step:.10g}"}
+        entries = {"endTime": f"{self.time_at(end):.10g}", "writeFormat": "binary", **changes}
         write_entries("round", "What this round has of its own; written by iterate.py", entries)
-        status, seconds = run_program(["./Allrun", "round"], "log.simpleFoam")
+        status, seconds = run_program(["./Allrun", "round"], self.log)
         self.state["cpu_seconds"] += seconds
         if status != 0:
-            raise breakdown(os.path.abspath("log.simpleFoam"), "simpleFoam", "iteration")
+            raise breakdown(os.path.abspath(self.log), self.solver, "iteration")
         attempt["iterations"] = end
-        unsteady, quantity, start = worst_quantity(".", attempt["first"], end, self.tolerance, self.turbulent)
+        unsteady, quantity, start = worst_quantity(".", attempt["first"], end, self.tolerance, self.turbulent,
+                                                   self.time_step)
         attempt["unsteadiness_over_tolerance"] = unsteady
         attempt["worst_quantity"] = quantity
         self.state["averaging_start"] = start
         self.goes_on = False
         done = end - attempt["first"]
-        if unsteady <= 1.0 and done >= self.least_iterations:
+        if unsteady <= 1.0 and done >= self.least_iterations * self.steps_over_planned:
             self.state["verdict"] = "stationary"
-        elif done >= self.most_iterations:
+        elif done >= self.most_iterations * self.steps_over_planned:
             attempt["end"] = f"the {quantity} did not settle: {unsteady:.2g} times its tolerance of {self.tolerance:g}"
         write_json("rounds.json", self.state)
         self.keep_whole_rounds()
@@ -165,16 +189,16 @@ class Rounds:
             # An attempt that had ended before a kill is not gone on with.
             if "end" in self.attempt:
                 accepted = self.attempt["unsteadiness_over_tolerance"] <= ACCEPTED
-                self.after(self.attempt["end"], {} if accepted else AFTER_RESTLESSNESS)
+                self.after(self.attempt["end"], {} if accepted or self.unsteady else AFTER_RESTLESSNESS)
                 continue
             try:
                 self.run_round()
             except Failure as cause:
                 self.attempt.pop("unsteadiness_over_tolerance", None)
-                self.after(str(cause), AFTER_DIVERGENCE)
+                self.after(str(cause), AFTER_DIVERGENCE_IN_TIME if self.unsteady else AFTER_DIVERGENCE)
             except Fault:
                 # As where the disk was full when an earlier run wrote its last round.
-                if not self.goes_on or not could_not_read_state("log.simpleFoam"):
+                if not self.goes_on or not could_not_read_state(self.log):
                     raise
                 self.goes_on = False
                 self.start_afresh()

@@ -8,7 +8,7 @@ the standard error from six batches (an oscillation) are both within the toleran
 
 import math
 
-from case_files import Failure, Fault, history
+from case_files import Failure, Fault, history, word
 
 # k and epsilon settle later than forces and are less certain in any case: their tolerance over that of forces.
 TURBULENCE_TOLERANCES = 3.0
@@ -40,28 +40,37 @@ def unsteadiness(values):
     return max(drift, math.sqrt(squares / (BATCHES * (BATCHES - 1))))
 
 
-def whole_history(folder, name, file, last):
-    """The history, one row for each iteration up to the `last`. Raises Fault where any is missing."""
+def has_k_and_epsilon(parameters):
+    """Whether the model of the case with that text of its file `parameters` solves for both."""
+    return word(parameters, "simulationType") == "RAS" and word(parameters, "closure").endswith(("Epsilon", "KE"))
+
+
+def whole_history(folder, name, file, last, time_step=1.0):
+    """The history, one row [iteration, values...] for each iteration up to the `last`. Raises Fault where any is missing.
+
+    `time_step`: the time that an iteration takes in the case."""
     rows = history(folder, name, file)
     for iteration in range(1, int(last) + 1):
-        if len(rows) < iteration or rows[iteration - 1][0] != iteration:
+        if len(rows) < iteration or abs(rows[iteration - 1][0] / time_step - iteration) > 0.01:
             raise Fault(f"postProcessing/{name}: {file} has no iteration {iteration} of {last:g}; was the disk full? "
                         "./Allclean starts over")
-    return rows
+    return [[iteration, *row[1:]] for iteration, row in enumerate(rows, 1)]
 
 
-def whole_histories(folder, last, turbulent):
-    """The histories of force, moment, and k and epsilon (empty where the flow is laminar). Raises as whole_history."""
-    return (whole_history(folder, "forces", "force.dat", last), whole_history(folder, "forces", "moment.dat", last),
-            whole_history(folder, "shell", "volFieldValue.dat", last) if turbulent else [])
+def whole_histories(folder, last, turbulent, time_step=1.0):
+    """The histories of force, moment, and k and epsilon (empty where not `turbulent`: where the model has not both).
+    Raises as whole_history."""
+    return (whole_history(folder, "forces", "force.dat", last, time_step),
+            whole_history(folder, "forces", "moment.dat", last, time_step),
+            whole_history(folder, "shell", "volFieldValue.dat", last, time_step) if turbulent else [])
 
 
-def worst_quantity(folder, first, last, tolerance, turbulent):
+def worst_quantity(folder, first, last, tolerance, turbulent, time_step=1.0):
     """(unsteadiness over tolerance, its quantity, first iteration of the window) of the worst quantity.
 
     `first`: the iteration after which the present settings were used; `last`: the one that was reached. Raises Diverged
     where the values are not finite, not positive (k, epsilon) or absurd, Fault where a history is not whole."""
-    forces, moments, shell = whole_histories(folder, last, turbulent)
+    forces, moments, shell = whole_histories(folder, last, turbulent, time_step)
     for row in forces + moments + shell:
         if not all(map(math.isfinite, row)):
             raise Diverged(f"a value at iteration {row[0]:g} is not finite")

@@ -142,6 +142,37 @@ TEST_F(CaseByHand, OnTheMeshOfAnotherKeepsThatMeshWhenItIsCleaned) {
     EXPECT_EQ(files_in(first), of_first);
 }
 
+// The models of docs/closures.md, each with what it needs of the parameters, on one mesh.
+TEST_F(CaseByHand, SolvesByTheModelThatItsParametersName) {
+    const fs::path first = flow_case("first");
+    ASSERT_EQ(run(first, {"Allrun", "mesh"}), 0) << said();
+    const std::map<std::string, std::string> resolved = {{"nutAtWall", "nutLowReWallFunction"},
+                                                         {"kAtWall", "fixedValue"},
+                                                         {"convection", "linearUpwind grad(U)"}};
+    const std::map<std::string, std::string> in_time = {
+        {"solver", "pimpleFoam"}, {"rateOfChange", "backward"}, {"timeStep", "0.05"}};
+    struct Model {
+        std::map<std::string, std::string> parameters;
+        const char* field;
+    };
+    const std::map<std::string, Model> models = {
+        {"sst", {{{"closure", "kOmegaSST"}}, "12/omega"}},
+        {"transition", {{{"closure", "kOmegaSSTLM"}}, "12/gammaInt"}},
+        {"laminar in time", {{{"simulationType", "laminar"}}, "0.6/U"}},
+        {"eddies in time", {{{"simulationType", "LES"}, {"closure", "kOmegaSSTDDES"}}, "0.6/omega"}}};
+    for (const auto& [name, model] : models) {
+        const fs::path folder = flow_case(name);
+        fs::create_directory_symlink("../../first/constant/polyMesh", folder / "constant/polyMesh");
+        set_parameters(folder, resolved);
+        set_parameters(folder, model.parameters);
+        if (name.ends_with("time")) set_parameters(folder, in_time);
+        EXPECT_EQ(run(folder, {"Allrun"}), 0) << name << ": " << said();
+        EXPECT_TRUE(fs::exists(folder / model.field)) << name;
+        const nlohmann::json rounds = nlohmann::json::parse(read_bytes(folder / "rounds.json"));
+        EXPECT_EQ(rounds["attempts"].size(), 1u) << name;
+    }
+}
+
 TEST_F(CaseByHand, WhoseMeshWasCutShortMakesItAnew) {
     const fs::path flow = flow_case("flow");
     const std::string usual = std::getenv("PATH");

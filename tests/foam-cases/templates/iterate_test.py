@@ -40,10 +40,7 @@ print("End")
 '''
 
 
-class IterateTest(FakedSolverTest):
-    SOLVER_NAME = "simpleFoam"
-    SOLVER = SOLVER
-
+class IteratedCase(FakedSolverTest):
     def setUp(self):
         self.make_case("a 'case'")
         shutil.copytree(os.path.join(TEMPLATES, "body-flow"), self.case)
@@ -66,6 +63,18 @@ class IterateTest(FakedSolverTest):
                 with open(os.path.join(folder, name)) as file:
                     found[os.path.relpath(os.path.join(folder, name), self.case)] = file.read()
         return found
+
+    def set_parameter(self, name, value):
+        path = os.path.join(self.case, "parameters")
+        with open(path) as file:
+            text, count = re.subn(rf"(?m)^{name} [^;]*;", f"{name} {value};", file.read())
+        self.assertEqual(count, 1, name)
+        self.write(path, text)
+
+
+class IterateTest(IteratedCase):
+    SOLVER_NAME = "simpleFoam"
+    SOLVER = SOLVER
 
     def expect_solved_as_if_never_stopped(self):
         self.assertEqual(self.run_case()[0], 0)
@@ -127,6 +136,64 @@ class IterateTest(FakedSolverTest):
         status, said = self.run_case()
         self.assertEqual(status, 1)
         self.assertTrue(re.search("is a link to a mesh that is not made yet", said))
+
+    def test_a_model_without_both_k_and_epsilon_is_judged_by_its_loads_alone(self):
+        self.set_parameter("closure", "kOmegaSST")
+        solver = os.path.join(os.path.dirname(self.case), "bin", self.SOLVER_NAME)
+        self.write(solver, SOLVER.replace("shell/{}/volFieldValue.dat", "shell/{}/other.dat"))
+        self.assertEqual(self.run_case()[0], 0)
+        self.assertEqual(self.rounds()["verdict"], "stationary")
+
+
+# Steps of the size that the round says; FAKE "0 blow": those of the planned size blow up at once.
+UNSTEADY_SOLVER = '''#!/usr/bin/env python3
+import os, re, sys
+print("Build  : 1\\nExec   : pimpleFoam", flush=True)
+start = max(float(name) for name in os.listdir(".") if re.fullmatch(r"[0-9]+([.][0-9]+)?", name))
+entry = {name: float(value) for name, value in re.findall(r"^(endTime|timeStep) ([0-9.]+);", open("round").read(), re.M)}
+step = entry["timeStep"]
+first, last = round(start / step) + 1, round(entry["endTime"] / step)
+if os.environ["FAKE"] == "0 blow" and step == 0.02:
+    print(f"Time = {step}\\nsigFpe::sigHandler")
+    sys.exit(1)
+for name in ("force.dat", "moment.dat"):
+    path = f"postProcessing/forces/{start:g}/{name}"
+    os.makedirs(os.path.dirname(path), exist_ok=True)
+    with open(path, "w") as file:
+        file.write("# Time values\\n" + "".join(f"{i * step:.10g} (0.4 0 {i % 7})\\n" for i in range(first, last + 1)))
+os.makedirs(f"{entry['endTime']:.10g}")
+print("".join(f"Time = {i * step:.10g}\\nExecutionTime = 1 s\\n" for i in range(first, last + 1)) + "End")
+'''
+
+
+class UnsteadyTest(IteratedCase):
+    """A case in time: an iteration is a step."""
+
+    SOLVER_NAME = "pimpleFoam"
+    SOLVER = UNSTEADY_SOLVER
+
+    def setUp(self):
+        super().setUp()
+        for name, value in (("solver", "pimpleFoam"), ("rateOfChange", "backward"), ("timeStep", "0.02"),
+                            ("simulationType", "laminar"), ("roundIterations", "70"), ("leastIterations", "210"),
+                            ("stationarity", "0.2")):
+            self.set_parameter(name, value)
+
+    def test_a_case_in_time_counts_its_steps(self):
+        self.assertEqual(self.run_case()[0], 0)
+        rounds = self.rounds()
+        self.assertEqual((rounds["verdict"], rounds["attempts"][0]["iterations"], rounds["averaging_start"]),
+                         ("stationary", 210, 106))
+        self.assertEqual([name for name in os.listdir(self.case) if re.match("[1-9]", name)], ["4.2"])
+        self.assertEqual(len(self.histories()), 6)
+
+    def test_what_blows_up_is_tried_with_half_the_step_for_as_long_a_time(self):
+        self.assertEqual(self.run_case("0 blow")[0], 0)
+        rounds = self.rounds()
+        self.assertEqual([one["what"] for one in rounds["attempts"]], ["as planned", "half the step"])
+        self.assertIn("diverged (floating point exception) at iteration 0.02", rounds["attempts"][0]["end"])
+        self.assertEqual(rounds["attempts"][1]["iterations"], 420)
+        self.assertIn("4.2", os.listdir(self.case))
 
 
 if __name__ == "__main__":
