@@ -5,6 +5,7 @@ import math
 SHELLS = {
     "coarse": "((0.4 4) (1.2 3) (3 2) (5 1))",
     "medium": "((0.2 4) (0.6 3) (1.5 2) (3 1))",
+    "wake": "((0.3 4) (1.2 3) (2.5 2) (5 1))",
     "wide": "((0.6 4) (1.8 3) (3.5 2) (6 1))",
     "fine": "((0.15 5) (0.35 4) (0.9 3) (2 2) (4 1))",
 }
@@ -25,12 +26,13 @@ MESHES = {
     "medium layered": mesh(20, 4, "medium", 9, "1.4"),
     "medium thinly layered": mesh(20, 4, "medium", 13, "1.4"),
     "medium bare": mesh(20, 4, "medium", 0),
+    "wake layered": mesh(20, 4, "wake", 13, "1.4"),
     "wide layered": mesh(20, 4, "wide", 9, "1.4"),
     "fine layered": mesh(20, 5, "fine", 8, "1.4"),
 }
 
 # Whose solution on another mesh a case starts from, as in a bake; the others start from the undisturbed flow.
-MESH_BEFORE = {"fine": "medium", "fine layered": "medium layered",
+MESH_BEFORE = {"fine": "medium", "fine layered": "medium layered", "wake layered": "medium layered",
                "wide layered": "medium layered"}
 
 RESOLVED = {"nutAtWall": "nutLowReWallFunction", "kAtWall": "fixedValue"}
@@ -189,6 +191,10 @@ STUDY = [
     *each("sphere", (1e4,), (LM, SST, "kOmegaSST"), "coarse layered"),
     *each("sphere", (1e4, 1e3), (LM,), "fine layered"),
     *each("sphere", (1e3, 1e4), (LM,), "wide layered"),
+    *each("sphere", (1e3, 1e4, 2.3e4, 1e5), (LM,), "wake layered"),
+    *each("sphere", (2.3e4,), (QUIET,), "wake layered"),
+    *each("cube", (1e4,), (LM,), "wake layered"),
+    *(case for body in ("ellipsoid at 45", "ellipsoid broadside") for case in each(body, (10300,), (LM,), "wake layered")),
     *each("sphere", (1e4,), ("kEpsilon",), "fine"),
     *each("sphere", (1e4,), ("kOmegaSSTDDES",), "medium layered"),
     *each("sphere", (1e3, 1e4), ("unsteady laminar",), "medium layered"),
