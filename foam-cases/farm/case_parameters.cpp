@@ -17,8 +17,8 @@ namespace {
 using Entries = std::vector<std::pair<std::string, std::string>>;
 
 constexpr const char* mesh_entries[] = {
-    "boxHalfWidth", "backgroundCells",  "surfaceLevel",    "layers",       "layerThickness",
-    "layerRatio",   "leastDeterminant", "leastTetQuality", "pointInFluid", "refinementShells"};
+    "boxHalfWidth",     "backgroundCells", "surfaceLevel", "layers",       "layerThickness",  "layerRatio",
+    "leastDeterminant", "leastTetQuality", "leastTwist",   "pointInFluid", "refinementShells"};
 
 // C_mu of the k-epsilon model (Launder & Spalding 1974).
 constexpr double c_mu = 0.09;
@@ -128,8 +128,10 @@ Entries closure_entries(Closure closure, bool resolves_boundary_layer) {
 Entries layer_entries(const FlowMesh& mesh) {
     Entries entries = {{"layers", fmt::format("{}", mesh.layers)}};
     if (mesh.resolves_boundary_layer) {
-        entries.insert(entries.end(),
-                       {{"layerRatio", "1.4"}, {"leastDeterminant", "1e-9"}, {"leastTetQuality", "-1e30"}});
+        entries.insert(entries.end(), {{"layerRatio", "1.4"},
+                                       {"leastDeterminant", "1e-9"},
+                                       {"leastTetQuality", "-1e30"},
+                                       {"leastTwist", "-1"}});
     }
     return entries;
 }

@@ -15,7 +15,7 @@ def mesh(background, level, shells, layers, ratio="1.3", thickness="0.5"):
     return {"backgroundCells": background, "surfaceLevel": level, "refinementShells": SHELLS[shells], "layers": layers,
             "layerRatio": ratio, "layerThickness": thickness,
             "leastDeterminant": "0.001" if layers < 5 else "1e-9",
-            "leastTetQuality": "1e-15" if layers < 5 else "-1e30"}
+            "leastTetQuality": "1e-15" if layers < 5 else "-1e30", "leastTwist": "0.02" if layers < 5 else "-1"}
 
 
 MESHES = {
@@ -194,7 +194,10 @@ STUDY = [
     *each("sphere", (1e3, 1e4, 2.3e4, 1e5), (LM,), "wake layered"),
     *each("sphere", (2.3e4,), (QUIET,), "wake layered"),
     *each("cube", (1e4,), (LM,), "wake layered"),
-    *(case for body in ("ellipsoid at 45", "ellipsoid broadside") for case in each(body, (10300,), (LM,), "wake layered")),
+    *each("ellipsoid at 45", (10300,), (LM,), "wake layered"),
+    *each("sphere", (2.3e4,), ("unsteady kOmegaSSTLM",), "wake layered"),
+    *(case for body in ("disc", "plate") for case in each(body, (1e4,), (SST, LM), "medium layered")),
+    *each("ellipsoid broadside", (10300,), (LM,), "wake layered"),
     *each("sphere", (1e4,), ("kEpsilon",), "fine"),
     *each("sphere", (1e4,), ("kOmegaSSTDDES",), "medium layered"),
     *each("sphere", (1e3, 1e4), ("unsteady laminar",), "medium layered"),
