@@ -33,6 +33,7 @@ struct BakeOptions {
     int ranks = 1;
     std::string cluster;
     std::string quality = "preview";
+    std::string loads = "kEpsilon";
     std::string inflow = "still";
     int probes = 0;
     bool whole_grid = false;
@@ -41,6 +42,10 @@ struct BakeOptions {
     int rounds = SceneBakeOptions().most_rounds;
     bool dry_run = false;
 };
+
+BakeQuality quality_of(const BakeOptions& options) {
+    return with_loads_by(closure_of(options.loads), bake_quality(options.quality));
+}
 
 Inflow inflow_of(const BakeOptions& options) {
     return options.inflow == "paper" ? paper_inflow() : Inflow();
@@ -59,7 +64,7 @@ BakeRequest request_for_shape(const BakeOptions& options) {
     request.output = options.output;
     request.fluid = *fluid_preset(options.fluid);
     request.mass.density = options.density;
-    request.quality = bake_quality(options.quality);
+    request.quality = quality_of(options);
     request.inflow = inflow_of(options);
     request.probes = options.probes;
     return request;
@@ -93,7 +98,7 @@ std::vector<BakeRequest> requests_for(const BakeOptions& options, const Argument
             fmt::format("{}: the output for a scene is a folder, for it gets one body file for each body",
                         options.output));
     }
-    SceneBakeOptions scene{.quality = bake_quality(options.quality),
+    SceneBakeOptions scene{.quality = quality_of(options),
                            .inflow = inflow_of(options),
                            .whole_grid = options.whole_grid,
                            .tolerance = options.tolerance,
@@ -149,6 +154,10 @@ int run(int argc, const char* const* argv) {
         "--quality", options.quality, bake_quality_names(),
         "smoke: seconds, for tests only; preview: two minutes on two cores; standard: three meshes "
         "and Reynolds numbers; high: four meshes, three closures");
+    arguments.choice(
+        "--loads", options.loads, {"kEpsilon", "kOmegaSST", "kOmegaSSTLM"},
+        "closure that forces and moments are solved by; k and epsilon are kEpsilon's, beside the others in "
+        "cases of their own, on meshes of their own");
     arguments.choice("--inflow", options.inflow, {"still", "paper"},
                      "turbulence of the fluid around: still: 1 % intensity; paper: its eq. 13, 100 %");
     arguments.option("--probes", options.probes,

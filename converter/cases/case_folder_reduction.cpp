@@ -1,5 +1,6 @@
 #include "converter/cases/case_folder_reduction.hpp"
 
+#include <algorithm>
 #include <optional>
 
 #include <fmt/format.h>
@@ -21,6 +22,28 @@ std::optional<std::string> failure_reason(const std::filesystem::path& folder) {
         throw Error(fmt::format("{}: has no text 'reason' ({}); remove it and run 'samara bake' again",
                                 file.string(), reason.what()));
     }
+}
+
+/// The case whose solution this one needs beside its own; none where it needs none.
+const PlannedCase* turbulence_of(const CasePlan& plan, const PlannedCase& planned) {
+    const auto found = std::ranges::find(plan.cases, planned.turbulence_from, &PlannedCase::name);
+    return found == plan.cases.end() ? nullptr : &*found;
+}
+
+/// failure_of the case, or of the one that it takes its turbulence from.
+std::optional<std::string> failure_of_either(const std::filesystem::path& folder, const CasePlan& plan,
+                                             const PlannedCase& planned) {
+    if (std::optional<std::string> reason = failure_of(folder, planned.name, planned.mesh)) return reason;
+    const PlannedCase* const other = turbulence_of(plan, planned);
+    const auto reason = other == nullptr ? std::nullopt : failure_of(folder, other->name, other->mesh);
+    if (!reason) return std::nullopt;
+    return fmt::format("its turbulence's case {}: {}", other->name, *reason);
+}
+
+bool is_solved_with_turbulence(const std::filesystem::path& folder, const CasePlan& plan,
+                               const PlannedCase& planned) {
+    const PlannedCase* const other = turbulence_of(plan, planned);
+    return is_solved(folder / planned.name) && (other == nullptr || is_solved(folder / other->name));
 }
 
 Error not_solved(const std::filesystem::path& folder, const CasePlan& plan,
@@ -49,10 +72,10 @@ FolderReduction reduce_folder(const std::filesystem::path& folder, const CasePla
     std::vector<const PlannedCase*> solved;
     std::vector<std::string> missing;
     for (const PlannedCase& planned : plan.cases) {
-        if (planned.purpose == CasePurpose::start) continue;
-        if (const std::optional<std::string> reason = failure_of(folder, planned.name, planned.mesh)) {
+        if (planned.purpose == CasePurpose::start || planned.purpose == CasePurpose::turbulence) continue;
+        if (const std::optional<std::string> reason = failure_of_either(folder, plan, planned)) {
             reduction.left_out.push_back({planned.name, *reason});
-        } else if (plan.solved_by_user || is_solved(folder / planned.name)) {
+        } else if (plan.solved_by_user || is_solved_with_turbulence(folder, plan, planned)) {
             solved.push_back(&planned);
         } else {
             missing.push_back(planned.name);

@@ -12,7 +12,8 @@ namespace samara {
 
 /// What the cases of a folder give.
 struct FolderReduction {
-    std::vector<SolvedCase> cases;      ///< in the plan's order, map axes; of every purpose but start
+    std::vector<SolvedCase>
+        cases;  ///< in the plan's order, map axes; of every purpose but turbulence and start
     std::vector<LeftOutCase> left_out;  ///< of the same
 };
 
@@ -21,9 +22,10 @@ enum class UnsolvedCases { refuse, leave_out };
 
 /// Reduces every case of the plan (reduce_case), each with the shell of the mesh FOLDER/MESH that it names,
 /// or of its own constant/polyMesh where there is no such folder; a mesh is read once. A case
-/// with failed.json, or whose mesh has one, is left out with the reason that stands there. `progress` is told
-/// how many cases of how many are done. Throws Error where a case is damaged, and, unless `unsolved` says
-/// otherwise, where a case is neither solved nor failed (the message names the first).
+/// with failed.json, or whose mesh has one, is left out with the reason that stands there, and so is one
+/// whose turbulence is another's that failed. `progress` is told how many cases of how many are done. Throws
+/// Error where a case is damaged, and, unless `unsolved` says otherwise, where a case is neither solved nor
+/// failed (the message names the first).
 FolderReduction reduce_folder(const std::filesystem::path& folder, const CasePlan& plan,
                               const std::function<void(std::size_t done, std::size_t total)>& progress = {},
                               UnsolvedCases unsolved = UnsolvedCases::refuse);

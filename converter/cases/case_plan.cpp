@@ -1,5 +1,6 @@
 #include "converter/cases/case_plan.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <set>
@@ -30,10 +31,12 @@ nlohmann::json read_json(const std::filesystem::path& file) {
     }
 }
 
-constexpr std::array<std::pair<CasePurpose, const char*>, 4> purposes = {{{CasePurpose::table, "table"},
-                                                                          {CasePurpose::mesh, "mesh"},
-                                                                          {CasePurpose::closure, "closure"},
-                                                                          {CasePurpose::start, "start"}}};
+constexpr std::array<std::pair<CasePurpose, const char*>, 5> purposes = {
+    {{CasePurpose::table, "table"},
+     {CasePurpose::mesh, "mesh"},
+     {CasePurpose::closure, "closure"},
+     {CasePurpose::turbulence, "turbulence"},
+     {CasePurpose::start, "start"}}};
 
 CaseScales as_scales(const nlohmann::json& values, const CaseScales& defaults) {
     return {values.value("length", defaults.length), values.value("speed", defaults.speed),
@@ -48,6 +51,7 @@ PlannedCase as_case(const nlohmann::json& values, const CasePlan& plan, const Ca
     planned.purpose = purpose_of(values.value("purpose", "table"));
     planned.closure = closure_of(values.value("closure", ""));
     planned.scales = as_scales(values, scales);
+    planned.turbulence_from = values.value("turbulence_from", "");
     if (values.contains("averaging_start")) planned.averaging_start = values["averaging_start"].get<double>();
     return planned;
 }
@@ -101,10 +105,13 @@ void check_case(const PlannedCase& planned) {
     if (!(planned.scales.density > 0.0)) throw refuse("density");
 }
 
+bool are_of_one_flow(const PlannedCase& a, const PlannedCase& b) {
+    return a.reynolds_number == b.reynolds_number && (a.direction - b.direction).norm() <= 1e-6;
+}
+
 /// Whether the two are one flow for one purpose; of table cases there is one for each flow past the body.
 bool are_same(const PlannedCase& a, const PlannedCase& b) {
-    if (a.purpose != b.purpose || a.reynolds_number != b.reynolds_number) return false;
-    if ((a.direction - b.direction).norm() > 1e-6) return false;
+    if (a.purpose != b.purpose || !are_of_one_flow(a, b)) return false;
     return a.purpose == CasePurpose::table || (a.mesh == b.mesh && a.closure == b.closure);
 }
 
@@ -119,6 +126,20 @@ void check_cases(const std::vector<PlannedCase>& cases) {
             throw Error(
                 fmt::format("the cases {} and {} are of the same direction, Reynolds number and purpose",
                             cases[j].name, cases[i].name));
+        }
+    }
+}
+
+void check_turbulence(const std::vector<PlannedCase>& cases) {
+    for (const PlannedCase& planned : cases) {
+        if (planned.turbulence_from.empty()) continue;
+        const auto found = std::ranges::find(cases, planned.turbulence_from, &PlannedCase::name);
+        if (found == cases.end() || found->purpose != CasePurpose::turbulence ||
+            !are_of_one_flow(*found, planned)) {
+            throw Error(
+                fmt::format("the case {} takes its turbulence from {}, which is no case of purpose "
+                            "turbulence of the same direction and Reynolds number",
+                            planned.name, planned.turbulence_from));
         }
     }
 }
@@ -140,6 +161,7 @@ void check(const CasePlan& plan) {
     if (plan.subdivisions < 1 || plan.subdivisions > 1024) throw Error("'subdivisions' is not sane");
     if (!(plan.reference_length > 0.0)) throw Error("'reference_length' is not positive");
     check_cases(plan.cases);
+    check_turbulence(plan.cases);
     check_falls(plan);
 }
 
@@ -149,7 +171,7 @@ CasePurpose purpose_of(const std::string& name) {
     for (const auto& [purpose, word] : purposes) {
         if (word == name) return purpose;
     }
-    throw Error(fmt::format("'purpose' is \"{}\", not table, mesh, closure or start", name));
+    throw Error(fmt::format("'purpose' is \"{}\", not table, mesh, closure, turbulence or start", name));
 }
 
 std::string name_of(CasePurpose purpose) {

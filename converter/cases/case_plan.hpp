@@ -12,13 +12,14 @@ namespace samara {
 
 /// What a case is solved for.
 enum class CasePurpose {
-    table,    ///< its loads go into the table
-    mesh,     ///< as some table case, on another mesh: their difference estimates the table's mesh error
-    closure,  ///< as some table case, with another closure: their difference estimates the closure's error
-    start     ///< only where a case on a finer mesh starts from
+    table,       ///< its loads go into the table
+    mesh,        ///< as some table case, on another mesh: their difference estimates the table's mesh error
+    closure,     ///< as some table case, with another closure: their difference estimates the closure's error
+    turbulence,  ///< its k and epsilon go to the case that names it; its loads are not used
+    start        ///< only where a case on a finer mesh starts from
 };
 
-/// As plan.json words it: table, mesh, closure, start.
+/// As plan.json words it: table, mesh, closure, turbulence, start.
 std::string name_of(CasePurpose purpose);
 
 /// The purpose of that name; throws Error where there is none.
@@ -41,6 +42,9 @@ struct PlannedCase {
     Closure closure = Closure::unsaid;
     CaseScales scales = {};
     std::optional<double> averaging_start = {};  ///< the first time that counts, where the plan says
+    /// The case of purpose turbulence, of the same flow, that this one's k and epsilon are taken from; empty:
+    /// its own.
+    std::string turbulence_from = {};
 };
 
 /// One free fall of a plan (free_fall.hpp).
@@ -69,7 +73,7 @@ struct CasePlan {
 /// the last two are then those of FOLDER/body.body.h5. Throws Error where there is no plan, where it is no
 /// JSON, or where an entry is missing or breaks a rule: axes that are no rotation, directions that are no
 /// unit vectors, numbers that are not positive, no cases, two cases or falls of one name, two of the same
-/// flow and purpose.
+/// flow and purpose, turbulence from a case that has none or is of another flow.
 CasePlan read_case_plan(const std::filesystem::path& folder);
 
 }  // namespace samara

@@ -1,8 +1,10 @@
 #include "converter/cases/case_reduction.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -141,8 +143,8 @@ QuantityHistory vector_history(const CaseSource& source, const VectorHistory& hi
     return vectors;
 }
 
-/// Force, moment and, where the flow is not laminar, k and epsilon.
-std::vector<QuantityHistory> histories_of(const CaseSource& source, bool laminar) {
+/// Force, moment and, where the case has its own, k and epsilon.
+std::vector<QuantityHistory> histories_of(const CaseSource& source, bool has_turbulence) {
     const fs::path folder = source.folder() / "postProcessing";
     const LoadHistory loads = read_load_history(folder / "forces");
     const CaseUnits units = units_of(source.planned.scales);
@@ -150,7 +152,7 @@ std::vector<QuantityHistory> histories_of(const CaseSource& source, bool laminar
     std::vector<QuantityHistory> histories = {
         vector_history(source, loads.force, "force", largest * units.force),
         vector_history(source, loads.moment, "moment", largest * units.moment)};
-    if (laminar) return histories;
+    if (!has_turbulence) return histories;
     const FoamHistory shell = read_joined_history(folder / "shell", "volFieldValue");
     histories.push_back(scalar_history(shell, "k", largest_k * units.k));
     histories.push_back(scalar_history(shell, "epsilon", largest_epsilon * units.epsilon));
@@ -237,11 +239,11 @@ void require_as_planned(const CaseSource& source) {
     }
 }
 
-void require_sane(const CaseSource& source, const DirectionSample& sample, bool laminar) {
+void require_sane(const CaseSource& source, const DirectionSample& sample, bool has_turbulence) {
     const auto refuse = [&](const std::string& what) { return source.fault("diverged: " + what); };
     const double drag = -sample.entry.force.dot(sample.direction);
     if (!(drag > 0.0)) throw refuse(fmt::format("the drag coefficient is {:.4g}, not positive", drag));
-    if (laminar) return;
+    if (!has_turbulence) return;
     if (!(sample.entry.turbulent_kinetic_energy > 0.0)) throw refuse("k in the shell is not positive");
     if (!(sample.entry.dissipation_rate > 0.0)) throw refuse("epsilon in the shell is not positive");
 }
@@ -274,6 +276,21 @@ Closure solved_closure(const CaseSource& source, const nlohmann::json& provenanc
                                                            : source.planned.closure;
 }
 
+/// Takes k and epsilon of the case that `planned` names, and notes its provenance beside the other.
+void take_turbulence(const fs::path& folder, const CasePlan& plan, const PlannedCase& planned, Shells& shells,
+                     SolvedCase& solved) {
+    const auto other = std::ranges::find(plan.cases, planned.turbulence_from, &PlannedCase::name);
+    if (other == plan.cases.end()) throw std::logic_error("the plan has no case " + planned.turbulence_from);
+    const SolvedCase turbulence = reduce_case(folder, plan, *other, shells);
+    solved.sample.entry.turbulent_kinetic_energy = turbulence.sample.entry.turbulent_kinetic_energy;
+    solved.sample.error.turbulent_kinetic_energy = turbulence.sample.error.turbulent_kinetic_energy;
+    solved.sample.entry.dissipation_rate = turbulence.sample.entry.dissipation_rate;
+    solved.sample.error.dissipation_rate = turbulence.sample.error.dissipation_rate;
+    nlohmann::json provenance = nlohmann::json::parse(solved.provenance);
+    provenance["turbulence"] = nlohmann::json::parse(turbulence.provenance);
+    solved.provenance = provenance.dump();
+}
+
 }  // namespace
 
 bool is_solved(const fs::path& folder) {
@@ -289,8 +306,8 @@ SolvedCase reduce_case(const fs::path& folder, const CasePlan& plan, const Plann
     SolvedCase solved{
         planned.name, planned.reynolds_number, {planned.direction, {}, {}},       provenance.dump(),
         planned.mesh, planned.purpose,         solved_closure(source, provenance)};
-    const bool laminar = solved.closure == Closure::laminar;
-    std::vector<QuantityHistory> histories = histories_of(source, laminar);
+    const bool has_turbulence = solved.closure != Closure::laminar && planned.turbulence_from.empty();
+    std::vector<QuantityHistory> histories = histories_of(source, has_turbulence);
     const double start = averaging_start(source, provenance, histories.front().times);
     const std::vector<Tail> tails = tails_of(source, histories, start);
     require_as_noted(source, provenance, tails);
@@ -300,7 +317,7 @@ SolvedCase reduce_case(const fs::path& folder, const CasePlan& plan, const Plann
     sample.error.force = tails[0].error / units.force;
     sample.entry.moment = tails[1].mean / units.moment;
     sample.error.moment = tails[1].error / units.moment;
-    if (laminar) {
+    if (!has_turbulence) {
         require_reach_of_fields(source, histories.front());
     } else {
         require_fields_agree(source, histories[2], histories[3], shells);
@@ -309,7 +326,8 @@ SolvedCase reduce_case(const fs::path& folder, const CasePlan& plan, const Plann
         sample.entry.dissipation_rate = tails[3].mean.x() / units.epsilon;
         sample.error.dissipation_rate = tails[3].error.x() / units.epsilon;
     }
-    require_sane(source, sample, laminar);
+    require_sane(source, sample, has_turbulence);
+    if (!planned.turbulence_from.empty()) take_turbulence(folder, plan, planned, shells, solved);
     return solved;
 }
 

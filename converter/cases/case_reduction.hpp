@@ -29,7 +29,8 @@ bool is_solved(const std::filesystem::path& folder);
 ///  - force and moment coefficients: means of postProcessing/forces over the times from averaging_start on,
 ///    over rho U^2 A/2 with A = pi L^2/4, and for the moment also over L;
 ///  - k/U^2 and epsilon L/U^3: means over the same times of the volume means in postProcessing/shell; 0 where
-///    the closure is laminar;
+///    the closure is laminar; those of another case where the plan says so (turbulence_from), whose
+///    provenance then stands in this one's as `turbulence`;
 ///  - errors: standard_error of the same times.
 /// averaging_start is the plan's for this case, else that of provenance.json, else the start of the last
 /// quarter of the times. The volume means are held against the fields written last (mean_over_shell), and all

@@ -15,6 +15,7 @@ constexpr std::pair<Closure, std::string_view> closures[] = {
     {Closure::launder_sharma_k_epsilon, "LaunderSharmaKE"},
     {Closure::k_omega, "kOmega"},
     {Closure::k_omega_sst, "kOmegaSST"},
+    {Closure::k_omega_sst_lm, "kOmegaSSTLM"},
     {Closure::spalart_allmaras, "SpalartAllmaras"},
     {Closure::other, "other"}};
 

@@ -14,6 +14,7 @@ enum class Closure {
     launder_sharma_k_epsilon,
     k_omega,
     k_omega_sst,
+    k_omega_sst_lm,
     spalart_allmaras,
     other
 };

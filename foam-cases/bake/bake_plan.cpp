@@ -136,6 +136,28 @@ void add_beside(const BakeCase& main, const std::string& more, Change change, Ba
     plan.cases.push_back(entry);
 }
 
+// The mesh of the turbulence that goes with one of the loads.
+const std::string& turbulence_mesh_of(const std::string& mesh, const BakeQuality& quality) {
+    const auto found = std::ranges::find(quality.meshes, mesh, &FlowMesh::name);
+    return quality.turbulence_meshes.at(static_cast<std::size_t>(found - quality.meshes.begin())).name;
+}
+
+// Adds the case of the turbulence of the plan's last case, where it has one of its own; returns its name.
+std::string add_turbulence(const std::string& start_from, Closure closure, BakePlan& plan) {
+    BakeCase& loads = plan.cases.back();
+    if (plan.quality.turbulence_meshes.empty() || loads.reynolds_number < laminar_reynolds_number) return {};
+    BakeCase entry = loads;
+    entry.name += "_turbulence";
+    entry.turbulence_from = "";
+    entry.mesh = turbulence_mesh_of(loads.mesh, plan.quality);
+    entry.closure = closure;
+    entry.purpose = loads.purpose == CasePurpose::start ? CasePurpose::start : CasePurpose::turbulence;
+    entry.start_from = start_from;
+    loads.turbulence_from = entry.purpose == CasePurpose::turbulence ? entry.name : "";
+    plan.cases.push_back(entry);
+    return entry.name;
+}
+
 // The mesh that further Reynolds numbers and closures are solved on: that before the last.
 const std::string& mesh_of_few(const BakePlan& plan) {
     const std::vector<FlowMesh>& meshes = plan.quality.meshes;
@@ -188,6 +210,12 @@ std::vector<double> BakePlan::reynolds_numbers() const {
     return numbers;
 }
 
+std::vector<FlowMesh> BakePlan::all_meshes() const {
+    std::vector<FlowMesh> meshes = quality.meshes;
+    meshes.insert(meshes.end(), quality.turbulence_meshes.begin(), quality.turbulence_meshes.end());
+    return meshes;
+}
+
 const FreeFall& BakePlan::only_fall() const {
     if (kind != CaseKind::fall || falls.size() != 1) throw std::logic_error("the plan is not of one fall");
     return falls.front();
@@ -197,19 +225,21 @@ void add_ladder(const char* kind, std::size_t index, const Vector3d& direction, 
                 BakePlan& plan) {
     const std::vector<FlowMesh>& meshes = plan.quality.meshes;
     std::string before;
+    std::string turbulence_before;
     for (std::size_t i = 0; i < meshes.size(); ++i) {
         BakeCase entry;
         entry.name = case_name(kind, index, meshes[i]);
         entry.direction = direction;
         entry.reynolds_number = reynolds_number;
         entry.mesh = meshes[i].name;
-        entry.closure = closure_at(reynolds_number);
+        entry.closure = closure_at(reynolds_number, plan.quality.loads_closure);
         entry.purpose = i + 1 == meshes.size()   ? CasePurpose::table
                         : i + 2 == meshes.size() ? CasePurpose::mesh
                                                  : CasePurpose::start;
         entry.start_from = before;
         before = entry.name;
         plan.cases.push_back(entry);
+        turbulence_before = add_turbulence(turbulence_before, Closure::k_epsilon, plan);
     }
 }
 
@@ -244,20 +274,25 @@ void add_further_reynolds_number(const Vector3d& direction, double reynolds_numb
     }
     const auto change = [&](BakeCase& entry) {
         entry.reynolds_number = reynolds_number;
-        entry.closure = closure_at(reynolds_number);
+        entry.closure = closure_at(reynolds_number, plan.quality.loads_closure);
         entry.purpose = CasePurpose::table;
+        entry.turbulence_from = "";
     };
-    add_beside(case_of_few(direction, plan), fmt::format("_re_{:.6g}", reynolds_number), change, plan);
+    const BakeCase main = case_of_few(direction, plan);
+    add_beside(main, fmt::format("_re_{:.6g}", reynolds_number), change, plan);
+    add_turbulence(main.turbulence_from, Closure::k_epsilon, plan);
 }
 
 void add_other_closures(const Vector3d& direction, BakePlan& plan) {
     if (closure_at(plan.main_reynolds_number) == Closure::laminar) return;
-    for (const Closure closure : plan.quality.other_closures) {
+    for (const Closures& closures : plan.quality.other_closures) {
         const auto change = [&](BakeCase& entry) {
-            entry.closure = closure;
+            entry.closure = closures.loads;
             entry.purpose = CasePurpose::closure;
         };
-        add_beside(case_of_few(direction, plan), fmt::format("_{}", name_of(closure)), change, plan);
+        const BakeCase main = case_of_few(direction, plan);
+        add_beside(main, fmt::format("_{}", name_of(closures.loads)), change, plan);
+        add_turbulence(main.turbulence_from, closures.turbulence, plan);
     }
 }
 
@@ -266,9 +301,11 @@ BakePlan plan_of_meshes(const Body& body, const BakeQuality& quality) {
     plan.quality = quality;
     plan.reference_length = reference_length(body.moments.surface_area);
     plan.axes = body.symmetry.axes;
-    for (FlowMesh& mesh : plan.quality.meshes) {
-        mesh = fitted_mesh(mesh, body, plan.reference_length);
-        plan.cells.push_back(estimated_cells(body, mesh));
+    for (std::vector<FlowMesh>* const meshes : {&plan.quality.meshes, &plan.quality.turbulence_meshes}) {
+        for (FlowMesh& mesh : *meshes) {
+            mesh = fitted_mesh(mesh, body, plan.reference_length);
+            plan.cells.push_back(estimated_cells(body, mesh));
+        }
     }
     return plan;
 }
@@ -282,18 +319,22 @@ void estimate_cost(BakePlan& plan) {
     }
 }
 
-const FlowMesh& mesh_of(const BakePlan& plan, const std::string& name) {
-    const auto found = std::ranges::find(plan.quality.meshes, name, &FlowMesh::name);
-    if (found == plan.quality.meshes.end()) throw std::logic_error("the plan has no mesh " + name);
+FlowMesh mesh_of(const BakePlan& plan, const std::string& name) {
+    const std::vector<FlowMesh> meshes = plan.all_meshes();
+    const auto found = std::ranges::find(meshes, name, &FlowMesh::name);
+    if (found == meshes.end()) throw std::logic_error("the plan has no mesh " + name);
     return *found;
 }
 
 double cells_of(const BakePlan& plan, const std::string& mesh) {
-    return plan.cells.at(static_cast<std::size_t>(&mesh_of(plan, mesh) - plan.quality.meshes.data()));
+    const std::vector<FlowMesh> meshes = plan.all_meshes();
+    const auto found = std::ranges::find(meshes, mesh, &FlowMesh::name);
+    if (found == meshes.end()) throw std::logic_error("the plan has no mesh " + mesh);
+    return plan.cells.at(static_cast<std::size_t>(found - meshes.begin()));
 }
 
-Closure closure_at(double reynolds_number) {
-    return reynolds_number < laminar_reynolds_number ? Closure::laminar : Closure::k_epsilon;
+Closure closure_at(double reynolds_number, Closure turbulent) {
+    return reynolds_number < laminar_reynolds_number ? Closure::laminar : turbulent;
 }
 
 double estimated_iterations(const BakePlan& plan, const BakeCase& entry) {
@@ -365,7 +406,7 @@ nlohmann::json plan_json(const BakePlan& plan) {
     json["ranks"] = plan.ranks;
     if (plan.covers_scene) json["covers"] = "scene";
     json["axes"] = rows_as_json(plan.axes);
-    for (const FlowMesh& mesh : plan.quality.meshes) json["meshes"].push_back({{"name", mesh.name}});
+    for (const FlowMesh& mesh : plan.all_meshes()) json["meshes"].push_back({{"name", mesh.name}});
     json["cases"] = nlohmann::json::array();
     for (const FreeFall& fall : plan.falls) {
         json["falls"].push_back({{"name", fall.name}, {"mesh", fall.mesh}});
@@ -378,7 +419,8 @@ nlohmann::json plan_json(const BakePlan& plan) {
              {"mesh", entry.mesh},
              {"purpose", name_of(entry.purpose)},
              {"closure", name_of(entry.closure)},
-             {"start_from", entry.start_from}});
+             {"start_from", entry.start_from},
+             {"turbulence_from", entry.turbulence_from}});
     }
     return json;
 }

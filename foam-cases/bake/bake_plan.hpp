@@ -53,19 +53,21 @@ struct BakePlan {
     std::vector<double> further_reynolds_numbers;  ///< in the order in which they were planned
     std::vector<BakeCase> cases;                   ///< none where the kind is a fall
     std::vector<FreeFall> falls;                   ///< each on one of the meshes
-    std::vector<double> cells;                     ///< of each mesh, an estimate
+    std::vector<double> cells;                     ///< of each of all_meshes, an estimate
     double cpu_seconds = 0.0;                      ///< of the meshes and all cases on one core, an estimate
 
     /// The main Reynolds number and the further ones.
     [[nodiscard]] std::vector<double> reynolds_numbers() const;
 
+    /// The meshes of the loads, then those of the turbulence.
+    [[nodiscard]] std::vector<FlowMesh> all_meshes() const;
+
     /// The fall of a plan of the kind fall. Throws std::logic_error for any other plan.
     [[nodiscard]] const FreeFall& only_fall() const;
 };
 
-/// The closure of a case at the Reynolds number, where none is asked for: k_epsilon, or
-/// laminar below laminar_reynolds_number.
-Closure closure_at(double reynolds_number);
+/// The closure at the Reynolds number: `turbulent`, or laminar below laminar_reynolds_number.
+Closure closure_at(double reynolds_number, Closure turbulent = Closure::k_epsilon);
 
 /// The cases that the quality asks for, around the main Reynolds number: the directions that the body's
 /// symmetry leaves to solve on every mesh, and those of a coarser map for further Reynolds numbers and
@@ -80,7 +82,8 @@ BakePlan plan_bake(const Body& body, const BakeQuality& quality, double reynolds
 BakePlan plan_probes(const Body& body, const BakeQuality& quality, double reynolds_number, int count);
 
 /// Adds the cases of one direction on all meshes of the quality, from the coarsest to the finest, each
-/// started from the one before: KIND_INDEX_MESH.
+/// started from the one before: KIND_INDEX_MESH, and, where the turbulence is of cases of its own,
+/// KIND_INDEX_MESH_turbulence.
 void add_ladder(const char* kind, std::size_t index, const Vector3d& direction, double reynolds_number,
                 BakePlan& plan);
 
@@ -118,7 +121,7 @@ double estimated_cells(const Body& body, const FlowMesh& mesh);
 
 /// The mesh of that name of the plan, and its estimated number of cells. Throw std::logic_error where the
 /// plan has none.
-const FlowMesh& mesh_of(const BakePlan& plan, const std::string& name);
+FlowMesh mesh_of(const BakePlan& plan, const std::string& name);
 double cells_of(const BakePlan& plan, const std::string& mesh);
 
 /// The content of plan.json, without the hashes of the inputs.

@@ -66,14 +66,58 @@ BakeQuality high_quality() {
     quality.further_reynolds_numbers = {0.1, 0.3, 3.0};
     quality.falls = 2;
     quality.fall_mesh = 2;
-    quality.other_closures = {Closure::realizable_k_epsilon, Closure::rng_k_epsilon};
+    quality.other_closures = {{Closure::realizable_k_epsilon, Closure::realizable_k_epsilon},
+                              {Closure::rng_k_epsilon, Closure::rng_k_epsilon}};
     return quality;
+}
+
+// The mesh with layers of which the first is about an L/1800 thick: below y+ = 2 on a sphere up to Re 1e5
+// (docs/closures.md). The last has half the thickness of the cells beyond it, each 1.4 times that of the one
+// below.
+FlowMesh with_thin_layers(FlowMesh mesh) {
+    constexpr double first_layer = 1.0 / 1800.0;
+    const double last_layer = 0.5 * mesh.background_cell / std::ldexp(1.0, mesh.surface_level);
+    mesh.layers = 1 + static_cast<int>(std::lround(std::log(last_layer / first_layer) / std::log(1.4)));
+    mesh.resolves_boundary_layer = true;
+    return mesh;
+}
+
+// What the loads ask for beyond the medium mesh is a fine wake, not a finer surface (docs/closures.md).
+FlowMesh mesh_of_loads(const FlowMesh& mesh) {
+    if (mesh.name == fine_mesh().name) {
+        return {"mesh_wake", 10, 1.0, 4, 0, {{0.3, 4}, {1.2, 3}, {2.5, 2}, {5.0, 1}}};
+    }
+    if (mesh.name == finest_mesh().name) {
+        return {"mesh_fine_wake", 10, 1.0, 5, 0, {{0.15, 5}, {0.6, 4}, {2.0, 3}, {4.0, 2}, {6.0, 1}}};
+    }
+    return mesh;
 }
 
 }  // namespace
 
 int FlowMesh::background_cells() const {
     return static_cast<int>(std::lround(2.0 * box_half_width / background_cell));
+}
+
+BakeQuality with_loads_by(Closure closure, BakeQuality quality) {
+    if (closure == Closure::k_epsilon) return quality;
+    if (closure != Closure::k_omega_sst && closure != Closure::k_omega_sst_lm) {
+        throw Error(fmt::format("the loads cannot be solved by {}; choose kEpsilon, kOmegaSST or kOmegaSSTLM",
+                                name_of(closure)));
+    }
+    quality.loads_closure = closure;
+    for (FlowMesh& mesh : quality.meshes) {
+        quality.turbulence_meshes.push_back(mesh);
+        quality.turbulence_meshes.back().name += "_turbulence";
+        mesh = with_thin_layers(mesh_of_loads(mesh));
+    }
+    // Without transition, or with it; and without any closure.
+    const Closure other = closure == Closure::k_omega_sst ? Closure::k_omega_sst_lm : Closure::k_omega_sst;
+    if (!quality.other_closures.empty()) {
+        quality.other_closures = {{other, Closure::realizable_k_epsilon},
+                                  {Closure::laminar, Closure::rng_k_epsilon}};
+    }
+    return quality;
 }
 
 std::vector<std::string> bake_quality_names() {

@@ -16,18 +16,30 @@ struct FlowMesh {
     int surface_level = 4;                                  ///< each level halves the background cells
     int layers = 3;                                         ///< of cells along the surface
     std::vector<std::pair<double, int>> refinement_shells;  ///< (distance from the body, level), outwards
+    /// Whether the layers are so thin that they resolve the boundary layer, or a wall function stands for it.
+    bool resolves_boundary_layer = false;
 
     /// Cells along each edge of the box.
     [[nodiscard]] int background_cells() const;
 };
 
+/// The models of a case's loads, and of its k and epsilon.
+struct Closures {
+    Closure loads;
+    Closure turbulence;
+};
+
 /// What --quality stands for. All directions are solved on every mesh, coarsest first, each from the solution
 /// of the same direction on the mesh before: the start costs little, settles what is slow, and depends on no
 /// other direction. The last mesh's solution is the table's, the one's before it tells the mesh's error.
+/// Loads and turbulence are of one case, or of two with models and meshes of their own (with_loads_by).
 struct BakeQuality {
     std::string name;
-    std::vector<FlowMesh> meshes;  ///< for a compact body; a long one gets a wider box
-    int least_subdivisions = 2;    ///< of the map of directions that are solved, whatever the cost
+    std::vector<FlowMesh> meshes;  ///< of the loads, for a compact body; a long one gets a wider box
+    /// Of k and epsilon, as many; none where they are of the loads' cases.
+    std::vector<FlowMesh> turbulence_meshes;
+    Closure loads_closure = Closure::k_epsilon;  ///< where the flow is not laminar
+    int least_subdivisions = 2;  ///< of the map of directions that are solved, whatever the cost
     int most_subdivisions = 8;
     int most_directions = 16;    ///< multiples of the least subdivisions are taken up to so many directions
     int table_subdivisions = 8;  ///< of the stored map, at least; its nodes hold those that are solved
@@ -35,12 +47,17 @@ struct BakeQuality {
     /// subdivisions on the mesh before the last, from the main one's solution there.
     std::vector<double> further_reynolds_numbers;
     /// Other closures, solved likewise: the spread is the closure's error.
-    std::vector<Closure> other_closures;
+    std::vector<Closures> other_closures;
     int falls = 0;                ///< free falls that the dynamic coefficients are identified from
     std::size_t fall_mesh = 1;    ///< the mesh they are solved on
     double stationarity = 0.005;  ///< tolerance of the tail (body-flow/stationarity.py)
     int most_iterations = 800;    ///< of each attempt
 };
+
+/// The same with the loads by another closure, on meshes whose layers resolve the boundary layer; k and
+/// epsilon stay those of k-epsilon, on the meshes as they were. Throws Error for a closure that solves for no
+/// omega, unless it is k_epsilon, which changes nothing.
+BakeQuality with_loads_by(Closure closure, BakeQuality quality);
 
 /// The quality of that name; throws Error where there is none.
 BakeQuality bake_quality(const std::string& name);

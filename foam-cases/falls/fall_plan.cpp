@@ -152,6 +152,7 @@ void add_falls(const Body& body, const Fluid& fluid, const MassSpecification& ma
                                   speed, duration);
         fall.name = fmt::format("fall_{:02}", i);
         fall.mesh = plan.quality.meshes.at(plan.quality.fall_mesh).name;
+        fall.closure = closure_at(fall.reynolds_number, plan.quality.loads_closure);
         plan.falls.push_back(fall);
     }
     estimate_cost(plan);

@@ -27,8 +27,14 @@ namespace fs = std::filesystem;
 constexpr const char* helper_file = "case_files.py";
 
 // What a fall's case has from the flow's: the fluid and its turbulence.
-constexpr const char* shared_files[] = {"0.orig/k", "0.orig/epsilon", "0.orig/nut",
-                                        "constant/transportProperties", "constant/turbulenceProperties"};
+constexpr const char* shared_files[] = {"0.orig/k",
+                                        "0.orig/epsilon",
+                                        "0.orig/omega",
+                                        "0.orig/gammaInt",
+                                        "0.orig/ReThetat",
+                                        "0.orig/nut",
+                                        "constant/transportProperties",
+                                        "constant/turbulenceProperties"};
 
 using CaseFiles = std::map<fs::path, std::string>;  // content by the path inside a case
 
@@ -128,7 +134,7 @@ void remove_unplanned_cases(const fs::path& folder, const BakePlan& plan) {
         const std::string name = entry.path().filename().string();
         bool planned = !name.starts_with("direction_") && !name.starts_with("probe_") &&
                        !name.starts_with("fall_") && !name.starts_with("mesh");
-        for (const FlowMesh& mesh : plan.quality.meshes) planned = planned || mesh.name == name;
+        for (const FlowMesh& mesh : plan.all_meshes()) planned = planned || mesh.name == name;
         for (const BakeCase& one : plan.cases) planned = planned || one.name == name;
         for (const FreeFall& fall : plan.falls) planned = planned || fall.name == name;
         if (!planned) unplanned.push_back(entry.path());
@@ -209,8 +215,9 @@ void write_case_folder(const fs::path& folder, const Body& body, const BakePlan&
     nlohmann::json json = plan_json(plan);
     const std::string stl = case_surface_stl(body, plan);
     std::map<std::string, std::string> hashes;  // of the inputs, by the name of the mesh or case
-    for (std::size_t i = 0; i < plan.quality.meshes.size(); ++i) {
-        const FlowMesh& mesh = plan.quality.meshes[i];
+    const std::vector<FlowMesh> meshes = plan.all_meshes();
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+        const FlowMesh& mesh = meshes[i];
         hashes[mesh.name] = write_mesh_case(folder / mesh.name, template_files, stl, mesh);
         json["meshes"][i]["inputs_hash"] = hashes[mesh.name];
     }

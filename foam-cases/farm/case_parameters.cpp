@@ -1,5 +1,6 @@
 #include "foam-cases/farm/case_parameters.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string_view>
@@ -16,8 +17,8 @@ namespace {
 using Entries = std::vector<std::pair<std::string, std::string>>;
 
 constexpr const char* mesh_entries[] = {
-    "boxHalfWidth", "backgroundCells",  "surfaceLevel",    "layers",       "layerThickness",
-    "layerRatio",   "leastDeterminant", "leastTetQuality", "pointInFluid", "refinementShells"};
+    "boxHalfWidth",     "backgroundCells", "surfaceLevel", "layers",       "layerThickness",  "layerRatio",
+    "leastDeterminant", "leastTetQuality", "leastTwist",   "pointInFluid", "refinementShells"};
 
 // C_mu of the k-epsilon model (Launder & Spalding 1974).
 constexpr double c_mu = 0.09;
@@ -48,6 +49,15 @@ ValueRange find_value(const std::string& text, const std::string& name) {
     throw Error(fmt::format("the case template's file parameters has no entry '{}'; restore it", name));
 }
 
+// At which a boundary layer becomes turbulent by the turbulence of the flow outside, over its momentum
+// thickness: without a pressure gradient (Langtry & Menter, AIAA Journal 47, 2009).
+double transition_reynolds_number(double intensity) {
+    constexpr double least_percent = 0.027;
+    const double percent = std::max(least_percent, 100.0 * intensity);
+    if (percent <= 1.3) return 1173.51 - 589.428 * percent + 0.2196 / (percent * percent);
+    return 331.5 * std::pow(percent - 0.5658, -0.671);
+}
+
 Entries fluid_entries(const Inflow& inflow, double reynolds_number) {
     const double viscosity = 1.0 / reynolds_number;
     const double k = 1.5 * inflow.intensity * inflow.intensity;
@@ -57,7 +67,9 @@ Entries fluid_entries(const Inflow& inflow, double reynolds_number) {
             {"viscosity", fmt::format("{}", viscosity)},
             {"inflowK", fmt::format("{:.6g}", k)},
             {"inflowEpsilon", fmt::format("{:.6g}", epsilon)},
-            {"inflowNut", fmt::format("{:.6g}", c_mu * k * k / epsilon)}};
+            {"inflowNut", fmt::format("{:.6g}", c_mu * k * k / epsilon)},
+            {"inflowOmega", fmt::format("{:.6g}", epsilon / (c_mu * k))},
+            {"inflowReThetat", fmt::format("{:.6g}", transition_reynolds_number(inflow.intensity))}};
 }
 
 Entries flow_entries(const BakeCase& entry) {
@@ -99,9 +111,29 @@ Entries step_entries(const FreeFall& fall) {
             {"accelerationRelaxation", fmt::format("{:.4g}", fall.acceleration_relaxation)}};
 }
 
-Entries closure_entries(Closure closure) {
-    if (closure == Closure::laminar) return {{"simulationType", "laminar"}};
-    return {{"simulationType", "RAS"}, {"closure", std::string(name_of(closure))}};
+// Where the mesh resolves the boundary layer: the scheme and the walls by which the closures were held
+// against measurements (docs/closures.md).
+Entries closure_entries(Closure closure, bool resolves_boundary_layer) {
+    Entries entries = {{"simulationType", closure == Closure::laminar ? "laminar" : "RAS"}};
+    if (closure != Closure::laminar) entries.emplace_back("closure", name_of(closure));
+    if (resolves_boundary_layer) {
+        entries.insert(entries.end(), {{"convection", "linearUpwind grad(U)"},
+                                       {"nutAtWall", "nutLowReWallFunction"},
+                                       {"kAtWall", "fixedValue"}});
+    }
+    return entries;
+}
+
+// snappyHexMesh takes layers that are thinner than a hundredth of their width for bad cells, unless told.
+Entries layer_entries(const FlowMesh& mesh) {
+    Entries entries = {{"layers", fmt::format("{}", mesh.layers)}};
+    if (mesh.resolves_boundary_layer) {
+        entries.insert(entries.end(), {{"layerRatio", "1.4"},
+                                       {"leastDeterminant", "1e-9"},
+                                       {"leastTetQuality", "-1e30"},
+                                       {"leastTwist", "-1"}});
+    }
+    return entries;
 }
 
 Entries mesh_entries_of(const FlowMesh& mesh) {
@@ -110,13 +142,14 @@ Entries mesh_entries_of(const FlowMesh& mesh) {
     for (const auto& [distance, level] : mesh.refinement_shells) {
         shells += fmt::format("{}({} {})", shells.empty() ? "" : " ", distance, level);
     }
-    return {{"boxHalfWidth", fmt::format("{}", mesh.box_half_width)},
-            {"backgroundCells", fmt::format("{}", mesh.background_cells())},
-            {"surfaceLevel", fmt::format("{}", mesh.surface_level)},
-            {"layers", fmt::format("{}", mesh.layers)},
-            {"pointInFluid",
-             fmt::format("({:.3f} {:.3f} {:.3f})", corner - 0.783, corner - 0.681, corner - 0.577)},
-            {"refinementShells", "(" + shells + ")"}};
+    Entries entries = layer_entries(mesh);
+    entries.insert(entries.end(), {{"boxHalfWidth", fmt::format("{}", mesh.box_half_width)},
+                                   {"backgroundCells", fmt::format("{}", mesh.background_cells())},
+                                   {"surfaceLevel", fmt::format("{}", mesh.surface_level)},
+                                   {"pointInFluid", fmt::format("({:.3f} {:.3f} {:.3f})", corner - 0.783,
+                                                                corner - 0.681, corner - 0.577)},
+                                   {"refinementShells", "(" + shells + ")"}});
+    return entries;
 }
 
 Entries model_entries(const BakeQuality& quality, const BakeCase& entry) {
@@ -162,7 +195,7 @@ std::string case_parameters(const std::string& template_text, const BakePlan& pl
     replace_values(text, flow_entries(entry));
     replace_values(text, fluid_entries(plan.inflow, entry.reynolds_number));
     replace_values(text, mesh_entries_of(mesh_of(plan, entry.mesh)));
-    replace_values(text, closure_entries(entry.closure));
+    replace_values(text, closure_entries(entry.closure, mesh_of(plan, entry.mesh).resolves_boundary_layer));
     replace_values(text, model_entries(plan.quality, entry));
     replace_values(text, process_entries(plan.ranks));
     return text;
@@ -172,7 +205,10 @@ std::string fall_parameters(const std::string& template_text, const BakePlan& pl
     std::string text = template_text;
     replace_values(text, fluid_entries(plan.inflow, fall.reynolds_number));
     replace_values(text, body_entries(fall));
-    replace_values(text, closure_entries(fall.closure));
+    // Falls by these closures are on the meshes of such loads.
+    const bool solves_for_omega =
+        fall.closure == Closure::k_omega_sst || fall.closure == Closure::k_omega_sst_lm;
+    replace_values(text, closure_entries(fall.closure, solves_for_omega));
     replace_values(text, step_entries(fall));
     return text;
 }

@@ -24,8 +24,9 @@ constexpr double bytes_of_fall_per_step = 2500.0;
 
 double bytes_to_solve(const fs::path& folder, const BakePlan& plan) {
     double bytes = 0.0;
-    for (std::size_t i = 0; i < plan.cells.size(); ++i) {
-        if (fs::exists(folder / plan.quality.meshes[i].name / "mesh.json")) continue;
+    const std::vector<FlowMesh> meshes = plan.all_meshes();
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+        if (fs::exists(folder / meshes[i].name / "mesh.json")) continue;
         bytes += bytes_of_mesh + bytes_of_mesh_per_cell * plan.cells[i];
     }
     for (const BakeCase& entry : plan.cases) {

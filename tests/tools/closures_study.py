@@ -5,6 +5,7 @@ import math
 SHELLS = {
     "coarse": "((0.4 4) (1.2 3) (3 2) (5 1))",
     "medium": "((0.2 4) (0.6 3) (1.5 2) (3 1))",
+    "wake": "((0.3 4) (1.2 3) (2.5 2) (5 1))",
     "wide": "((0.6 4) (1.8 3) (3.5 2) (6 1))",
     "fine": "((0.15 5) (0.35 4) (0.9 3) (2 2) (4 1))",
 }
@@ -14,7 +15,7 @@ def mesh(background, level, shells, layers, ratio="1.3", thickness="0.5"):
     return {"backgroundCells": background, "surfaceLevel": level, "refinementShells": SHELLS[shells], "layers": layers,
             "layerRatio": ratio, "layerThickness": thickness,
             "leastDeterminant": "0.001" if layers < 5 else "1e-9",
-            "leastTetQuality": "1e-15" if layers < 5 else "-1e30"}
+            "leastTetQuality": "1e-15" if layers < 5 else "-1e30", "leastTwist": "0.02" if layers < 5 else "-1"}
 
 
 MESHES = {
@@ -25,12 +26,13 @@ MESHES = {
     "medium layered": mesh(20, 4, "medium", 9, "1.4"),
     "medium thinly layered": mesh(20, 4, "medium", 13, "1.4"),
     "medium bare": mesh(20, 4, "medium", 0),
+    "wake layered": mesh(20, 4, "wake", 13, "1.4"),
     "wide layered": mesh(20, 4, "wide", 9, "1.4"),
     "fine layered": mesh(20, 5, "fine", 8, "1.4"),
 }
 
 # Whose solution on another mesh a case starts from, as in a bake; the others start from the undisturbed flow.
-MESH_BEFORE = {"fine": "medium", "fine layered": "medium layered",
+MESH_BEFORE = {"fine": "medium", "fine layered": "medium layered", "wake layered": "medium layered",
                "wide layered": "medium layered"}
 
 RESOLVED = {"nutAtWall": "nutLowReWallFunction", "kAtWall": "fixedValue"}
@@ -189,6 +191,13 @@ STUDY = [
     *each("sphere", (1e4,), (LM, SST, "kOmegaSST"), "coarse layered"),
     *each("sphere", (1e4, 1e3), (LM,), "fine layered"),
     *each("sphere", (1e3, 1e4), (LM,), "wide layered"),
+    *each("sphere", (1e3, 1e4, 2.3e4, 1e5), (LM,), "wake layered"),
+    *each("sphere", (2.3e4,), (QUIET,), "wake layered"),
+    *each("cube", (1e4,), (LM,), "wake layered"),
+    *each("ellipsoid at 45", (10300,), (LM,), "wake layered"),
+    *each("sphere", (2.3e4,), ("unsteady kOmegaSSTLM",), "wake layered"),
+    *(case for body in ("disc", "plate") for case in each(body, (1e4,), (SST, LM), "medium layered")),
+    *each("ellipsoid broadside", (10300,), (LM,), "wake layered"),
     *each("sphere", (1e4,), ("kEpsilon",), "fine"),
     *each("sphere", (1e4,), ("kOmegaSSTDDES",), "medium layered"),
     *each("sphere", (1e3, 1e4), ("unsteady laminar",), "medium layered"),

@@ -114,6 +114,52 @@ TEST_F(CaseReduction, LeavesOutTheCasesOfAMeshThatFailed) {
     EXPECT_EQ(reduction.left_out[0].reason, "its mesh mesh_coarse could not be made: has no layers");
 }
 
+/// Lets case_00 take its k and epsilon from case_01, which becomes of the same flow.
+void take_turbulence_from_second(json& plan) {
+    plan["cases"][1] = plan["cases"][0];
+    plan["cases"][1]["name"] = "case_01";
+    plan["cases"][1]["purpose"] = "turbulence";
+    plan["cases"][0]["turbulence_from"] = "case_01";
+}
+
+TEST_F(CaseReduction, TakesTheTurbulenceOfAnotherCaseOfTheSameFlow) {
+    const SolvedCase own = reduced().front();
+    std::filesystem::remove_all(folder_.case_path(1));
+    std::filesystem::copy(folder_.case_path(0), folder_.case_path(1),
+                          std::filesystem::copy_options::recursive);
+    folder_.change_plan(take_turbulence_from_second);
+    std::filesystem::remove_all(folder_.path() / "case_00/postProcessing/shell");
+    folder_.replace("case_00/provenance.json", "kEpsilon", "kOmegaSST");
+    const std::vector<SolvedCase> cases = reduced();
+    ASSERT_EQ(cases.size(), 5U);
+    EXPECT_EQ(cases[0].closure, Closure::k_omega_sst);
+    EXPECT_EQ(cases[0].sample.entry.force, own.sample.entry.force);
+    EXPECT_EQ(cases[0].sample.entry.dissipation_rate, own.sample.entry.dissipation_rate);
+    EXPECT_EQ(cases[0].sample.entry.turbulent_kinetic_energy, own.sample.entry.turbulent_kinetic_energy);
+    EXPECT_EQ(json::parse(cases[0].provenance)["turbulence"]["closure"], "kEpsilon");
+}
+
+TEST_F(CaseReduction, LeavesOutTheCaseWhoseTurbulenceFailed) {
+    folder_.change_plan(take_turbulence_from_second);
+    move("case_01/provenance.json", "case_01/failed.json");
+    folder_.write("case_01/failed.json", R"({"reason": "diverged"})");
+    const FolderReduction reduction = reduce_folder(folder_.path(), read_case_plan(folder_.path()));
+    EXPECT_EQ(reduction.cases.size(), 4U);
+    ASSERT_EQ(reduction.left_out.size(), 1U);
+    EXPECT_EQ(reduction.left_out[0].name, "case_00");
+    EXPECT_EQ(reduction.left_out[0].reason, "its turbulence's case case_01: diverged");
+}
+
+TEST_F(CaseReduction, RefusesTurbulenceOfAnotherFlowOrPurpose) {
+    folder_.change_plan([](json& plan) { plan["cases"][0]["turbulence_from"] = "case_07"; });
+    EXPECT_THAT(fault(), HasSubstr("the case case_00 takes its turbulence from case_07, which is no case"));
+    folder_.change_plan([](json& plan) {
+        plan["cases"][1]["purpose"] = "turbulence";
+        plan["cases"][0]["turbulence_from"] = "case_01";
+    });
+    EXPECT_THAT(fault(), HasSubstr("takes its turbulence from case_01, which is no case"));
+}
+
 TEST_F(CaseReduction, RefusesWhatIsNotSolvedUnlessToldOtherwise) {
     std::filesystem::remove(folder_.case_path(4) / "provenance.json");
     EXPECT_THAT(fault(), HasSubstr("the case case_04 is not solved (1 of 6 are not)"));
@@ -251,7 +297,8 @@ TEST_F(CaseReduction, RefusesTheSameCaseTwice) {
                 HasSubstr("plan.json: the cases case_02 and twin are of the same direction, Reynolds number "
                           "and purpose"));
     folder_.change_plan([](json& plan) { plan["cases"].back()["purpose"] = "twin"; });
-    EXPECT_THAT(fault(), HasSubstr("plan.json: 'purpose' is \"twin\", not table, mesh, closure or start"));
+    EXPECT_THAT(fault(),
+                HasSubstr("plan.json: 'purpose' is \"twin\", not table, mesh, closure, turbulence or start"));
     folder_.change_plan([](json& plan) {
         plan["cases"].erase(plan["cases"].size() - 1);
         plan["solved_by"] = "nobody";

@@ -1,6 +1,7 @@
 #include "foam-cases/bake/bake_plan.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include <gmock/gmock.h>
@@ -20,6 +21,12 @@ using testing::HasSubstr;
 
 BakePlan preview_of(const Body& body) {
     return plan_bake(body, bake_quality("preview"), 1e4);
+}
+
+/// With loads by the closure with transition.
+BakePlan plan_with_transition(const std::string& quality, double reynolds_number) {
+    return plan_bake(test::ellipsoid({0.01, 0.02, 0.04}),
+                     with_loads_by(Closure::k_omega_sst_lm, bake_quality(quality)), reynolds_number);
 }
 
 std::vector<BakeCase> of_purpose(const BakePlan& plan, CasePurpose purpose) {
@@ -68,7 +75,61 @@ TEST(BakePlan, StartsEachMainCaseFromTheSameDirectionOnTheNextCoarserMesh) {
         const auto start = std::ranges::find(plan.cases, entry.start_from, &BakeCase::name);
         ASSERT_LT(start - plan.cases.begin(), static_cast<std::ptrdiff_t>(i));
         EXPECT_EQ(start->direction, entry.direction);
+        EXPECT_EQ(start->closure, entry.closure);
     }
+}
+
+TEST(BakePlan, TakesTheTurbulenceOfEveryTurbulentFlowFromACaseOfItsOwn) {
+    const BakePlan plan = plan_with_transition("high", 2000.0);
+    std::size_t turbulent = 0;
+    for (const BakeCase& entry : plan.cases) {
+        if (entry.purpose == CasePurpose::start || entry.purpose == CasePurpose::turbulence) {
+            EXPECT_EQ(entry.turbulence_from, "");
+            continue;
+        }
+        EXPECT_EQ(entry.turbulence_from.empty(), entry.reynolds_number < 300.0);
+        if (entry.purpose != CasePurpose::closure && !entry.turbulence_from.empty()) {
+            EXPECT_EQ(entry.closure, Closure::k_omega_sst_lm);
+        }
+        if (entry.turbulence_from.empty()) continue;
+        ++turbulent;
+        const auto other = std::ranges::find(plan.cases, entry.turbulence_from, &BakeCase::name);
+        ASSERT_NE(other, plan.cases.end());
+        EXPECT_EQ(other->purpose, CasePurpose::turbulence);
+        EXPECT_EQ(other->direction, entry.direction);
+        EXPECT_EQ(other->reynolds_number, entry.reynolds_number);
+        EXPECT_THAT(other->mesh, testing::EndsWith("_turbulence"));
+        EXPECT_THAT(std::string(name_of(other->closure)),
+                    testing::AnyOf("kEpsilon", "realizableKE", "RNGkEpsilon"));
+    }
+    EXPECT_EQ(of_purpose(plan, CasePurpose::turbulence).size(), turbulent);
+}
+
+TEST(BakePlan, StartsTheTurbulenceOfAFasterFlowAfreshWhereTheMainOneIsLaminar) {
+    const BakePlan plan = plan_with_transition("high", 200.0);
+    const std::vector<BakeCase> turbulence = of_purpose(plan, CasePurpose::turbulence);
+    ASSERT_FALSE(turbulence.empty());
+    for (const BakeCase& entry : turbulence) {
+        EXPECT_EQ(entry.reynolds_number, 600.0);
+        EXPECT_EQ(entry.start_from, "");
+    }
+}
+
+TEST(BakePlan, WithLoadsByAnotherClosureHasTwiceTheMeshesAndCases) {
+    const BakePlan plain = plan_bake(test::ellipsoid({0.01, 0.02, 0.04}), bake_quality("standard"), 1e4);
+    const BakePlan plan = plan_with_transition("standard", 1e4);
+    EXPECT_EQ(plan.cases.size(), 2 * plain.cases.size());
+    ASSERT_EQ(plan.all_meshes().size(), 2 * plain.quality.meshes.size());
+    EXPECT_EQ(plan.all_meshes().size(), plan.cells.size());
+    for (std::size_t i = 0; i < plain.cells.size(); ++i) {
+        const FlowMesh& mesh = plan.quality.meshes[i];
+        EXPECT_TRUE(mesh.resolves_boundary_layer);
+        EXPECT_EQ(plan.quality.turbulence_meshes[i].layers, plain.quality.meshes[i].layers);
+        EXPECT_EQ(cells_of(plan, plain.quality.meshes[i].name + "_turbulence"), plain.cells[i]);
+        const double last = 0.5 * mesh.background_cell / std::ldexp(1.0, mesh.surface_level);
+        EXPECT_NEAR(last / std::pow(1.4, mesh.layers - 1), 1.0 / 1800.0, 0.2 / 1800.0);
+    }
+    EXPECT_GT(plan.cpu_seconds, 1.5 * plain.cpu_seconds);
 }
 
 TEST(BakePlan, SolvesFurtherReynoldsNumbersInFewDirectionsFromTheMainOne) {
@@ -178,6 +239,7 @@ TEST(BakePlan, IsWrittenWithAxesAsRowsAndDirectionsInCaseAxes) {
     EXPECT_EQ(json["cases"][1]["direction"][0], plan.cases[1].direction.x());
     EXPECT_EQ(json["cases"][1]["reynolds_number"], 5000.0);
     EXPECT_EQ(json["cases"][1]["purpose"], "table");
+    EXPECT_EQ(json["cases"][1]["turbulence_from"], "");
     EXPECT_EQ(json["meshes"][0]["name"], "mesh_coarse");
 }
 
@@ -207,6 +269,11 @@ TEST(BakeReynoldsNumber, HasThreeDigits) {
 
 TEST(BakeQuality, OfAnUnknownNameIsRefused) {
     EXPECT_THROW(bake_quality("perfect"), Error);
+}
+
+TEST(BakeQuality, WithLoadsByAClosureWithoutOmegaIsRefused) {
+    EXPECT_THROW((void)with_loads_by(Closure::launder_sharma_k_epsilon, bake_quality("smoke")), Error);
+    EXPECT_TRUE(with_loads_by(Closure::k_epsilon, bake_quality("smoke")).turbulence_meshes.empty());
 }
 
 }  // namespace

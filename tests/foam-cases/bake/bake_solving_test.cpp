@@ -71,6 +71,26 @@ TEST_F(Bake, OfAnEllipsoidGivesTablesAndReusesThemWhenRunAgain) {
     EXPECT_EQ(solved(), before);
 }
 
+TEST_F(Bake, TakesLoadsFromOneModelAndTurbulenceFromAnotherWhereToldTo) {
+    const fs::path file = write_body(test::sphere(0.01));
+    const test::ProgramRun run =
+        bake(fmt::format("{} -o out.body.h5 --quality smoke --loads kOmegaSSTLM --json", file.string()));
+    ASSERT_EQ(run.status, 0) << run.fault;
+    const nlohmann::json json = run.json();
+    ASSERT_EQ(json["cases"].size(), 1u);
+    // A resolved boundary layer on the coarse mesh: near what was measured (docs/closures.md); k-epsilon has
+    // 0.3.
+    EXPECT_NEAR(json["cases"][0]["drag_coefficient"].get<double>(), 0.43, 0.08);
+    const fs::path cases = output_.parent_path() / "out.cases";
+    const auto closure_in = [&](const std::string& name) {
+        return nlohmann::json::parse(read_bytes(cases / name / "provenance.json"))["closure"];
+    };
+    EXPECT_EQ(closure_in("direction_00_coarse"), "kOmegaSSTLM");
+    EXPECT_EQ(closure_in("direction_00_coarse_turbulence"), "kEpsilon");
+    const Body body = read_body_file(output_);
+    EXPECT_GT(look_up(*body.tables, Vector3d::UnitX(), 1e4).turbulent_kinetic_energy, 0.0);
+}
+
 TEST_F(Bake, EstimatesTheCellsOfTheMeshThatIsMade) {
     const fs::path file = write_body(test::sphere(0.01));
     const test::ProgramRun estimate =

@@ -106,6 +106,27 @@ class CaseByHand : public testing::Test {
                                 {"stationarity", "10"}});
         return folder;
     }
+
+    /// A folder with a fall of five steps on the mesh of mesh_coarse beside it.
+    [[nodiscard]] fs::path fall_case(const std::string& name, Closure closure) const {
+        FreeFall fall;
+        fall.reynolds_number = 1e4;
+        fall.closure = closure;
+        fall.volume = 0.52;
+        fall.mass = 0.63;
+        fall.principal_moments = {0.06, 0.06, 0.06};
+        fall.gravity = {0.0, 0.0, -3.0};
+        fall.duration = 0.05;
+        fall.time_step = 0.01;
+        fall.acceleration_relaxation = 0.7;
+        const fs::path cases = place_ / (name + ".cases");
+        write_case_folder(cases, test::sphere(0.01), plan_single_fall(test::sphere(0.01), 6000.0, fall),
+                          foam_cases);
+        const fs::path folder = place_ / name;
+        fs::rename(cases / "fall_00", folder);
+        set_parameters(folder, {{"roundSteps", "2"}});
+        return folder;
+    }
 };
 
 TEST_F(CaseByHand, OfAFlowGivesTheSameWhenItIsCleanedAndRunAgain) {
@@ -217,20 +238,7 @@ TEST_F(CaseByHand, IsNotLedAstrayByTheShellsSearchPathForFolders) {
 TEST_F(CaseByHand, OfAFallGivesTheSameWhenItIsCleanedAndRunAgain) {
     const fs::path mesh = flow_case("mesh_coarse");
     ASSERT_EQ(run(mesh, {"Allrun", "mesh"}), 0) << said();
-    const Body body = test::sphere(0.01);
-    FreeFall fall;
-    fall.reynolds_number = 1e4;
-    fall.volume = 0.52;
-    fall.mass = 0.63;
-    fall.principal_moments = {0.06, 0.06, 0.06};
-    fall.gravity = {0.0, 0.0, -3.0};
-    fall.duration = 0.05;
-    fall.time_step = 0.01;
-    fall.acceleration_relaxation = 0.7;
-    write_case_folder(place_ / "out.cases", body, plan_single_fall(body, 6000.0, fall), foam_cases);
-    const fs::path folder = place_ / "fall";
-    fs::rename(place_ / "out.cases/fall_00", folder);
-    set_parameters(folder, {{"roundSteps", "2"}});
+    const fs::path folder = fall_case("fall", Closure::k_epsilon);
     const fs::path linked = folder / "constant" / fs::read_symlink(folder / "constant/polyMesh");
     ASSERT_EQ(linked.lexically_normal(), mesh / "constant/polyMesh");
     const Files before = files_in(folder);
@@ -244,6 +252,14 @@ TEST_F(CaseByHand, OfAFallGivesTheSameWhenItIsCleanedAndRunAgain) {
     EXPECT_EQ(files_in(folder), before);
     ASSERT_EQ(run(folder, {"Allrun"}), 0) << said();
     EXPECT_EQ(solution_in(folder), solution);
+}
+
+TEST_F(CaseByHand, OfAFallSolvesByTheClosureWithTransition) {
+    ASSERT_EQ(run(flow_case("mesh_coarse"), {"Allrun", "mesh"}), 0) << said();
+    const fs::path folder = fall_case("fall", Closure::k_omega_sst_lm);
+    ASSERT_EQ(run(folder, {"Allrun"}), 0) << said();
+    EXPECT_TRUE(fs::exists(folder / "0.04/gammaInt"));
+    EXPECT_THAT(read_bytes(folder / "log.pimpleFoam"), HasSubstr("RAS turbulence model kOmegaSSTLM"));
 }
 
 TEST_F(CaseByHand, NeedsNoHandWhereTheWholeBakeIsBelowAnOddName) {
