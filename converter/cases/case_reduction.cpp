@@ -182,6 +182,7 @@ void require_reach_of_fields(const CaseSource& source, const QuantityHistory& fo
 std::vector<Tail> tails_of(const CaseSource& source, std::vector<QuantityHistory>& histories, double start) {
     require_whole(histories, start, source.remedy());
     std::vector<Tail> tails;
+    tails.reserve(histories.size());
     for (const QuantityHistory& history : histories) tails.push_back(tail_of(source, history, start));
     // A moment is a force on an arm: that of a sphere is noise.
     histories[1].noise = source.planned.scales.length * tails[0].mean.norm();
