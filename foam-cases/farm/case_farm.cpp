@@ -29,8 +29,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* mesh_record = "mesh.json";
 constexpr const char* failure_record = "failed.json";
-constexpr std::uintmax_t room_of_a_log = 64 * 1024;  // bytes; with less, a disk is full
-constexpr const char* check_log = "log.check";       // what a check says, in its last line
+constexpr std::uintmax_t room_of_a_log = 65'536;  // bytes; with less, a disk is full
+constexpr const char* check_log = "log.check";    // what a check says, in its last line
 
 // A case or a fall, as the farm sees it.
 struct Job {
