@@ -104,11 +104,11 @@ LoadedBody as_baked(const BakeRequest& request, const BakePreparation& preparati
     return {preparation.body, ""};
 }
 
-ModelAdvice advised(const Scene& scene, const std::vector<LoadedBody>& cast, double tolerance) {
+ModelAdvice advised(const Scene& scene, const std::vector<LoadedBody>& loaded, double tolerance) {
     Progress progress("judging the physics", "flights");
     AdviceOptions options;
     options.tolerance = tolerance;
-    return advise_models(scene, cast, options,
+    return advise_models(scene, loaded, options,
                          [&](double done, double total) { progress.update(done, total); });
 }
 
@@ -129,13 +129,13 @@ nlohmann::json run(const PlanOptions& options, const Arguments& arguments) {
     wanted.quality = bake_quality(options.quality);
     wanted.tolerance = options.tolerance;
     nlohmann::json result = {{"bodies", nlohmann::json::array()}};
-    std::vector<LoadedBody> cast;
+    std::vector<LoadedBody> loaded;
     for (const BakeRequest& request : requests_for_scene(scene, folder, wanted)) {
         const BakePreparation preparation = prepare_bake(request);
         result["bodies"].push_back(plan_body(request, preparation, options, arguments.json()));
-        cast.push_back(as_baked(request, preparation, !options.bodies.empty()));
+        loaded.push_back(as_baked(request, preparation, !options.bodies.empty()));
     }
-    const ModelAdvice advice = advised(scene, cast, options.tolerance);
+    const ModelAdvice advice = advised(scene, loaded, options.tolerance);
     if (!arguments.json()) print_result("{}", as_text(advice));
     result["models"] = as_json(advice);
     return result;

@@ -202,6 +202,13 @@ void plan_cases(const Symmetry& symmetry, double main_reynolds_number, BakePlan&
     for (const BakeCase& main : few) add_other_closures(main.direction, plan);
 }
 
+std::size_t index_of_mesh(const BakePlan& plan, const std::string& name) {
+    const std::vector<FlowMesh> meshes = plan.all_meshes();
+    const auto found = std::ranges::find(meshes, name, &FlowMesh::name);
+    if (found == meshes.end()) throw std::logic_error("the plan has no mesh " + name);
+    return static_cast<std::size_t>(found - meshes.begin());
+}
+
 }  // namespace
 
 std::vector<double> BakePlan::reynolds_numbers() const {
@@ -320,17 +327,11 @@ void estimate_cost(BakePlan& plan) {
 }
 
 FlowMesh mesh_of(const BakePlan& plan, const std::string& name) {
-    const std::vector<FlowMesh> meshes = plan.all_meshes();
-    const auto found = std::ranges::find(meshes, name, &FlowMesh::name);
-    if (found == meshes.end()) throw std::logic_error("the plan has no mesh " + name);
-    return *found;
+    return plan.all_meshes()[index_of_mesh(plan, name)];
 }
 
 double cells_of(const BakePlan& plan, const std::string& mesh) {
-    const std::vector<FlowMesh> meshes = plan.all_meshes();
-    const auto found = std::ranges::find(meshes, mesh, &FlowMesh::name);
-    if (found == meshes.end()) throw std::logic_error("the plan has no mesh " + mesh);
-    return plan.cells.at(static_cast<std::size_t>(found - meshes.begin()));
+    return plan.cells.at(index_of_mesh(plan, mesh));
 }
 
 Closure closure_at(double reynolds_number, Closure turbulent) {

@@ -114,23 +114,23 @@ void require_same_shape(const std::filesystem::path& file, const Body& body, con
 }
 
 /// The bodies of a scene: what several have in common is read, meshed and solved once.
-class Casting {
+class LoadedBodies {
   public:
-    explicit Casting(std::string folder) : folder_(std::move(folder)) {}
+    explicit LoadedBodies(std::string folder) : folder_(std::move(folder)) {}
 
     LoadedBody operator()(const SceneBody& scene_body) {
         const std::filesystem::path file = file_of(scene_body, folder_);
         // A baked body is in metres already: the scene's scale went into it.
         const double scale = folder_.empty() ? scene_body.scale : 1.0;
         const auto [place, is_new] = known_.try_emplace({file, scale, scene_body.added_mass});
-        if (is_new) place->second = cast(file, scale, scene_body.added_mass);
+        if (is_new) place->second = load(file, scale, scene_body.added_mass);
         if (!folder_.empty()) require_same_shape(file, *place->second->body, scene_body);
         if (scene_body.added_mass) warn_of_added_mass(scene_body, *place->second->body->kirchhoff);
         return *place->second;
     }
 
   private:
-    static LoadedBody cast(const std::filesystem::path& file, double scale, bool added_mass) {
+    static LoadedBody load(const std::filesystem::path& file, double scale, bool added_mass) {
         Body body = load_body(file, scale);
         if (added_mass && !body.kirchhoff) {
             body.kirchhoff =
@@ -174,11 +174,11 @@ void warn_of_substeps(const SimulationReport& report) {
 }
 
 /// Chooses the models of the bodies that leave them to the advice, and says which; nothing where none does.
-std::optional<ModelAdvice> choose_models(Scene& scene, const std::vector<LoadedBody>& cast, int threads) {
+std::optional<ModelAdvice> choose_models(Scene& scene, const std::vector<LoadedBody>& loaded, int threads) {
     bool any = false;
-    for (std::size_t i = 0; i < cast.size(); ++i) {
+    for (std::size_t i = 0; i < loaded.size(); ++i) {
         if (!scene.bodies[i].models_auto) continue;
-        (void)make_immersed_body(*cast[i].body, scene.bodies[i], scene.fluid,
+        (void)make_immersed_body(*loaded[i].body, scene.bodies[i], scene.fluid,
                                  scene.bodies[i].name);  // throws where tables lack
         any = true;
     }
@@ -187,8 +187,8 @@ std::optional<ModelAdvice> choose_models(Scene& scene, const std::vector<LoadedB
     options.auto_alone = true;
     options.sampling.threads = threads;
     Progress progress("judging models", "flights");
-    ModelAdvice advice =
-        advise_models(scene, cast, options, [&](double done, double total) { progress.update(done, total); });
+    ModelAdvice advice = advise_models(scene, loaded, options,
+                                       [&](double done, double total) { progress.update(done, total); });
     apply(advice, scene);
     return advice;
 }
@@ -203,10 +203,10 @@ RunNeeds judged_needs(const Scene& scene, const Request& request) {
 }
 
 /// Flies the scene into the motion file.
-SimulationReport fly(const Scene& scene, const std::vector<LoadedBody>& cast, const Request& request) {
+SimulationReport fly(const Scene& scene, const std::vector<LoadedBody>& loaded, const Request& request) {
     const std::string& output = request.output;
     const NotedInterrupts interrupts;
-    Simulation simulation(scene, cast, request.runs, request.threads);
+    Simulation simulation(scene, loaded, request.runs, request.threads);
     SimulationReport report;
     write_motion_file(output, simulation.motion(), [&](MotionWriter& writer) {
         Progress progress("simulating", "steps");
@@ -247,16 +247,16 @@ nlohmann::json run(const Request& request, const Arguments& arguments) {
 
     const RunNeeds needs = judged_needs(scene, request);
 
-    std::vector<LoadedBody> cast;
-    Casting casting(request.bodies);
-    for (const SceneBody& body : scene.bodies) cast.push_back(casting(body));
+    std::vector<LoadedBody> loaded;
+    LoadedBodies load(request.bodies);
+    for (const SceneBody& body : scene.bodies) loaded.push_back(load(body));
 
-    const std::optional<ModelAdvice> advice = choose_models(scene, cast, request.threads);
+    const std::optional<ModelAdvice> advice = choose_models(scene, loaded, request.threads);
     if (advice && !arguments.json()) print_result("models = \"auto\" chose:\n{}", as_text(*advice));
 
-    const SimulationReport report = fly(scene, cast, request);
-    for (std::size_t i = 0; i < cast.size(); ++i) {
-        warn_of_reynolds_numbers(scene.bodies[i], *cast[i].body, report.bodies[i]);
+    const SimulationReport report = fly(scene, loaded, request);
+    for (std::size_t i = 0; i < loaded.size(); ++i) {
+        warn_of_reynolds_numbers(scene.bodies[i], *loaded[i].body, report.bodies[i]);
         for (const std::string& warning :
              table_error_warnings(scene.bodies[i].name, report.bodies[i].table_errors)) {
             note(warning);
@@ -270,11 +270,11 @@ nlohmann::json run(const Request& request, const Arguments& arguments) {
         measure_file(file, request.threads, [&](double done, double total) { progress.update(done, total); });
     nlohmann::json bodies = nlohmann::json::array();
     for (std::size_t i = 0; i < measures.size(); ++i) {
-        bodies.push_back(body_result(file, i, measures[i], report.bodies[i], cast[i].body->tables));
+        bodies.push_back(body_result(file, i, measures[i], report.bodies[i], loaded[i].body->tables));
         if (arguments.json()) continue;
         const BodyMotion& body = file.motion().bodies[i];
         print_result("{}\n{}  {}\n{}", body.name, as_text(measures[i]), body.models,
-                     table_errors_as_text(cast[i].body->tables, report.bodies[i].table_errors));
+                     table_errors_as_text(loaded[i].body->tables, report.bodies[i].table_errors));
     }
     const auto steps = static_cast<double>(report.steps);
     const double nanoseconds = steps > 0.0 ? 1e9 * report.seconds / steps : 0.0;

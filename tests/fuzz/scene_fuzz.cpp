@@ -36,10 +36,11 @@ class SceneFolder {
         }
         const double steps = scene.duration / scene.step + scene.duration * scene.frame_rate;
         if (!(steps * copies < most_steps)) return;
-        const std::vector<LoadedBody> cast(scene.bodies.size(), {body_, "0123456789abcdef0123456789abcdef"});
+        const std::vector<LoadedBody> loaded(scene.bodies.size(),
+                                             {body_, "0123456789abcdef0123456789abcdef"});
         const auto result = accepted([&] {
             return simulate(
-                scene, cast, 1, [](double, double) { return true; }, 1);
+                scene, loaded, 1, [](double, double) { return true; }, 1);
         });
         if (!result) return;
         for (const BodyMotion& body : result->motion.bodies) {

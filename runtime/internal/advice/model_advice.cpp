@@ -66,11 +66,11 @@ struct FlownSet {
 /// The advice for one body.
 class Advisor {
   public:
-    Advisor(const Scene& scene, std::size_t index, const LoadedBody& cast, const AdviceOptions& options,
+    Advisor(const Scene& scene, std::size_t index, const LoadedBody& loaded, const AdviceOptions& options,
             std::function<void()> count)
         : scene_(scene),
           index_(index),
-          cast_(cast),
+          loaded_(loaded),
           options_(options),
           count_(std::move(count)),
           scene_body_(scene.bodies[index]) {}
@@ -78,7 +78,7 @@ class Advisor {
     BodyAdvice advice() {
         advice_.name = scene_body_.name;
         advice_.duration = sampled_duration(scene_, scene_body_, options_.sampling);
-        advice_.one_direction = cast_.body->symmetry.kind == Symmetry::Kind::spherical;
+        advice_.one_direction = loaded_.body->symmetry.kind == Symmetry::Kind::spherical;
         full_ = fullest();
         set_scale();
         advice_.full = unflown(full_, "");
@@ -106,10 +106,10 @@ class Advisor {
     /// What the scene asks for, less what cannot be flown or is known to be nothing.
     ModelSet fullest() {
         const ModelSet asked = model_set_of(scene_body_);
-        const std::optional<LoadTables>& tables = cast_.body->tables;
+        const std::optional<LoadTables>& tables = loaded_.body->tables;
         if (uses_tables(asked) && !tables) {
             judges_all_ = false;
-            const ModelSet guessed = model_set_of(guessed_before_bake(scene_, scene_body_, *cast_.body));
+            const ModelSet guessed = model_set_of(guessed_before_bake(scene_, scene_body_, *loaded_.body));
             if (asked.loads == Loads::table) {
                 advice_.notes.emplace_back("table loads: not known before a bake; flown by coefficients");
             }
@@ -139,7 +139,7 @@ class Advisor {
         const FlownSet& flown = falls_of(full_, first_falls());
         if (!flown.flies) {
             // Again, for its message.
-            (void)sample_falls(scene_with(full_), index_, cast_, options_.sampling);
+            (void)sample_falls(scene_with(full_), index_, loaded_, options_.sampling);
         }
         const double highest = flown.highest_reynolds_number;
         if (full_.turbulence == Turbulence::table && highest < laminar_reynolds_number) {
@@ -153,9 +153,9 @@ class Advisor {
 
     void set_scale() {
         scale_.tolerance = options_.tolerance;
-        scale_.half_length = no_dynamic_coefficients(*cast_.body).half_length;
-        scale_.judges_inclination = tells(FigureSubject::inclination, *cast_.body);
-        scale_.judges_turning = tells(FigureSubject::turning, *cast_.body);
+        scale_.half_length = no_dynamic_coefficients(*loaded_.body).half_length;
+        scale_.judges_inclination = tells(FigureSubject::inclination, *loaded_.body);
+        scale_.judges_turning = tells(FigureSubject::turning, *loaded_.body);
     }
 
     bool is_long_enough() {
@@ -177,7 +177,7 @@ class Advisor {
         while (found->flies && found->falls.size() < count) {
             try {
                 const SampledFalls batch =
-                    sample_falls(scene_with(models), index_, cast_, options_.sampling, found->batches);
+                    sample_falls(scene_with(models), index_, loaded_, options_.sampling, found->batches);
                 found->falls.insert(found->falls.end(), batch.falls.begin(), batch.falls.end());
                 if (found->batches == 0) {
                     found->flow = batch.flow;
@@ -196,7 +196,7 @@ class Advisor {
         if (!one.flies) return;
         try {
             one.nanoseconds_per_step =
-                nanoseconds_per_step(scene_with(one.models), index_, cast_, options_.sampling);
+                nanoseconds_per_step(scene_with(one.models), index_, loaded_, options_.sampling);
         } catch (const Error&) {
             one.nanoseconds_per_step = 0.0;  // it flies longer here than in the scene
         }
@@ -207,8 +207,8 @@ class Advisor {
         ModelEffect result;
         result.left_out = left_out;
         result.models = models;
-        result.words = in_words(models, *cast_.body);
-        result.cost = cost_of(models, *cast_.body);
+        result.words = in_words(models, *loaded_.body);
+        result.cost = cost_of(models, *loaded_.body);
         return result;
     }
 
@@ -235,17 +235,17 @@ class Advisor {
             ModelSet models = from;
             change(models);
             if (!uses_tables(models)) models.table_reynolds_number.reset();
-            if (cost_of(models, *cast_.body) < cost_of(from, *cast_.body))
+            if (cost_of(models, *loaded_.body) < cost_of(from, *loaded_.body))
                 all.push_back({part, left_out, models});
         };
         const FlowMet& flow = advice_.flow;
         if (judges_all_) {
-            if (cost_of(from, *cast_.body).falls) {
+            if (cost_of(from, *loaded_.body).falls) {
                 add(ModelPart::identified_coefficients, "identified coefficients (default)",
                     [](ModelSet& models) { models.dynamic = Dynamic::by_default; });
             }
             if (from.loads == Loads::table) {
-                const double drag = mean_drag_coefficient(*cast_.body->tables, flow.reynolds_number);
+                const double drag = mean_drag_coefficient(*loaded_.body->tables, flow.reynolds_number);
                 add(ModelPart::table_loads, fmt::format("table loads (drag coefficient {:.3g})", drag),
                     [&](ModelSet& models) {
                         models.loads = Loads::coefficients;
@@ -297,15 +297,15 @@ class Advisor {
             ModelSet models = model_set_of(scene_body_);
             models.added_mass = advice_.recommended.models.added_mass;
             advice_.recommended.models = models;
-            advice_.recommended.words = in_words(models, *cast_.body);
-            advice_.recommended.cost = cost_of(models, *cast_.body);
+            advice_.recommended.words = in_words(models, *loaded_.body);
+            advice_.recommended.cost = cost_of(models, *loaded_.body);
         }
         return std::move(advice_);
     }
 
     const Scene& scene_;
     std::size_t index_;
-    const LoadedBody& cast_;
+    const LoadedBody& loaded_;
     const AdviceOptions& options_;
     std::function<void()> count_;
     const SceneBody& scene_body_;
@@ -318,7 +318,7 @@ class Advisor {
 
 }  // namespace
 
-ModelAdvice advise_models(const Scene& scene, const std::vector<LoadedBody>& cast,
+ModelAdvice advise_models(const Scene& scene, const std::vector<LoadedBody>& loaded,
                           const AdviceOptions& options, const AdviceProgress& progress) {
     constexpr double usual_flights = 24.0;  // of a body
     ModelAdvice advice;
@@ -332,7 +332,7 @@ ModelAdvice advise_models(const Scene& scene, const std::vector<LoadedBody>& cas
         double done = 0.0;
         const double before = usual_flights * static_cast<double>(i);
         const auto count = [&] { progress(before + std::min(++done, usual_flights - 1.0), total); };
-        advice.bodies.push_back(Advisor(scene, judged[i], cast[judged[i]], options, count).advice());
+        advice.bodies.push_back(Advisor(scene, judged[i], loaded[judged[i]], options, count).advice());
         progress(before + usual_flights, total);
     }
     return advice;

@@ -56,11 +56,11 @@ using AdviceProgress = std::function<void(double done, double total)>;
 /// Flies each body of the scene with the fullest model (that of the scene: its defaults are everything that
 /// the body file has) and with less, and finds the cheapest set whose figures all stay within the tolerance,
 /// by two standard errors: the dearest part (ModelPart, ModelCost) that can be left out goes first, then the
-/// next on what is left, until none can. What is not certain is kept. `cast[i]` is the body of
+/// next on what is left, until none can. What is not certain is kept. `loaded[i]` is the body of
 /// scene.bodies[i]. A body whose tables are not there yet is flown as
 /// guessed_before_bake(), and only its added mass is judged. The same for any number of threads, but for the
 /// nanoseconds. Throws Error where a body cannot fly at all.
-ModelAdvice advise_models(const Scene& scene, const std::vector<LoadedBody>& cast,
+ModelAdvice advise_models(const Scene& scene, const std::vector<LoadedBody>& loaded,
                           const AdviceOptions& options, const AdviceProgress& progress);
 
 /// Gives the bodies of the scene, by their names, the recommended models.

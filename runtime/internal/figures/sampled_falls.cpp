@@ -154,11 +154,11 @@ RegimeCounts SampledFalls::regimes() const {
     return regimes;
 }
 
-SampledFalls sample_falls(const Scene& scene, std::size_t body, const LoadedBody& cast,
+SampledFalls sample_falls(const Scene& scene, std::size_t body, const LoadedBody& loaded,
                           const FallSampling& sampling, std::uint64_t batch) {
-    const Scene one = sampling_scene(scene, body, *cast.body, batch, sampling);
+    const Scene one = sampling_scene(scene, body, *loaded.body, batch, sampling);
     const SimulationResult flown = simulate(
-        one, {cast}, 1, [](double, double) { return true; }, sampling.threads);
+        one, {loaded}, 1, [](double, double) { return true; }, sampling.threads);
     const Motion& motion = flown.motion;
     const BodyMotion& falling = motion.bodies.front();
     const double shortest =
@@ -171,19 +171,20 @@ SampledFalls sample_falls(const Scene& scene, std::size_t body, const LoadedBody
                 sampled_fall(motion, falling, static_cast<int>(i), scene.fluid.current, shortest);
         }
     });
-    const ImmersedBody immersed = make_immersed_body(*cast.body, one.bodies.front(), one.fluid, falling.name);
+    const ImmersedBody immersed =
+        make_immersed_body(*loaded.body, one.bodies.front(), one.fluid, falling.name);
     const Surroundings surroundings = surroundings_of(one);
-    result.flow = flow_met(motion, falling, surroundings, immersed, cast.body->tables);
+    result.flow = flow_met(motion, falling, surroundings, immersed, loaded.body->tables);
     result.visits = flow_visits(motion, 0, immersed, surroundings);
     result.highest_reynolds_number = flown.report.bodies.front().highest_reynolds_number;
     return result;
 }
 
-double nanoseconds_per_step(const Scene& scene, std::size_t body, const LoadedBody& cast,
+double nanoseconds_per_step(const Scene& scene, std::size_t body, const LoadedBody& loaded,
                             const FallSampling& sampling) {
     constexpr double stretches = 8.0;
     constexpr double steps_in_stretch = 128.0;
-    Scene one = sampling_scene(scene, body, *cast.body, 0, sampling);
+    Scene one = sampling_scene(scene, body, *loaded.body, 0, sampling);
     one.frame_rate = 1.0 / (steps_in_stretch * one.step);  // a stretch from frame to frame
     one.duration = one.bodies.front().start + stretches / one.frame_rate;
     double least = INFINITY;
@@ -198,7 +199,7 @@ double nanoseconds_per_step(const Scene& scene, std::size_t body, const LoadedBo
         start = now;
         return true;
     };
-    (void)simulate(one, {cast}, 1, time_stretch, 1);
+    (void)simulate(one, {loaded}, 1, time_stretch, 1);
     return 1e9 * least;
 }
 

@@ -61,12 +61,12 @@ SceneBody guessed_before_bake(const Scene& scene, const SceneBody& scene_body, c
 /// starts; guessed_before_bake() where it has no tables. Fall i of batch b is the same draw whatever the
 /// models: so that what models change stands out from chance. The same for any number of threads. Throws
 /// Error where the body cannot fly so.
-SampledFalls sample_falls(const Scene& scene, std::size_t body, const LoadedBody& cast,
+SampledFalls sample_falls(const Scene& scene, std::size_t body, const LoadedBody& loaded,
                           const FallSampling& sampling = {}, std::uint64_t batch = 0);
 
 /// CPU time of a step (ns) of one of these falls among `sampling.falls`, on one thread, the fastest of
 /// several stretches. For information: nothing is decided by it.
-double nanoseconds_per_step(const Scene& scene, std::size_t body, const LoadedBody& cast,
+double nanoseconds_per_step(const Scene& scene, std::size_t body, const LoadedBody& loaded,
                             const FallSampling& sampling);
 
 }  // namespace samara

@@ -149,9 +149,9 @@ SimulationReport Simulation::fly(const Sink& sink, const Progress& progress) {
     return report;
 }
 
-SimulationResult simulate(const Scene& scene, const std::vector<LoadedBody>& cast, int runs,
+SimulationResult simulate(const Scene& scene, const std::vector<LoadedBody>& loaded, int runs,
                           const Simulation::Progress& progress, int threads) {
-    Simulation simulation(scene, cast, runs, threads);
+    Simulation simulation(scene, loaded, runs, threads);
     SimulationResult result{simulation.motion(), {}};
     Motion& motion = result.motion;
     for (BodyMotion& body : motion.bodies) {

@@ -39,9 +39,9 @@ class Simulation {
     /// Told of (done, total) copies x runs x steps at every frame; false ends the flight at this frame.
     using Progress = std::function<bool(double done, double total)>;
 
-    /// `cast[i]` is the body of scene.bodies[i]. `threads`: 0 for all cores; the poses are the same for any
+    /// `loaded[i]` is the body of scene.bodies[i]. `threads`: 0 for all cores; the poses are the same for any
     /// number. Throws Error where a body lacks what the scene asks of it or starts below the ground.
-    Simulation(const Scene& scene, const std::vector<LoadedBody>& cast, int runs, int threads = 0);
+    Simulation(const Scene& scene, const std::vector<LoadedBody>& loaded, int runs, int threads = 0);
 
     /// The motion without its poses.
     [[nodiscard]] const Motion& motion() const { return motion_; }
@@ -72,7 +72,7 @@ struct SimulationResult {
 };
 
 /// A simulation whose poses are all kept in memory. Throws Error also where `progress` ends it.
-SimulationResult simulate(const Scene& scene, const std::vector<LoadedBody>& cast, int runs,
+SimulationResult simulate(const Scene& scene, const std::vector<LoadedBody>& loaded, int runs,
                           const Simulation::Progress& progress, int threads = 0);
 
 }  // namespace samara

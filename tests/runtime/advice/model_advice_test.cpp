@@ -207,13 +207,13 @@ nlohmann::json decided(nlohmann::json advice) {
 
 TEST(ModelAdvice, IsTheSameForAnyNumberOfThreads) {
     const Scene scene = scene_of(1200.0, test::water(), 2.0);
-    const std::vector<LoadedBody> cast = {{test::lopsided_shape(), "hash"}};
+    const std::vector<LoadedBody> loaded = {{test::lopsided_shape(), "hash"}};
     AdviceOptions options;
     options.most_falls = 64;
     options.sampling.threads = 1;
-    const auto one = decided(as_json(advise_models(scene, cast, options, ignore)));
+    const auto one = decided(as_json(advise_models(scene, loaded, options, ignore)));
     options.sampling.threads = 2;
-    const auto two = decided(as_json(advise_models(scene, cast, options, ignore)));
+    const auto two = decided(as_json(advise_models(scene, loaded, options, ignore)));
     EXPECT_EQ(one.dump(), two.dump());
 }
 

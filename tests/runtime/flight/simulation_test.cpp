@@ -29,14 +29,14 @@ Scene noisy_scene() {
     return scene;
 }
 
-std::vector<LoadedBody> cast() {
+std::vector<LoadedBody> loaded_bodies() {
     Body rubber = test::rubber_ellipsoid();
     rubber.tables = test::blunt_tables(rubber, 4);
     return {{rubber, "hash"}};
 }
 
 Motion flown(const Scene& scene, int runs = 1) {
-    return simulate(scene, cast(), runs, go_on).motion;
+    return simulate(scene, loaded_bodies(), runs, go_on).motion;
 }
 
 void expect_same(const Pose& a, const Pose& b) {
@@ -223,8 +223,8 @@ TEST(Simulation, TheNumberOfThreadsDoesNotChangeABit) {
     Scene scene = noisy_scene();
     scene.bodies[0].count = 150;
     scene.duration = 0.2;
-    const Motion one = simulate(scene, cast(), 2, go_on, 1).motion;
-    const Motion three = simulate(scene, cast(), 2, go_on, 3).motion;
+    const Motion one = simulate(scene, loaded_bodies(), 2, go_on, 1).motion;
+    const Motion three = simulate(scene, loaded_bodies(), 2, go_on, 3).motion;
     for (std::size_t i = 0; i < one.bodies[0].poses.size(); ++i) {
         expect_same(one.bodies[0].poses[i], three.bodies[0].poses[i]);
     }
@@ -234,8 +234,8 @@ TEST(Simulation, BlocksOfFramesMakeUpTheWholeMotion) {
     Scene scene = noisy_scene();
     scene.frame_rate = 10'000.0;
     scene.bodies[0].turbulence = Turbulence::none;
-    Simulation simulation(scene, cast(), 2);
-    const Motion whole = simulate(scene, cast(), 2, go_on).motion;
+    Simulation simulation(scene, loaded_bodies(), 2);
+    const Motion whole = simulate(scene, loaded_bodies(), 2, go_on).motion;
     std::size_t blocks = 0;
     std::size_t expected_first = 0;
     const SimulationReport report = simulation.fly(
@@ -258,8 +258,8 @@ TEST(Simulation, AnInterruptLeavesAShorterMotionThatIsWhole) {
     const test::TemporaryFolder folder;
     Scene scene = noisy_scene();
     scene.bodies[0].count = 3;
-    const Motion whole = simulate(scene, cast(), 2, go_on).motion;
-    Simulation simulation(scene, cast(), 2);
+    const Motion whole = simulate(scene, loaded_bodies(), 2, go_on).motion;
+    Simulation simulation(scene, loaded_bodies(), 2);
     int frames = 0;
     SimulationReport report;
     write_motion_file(folder / "motion.h5", simulation.motion(), [&](MotionWriter& writer) {
@@ -317,7 +317,7 @@ TEST(Simulation, ABodyWithoutTablesIsRefusedWithTheCommandThatMakesThem) {
 
 TEST(Simulation, SaysWhetherTheDynamicCoefficientsAreDefaultsOrOfTheBodyFile) {
     const Scene scene = noisy_scene();
-    std::vector<LoadedBody> bodies = cast();
+    std::vector<LoadedBody> bodies = loaded_bodies();
     EXPECT_NE(Simulation(scene, bodies, 1).motion().bodies[0].models.find("by default"), std::string::npos);
     IdentifiedCoefficients identified;
     identified.values.half_length = 0.04;
@@ -336,13 +336,13 @@ TEST(Simulation, AnInertiaOfNoBodyIsRefused) {
                             .mass = 1.0,
                             .center_of_mass = {},
                             .inertia = Matrix3d(Vector3d(1, 1, 3).asDiagonal())};
-    EXPECT_THROW(simulate(scene, cast(), 1, go_on), Error);
+    EXPECT_THROW(simulate(scene, loaded_bodies(), 1, go_on), Error);
 }
 
 TEST(Simulation, StopsWhenAskedTo) {
     Scene scene = noisy_scene();
     scene.duration = 100.0;
-    EXPECT_THROW(simulate(scene, cast(), 1, [](double, double) { return false; }), Error);
+    EXPECT_THROW(simulate(scene, loaded_bodies(), 1, [](double, double) { return false; }), Error);
 }
 
 }  // namespace
