@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -12,6 +13,7 @@
 #include "internal/command/print.hpp"
 #include "internal/motion/description.hpp"
 #include "samara/base/error.hpp"
+#include "samara/motion/motion_file.hpp"
 #include "samara/scene/scene_file.hpp"
 
 namespace samara {
@@ -22,6 +24,8 @@ struct ValidateOptions {
     std::string output;
     double cells = 20'000.0;
     double step = 1.0;
+    std::string other_mesh;
+    std::string other_closure;
     std::string cluster;
     bool dry_run = false;
 };
@@ -73,6 +77,12 @@ nlohmann::json run_validation(const ValidateOptions& options, bool quiet) {
     request.output = options.output;
     request.cells = options.cells;
     request.time_step = options.step * fall_time_step;
+    for (const auto& [cause, file] :
+         {std::pair("mesh", &options.other_mesh), std::pair("closure", &options.other_closure)}) {
+        if (file->empty()) continue;
+        (void)MotionReader(*file);  // refused before hours are spent
+        request.beside.emplace(cause, *file);
+    }
     if (options.dry_run) {
         const BakePlan plan = prepare_validation(request);
         if (!quiet) print_plan(plan);
@@ -114,6 +124,11 @@ int run(int argc, const char* const* argv) {
                      "of the mesh, about: that of 6,000, 20,000, 60,000 or 200,000 that is nearest", 1e3,
                      1e7);
     arguments.option("--step", options.step, "over the step that the fall gets of itself", 0.05, 4.0);
+    arguments.option("--other-mesh", options.other_mesh,
+                     "motion file of the same scene on another mesh: what it differs by is written as the "
+                     "motion's uncertainty by its mesh, which samara compare reads");
+    arguments.option("--other-closure", options.other_closure,
+                     "the same by another closure on the same mesh");
     arguments.option("--cluster", options.cluster,
                      "a command of Slurm that submits a job: solves the fall as a job there");
     arguments.flag("--dry-run", options.dry_run, "only say what would be solved and how long it would take");

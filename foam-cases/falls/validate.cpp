@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -13,6 +14,7 @@
 #include "foam-cases/farm/cluster_jobs.hpp"
 #include "foam-cases/farm/folder_lock.hpp"
 #include "internal/base/content_hash.hpp"
+#include "internal/comparison/reference_uncertainty.hpp"
 #include "internal/files/temporary_folder.hpp"
 #include "internal/flight/flight_kind.hpp"
 #include "internal/flight/world_pose.hpp"
@@ -145,6 +147,13 @@ ValidationResult validate_scene(const ValidationRequest& request, const FarmOpti
     result.solution = read_solution(fall_folder);
     result.balance = balance_of(record);
     result.motion = motion_of(falling, record, folder / case_body_name);
+    write_motion_file(request.output, result.motion);
+    if (request.beside.empty()) return result;
+    std::vector<FigureUncertainty>& uncertainties = result.motion.bodies.front().uncertainties;
+    for (const auto& [cause, other] : request.beside) {
+        std::ranges::copy(uncertainty_beside(request.output, other, cause),
+                          std::back_inserter(uncertainties));
+    }
     write_motion_file(request.output, result.motion);
     return result;
 }

@@ -19,7 +19,7 @@ void write_planned_region(Hdf5Writer& file, const PlannedRegion& region) {
         file.write_text(report_name, region.report, "JSON: what a bake for a scene aimed at and reached");
     }
     if (region.subdivisions == 0) return;
-    const auto side = static_cast<hsize_t>(2 * region.subdivisions + 1);
+    const hsize_t side = 2 * static_cast<hsize_t>(region.subdivisions) + 1;
     const std::vector<std::int32_t> planned(region.planned.begin(), region.planned.end());
     file.write(region_name, planned, {side, side}, "1",
                "1 where the scene's motion was expected: nodes of an octahedral map of the tables' axes");

@@ -7,6 +7,7 @@
 
 #include "internal/base/angles.hpp"
 #include "internal/comparison/comparison_notes.hpp"
+#include "internal/comparison/reference_uncertainty.hpp"
 #include "internal/figures/inclination.hpp"
 #include "samara/base/error.hpp"
 
@@ -91,8 +92,8 @@ void compare_first_swings(Comparison& all) {
 
 void judge(Comparison& all) {
     all.regimes_agree = all.motion.regimes.commonest() == all.reference.regimes.commonest();
-    all.agrees = all.regimes_agree || !all.judges_inclination;
-    bool all_certain = true;
+    all.agrees = all.regimes_agree || !all.judges_inclination || all.regime_is_uncertain;
+    bool all_certain = !(all.judges_inclination && all.regime_is_uncertain);
     bool surely_differs = !all.agrees;
     for (const FigureComparison& figure : all.figures) {
         if (!figure.verdict) continue;
@@ -103,7 +104,7 @@ void judge(Comparison& all) {
     all.certain = all.agrees ? all_certain : surely_differs;
 }
 
-void compare_figures(Comparison& all, const PerFigure<double>& tolerances) {
+void compare_figures(Comparison& all, const BodyMotion& reference, const PerFigure<double>& tolerances) {
     PerFigure<std::optional<double>> judged;
     for (const Figure figure : compared_figures) {
         if (all.judges_inclination || catalogued(figure).subject != FigureSubject::inclination) {
@@ -112,13 +113,15 @@ void compare_figures(Comparison& all, const PerFigure<double>& tolerances) {
     }
     for (const CataloguedFigure& entry : figure_catalogue) {
         const Figure figure = entry.figure;
-        all.figures[figure] = compare_figure(all.motion.figures[figure], all.reference.figures[figure],
-                                             judged[figure], entry.allowed.always);
+        all.figures[figure] =
+            compare_figure(all.motion.figures[figure], all.reference.figures[figure], judged[figure],
+                           entry.allowed.always, uncertainty_of(reference, entry.key));
     }
     for (std::size_t q = 0; q < quantile_percents.size(); ++q) {
         all.quantiles[q] =
             compare_figure(all.motion.inclination_quantiles[q], all.reference.inclination_quantiles[q]);
     }
+    all.regime_is_uncertain = uncertainty_of(reference, regime_key) > 0.0;
     all.distribution = distribution_distance(all.motion.histograms, all.reference.histograms);
     judge(all);
 }
@@ -127,17 +130,22 @@ void compare_figures(Comparison& all, const PerFigure<double>& tolerances) {
 
 FigureComparison compare_figure(const std::optional<Estimate>& motion,
                                 const std::optional<Estimate>& reference,
-                                const std::optional<double>& tolerance, double least_limit) {
+                                const std::optional<double>& tolerance, double least_limit,
+                                double uncertainty) {
     FigureComparison result;
     result.motion = motion;
     result.reference = reference;
     if (!motion || !reference) {
-        // Both without a frequency fall alike in that; one with and one without do not.
-        if (tolerance) result.verdict = Verdict{0.0, !motion && !reference, true};
+        // Both without a frequency fall alike in that; one with and one without do not, unless the reference
+        // itself may have it or not.
+        const bool alike = !motion && !reference;
+        const bool undecided = uncertainty >= 1.0;
+        if (tolerance) result.verdict = Verdict{0.0, alike || undecided, !undecided};
         return result;
     }
     const double magnitude = std::abs(reference->value);
     result.difference = motion->value - reference->value;
+    result.reference_uncertainty = uncertainty * magnitude;
     if (magnitude > 0.0) result.relative = *result.difference / magnitude;
     const auto motion_error = error_beside(*motion, *reference);
     const auto reference_error = error_beside(*reference, *motion);
@@ -151,10 +159,11 @@ FigureComparison compare_figure(const std::optional<Estimate>& motion,
     if (!tolerance) return result;
     Verdict verdict;
     verdict.limit = std::max(*tolerance * magnitude, least_limit);
-    const double distance = std::abs(*result.difference);
-    verdict.agrees = distance <= verdict.limit;
-    verdict.certain = result.difference_error &&
-                      std::abs(verdict.limit - distance) >= certain_errors * *result.difference_error;
+    const double beyond = std::abs(*result.difference) - result.reference_uncertainty;
+    const double at_most = std::abs(*result.difference) + result.reference_uncertainty;
+    verdict.agrees = beyond <= verdict.limit;
+    const double to_limit = verdict.agrees ? verdict.limit - at_most : beyond - verdict.limit;
+    verdict.certain = result.difference_error && to_limit >= certain_errors * *result.difference_error;
     result.verdict = verdict;
     return result;
 }
@@ -191,7 +200,7 @@ Comparison compare(const FallChoice& motion, const FallChoice& reference, const 
         all.motion = measure_falls(motion, window, std::nullopt, count);
     }
     compare_first_swings(all);
-    compare_figures(all, settings.tolerances);
+    compare_figures(all, reference.of_body(), settings.tolerances);
     all.notes = comparison_notes(motion, reference, all);
     return all;
 }

@@ -28,10 +28,10 @@ struct ComparisonSettings {
 
 /// Whether a difference is within its tolerance.
 struct Verdict {
-    double limit = 0.0;  ///< of the difference, in the figure's unit
-    bool agrees = false;
-    bool certain =
-        false;  ///< whether the limit is two standard errors of the difference or more away from it
+    double limit = 0.0;    ///< of the difference, in the figure's unit
+    bool agrees = false;   ///< what lies beyond the reference's own uncertainty is within the limit
+    bool certain = false;  ///< and would be, or not be, whatever the reference's true figure is within its
+                           ///< uncertainty, by two standard errors of the difference
 };
 
 /// One figure of the motion beside that of the reference.
@@ -42,6 +42,7 @@ struct FigureComparison {
     std::optional<double> difference_error;  ///< standard error: see compare_figure()
     std::optional<double> relative;          ///< difference over the reference's magnitude
     std::optional<double> in_errors;         ///< the difference's magnitude over its standard error
+    double reference_uncertainty = 0.0;      ///< of the reference, by all causes together; in its unit
     std::optional<Verdict> verdict;          ///< where there is a tolerance for the figure
 };
 
@@ -73,8 +74,10 @@ struct Comparison {
     bool judges_inclination = true;  ///< false for bodies without a shortest axis, such as spheres: then only
                                      ///< the descent speed has a verdict
     bool regimes_agree = false;
-    bool agrees = false;             ///< all verdicts and, where the inclination is judged, the regimes
-    bool certain = false;            ///< whether that would hold without the verdicts that are not certain
+    bool regime_is_uncertain =
+        false;             ///< the reference's own depends on its mesh or closure: it decides nothing
+    bool agrees = false;   ///< all verdicts and, where the inclination is judged, the regimes
+    bool certain = false;  ///< whether that would hold without the verdicts that are not certain
     std::vector<std::string> notes;  ///< what to know before trusting the figures, a sentence each
 };
 
@@ -88,9 +91,10 @@ Comparison compare(const FallChoice& motion, const FallChoice& reference, const 
 /// One figure of two. Where one is of a single fall and the other of several, the error of the single one
 /// counts as no less than the deviation of the others: its own swings may tell too little. The tolerance's
 /// limit is `tolerance` of the reference's magnitude, `least_limit` at least; no verdict where it is not
-/// given.
+/// given. `uncertainty`: of the reference, over its magnitude.
 FigureComparison compare_figure(const std::optional<Estimate>& motion,
                                 const std::optional<Estimate>& reference,
-                                const std::optional<double>& tolerance = {}, double least_limit = 0.0);
+                                const std::optional<double>& tolerance = {}, double least_limit = 0.0,
+                                double uncertainty = 0.0);
 
 }  // namespace samara

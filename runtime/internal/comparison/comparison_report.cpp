@@ -28,7 +28,8 @@ json as_json(const FigureComparison& figure) {
                    {"difference", or_null(figure.difference)},
                    {"difference_error", or_null(figure.difference_error)},
                    {"relative_difference", or_null(figure.relative)},
-                   {"standard_errors", or_null(figure.in_errors)}};
+                   {"standard_errors", or_null(figure.in_errors)},
+                   {"reference_uncertainty", figure.reference_uncertainty}};
     if (figure.verdict) {
         result["limit"] = figure.verdict->limit;
         result["agrees"] = figure.verdict->agrees;
@@ -86,10 +87,15 @@ std::string verdict_text(const FigureComparison& figure, double scale) {
     }
     const char* words = figure.verdict->agrees ? "agrees" : "differs";
     if (!figure.motion || !figure.reference) return words;
-    const double share = figure.verdict->limit / std::abs(figure.reference->value);
-    return fmt::format("{}{} (limit {})", words, figure.verdict->certain ? "" : "?",
-                       share < 1.0 ? fmt::format("{:.0f} %", 100.0 * share)
-                                   : fmt::format("{:.3g}", scale * figure.verdict->limit));
+    const double magnitude = std::abs(figure.reference->value);
+    const double share = figure.verdict->limit / magnitude;
+    std::string limits = share < 1.0 ? fmt::format("{:.0f} %", 100.0 * share)
+                                     : fmt::format("{:.3g}", scale * figure.verdict->limit);
+    if (figure.reference_uncertainty > 0.0) {
+        limits += fmt::format(" beyond the reference's own {:.2g} %",
+                              100.0 * figure.reference_uncertainty / magnitude);
+    }
+    return fmt::format("{}{} (limit {})", words, figure.verdict->certain ? "" : "?", limits);
 }
 
 std::string figure_row(const std::string& what, const FigureComparison& figure, double scale,
@@ -181,6 +187,7 @@ json as_json(const Comparison& all) {
               {"way_fallen", or_null(swing.way_fallen)}}},
             {"judges_inclination", all.judges_inclination},
             {"regimes_agree", all.regimes_agree},
+            {"regime_is_uncertain", all.regime_is_uncertain},
             {"agrees", all.agrees},
             {"certain", all.certain},
             {"notes", all.notes}};
@@ -190,9 +197,10 @@ std::string as_text(const Comparison& all) {
     std::string text = row(fmt::format("{:.3g} s to {:.3g} s of fall", all.window.begin, all.window.end),
                            "motion", "reference", "difference", "");
     text += row("regime", regime_text(all.motion), regime_text(all.reference), "",
-                !all.judges_inclination ? ""
-                : all.regimes_agree     ? "agrees"
-                                        : "differs");
+                !all.judges_inclination   ? ""
+                : all.regime_is_uncertain ? "the reference's own is uncertain"
+                : all.regimes_agree       ? "agrees"
+                                          : "differs");
     for (const CataloguedFigure& entry : figure_catalogue) {
         const std::string what = entry.refines_last ? fmt::format("  {}", entry.title)
                                                     : fmt::format("{} ({})", entry.title, entry.unit);
@@ -203,7 +211,10 @@ std::string as_text(const Comparison& all) {
     text += all.agrees ? "the motion agrees with the reference" : "the motion differs from the reference";
     if (!all.certain) text += ", but not for certain";
     if (has_doubts(all))
-        text += " (?: the limit is less than two standard errors away, or these are not known)";
+        text +=
+            " (?: the limit is less than two standard errors away, or these are not known, or the "
+            "reference's own "
+            "uncertainty decides)";
     return text + '\n';
 }
 

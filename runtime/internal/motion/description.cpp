@@ -18,6 +18,9 @@ json describe(const BodyMotion& body, const BodyMeasures& measures) {
                       {"center_of_mass", as_json(body.center_of_mass)},
                       {"body_hash", body.body_hash},
                       {"models", body.models}};
+    for (const FigureUncertainty& one : body.uncertainties) {
+        described["uncertainties"][one.cause][one.figure] = one.relative;
+    }
     described.update(as_json(measures));
     return described;
 }
@@ -26,12 +29,26 @@ std::string counted(int count, const char* noun) {
     return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
+/// A line for each cause: "  uncertain by its mesh: descent_speed 3.1 %, frequency 4 %".
+std::string uncertainty_text(const BodyMotion& body) {
+    std::string text;
+    const std::string* cause = nullptr;
+    for (const FigureUncertainty& one : body.uncertainties) {
+        const bool begins = cause == nullptr || *cause != one.cause;
+        if (begins) text += fmt::format("{}  uncertain by its {}: ", text.empty() ? "" : "\n", one.cause);
+        cause = &one.cause;
+        text += fmt::format("{}{} {:.2g} %", begins ? "" : ", ", one.figure, 100.0 * one.relative);
+    }
+    return text.empty() ? text : text + '\n';
+}
+
 std::string text_of(const BodyMotion& body, const BodyMeasures& measures) {
     std::string text = fmt::format("body {}: {}, {} triangles\n", body.name,
                                    body.copies == 1 ? "1 copy" : fmt::format("{} copies", body.copies),
                                    body.surface.triangle_count());
     text += as_text(measures);
     if (!body.models.empty()) text += fmt::format("  models: {}\n", body.models);
+    text += uncertainty_text(body);
     if (!body.body_hash.empty()) text += fmt::format("  body file: hash {}\n", body.body_hash);
     return text;
 }

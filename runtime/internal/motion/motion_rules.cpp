@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -18,6 +19,10 @@ constexpr double unit_length_tolerance = 1e-6;
 
 bool is_one(double length) {
     return std::abs(length - 1.0) <= unit_length_tolerance;
+}
+
+bool is_link_name(const std::string& name) {
+    return !name.empty() && name.front() != '.' && name.find('/') == std::string::npos;
 }
 
 std::string place(const std::string& body, const char* what) {
@@ -38,9 +43,23 @@ void check_body(const std::filesystem::path& file, const BodyMotion& body) {
         fail(file, place(body.name, "has a centre of mass that is not finite"));
     if (!is_one(body.shortest_axis.norm()))
         fail(file, place(body.name, "has a shortest_axis that is no unit vector"));
+    std::set<std::pair<std::string, std::string>> known;
+    for (const FigureUncertainty& one : body.uncertainties) {
+        if (!is_link_name(one.cause) || !is_link_name(one.figure) ||
+            !known.emplace(one.cause, one.figure).second) {
+            fail(file, place(body.name, "has an uncertainty twice or without a name"));
+        }
+        if (!(one.relative >= 0.0) || !std::isfinite(one.relative)) {
+            fail(file, place(body.name, "has an uncertainty that is negative or not finite"));
+        }
+    }
 }
 
 }  // namespace
+
+std::string uncertainty_group(const std::string& body) {
+    return "/bodies/" + body + "/uncertainty";
+}
 
 void check_motion_but_poses(const std::filesystem::path& file, const Motion& motion) {
     if (motion.times.empty()) fail(file, "/time holds no frame");
@@ -54,7 +73,7 @@ void check_motion_but_poses(const std::filesystem::path& file, const Motion& mot
     check_times(file, motion.times);
     std::set<std::string> names;
     for (const BodyMotion& body : motion.bodies) {
-        if (body.name.empty() || body.name.front() == '.' || body.name.find('/') != std::string::npos) {
+        if (!is_link_name(body.name)) {
             fail(file,
                  fmt::format("the body's name '{}' is empty, starts with a dot or holds a slash", body.name));
         }

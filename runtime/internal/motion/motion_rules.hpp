@@ -1,10 +1,15 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "samara/motion/motion.hpp"
 
 namespace samara {
+
+/// The group of a body's uncertainties in a motion file: below it one for each cause, which holds a number
+/// for each figure.
+std::string uncertainty_group(const std::string& body);
 
 /// Throws Error, naming the file, where all of a motion but its poses breaks a rule of read_motion_file that
 /// a single dataset does not show.

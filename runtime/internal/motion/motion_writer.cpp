@@ -84,6 +84,10 @@ void write_body(Hdf5Writer& file, const Motion& motion, std::size_t index) {
     file.write(group + "/shortest_axis", row_major(body.shortest_axis), {3}, "1",
                "principal axis of the shortest extent, shape axes: the axis of the inclination");
     write_surface(file, group + "/surface", body.surface);
+    for (const FigureUncertainty& one : body.uncertainties) {
+        file.write(fmt::format("{}/{}/{}", uncertainty_group(body.name), one.cause, one.figure),
+                   std::vector{one.relative}, {1}, "1", "by how much the figure may be wrong, over it");
+    }
     file.attribute(group, "index", static_cast<std::int64_t>(index));
     file.attribute(group, "body_hash", std::string_view(body.body_hash));
     file.attribute(group, "models", std::string_view(body.models));

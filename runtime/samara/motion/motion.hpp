@@ -12,6 +12,16 @@
 
 namespace samara {
 
+/// By how much a figure of a motion may be wrong for a reason that its own swings do not show, such as the
+/// mesh of a fall by full CFD.
+struct FigureUncertainty {
+    std::string cause;      ///< such as "mesh" or "closure"
+    std::string figure;     ///< as in JSON: descent_speed, frequency, ...
+    double relative = 0.0;  ///< over the figure, 0 or more
+
+    friend bool operator==(const FigureUncertainty&, const FigureUncertainty&) = default;
+};
+
 /// One body of the scene with all its copies, runs and frames.
 struct BodyMotion {
     std::string name;  ///< in the scene
@@ -24,7 +34,8 @@ struct BodyMotion {
     Surface surface;               ///< shape axes, so that a motion file can be shown by itself
     ContactPoints contact_points;  ///< of the surface, where the motion has a ground
     int copies = 1;                ///< of the body, each with poses of its own
-    std::vector<Pose> poses;       ///< index ((run * frames) + frame) * copies + copy
+    std::vector<FigureUncertainty> uncertainties;  ///< sorted by cause and figure; none where none are known
+    std::vector<Pose> poses;                       ///< index ((run * frames) + frame) * copies + copy
 };
 
 /// What `samara simulate` writes: frames at even times.

@@ -33,6 +33,19 @@ std::vector<hsize_t> pose_dimensions(const Hdf5Reader& file, const std::string& 
     return shape;
 }
 
+std::vector<FigureUncertainty> read_uncertainties(const Hdf5Reader& file, const std::string& body) {
+    std::vector<FigureUncertainty> uncertainties;
+    const std::string group = uncertainty_group(body);
+    if (!file.has(group)) return uncertainties;
+    for (const std::string& cause : file.children(group)) {
+        for (const std::string& figure : file.children(group + "/" + cause)) {
+            const std::string name = fmt::format("{}/{}/{}", group, cause, figure);
+            uncertainties.push_back({cause, figure, file.finite_doubles(name, {1}).front()});
+        }
+    }
+    return uncertainties;
+}
+
 BodyMotion read_body_but_poses(const Hdf5Reader& file, const std::string& name, std::size_t frames,
                                int& runs) {
     const std::string group = "/bodies/" + name;
@@ -51,6 +64,7 @@ BodyMotion read_body_but_poses(const Hdf5Reader& file, const std::string& name, 
     body.surface = read_surface(file, group + "/surface");
     body.body_hash = file.text_attribute(group, "body_hash");
     body.models = file.text_attribute(group, "models");
+    body.uncertainties = read_uncertainties(file, name);
     return body;
 }
 

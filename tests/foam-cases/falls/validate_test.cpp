@@ -78,11 +78,13 @@ TEST_F(Validate, NamesTheProgramsThatAreMissing) {
     EXPECT_THAT(text, HasSubstr("apt install openfoam snakemake"));
 }
 
-TEST_F(Validate, RefusesNumbersOutOfRange) {
+TEST_F(Validate, RefusesNumbersOutOfRangeAndFilesThatAreNone) {
     write_scene("", "", "density = 1200\nturbulence = \"none\"");
     EXPECT_THAT(fault({"--cells", "10"}), HasSubstr("--cells"));
     EXPECT_THAT(fault({"--step", "0"}), HasSubstr("--step"));
     EXPECT_THAT(fault({"--cluster", "qsub"}), HasSubstr("sbatch"));
+    EXPECT_THAT(fault({"--other-mesh", "nowhere.h5"}), HasSubstr("nowhere.h5"));
+    EXPECT_THAT(fault({"--other-closure", "ball.body.h5"}), HasSubstr("not a motion file"));
 }
 
 TEST_F(Validate, SaysInADryRunWhatItWouldSolve) {

@@ -21,11 +21,19 @@ using test::TemporaryFolder;
 using ::testing::AnyOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 Motion flutter(double frequency, double amplitude, double speed, double duration = 6.0,
                double frame_rate = 60.0) {
     return test::motion_of([=](double t) { return test::flutter(t, frequency, amplitude, speed); }, duration,
                            frame_rate);
+}
+
+ComparisonSettings narrow() {
+    ComparisonSettings settings;
+    settings.tolerances[Figure::descent_speed] = 0.05;
+    settings.tolerances[Figure::frequency] = 0.05;
+    return settings;
 }
 
 /// Irregular flutters as runs of one motion.
@@ -227,6 +235,55 @@ TEST(FigureComparison, AgreesWithinTheToleranceAndIsCertainTwoErrorsFromIt) {
     EXPECT_TRUE(!verdict(1.65, 0.04).agrees && verdict(1.65, 0.04).certain);
     EXPECT_NEAR(*compare_figure(Estimate{2.1, 0.04, {}}, reference, 0.1).in_errors, 2.0, 1e-12);
     EXPECT_FALSE(compare_figure(Estimate{2.0, {}, {}}, reference, 0.1).verdict->certain);
+}
+
+TEST(FigureComparison, CountsWhatLiesBeyondTheReferencesOwnUncertainty) {
+    const Estimate reference{2.0, 0.0, {}};
+    const auto verdict = [&](double value) {
+        return compare_figure(Estimate{value, 0.01, {}}, reference, 0.1, 0.0, 0.05).verdict.value();
+    };
+    EXPECT_TRUE(verdict(2.05).agrees && verdict(2.05).certain);
+    EXPECT_TRUE(verdict(2.15).agrees && !verdict(2.15).certain) << "the reference's may be 1.9";
+    EXPECT_TRUE(verdict(2.29).agrees && !verdict(2.29).certain) << "the reference's may be 2.1";
+    EXPECT_TRUE(!verdict(2.31).agrees && !verdict(2.31).certain);
+    EXPECT_TRUE(!verdict(1.65).agrees && verdict(1.65).certain);
+    EXPECT_DOUBLE_EQ(compare_figure(Estimate{2.0, {}, {}}, reference, 0.1, 0.0, 0.05).reference_uncertainty,
+                     0.1);
+}
+
+TEST(FigureComparison, OfAReferenceThatMayHaveAFrequencyOrNoneIsUndecided) {
+    for (const bool motion_has_it : {true, false}) {
+        const auto one = motion_has_it ? std::optional(Estimate{1.0, {}, {}}) : std::nullopt;
+        const auto other = motion_has_it ? std::nullopt : std::optional(Estimate{1.0, {}, {}});
+        const auto verdict = compare_figure(one, other, 0.2, 0.0, 1.0).verdict.value();
+        EXPECT_TRUE(verdict.agrees && !verdict.certain);
+    }
+}
+
+TEST(Comparison, SaysWhatTheReferenceIsUncertainBy) {
+    const Motion motion = flutter(1.375, 40.0 * degree, 0.198, 6.0, 240.0);
+    Motion reference = flutter(1.25, 40.0 * degree, 0.18, 6.0, 240.0);
+    const std::string without = as_text(compare_motions(motion, reference, narrow()));
+    EXPECT_THAT(without, HasSubstr("differs"));
+    EXPECT_THAT(without, Not(HasSubstr("reference's own")));
+    reference.bodies[0].uncertainties = {
+        {"closure", "descent_speed", 0.04}, {"mesh", "descent_speed", 0.03}, {"mesh", "frequency", 0.06}};
+    const Comparison comparison = compare_motions(motion, reference, narrow());
+    EXPECT_TRUE(comparison.agrees);
+    EXPECT_FALSE(comparison.certain);
+    EXPECT_NEAR(figure(comparison, Figure::descent_speed).reference_uncertainty, 0.07 * 0.18, 1e-4);
+    EXPECT_THAT(as_text(comparison), HasSubstr("agrees? (limit 5 % beyond the reference's own 7 %)"));
+}
+
+TEST(Comparison, LeavesTheRegimeOpenThatTheReferenceItselfIsUncertainOf) {
+    const Motion motion = test::motion_of([](double t) { return test::tumble(t, 5.0, 0.2); }, 6.0, 240.0);
+    Motion reference = flutter(1.25, 40.0 * degree, 0.2, 6.0, 240.0);
+    EXPECT_FALSE(compare_motions(motion, reference).regime_is_uncertain);
+    reference.bodies[0].uncertainties = {{"mesh", "regime", 1.0}};
+    const Comparison comparison = compare_motions(motion, reference);
+    EXPECT_TRUE(comparison.regime_is_uncertain);
+    EXPECT_FALSE(comparison.certain);
+    EXPECT_THAT(as_text(comparison), HasSubstr("the reference's own is uncertain"));
 }
 
 TEST(FigureComparison, WithoutAFrequencyOnBothSidesAgreesAndOnOneSideDiffers) {

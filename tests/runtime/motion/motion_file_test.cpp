@@ -37,6 +37,7 @@ Motion two_bodies() {
     first.poses.insert(first.poses.end(), other.bodies[0].poses.begin(), other.bodies[0].poses.end());
     BodyMotion second = other.bodies[0];
     second.name = "a second, with two copies";
+    second.uncertainties = {{"closure", "descent_speed", 0.05}, {"mesh", "descent_speed", 0.03}};
     second.copies = 2;
     second.poses.clear();
     for (int i = 0; i < 2 * 2 * motion.frames(); ++i) second.poses.push_back(late(0.01 * i));
@@ -55,6 +56,21 @@ std::string error_of(const auto& action) {
 
 std::string reading_error(const std::filesystem::path& file) {
     return error_of([&] { (void)read_motion_file(file); });
+}
+
+TEST(MotionFile, RefusesUncertaintiesThatAreNone) {
+    const TemporaryFolder folder;
+    const auto error_with = [&](const std::vector<FigureUncertainty>& uncertainties) {
+        Motion motion = two_bodies();
+        motion.bodies[0].uncertainties = uncertainties;
+        return error_of([&] { write_motion_file(folder / "motion.h5", motion); });
+    };
+    EXPECT_EQ(error_with({{"mesh", "descent_speed", 0.0}}), "no error");
+    EXPECT_THAT(error_with({{"mesh", "descent_speed", -0.1}}), HasSubstr("uncertainty that is negative"));
+    EXPECT_THAT(error_with({{"", "descent_speed", 0.1}}), HasSubstr("twice or without a name"));
+    EXPECT_THAT(error_with({{"mesh", "a/b", 0.1}}), HasSubstr("twice or without a name"));
+    EXPECT_THAT(error_with({{"mesh", "descent_speed", 0.1}, {"mesh", "descent_speed", 0.1}}),
+                HasSubstr("twice or without a name"));
 }
 
 TEST(MotionFile, GivesBackWhatWasWritten) {
@@ -78,6 +94,7 @@ TEST(MotionFile, GivesBackWhatWasWritten) {
         EXPECT_EQ(is.shortest_axis, was.shortest_axis);
         EXPECT_EQ(is.body_hash, was.body_hash);
         EXPECT_EQ(is.models, was.models);
+        EXPECT_EQ(is.uncertainties, was.uncertainties);
         EXPECT_EQ(is.surface.vertices, was.surface.vertices);
         EXPECT_EQ(is.surface.corners, was.surface.corners);
         ASSERT_EQ(is.poses.size(), was.poses.size());
