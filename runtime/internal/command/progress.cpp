@@ -11,7 +11,7 @@
 
 namespace samara {
 
-Progress::Progress(std::string what, std::string unit)
+Progress::Progress(const std::string& what, std::string unit)
     : what_(printable(what)), unit_(std::move(unit)), terminal_(::isatty(STDERR_FILENO) != 0) {}
 
 Progress::~Progress() {

@@ -11,7 +11,7 @@ namespace samara {
 class Progress {
   public:
     /// `what`: the work, as in "baking"; `unit`: what is counted, as in "cases".
-    Progress(std::string what, std::string unit);
+    Progress(const std::string& what, std::string unit);
     /// Clears a terminal's line.
     ~Progress();
     Progress(const Progress&) = delete;

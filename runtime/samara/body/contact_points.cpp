@@ -87,6 +87,7 @@ std::vector<Vector3d> extreme_points(const std::vector<Vector3d>& points) {
     std::sort(chosen.begin(), chosen.end());
     chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
     std::vector<Vector3d> extreme;
+    extreme.reserve(chosen.size());
     for (const std::size_t i : chosen) extreme.push_back(points[i]);
     return extreme;
 }

@@ -216,6 +216,7 @@ class Keys {
         const bool all = kept.size() == times_.size();
         if (all && all_times_ >= 0) return all_times_;
         std::vector<float> times;
+        times.reserve(kept.size());
         for (const std::size_t key : kept) times.push_back(times_[key]);
         const int accessor = builder_.add_floats(times, 1, TINYGLTF_TYPE_SCALAR);
         if (all) all_times_ = accessor;

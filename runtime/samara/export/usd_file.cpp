@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "internal/base/as_index.hpp"
 #include "internal/export/key_reduction.hpp"
 #include "internal/export/shape_pose.hpp"
 #include "internal/export/usd_mesh.hpp"
@@ -134,6 +135,7 @@ class Stage {
 
     void write_instancer(const BodyMotion& body) {
         std::vector<std::vector<ShapePose>> poses;  // by copy
+        poses.reserve(as_index(body.copies));
         for (int copy = 0; copy < body.copies; ++copy) {
             poses.push_back(shape_poses(motion_, body, run_, copy));
         }
