@@ -1,12 +1,14 @@
 #include "mujoco_body.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
-#include <ctime>
+#include <memory>
 #include <string>
 
 #include <fmt/format.h>
+#include <mujoco/mujoco.h>
 
 #include "internal/command/load_body.hpp"
 #include "samara/base/error.hpp"
@@ -14,13 +16,6 @@
 
 namespace samara {
 namespace {
-
-/// CPU seconds of this thread.
-double cpu_time() {
-    std::timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 std::shared_ptr<mjModel> model_of(const std::string& text) {
     const auto files = std::make_unique<mjVFS>();
@@ -44,10 +39,31 @@ Vector3d half_extents(const Body& body, const Matrix3d& axes) {
     return half;
 }
 
-}  // namespace
+class MujocoBody : public PeerBody {
+  public:
+    MujocoBody(const Scene& scene, const Motion& reference, int integrator);
+
+    [[nodiscard]] PeerFall fall(const std::vector<double>& coefficients, int cuts) const override;
+    [[nodiscard]] std::string words() const override {
+        return fmt::format("MuJoCo {}, ellipsoid fluid model", mj_versionString());
+    }
+
+  private:
+    [[nodiscard]] Pose pose() const;
+
+    std::vector<double> times_;
+    double step_;
+    Vector3d start_ = Vector3d::Zero();             // of the centre of mass (m, world)
+    Quaterniond turn_ = Quaterniond::Identity();    // principal axes to world, at the start
+    Quaterniond axes_ = Quaterniond::Identity();    // principal axes to shape axes
+    Vector3d velocity_ = Vector3d::Zero();          // m/s, world
+    Vector3d angular_velocity_ = Vector3d::Zero();  // rad/s, world
+    std::shared_ptr<mjModel> model_;
+    std::shared_ptr<mjData> data_;
+};
 
 MujocoBody::MujocoBody(const Scene& scene, const Motion& reference, int integrator)
-    : reference_(reference), step_(scene.step) {
+    : times_(reference.times), step_(scene.step) {
     const SceneBody& given = scene.bodies.front();
     if (!given.mass.density) {
         throw Error(fmt::format("{}: the body has no uniform density", scene.file.string()));
@@ -90,7 +106,7 @@ Pose MujocoBody::pose() const {
     return pose;
 }
 
-MujocoFall MujocoBody::fall(const FluidCoefficients& coefficients, int cuts) const {
+PeerFall MujocoBody::fall(const std::vector<double>& coefficients, int cuts) const {
     mjModel* model = model_.get();
     mjData* data = data_.get();
     mj_resetData(model, data);
@@ -105,38 +121,26 @@ MujocoFall MujocoBody::fall(const FluidCoefficients& coefficients, int cuts) con
     std::copy(place.begin(), place.end(), data->qpos);
     std::copy(motion.begin(), motion.end(), data->qvel);
     model->opt.timestep = step_ / cuts;
-
-    MujocoFall result;
-    Pose before = pose();
-    Pose after = before;
-    for (const double time : reference_.times) {
-        const int needed = static_cast<int>(std::ceil(time * (1.0 - 1e-12) / model->opt.timestep));
-        const double begin = cpu_time();
-        for (; result.steps < needed; ++result.steps) {
-            if (result.steps + 1 == needed) before = pose();
-            mj_step(model, data);
-        }
-        result.seconds += cpu_time() - begin;
-        after = pose();
-        for (const int fault : {mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC}) {
-            if (data->warning[fault].number > 0) return {{}, result.steps, result.seconds};
-        }
-        const double fraction =
-            result.steps == 0 ? 1.0 : time / model->opt.timestep - static_cast<double>(result.steps - 1);
-        Pose frame = interpolated(before, after, std::clamp(fraction, 0.0, 1.0), model->opt.timestep);
-        if (!result.poses.empty()) keep_sign_continuous(frame.orientation, result.poses.back().orientation);
-        result.poses.push_back(frame);
-    }
-    return result;
+    const auto advance = [model, data] {
+        mj_step(model, data);
+        return std::ranges::none_of(std::array{mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC},
+                                    [data](int fault) { return data->warning[fault].number > 0; });
+    };
+    return flown_through(times_, model->opt.timestep, advance, [this] { return pose(); });
 }
 
-Motion MujocoBody::motion(const MujocoFall& fall, const FluidCoefficients& coefficients) const {
-    Motion motion = reference_;
-    BodyMotion& body = motion.bodies.front();
-    body.models = fmt::format("MuJoCo {}, ellipsoid fluid model, fluidcoef {}", mj_versionString(),
-                              fmt::join(coefficients, " "));
-    body.poses = fall.poses;
-    return motion;
+}  // namespace
+
+PeerModel mujoco_model(int integrator) {
+    return {"mujoco",
+            {{"blunt drag", 0.5, 0.0, 4.0},
+             {"slender drag", 0.25, 0.0, 12.0},
+             {"angular drag", 1.5, 0.0, 16.0},
+             {"Kutta lift", 1.0, 0.0, 6.0},
+             {"Magnus lift", 1.0, 0.0, 6.0}},
+            [integrator](const Scene& scene, const Motion& reference) {
+                return std::make_shared<MujocoBody>(scene, reference, integrator);
+            }};
 }
 
 }  // namespace samara

@@ -1,10 +1,11 @@
-// The reference falls in MuJoCo's ellipsoid fluid model: writes its motions, which `samara compare` judges,
-// and searches for the coefficients with which it falls most like the references.
+// The reference falls by other models than samara's: writes their motions, which `samara compare` judges, and
+// searches for the coefficients with which a model falls most like the references.
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <random>
 #include <sstream>
 #include <string>
@@ -18,29 +19,37 @@
 #include "internal/command/progress.hpp"
 #include "internal/comparison/comparison.hpp"
 #include "internal/figures/inclination.hpp"
-#include "mujoco_body.hpp"
+#include "peers/peer_body.hpp"
 #include "samara/base/error.hpp"
 #include "samara/motion/motion_file.hpp"
 #include "samara/scene/scene_file.hpp"
+
+#ifdef SAMARA_MUJOCO
+#include <mujoco/mujoco.h>
+
+#include "mujoco_body.hpp"
+#endif
 
 namespace samara {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr FluidCoefficients lowest = {0.0, 0.0, 0.0, 0.0, 0.0};
-constexpr FluidCoefficients highest = {4.0, 12.0, 16.0, 6.0, 6.0};
+using Coefficients = std::vector<double>;
 
 /// A reference fall and the body that is to fall like it.
 struct Fall {
     std::string name;
     std::string shape;
-    MujocoBody body;
+    double step;  // s
+    std::shared_ptr<const PeerBody> body;
+    Motion reference;
     Measures measures;        // of the reference
     bool judges_inclination;  // false for a sphere
 };
 
 struct Request {
+    std::string model = "linear-drag";
     std::string falls;
     std::string output;
     std::string coefficients;
@@ -49,12 +58,21 @@ struct Request {
     int samples = 0;
 };
 
-int integrator_of(const std::string& name) {
-    return name == "Euler" ? mjINT_EULER : name == "RK4" ? mjINT_RK4 : mjINT_IMPLICIT;
+PeerModel model_of(const Request& request) {
+#ifdef SAMARA_MUJOCO
+    mju_user_warning = [](const char*) {};  // the rows say which falls broke
+    if (request.model == "mujoco") {
+        return mujoco_model(request.integrator == "Euler" ? mjINT_EULER
+                            : request.integrator == "RK4" ? mjINT_RK4
+                                                          : mjINT_IMPLICIT);
+    }
+#endif
+    if (request.model == "paper") return printed_model();
+    return request.model == "linear-drag" ? linear_drag_model() : falling_plate_model();
 }
 
 /// The falls of a folder: every scene that has its motion beside it, or those named, separated by commas.
-std::vector<Fall> read_falls(const std::string& folder_or_names, int integrator) {
+std::vector<Fall> read_falls(const std::string& folder_or_names, const PeerModel& model) {
     std::vector<fs::path> scenes;
     if (fs::is_directory(folder_or_names)) {
         for (const auto& entry : fs::directory_iterator(folder_or_names)) {
@@ -72,8 +90,8 @@ std::vector<Fall> read_falls(const std::string& folder_or_names, int integrator)
         fs::path motion = file;
         const Motion reference = read_motion_file(motion.replace_extension(".h5"));
         const Scene scene = read_scene_file(file);
-        falls.push_back({file.stem().string(), scene.bodies.front().shape.stem().string(),
-                         MujocoBody(scene, reference, integrator),
+        falls.push_back({file.stem().string(), scene.bodies.front().shape.stem().string(), scene.step,
+                         model.body(scene, reference), reference,
                          measure(reference, reference.bodies.front()),
                          has_shortest_axis(reference.bodies.front().surface)});
     }
@@ -88,12 +106,21 @@ double loss(double difference, double limit) {
 
 constexpr double worst_loss = 5.0;  // of a figure that is missing: the loss of 12 limits
 
+/// The reference with the poses of a fall in place of its own.
+Motion motion_of(const Fall& fall, const PeerFall& flown, const Coefficients& coefficients) {
+    Motion motion = fall.reference;
+    motion.bodies.front().models =
+        fmt::format("{}, coefficients {}", fall.body->words(), fmt::join(coefficients, " "));
+    motion.bodies.front().poses = flown.poses;
+    return motion;
+}
+
 /// What a fall misses of its reference, in the limits of `samara compare`; 0 where all its figures are alike.
-double misfit(const Fall& fall, const FluidCoefficients& coefficients) {
+double misfit(const Fall& fall, const Coefficients& coefficients) {
     const double figures = fall.judges_inclination ? 4.0 : 1.0;
-    const MujocoFall flown = fall.body.fall(coefficients);
+    const PeerFall flown = fall.body->fall(coefficients, 1);
     if (flown.poses.empty()) return worst_loss * figures;
-    const Motion motion = fall.body.motion(flown, coefficients);
+    const Motion motion = motion_of(fall, flown, coefficients);
     const Measures a = measure(motion, motion.bodies.front());
     double sum = 0.0;
     for (const Figure figure : compared_figures) {
@@ -109,7 +136,7 @@ double misfit(const Fall& fall, const FluidCoefficients& coefficients) {
 
 /// A set of coefficients and what each fall misses with it.
 struct Trial {
-    FluidCoefficients coefficients{};
+    Coefficients coefficients;
     std::vector<double> misfits;
     [[nodiscard]] double sum() const {
         double all = 0.0;
@@ -118,7 +145,7 @@ struct Trial {
     }
 };
 
-Trial tried(const std::vector<Fall>& falls, const FluidCoefficients& coefficients) {
+Trial tried(const std::vector<Fall>& falls, const Coefficients& coefficients) {
     Trial trial{coefficients, {}};
     for (const Fall& fall : falls) trial.misfits.push_back(misfit(fall, coefficients));
     return trial;
@@ -126,13 +153,15 @@ Trial tried(const std::vector<Fall>& falls, const FluidCoefficients& coefficient
 
 /// Pattern search from `best`: each coefficient up and down, halving the steps where nothing is better. The
 /// misfit jumps where a fall changes its regime, so there is no gradient to follow.
-Trial refined(const std::vector<Fall>& falls, Trial best) {
+Trial refined(const PeerModel& model, const std::vector<Fall>& falls, Trial best) {
     for (double step = 0.08; step > 0.004;) {
         bool better = false;
         for (std::size_t i = 0; i < best.coefficients.size(); ++i) {
             for (const double side : {-1.0, 1.0}) {
-                FluidCoefficients next = best.coefficients;
-                next[i] = std::clamp(next[i] + side * step * (highest[i] - lowest[i]), lowest[i], highest[i]);
+                Coefficients next = best.coefficients;
+                const PeerCoefficient& range = model.coefficients[i];
+                next[i] = std::clamp(next[i] + side * step * (range.highest - range.lowest), range.lowest,
+                                     range.highest);
                 const Trial trial = tried(falls, next);
                 if (trial.sum() < best.sum()) {
                     best = trial;
@@ -145,17 +174,24 @@ Trial refined(const std::vector<Fall>& falls, Trial best) {
     return best;
 }
 
+/// The model's own coefficients.
+Coefficients usual(const PeerModel& model) {
+    Coefficients coefficients;
+    for (const PeerCoefficient& one : model.coefficients) coefficients.push_back(one.usual);
+    return coefficients;
+}
+
 /// Coefficients drawn over the whole range, each squared so that small ones are drawn more often; the first
-/// are MuJoCo's defaults.
-std::vector<Trial> drawn(const std::vector<Fall>& falls, int samples) {
+/// are the model's own.
+std::vector<Trial> drawn(const PeerModel& model, const std::vector<Fall>& falls, int samples) {
     std::mt19937_64 generator(1);
     std::uniform_real_distribution<double> uniform(0.0, 1.0);
-    std::vector<Trial> trials = {tried(falls, default_fluid_coefficients)};
+    std::vector<Trial> trials = {tried(falls, usual(model))};
     Progress progress("searching", "samples");
     for (int sample = 0; sample < samples; ++sample) {
-        FluidCoefficients coefficients{};
-        for (std::size_t i = 0; i < coefficients.size(); ++i) {
-            coefficients[i] = lowest[i] + std::pow(uniform(generator), 2) * (highest[i] - lowest[i]);
+        Coefficients coefficients;
+        for (const PeerCoefficient& one : model.coefficients) {
+            coefficients.push_back(one.lowest + std::pow(uniform(generator), 2) * (one.highest - one.lowest));
         }
         trials.push_back(tried(falls, coefficients));
         progress.update(sample + 1, samples);
@@ -174,7 +210,7 @@ std::vector<Trial> of_falls(const std::vector<Trial>& trials, const std::vector<
 }
 
 /// The best set for some falls: pattern searches from the best of the trials.
-Trial best_of(const std::vector<Fall>& falls, const std::vector<std::size_t>& chosen,
+Trial best_of(const PeerModel& model, const std::vector<Fall>& falls, const std::vector<std::size_t>& chosen,
               const std::vector<Trial>& trials, std::size_t starts) {
     std::vector<Fall> some;
     for (const std::size_t i : chosen) some.push_back(falls[i]);
@@ -182,7 +218,7 @@ Trial best_of(const std::vector<Fall>& falls, const std::vector<std::size_t>& ch
     std::sort(order.begin(), order.end(), [](const Trial& a, const Trial& b) { return a.sum() < b.sum(); });
     Trial best = order.front();
     for (std::size_t i = 0; i < std::min(starts, order.size()); ++i) {
-        const Trial end = refined(some, order[i]);
+        const Trial end = refined(model, some, order[i]);
         if (end.sum() < best.sum()) best = end;
     }
     return best;
@@ -194,14 +230,14 @@ nlohmann::json as_json(const Trial& trial) {
 
 /// The best sets for each fall alone, for each shape, and for all falls. The sets found for few falls are
 /// among the starts for many.
-nlohmann::json search(const std::vector<Fall>& falls, int samples) {
-    std::vector<Trial> trials = drawn(falls, samples);
+nlohmann::json search(const PeerModel& model, const std::vector<Fall>& falls, int samples) {
+    std::vector<Trial> trials = drawn(model, falls, samples);
     const double default_misfit = trials.front().sum();
     nlohmann::json alone = nlohmann::json::object();
     std::map<std::string, std::vector<std::size_t>> shapes;
     std::vector<std::size_t> all;
     for (std::size_t i = 0; i < falls.size(); ++i) {
-        const Trial best = best_of(falls, {i}, trials, 1);
+        const Trial best = best_of(model, falls, {i}, trials, 1);
         alone[falls[i].name] = as_json(best);
         trials.push_back(tried(falls, best.coefficients));
         shapes[falls[i].shape].push_back(i);
@@ -209,21 +245,21 @@ nlohmann::json search(const std::vector<Fall>& falls, int samples) {
     }
     nlohmann::json by_shape = nlohmann::json::object();
     for (const auto& [shape, chosen] : shapes) {
-        const Trial best = best_of(falls, chosen, trials, 3);
+        const Trial best = best_of(model, falls, chosen, trials, 3);
         by_shape[shape] = as_json(best);
         for (const std::size_t i : chosen) by_shape[shape]["falls"].push_back(falls[i].name);
         trials.push_back(tried(falls, best.coefficients));
     }
     return {{"samples", samples},
             {"default_misfit", default_misfit},
-            {"best", as_json(best_of(falls, all, trials, 6))},
+            {"best", as_json(best_of(model, falls, all, trials, 6))},
             {"best_by_shape", by_shape},
             {"best_alone", alone}};
 }
 
-FluidCoefficients coefficients_of(const std::string& words) {
-    if (words.empty()) return default_fluid_coefficients;
-    FluidCoefficients coefficients{};
+Coefficients coefficients_of(const PeerModel& model, const std::string& words) {
+    Coefficients coefficients = usual(model);
+    if (words.empty()) return coefficients;
     std::stringstream stream(words);
     for (double& coefficient : coefficients) {
         std::string word;
@@ -236,46 +272,46 @@ FluidCoefficients coefficients_of(const std::string& words) {
             }
         }
         if (end == 0 || end != word.size()) {
-            throw Error("--coefficients takes five numbers, such as 0.5,0.25,1.5,1,1; it was '" + words +
-                        "'");
+            throw Error(fmt::format("--coefficients takes {} numbers, such as {}; it was '{}'",
+                                    coefficients.size(), fmt::join(usual(model), ","), words));
         }
     }
     return coefficients;
 }
 
 /// Writes FOLDER/NAME.h5 for each fall; a fall whose numbers run away is not written.
-nlohmann::json flown(const std::vector<Fall>& falls, const Request& request) {
-    const FluidCoefficients coefficients = coefficients_of(request.coefficients);
+nlohmann::json flown(const PeerModel& model, const std::vector<Fall>& falls, const Request& request) {
+    const Coefficients coefficients = coefficients_of(model, request.coefficients);
     fs::create_directories(request.output);
     nlohmann::json rows = nlohmann::json::array();
     for (const Fall& fall : falls) {
-        MujocoFall best = fall.body.fall(coefficients, request.cuts);
+        PeerFall best = fall.body->fall(coefficients, request.cuts);
         for (int again = 0; again < 4; ++again) {
-            best.seconds = std::min(best.seconds, fall.body.fall(coefficients, request.cuts).seconds);
+            best.seconds = std::min(best.seconds, fall.body->fall(coefficients, request.cuts).seconds);
         }
         if (!best.poses.empty()) {
             write_motion_file(fs::path(request.output) / (fall.name + ".h5"),
-                              fall.body.motion(best, coefficients));
+                              motion_of(fall, best, coefficients));
         }
         rows.push_back(
             {{"fall", fall.name},
              {"broke", best.poses.empty()},
              {"steps", best.steps},
              {"seconds_per_step", best.seconds / best.steps},
-             {"seconds_per_simulated_second", best.seconds / (best.steps * fall.body.step() / request.cuts)},
+             {"seconds_per_simulated_second", best.seconds / (best.steps * fall.step / request.cuts)},
              {"misfit", misfit(fall, coefficients)}});
     }
-    return {{"coefficients", coefficients}, {"integrator", request.integrator}, {"falls", rows}};
+    return {{"model", model.name}, {"coefficients", coefficients}, {"falls", rows}};
 }
 
 nlohmann::json run(const Request& request, const Arguments& arguments) {
-    mju_user_warning = [](const char*) {};  // the rows say which falls broke
     if (request.samples == 0 && request.output.empty()) {
         throw Error("nothing to do: give -o FOLDER to write motions, or --search N");
     }
-    const std::vector<Fall> falls = read_falls(request.falls, integrator_of(request.integrator));
+    const PeerModel model = model_of(request);
+    const std::vector<Fall> falls = read_falls(request.falls, model);
     const nlohmann::json result =
-        request.samples > 0 ? search(falls, request.samples) : flown(falls, request);
+        request.samples > 0 ? search(model, falls, request.samples) : flown(model, falls, request);
     if (!arguments.json()) fmt::print("{}\n", result.dump(2));
     return result;
 }
@@ -285,14 +321,19 @@ nlohmann::json run(const Request& request, const Arguments& arguments) {
 
 int main(int argc, char** argv) {
     samara::Request request;
-    samara::Arguments arguments("samara-mujoco-falls",
-                                "Flies the reference falls with MuJoCo's ellipsoid fluid model.");
+    samara::Arguments arguments("samara-peer-falls",
+                                "Flies the reference falls by another model than samara's.");
+    std::vector<std::string> models = {"paper", "linear-drag", "falling-plate"};
+#ifdef SAMARA_MUJOCO
+    models.emplace_back("mujoco");
+#endif
     arguments.positional("FALLS", request.falls,
                          "folder with scenes (.toml) and their motions by full CFD (.h5), or such scenes, "
                          "separated by commas");
-    arguments.option("-o,--output", request.output, "folder for MuJoCo's motions, NAME.h5");
+    arguments.choice("--model", request.model, models, "the model");
+    arguments.option("-o,--output", request.output, "folder for the model's motions, NAME.h5");
     arguments.option("--coefficients", request.coefficients,
-                     "the five of fluidcoef, separated by commas; by default MuJoCo's own");
+                     "the model's numbers, separated by commas; by default its own");
     arguments.choice("--integrator", request.integrator, {"implicit", "Euler", "RK4"}, "MuJoCo's integrator");
     arguments.option("--cuts", request.cuts, "parts that each step of a scene is cut into", 1, 1000);
     arguments.option("--search", request.samples,

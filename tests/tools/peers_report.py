@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""MuJoCo's ellipsoid fluid model and the runtime against the reference falls.
+"""Other models of falling bodies and the runtime against the reference falls.
 
     peers_report.py BIN BODIES FOLDER [SAMPLES]
 
 BIN: the folder of the programs; BODIES: that of the baked bodies (`falls_report.py ... falls` bakes them; the runtime's
 cells stay empty for a body that is not there); FOLDER: of peers.csv, peers.gp and peers.md, whose tables it writes.
-SAMPLES: how many sets of coefficients are drawn in the search for MuJoCo's best, 2000 by default; what was found is kept
-in BODIES and used again. Run from the project's folder.
+SAMPLES: how many sets of coefficients are drawn in the search for each model's best, 2000 by default; what was found is
+kept in BODIES and used again. Run from the project's folder.
 """
 
 import csv
@@ -23,14 +23,24 @@ FIGURES = {"descent": "descent_speed", "frequency": "frequency", "amplitude": "i
            "angular_speed": "rms_angular_speed"}
 DEFAULT, BEST, SHAPE, ALONE, OURS = ("MuJoCo default", "MuJoCo best", "MuJoCo best for each shape",
                                      "MuJoCo best for each fall", "samara")
+PLATES = ("disc-light", "disc-heavy", "plate", "sheet")
+# Models by their equations alone: their names, those of the program, the falls that they know, and whether their numbers
+# are published ones.
+EQUATIONS = (("the paper's eq. 5", "paper", tuple(SCENES), False),
+             ("linear drag", "linear-drag", tuple(SCENES), False),
+             ("plate equations", "falling-plate", PLATES, True))
 
 
-def searched(programs, folder, samples):
+def scenes_of(names):
+    return ",".join(f"{FALLS}/{name}.toml" for name in names)
+
+
+def searched(programs, folder, samples, model="mujoco", scenes=tuple(SCENES)):
     """What the search for the best coefficients found, kept in the folder."""
-    kept = os.path.join(folder, f"mujoco-search-{samples}.json")
+    kept = os.path.join(folder, f"{model}-search-{samples}.json")
     if not os.path.exists(kept):
-        search = run([f"{programs}/samara-mujoco-falls", ",".join(f"{FALLS}/{scene}.toml" for scene in SCENES),
-                      "--search", samples, "--json"])
+        search = run([f"{programs}/samara-peer-falls", scenes_of(scenes), "--model", model, "--search", samples,
+                      "--json"])
         with open(kept, "w", encoding="utf-8") as file:
             json.dump(search, file, indent=1)
     with open(kept, encoding="utf-8") as file:
@@ -49,18 +59,31 @@ def row_of(fall, who, comparison, step_seconds, second_seconds):
                   "agrees": "yes" if comparison["agrees"] else "no"}
 
 
-def peer(programs, scenes, who, coefficients, integrator="implicit"):
-    """MuJoCo's rows: its motions, judged as every motion is."""
+def peer(programs, scenes, who, coefficients, integrator="implicit", model="mujoco"):
+    """A model's rows: its motions, judged as every motion is. Its own coefficients where none are given."""
     rows = []
     with tempfile.TemporaryDirectory() as work:
-        words = [f"{programs}/samara-mujoco-falls", ",".join(f"{FALLS}/{scene}.toml" for scene in scenes), "-o", work,
-                 "--coefficients", ",".join(map(str, coefficients)), "--integrator", integrator, "--json"]
+        words = [f"{programs}/samara-peer-falls", scenes_of(scenes), "--model", model, "-o", work, "--integrator",
+                 integrator, "--json"]
+        if coefficients is not None:
+            words += ["--coefficients", ",".join(map(str, coefficients))]
         for flown in run(words)["falls"]:
             comparison = None if flown["broke"] else run(
                 [f"{programs}/samara", "compare", f"{work}/{flown['fall']}.h5", f"{FALLS}/{flown['fall']}.h5",
                  "--json"])
             rows.append(row_of(flown["fall"], who, comparison, flown["seconds_per_step"],
                                flown["seconds_per_simulated_second"]))
+    return rows
+
+
+def by_equations(programs, folder, samples):
+    """The rows of the models by their equations, each with the best set for a shape, and as published."""
+    rows = []
+    for name, model, scenes, published in EQUATIONS:
+        if published:
+            rows += peer(programs, scenes, f"{name}, as published", None, model=model)
+        for found in searched(programs, folder, samples, model, scenes)["best_by_shape"].values():
+            rows += peer(programs, found["falls"], f"{name}, best for each shape", found["coefficients"], model=model)
     return rows
 
 
@@ -100,25 +123,40 @@ def percent(value):
 
 
 def cell(row):
+    if row is None:
+        return "-"
     if row["regime"] == "breaks":
         return "breaks"
     if row["fall"] == "sphere":  # its inclination has no meaning
         return percent(row["descent"]) + (" **yes**" if row["agrees"] == "yes" else "")
-    figures = " / ".join(percent(row[name]) for name in ("descent", "frequency", "amplitude"))
+    figures = " / ".join(percent(row[name]) for name in FIGURES)
     return f"{figures}, {row['regime']}" + (" **yes**" if row["agrees"] == "yes" else "")
 
 
-def table(rows):
+def worst_in_the_mean(rows):
+    """Undivided: a fall's worst figure, 100 % where it has one that the other has not, breaks or falls by another regime;
+    of a sphere the descent alone."""
+    worst = []
+    for row in rows:
+        of_sphere = row["fall"] == "sphere"
+        found = [row.get(name) for name in (["descent"] if of_sphere else FIGURES)]
+        size = max([1.0 if value is None else abs(value) for value in found])
+        wrong = row["regime"] == "breaks" or (not of_sphere and row["regime"] != row["regime_cfd"])
+        worst.append(max(size, 1.0) if wrong else size)
+    return f"{100 * sum(worst) / len(worst):.0f} %"
+
+
+def table(rows, models):
     """The table of errors: a line a fall, a column a model."""
-    models = (DEFAULT, BEST, SHAPE, ALONE, OURS)
     found = {(row["fall"], row["model"]): row for row in rows}
     lines = ["| fall (full CFD) | " + " | ".join(models) + " |", "|---" * (len(models) + 1) + "|"]
     for scene in SCENES:
         regime = next(row["regime_cfd"] for row in rows if row["fall"] == scene and row.get("regime_cfd"))
         title = scene if scene == "sphere" else f"{scene} ({regime})"
         lines.append("| " + " | ".join([title] + [cell(found.get((scene, model))) for model in models]) + " |")
-    counts = [f"{sum(row['agrees'] == 'yes' for row in of)} of {len(of)}"
-              for of in ([row for row in rows if row["model"] == model] for model in models)]
+    of_model = [[row for row in rows if row["model"] == model] for model in models]
+    lines.append("| worst figure, mean over the falls | " + " | ".join(worst_in_the_mean(of) for of in of_model) + " |")
+    counts = [f"{sum(row['agrees'] == 'yes' for row in of)} of {len(of)}" for of in of_model]
     lines.append("| within the limits | " + " | ".join(counts) + " |")
     return "\n".join(lines) + "\n"
 
@@ -160,7 +198,8 @@ def main(words):
     programs, bodies, folder = words[1:4]
     default = (0.5, 0.25, 1.5, 1.0, 1.0)
     scenes = list(SCENES)
-    search = searched(programs, bodies, words[4] if len(words) == 5 else "2000")
+    samples = words[4] if len(words) == 5 else "2000"
+    search = searched(programs, bodies, samples)
     best = search["best"]["coefficients"]
     rows = peer(programs, scenes, DEFAULT, default) + peer(programs, scenes, BEST, best)
     for found in search["best_by_shape"].values():
@@ -169,7 +208,8 @@ def main(words):
         rows += peer(programs, [scene], ALONE, search["best_alone"][scene]["coefficients"])
     for integrator in ("Euler", "RK4"):
         rows += peer(programs, scenes, f"MuJoCo {integrator}", best, integrator)
-    rows += ours(programs, bodies)
+    rows += by_equations(programs, bodies, samples) + ours(programs, bodies)
+    equations = list(dict.fromkeys(row["model"] for row in rows if "MuJoCo" not in row["model"]))
     columns = ["fall", "model", "regime_cfd", "regime"] + list(FIGURES) + ["agrees", "seconds_per_step",
                                                                          "seconds_per_simulated_second"]
     with open(os.path.join(folder, "peers.csv"), "w", newline="", encoding="utf-8") as file:
@@ -177,7 +217,8 @@ def main(words):
         writer.writeheader()
         for row in rows:
             writer.writerow({key: f"{value:.4g}" if isinstance(value, float) else value for key, value in row.items()})
-    write_tables(os.path.join(folder, "peers.md"), [coefficients_table(search, default), table(rows), times(rows)],
+    write_tables(os.path.join(folder, "peers.md"), [coefficients_table(search, default), table(rows, (DEFAULT, BEST, SHAPE, ALONE, OURS)),
+                  table(rows, equations), times(rows)],
                  mark("falls"))
     subprocess.run(["gnuplot", "-e", f"rows='{folder}/peers.csv'; picture='{folder}/peers.png'", f"{folder}/peers.gp"],
                    check=True)
