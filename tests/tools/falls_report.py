@@ -87,6 +87,19 @@ def row_of(scene, comparison):
                   "yes" if comparison["agrees"] else "no"]
 
 
+def worst_figure(comparison):
+    """What a fall misses of its reference: the largest difference of its figures, none of them divided. A figure that one of
+    the two has alone counts as all of itself, another regime as no less; a sphere has its descent alone."""
+    figures = FIGURES if comparison["judges_inclination"] else FIGURES[:1]
+    misses = [0.0 if comparison["regimes_agree"] or not comparison["judges_inclination"] else 1.0]
+    for figure in figures:
+        measure = comparison["measures"].get(figure) or {}
+        if measure.get("motion") or measure.get("reference"):
+            difference = measure.get("relative_difference")
+            misses.append(1.0 if difference is None else abs(difference))
+    return max(misses)
+
+
 def percent(difference):
     return "-" if difference is None else f"{100 * difference:+.1f} %"
 

@@ -16,7 +16,7 @@ import subprocess
 import sys
 import tempfile
 
-from falls_report import FALLS, SCENES, baked_file, compared, run
+from falls_report import FALLS, SCENES, baked_file, compared, has_the_regime, run, worst_figure, worst_of
 from report_tables import mark, write_tables
 
 FIGURES = {"descent": "descent_speed", "frequency": "frequency", "amplitude": "inclination_amplitude",
@@ -52,11 +52,11 @@ def row_of(fall, who, comparison, step_seconds, second_seconds):
     row = {"fall": fall, "model": who, "seconds_per_step": step_seconds,
            "seconds_per_simulated_second": second_seconds}
     if comparison is None:
-        return row | {"regime": "breaks", "agrees": "no"}
+        return row | {"regime": "breaks", "worst": 1.0, "agrees": "no"}
     row |= {name: (comparison["measures"].get(figure) or {}).get("relative_difference")
             for name, figure in FIGURES.items()}
     return row | {"regime": comparison["motion"]["regime"], "regime_cfd": comparison["reference"]["regime"],
-                  "agrees": "yes" if comparison["agrees"] else "no"}
+                  "worst": worst_figure(comparison), "agrees": "yes" if comparison["agrees"] else "no"}
 
 
 def peer(programs, scenes, who, coefficients, integrator="implicit", model="mujoco"):
@@ -94,9 +94,11 @@ def reported(scene):
     number = {"descent": "descent_speed", "frequency": "frequency", "amplitude": "inclination_amplitude",
               "angular_speed": "rms_angular_speed"}
     differences = {name: row[f"{column}_difference"] for name, column in number.items()}
+    worst = abs(float(row["descent_speed_difference"])) if scene == "sphere" else worst_of(row)
     return {"fall": scene, "model": OURS, "regime_cfd": row["regime_cfd"], "regime": row["regime_runtime"],
             **{name: float(value) if value else None for name, value in differences.items()},
-            "agrees": row["agrees"], "seconds_per_step": None, "seconds_per_simulated_second": None}
+            "worst": worst if scene == "sphere" or has_the_regime(row) else max(worst, 1.0), "agrees": row["agrees"],
+            "seconds_per_step": None, "seconds_per_simulated_second": None}
 
 
 def ours(programs, bodies):
@@ -134,16 +136,7 @@ def cell(row):
 
 
 def worst_in_the_mean(rows):
-    """Undivided: a fall's worst figure, 100 % where it has one that the other has not, breaks or falls by another regime;
-    of a sphere the descent alone."""
-    worst = []
-    for row in rows:
-        of_sphere = row["fall"] == "sphere"
-        found = [row.get(name) for name in (["descent"] if of_sphere else FIGURES)]
-        size = max([1.0 if value is None else abs(value) for value in found])
-        wrong = row["regime"] == "breaks" or (not of_sphere and row["regime"] != row["regime_cfd"])
-        worst.append(max(size, 1.0) if wrong else size)
-    return f"{100 * sum(worst) / len(worst):.0f} %"
+    return f"{100 * sum(float(row['worst']) for row in rows) / len(rows):.0f} %"
 
 
 def table(rows, models):
@@ -210,7 +203,7 @@ def main(words):
         rows += peer(programs, scenes, f"MuJoCo {integrator}", best, integrator)
     rows += by_equations(programs, bodies, samples) + ours(programs, bodies)
     equations = list(dict.fromkeys(row["model"] for row in rows if "MuJoCo" not in row["model"]))
-    columns = ["fall", "model", "regime_cfd", "regime"] + list(FIGURES) + ["agrees", "seconds_per_step",
+    columns = ["fall", "model", "regime_cfd", "regime"] + list(FIGURES) + ["worst", "agrees", "seconds_per_step",
                                                                          "seconds_per_simulated_second"]
     with open(os.path.join(folder, "peers.csv"), "w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, columns, lineterminator="\n")
