@@ -4,11 +4,13 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "converter/cases/case_folder_reduction.hpp"
+#include "converter/cases/load_fluctuations.hpp"
 #include "converter/cases/samples_csv.hpp"
 #include "converter/convert.hpp"
 #include "converter/falls/identification_report.hpp"
@@ -166,6 +168,65 @@ nlohmann::json write_samples(const std::string& cases, const std::string& output
     return {{"output", output}, {"cases", reduction.cases.size()}, {"left_out", left_out}};
 }
 
+/// The cases in a folder that were solved in time, or the folder itself where it is a case.
+std::vector<std::filesystem::path> cases_in_time(const std::filesystem::path& folder) {
+    if (std::filesystem::exists(folder / "parameters")) return {folder};
+    std::vector<std::filesystem::path> cases;
+    std::error_code unreadable;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, unreadable)) {
+        if (is_solved_in_time(entry.path())) cases.push_back(entry.path());
+    }
+    if (cases.empty()) {
+        throw Error(
+            fmt::format("{}: holds no case that was solved in time (rateOfChange in `parameters` is "
+                        "not steadyState) and wrote its forces",
+                        folder.string()));
+    }
+    std::ranges::sort(cases);
+    return cases;
+}
+
+/// What the loads of cases that were solved in time do about their means.
+nlohmann::json write_fluctuations(const std::string& folder, const std::string& output,
+                                  const std::optional<double>& begin, bool print,
+                                  const CaseProgress& progress) {
+    std::vector<LoadFluctuations> reduced;
+    const std::vector<std::filesystem::path> cases = cases_in_time(folder);
+    for (const std::filesystem::path& one : cases) {
+        reduced.push_back(reduce_fluctuations(one, begin));
+        progress(reduced.size(), cases.size());
+    }
+    replace_file_with(output, fluctuations_csv(reduced));
+    std::filesystem::path spectra = output;
+    spectra.replace_extension(".spectra.csv");
+    replace_file_with(spectra, fluctuation_spectra_csv(reduced));
+    nlohmann::json rows = nlohmann::json::array();
+    if (print) {
+        print_result("{:<24} {:<10} {:>22} {:>22} {:>22} {:>10}\n", "case", "component", "mean", "rms",
+                     "correlation time (L/U)", "peak (U/L)");
+    }
+    for (const LoadFluctuations& one : reduced) {
+        for (std::size_t i = 0; i < one.components.size(); ++i) {
+            const SeriesFluctuation& of = one.components[i];
+            rows.push_back({{"case", one.name},
+                            {"component", load_components[i]},
+                            {"mean", of.mean.value},
+                            {"rms", of.rms.value},
+                            {"rms_error", of.rms.error},
+                            {"correlation_time", of.correlation_time.value},
+                            {"correlation_time_error", of.correlation_time.error},
+                            {"peak_frequency", or_null(of.peak_frequency)}});
+            if (!print) continue;
+            print_result("{:<24} {:<10} {:>22} {:>22} {:>22} {:>10}\n", one.name, load_components[i],
+                         with_error(of.mean.value, of.mean.error), with_error(of.rms.value, of.rms.error),
+                         with_error(of.correlation_time.value, of.correlation_time.error),
+                         of.peak_frequency ? fmt::format("{:.3g}", *of.peak_frequency) : "-");
+        }
+    }
+    if (print) print_result("\nspectra: {}\n", spectra.string());
+    return {{"output", output}, {"spectra", spectra.string()}, {"fluctuations", rows}};
+}
+
 nlohmann::json write_tables(const std::string& cases, const std::string& output, bool print,
                             const CaseProgress& progress) {
     std::optional<Progress> identification;
@@ -187,11 +248,20 @@ nlohmann::json write_tables(const std::string& cases, const std::string& output,
 int run(int argc, const char* const* argv) {
     std::string cases;
     std::string output;
+    bool fluctuations = false;
+    std::optional<double> begin;
     Arguments arguments("samara-convert",
                         "Turns solved OpenFOAM cases into the load and turbulence tables of a body file");
     arguments.positional("CASES", cases, "the folder NAME.cases that 'samara bake' made, or one of your own");
     arguments.required_option("-o,--output", output,
                               "the body file to write, NAME.body.h5; or NAME.csv for the cases one by one");
+    arguments.flag("--fluctuations", fluctuations,
+                   "of cases that were solved in time: mean, rms, correlation time and spectrum of each "
+                   "component of force and moment, to NAME.csv and NAME.spectra.csv");
+    arguments.option("--from", begin,
+                     "with --fluctuations: the time (L/U) from which on they are taken; the last two "
+                     "thirds where it is not given",
+                     0.0, 1e9);
     arguments.footer(
         "Reads plan.json, body.body.h5 and every solved case, and writes the body with /tables: force and\n"
         "moment coefficients, k/U^2 and epsilon L/U^3 over all directions, each with its standard error.\n"
@@ -200,6 +270,10 @@ int run(int argc, const char* const* argv) {
         "Example: samara convert rubber.cases -o rubber.body.h5");
     return run_program(argc, argv, arguments, [&] {
         const bool samples = output.ends_with(".csv");
+        if (fluctuations && !samples) {
+            throw Error(fmt::format("{}: fluctuations are a table; name it NAME.csv", output));
+        }
+        if (begin && !fluctuations) throw Error("--from goes with --fluctuations");
         if (!samples && !is_body_file_name(output)) {
             throw Error(
                 fmt::format("{}: the output is a body file or a table of cases; name it NAME.body.h5 "
@@ -210,6 +284,7 @@ int run(int argc, const char* const* argv) {
         const CaseProgress progress = [&](std::size_t done, std::size_t total) {
             bar.update(static_cast<double>(done), static_cast<double>(total));
         };
+        if (fluctuations) return write_fluctuations(cases, output, begin, !arguments.json(), progress);
         return samples ? write_samples(cases, output, !arguments.json(), progress)
                        : write_tables(cases, output, !arguments.json(), progress);
     });
