@@ -172,6 +172,12 @@ TEST(BadInput, ATruncatedOrForeignFileIsNamedInOneLine) {
     expect_refusal(folder, {"samara", "plot", "text.body.h5", "-o", "out.png"}, "text.body.h5");
     expect_refusal(folder, {"samara", "export", "text.body.h5", "-o", "out.glb"}, "text.body.h5");
     expect_refusal(folder, {"samara", "convert", "nowhere", "-o", "out.body.h5"}, "nowhere");
+    expect_refusal(folder, {"samara", "convert", "nowhere", "-o", "out.csv", "--fluctuations"},
+                   "holds no case that was solved in time");
+    expect_refusal(folder, {"samara", "convert", "nowhere", "-o", "out.body.h5", "--fluctuations"},
+                   "name it NAME.csv");
+    expect_refusal(folder, {"samara", "convert", "nowhere", "-o", "out.csv", "--from", "3"},
+                   "--from goes with --fluctuations");
 }
 
 TEST(BadInput, AnUnknownCommandOrOptionIsNamedInOneLine) {
