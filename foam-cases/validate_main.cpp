@@ -1,8 +1,9 @@
 // The program samara-validate: a scene by full CFD, as a motion file.
 
 #include <filesystem>
+#include <sstream>
 #include <string>
-#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -50,6 +51,16 @@ void print_plan(const BakePlan& plan) {
                  plan.cpu_seconds);
 }
 
+/// The one or two motion files of an option, which are refused before hours are spent.
+std::vector<std::filesystem::path> motions_of(const char* option, const std::string& words) {
+    std::vector<std::filesystem::path> files;
+    std::stringstream stream(words);
+    for (std::string file; std::getline(stream, file, ',');) files.emplace_back(file);
+    if (files.size() > 2) throw Error(fmt::format("{} takes one motion file, or two: A.h5,B.h5", option));
+    for (const std::filesystem::path& file : files) (void)MotionReader(file);
+    return files;
+}
+
 void warn_of_doubts(const ValidationResult& result) {
     const auto note = [](const std::string& text) { print_note("samara validate: note: {}\n", text); };
     const FallBalance& balance = result.balance;
@@ -77,12 +88,9 @@ nlohmann::json run_validation(const ValidateOptions& options, bool quiet) {
     request.output = options.output;
     request.cells = options.cells;
     request.time_step = options.step * fall_time_step;
-    for (const auto& [cause, file] :
-         {std::pair("mesh", &options.other_mesh), std::pair("closure", &options.other_closure)}) {
-        if (file->empty()) continue;
-        (void)MotionReader(*file);  // refused before hours are spent
-        request.beside.emplace(cause, *file);
-    }
+    request.beside = {{"mesh", motions_of("--other-mesh", options.other_mesh)},
+                      {"closure", motions_of("--other-closure", options.other_closure)}};
+    std::erase_if(request.beside, [](const auto& one) { return one.second.empty(); });
     if (options.dry_run) {
         const BakePlan plan = prepare_validation(request);
         if (!quiet) print_plan(plan);
@@ -127,8 +135,9 @@ int run(int argc, const char* const* argv) {
     arguments.option("--other-mesh", options.other_mesh,
                      "motion file of the same scene on another mesh: what it differs by is written as the "
                      "motion's uncertainty by its mesh, which samara compare reads");
-    arguments.option("--other-closure", options.other_closure,
-                     "the same by another closure on the same mesh");
+    arguments.option(
+        "--other-closure", options.other_closure,
+        "the same by another closure; or, A.h5,B.h5, two that differ in the closure alone, on another mesh");
     arguments.option("--cluster", options.cluster,
                      "a command of Slurm that submits a job: solves the fall as a job there");
     arguments.flag("--dry-run", options.dry_run, "only say what would be solved and how long it would take");

@@ -150,8 +150,9 @@ ValidationResult validate_scene(const ValidationRequest& request, const FarmOpti
     write_motion_file(request.output, result.motion);
     if (request.beside.empty()) return result;
     std::vector<FigureUncertainty>& uncertainties = result.motion.bodies.front().uncertainties;
-    for (const auto& [cause, other] : request.beside) {
-        std::ranges::copy(uncertainty_beside(request.output, other, cause),
+    for (const auto& [cause, others] : request.beside) {
+        const fs::path& reference = others.size() > 1 ? others.back() : request.output;
+        std::ranges::copy(uncertainty_beside(reference, others.front(), cause),
                           std::back_inserter(uncertainties));
     }
     write_motion_file(request.output, result.motion);

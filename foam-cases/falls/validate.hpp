@@ -22,8 +22,9 @@ struct ValidationRequest {
     double cells = 20'000.0;            ///< of the mesh, about
     double time_step = fall_time_step;  ///< over L/U
     /// Motion files of other solutions of the scene, by what they differ in ("mesh", "closure"): the
-    /// differences to them are written as the motion's uncertainties.
-    std::map<std::string, std::filesystem::path> beside;
+    /// differences between the two of a cause, or of the one to the output, are written as the motion's
+    /// uncertainties.
+    std::map<std::string, std::vector<std::filesystem::path>> beside;
 };
 
 /// Above these the momenta of a fall are said not to balance: twice what the worst of ten reference falls has

@@ -45,10 +45,12 @@ class Falls : public testing::Test {
                 "\"body\"\nshape = \"{}/meshes/shapes/{}.geo\"\nturbulence = \"none\"\n{}\n",
                 scene, SAMARA_SOURCE_DIRECTORY, shape, body)));
     }
-    [[nodiscard]] test::ProgramRun validate(const std::string& environment = "") const {
-        return test::run_program_in(
-            folder_, {"samara-validate", "scene.toml", "-o", "out.h5", "--cells", "6000", "--json"},
-            environment);
+    [[nodiscard]] test::ProgramRun validate(const std::string& environment = "",
+                                            const std::vector<std::string>& more = {}) const {
+        std::vector<std::string> words = {"samara-validate", "scene.toml", "-o",    "out.h5",
+                                          "--cells",         "6000",       "--json"};
+        words.insert(words.end(), more.begin(), more.end());
+        return test::run_program_in(folder_, words, environment);
     }
     [[nodiscard]] nlohmann::json solved(const std::string& environment = "") const {
         const test::ProgramRun run = validate(environment);
@@ -200,6 +202,22 @@ TEST_F(Falls, ASolvedFallIsReusedAndGivesTheSameBytes) {
     static_cast<void>(solved());
     EXPECT_EQ(read_bytes(folder_.path() / "out.h5"), bytes);
     EXPECT_EQ(fs::last_write_time(fall_ / "log.pimpleFoam"), time);
+}
+
+TEST_F(Falls, ASolvedFallSaysWhatItDiffersFromAnotherSolutionBy) {
+    write_scene("duration = 0.1", "sphere", "density = 1200");
+    static_cast<void>(solved());
+    Motion other = read_motion_file(folder_ / "out.h5");
+    for (Pose& pose : other.bodies[0].poses) pose.position = 1.1 * pose.position;
+    write_motion_file(folder_ / "other.h5", other);
+    ASSERT_EQ(validate("", {"--other-mesh", "other.h5", "--other-closure", "other.h5,out.h5"}).status, 0);
+    const Motion known = read_motion_file(folder_ / "out.h5");
+    ASSERT_EQ(known.bodies[0].uncertainties.size(), 2U);  // of a sphere the descent alone
+    for (const FigureUncertainty& one : known.bodies[0].uncertainties) {
+        EXPECT_EQ(one.figure, "descent_speed");
+        EXPECT_NEAR(one.relative, 0.1, 0.01) << one.cause;
+    }
+    EXPECT_EQ(known.bodies[0].poses.size(), other.bodies[0].poses.size());
 }
 
 TEST_F(Falls, WhoseSolverIsKilledSaySoAndGoOnFromTheLastState) {

@@ -85,6 +85,7 @@ TEST_F(Validate, RefusesNumbersOutOfRangeAndFilesThatAreNone) {
     EXPECT_THAT(fault({"--cluster", "qsub"}), HasSubstr("sbatch"));
     EXPECT_THAT(fault({"--other-mesh", "nowhere.h5"}), HasSubstr("nowhere.h5"));
     EXPECT_THAT(fault({"--other-closure", "ball.body.h5"}), HasSubstr("not a motion file"));
+    EXPECT_THAT(fault({"--other-closure", "a.h5,b.h5,c.h5"}), HasSubstr("one motion file, or two"));
 }
 
 TEST_F(Validate, SaysInADryRunWhatItWouldSolve) {
