@@ -170,7 +170,7 @@ std::vector<std::filesystem::path> history_files(const std::filesystem::path& fo
     std::vector<std::filesystem::path> files;
     for (const TimeFolder& run : time_folders(folder)) {
         const std::string time = run.path.filename().string();
-        for (const std::string& file : {name + ".dat", name + "_" + time + ".dat"}) {
+        for (const std::string& file : {name + ".dat", fmt::format("{}_{}.dat", name, time)}) {
             if (foam_file_exists(run.path / file)) files.push_back(run.path / file);
         }
     }

@@ -11,6 +11,7 @@ namespace {
 
 std::vector<Vector3d> directions_of(const std::vector<DirectionSample>& samples) {
     std::vector<Vector3d> directions;
+    directions.reserve(samples.size());
     for (const DirectionSample& sample : samples) directions.push_back(sample.direction);
     return directions;
 }

@@ -77,7 +77,7 @@ std::vector<WeightedDirection> direction_weights(const std::vector<FlowVisit>& v
     std::vector<double> even(wedge.directions.size(), 0.0);
     double nodes = 0.0;
     for (std::size_t node = 0; node < wedge.of_node.size(); ++node) {
-        const auto side = static_cast<std::size_t>(2 * weight_subdivisions + 1);
+        constexpr std::size_t side = 2 * std::size_t{weight_subdivisions} + 1;
         if (unique_node(weight_subdivisions, static_cast<int>(node / side), static_cast<int>(node % side)) !=
             node) {
             continue;
@@ -130,6 +130,7 @@ double mean_squared_spread(const Symmetry& symmetry, const std::vector<Vector3d>
                            const std::vector<std::size_t>& chosen,
                            const std::vector<WeightedDirection>& weights) {
     std::vector<Vector3d> directions;
+    directions.reserve(chosen.size());
     for (const std::size_t index : chosen) directions.push_back(candidates[index]);
     const DirectionFit fit(symmetry, directions);
     double sum = 0.0;

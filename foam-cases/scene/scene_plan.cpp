@@ -96,6 +96,7 @@ std::vector<std::size_t> by_weight(const std::vector<WeightedDirection>& weights
     }
     std::ranges::stable_sort(loads, {}, &std::pair<double, std::size_t>::first);
     std::vector<std::size_t> order;
+    order.reserve(loads.size());
     for (const auto& [load, index] : loads) order.push_back(index);
     return order;
 }

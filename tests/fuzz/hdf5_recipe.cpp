@@ -6,6 +6,7 @@
 #include <sstream>
 #include <utility>
 
+#include <fmt/format.h>
 #include <hdf5.h>
 
 #include "internal/base/content_hash.hpp"
@@ -289,7 +290,7 @@ herr_t add_object(hid_t file, const char* name, const H5O_info_t* /*info*/, void
     std::vector<std::string> attributes;
     H5Aiterate_by_name(file, object.c_str(), H5_INDEX_NAME, H5_ITER_INC, nullptr, add_attribute, &attributes,
                        H5P_DEFAULT);
-    for (const std::string& attribute : attributes) places.push_back(object + '@' + attribute);
+    for (const std::string& attribute : attributes) places.push_back(fmt::format("{}@{}", object, attribute));
     return 0;
 }
 

@@ -210,7 +210,11 @@ Body full_body() {
     body.symmetry.axes = Eigen::AngleAxisd(0.3, Vector3d::UnitY()).toRotationMatrix();
     body.symmetry.tolerance = 1e-6;
     KirchhoffTensor kirchhoff;
-    for (int i = 0; i < 36; ++i) kirchhoff.matrix(i / 6, i % 6) = 1e-3 / (1.0 + i / 6 + i % 6);
+    for (int row = 0; row < 6; ++row) {
+        for (int column = 0; column < 6; ++column) {
+            kirchhoff.matrix(row, column) = 1e-3 / (1.0 + row + column);
+        }
+    }
     kirchhoff.error_estimate = 0.0125;
     kirchhoff.asymmetry = 0.001;
     kirchhoff.triangles = 320;

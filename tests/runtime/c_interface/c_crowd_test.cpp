@@ -34,7 +34,7 @@ const Difference differences[] = {
      [](samara_settings&, samara_kind& kind) {
          kind.density = 0.0;
          kind.mass = 0.06;
-         for (int i = 0; i < 3; ++i) kind.inertia[4 * i] = 2e-5;
+         for (const std::size_t diagonal : {0U, 4U, 8U}) kind.inertia[diagonal] = 2e-5;
      }},
     {"loads", [](samara_settings&, samara_kind& kind) { kind.loads = SAMARA_LOADS_NONE; }},
     {"coefficients", [](samara_settings&, samara_kind& kind) { kind.loads = SAMARA_LOADS_COEFFICIENTS; }},

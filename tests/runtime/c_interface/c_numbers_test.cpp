@@ -106,7 +106,7 @@ samara_kind lively_kind(int variant) {
     kind.density = 0.0;
     kind.mass = 0.04;
     kind.has_center_of_mass = 1;
-    for (int i = 0; i < 3; ++i) kind.inertia[4 * i] = 1e-5;
+    for (const std::size_t diagonal : {0U, 4U, 8U}) kind.inertia[diagonal] = 1e-5;
     return kind;
 }
 

@@ -26,7 +26,7 @@ TEST(SeenFluid, HasTheVarianceOfTheTurbulenceWhateverTheStep) {
         double rotation = 0.0;
         constexpr int steps = 400'000;
         for (int step = -200; step < steps; ++step) {
-            seen = advance_seen_fluid(body, level, seen, h, noise, static_cast<std::uint64_t>(step + 200));
+            seen = advance_seen_fluid(body, level, seen, h, noise, static_cast<std::uint64_t>(step) + 200U);
             if (step < 0) continue;
             velocity += seen.velocity.squaredNorm() / 3.0 / steps;
             rotation += seen.angular_velocity.squaredNorm() / 3.0 / steps;

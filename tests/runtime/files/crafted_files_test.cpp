@@ -83,8 +83,8 @@ TEST_F(CraftedBody, TablesThatClaimGigabytesAreRefusedEverywhere) {
         body.tables->reynolds_numbers[i] = 1.0 + static_cast<double>(i);
     }
     body.tables->subdivisions = 1;
-    body.tables->entries.resize(20'000 * 9);
-    body.tables->errors.resize(20'000 * 9);
+    body.tables->entries.resize(std::size_t{20'000} * 9);
+    body.tables->errors.resize(std::size_t{20'000} * 9);
     write_body_file(file_, body);
     {
         const H5::H5File file(file_.string(), H5F_ACC_RDWR);

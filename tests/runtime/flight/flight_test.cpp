@@ -67,7 +67,7 @@ TEST(Flight, NumbersTheCopiesOfARunTogether) {
         alone.add(rubber(), physics, {.count = 3, .spread_angle = 1.0}, "a");
         alone.advance_to(0.5);
         for (std::size_t copy = 0; copy < 3; ++copy) {
-            EXPECT_TRUE(same(flight.pose(3 * run + copy), alone.pose(copy)));
+            EXPECT_TRUE(same(flight.pose(std::size_t{3} * run + copy), alone.pose(copy)));
         }
     }
 }

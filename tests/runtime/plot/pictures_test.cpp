@@ -28,7 +28,8 @@ struct NamedMotion {
     std::function<Motion()> make;
 };
 
-void PrintTo(const NamedMotion& motion, std::ostream* out) {
+void PrintTo(const NamedMotion& motion,  // NOLINT(readability-identifier-naming): googletest's name
+             std::ostream* out) {
     *out << motion.name;
 }
 
