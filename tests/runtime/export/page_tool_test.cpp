@@ -35,7 +35,8 @@ Motion ellipsoid_and_cubes(int copies) {
     for (const double time : motion.times) {
         for (int copy = 0; copy < copies; ++copy) {
             Pose pose = test::wander(time + copy);
-            pose.position = Vector3d(0.3 + 0.05 * (copy % 20), 0.1 * (copy / 20), -0.3 * time);
+            const int row = copy / 20;
+            pose.position = Vector3d(0.3 + 0.05 * (copy % 20), 0.1 * row, -0.3 * time);
             cube.poses.push_back(pose);
         }
     }
