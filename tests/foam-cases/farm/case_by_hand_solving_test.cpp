@@ -78,7 +78,7 @@ class CaseByHand : public testing::Test {
         std::string text = read_bytes(folder / "parameters");
         for (const auto& [name, value] : values) {
             const std::string before = text;
-            text = std::regex_replace(text, std::regex("\n" + name + " [^;]*;"),
+            text = std::regex_replace(text, std::regex(fmt::format("\n{} [^;]*;", name)),
                                       fmt::format("\n{} {};", name, value));
             ASSERT_NE(text, before) << name;
         }
