@@ -1,0 +1,145 @@
+#!/usr/bin/env python3
+"""The cases of docs/nature.md: what is measured of a fall, the scenes, the fruits' mass and the tables. Run by ctest."""
+
+import csv
+import math
+import os
+import sys
+import tempfile
+import unittest
+
+sys.dont_write_bytecode = True
+HERE = os.path.dirname(os.path.abspath(__file__))
+PROJECT = os.path.join(HERE, "..", "..", "..")
+sys.path.insert(0, os.path.join(HERE, "..", "..", "tools"))
+import nature_fruit  # noqa: E402
+import nature_scenes  # noqa: E402
+from gnuplot_picture import Pose, rotation_of  # noqa: E402
+from nature_measure import coning, drift, first_acceleration, horizontal_speed, measured, peak_speed, spin, turning_rate  # noqa: E402
+from nature_study import ACCELERATIONS, CASES, REGIME, added_mass, first_acceleration as exact_acceleration, terminal_speed  # noqa: E402
+from nature_tables import DERIVED, bracket, derived, merged, misses, told  # noqa: E402
+
+UPRIGHT = rotation_of(1, 0, 0, 0)
+
+
+def fall(velocity, turning=lambda t: (0, 0, 0), rotation=UPRIGHT, seconds=2.0, frames=201):
+    times = [seconds * i / (frames - 1) for i in range(frames)]
+    return [Pose(t, (0, 0, 0), rotation, velocity(t), turning(t)) for t in times]
+
+
+def published():
+    with open(os.path.join(PROJECT, "docs", "nature", "published.csv"), newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+class Measures(unittest.TestCase):
+    def test_the_first_acceleration_is_read_past_a_jolt_and_before_drag(self):
+        jolted = fall(lambda t: (0, 0, -(2 * t - 0.5 * t * t + (0.03 if t > 0.01 else 0))), seconds=0.5)
+        self.assertAlmostEqual(first_acceleration(jolted)[0], 2.0, 3)
+
+    def test_a_straight_fall_drifts_nowhere_and_an_aslant_one_by_its_angle(self):
+        self.assertEqual(drift(fall(lambda t: (0, 0, -1)))[0], 0.0)
+        self.assertAlmostEqual(drift(fall(lambda t: (1, 0, -1)))[0], 45.0)
+
+    def test_swings_to_and_fro_are_neither_a_speed_nor_a_turning_rate(self):
+        swings = fall(lambda t: (math.cos(20 * math.pi * t), 0, -1), lambda t: (math.cos(20 * math.pi * t), 0, 0), seconds=3.0, frames=3001)
+        self.assertLess(horizontal_speed(swings)[0], 0.01)
+        self.assertLess(turning_rate(swings)[0], 0.01)
+
+    def test_a_seed_spins_and_cones(self):
+        raised = rotation_of(math.cos(-0.15), 0, math.sin(-0.15), 0)  # by 0.3 rad
+        seed = fall(lambda t: (0, 0, -1), lambda t: (0, 0, -4 * math.pi), raised)
+        self.assertAlmostEqual(spin(seed)[0], 2.0)
+        self.assertAlmostEqual(coning(seed)[0], math.degrees(0.3))
+
+    def test_the_peak_is_downwards(self):
+        self.assertEqual(peak_speed(fall(lambda t: (9, 0, 3 - 4 * t)))[0], 5.0)
+
+    def test_every_quantity_of_every_case_can_be_measured(self):
+        poses = fall(lambda t: (0.1, 0, -1 - t), lambda t: (0, 0, 1))
+        for case in CASES:
+            for quantity in case.measures:
+                if quantity != REGIME:
+                    self.assertTrue(math.isfinite(measured(case, quantity, poses)[0]), case.name)
+
+
+class Study(unittest.TestCase):
+    def test_added_mass_of_spheres_and_ellipsoids_is_lambs(self):
+        self.assertAlmostEqual(added_mass((1, 1, 1), 0), 0.5, 5)
+        for axis, coefficient in enumerate((1.518, 0.398, 0.127)):
+            self.assertAlmostEqual(added_mass((1, 2, 4), axis), coefficient, 3)
+
+    def test_the_exact_accelerations_are_those_that_are_published(self):
+        figures = {row["case"]: float(row["value"]) for row in published() if row["verified"] == "exact"}
+        for name, body in ACCELERATIONS.items():
+            self.assertAlmostEqual(figures[name], exact_acceleration(*body), 5)
+
+    def test_a_slow_sphere_sinks_as_stokes_says(self):
+        self.assertAlmostEqual(terminal_speed(1e-4, 1.5, 1e-4) / (0.5 * 9.81 * 1e-8 / 18 / 1e-4), 1.0, 2)
+
+    def test_the_scenes_are_those_that_are_written(self):
+        with tempfile.TemporaryDirectory() as folder:
+            nature_scenes.main(folder)
+            for name in os.listdir(folder):
+                with open(os.path.join(folder, name), encoding="utf-8") as new, \
+                        open(os.path.join(PROJECT, "docs", "nature", name), encoding="utf-8") as kept:
+                    self.assertEqual(new.read(), kept.read(), name)
+        for case in CASES:
+            self.assertTrue(os.path.exists(os.path.join(PROJECT, case.scene)), case.scene)
+            if case.reference:
+                self.assertTrue(os.path.exists(os.path.join(PROJECT, case.reference)), case.reference)
+
+
+class Fruits(unittest.TestCase):
+    def test_have_the_volume_of_the_authors_cad_model(self):
+        # Wings upright, radius of curvature 30 mm: 5986.4 mm^3 outside, 2918.6 mm^3 of plastic, less two holes in the pod's wall.
+        self.assertAlmostEqual(nature_fruit.outer_volume(0.1, 30) / 5986.4, 1.0, 3)
+        holes = 2 * math.pi * 1.5 ** 2 * nature_fruit.POD_WALL
+        self.assertAlmostEqual((nature_fruit.plastic_volume(0.1, 30) - holes) / 2918.6, 1.0, 3)
+
+    def test_a_heavier_payload_hangs_lower(self):
+        masses = [nature_fruit.mass_properties(0, 26, payload) for payload in (0.54, 2.16, 4.0)]
+        self.assertEqual(sorted(masses), masses)
+        self.assertEqual([mass[1] for mass in masses], sorted((mass[1] for mass in masses), reverse=True))
+        for _, _, inertia in masses:
+            self.assertGreater(min(inertia[i][i] for i in range(3)), 0)
+
+
+class Tables(unittest.TestCase):
+    def test_every_published_figure_is_of_a_case_that_measures_it(self):
+        measures = {case.name: case.measures for case in CASES}
+        for row in published():
+            self.assertIn(row["verified"], ("yes", "in part", "no", "exact"))
+            if row["case"] not in DERIVED:
+                self.assertIn(row["quantity"], measures[row["case"]], row["case"])
+
+    def test_what_is_not_measured_is_not_solved_yet(self):
+        rows = merged(published(), [])
+        self.assertEqual(len(rows), len(published()))
+        self.assertEqual({told(row, column) for row in rows for column in ("runtime", "cfd")}, {"not solved yet"})
+
+    def test_a_miss_is_bold_and_a_figure_within_the_uncertainty_is_not(self):
+        def row(speed):
+            found = merged(published(), [{"case": "sphere-ga-144", "quantity": "descent speed", "model": "runtime", "value": speed,
+                                          "error": "0", "by": ""}])
+            return next(each for each in found if each["case"] == "sphere-ga-144" and each["quantity"] == "descent speed")
+
+        speed = 1.285 * 0.442944691807
+        self.assertEqual(told(row(str(speed)), "runtime"), "1.285 (+0.0 %)")
+        self.assertFalse(misses(row(str(1.004 * speed)), "runtime"))
+        self.assertTrue(told(row(str(0.95 * speed)), "runtime").startswith("**"))
+
+    def test_a_transition_lies_between_the_last_and_the_first(self):
+        self.assertEqual(bracket([(0.4, "fluttering"), (0.6, "fluttering"), (0.8, "tumbling")], "fluttering", "tumbling"), "between 0.6 and 0.8")
+        self.assertEqual(bracket([(0.4, "fluttering")], "fluttering", "tumbling"), "above 0.4")
+        self.assertIsNone(bracket([], "fluttering", "tumbling"))
+
+    def test_the_cards_exponents_are_those_of_their_rates(self):
+        rates = {"card-20-0_3": 10.0, "card-20-0_6": 10.0 * math.sqrt(2), "card-30-0_3": 10.0 * 2 / 3}
+        found = derived({(name, "turning rate"): rate for name, rate in rates.items()})
+        self.assertEqual(found["cards", "exponent of the thickness"], "0.5")
+        self.assertEqual(found["cards", "exponent of the width"], "-1")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,171 @@
+#!/usr/bin/env python3
+"""The cases of nature_study.py flown by the runtime and solved by full CFD, and what is measured of them.
+
+    nature_report.py BIN WORK ROWS.csv [SECONDS [CASE...]]
+
+BIN: the folder of the programs. WORK: WORK/bodies holds what is baked and WORK/full-cfd the falls that are solved; what is there
+and made from the scene as it is now is used again, and a bake or fall that was stopped goes on. SECONDS (1200): how many CPU
+seconds of bakes and falls are begun in this run, by the programs' own estimates; the cheapest come first, one after the other.
+CASE: only these. With 0 seconds everything is measured anew from what is there. Writes ROWS.csv, a row for each case, quantity
+and model that is measured, and beside it costs.csv, what each bake and fall is estimated to cost. Run from the project's folder.
+"""
+
+import collections
+import csv
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True
+from gnuplot_picture import flights  # noqa: E402
+from nature_measure import measured  # noqa: E402
+from nature_study import CASES, REGIME  # noqa: E402
+
+COLUMNS = ("case", "quantity", "model", "value", "error", "by")
+RUNTIME, FULL_CFD = "runtime", "full CFD"
+COSTS = ("case", "bake", "fall")
+
+
+def read(path):
+    with open(path, encoding="utf-8") as file:
+        return file.read()
+
+
+def run(words):
+    """What a program prints as JSON; a line of what it says on its way goes on. None where it fails."""
+    result = subprocess.run(words, check=False, stdout=subprocess.PIPE, text=True)
+    return json.loads(result.stdout) if result.returncode == 0 else None
+
+
+class Made:
+    """A file that a program makes from a scene, with a copy of the scene beside it: what was made from another one is made anew."""
+
+    def __init__(self, folder, name, ending):
+        self.file = os.path.join(folder, name + ending)
+        self.scene = os.path.join(folder, name + ".toml")
+
+    def is_there(self, scene):
+        return os.path.exists(self.file) and os.path.exists(self.scene) and read(self.scene) == read(scene)
+
+    def note(self, scene):
+        shutil.copy(scene, self.scene)
+
+
+def baked(work, case):
+    return Made(os.path.join(work, "bodies"), case.name, ".body.h5")
+
+
+def solved(work, case):
+    return Made(os.path.join(work, "full-cfd"), case.name, ".h5")
+
+
+def bake_words(programs, work, case):
+    return [f"{programs}/samara", "bake", case.scene, "-o", os.path.join(work, "bodies"), "--quality", case.quality, "--jobs", "1",
+            "--json"]
+
+
+def fall_words(programs, work, case):
+    return [f"{programs}/samara", "validate", case.scene, "-o", solved(work, case).file, "--cells", str(case.cells), "--json"]
+
+
+def estimated_costs(programs, work, case):
+    """CPU seconds of the bake and of the fall; None for what a case does not need, or where the program cannot tell."""
+    bake = run(bake_words(programs, work, case) + ["--dry-run"]) if case.quality else None
+    fall = None if case.reference else run(fall_words(programs, work, case) + ["--dry-run"])
+    return (sum(body["estimated_cpu_seconds"] for body in bake["bodies"]) if bake else None,
+            fall["estimated_cpu_seconds"] if fall else None)
+
+
+def costs_of(programs, work, cases):
+    """{case: (bake, fall)}, kept in WORK/costs.json as long as the scene stays as it is."""
+    kept_file = os.path.join(work, "costs.json")
+    kept = json.loads(read(kept_file)) if os.path.exists(kept_file) else {}
+    for case in cases:
+        scene = [read(case.scene), case.quality, case.cells]
+        if kept.get(case.name, {}).get("of") != scene:
+            found = estimated_costs(programs, work, case)
+            kept[case.name] = {"of": scene if any(found) else None, "costs": found}
+            with open(kept_file, "w", encoding="utf-8") as file:
+                json.dump(kept, file)
+    return {case.name: kept[case.name]["costs"] for case in cases}
+
+
+def make(programs, work, cases, costs, budget):
+    """Bakes and solves what is missing, the cheapest first, until the budget is spent."""
+    missing = []
+    for case in cases:
+        bake, fall = costs[case.name]
+        if bake is not None and not baked(work, case).is_there(case.scene):
+            missing.append((bake, case, "bake", bake_words, baked))
+        if fall is not None and not solved(work, case).is_there(case.scene):
+            missing.append((fall, case, "full CFD", fall_words, solved))
+    for seconds, case, what, words, made in sorted(missing, key=lambda entry: entry[0]):
+        if seconds > budget:
+            print(f"{case.name}: {what} left, about {seconds:.0f} CPU s", flush=True)
+            continue
+        budget -= seconds
+        print(f"{case.name}: {what}, about {seconds:.0f} CPU s", flush=True)
+        if run(words(programs, work, case)) is None:
+            print(f"{case.name}: {what} failed", flush=True)
+        else:
+            made(work, case).note(case.scene)
+
+
+def rows_of(programs, case, model, motion):
+    told = run([f"{programs}/samara", "info", motion, "--json"])["bodies"][0]
+    poses = next(iter(flights(programs, motion).values()))
+    for quantity in case.measures:
+        value, error = (told["regime"], "") if quantity == REGIME else measured(case, quantity, poses)
+        yield {"case": case.name, "quantity": quantity, "model": model,
+               "value": value if quantity == REGIME else f"{value:.6g}",
+               "error": error if quantity == REGIME else f"{error:.2g}", "by": told["models"]}
+
+
+def motions_of(programs, work, case, folder):
+    """(model, motion file) of what can be flown and is solved."""
+    if not case.quality or baked(work, case).is_there(case.scene):
+        motion = os.path.join(folder, f"{case.name}.h5")
+        words = [f"{programs}/samara", "simulate", case.scene, "-o", motion, "--json"]
+        if run(words + (["--bodies", os.path.join(work, "bodies")] if case.quality else [])) is not None:
+            yield RUNTIME, motion
+    fall = solved(work, case)
+    if case.reference or fall.is_there(case.scene):
+        yield FULL_CFD, case.reference or fall.file
+
+
+def write(path, columns, rows):
+    with open(path + ".part", "w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, columns, lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+    shutil.move(path + ".part", path)
+
+
+def main(programs, work, target, budget=1200.0, names=()):
+    for name in ("bodies", "full-cfd"):
+        os.makedirs(os.path.join(work, name), exist_ok=True)
+    unknown = set(names) - {case.name for case in CASES}
+    if unknown:
+        sys.exit(f"no such case: {', '.join(sorted(unknown))}")
+    costs = costs_of(programs, work, CASES)
+    make(programs, work, [case for case in CASES if not names or case.name in names], costs, float(budget))
+    rows = []
+    with tempfile.TemporaryDirectory() as folder:
+        for case in CASES:
+            for model, motion in motions_of(programs, work, case, folder):
+                rows += rows_of(programs, case, model, motion)
+    write(target, COLUMNS, rows)
+    write(os.path.join(os.path.dirname(target), "costs.csv"), COSTS,
+          [{"case": name, "bake": bake, "fall": fall} for name, (bake, fall) in costs.items()])
+    found = collections.Counter(row["model"] for row in rows)
+    print(f"Measured: {found[RUNTIME]} figures of the runtime, {found[FULL_CFD]} of full CFD, of {sum(len(case.measures) for case in CASES)}")
+    return 0
+
+
+if __name__ == "__main__":
+    if len(sys.argv) < 4:
+        sys.exit(__doc__)
+    sys.exit(main(*sys.argv[1:5], names=sys.argv[5:]))

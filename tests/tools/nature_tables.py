@@ -1,0 +1,229 @@
+#!/usr/bin/env python3
+"""docs/nature.csv and the tables of docs/nature.md, from what nature_report.py wrote and docs/nature/published.csv.
+
+    nature_tables.py ROWS.csv DOCS
+
+Reads costs.csv beside ROWS.csv too.
+"""
+
+import csv
+import math
+import os
+import sys
+
+sys.dont_write_bytecode = True
+from nature_report import FULL_CFD, RUNTIME, write  # noqa: E402
+from nature_study import CARDS, CASES, REGIME, SPHERES, STRIP_FROUDE_NUMBERS, card_name, strip_name  # noqa: E402
+from report_tables import mark, write_tables  # noqa: E402
+
+MODELS = {RUNTIME: "runtime", FULL_CFD: "cfd"}
+COLUMNS = ("case", "group", "quantity", "published", "uncertainty", "unit", "verified", "runtime", "runtime_error", "runtime_ratio",
+           "cfd", "cfd_error", "cfd_ratio")
+GROUPS = ("acceleration", "spheres", "plates", "discs", "fruits")
+# What is worked out from several cases, with the group that it stands in.
+DERIVED = {"onset": ("spheres", "onset of the path's asymmetry"), "strips": ("plates", "strips"), "cards": ("plates", "cards")}
+EXACT_LIMIT = 0.03  # of the figures that have no uncertainty of their own because they are exact
+STRAIGHT = 1.0  # degrees of drift
+
+
+def rows_from(path):
+    if not os.path.exists(path):
+        return []
+    with open(path, newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def as_number(text):
+    try:
+        return float(text)
+    except ValueError:
+        return None
+
+
+def bracket(points, low, high):
+    """'between a and b' of points (x, what there is): the last that is low before the first that is high; None where it is open."""
+    lows = [x for x, what in points if what == low]
+    highs = [x for x, what in points if what == high]
+    if not lows and not highs:
+        return None
+    if not highs:
+        return f"above {max(lows):g}"
+    if not lows:
+        return f"below {min(highs):g}"
+    if max(lows) > min(highs):
+        return f"not sharp: {low} at {max(lows):g}, {high} at {min(highs):g}"
+    return f"between {max(lows):g} and {min(highs):g}"
+
+
+def exponent(found, first, second, ratio):
+    """Of a quantity that goes as a power of what the two cases differ by."""
+    a, b = (found.get((name, "turning rate")) for name in (first, second))
+    return f"{math.log(b / a) / math.log(ratio):.3g}" if a and b else None
+
+
+def derived(values):
+    """{(case, quantity): text} of one model's {(case, quantity): number or regime}."""
+    drifts = [(galileo, values.get((f"sphere-ga-{galileo}", "drift"))) for galileo in SPHERES]
+    strips = [(froude, values.get((strip_name(froude), REGIME))) for froude in STRIP_FROUDE_NUMBERS]
+    card, thicker, wider = (card_name(*each) for each in CARDS)
+    figures = {
+        ("onset", "Galileo number"): bracket([(galileo, "aslant" if angle > STRAIGHT else "straight")
+                                              for galileo, angle in drifts if angle is not None], "straight", "aslant"),
+        ("strips", "Froude number of the transition"): bracket([point for point in strips if point[1]], "fluttering", "tumbling"),
+        ("cards", "exponent of the thickness"): exponent(values, card, thicker, CARDS[1][1] / CARDS[0][1]),
+        ("cards", "exponent of the width"): exponent(values, card, wider, CARDS[2][0] / CARDS[0][0]),
+    }
+    return {key: text for key, text in figures.items() if text is not None}
+
+
+def in_its_unit(case, quantity, unit, row):
+    """(value, error) of a measured row in the unit that is published."""
+    if quantity == REGIME:
+        return row["value"], None
+    scale = case.scales.get(unit, 1.0)
+    return float(row["value"]) / scale, float(row["error"]) / scale
+
+
+def merged(published, rows):
+    """The rows of nature.csv: every published figure, and every measured one that has none."""
+    cases = {case.name: case for case in CASES}
+    found = {(row["case"], row["quantity"], row["model"]): row for row in rows}
+    values = {model: {(row["case"], row["quantity"]): as_number(row["value"]) if row["quantity"] != REGIME else row["value"]
+                      for row in rows if row["model"] == model} for model in MODELS}
+    together = {model: derived(values[model]) for model in MODELS}
+    order = {name: place for place, name in enumerate([case.name for case in CASES] + list(DERIVED))}
+    result = []
+    for figure in sorted(published, key=lambda row: order[row["case"]]):
+        name, quantity, unit = figure["case"], figure["quantity"], figure["unit"]
+        row = dict.fromkeys(COLUMNS, "") | {
+            "case": name, "group": cases[name].group if name in cases else DERIVED[name][0], "quantity": quantity,
+            "published": figure["value"], "uncertainty": figure["uncertainty"], "unit": unit, "verified": figure["verified"]}
+        for model, column in MODELS.items():
+            if (name, quantity) in together[model]:
+                row[column] = together[model][name, quantity]
+            elif (name, quantity, model) in found:
+                value, error = in_its_unit(cases[name], quantity, unit, found[name, quantity, model])
+                row[column] = value if error is None else f"{value:.4g}"
+                row[f"{column}_error"] = "" if error is None else f"{error:.2g}"
+            ratio = ratio_of(row, column)
+            row[f"{column}_ratio"] = "" if ratio is None else f"{ratio:.4g}"
+        result.append(row)
+    return result
+
+
+def ratio_of(row, column):
+    value, published = as_number(row[column]), as_number(row["published"])
+    return value / published if value is not None and published else None
+
+
+def misses(row, column):
+    """Whether a measured figure lies outside the published one's uncertainty and its own error; None where that cannot be said."""
+    if not row[column]:
+        return None
+    published, value = as_number(row["published"]), as_number(row[column])
+    if published is None:
+        return row[column] != row["published"] if row["quantity"] == REGIME and row["published"] != "at the transition" else None
+    if value is None or not row["uncertainty"]:
+        return None
+    allowed = EXACT_LIMIT * published if row["verified"] == "exact" else float(row["uncertainty"])
+    return abs(value - published) > allowed + float(row[f"{column}_error"] or 0)
+
+
+def told(row, column):
+    """A cell of the table."""
+    if not row[column]:
+        return "not solved yet"
+    text = row[column]
+    error = as_number(row[f"{column}_error"])
+    if error:
+        text += f" +- {error:.2g}"
+    ratio = ratio_of(row, column)
+    if ratio is not None:
+        text += f" ({100 * (ratio - 1):+.1f} %)"
+    return f"**{text}**" if misses(row, column) else text
+
+
+def title(name):
+    if name in DERIVED:
+        return DERIVED[name][1]
+    case = next(case for case in CASES if case.name == name)
+    scene = os.path.relpath(case.scene, "docs")
+    return f"[{case.text}]({scene})"
+
+
+def table(head, lines):
+    return "\n".join(["| " + " | ".join(head) + " |", "|---" * len(head) + "|"]
+                     + ["| " + " | ".join(line) + " |" for line in lines]) + "\n"
+
+
+def group_table(rows, group):
+    def lines():
+        before = None
+        for row in rows:
+            if row["group"] != group:
+                continue
+            published = row["published"] + (f" +- {row['uncertainty']}" if as_number(row["uncertainty"]) else "")
+            unit = row["unit"] if row["unit"] not in ("", "-") else ""
+            yield [title(row["case"]) if row["case"] != before else "", row["quantity"] + (f", {unit}" if unit else ""), published,
+                   row["verified"], told(row, "runtime"), told(row, "cfd")]
+            before = row["case"]
+
+    return table(["case", "figure", "published", "verified", "runtime", "full CFD"], lines())
+
+
+def tally_table(rows):
+    """How many figures hold, of those that can be judged."""
+    def lines():
+        for group in (*GROUPS, None):
+            cells = ["all" if group is None else group, str(sum(group in (None, row["group"]) for row in rows))]
+            for column in MODELS.values():
+                verdicts = [misses(row, column) for row in rows if group in (None, row["group"])]
+                judged = [verdict for verdict in verdicts if verdict is not None]
+                cells.append(f"{judged.count(False)} of {len(judged)}")
+            yield cells
+
+    return table(["group", "figures", "runtime within", "full CFD within"], lines())
+
+
+def cost_table(rows, costs):
+    """What is left, and what it is estimated to cost."""
+    done = {(row["case"], model) for row in rows for model in MODELS if row[MODELS[model]]}
+
+    def cell(cost, name, model):
+        return "done" if (name, model) in done else f"{float(cost):,.0f}" if cost else "no estimate"
+
+    def lines():
+        for cost in costs:
+            case = next((case for case in CASES if case.name == cost["case"]), None)
+            if case is None or all((case.name, model) in done for model in MODELS):
+                continue
+            yield [case.name, cell(cost["bake"], case.name, RUNTIME), cell(cost["fall"], case.name, FULL_CFD)]
+
+    return table(["case", "bake, CPU s", "full CFD, CPU s"], lines())
+
+
+def source_table(published):
+    def lines():
+        before = None
+        for row in published:
+            told_of = (row["source"], row["verified"], row["seen"])
+            if row["source"] not in ("the same",) and told_of != before:
+                yield [row["case"], row["source"], row["verified"], row["seen"] or "-"]
+            before = told_of
+
+    return table(["from", "source", "verified", "where it was seen, and what is ours"], lines())
+
+
+def main(source, docs):
+    published = rows_from(os.path.join(docs, "nature", "published.csv"))
+    rows = merged(published, rows_from(source))
+    write(os.path.join(docs, "nature.csv"), COLUMNS, rows)
+    costs = rows_from(os.path.join(os.path.dirname(source), "costs.csv"))
+    write_tables(os.path.join(docs, "nature.md"), [tally_table(rows), *(group_table(rows, group) for group in GROUPS),
+                                                   cost_table(rows, costs), source_table(published)], mark("nature"))
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    main(*sys.argv[1:])
