@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""docs/nature.csv and the tables of docs/nature.md, from what nature_report.py wrote and docs/nature/published.csv.
+"""docs/nature.csv, docs/nature.png and the tables of docs/nature.md, from what nature_report.py wrote and docs/nature/published.csv.
 
     nature_tables.py ROWS.csv DOCS
 
@@ -12,6 +12,7 @@ import os
 import sys
 
 sys.dont_write_bytecode = True
+from gnuplot_picture import block, draw  # noqa: E402
 from nature_report import FULL_CFD, RUNTIME, write  # noqa: E402
 from nature_study import CARDS, CASES, REGIME, SPHERES, STRIP_FROUDE_NUMBERS, card_name, strip_name  # noqa: E402
 from report_tables import mark, write_tables  # noqa: E402
@@ -21,7 +22,9 @@ COLUMNS = ("case", "group", "quantity", "published", "uncertainty", "unit", "ver
            "cfd", "cfd_error", "cfd_ratio")
 GROUPS = ("acceleration", "spheres", "plates", "discs", "fruits")
 # What is worked out from several cases, with the group that it stands in.
-DERIVED = {"onset": ("spheres", "onset of the path's asymmetry"), "strips": ("plates", "strips"), "cards": ("plates", "cards")}
+DERIVED = {"onset": ("spheres", "onset of the path's asymmetry"), "rising": ("spheres", "rising spheres"),
+           "strips": ("plates", "strips"), "cards": ("plates", "cards")}
+WITHOUT_CASE = ("fixed", "zigzags")  # words of the quantities that no scene here measures
 EXACT_LIMIT = 0.03  # of the figures that have no uncertainty of their own because they are exact
 STRAIGHT = 1.0  # degrees of drift
 
@@ -132,14 +135,14 @@ def misses(row, column):
 def told(row, column):
     """A cell of the table."""
     if not row[column]:
-        return "not solved yet"
+        return "no case yet" if any(word in row["quantity"] for word in WITHOUT_CASE) else "not solved yet"
     text = row[column]
     error = as_number(row[f"{column}_error"])
-    if error:
+    if error and error > 1e-4 * abs(float(row[column])):
         text += f" +- {error:.2g}"
     ratio = ratio_of(row, column)
     if ratio is not None:
-        text += f" ({100 * (ratio - 1):+.1f} %)"
+        text += f" ({100 * (ratio - 1) + 0.0:+.1f} %)".replace("-0.0 %", "+0.0 %")
     return f"**{text}**" if misses(row, column) else text
 
 
@@ -203,15 +206,45 @@ def cost_table(rows, costs):
 
 
 def source_table(published):
-    def lines():
-        before = None
-        for row in published:
-            told_of = (row["source"], row["verified"], row["seen"])
-            if row["source"] not in ("the same",) and told_of != before:
-                yield [row["case"], row["source"], row["verified"], row["seen"] or "-"]
-            before = told_of
+    """Every source once, with what is said of the first figure that it is for."""
+    first = {}
+    for row in published:
+        if row["source"] != "the same":
+            first.setdefault(row["source"], row)
+    return table(["source", "for", "verified", "where it was seen, and what is ours"],
+                 ([source, row["case"], row["verified"], row["seen"] or "-"] for source, row in first.items()))
 
-    return table(["from", "source", "verified", "where it was seen, and what is ours"], lines())
+
+def picture(rows, file):
+    """Measured over published, of every figure of which there is such a ratio; a bar spans the published one's uncertainty."""
+    shown = [row for row in rows if row["runtime_ratio"] or row["cfd_ratio"]]
+
+    def points(column, aside):
+        for place, row in enumerate(shown):
+            if row[f"{column}_ratio"]:
+                yield place + aside, float(row[f"{column}_ratio"]), float(row[f"{column}_error"] or 0) / float(row["published"])
+
+    bands = [(place, (as_number(row["uncertainty"]) or 0.0) / float(row["published"])) for place, row in enumerate(shown)]
+    tics = ", ".join(f'"{row["case"]}: {row["quantity"]}" {place}' for place, row in enumerate(shown))
+    draw(block("band", [bands]) + block("runtime", [points("runtime", -0.12)]) + block("cfd", [points("cfd", 0.12)]) + f'''
+set terminal pngcairo size 2000, 900 noenhanced font "DejaVu Sans,14" linewidth 1.6
+set output "{file}"
+set grid ytics lc rgb "#e4e4e4" lt 1 lw 0.8
+set border 3 lc rgb "#6b6b6b"
+set tics nomirror textcolor rgb "#1a1a1a"
+set ylabel "measured over published"
+set yrange [0:*]
+set xrange [-0.6:{len(shown) - 0.4}]
+set xtics rotate by 40 right font ",11" scale 0 ({tics})
+set key outside top center horizontal samplen 1.5 width 2
+set lmargin 20
+set bmargin 13
+set style fill solid 0.35 noborder
+set arrow 1 from graph 0, first 1 to graph 1, first 1 nohead lc rgb "#1a1a1a" back
+plot $band using 1:(1.0):(0.4):2 with boxxyerror lc rgb "#8a8a8a" title "published, with its uncertainty", \\
+     $runtime using 1:2:3 with yerrorbars lc rgb "#2a6f97" pt 7 ps 1.6 title "runtime", \\
+     $cfd using 1:2:3 with yerrorbars lc rgb "#d98c1f" pt 5 ps 1.6 title "full CFD"
+''')
 
 
 def main(source, docs):
@@ -221,6 +254,7 @@ def main(source, docs):
     costs = rows_from(os.path.join(os.path.dirname(source), "costs.csv"))
     write_tables(os.path.join(docs, "nature.md"), [tally_table(rows), *(group_table(rows, group) for group in GROUPS),
                                                    cost_table(rows, costs), source_table(published)], mark("nature"))
+    picture(rows, os.path.join(docs, "nature.png"))
 
 
 if __name__ == "__main__":
