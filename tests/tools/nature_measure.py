@@ -8,8 +8,8 @@ import math
 
 # Shares of the fall that are left out before a mean: of what settles, and of what swings (as in the figures of `samara info`).
 SETTLED, SWINGING = 0.8, 1 / 3
-# Of the frames after the release: full CFD's first steps have a jolt that must be over before an acceleration is read.
-JOLT, WINDOW = 0.1, 0.5
+# Shares of the frames after the release between which an acceleration is read: full CFD's first steps have a jolt that rings.
+JOLT, WINDOW = 0.3, 0.9
 
 
 def mean(values):
@@ -36,18 +36,16 @@ def line_through(points):
 
 
 def first_acceleration(poses):
-    """Downwards, at the release: of v/t over the stretch between the jolt and the time when drag is felt, drawn back to t = 0 along the
-    straight line through it. A jolt that shifts the speed once is seen in the slope of v, not in v/t: so of the slopes."""
-    frames = len(poses)
-    first, last = max(2, round(JOLT * frames)), round(WINDOW * frames)
-    slopes = []
+    """Downwards, at the release: of the slopes of the speed after the jolt, drawn back to t = 0 along a straight line over t^2, for drag
+    goes as the square of the speed, which goes as t."""
+    first, last = (round(share * (len(poses) - 1)) for share in (JOLT, WINDOW))
     width = max(1, (last - first) // 8)
-    for i in range(first, last - width):
-        begin, end = poses[i], poses[i + width]
-        slopes.append(((begin.time + end.time) / 2 - poses[0].time,
-                       (begin.velocity[2] - end.velocity[2]) / (end.time - begin.time)))
-    value, slope, error = line_through(slopes)
-    return value, error * mean([time for time, _ in slopes])
+    slopes = []
+    for begin, end in zip(poses[first:last - width], poses[first + width:last]):
+        time = (begin.time + end.time) / 2 - poses[0].time
+        slopes.append((time * time, (begin.velocity[2] - end.velocity[2]) / (end.time - begin.time)))
+    value, _, error = line_through(slopes)
+    return value, error * mean([square for square, _ in slopes])
 
 
 def settled_descent(poses):

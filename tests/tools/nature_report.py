@@ -41,25 +41,27 @@ def run(words):
 
 
 class Made:
-    """A file that a program makes from a scene, with a copy of the scene beside it: what was made from another one is made anew."""
+    """A file that a program makes from a scene, with what it is made of beside it: what was made otherwise is made anew."""
 
-    def __init__(self, folder, name, ending):
-        self.file = os.path.join(folder, name + ending)
-        self.scene = os.path.join(folder, name + ".toml")
+    def __init__(self, folder, case, ending, options):
+        self.file = os.path.join(folder, case.name + ending)
+        self.record = os.path.join(folder, case.name + ".made")
+        self.made_of = f"# {options}\n{read(case.scene)}"
 
-    def is_there(self, scene):
-        return os.path.exists(self.file) and os.path.exists(self.scene) and read(self.scene) == read(scene)
+    def is_there(self):
+        return os.path.exists(self.file) and os.path.exists(self.record) and read(self.record) == self.made_of
 
-    def note(self, scene):
-        shutil.copy(scene, self.scene)
+    def note(self):
+        with open(self.record, "w", encoding="utf-8") as file:
+            file.write(self.made_of)
 
 
 def baked(work, case):
-    return Made(os.path.join(work, "bodies"), case.name, ".body.h5")
+    return Made(os.path.join(work, "bodies"), case, ".body.h5", case.quality)
 
 
 def solved(work, case):
-    return Made(os.path.join(work, "full-cfd"), case.name, ".h5")
+    return Made(os.path.join(work, "full-cfd"), case, ".h5", f"{case.cells} cells, step {case.step}")
 
 
 def bake_words(programs, work, case):
@@ -68,7 +70,8 @@ def bake_words(programs, work, case):
 
 
 def fall_words(programs, work, case):
-    return [f"{programs}/samara", "validate", case.scene, "-o", solved(work, case).file, "--cells", str(case.cells), "--json"]
+    return [f"{programs}/samara", "validate", case.scene, "-o", solved(work, case).file, "--cells", str(case.cells), "--step", str(case.step),
+            "--json"]
 
 
 def estimated_costs(programs, work, case):
@@ -84,7 +87,7 @@ def costs_of(programs, work, cases):
     kept_file = os.path.join(work, "costs.json")
     kept = json.loads(read(kept_file)) if os.path.exists(kept_file) else {}
     for case in cases:
-        scene = [read(case.scene), case.quality, case.cells]
+        scene = [read(case.scene), case.quality, case.cells, case.step]
         if kept.get(case.name, {}).get("of") != scene:
             found = estimated_costs(programs, work, case)
             kept[case.name] = {"of": scene if any(found) else None, "costs": found}
@@ -98,9 +101,9 @@ def make(programs, work, cases, costs, budget):
     missing = []
     for case in cases:
         bake, fall = costs[case.name]
-        if bake is not None and not baked(work, case).is_there(case.scene):
+        if bake is not None and not baked(work, case).is_there():
             missing.append((bake, case, "bake", bake_words, baked))
-        if fall is not None and not solved(work, case).is_there(case.scene):
+        if fall is not None and not solved(work, case).is_there():
             missing.append((fall, case, "full CFD", fall_words, solved))
     for seconds, case, what, words, made in sorted(missing, key=lambda entry: entry[0]):
         if seconds > budget:
@@ -111,7 +114,7 @@ def make(programs, work, cases, costs, budget):
         if run(words(programs, work, case)) is None:
             print(f"{case.name}: {what} failed", flush=True)
         else:
-            made(work, case).note(case.scene)
+            made(work, case).note()
 
 
 def rows_of(programs, case, model, motion):
@@ -126,13 +129,13 @@ def rows_of(programs, case, model, motion):
 
 def motions_of(programs, work, case, folder):
     """(model, motion file) of what can be flown and is solved."""
-    if not case.quality or baked(work, case).is_there(case.scene):
+    if not case.quality or baked(work, case).is_there():
         motion = os.path.join(folder, f"{case.name}.h5")
         words = [f"{programs}/samara", "simulate", case.scene, "-o", motion, "--json"]
         if run(words + (["--bodies", os.path.join(work, "bodies")] if case.quality else [])) is not None:
             yield RUNTIME, motion
     fall = solved(work, case)
-    if case.reference or fall.is_there(case.scene):
+    if case.reference or fall.is_there():
         yield FULL_CFD, case.reference or fall.file
 
 
@@ -161,7 +164,8 @@ def main(programs, work, target, budget=1200.0, names=()):
     write(os.path.join(os.path.dirname(target), "costs.csv"), COSTS,
           [{"case": name, "bake": bake, "fall": fall} for name, (bake, fall) in costs.items()])
     found = collections.Counter(row["model"] for row in rows)
-    print(f"Measured: {found[RUNTIME]} figures of the runtime, {found[FULL_CFD]} of full CFD, of {sum(len(case.measures) for case in CASES)}")
+    wanted = sum(len(case.measures) for case in CASES)
+    print(f"Measured: {found[RUNTIME]} figures of the runtime, {found[FULL_CFD]} of full CFD, of {wanted}")
     return 0
 
 

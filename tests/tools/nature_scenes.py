@@ -134,8 +134,8 @@ def discs():
         time = DISC_DIAMETER / speed
         name = disc_name(inertia, reynolds)
         yield name, scene(
-            f"A disc a tenth as thick as wide with I* = {inertia:g}, at a Reynolds number of about {reynolds} (Field, Klaus, Moore and Nori "
-            "1997), turned by 20 degrees from level. Left out: their discs were thinner, so that this one is lighter for its I*.",
+            f"A disc a tenth as thick as wide with I* = {inertia:g}, at a Reynolds number of about {reynolds} (Field, Klaus, Moore "
+            "and Nori 1997), turned by 20 degrees from level. Left out: their discs were thinner, so that this one is lighter for its I*.",
             100 * time, liquid(DISC_FLUID, DISC_FLUID * speed * DISC_DIAMETER / reynolds), name, "../falls/disc.geo",
             {"density": number(ratio * DISC_FLUID)}, turned_about(1, 20), 0.01 * time, 15 / time)
 
@@ -148,8 +148,8 @@ def fruits():
         curve = f"curved with a radius of {radius} mm" if radius < 10000 else "straight"
         yield name, scene(
             f"A printed fruit with two wings in water (Fauli, Rabault and Carlson 2019): wings at {angle} degrees from the axis, "
-            f"{curve}, {payload:g} g of lead in the pod. Mass, centre and inertia by tests/tools/nature_fruit.py, with the water that fills "
-            "the pod. Left out: the holes by which it is filled. Assumed: the print weighs 1240 kg/m^3, and the lead lies in the "
+            f"{curve}, {payload:g} g of lead in the pod. Mass, centre and inertia by tests/tools/nature_fruit.py, with the water that "
+            "fills the pod. Left out: the holes by which it is filled. Assumed: the print weighs 1240 kg/m^3, and the lead lies in the "
             "pod's lower end.",
             6, WATER, name, f"{fruit_shape(angle, radius)}.geo",
             {"mass": f"{mass:.6g}", "center_of_mass": "[" + ", ".join(f"{x:.5g}" for x in centre) + "]", "inertia": rows})

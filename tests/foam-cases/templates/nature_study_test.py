@@ -34,7 +34,7 @@ def published():
 
 class Measures(unittest.TestCase):
     def test_the_first_acceleration_is_read_past_a_jolt_and_before_drag(self):
-        jolted = fall(lambda t: (0, 0, -(2 * t - 0.5 * t * t + (0.03 if t > 0.01 else 0))), seconds=0.5)
+        jolted = fall(lambda t: (0, 0, -(2 * t - 0.5 * t ** 3 + (0.03 if t > 0.01 else 0))), seconds=0.5)
         self.assertAlmostEqual(first_acceleration(jolted)[0], 2.0, 3)
 
     def test_a_straight_fall_drifts_nowhere_and_an_aslant_one_by_its_angle(self):
@@ -130,7 +130,8 @@ class Tables(unittest.TestCase):
         self.assertTrue(told(row(str(0.95 * speed)), "runtime").startswith("**"))
 
     def test_a_transition_lies_between_the_last_and_the_first(self):
-        self.assertEqual(bracket([(0.4, "fluttering"), (0.6, "fluttering"), (0.8, "tumbling")], "fluttering", "tumbling"), "between 0.6 and 0.8")
+        falls = [(0.4, "fluttering"), (0.6, "fluttering"), (0.8, "tumbling")]
+        self.assertEqual(bracket(falls, "fluttering", "tumbling"), "between 0.6 and 0.8")
         self.assertEqual(bracket([(0.4, "fluttering")], "fluttering", "tumbling"), "above 0.4")
         self.assertIsNone(bracket([], "fluttering", "tumbling"))
 
