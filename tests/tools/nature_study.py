@@ -121,7 +121,7 @@ CASES = [
       for galileo in SPHERES),
     *(case(tank_name(reynolds), "spheres", f"sphere in a tank, Re {reynolds}", "preview",
            ("peak speed", "speed without walls")) for reynolds in TANK_LIQUIDS),
-    case("sphere", "spheres", "sphere of density 1.3, Re 2.3e4", "standard", ("descent speed", "drift"), scene="docs/falls/sphere.toml",
+    case("sphere", "spheres", "sphere of density 1.3, Re 2.3e4", "preview", ("descent speed", "drift"), scene="docs/falls/sphere.toml",
          reference="docs/falls/sphere.h5"),
     case("plate", "plates", "tumbling plate", "standard", ("horizontal speed", "descent speed", "turning rate", REGIME),
          cells=200000),
