@@ -27,6 +27,7 @@ DERIVED = {"onset": ("spheres", "onset of the path's asymmetry"), "rising": ("sp
 WITHOUT_CASE = ("fixed", "zigzags")  # words of the quantities that no scene here measures
 EXACT_LIMIT = 0.03  # of the figures that have no uncertainty of their own because they are exact
 STRAIGHT = 1.0  # degrees of drift
+ROUNDING = 1e-6  # below that it is none
 
 
 def rows_from(path):
@@ -84,7 +85,7 @@ def in_its_unit(case, quantity, unit, row):
     if quantity == REGIME:
         return row["value"], None
     scale = case.scales.get(unit, 1.0)
-    return float(row["value"]) / scale, float(row["error"]) / scale
+    return tuple(0.0 if abs(number) < ROUNDING else number for number in (float(row["value"]) / scale, float(row["error"]) / scale))
 
 
 def merged(published, rows):
