@@ -239,6 +239,7 @@ set xrange [-0.6:{len(shown) - 0.4}]
 set xtics rotate by 40 right font ",11" scale 0 ({tics})
 set key outside top center horizontal samplen 1.5 width 2
 set lmargin 20
+set rmargin 4
 set bmargin 13
 set style fill solid 0.35 noborder
 set arrow 1 from graph 0, first 1 to graph 1, first 1 nohead lc rgb "#1a1a1a" back
