@@ -70,8 +70,8 @@ def bake_words(programs, work, case):
 
 
 def fall_words(programs, work, case):
-    return [f"{programs}/samara", "validate", case.scene, "-o", solved(work, case).file, "--cells", str(case.cells), "--step", str(case.step),
-            "--json"]
+    return [f"{programs}/samara", "validate", case.scene, "-o", solved(work, case).file, "--cells", str(case.cells),
+            "--step", str(case.step), "--json"]
 
 
 def estimated_costs(programs, work, case):
@@ -132,7 +132,12 @@ def motions_of(programs, work, case, folder):
     if not case.quality or baked(work, case).is_there():
         motion = os.path.join(folder, f"{case.name}.h5")
         words = [f"{programs}/samara", "simulate", case.scene, "-o", motion, "--json"]
-        if run(words + (["--bodies", os.path.join(work, "bodies")] if case.quality else [])) is not None:
+        if case.quality:
+            words += ["--bodies", os.path.join(work, "bodies")]
+        elif case.ready:
+            shutil.copy(f"runtime/bodies/{case.ready}.body.h5", os.path.join(folder, f"{case.name}.body.h5"))
+            words += ["--bodies", folder]
+        if run(words) is not None:
             yield RUNTIME, motion
     fall = solved(work, case)
     if case.reference or fall.is_there():

@@ -8,12 +8,14 @@ REGIME = "regime"
 
 # `scene`: of docs/nature, or a path from the project's folder. `quality`: of the bake; None where the body flies by its added
 # mass alone. `measures`: the quantities, as published.csv names them. `scales`: what a dimensionless unit is in SI units.
-# `reference`: a motion by full CFD that the project has. `cells`, `step`: of `samara validate`. `group`: the table on the page.
-Case = collections.namedtuple("Case", "name group text scene quality measures scales reference cells step")
+# `reference`: a motion by full CFD that the project has. `cells`, `step`: of `samara validate`. `ready`: a body of runtime/bodies
+# that the case flies with, unbaked. `group`: the table on the page.
+Case = collections.namedtuple("Case", "name group text scene quality measures scales reference cells step ready")
 
 
-def case(name, group, text, quality, measures, scales=None, scene=None, reference=None, cells=20000, step=1):
-    return Case(name, group, text, scene or f"docs/nature/{name}.toml", quality, measures, scales or {}, reference, cells, step)
+def case(name, group, text, quality, measures, scales=None, scene=None, reference=None, cells=20000, step=1,
+         ready=None):
+    return Case(name, group, text, scene or f"docs/nature/{name}.toml", quality, measures, scales or {}, reference, cells, step, ready)
 
 
 # First accelerations: the short, middle and long axis of the body point down one after the other.
@@ -137,5 +139,5 @@ CASES = [
     *(case(fruit_name(*fruit), "fruits", f"fruit, {fruit[0]} degrees, "
            + (f"R {fruit[1]} mm" if fruit[1] < 10000 else "straight") + f", {fruit[2]:g} g", "preview",
            ("descent speed", "spin"), cells=200000) for fruit in FRUITS),
-    case("maple", "fruits", "maple seed", "preview", ("descent speed", "spin", "coning"), cells=60000),
+    case("maple", "fruits", "maple seed", None, ("descent speed", "spin", "coning"), cells=60000, ready="samara"),
 ]
