@@ -18,7 +18,7 @@ namespace samara {
 struct ValidationRequest {
     Scene scene;
     std::filesystem::path output;               ///< the motion file
-    double cells = 40'000.0;                    ///< of the mesh, about
+    double cells = 20'000.0;                    ///< of the mesh, about
     double step = 1.0;                          ///< over that of the model
     Closure closure = Closure::k_omega_sst_lm;  ///< above the laminar Reynolds number
 };
