@@ -23,8 +23,9 @@ namespace {
 struct ValidateOptions {
     std::string scene;
     std::string output;
-    double cells = 20'000.0;
+    double cells = ValidationRequest().cells;
     double step = 1.0;
+    std::string closure = std::string(name_of(ValidationRequest().closure));
     std::string other_mesh;
     std::string other_closure;
     std::string cluster;
@@ -87,7 +88,8 @@ nlohmann::json run_validation(const ValidateOptions& options, bool quiet) {
     request.scene = read_scene_file(options.scene);
     request.output = options.output;
     request.cells = options.cells;
-    request.time_step = options.step * fall_time_step;
+    request.step = options.step;
+    request.closure = closure_of_falls(options.closure);
     request.beside = {{"mesh", motions_of("--other-mesh", options.other_mesh)},
                       {"closure", motions_of("--other-closure", options.other_closure)}};
     std::erase_if(request.beside, [](const auto& one) { return one.second.empty(); });
@@ -129,8 +131,11 @@ int run(int argc, const char* const* argv) {
     arguments.positional("SCENE", options.scene, "scene file (.toml) of one body");
     arguments.required_option("-o,--output", options.output, "motion file to write (.h5)");
     arguments.option("--cells", options.cells,
-                     "of the mesh, about: that of 6,000, 20,000, 60,000 or 200,000 that is nearest", 1e3,
-                     1e7);
+                     "of the mesh, about; with kEpsilon that of 6,000, 20,000, 60,000 or 200,000 that is "
+                     "nearest",
+                     1e3, 1e7);
+    arguments.option("--closure", options.closure,
+                     "above Reynolds number 300: kOmegaSSTLM, kOmegaSST, laminar (none) or kEpsilon");
     arguments.option("--step", options.step, "over the step that the fall gets of itself", 0.05, 4.0);
     arguments.option("--other-mesh", options.other_mesh,
                      "motion file of the same scene on another mesh: what it differs by is written as the "
@@ -142,7 +147,7 @@ int run(int argc, const char* const* argv) {
                      "a command of Slurm that submits a job: solves the fall as a job there");
     arguments.flag("--dry-run", options.dry_run, "only say what would be solved and how long it would take");
     arguments.footer(
-        "The fall is solved by OpenFOAM (pimpleFoam, six degrees of freedom, k-epsilon) in the folder "
+        "The fall is solved by OpenFOAM (pimpleFoam, six degrees of freedom) in the folder "
         "NAME.cases\n"
         "beside the output: a plain case that can be looked at. An interrupted fall goes on when the command "
         "is\n"

@@ -29,9 +29,9 @@ struct FreeFall {
     Matrix3d principal_axes = Matrix3d::Identity();
     Vector3d principal_moments = Vector3d::Zero();
     Vector3d gravity = Vector3d::Zero();  ///< over U^2/L
-    /// Of the centre of mass, over U, and over U/L: in the first instant, while the fluid is at rest and the
-    /// body has the momenta of both. The fluid takes its share in the first steps, which leaves the body at
-    /// the speed it is to have.
+    /// Of the centre of mass, over U, and over U/L: in the first instant, while the fluid is at rest. The
+    /// fluid takes its share of the momenta in the first steps, which leaves the body at the speed it is to
+    /// have.
     Vector3d velocity = Vector3d::Zero();
     Vector3d angular_velocity = Vector3d::Zero();
 

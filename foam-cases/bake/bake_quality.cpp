@@ -1,5 +1,6 @@
 #include "foam-cases/bake/bake_quality.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -71,13 +72,15 @@ BakeQuality high_quality() {
     return quality;
 }
 
-// The mesh with layers of which the first is about an L/1800 thick: below y+ = 2 on a sphere up to Re 1e5
-// (docs/closures.md). The last has half the thickness of the cells beyond it, each 1.4 times that of the one
-// below.
-FlowMesh with_thin_layers(FlowMesh mesh) {
-    constexpr double first_layer = 1.0 / 1800.0;
+// The first layer (L) below y+ = 2 on a sphere up to Re 1e5 (docs/closures.md).
+constexpr double thinnest_layer = 1.0 / 1800.0;
+
+// The mesh with layers of which the first is about so thick. The last has half the thickness of the cells
+// beyond it, each 1.4 times that of the one below.
+FlowMesh with_thin_layers(FlowMesh mesh, double first_layer) {
     const double last_layer = 0.5 * mesh.background_cell / std::ldexp(1.0, mesh.surface_level);
-    mesh.layers = 1 + static_cast<int>(std::lround(std::log(last_layer / first_layer) / std::log(1.4)));
+    const double steps = std::log(last_layer / first_layer) / std::log(1.4);
+    mesh.layers = std::max(1, 1 + static_cast<int>(std::lround(steps)));
     mesh.resolves_boundary_layer = true;
     return mesh;
 }
@@ -109,7 +112,7 @@ BakeQuality with_loads_by(Closure closure, BakeQuality quality) {
     for (FlowMesh& mesh : quality.meshes) {
         quality.turbulence_meshes.push_back(mesh);
         quality.turbulence_meshes.back().name += "_turbulence";
-        mesh = with_thin_layers(mesh_of_loads(mesh));
+        mesh = with_thin_layers(mesh_of_loads(mesh), thinnest_layer);
     }
     // Without transition, or with it; and without any closure.
     const Closure other = closure == Closure::k_omega_sst ? Closure::k_omega_sst_lm : Closure::k_omega_sst;
@@ -118,6 +121,18 @@ BakeQuality with_loads_by(Closure closure, BakeQuality quality) {
                                   {Closure::laminar, Closure::rng_k_epsilon}};
     }
     return quality;
+}
+
+std::vector<FlowMesh> meshes_of_falls(double reynolds_number) {
+    // y+ of a given thickness grows about as Re^0.9; L/470 is below 2 at 2e4.
+    const double first_layer = std::min(1.0, std::pow(2e4 / reynolds_number, 0.9)) / 470.0;
+    std::vector<FlowMesh> meshes;
+    for (int cells = 8; cells <= 64; ++cells) {
+        const FlowMesh mesh = {fmt::format("mesh_{}", cells),           10, 20.0 / cells, 4, 0,
+                               {{0.3, 4}, {1.2, 3}, {2.5, 2}, {5.0, 1}}};
+        meshes.push_back(with_thin_layers(mesh, first_layer));
+    }
+    return meshes;
 }
 
 std::vector<std::string> bake_quality_names() {

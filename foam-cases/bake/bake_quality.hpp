@@ -59,6 +59,10 @@ struct BakeQuality {
 /// omega, unless it is k_epsilon, which changes nothing.
 BakeQuality with_loads_by(Closure closure, BakeQuality quality);
 
+/// Meshes for falls whose layers resolve the boundary layer at the Reynolds number U L/nu, coarsest first:
+/// one mesh in ever smaller cells, alike on all sides of a body that may turn any of them to its wake.
+std::vector<FlowMesh> meshes_of_falls(double reynolds_number);
+
 /// The quality of that name; throws Error where there is none.
 BakeQuality bake_quality(const std::string& name);
 

@@ -11,26 +11,23 @@
 #include "internal/base/symmetric_matrix.hpp"
 #include "internal/base/turn.hpp"
 #include "internal/flight/terminal_speed.hpp"
+#include "samara/base/error.hpp"
 
 namespace samara {
 namespace {
 
-// The fluid answers an acceleration with a force of `ratio` times the body's own inertia against it. Where a
-// step takes the share s of the acceleration that this force gives, an error grows by 1 - s (1 + ratio): it
-// dies out where s is below 2/(1 + ratio). Three quarters of that leaves room for what the mesh adds to the
-// added mass.
-constexpr double share_of_stable_relaxation = 0.75;
-// The most where the body is so heavy that the above allows more: what takes the whole of it passes on every
-// jolt of the pressure.
+// The most of a new acceleration where the body is so heavy that stability allows more: what takes the whole
+// of it passes on every jolt of the pressure.
 constexpr double most_relaxation = 0.7;
 
 // A body whose mass differs less from that of the fluid it displaces floats; over the latter.
 // A centre of mass that is nearer to the centroid is there but for rounding; over L.
 constexpr double negligible_arm = 1e-9;
 
-// Measured with pimpleFoam v1912, one outer and two pressure correctors, on meshes of 19,000 and 58,000
-// cells.
+// Measured with pimpleFoam v1912, one outer and two pressure correctors: k-epsilon on meshes of 19,000 and
+// 58,000 cells, and kOmegaSSTLM on those of docs/validate.md.
 constexpr double seconds_per_cell_and_step = 2.7e-6;
+constexpr double seconds_per_cell_and_step_of_transition = 5e-6;
 
 // The same axes in the order and with the signs that turn them least from the case's: right-handed. The
 // solver writes where the body is as angles about x, y and z, which tell nothing where its axes start a
@@ -69,15 +66,30 @@ void take_inertia(const Matrix3d& inertia, FreeFall& fall) {
     fall.principal_moments = (fall.principal_axes.transpose() * inertia * fall.principal_axes).diagonal();
 }
 
+// Of the body without the fluid, about its centre of mass.
+Matrix6d own_inertia_of(const ImmersedBody& body) {
+    Matrix6d own = Matrix6d::Zero();
+    own.topLeftCorner<3, 3>() = body.own_inertia;
+    own.bottomRightCorner<3, 3>() = body.mass * Matrix3d::Identity();
+    return own;
+}
+
+// The velocity of a body in fluid at rest that is at `velocity` once the fluid has taken its share. Of a jump
+// in the first step, `backward` asks half of the body: that step is of first order, those after it are not.
+Vector6d velocity_before_fluid_moves(const ImmersedBody& body, const Vector6d& velocity,
+                                     const FallModel& model) {
+    const Matrix6d own = own_inertia_of(body);
+    const Matrix6d left = model.resolved ? Matrix6d(0.5 * (body.inertia + own)) : own;
+    return left.lu().solve(body.inertia * velocity);
+}
+
 // Where gravity points at the start, along the principal axes from the shortest extent to the longest.
 constexpr double start_directions[][3] = {{-0.86, 0.27, 0.433}, {-0.64, 0.5, 0.58}, {-0.35, 0.8, -0.48}};
 
 }  // namespace
 
 double largest_inertia_ratio(const ImmersedBody& body) {
-    Matrix6d own = Matrix6d::Zero();
-    own.topLeftCorner<3, 3>() = body.own_inertia;
-    own.bottomRightCorner<3, 3>() = body.mass * Matrix3d::Identity();
+    const Matrix6d own = own_inertia_of(body);
     const Matrix6d fluid = body.inertia - own;
     return eigenvalues_of(fluid, own).maxCoeff();
 }
@@ -99,8 +111,46 @@ double fall_speed(const Body& body, const ImmersedBody& immersed, const BodyStat
     return std::max(speed, immersed.length * std::sqrt(buoyant_mass * gravity * arm * largest));
 }
 
+double FallModel::acceleration_relaxation(double inertia_ratio) const {
+    // The fluid answers an acceleration with `inertia_ratio` times the body's own inertia against it, and a
+    // step takes the share s of what this makes of the acceleration.
+    if (!resolved) {
+        // Were the answer at once, an error would grow by 1 - s (1 + ratio) in a step. Three quarters of what
+        // is stable leaves room for what the mesh adds to the added mass.
+        return std::min(most_relaxation, 0.75 * 2.0 / (1.0 + inertia_ratio));
+    }
+    // The answer comes a step late, and `backward` takes it from three velocities that are themselves taken
+    // from two steps each: a_n = (1 - s) a_n-1 - s ratio (9 a_n-2 - 6 a_n-3 + a_n-4)/4. That is stable below
+    // s = 0.5/ratio, and at this nine tenths of an error are left after a step.
+    return std::min(most_relaxation, 0.4 / inertia_ratio);
+}
+
+double FallModel::time_step(double inertia_ratio) const {
+    if (!resolved) return 0.01;
+    // Taking the share s of each new acceleration lets the body answer step/(s (1 + ratio)) late: by 0.02 L/U
+    // at most, a fortieth of a radian of a swing.
+    constexpr double longest_delay = 0.02;
+    return longest_delay * std::min(1.0, acceleration_relaxation(inertia_ratio) * (1.0 + inertia_ratio));
+}
+
+Closure closure_of_falls(const std::string& name) {
+    for (const Closure closure :
+         {Closure::k_omega_sst_lm, Closure::k_omega_sst, Closure::laminar, Closure::k_epsilon}) {
+        if (name_of(closure) == name) return closure;
+    }
+    throw Error(fmt::format(
+        "falls are not solved by '{}'; choose kOmegaSSTLM, kOmegaSST, laminar or kEpsilon", name));
+}
+
+FallModel fall_model_of(Closure closure) {
+    const bool has_wall_functions = closure == Closure::k_epsilon ||
+                                    closure == Closure::realizable_k_epsilon ||
+                                    closure == Closure::rng_k_epsilon;
+    return {closure, !has_wall_functions};
+}
+
 FreeFall plan_fall(const Body& body, const ImmersedBody& immersed, const BodyState& start,
-                   const Vector3d& gravity, double speed, double duration) {
+                   const Vector3d& gravity, double speed, double duration, const FallModel& model) {
     FreeFall fall;
     const double length = reference_length(body.moments.surface_area);
     const double time_unit = length / speed;
@@ -112,7 +162,7 @@ FreeFall plan_fall(const Body& body, const ImmersedBody& immersed, const BodySta
     fall.fluid_density = immersed.fluid_density;
     fall.axes = body.symmetry.axes;
     fall.reynolds_number = speed * length * immersed.fluid_density / immersed.viscosity;
-    fall.closure = closure_at(fall.reynolds_number);
+    fall.closure = closure_at(fall.reynolds_number, model.closure);
     fall.volume = immersed.volume / volume_unit;
     fall.mass = immersed.mass / (immersed.fluid_density * volume_unit);
     fall.center_of_mass = to_case * -immersed.center_of_buoyancy / length;
@@ -120,13 +170,13 @@ FreeFall plan_fall(const Body& body, const ImmersedBody& immersed, const BodySta
                      (immersed.fluid_density * volume_unit * length * length),
                  fall);
     fall.gravity = to_case * to_body * gravity * time_unit / speed;
-    const Vector6d momentum = immersed.inertia * start.velocity;
-    fall.velocity = to_case * momentum.tail<3>() / immersed.mass / speed;
-    fall.angular_velocity = to_case * immersed.own_inertia.inverse() * momentum.head<3>() * time_unit;
+    const Vector6d velocity = velocity_before_fluid_moves(immersed, start.velocity, model);
+    fall.velocity = to_case * velocity.tail<3>() / speed;
+    fall.angular_velocity = to_case * velocity.head<3>() * time_unit;
     fall.duration = duration / time_unit;
-    fall.time_step = fall_time_step;
-    fall.acceleration_relaxation =
-        std::min(most_relaxation, share_of_stable_relaxation * 2.0 / (1.0 + largest_inertia_ratio(immersed)));
+    const double inertia_ratio = largest_inertia_ratio(immersed);
+    fall.time_step = model.time_step(inertia_ratio);
+    fall.acceleration_relaxation = model.acceleration_relaxation(inertia_ratio);
     return fall;
 }
 
@@ -147,19 +197,21 @@ void add_falls(const Body& body, const Fluid& fluid, const MassSpecification& ma
     physics.turbulence = Turbulence::none;
     const ImmersedBody immersed = make_immersed_body(body, physics, fluid, body.name);
     const double duration = identification_fall_duration * plan.reference_length / speed;
+    const FallModel model = fall_model_of(plan.quality.loads_closure);
     for (int i = 0; i < plan.quality.falls; ++i) {
         FreeFall fall = plan_fall(body, immersed, identification_start(body, i), gravity * -Vector3d::UnitZ(),
-                                  speed, duration);
+                                  speed, duration, model);
         fall.name = fmt::format("fall_{:02}", i);
         fall.mesh = plan.quality.meshes.at(plan.quality.fall_mesh).name;
-        fall.closure = closure_at(fall.reynolds_number, plan.quality.loads_closure);
         plan.falls.push_back(fall);
     }
     estimate_cost(plan);
 }
 
-BakePlan plan_single_fall(const Body& body, double cells, FreeFall fall) {
-    BakePlan plan = plan_of_meshes(body, bake_quality("high"));
+BakePlan plan_single_fall(const Body& body, double cells, FreeFall fall, const FallModel& model) {
+    BakeQuality quality = bake_quality("high");
+    if (model.resolved) quality.meshes = meshes_of_falls(fall.reynolds_number);
+    BakePlan plan = plan_of_meshes(body, quality);
     const auto distance = [&](double count) { return std::abs(std::log(count / cells)); };
     const auto nearest = std::ranges::min_element(plan.cells, {}, distance) - plan.cells.begin();
     const FlowMesh mesh = plan.quality.meshes[static_cast<std::size_t>(nearest)];
@@ -173,7 +225,9 @@ BakePlan plan_single_fall(const Body& body, double cells, FreeFall fall) {
 }
 
 double estimated_fall_seconds(const FreeFall& fall, double cells) {
-    return seconds_per_cell_and_step * cells * fall.duration / fall.time_step;
+    const double seconds = fall.closure == Closure::k_omega_sst_lm ? seconds_per_cell_and_step_of_transition
+                                                                   : seconds_per_cell_and_step;
+    return seconds * cells * fall.duration / fall.time_step;
 }
 
 }  // namespace samara

@@ -10,9 +10,25 @@
 
 namespace samara {
 
-/// Steps of free falls over L/U: at twice that, momenta are kept to 3 to 6 % and the descent of a swinging
-/// ellipsoid is off by 5 %, at this to 1 to 3 % and 1 % (docs/validate.md).
-inline constexpr double fall_time_step = 0.01;
+/// What a fall is solved by: a closure above the laminar Reynolds number, and the order of its steps in time
+/// that goes with its mesh.
+struct FallModel {
+    Closure closure = Closure::k_epsilon;
+    /// Whether the mesh resolves the boundary layer and time is taken to second order, or wall functions
+    /// stand for the one and time is taken to first.
+    bool resolved = false;
+
+    /// The most of a new acceleration that a step may take, of a body whose largest_inertia_ratio() that is.
+    [[nodiscard]] double acceleration_relaxation(double inertia_ratio) const;
+    /// The step over L/U of such a body (docs/validate.md).
+    [[nodiscard]] double time_step(double inertia_ratio) const;
+};
+
+/// The closure of that word (OpenFOAM's); throws Error unless falls are solved by it.
+Closure closure_of_falls(const std::string& name);
+
+/// The model of falls by that closure: resolved but for those of k and epsilon, whose walls are functions.
+FallModel fall_model_of(Closure closure);
 
 /// The largest of the fluid's inertia over the body's own, over all ways to move and turn: what makes a
 /// solver that takes flow and motion in turn unstable, and so sets how much of a new acceleration it may
@@ -40,11 +56,12 @@ void add_falls(const Body& body, const Fluid& fluid, const MassSpecification& ma
 /// A free fall of the body from a state, over `duration` (s), under a gravity (m/s^2, world axes). `speed`
 /// (m/s): of the case's units, about that at which it falls. The body's added mass must be there.
 FreeFall plan_fall(const Body& body, const ImmersedBody& immersed, const BodyState& start,
-                   const Vector3d& gravity, double speed, double duration);
+                   const Vector3d& gravity, double speed, double duration, const FallModel& model);
 
-/// A plan of the kind fall: with no case but the fall, on the mesh of those of all qualities whose number of
-/// cells around the body is nearest to `cells`, as a ratio.
-BakePlan plan_single_fall(const Body& body, double cells, FreeFall fall);
+/// A plan of the kind fall: with no case but the fall, on the mesh whose number of cells around the body is
+/// nearest to `cells`, as a ratio: of meshes_of_falls(), or of those of all qualities where the model is not
+/// resolved.
+BakePlan plan_single_fall(const Body& body, double cells, FreeFall fall, const FallModel& model);
 
 /// CPU seconds of a fall on a mesh of so many cells, an estimate.
 double estimated_fall_seconds(const FreeFall& fall, double cells);

@@ -67,10 +67,11 @@ Falling make_falling(const Scene& scene, const fs::path& earlier, const fs::path
 
 BakePlan plan_of(const ValidationRequest& request, const Falling& falling) {
     const SceneBody& scene_body = falling.scene.bodies.front();
+    const FallModel model = fall_model_of(request.closure);
     FreeFall fall = plan_fall(falling.body, falling.immersed, falling.start, falling.scene.gravity,
-                              speed_unit(falling), falling.scene.duration - scene_body.start);
-    fall.time_step = request.time_step;
-    return plan_single_fall(falling.body, request.cells, fall);
+                              speed_unit(falling), falling.scene.duration - scene_body.start, model);
+    fall.time_step *= request.step;
+    return plan_single_fall(falling.body, request.cells, fall, model);
 }
 
 FallSolution read_solution(const fs::path& fall_folder) {

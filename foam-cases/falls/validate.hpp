@@ -18,9 +18,10 @@ namespace samara {
 /// A scene that is to be solved by full CFD.
 struct ValidationRequest {
     Scene scene;
-    std::filesystem::path output;       ///< the motion file
-    double cells = 20'000.0;            ///< of the mesh, about
-    double time_step = fall_time_step;  ///< over L/U
+    std::filesystem::path output;               ///< the motion file
+    double cells = 20'000.0;                    ///< of the mesh, about
+    double step = 1.0;                          ///< over that of the model
+    Closure closure = Closure::k_omega_sst_lm;  ///< above the laminar Reynolds number
     /// Motion files of other solutions of the scene, by what they differ in ("mesh", "closure"): the
     /// differences between the two of a cause, or of the one to the output, are written as the motion's
     /// uncertainties.

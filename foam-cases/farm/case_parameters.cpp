@@ -205,10 +205,9 @@ std::string fall_parameters(const std::string& template_text, const BakePlan& pl
     std::string text = template_text;
     replace_values(text, fluid_entries(plan.inflow, fall.reynolds_number));
     replace_values(text, body_entries(fall));
-    // Falls by these closures are on the meshes of such loads.
-    const bool solves_for_omega =
-        fall.closure == Closure::k_omega_sst || fall.closure == Closure::k_omega_sst_lm;
-    replace_values(text, closure_entries(fall.closure, solves_for_omega));
+    const bool resolves_boundary_layer = mesh_of(plan, fall.mesh).resolves_boundary_layer;
+    replace_values(text, closure_entries(fall.closure, resolves_boundary_layer));
+    replace_values(text, {{"rateOfChange", resolves_boundary_layer ? "backward" : "Euler"}});
     replace_values(text, step_entries(fall));
     return text;
 }

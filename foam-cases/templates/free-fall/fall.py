@@ -113,7 +113,7 @@ class Fall:
         step, relaxation, correctors = ATTEMPTS[what]
         entries = {}
         if what != "as planned":
-            entries["timeStep"] = f"{step * own('timeStep'):g}"
+            entries["timeStep"] = f"{step * own('timeStep'):.12g}"
             entries["accelerationRelaxation"] = f"{relaxation * own('accelerationRelaxation'):g}"
         if correctors:
             entries["outerCorrectors"] = correctors

@@ -7,6 +7,7 @@
 
 #include "internal/flight/terminal_speed.hpp"
 #include "internal/flight/world_pose.hpp"
+#include "samara/base/error.hpp"
 #include "test_bodies.hpp"
 
 namespace samara {
@@ -51,13 +52,14 @@ struct Planned {
     Fluid fluid = water;
     ImmersedBody immersed;
     BodyState start;
+    FallModel model = fall_model_of(Closure::k_omega_sst_lm);
     FreeFall fall;
 
     explicit Planned(const SceneBody& of) : scene_body(of) {}
     void plan() {
         immersed = make_immersed_body(body, scene_body, fluid);
         start = start_of(scene_body, immersed, fluid);
-        fall = plan_fall(body, immersed, start, gravity, speed, 3.0);
+        fall = plan_fall(body, immersed, start, gravity, speed, 3.0, model);
     }
 };
 
@@ -68,7 +70,7 @@ TEST(FallPlan, HasTheUnitsOfTheBodyTheSpeedAndTheFluid) {
     const double length = reference_length(planned.body.moments.surface_area);
     EXPECT_DOUBLE_EQ(fall.length, length);
     EXPECT_DOUBLE_EQ(fall.reynolds_number, speed * length / 1e-6);
-    EXPECT_EQ(fall.closure, Closure::k_epsilon);
+    EXPECT_EQ(fall.closure, Closure::k_omega_sst_lm);
     EXPECT_NEAR(fall.volume, planned.body.moments.volume / std::pow(length, 3.0), 1e-12);
     EXPECT_NEAR(fall.mass, 1.2 * fall.volume, 1e-12);
     EXPECT_NEAR(fall.duration, 3.0 * speed / length, 1e-9);
@@ -79,7 +81,7 @@ TEST(FallPlan, HasTheUnitsOfTheBodyTheSpeedAndTheFluid) {
     const double expected = 1.2 * fall.volume * (0.02 * 0.02 + 0.04 * 0.04) / 5.0 / (length * length);
     EXPECT_NEAR(fall.principal_moments.x(), expected, 1e-9);
     EXPECT_EQ(fall.velocity, Vector3d::Zero());
-    EXPECT_EQ(fall.time_step, fall_time_step);
+    EXPECT_EQ(fall.time_step, planned.model.time_step(largest_inertia_ratio(planned.immersed)));
 }
 
 TEST(FallPlan, TurnsEverythingIntoCaseAxes) {
@@ -132,14 +134,20 @@ TEST(FallPlan, StartsWithTheMomentaOfBodyAndFluid) {
     SceneBody body = of_density(2000.0);
     body.velocity = {0.0, 0.0, -0.3};
     Planned planned(body);
+    planned.model = fall_model_of(Closure::k_epsilon);
     planned.plan();
     // The test body has the added mass of a sphere.
     EXPECT_NEAR(planned.fall.velocity.z(), -0.3 * (2.0 + 0.5) / 2.0 / speed, 1e-9);
+    // In time of second order the fluid takes half of its share of a jump.
+    planned.model = fall_model_of(Closure::k_omega_sst_lm);
+    planned.plan();
+    EXPECT_NEAR(planned.fall.velocity.z(), -0.3 * (2.0 + 0.5) / (2.0 + 0.25) / speed, 1e-9);
 
     SceneBody uneven = uneven_and_turned();
     uneven.velocity = {0.1, 0.2, -0.3};
     uneven.angular_velocity = {1, 2, 3};
     Planned turned(uneven);
+    turned.model = fall_model_of(Closure::k_epsilon);
     turned.plan();
     const FreeFall& fall = turned.fall;
     Vector6d own;
@@ -152,12 +160,58 @@ TEST(FallPlan, StartsWithTheMomentaOfBodyAndFluid) {
 TEST(FallPlan, RelaxesBelowTheStabilityOfTakingFlowAndMotionInTurn) {
     for (const double density : {20.0, 500.0, 1200.0, 8000.0}) {
         Planned planned(of_density(density));
+        planned.model = fall_model_of(Closure::k_epsilon);
         planned.plan();
         // Of the test body: half its displaced mass, and no added moment of inertia.
         const double ratio = 0.5 * 1000.0 / density;
         EXPECT_NEAR(largest_inertia_ratio(planned.immersed), ratio, 1e-9);
         EXPECT_NEAR(planned.fall.acceleration_relaxation, std::min(0.7, 0.75 * 2.0 / (1.0 + ratio)), 1e-12);
     }
+}
+
+// The accelerations of a body whose fluid answers as it does in time of second order, from a jolt on: its
+// largest after so many steps.
+double error_after(int steps, double share, double ratio) {
+    std::vector<double> past = {1.0, 0.0, 0.0, 0.0};  // latest first
+    for (int i = 0; i < steps; ++i) {
+        const double answer = ratio * (9.0 * past[1] - 6.0 * past[2] + past[3]) / 4.0;
+        past = {(1.0 - share) * past[0] - share * answer, past[0], past[1], past[2]};
+    }
+    double largest = 0.0;
+    for (const double error : past) largest = std::max(largest, std::abs(error));
+    return largest;
+}
+
+TEST(FallPlan, RelaxesSoMuchThatErrorsDieOutInTimeOfSecondOrder) {
+    const FallModel model = fall_model_of(Closure::k_omega_sst_lm);
+    for (const double ratio : {0.05, 0.4, 1.3, 3.0, 10.0, 25.0}) {
+        const double share = model.acceleration_relaxation(ratio);
+        EXPECT_LE(share, 0.7);
+        EXPECT_LT(error_after(100, share, ratio), 1e-3) << ratio;
+        if (share < 0.7) {
+            EXPECT_GT(error_after(100, 1.5 * share, ratio), 1.0) << ratio;
+        }
+    }
+}
+
+TEST(FallPlan, HasStepsInWhichABodyAnswersHardlyLate) {
+    const FallModel model = fall_model_of(Closure::k_omega_sst_lm);
+    for (const double ratio : {0.05, 0.4, 1.3, 3.0, 10.0, 25.0}) {
+        const double share = model.acceleration_relaxation(ratio);
+        EXPECT_LE(model.time_step(ratio) / (share * (1.0 + ratio)), 0.02 + 1e-12) << ratio;
+        EXPECT_GE(model.time_step(ratio), 0.008) << ratio;
+    }
+    EXPECT_EQ(fall_model_of(Closure::k_epsilon).time_step(3.0), 0.01);
+}
+
+TEST(FallModel, IsResolvedButForClosuresOfKAndEpsilon) {
+    EXPECT_FALSE(fall_model_of(Closure::k_epsilon).resolved);
+    EXPECT_FALSE(fall_model_of(Closure::rng_k_epsilon).resolved);
+    for (const char* name : {"kOmegaSSTLM", "kOmegaSST", "laminar"}) {
+        EXPECT_TRUE(fall_model_of(closure_of_falls(name)).resolved) << name;
+    }
+    EXPECT_EQ(closure_of_falls("kEpsilon"), Closure::k_epsilon);
+    EXPECT_THROW(static_cast<void>(closure_of_falls("SpalartAllmaras")), Error);
 }
 
 TEST(FallSpeed, IsTheTerminalSpeedOfABodyThatStartsFromRest) {
@@ -206,7 +260,10 @@ TEST(FallSpeed, OfAFloatingBodyHungOffItsCentroidIsThatOfItsSwings) {
 TEST(FallPlan, TakesTheMeshWhoseCellsAreNearestAsARatio) {
     Planned planned(of_density(1200.0));
     planned.plan();
-    const auto mesh_at = [&](double cells) { return plan_single_fall(planned.body, cells, planned.fall); };
+    planned.model = fall_model_of(Closure::k_epsilon);
+    const auto mesh_at = [&](double cells) {
+        return plan_single_fall(planned.body, cells, planned.fall, planned.model);
+    };
     EXPECT_EQ(mesh_at(5000).only_fall().mesh, "mesh_coarse");
     EXPECT_EQ(mesh_at(20000).only_fall().mesh, "mesh_medium");
     EXPECT_EQ(mesh_at(40000).only_fall().mesh, "mesh_fine");
@@ -220,10 +277,36 @@ TEST(FallPlan, TakesTheMeshWhoseCellsAreNearestAsARatio) {
     EXPECT_LT(plan.cpu_seconds, 2.0 * of_fall);
 }
 
-BakePlan bake_with_falls(const Body& body, const std::string& quality) {
+// One mesh in ever smaller cells, whose layers begin as thin in all.
+TEST(FallPlan, TakesAsManyCellsAsAreAskedForWhereTheBoundaryLayerIsResolved) {
+    Planned planned(of_density(1200.0));
+    planned.plan();
+    const auto plan_at = [&](double cells) {
+        return plan_single_fall(planned.body, cells, planned.fall, planned.model);
+    };
+    for (const double cells : {6000.0, 20'000.0, 40'000.0, 120'000.0, 400'000.0}) {
+        const BakePlan plan = plan_at(cells);
+        ASSERT_EQ(plan.quality.meshes.size(), 1u);
+        EXPECT_NEAR(plan.cells.front(), cells, 0.2 * cells);
+        const FlowMesh& mesh = plan.quality.meshes.front();
+        EXPECT_EQ(plan.only_fall().mesh, mesh.name);
+        EXPECT_TRUE(mesh.resolves_boundary_layer);
+        const double last = 0.5 * mesh.background_cell / std::ldexp(1.0, mesh.surface_level);
+        EXPECT_NEAR(std::log(470.0 * last / std::pow(1.4, mesh.layers - 1)), 0.0, 0.2) << cells;
+    }
+    EXPECT_GT(plan_at(120'000.0).quality.meshes.front().background_cells(),
+              1.35 * plan_at(40'000.0).quality.meshes.front().background_cells());
+}
+
+TEST(FallPlan, HasThinnerLayersAtHigherReynoldsNumbers) {
+    EXPECT_EQ(meshes_of_falls(1e3).front().layers, meshes_of_falls(2e4).front().layers);
+    EXPECT_EQ(meshes_of_falls(1e5).front().layers, meshes_of_falls(2e4).front().layers + 4);
+}
+
+BakePlan bake_with_falls(const Body& body, const BakeQuality& quality) {
     MassSpecification mass;
     mass.density = 1200.0;
-    BakePlan plan = plan_bake(body, bake_quality(quality), 1e4);
+    BakePlan plan = plan_bake(body, quality, 1e4);
     add_falls(body, water, mass, 9.81, speed, plan);
     return plan;
 }
@@ -231,32 +314,41 @@ BakePlan bake_with_falls(const Body& body, const std::string& quality) {
 TEST(FallPlan, IsOfItsOwnKindNotOfAQuality) {
     Planned planned(of_density(1200.0));
     planned.plan();
-    const BakePlan plan = plan_single_fall(planned.body, 5000.0, planned.fall);
+    const BakePlan plan = plan_single_fall(planned.body, 5000.0, planned.fall, planned.model);
     EXPECT_EQ(plan.kind, CaseKind::fall);
     EXPECT_EQ(plan_json(plan)["quality"], "fall");
     EXPECT_EQ(kind_of_plan(plan_json(plan)), CaseKind::fall);
-    const BakePlan bake = bake_with_falls(planned.body, "standard");
+    const BakePlan bake = bake_with_falls(planned.body, bake_quality("standard"));
     EXPECT_EQ(kind_of_plan(plan_json(bake)), CaseKind::bake);
     EXPECT_THROW(static_cast<void>(bake.only_fall()), std::logic_error);
 }
 
 TEST(IdentificationFalls, AreTwoAtStandardOnTheMediumMeshAndAtHighOnTheFine) {
     const Body body = test::ellipsoid({0.01, 0.02, 0.04});
-    EXPECT_TRUE(bake_with_falls(body, "smoke").falls.empty());
-    EXPECT_TRUE(bake_with_falls(body, "preview").falls.empty());
-    const BakePlan standard = bake_with_falls(body, "standard");
+    EXPECT_TRUE(bake_with_falls(body, bake_quality("smoke")).falls.empty());
+    EXPECT_TRUE(bake_with_falls(body, bake_quality("preview")).falls.empty());
+    const BakePlan standard = bake_with_falls(body, bake_quality("standard"));
     ASSERT_EQ(standard.falls.size(), 2u);
     EXPECT_EQ(standard.falls[0].name, "fall_00");
     EXPECT_EQ(standard.falls[0].mesh, "mesh_medium");
-    const BakePlan high = bake_with_falls(body, "high");
+    const BakePlan high = bake_with_falls(body, bake_quality("high"));
     ASSERT_EQ(high.falls.size(), 2u);
     for (const FreeFall& fall : high.falls) EXPECT_EQ(fall.mesh, "mesh_fine");
     EXPECT_EQ(high.falls[1].name, "fall_01");
     EXPECT_GT((high.falls[0].gravity - high.falls[1].gravity).norm(), 0.3 * high.falls[0].gravity.norm());
 }
 
+TEST(IdentificationFalls, AreByTheClosureOfTheLoads) {
+    const Body body = test::ellipsoid({0.01, 0.02, 0.04});
+    const BakePlan plan =
+        bake_with_falls(body, with_loads_by(Closure::k_omega_sst_lm, bake_quality("standard")));
+    EXPECT_EQ(plan.falls[0].closure, Closure::k_omega_sst_lm);
+    EXPECT_GT(plan.falls[0].time_step, fall_model_of(Closure::k_epsilon).time_step(1.0));
+    EXPECT_TRUE(mesh_of(plan, plan.falls[0].mesh).resolves_boundary_layer);
+}
+
 TEST(IdentificationFalls, StartFromRestWithTheBodysMassAndLastThirtyUnits) {
-    const BakePlan plan = bake_with_falls(test::ellipsoid({0.01, 0.02, 0.04}), "standard");
+    const BakePlan plan = bake_with_falls(test::ellipsoid({0.01, 0.02, 0.04}), bake_quality("standard"));
     const FreeFall& fall = plan.falls[0];
     EXPECT_EQ(fall.velocity, Vector3d::Zero());
     EXPECT_EQ(fall.angular_velocity, Vector3d::Zero());
@@ -267,7 +359,7 @@ TEST(IdentificationFalls, StartFromRestWithTheBodysMassAndLastThirtyUnits) {
 
 TEST(IdentificationFalls, CountInTheCostOfTheBake) {
     const Body body = test::ellipsoid({0.01, 0.02, 0.04});
-    const BakePlan plan = bake_with_falls(body, "standard");
+    const BakePlan plan = bake_with_falls(body, bake_quality("standard"));
     const double without = plan_bake(body, bake_quality("standard"), 1e4).cpu_seconds;
     EXPECT_NEAR(plan.cpu_seconds - without,
                 2.0 * estimated_fall_seconds(plan.falls[0], cells_of(plan, "mesh_medium")), 1e-6 * without);
@@ -277,7 +369,8 @@ TEST(IdentificationFalls, CountInTheCostOfTheBake) {
 }
 
 TEST(IdentificationFalls, StandInThePlanWithTheirMeshes) {
-    const nlohmann::json json = plan_json(bake_with_falls(test::ellipsoid({0.01, 0.02, 0.04}), "high"));
+    const nlohmann::json json =
+        plan_json(bake_with_falls(test::ellipsoid({0.01, 0.02, 0.04}), bake_quality("high")));
     EXPECT_EQ(json["falls"], (nlohmann::json{{{"name", "fall_00"}, {"mesh", "mesh_fine"}},
                                              {{"name", "fall_01"}, {"mesh", "mesh_fine"}}}));
 }

@@ -96,11 +96,27 @@ TEST_F(Validate, SaysInADryRunWhatItWouldSolve) {
     const test::ProgramRun run = validate({"--dry-run", "--json", "--step", "0.5", "--cells", "6000"});
     ASSERT_EQ(run.status, 0) << run.fault;
     const nlohmann::json json = run.json();
-    EXPECT_EQ(json["mesh"], "mesh_coarse");
-    EXPECT_EQ(json["closure"], "kEpsilon");
+    EXPECT_EQ(json["closure"], "kOmegaSSTLM");
+    EXPECT_NEAR(json["estimated_cells"].get<double>(), 6000.0, 1200.0);
     EXPECT_NEAR(json["steps"].get<double>() * json["time_step"].get<double>(), 1.0, 1e-9);
     EXPECT_GT(json["estimated_cpu_seconds"].get<double>(), 1.0);
     EXPECT_FALSE(fs::exists(folder_.path() / "out.cases"));
+}
+
+TEST_F(Validate, SolvesByAnotherClosureWhereOneIsNamed) {
+    write_scene("", "", "density = 1200\nturbulence = \"none\"");
+    const auto plan = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words = {"--dry-run", "--json"};
+        words.insert(words.end(), more.begin(), more.end());
+        return validate(words).json();
+    };
+    const nlohmann::json functions = plan({"--closure", "kEpsilon", "--cells", "6000"});
+    EXPECT_EQ(functions["mesh"], "mesh_coarse");
+    EXPECT_EQ(functions["closure"], "kEpsilon");
+    EXPECT_LT(functions["time_step"].get<double>(), plan({})["time_step"].get<double>());
+    EXPECT_EQ(plan({"--closure", "laminar"})["closure"], "laminar");
+    EXPECT_THAT(fault({"--closure", "kOmega"}),
+                HasSubstr("choose kOmegaSSTLM, kOmegaSST, laminar or kEpsilon"));
 }
 
 TEST_F(Validate, LeavesTheCasesOfABakeAlone) {

@@ -67,7 +67,7 @@ Vector3d vector_of(const std::string& parameters, const std::string& name) {
 class FallCase : public testing::Test {
   protected:
     const Body body_ = test::ellipsoid({0.01, 0.02, 0.04});
-    const BakePlan plan_ = plan_single_fall(body_, 6000.0, some_fall());
+    const BakePlan plan_ = plan_single_fall(body_, 6000.0, some_fall(), fall_model_of(Closure::k_epsilon));
     const test::TemporaryFolder temporary_;
     const fs::path folder_ = temporary_.path() / "body.cases";
 
@@ -110,6 +110,22 @@ TEST_F(FallCase, HasTheNumbersOfTheFall) {
     EXPECT_EQ(axes[3], fall.principal_axes(1, 0));
 }
 
+TEST_F(FallCase, IsOfSecondOrderInTimeAndSpaceWhereTheMeshResolvesTheBoundaryLayer) {
+    const std::string text = read_bytes(foam_cases / "templates/free-fall/parameters");
+    EXPECT_EQ(entry_of(parameters(), "rateOfChange"), "Euler");
+    EXPECT_EQ(entry_of(parameters(), "convection"), "limitedLinear 1");
+    for (const Closure closure : {Closure::k_omega_sst_lm, Closure::laminar}) {
+        FreeFall fall = some_fall();
+        fall.closure = closure;
+        const BakePlan plan = plan_single_fall(body_, 6000.0, fall, fall_model_of(closure));
+        const std::string resolved = fall_parameters(text, plan, plan.only_fall());
+        EXPECT_EQ(entry_of(resolved, "rateOfChange"), "backward");
+        EXPECT_EQ(entry_of(resolved, "convection"), "linearUpwind grad(U)");
+        EXPECT_EQ(entry_of(resolved, "nutAtWall"), "nutLowReWallFunction");
+        EXPECT_EQ(entry_of(resolved, "simulationType"), closure == Closure::laminar ? "laminar" : "RAS");
+    }
+}
+
 // sixDoFRigidBodyMotion keeps the angular momentum along its principal axes.
 TEST_F(FallCase, StartsWithTheAngularMomentumAlongThePrincipalAxes) {
     const FreeFall fall = some_fall();
@@ -130,7 +146,7 @@ TEST_F(FallCase, PullsTheCentroidUpWithTheWeightOfTheFluidWhereverItFalls) {
 }
 
 TEST_F(FallCase, HasNoBuoyancyWithoutGravity) {
-    FreeFall fall = some_fall();
+    FreeFall fall = plan_.only_fall();
     fall.gravity.setZero();
     const std::string text =
         fall_parameters(read_bytes(foam_cases / "templates/free-fall/parameters"), plan_, fall);
@@ -139,10 +155,11 @@ TEST_F(FallCase, HasNoBuoyancyWithoutGravity) {
 
 TEST_F(FallCase, NamesAnEntryThatTheTemplateLacks) {
     const std::string text = read_bytes(foam_cases / "templates/free-fall/parameters");
-    for (const char* name : {"reynoldsNumber", "viscosity", "inflowK", "mass", "centreOfMass",
-                             "momentsOfInertia", "principalAxes", "startVelocity", "startAngularMomentum",
-                             "gravity", "buoyancyAnchor", "buoyancyStiffness", "simulationType", "closure",
-                             "timeStep", "duration", "outerCorrectors", "accelerationRelaxation"}) {
+    for (const char* name :
+         {"reynoldsNumber", "viscosity", "inflowK", "mass", "centreOfMass", "momentsOfInertia",
+          "principalAxes", "startVelocity", "startAngularMomentum", "gravity", "buoyancyAnchor",
+          "buoyancyStiffness", "simulationType", "closure", "rateOfChange", "timeStep", "duration",
+          "outerCorrectors", "accelerationRelaxation"}) {
         const std::regex line(fmt::format("\\n{} ", name));
         const std::string lacking = std::regex_replace(text, line, "\nx ");
         EXPECT_THAT(
