@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The runtime against the reference falls, and what each term of the loads does.
+"""The runtime against the reference falls, with its noise and without, and what each term of the loads does.
 
     falls_report.py BIN BODIES    bakes what is missing in BODIES, flies every scene and compares; then identifies
                                   anew without each term, and holds the falls again
@@ -12,6 +12,7 @@ folder for baked bodies. Run from the project's folder.
 import csv
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -36,6 +37,8 @@ SCENES = {
 }
 TERMS = ("transport", "turning transport", "drag in motion", "drag in spin", "rotational drag",
          "rotational drag in spin", "wake by velocity", "wake by turning", "entrained inertia", "unsteady factor")
+# As users fly them, with noise; and without.
+RUNS = {"on": 20, "off": 1}
 # Narrower limits than those of `samara compare`: of descent, frequency, amplitude and rms angular speed.
 NARROW = (0.05, 0.15, 0.25, 0.25)
 FIGURES = ("descent_speed", "frequency", "inclination_amplitude", "rms_angular_speed")
@@ -61,28 +64,39 @@ def baked(programs, folder, body):
     return file, ",".join(os.path.join(cases, name) for name in falls)
 
 
-def compared(programs, body_file, scene, folder):
+def scene_with(scene, keys, folder, steps=1):
+    """Writes a reference's scene with other keys of its body, and with so many steps made one, into the folder; its path."""
+    with open(f"{FALLS}/{scene}.toml") as opened:
+        text = opened.read()
+    for key, value in keys.items():
+        text = re.sub(rf"(?m)^{key} = .*\n?", "", text).rstrip() + f'\n{key} = "{value}"\n'
+    text = re.sub(r"step = ([0-9.]+)", lambda step: f"step = {steps * float(step.group(1)):.6g}", text)
+    path = os.path.join(folder, f"{scene}.toml")
+    with open(path, "w") as changed:
+        changed.write(text)
+    return path
+
+
+def compared(programs, body_file, scene, folder, noise="off"):
     """The comparison of a scene flown with a body with its reference fall."""
-    bodies = os.path.join(folder, "bodies")
-    os.makedirs(bodies, exist_ok=True)
-    link = os.path.join(bodies, f"{scene}.body.h5")
-    if os.path.lexists(link):
-        os.remove(link)
-    os.symlink(os.path.abspath(body_file), link)
+    keys = {"shape": os.path.abspath(body_file)} | ({"turbulence": "table"} if noise == "on" else {})
     motion = os.path.join(folder, f"{scene}.h5")
-    run([f"{programs}/samara", "simulate", f"{FALLS}/{scene}.toml", "-o", motion, "--bodies", bodies, "--json"])
+    run([f"{programs}/samara", "simulate", scene_with(scene, keys, folder), "-o", motion, "--runs", str(RUNS[noise]), "--json"])
     return run([f"{programs}/samara", "compare", motion, f"{FALLS}/{scene}.h5", "--json"])
 
 
-def row_of(scene, comparison):
-    """The figures of a comparison: of the motion, of the reference, and what they differ by."""
+def row_of(scene, noise, comparison):
+    """The figures of a comparison: of the motion, of the reference, what they differ by, and what the reference itself is
+    uncertain by."""
     measures = comparison["measures"]
-    row = [scene, comparison["motion"]["regime"], comparison["reference"]["regime"]]
+    row = [scene, noise, comparison["motion"]["regime"], comparison["reference"]["regime"]]
     for figure in FIGURES:
         measure = measures.get(figure) or {}
         of_motion, of_reference = measure.get("motion") or {}, measure.get("reference") or {}
+        magnitude = abs(of_reference.get("value") or 0.0)
         row += [of_motion.get("value"), of_reference.get("value"), of_reference.get("error"),
-                measure.get("relative_difference")]
+                measure.get("relative_difference"),
+                measure["reference_uncertainty"] / magnitude if magnitude and measure.get("reference_uncertainty") else None]
     return row + [comparison["first_swing"]["path_distance"]["value"] if comparison["first_swing"] else None,
                   "yes" if comparison["agrees"] else "no"]
 
@@ -127,15 +141,21 @@ def agrees(row):
     return row["agrees"] == "yes" and has_the_regime(row)
 
 
+def uncertainties_of(row):
+    """What the reference is uncertain by in each figure, by its mesh and its closure together."""
+    return [float(row[f"{figure}_uncertainty"] or 0.0) for figure in FIGURES]
+
+
 def agrees_narrowly(row):
-    return has_the_regime(row) and all(difference is None or abs(difference) <= limit
-                                       for difference, limit in zip(differences_of(row), NARROW))
+    return has_the_regime(row) and all(
+        difference is None or abs(difference) - uncertainty <= limit
+        for difference, uncertainty, limit in zip(differences_of(row), uncertainties_of(row), NARROW))
 
 
 def heading():
     columns = [f"{figure}_{what}" for figure in FIGURES
-               for what in ("runtime", "cfd", "cfd_error", "difference")]
-    return ["fall", "regime_runtime", "regime_cfd"] + columns + ["first_swing_apart", "agrees"]
+               for what in ("runtime", "cfd", "cfd_error", "difference", "uncertainty")]
+    return ["fall", "noise", "regime_runtime", "regime_cfd"] + columns + ["first_swing_apart", "agrees"]
 
 
 def written(target, rows):
@@ -147,25 +167,36 @@ def written(target, rows):
 
 
 def falls_table(programs, folder):
-    """Writes falls.csv; the table of docs/falls.md."""
+    """Writes falls.csv; the tables of docs/falls.md, with noise and without."""
     rows = [heading()]
     with tempfile.TemporaryDirectory() as work:
-        for scene, body in SCENES.items():
-            file, _ = baked(programs, folder, body)
-            rows.append(row_of(scene, compared(programs, file, scene, work)))
-            print(*rows[-1])
+        for noise in RUNS:
+            for scene, body in SCENES.items():
+                file, _ = baked(programs, folder, body)
+                rows.append(row_of(scene, noise, compared(programs, file, scene, work, noise)))
+                print(*rows[-1])
     written(f"{FALLS}/falls.csv", rows)
-    return table_of_falls()
+    return tables_of_falls()
 
 
-def table_of_falls():
-    """The table of docs/falls.md, of falls.csv."""
+def rows_of_falls(noise):
     with open(f"{FALLS}/falls.csv", newline="") as file:
-        rows = list(csv.DictReader(file))
+        return [row for row in csv.DictReader(file) if row["noise"] == noise]
+
+
+def tables_of_falls():
+    return [table_of_falls(rows_of_falls(noise)) for noise in RUNS]
+
+
+def table_of_falls(rows):
+    """A table of docs/falls.md, of rows of falls.csv."""
     lines = ["| fall | descent | frequency | amplitude | rms angular speed | regime (runtime / CFD) | worst figure "
              "| within 10, 20, 30 % | within 5, 15, 25, 25 % |", "|---" * 9 + "|"]
     for row in rows:
-        cells = [row["fall"]] + [percent(difference) for difference in differences_of(row)]
+        cells = [row["fall"]]
+        for difference, uncertainty in zip(differences_of(row), uncertainties_of(row)):
+            known = difference is not None and uncertainty > 0.0
+            cells.append(percent(difference) + (f" ({100 * uncertainty:.0f})" if known else ""))
         cells += [f"{row['regime_runtime']} / {row['regime_cfd']}", f"{100 * worst_of(row):.0f} %",
                   "yes" if agrees(row) else "no", "yes" if agrees_narrowly(row) else "no"]
         lines.append("| " + " | ".join(cells) + " |")
@@ -219,9 +250,9 @@ def main(words):
         return 2
     if len(words) == 3:
         os.makedirs(words[2], exist_ok=True)
-        tables = [make(words[1], words[2]) for make in (falls_table, terms_table)]
+        tables = [*falls_table(words[1], words[2]), terms_table(words[1], words[2])]
     else:
-        tables = [table_of_falls(), table_of_terms()]
+        tables = [*tables_of_falls(), table_of_terms()]
     write_tables("docs/falls.md", tables, mark("falls"))
     return 0
 

@@ -15,7 +15,7 @@ import sys
 import tempfile
 
 from falls_report import BODIES as SHAPES
-from falls_report import FALLS, SCENES, baked_file, run, worst_figure
+from falls_report import FALLS, SCENES, baked_file, run, scene_with, worst_figure
 from report_tables import mark, write_tables
 
 # The models, cheapest first: the keys that the body of a scene is given, the body file that it needs, how many steps of
@@ -42,18 +42,12 @@ def preview_of(programs, folder, body):
 
 def flown(programs, scene, keys, file, steps, runs, folder):
     """The comparison of a scene with other keys with its reference, and the seconds for a simulated second."""
-    with open(f"{FALLS}/{scene}.toml") as opened:
-        text = opened.read()
-    for key, value in ({"shape": os.path.abspath(file)} | keys).items():
-        text = re.sub(rf"(?m)^{key} = .*\n?", "", text).rstrip() + f'\n{key} = "{value}"\n'
-    text = re.sub(r"step = ([0-9.]+)", lambda step: f"step = {steps * float(step.group(1)):.6g}", text)
-    with open(os.path.join(folder, "scene.toml"), "w") as changed:
-        changed.write(text)
+    changed = scene_with(scene, {"shape": os.path.abspath(file)} | keys, folder, steps)
     motion = os.path.join(folder, "motion.h5")
-    words = [f"{programs}/samara", "simulate", os.path.join(folder, "scene.toml"), "-o", motion, "--threads", "1", "--runs",
-             str(runs), "--json"]
+    words = [f"{programs}/samara", "simulate", changed, "-o", motion, "--threads", "1", "--runs", str(runs), "--json"]
     seconds = min(run(words)["seconds"] for _ in range(5))
-    duration = float(re.search(r"duration = ([0-9.]+)", text).group(1))
+    with open(changed) as opened:
+        duration = float(re.search(r"duration = ([0-9.]+)", opened.read()).group(1))
     return run([f"{programs}/samara", "compare", motion, f"{FALLS}/{scene}.h5", "--json"]), seconds / duration / runs
 
 

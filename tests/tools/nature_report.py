@@ -27,6 +27,7 @@ from nature_study import CASES, REGIME  # noqa: E402
 COLUMNS = ("case", "quantity", "model", "value", "error", "by")
 RUNTIME, FULL_CFD = "runtime", "full CFD"
 COSTS = ("case", "bake", "fall")
+CLOSURE = "kOmegaSSTLM"  # of the falls by full CFD
 
 
 def read(path):
@@ -61,7 +62,7 @@ def baked(work, case):
 
 
 def solved(work, case):
-    return Made(os.path.join(work, "full-cfd"), case, ".h5", f"{case.cells} cells, step {case.step}")
+    return Made(os.path.join(work, "full-cfd"), case, ".h5", f"{case.cells} cells, step {case.step}, {CLOSURE}")
 
 
 def bake_words(programs, work, case):
@@ -71,7 +72,7 @@ def bake_words(programs, work, case):
 
 def fall_words(programs, work, case):
     return [f"{programs}/samara", "validate", case.scene, "-o", solved(work, case).file, "--cells", str(case.cells),
-            "--step", str(case.step), "--json"]
+            "--step", str(case.step), "--closure", CLOSURE, "--json"]
 
 
 def estimated_costs(programs, work, case):
@@ -87,7 +88,7 @@ def costs_of(programs, work, cases):
     kept_file = os.path.join(work, "costs.json")
     kept = json.loads(read(kept_file)) if os.path.exists(kept_file) else {}
     for case in cases:
-        scene = [read(case.scene), case.quality, case.cells, case.step]
+        scene = [read(case.scene), case.quality, case.cells, case.step, CLOSURE]
         if kept.get(case.name, {}).get("of") != scene:
             found = estimated_costs(programs, work, case)
             kept[case.name] = {"of": scene if any(found) else None, "costs": found}

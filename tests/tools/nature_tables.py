@@ -88,14 +88,16 @@ def in_its_unit(case, quantity, unit, row):
     return tuple(0.0 if abs(number) < ROUNDING else number for number in (float(row["value"]) / scale, float(row["error"]) / scale))
 
 
-def merged(published, rows):
-    """The rows of nature.csv: every published figure, and every measured one that has none."""
+def merged(published, rows, before):
+    """The rows of nature.csv: every published figure, with what is measured of it; what these rows have not stays as it was
+    before, for no folder holds all that was ever solved."""
     cases = {case.name: case for case in CASES}
     found = {(row["case"], row["quantity"], row["model"]): row for row in rows}
     values = {model: {(row["case"], row["quantity"]): as_number(row["value"]) if row["quantity"] != REGIME else row["value"]
                       for row in rows if row["model"] == model} for model in MODELS}
     together = {model: derived(values[model]) for model in MODELS}
     order = {name: place for place, name in enumerate([case.name for case in CASES] + list(DERIVED))}
+    kept = {(row["case"], row["quantity"]): row for row in before}
     result = []
     for figure in sorted(published, key=lambda row: order[row["case"]]):
         name, quantity, unit = figure["case"], figure["quantity"], figure["unit"]
@@ -109,6 +111,8 @@ def merged(published, rows):
                 value, error = in_its_unit(cases[name], quantity, unit, found[name, quantity, model])
                 row[column] = value if error is None else f"{value:.4g}"
                 row[f"{column}_error"] = "" if error is None else f"{error:.2g}"
+            elif (name, quantity) in kept:
+                row |= {key: kept[name, quantity][key] for key in (column, f"{column}_error")}
             ratio = ratio_of(row, column)
             row[f"{column}_ratio"] = "" if ratio is None else f"{ratio:.4g}"
         result.append(row)
@@ -251,8 +255,9 @@ plot $band using 1:(1.0):(0.4):2 with boxxyerror lc rgb "#8a8a8a" title "publish
 
 def main(source, docs):
     published = rows_from(os.path.join(docs, "nature", "published.csv"))
-    rows = merged(published, rows_from(source))
-    write(os.path.join(docs, "nature.csv"), COLUMNS, rows)
+    target = os.path.join(docs, "nature.csv")
+    rows = merged(published, rows_from(source), rows_from(target))
+    write(target, COLUMNS, rows)
     costs = rows_from(os.path.join(os.path.dirname(source), "costs.csv"))
     write_tables(os.path.join(docs, "nature.md"), [tally_table(rows), *(group_table(rows, group) for group in GROUPS),
                                                    cost_table(rows, costs), source_table(published)], mark("nature"))

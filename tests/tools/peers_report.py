@@ -16,7 +16,7 @@ import subprocess
 import sys
 import tempfile
 
-from falls_report import FALLS, SCENES, baked_file, compared, has_the_regime, run, worst_figure, worst_of
+from falls_report import FALLS, SCENES, baked_file, compared, has_the_regime, rows_of_falls, run, worst_figure, worst_of
 from report_tables import mark, write_tables
 
 FIGURES = {"descent": "descent_speed", "frequency": "frequency", "amplitude": "inclination_amplitude",
@@ -89,8 +89,7 @@ def by_equations(programs, folder, samples):
 
 def reported(scene):
     """The runtime's row as docs/falls/falls.csv has it, without times."""
-    with open(f"{FALLS}/falls.csv", newline="", encoding="utf-8") as file:
-        row = next(row for row in csv.DictReader(file) if row["fall"] == scene)
+    row = next(row for row in rows_of_falls("off") if row["fall"] == scene)
     number = {"descent": "descent_speed", "frequency": "frequency", "amplitude": "inclination_amplitude",
               "angular_speed": "rms_angular_speed"}
     differences = {name: row[f"{column}_difference"] for name, column in number.items()}

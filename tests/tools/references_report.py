@@ -1,0 +1,112 @@
+#!/usr/bin/env python3
+"""The reference falls of docs/falls, solved by full CFD on two meshes and by two closures.
+
+    references_report.py BIN WORK [NAME...]    solves what is missing in WORK, some three CPU hours where nothing is,
+                                               and writes docs/falls/NAME.h5 with its uncertainties, references.csv
+                                               and the tables of docs/falls.md; of the falls that are named, or all
+    references_report.py                       writes the tables again from references.csv
+
+What is solved is not solved again. Run from the project's folder.
+"""
+
+import csv
+import os
+import shutil
+import sys
+
+from falls_report import FALLS, FIGURES, SCENES, percent, run, written
+from report_tables import mark, write_tables
+
+CELLS, COARSE_CELLS = 20000, 6000
+CLOSURE, OTHER_CLOSURE = "kOmegaSSTLM", "kOmegaSST"
+NAMES = list(SCENES) + ["cube", "airplane", "samara"]
+ROWS = f"{FALLS}/references.csv"
+MOTION_FIGURES = ("descent_speed", "frequency", "inclination_amplitude", "rms_angular_speed")
+
+
+def solved(programs, work, name, cells, closure, others=()):
+    """The motion file of a fall, and what `samara validate` says of it."""
+    folder = os.path.join(work, f"{name}-{cells}-{closure}")
+    os.makedirs(folder, exist_ok=True)
+    file = os.path.join(folder, f"{name}.h5")
+    words = [f"{programs}/samara", "validate", f"{FALLS}/{name}.toml", "-o", file, "--cells", str(cells), "--closure", closure]
+    return file, run(words + ["--json", *others])
+
+
+def differences(programs, motion, reference):
+    """By how much the figures of a motion differ from a reference's, over these; and its regime."""
+    comparison = run([f"{programs}/samara", "compare", motion, reference, "--json"])
+    measures = comparison["measures"]
+    return [(measures.get(figure) or {}).get("relative_difference") for figure in FIGURES], comparison["motion"]["regime"]
+
+
+def row_of(programs, work, name):
+    coarse, _ = solved(programs, work, name, COARSE_CELLS, CLOSURE)
+    other, _ = solved(programs, work, name, COARSE_CELLS, OTHER_CLOSURE)
+    file, result = solved(programs, work, name, CELLS, CLOSURE, ["--other-mesh", coarse, "--other-closure", f"{other},{coarse}"])
+    shutil.copyfile(file, f"{FALLS}/{name}.h5")
+    body = result["body"]
+    by_mesh, regime_by_mesh = differences(programs, coarse, file)
+    by_closure, regime_by_closure = differences(programs, other, coarse)
+    return ([name, result["cells"], result["cpu_seconds"], result["balance"]["force"], result["balance"]["moment"],
+             result["largest_courant_number"], body["regime"], regime_by_mesh, regime_by_closure]
+            + [body.get(figure) for figure in MOTION_FIGURES] + by_mesh + by_closure)
+
+
+def heading():
+    return (["fall", "cells", "cpu_seconds", "balance_force", "balance_moment", "largest_courant_number", "regime",
+             "regime_coarse", "regime_other_closure"] + list(MOTION_FIGURES)
+            + [f"{figure}_by_{cause}" for cause in ("mesh", "closure") for figure in FIGURES])
+
+
+def title_of(name):
+    """What a scene's first line says of it."""
+    with open(f"{FALLS}/{name}.toml", encoding="utf-8") as scene:
+        return scene.readline().lstrip("# ").rstrip(".\n")
+
+
+def number(text, scale, digits, unit):
+    return f"{scale * float(text):.{digits}g}{unit}" if text else "-"
+
+
+def tables():
+    with open(ROWS, newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    falls = ["| fall | what | cells | CPU s | momenta balance (force / moment) | descent | frequency | amplitude | regime |",
+             "|---" * 9 + "|"]
+    errors = ["| fall | coarser mesh: descent | frequency | amplitude | rms angular speed | regime | other closure: descent "
+              "| frequency | amplitude | rms angular speed | regime |", "|---" * 11 + "|"]
+    for row in rows:
+        name, turns = row["fall"], bool(row["frequency"])
+        falls.append(f"| [{name}](falls/{name}.toml) | {title_of(name)} | {int(row['cells']):,} | {float(row['cpu_seconds']):.0f} "
+                     f"| {100 * float(row['balance_force']):.1f} / {100 * float(row['balance_moment']):.1f} % "
+                     f"| {number(row['descent_speed'], 1, 3, ' m/s')} | {number(row['frequency'], 1, 3, ' Hz')} "
+                     f"| {number(row['inclination_amplitude'], 57.29578, 2, ' degrees') if turns else '-'} | {row['regime']} |")
+        cells = [name]
+        for cause, regime in (("mesh", "regime_coarse"), ("closure", "regime_other_closure")):
+            cells += [percent(float(row[f"{figure}_by_{cause}"]) if row[f"{figure}_by_{cause}"] else None) for figure in FIGURES]
+            cells.append(row[regime])
+        errors.append("| " + " | ".join(cells) + " |")
+    return ["\n".join(lines) + "\n" for lines in (falls, errors)]
+
+
+def main(words):
+    if len(words) == 2:
+        sys.stderr.write(__doc__)
+        return 2
+    if len(words) > 2:
+        names = words[3:] or NAMES
+        old = {}
+        if os.path.exists(ROWS):
+            with open(ROWS, newline="", encoding="utf-8") as file:
+                old = {row[0]: row for row in list(csv.reader(file))[1:]}
+        for name in names:
+            old[name] = row_of(words[1], words[2], name)
+            print(*old[name])
+        written(ROWS, [heading()] + [old[name] for name in NAMES if name in old])
+    write_tables("docs/falls.md", tables(), mark("references"))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv))
