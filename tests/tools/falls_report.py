@@ -190,6 +190,8 @@ def tables_of_falls():
 
 def table_of_falls(rows):
     """A table of docs/falls.md, of rows of falls.csv."""
+    if not rows:
+        return "Not flown yet.\n"
     lines = ["| fall | descent | frequency | amplitude | rms angular speed | regime (runtime / CFD) | worst figure "
              "| within 10, 20, 30 % | within 5, 15, 25, 25 % |", "|---" * 9 + "|"]
     for row in rows:
