@@ -29,7 +29,7 @@ extern "C" {
 #endif
 
 /* The version of this header: it grows with every addition, and what was there stays as it was. */
-#define SAMARA_API_VERSION 3
+#define SAMARA_API_VERSION 4
 
 /* The SAMARA_API_VERSION of the library that is linked: at least that of the header, or functions may lack.
  */
@@ -168,6 +168,9 @@ typedef struct samara_kind {
     double table_reynolds_number; /* read the tables at this one alone; default (0): at the body's own */
     int32_t added_mass;           /* whether the fluid's inertia is part of the body's; default: 1 */
     int32_t dynamic_coefficients; /* SAMARA_DYNAMIC_...; default: OF_BODY */
+
+    /* since SAMARA_API_VERSION 4 */
+    int32_t patches; /* of the surface, each of which meets the flow with its own velocity; default: 1 */
 } samara_kind;
 
 SAMARA_API samara_status samara_default_kind(samara_kind* kind, size_t size, char* error, size_t error_size);

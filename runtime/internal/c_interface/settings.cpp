@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "internal/body/surface_patches.hpp"
 #include "internal/c_interface/guard.hpp"
 #include "internal/scene/number_limits.hpp"
 
@@ -22,6 +23,7 @@ constexpr std::size_t first_kind_size = offsetof(samara_kind, langevin) + sizeof
 // The first member of a version lies where the struct of the one before ended, and not in its padding, which
 // callers do not fill.
 static_assert(offsetof(samara_kind, table_reynolds_number) % alignof(samara_kind) == 0);
+static_assert(offsetof(samara_kind, patches) % alignof(samara_kind) == 0);
 
 [[noreturn]] void refuse(const char* member, const std::string& why) {
     throw Fault(SAMARA_INVALID_ARGUMENT, fmt::format("{} {}", member, why));
@@ -136,6 +138,11 @@ void read_turbulence(const samara_kind& kind, GivenKind& body) {
 /// What the equations hold, beside loads, coefficients and turbulence, which are read before.
 void read_models(const samara_kind& kind, GivenKind& body) {
     body.added_mass = kind.added_mass != 0;
+    if (kind.patches < 1 || kind.patches > most_surface_patches) {
+        refuse("patches",
+               fmt::format("is {}; it must lie between 1 and {}", kind.patches, most_surface_patches));
+    }
+    body.patches = kind.patches;
     body.dynamic = choice<Dynamic>(kind.dynamic_coefficients, SAMARA_DYNAMIC_NONE, "dynamic_coefficients");
     if (!(non_negative(kind.table_reynolds_number, "table_reynolds_number") > 0.0)) return;
     if (body.loads != Loads::table && body.turbulence != Turbulence::table) {
@@ -212,6 +219,7 @@ samara_kind default_kind() {
     kind.turbulence = SAMARA_TURBULENCE_AS_LOADS;
     kind.langevin = SAMARA_LANGEVIN_SEEN_FLUID;
     kind.added_mass = 1;
+    kind.patches = 1;
     kind.dynamic_coefficients = SAMARA_DYNAMIC_OF_BODY;
     return kind;
 }

@@ -158,6 +158,9 @@ void set_loads(const ImmersedBody& body, FlightConstants<Real>& c) {
         square<Real>(half_density / (mass * length) * dynamic.rotational_drag_in_spin);
     set_transport(body, mass, length, c);
     set_wake(body, mass, length, c);
+    for (const SurfacePatch& patch : body.patches) {
+        c.patches.push_back({triple<Real>(patch.place / length), static_cast<Real>(patch.share)});
+    }
     const double creeping = std::numbers::pi * body.viscosity * body.length / mass;
     const double ratio = body.length / length;
     c.creeping_turn = static_cast<Real>(creeping * ratio * ratio);

@@ -157,6 +157,7 @@ ImmersedBody make_immersed_body(const Body& body, const BodyPhysics& physics, co
         result.projected_areas = projected_areas(body.surface);
     }
     result.dynamic = dynamic_coefficients_of(body, physics);
+    if (physics.patches > 1) result.patches = surface_patches(body.surface, physics.patches);
     result.turbulence = physics.turbulence;
     result.turbulent_kinetic_energy = physics.turbulent_kinetic_energy;
     result.dissipation_rate = physics.dissipation_rate;

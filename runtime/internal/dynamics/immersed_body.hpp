@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "internal/body/surface_patches.hpp"
 #include "internal/dynamics/dynamic_coefficients.hpp"
 #include "internal/kernel/flight_constants.hpp"
 #include "samara/base/linear_algebra.hpp"
@@ -45,6 +46,7 @@ struct ImmersedBody {
     std::vector<double> projected_areas;
     std::optional<LoadTables> tables;  ///< where loads or turbulence are from tables
     DynamicCoefficients dynamic;
+    std::vector<SurfacePatch> patches{SurfacePatch()};  ///< of the surface; one stands for the whole
 
     Turbulence turbulence = Turbulence::none;
     double turbulent_kinetic_energy = 0.0;

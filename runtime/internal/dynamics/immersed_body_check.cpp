@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "internal/body/surface_patches.hpp"
 #include "samara/base/error.hpp"
 
 namespace samara {
@@ -124,6 +125,8 @@ void require_sound(const Body& body, const BodyPhysics& physics, const Fluid& fl
     if (physics.table_reynolds_number) {
         checks.positive(*physics.table_reynolds_number, "table_reynolds_number");
     }
+    checks.require(physics.patches >= 1 && physics.patches <= most_surface_patches, "patches",
+                   fmt::format("between 1 and {}", most_surface_patches));
     if (!body.dynamic || physics.loads != Loads::table || physics.dynamic != Dynamic::of_body) return;
     const std::string fault = fault_of(body.dynamic->values);
     if (!fault.empty()) throw Error(fmt::format("body '{}': dynamic.{}", name, fault));

@@ -23,6 +23,13 @@ struct DirectionTable {
     [[nodiscard]] int planes() const { return static_cast<int>(logarithms.size()); }
 };
 
+/// A part of the surface, which feels its share of a tow's force at its own velocity.
+template <class Real>
+struct LoadPatch {
+    Triple<Real> place{};  ///< over l, from the middle of all
+    Real share = 1;        ///< all add up to one
+};
+
 /// What the step needs of a body, worked out once. Body axes about the centroid; lengths are in the power of
 /// two l (m) nearest to the body's L, so that they convert without rounding, and masses in m*, a third of the
 /// trace of K's linear block: all numbers are near one, and single precision serves as well.
@@ -48,6 +55,7 @@ struct FlightConstants {
     Real tow_factor = 0;                      ///< rho_f A l / (2 m*)
     Real reynolds_factor = 0;                 ///< L l / nu (s)
     DirectionTable<Real> loads_by_direction;  ///< force, 0, moment L/l, 0; or the area over A and zeros
+    std::vector<LoadPatch<Real>> patches;     ///< one at least
     Real drag_coefficient = 0;
     Real twice_lift_coefficient = 0;
     Triple<Real> normal{};

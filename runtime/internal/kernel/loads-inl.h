@@ -105,6 +105,29 @@ HWY_INLINE LoadBlocks<V> moved_by_arm(const TowMatrix<V>& tow, const Triple<V>& 
             scaling_and_cross(tow.drag, tow.side)};
 }
 
+/// The tow's matrix about the centroid, of a force that acts at the arm r: each patch of the surface feels
+/// its share of it at its own velocity and place. A steady tow is that of the whole body; no patch makes
+/// energy.
+template <class V, class Real>
+HWY_INLINE LoadBlocks<V> tow_blocks(const FlightConstants<Real>& c, const Triple<V>& omega,
+                                    const Triple<V>& velocity, const Triple<V>& r) {
+    const auto of_patch = [&](const LoadPatch<Real>& patch) HWY_ATTR {
+        const Triple<V> arm = r + broadcast<V>(patch.place);
+        const TowMatrix<V> tow = tow_matrix(c, velocity + cross(omega, arm));
+        const V share(patch.share);
+        return moved_by_arm(TowMatrix<V>{share * tow.drag, share * tow.side}, arm);
+    };
+    LoadBlocks<V> blocks = of_patch(c.patches[0]);
+    for (std::size_t i = 1; i < c.patches.size(); ++i) {
+        const LoadBlocks<V> more = of_patch(c.patches[i]);
+        blocks.moment_by_turning = blocks.moment_by_turning + more.moment_by_turning;
+        blocks.moment_by_velocity = blocks.moment_by_velocity + more.moment_by_velocity;
+        blocks.force_by_turning = blocks.force_by_turning + more.force_by_turning;
+        blocks.force_by_velocity = blocks.force_by_velocity + more.force_by_velocity;
+    }
+    return blocks;
+}
+
 /// Adds the part of the tow's moment that no arm gives. What it does on a turning body it takes from its
 /// path, as wind does that turns a mill: workless.
 template <class V>
@@ -173,7 +196,7 @@ HWY_INLINE LoadBlocks<V> relative_load_blocks(const FlightConstants<Real>& c, co
     // The tow's moment stays until the body does little but turn: a steady tow keeps it whole.
     const PressurePoint<V> point =
         pressure_point(c, heading, share_of(speed_square, V(motion_onset) * tip_square));
-    LoadBlocks<V> blocks = moved_by_arm(tow_matrix(c, velocity + cross(omega, point.arm)), point.arm);
+    LoadBlocks<V> blocks = tow_blocks(c, omega, velocity, point.arm);
     add_windmill(point.moment_along_force, velocity, blocks);
 
     const V in_motion = combined * share_of(tip_square, V(motion_onset) * speed_square);

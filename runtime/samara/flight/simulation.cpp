@@ -39,6 +39,7 @@ std::string models_of(const SceneBody& scene_body, const ImmersedBody& body) {
         text +=
             fmt::format("; tables at the Reynolds number {:.4g} alone", *scene_body.table_reynolds_number);
     }
+    if (scene_body.patches > 1) text += fmt::format("; in {} patches", scene_body.patches);
     if (!scene_body.added_mass) text += "; no added mass";
     if (!body.dynamic.origin.empty()) text += "; " + body.dynamic.origin;
     if (scene_body.models_auto) text += R"(; chosen by models = "auto")";

@@ -47,12 +47,13 @@ struct BodyPhysics {
     Loads loads = Loads::table;                   ///< where force and moment come from
     CoefficientLoads coefficients;                ///< where the loads are coefficients
     std::optional<double> table_reynolds_number;  ///< at which alone tables are read
-    bool added_mass = true;                       ///< whether the fluid's inertia is part of the body's
-    Dynamic dynamic = Dynamic::of_body;           ///< whether the body's dynamic coefficients count
-    Turbulence turbulence = Turbulence::table;    ///< default: table where the loads are, else none
-    double turbulent_kinetic_energy = 0.0;        ///< m^2/s^2, where turbulence is constant
-    double dissipation_rate = 0.0;                ///< m^2/s^3, where turbulence is constant
-    Langevin langevin = Langevin::seen_fluid;     ///< what the noise drives
+    int patches = 1;         ///< of the surface, each of which meets the flow with its own velocity
+    bool added_mass = true;  ///< whether the fluid's inertia is part of the body's
+    Dynamic dynamic = Dynamic::of_body;         ///< whether the body's dynamic coefficients count
+    Turbulence turbulence = Turbulence::table;  ///< default: table where the loads are, else none
+    double turbulent_kinetic_energy = 0.0;      ///< m^2/s^2, where turbulence is constant
+    double dissipation_rate = 0.0;              ///< m^2/s^3, where turbulence is constant
+    Langevin langevin = Langevin::seen_fluid;   ///< what the noise drives
 
     /// Member by member.
     bool operator==(const BodyPhysics&) const = default;
@@ -63,7 +64,7 @@ struct BodyPhysics {
 /// compile.
 template <typename Physics, typename Visit>
 void visit_members(Physics& physics, const Visit& visit) {
-    auto& [mass, loads, coefficients, table_reynolds_number, added_mass, dynamic, turbulence,
+    auto& [mass, loads, coefficients, table_reynolds_number, patches, added_mass, dynamic, turbulence,
            turbulent_kinetic_energy, dissipation_rate, langevin] = physics;
     auto& [density, total_mass, center_of_mass, inertia] = mass;
     auto& [drag_coefficient, lift_coefficient, reference_area, normal, center_of_pressure] = coefficients;
@@ -78,6 +79,7 @@ void visit_members(Physics& physics, const Visit& visit) {
     visit("normal", normal);
     visit("center_of_pressure", center_of_pressure);
     visit("table_reynolds_number", table_reynolds_number);
+    visit("patches", patches);
     visit("added_mass", added_mass);
     visit("dynamic_coefficients", dynamic);
     visit("turbulence", turbulence);

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "internal/body/surface_patches.hpp"
 #include "internal/files/input_file.hpp"
 #include "internal/scene/toml_table.hpp"
 #include "samara/base/error.hpp"
@@ -129,6 +130,10 @@ void read_models(TomlTable& table, SceneBody& body) {
         {{"body", Dynamic::of_body}, {"default", Dynamic::by_default}, {"none", Dynamic::none}},
         body.dynamic);
     body.table_reynolds_number = table.number("table_reynolds_number", positive_number);
+    if (const auto patches = table.integer("patches", 1, most_surface_patches)) {
+        if (body.loads == Loads::none) throw table.fault("patches", "is for loads, of which there are none");
+        body.patches = static_cast<int>(*patches);
+    }
     body.models_auto = choice<bool>(table, "models", {{"auto", true}, {"given", false}}, false);
     if (!body.models_auto) return;
     for (const char* key :

@@ -244,6 +244,8 @@ TEST(CInterface, KindsOutOfRangeAreRefusedByName) {
         {"table_reynolds_number", [](samara_kind& k) { k.table_reynolds_number = -1.0; }},
         {"table_reynolds_number", [](samara_kind& k) { k.table_reynolds_number = not_a_number; }},
         {"dynamic_coefficients", [](samara_kind& k) { k.dynamic_coefficients = 3; }},
+        {"patches", [](samara_kind& k) { k.patches = 0; }},
+        {"patches", [](samara_kind& k) { k.patches = 33; }},
     };
     const BodyOnDisk body;
     const SimulationPointer simulation = empty_simulation();

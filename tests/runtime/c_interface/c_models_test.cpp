@@ -39,6 +39,7 @@ const std::vector<Models>& models() {
          [](SceneBody& body) { body.dynamic = Dynamic::none; }},
         {"one Reynolds number", [](samara_kind& kind) { kind.table_reynolds_number = 1e5; },
          [](SceneBody& body) { body.table_reynolds_number = 1e5; }},
+        {"patches", [](samara_kind& kind) { kind.patches = 8; }, [](SceneBody& body) { body.patches = 8; }},
     };
     return all;
 }

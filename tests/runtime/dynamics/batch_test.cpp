@@ -33,6 +33,14 @@ ImmersedBody noisy_lopsided_body(Turbulence turbulence = Turbulence::table) {
     return body;
 }
 
+/// The same whose surface meets the flow in patches.
+ImmersedBody noisy_patched_body() {
+    ImmersedBody body = noisy_lopsided_body();
+    body.patches = surface_patches(test::lopsided_shape().surface, 6);
+    prepare(body);
+    return body;
+}
+
 ImmersedBody coefficient_body() {
     Body shape = test::rubber_ellipsoid();
     SceneBody given = test::scene_body(1200.0);
@@ -100,7 +108,7 @@ Surroundings windy() {
 TEST(Batch, InDoublePrecisionMovesEachBodyAsAdvanceDoesToTheLastBit) {
     for (const ImmersedBody& body :
          {noisy_body(), noisy_body(Turbulence::constant), noisy_body(Turbulence::none), noisy_lopsided_body(),
-          coefficient_body(), test::ideal_ellipsoid()}) {
+          noisy_patched_body(), coefficient_body(), test::ideal_ellipsoid()}) {
         constexpr std::size_t count = 37;
         Batch batch = started<double>(body, first(count));
         const BatchReport report = batch.advance(windy(), 0.5, h, 3, 50);
@@ -198,7 +206,7 @@ TEST(FloatBatch, StaysWithinItsBoundOfTheDoublePath) {
     // docs/theory states it: over 0.2 s of a fall of 4 cm bodies with noise, 1e-5 m and 1e-3 rad.
     double farthest = 0.0;
     double most_turned = 0.0;
-    for (const ImmersedBody& body : {noisy_body(), noisy_lopsided_body()}) {
+    for (const ImmersedBody& body : {noisy_body(), noisy_lopsided_body(), noisy_patched_body()}) {
         FloatBatch floats = started<float>(body, first(200));
         Batch doubles = started<double>(body, first(200));
         floats.advance(windy(), 0.0, h, 0, 100);

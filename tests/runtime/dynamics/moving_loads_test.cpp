@@ -158,8 +158,13 @@ Vector6d static_table(const Motion& m) {
     const double share = m.v.squaredNorm() / (m.v.squaredNorm() + motion_onset * m.tip * m.tip);
     const Vector3d arm = share * force.cross(moment) / force.squaredNorm();
     const Vector3d along = share * moment.dot(force) / force.squaredNorm() * force;
-    const Vector3d local = tabulated(m.body, m.v + m.omega.cross(arm)).first;
-    return motion_of(arm.cross(local) + along, local - along.dot(m.omega) / m.v.squaredNorm() * m.v);
+    Vector6d static_part = motion_of(along, -along.dot(m.omega) / m.v.squaredNorm() * m.v);
+    for (const SurfacePatch& patch : m.body.patches) {
+        const Vector3d place = arm + patch.place;
+        const Vector3d local = patch.share * tabulated(m.body, m.v + m.omega.cross(place)).first;
+        static_part += motion_of(place.cross(local), local);
+    }
+    return static_part;
 }
 /// Stokes' resistance below the table.
 Vector6d creeping_drag(const Motion& m) {
@@ -239,18 +244,35 @@ TEST(MovingLoads, TransportAndWakeDoNoWorkAndTheDragsTakeEnergyAway) {
     }
 }
 
-TEST(MovingLoads, TogetherAreTheirTermsAndTheStaticTable) {
-    const ImmersedBody body = test::lopsided_body();
-    std::mt19937 generator(3);
-    for (int i = 0; i < 500; ++i) {
-        const Vector6d motion = random_motion(generator, i);
-        const Motion m(body, motion);
-        Vector6d expected = static_table(m) + creeping_drag(m) + creeping_turn(m);
-        for (const Term& term : terms()) expected += term.formula(m);
-        const Vector6d loads = loads_at(body, motion);
-        EXPECT_LT((loads - expected).head<3>().norm(), 1e-11 * expected.head<3>().norm());
-        EXPECT_LT((loads - expected).tail<3>().norm(), 1e-11 * expected.tail<3>().norm());
+/// The lopsided body whose surface meets the flow in so many patches.
+ImmersedBody patched_body(int patches) {
+    SceneBody given = test::scene_body(1200.0);
+    given.patches = patches;
+    return make_immersed_body(test::lopsided_shape(), given, Fluid{});
+}
+
+TEST(MovingLoads, TogetherAreTheirTermsAndTheStaticTableOfEachPatch) {
+    for (const ImmersedBody& body : {test::lopsided_body(), patched_body(5)}) {
+        std::mt19937 generator(3);
+        for (int i = 0; i < 500; ++i) {
+            const Vector6d motion = random_motion(generator, i);
+            const Motion m(body, motion);
+            Vector6d expected = static_table(m) + creeping_drag(m) + creeping_turn(m);
+            for (const Term& term : terms()) expected += term.formula(m);
+            const Vector6d loads = loads_at(body, motion);
+            EXPECT_LT((loads - expected).head<3>().norm(), 1e-11 * expected.head<3>().norm());
+            EXPECT_LT((loads - expected).tail<3>().norm(), 1e-11 * expected.tail<3>().norm());
+        }
     }
+}
+
+TEST(MovingLoads, OfPatchesTakeEnergyFromAWingThatSpinsOnTheSpotAsOnePatchDoesNot) {
+    const ImmersedBody whole = bare(patched_body(1), true);
+    const ImmersedBody patched = bare(patched_body(8), true);
+    const Vector6d spin = motion_of(Vector3d(0.0, 20.0, 0.0), Vector3d::Zero());
+    const double creeping = spin.dot(creeping_turn(Motion(whole, spin)));
+    EXPECT_NEAR(spin.dot(loads_at(whole, spin)) / creeping, 1.0, 1e-12);
+    EXPECT_GT(spin.dot(loads_at(patched, spin)) / creeping, 10.0);
 }
 
 TEST(MovingLoads, TransportOfTheWholeAddedMassTakesThePotentialFlowsOwnAway) {
@@ -309,7 +331,10 @@ std::vector<ImmersedBody> lesser_bodies() {
                 given.added_mass = added_mass;
                 given.dynamic = dynamic;
                 given.table_reynolds_number = reynolds;
-                bodies.push_back(make_immersed_body(test::lopsided_shape(), given, Fluid{}));
+                for (const int patches : {1, 8}) {
+                    given.patches = patches;
+                    bodies.push_back(make_immersed_body(test::lopsided_shape(), given, Fluid{}));
+                }
             }
         }
     }

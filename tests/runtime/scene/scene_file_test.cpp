@@ -101,6 +101,8 @@ TEST_F(SceneFile, ModelsAreSwitchedBodyByBody) {
     EXPECT_EQ(body("dynamic_coefficients = \"default\"").dynamic, Dynamic::by_default);
     EXPECT_EQ(body("dynamic_coefficients = \"none\"").dynamic, Dynamic::none);
     EXPECT_EQ(body("table_reynolds_number = 1e4").table_reynolds_number, 1e4);
+    EXPECT_EQ(body("").patches, 1);
+    EXPECT_EQ(body("patches = 8").patches, 8);
     EXPECT_FALSE(body("models = \"given\"\nloads = \"none\"").models_auto);
     EXPECT_TRUE(body("models = \"auto\"\nlangevin = \"seen-fluid\"").models_auto);
 }
@@ -112,6 +114,12 @@ TEST_F(SceneFile, ModelsThatAreChosenAreNotGivenToo) {
         EXPECT_THAT(refusal(with_body("density = 1\nmodels = \"auto\"\n" + key)),
                     AllOf(HasSubstr("scene.toml:8: " + name), HasSubstr("models = \"auto\"")));
     }
+    for (const char* count : {"0", "33", "2.5"}) {
+        EXPECT_THAT(refusal(with_body(std::string("density = 1\npatches = ") + count)),
+                    HasSubstr("scene.toml:7: patches"));
+    }
+    EXPECT_THAT(refusal(with_body("density = 1\nloads = \"none\"\npatches = 8")),
+                HasSubstr("scene.toml:8: patches"));
     EXPECT_THAT(refusal(with_body("density = 1\nmodels = \"best\"")), HasSubstr("scene.toml:7: models"));
     EXPECT_THAT(refusal(with_body("density = 1\nadded_mass = 1")), HasSubstr("must be true or false"));
     EXPECT_THAT(refusal(with_body("density = 1\ndynamic_coefficients = \"all\"")), HasSubstr("\"default\""));

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "samara/base/linear_algebra.hpp"
+#include "samara/body/surface.hpp"
+
+namespace samara {
+
+/// How many patches a surface can be divided into.
+inline constexpr int most_surface_patches = 32;
+
+/// A part of a body's surface, for what acts on the parts one by one.
+struct SurfacePatch {
+    Vector3d place = Vector3d::Zero();  ///< of its centre of area, m from that of the whole surface
+    double share = 1.0;                 ///< of the whole area
+};
+
+/// Divides a surface into patches of no great extent: the piece with the widest spread is cut through its
+/// centre of area, across the direction in which it is widest, until there are so many. The shares add up to
+/// one and the places, weighed by them, to zero. A cut goes through triangles, so that the mesh does not
+/// matter; where a piece is as wide in several directions, which of them is cut first is chance.
+/// `count`: 1 to most_surface_patches.
+std::vector<SurfacePatch> surface_patches(const Surface& surface, int count);
+
+}  // namespace samara
