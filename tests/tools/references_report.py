@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """The reference falls of docs/falls, solved by full CFD on two meshes and by two closures.
 
-    references_report.py BIN WORK [NAME...]    solves what is missing in WORK, some three CPU hours where nothing is,
-                                               and writes docs/falls/NAME.h5 with its uncertainties, references.csv
-                                               and the tables of docs/falls.md; of the falls that are named, or all
-    references_report.py                       writes the tables again from references.csv
+    references_report.py BIN WORK [--mesh-alone] [NAME...]
+        solves what is missing in WORK, some three CPU hours where nothing is, and writes docs/falls/NAME.h5 with its
+        uncertainties, references.csv and the tables of docs/falls.md; of the falls that are named, or all; with
+        --mesh-alone not by the other closure
+    references_report.py
+        writes the tables again from references.csv
 
 What is solved is not solved again. Run from the project's folder.
 """
@@ -40,14 +42,18 @@ def differences(programs, motion, reference):
     return [(measures.get(figure) or {}).get("relative_difference") for figure in FIGURES], comparison["motion"]["regime"]
 
 
-def row_of(programs, work, name):
+def row_of(programs, work, name, mesh_alone):
     coarse, _ = solved(programs, work, name, COARSE_CELLS, CLOSURE)
-    other, _ = solved(programs, work, name, COARSE_CELLS, OTHER_CLOSURE)
-    file, result = solved(programs, work, name, CELLS, CLOSURE, ["--other-mesh", coarse, "--other-closure", f"{other},{coarse}"])
+    others = ["--other-mesh", coarse]
+    by_closure, regime_by_closure = [None] * len(FIGURES), None
+    if not mesh_alone:
+        other, _ = solved(programs, work, name, COARSE_CELLS, OTHER_CLOSURE)
+        others += ["--other-closure", f"{other},{coarse}"]
+        by_closure, regime_by_closure = differences(programs, other, coarse)
+    file, result = solved(programs, work, name, CELLS, CLOSURE, others)
     shutil.copyfile(file, f"{FALLS}/{name}.h5")
     body = result["body"]
     by_mesh, regime_by_mesh = differences(programs, coarse, file)
-    by_closure, regime_by_closure = differences(programs, other, coarse)
     return ([name, result["cells"], result["cpu_seconds"], result["balance"]["force"], result["balance"]["moment"],
              result["largest_courant_number"], body["regime"], regime_by_mesh, regime_by_closure]
             + [body.get(figure) for figure in MOTION_FIGURES] + by_mesh + by_closure)
@@ -85,7 +91,7 @@ def tables():
         cells = [name]
         for cause, regime in (("mesh", "regime_coarse"), ("closure", "regime_other_closure")):
             cells += [percent(float(row[f"{figure}_by_{cause}"]) if row[f"{figure}_by_{cause}"] else None) for figure in FIGURES]
-            cells.append(row[regime])
+            cells.append(row[regime] or "-")
         errors.append("| " + " | ".join(cells) + " |")
     return ["\n".join(lines) + "\n" for lines in (falls, errors)]
 
@@ -95,13 +101,14 @@ def main(words):
         sys.stderr.write(__doc__)
         return 2
     if len(words) > 2:
-        names = words[3:] or NAMES
+        mesh_alone = "--mesh-alone" in words
+        names = [word for word in words[3:] if word != "--mesh-alone"] or NAMES
         old = {}
         if os.path.exists(ROWS):
             with open(ROWS, newline="", encoding="utf-8") as file:
                 old = {row[0]: row for row in list(csv.reader(file))[1:]}
         for name in names:
-            old[name] = row_of(words[1], words[2], name)
+            old[name] = row_of(words[1], words[2], name, mesh_alone)
             print(*old[name])
         written(ROWS, [heading()] + [old[name] for name in NAMES if name in old])
     write_tables("docs/falls.md", tables(), mark("references"))
