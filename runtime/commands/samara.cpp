@@ -1,14 +1,17 @@
 // The program `samara`: runs one of its own commands, or the program samara-COMMAND.
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include "commands/commands.hpp"
+#include "internal/base/nearest_word.hpp"
 #include "internal/command/guarded_program.hpp"
 #include "internal/command/print.hpp"
 #include "internal/command/subprocess.hpp"
@@ -74,7 +77,11 @@ void run_other_program(const std::string& name, char** argv) {
                 "SAMARA_BAKING=ON)",
                 name));
         }
-        throw samara::Error(fmt::format("there is no command '{}'; see 'samara --help'", name));
+        std::vector<std::string> names;
+        for (const Command& command : commands) names.emplace_back(command.name);
+        const std::string meant = samara::did_you_mean(name, names);
+        throw samara::Error(
+            fmt::format("there is no command '{}'{}", name, meant.empty() ? "; see 'samara --help'" : meant));
     }
     ::execv(program->c_str(), argv + 1);
     throw samara::Error(fmt::format("{}: cannot be started: {}", program->string(), std::strerror(errno)));
@@ -87,10 +94,13 @@ int main(int argc, char** argv) {
     for (const Command& command : commands) {
         if (command.name == name && command.run != nullptr) return command.run(argc - 1, argv + 1);
     }
-    return samara::run_guarded("samara", [&] {
+    const bool as_json =
+        std::any_of(argv, argv + argc, [](std::string_view word) { return word == "--json"; });
+    const auto work = [&] {
         if (name == "--help" || name == "-h" || name == "help") return print_help();
         if (name == "--list-commands") return list_commands();
         if (name == "--version") return samara::print_result("samara {}\n", samara::version);
         run_other_program(name, argv);
-    });
+    };
+    return samara::run_guarded("samara", work, as_json);
 }

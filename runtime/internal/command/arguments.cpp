@@ -1,5 +1,6 @@
 #include "internal/command/arguments.hpp"
 
+#include <algorithm>
 #include <map>
 #include <sstream>
 #include <stdexcept>
@@ -10,6 +11,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "internal/base/nearest_word.hpp"
 #include "internal/command/guarded_program.hpp"
 #include "internal/command/print.hpp"
 #include "samara/base/version.hpp"
@@ -25,6 +27,8 @@ struct Arguments::Parser {
 
 namespace {
 
+constexpr std::string_view json_option = "--json";
+
 /// For shells: a line for each option, of its names and, after a tab, the words that it takes.
 void list_options(const CLI::App& app, const std::map<std::string, std::vector<std::string>>& choices) {
     for (const CLI::Option* option : app.get_options()) {
@@ -38,6 +42,35 @@ void list_options(const CLI::App& app, const std::map<std::string, std::vector<s
     }
 }
 
+std::vector<std::string> options_of(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : app.get_options()) {
+        for (const std::string& name : option->get_lnames()) names.push_back(fmt::format("--{}", name));
+    }
+    return names;
+}
+
+/// What is wrong with the words: first an option that there is none of, for which what it was to be may lack.
+std::string fault_in_words(const CLI::App& app, const CLI::ParseError& fault) {
+    const std::string see_help = fmt::format("; see '{} --help'", app.get_name());
+    const std::vector<std::string> unknown = app.remaining();
+    for (const std::string& word : unknown) {
+        if (word.size() < 2 || word.front() != '-' || word == "--") continue;
+        const std::string option = word.substr(0, word.find('='));
+        const std::string meant = did_you_mean(option, options_of(app));
+        return fmt::format("there is no option '{}'{}", option, meant.empty() ? see_help : meant);
+    }
+    const bool too_many = fault.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
+    return (too_many && !unknown.empty() ? fmt::format("'{}' is one word too many", unknown.front())
+                                         : std::string(fault.what())) +
+           see_help;
+}
+
+/// Whether the words ask for JSON, whatever else is wrong with them.
+bool asks_for_json(int argc, const char* const* argv) {
+    return std::any_of(argv, argv + argc, [](const char* word) { return word == json_option; });
+}
+
 }  // namespace
 
 Arguments::Arguments(std::string program, std::string description) : parser_(std::make_unique<Parser>()) {
@@ -46,7 +79,8 @@ Arguments::Arguments(std::string program, std::string description) : parser_(std
     parser_->program = std::move(program);
     parser_->app.get_formatter()->column_width(34);
     parser_->app.set_version_flag("--version", std::string("samara ") + version);
-    parser_->app.add_flag("--json", parser_->json, "print the result as one JSON object");
+    parser_->app.add_flag(std::string(json_option), parser_->json,
+                          "print the result as one JSON object; of an error {\"error\": \"...\"}");
 }
 
 Arguments::~Arguments() = default;
@@ -118,7 +152,7 @@ bool Arguments::json() const {
 int run_program(int argc, const char* const* argv, Arguments& arguments,
                 const std::function<nlohmann::json()>& body) {
     Arguments::Parser& parser = *arguments.parser_;
-    return run_guarded(parser.program, [&] {
+    const auto work = [&] {
         if (argc == 2 && std::string_view(argv[1]) == "--list-options") {
             list_options(parser.app, parser.choices);
             return;
@@ -131,13 +165,12 @@ int run_program(int argc, const char* const* argv, Arguments& arguments,
             print_result("{}", help.str());
             return;
         } catch (const CLI::ParseError& fault) {
-            throw std::runtime_error(fmt::format("{}; see '{} --help'", fault.what(), parser.program));
+            throw std::runtime_error(fault_in_words(parser.app, fault));
         }
         const nlohmann::json result = body();
-        // Plain characters alone: a name in it that is no UTF-8, or a command to a terminal, does no harm.
-        if (parser.json)
-            print_result("{}\n", result.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace));
-    });
+        if (parser.json) print_json(result);
+    };
+    return run_guarded(parser.program, work, asks_for_json(argc, argv));
 }
 
 }  // namespace samara

@@ -58,9 +58,10 @@ class Arguments {
 
 /// Parses the words and runs `body`, which does the command's work, prints its text for people unless --json
 /// was given, and returns its result, printed as one JSON object where --json was given, in ASCII: bytes of
-/// names that are no UTF-8 become U+FFFD. The single word --list-options instead prints the options and the
-/// words they take, for a shell's completion. Returns the exit status of run_guarded(): 0, or 1 after one
-/// line "PROGRAM: what is wrong" on standard error, for bad words as for an Error.
+/// names that are no UTF-8 become U+FFFD; of an error {"error": "what is wrong"} beside the line below. The
+/// single word --list-options instead prints the options and the words they take, for a shell's completion.
+/// Returns the exit status of run_guarded(): 0, or 1 after one line "PROGRAM: what is wrong" on standard
+/// error, for bad words, where the option that was meant is named, as for an Error.
 int run_program(int argc, const char* const* argv, Arguments& arguments,
                 const std::function<nlohmann::json()>& body);
 

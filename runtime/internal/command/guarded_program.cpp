@@ -11,6 +11,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include "internal/command/print.hpp"
@@ -42,15 +43,33 @@ std::string one_line(std::string text) {
     return text;
 }
 
-int fail(const std::string& program, const std::string& text) {
-    std::fflush(stdout);
-    print_note("{}: {}\n", program, one_line(text));
-    return 1;
+/// What is wrong, for people.
+std::string fault_of(const std::exception& fault) {
+    if (dynamic_cast<const std::bad_alloc*>(&fault) != nullptr) {
+        return "out of memory; use fewer triangles, bodies, frames or runs";
+    }
+    if (dynamic_cast<const std::length_error*>(&fault) != nullptr) {
+        return "more numbers are asked for than any memory holds; is a count or unit wrong?";
+    }
+    if (const auto* file = dynamic_cast<const std::filesystem::filesystem_error*>(&fault)) {
+        return fmt::format("{}: cannot be used: {}", file->path1().string(), file->code().message());
+    }
+    return one_line(fault.what());
+}
+
+/// Where standard output cannot be written, standard error says so.
+void print_as_json(const std::string& fault) noexcept {
+    try {
+        print_json({{"error", fault}});
+        flush_output();
+    } catch (const std::exception&) {
+        return;
+    }
 }
 
 }  // namespace
 
-int run_guarded(const std::string& program, const std::function<void()>& work) {
+int run_guarded(const std::string& program, const std::function<void()>& work, bool as_json) {
     open_closed_streams();
     make_errors_of(SIGPIPE);
     make_errors_of(SIGXFSZ);
@@ -58,15 +77,12 @@ int run_guarded(const std::string& program, const std::function<void()>& work) {
         work();
         flush_output();
         return 0;
-    } catch (const std::bad_alloc&) {
-        return fail(program, "out of memory; use fewer triangles, bodies, frames or runs");
-    } catch (const std::length_error&) {
-        return fail(program, "more numbers are asked for than any memory holds; is a count or unit wrong?");
-    } catch (const std::filesystem::filesystem_error& fault) {
-        return fail(program,
-                    fmt::format("{}: cannot be used: {}", fault.path1().string(), fault.code().message()));
     } catch (const std::exception& fault) {
-        return fail(program, fault.what());
+        const std::string text = fault_of(fault);
+        std::fflush(stdout);
+        if (as_json) print_as_json(text);
+        print_note("{}: {}\n", program, text);
+        return 1;
     }
 }
 

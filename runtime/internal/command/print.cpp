@@ -5,6 +5,7 @@
 #include <cstring>
 #include <string>
 
+#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include "internal/base/printable.hpp"
@@ -23,6 +24,10 @@ namespace {
 void print_result_text(std::string_view text) {
     const std::string shown = printable_lines(text);
     if (std::fwrite(shown.data(), 1, shown.size(), stdout) != shown.size()) fail_to_print();
+}
+
+void print_json(const nlohmann::json& result) {
+    print_result("{}\n", result.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace));
 }
 
 void flush_output() {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <nlohmann/json_fwd.hpp>
 
 namespace samara {
 
@@ -15,6 +16,10 @@ template <typename... Values>
 void print_result(fmt::format_string<Values...> format, Values&&... values) {
     print_result_text(fmt::format(format, std::forward<Values>(values)...));
 }
+
+/// Prints a line of JSON in plain characters alone: a name in it that is no UTF-8, or a command to a
+/// terminal, does no harm. Otherwise as print_result_text().
+void print_json(const nlohmann::json& result);
 
 /// Sees to it that all that was printed is written. Throws Error where it cannot be.
 void flush_output();

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "internal/base/nearest_word.hpp"
 #include "internal/scene/toml_keys.hpp"
 
 namespace samara {
@@ -23,8 +24,25 @@ TomlTable::TomlTable(const toml::table& table, std::string file, std::string whe
 
 Error TomlTable::fault(std::string_view key, std::string_view what) const {
     const toml::node* found = table_->get(key);
+    if (found == nullptr) require_no_slip(key);
     const auto line = (found != nullptr ? found->source() : table_->source()).begin.line;
     return Error(fmt::format("{}:{}: {} in {} {}", file_, line, key, where_, what));
+}
+
+void TomlTable::require_no_slip(std::string_view key) const {
+    const auto bare = key.substr(key.starts_with('[') ? 1 : 0);
+    const std::vector<std::string> meant = {std::string(bare.substr(0, bare.find(']')))};
+    for (const auto& [written, value] : *table_) {
+        if (known_.contains(written.str()) || nearest_word(written.str(), meant).empty()) continue;
+        throw unknown_key(written, meant);
+    }
+}
+
+Error TomlTable::unknown_key(const toml::key& key, const std::vector<std::string>& keys) const {
+    const std::string meant = did_you_mean(key.str(), keys);
+    return Error(
+        fmt::format("{}:{}: unknown key '{}' in {}{}", file_, key.source().begin.line, key.str(), where_,
+                    meant.empty() ? fmt::format("; the keys are: {}", fmt::join(keys, ", ")) : meant));
 }
 
 const toml::node* TomlTable::node(std::string_view key) {
@@ -114,8 +132,7 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key) {
 void TomlTable::finish() const {
     for (const auto& [key, value] : *table_) {
         if (known_.contains(key.str())) continue;
-        throw Error(fmt::format("{}:{}: unknown key '{}' in {}; the keys are: {}", file_,
-                                key.source().begin.line, key.str(), where_, fmt::join(known_, ", ")));
+        throw unknown_key(key, {known_.begin(), known_.end()});
     }
 }
 

@@ -51,12 +51,16 @@ class TomlTable {
     std::vector<TomlTable> tables(std::string_view key);
     const toml::node* node(std::string_view key);
 
-    /// Throws where the table holds a key that was never asked for, naming the keys that there are.
+    /// Throws where the table holds a key that was never asked for, naming the one that was meant, or all.
     void finish() const;
 
+    /// What is wrong with a key; of one that is missing, the key that is it misspelt.
     [[nodiscard]] Error fault(std::string_view key, std::string_view what) const;
 
   private:
+    /// Throws where one of the unknown keys is this one misspelt.
+    void require_no_slip(std::string_view key) const;
+    Error unknown_key(const toml::key& key, const std::vector<std::string>& keys) const;
     double finite_number(std::string_view key, const toml::node& node, const NumberRange& range) const;
 
     const toml::table* table_;

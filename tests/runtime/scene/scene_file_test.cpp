@@ -133,8 +133,17 @@ TEST_F(SceneFile, AnUnknownKeyIsNamedWithItsLine) {
     EXPECT_THAT(refusal(with_body("density = 1\ncolour = 3\n")),
                 HasSubstr("scene.toml:7: unknown key 'colour'"));
     EXPECT_THAT(refusal("[scene]\nduration = 1\ngravty = 3\n"),
-                HasSubstr("scene.toml:3: unknown key 'gravty'"));
+                HasSubstr("scene.toml:3: unknown key 'gravty' in [scene]; did you mean 'gravity'?"));
     EXPECT_THAT(refusal(with_body("density = 1\n[extra]\n")), HasSubstr("unknown key 'extra'"));
+}
+
+TEST_F(SceneFile, AMisspeltKeyIsNamedBeforeTheKeyThatItLeavesMissing) {
+    EXPECT_THAT(refusal(with_body("densty = 1\n")),
+                HasSubstr("scene.toml:6: unknown key 'densty' in [[body]]; did you mean 'density'?"));
+    EXPECT_THAT(refusal("[scene]\nDuration = 1\n"), HasSubstr("scene.toml:2: unknown key 'Duration'"));
+    EXPECT_THAT(refusal("[scnee]\nduration = 1\n"), HasSubstr("did you mean 'scene'?"));
+    EXPECT_THAT(refusal("[scene]\nduration = 1\n[[body]]\nname = \"a\"\nscale = 2\n"),
+                HasSubstr("shape in [[body]] is missing"));
 }
 
 TEST_F(SceneFile, AValueOutOfRangeIsRefusedWithItsLine) {
