@@ -20,11 +20,11 @@ set multiplot layout 1, 3 margins 0.055, 0.99, 0.2, 0.92 spacing 0.045, 0
 do for [q = 1:3] {
   set title title_of[q]
   if (q == 1) { set ylabel "error of the table, rms over rms" } else { unset ylabel }
-  if (q == 2) { set key at screen 0.5, 0.015 center bottom maxrows 1 width 2 samplen 3 } else { set key off }
+  if (q == 2) { set key at screen 0.5, 0.015 center bottom maxrows 1 Left reverse width 2 samplen 3 } else { set key off }
   plot for [b = 1:2] rows using (strcol(1) eq word(bodies, b) ? $3 : NaN):(column(error_column[q])) \
          with linespoints lc rgb color[b] pt 7 ps 1.4 title word(bodies, b), \
        for [b = 1:2] rows using (strcol(1) eq word(bodies, b) ? $3 : NaN):(column(error_column[q] + 1)) \
          with linespoints lc rgb color[b] dt 2 pt 6 ps 1.2 title word(bodies, b)." as stated", \
-       rows using (strcol(1) eq "ellipsoid" ? $3 : NaN):(0.026):(strcol(2)) with labels textcolor rgb "#6b6b6b" notitle
+       rows using (strcol(1) eq "ellipsoid" ? $3 : NaN):(0.026):(strcol(2)) with labels font ",12" textcolor rgb "#6b6b6b" notitle
 }
 unset multiplot

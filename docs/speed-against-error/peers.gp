@@ -9,6 +9,7 @@ set key off
 
 falls = "sphere ellipsoid-tilted ellipsoid-compound ellipsoid-edgewise ellipsoid-heavy spheroid disc-light disc-heavy plate sheet"
 models = "'MuJoCo default' 'MuJoCo best' 'MuJoCo best for each shape' 'MuJoCo best for each fall' 'samara'"
+names = "'MuJoCo, default' 'MuJoCo, best for all falls' 'MuJoCo, best for the shape' 'MuJoCo, best for the fall' 'samara'"
 array color[5] = ["#9a9a9a", "#c0392b", "#d98c1f", "#dcb878", "#2a6f97"]
 array mark[5] = [4, 7, 9, 6, 5]
 figures = "'descent speed' 'frequency' 'amplitude'"
@@ -33,12 +34,12 @@ do for [p = 1:3] {
   if (p == 3) {
     set xtics ("sphere" 1)
     do for [i = 1:words(falls)] { set xtics add (title(i) i) }
-    set key at screen 0.5, 0.035 center bottom maxrows 1 samplen 1 width -5
+    set key at screen 0.5, 0.035 center bottom maxrows 1 Left reverse samplen 1 width -4
   } else {
     set xtics ("" 1)
   }
   plot for [m = 1:5] rows using \
     (strcol(2) eq word(models, m) && strcol(4 + p) ne "" && (p == 1 || strcol(1) ne "sphere") ? place(strcol(1)) + 0.15 * (m - 3) : NaN): \
-    (held(100 * column(4 + p))) with points pt mark[m] ps 1.9 lc rgb color[m] title word(models, m)
+    (held(100 * column(4 + p))) with points pt mark[m] ps 1.9 lc rgb color[m] title word(names, m)
 }
 unset multiplot

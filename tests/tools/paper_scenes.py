@@ -187,6 +187,12 @@ def turns(poses):
     return front, side
 
 
+def scale_bar(left, height, length=0.5):
+    """What a length across the view is as long as; both views have one scale."""
+    return (f'set arrow from {left}, {height} to {left + length}, {height} heads size screen 0.004, 90 front lc rgb "#1a1a1a" lw 1.2\n'
+            f'set label "{length:g} m, in both" at {left + 0.5 * length}, {height + 0.07} center tc rgb "#1a1a1a"\n')
+
+
 def airplane_panel(number, title, all_flights, interval, edges):
     left, right, bottom, top, low, high = edges
     shown = all_flights[0]
@@ -203,8 +209,9 @@ def airplane_panel(number, title, all_flights, interval, edges):
     for place, (_, shade, corners) in enumerate(sorted(faces), 1):
         text = " to ".join(f"{x:.5f}, {y:.5f}" for x, y in corners + corners[:1])
         commands += f'set object {place} polygon from {text} fc rgb "{shade}" fs solid 0.85 border lc rgb "#16384d" lw 0.4 front\n'
+    commands += scale_bar(high - 0.7, -2.0) if number == 0 else ""
     commands += f'plot $others{number} with lines lc rgb "#c9c9c9" lw 0.8, $path{number} with lines lc rgb "#1a1a1a" lw 1\n'
-    return commands + "".join(f"unset object {place}\n" for place in range(1, len(faces) + 1))
+    return commands + "unset arrow\nunset label\n" + "".join(f"unset object {place}\n" for place in range(1, len(faces) + 1))
 
 
 def airplane_picture(flights_of, picture):
