@@ -26,7 +26,7 @@ set logscale y
 set ytics (0.2, 0.3, 0.4, 0.5, 0.7, 1, 1.5)
 set xlabel "Re"
 set ylabel "C_D"
-set key at screen 0.5, 0.015 center bottom maxrows 2 width 2 samplen 2
+set key at screen 0.5, 0.015 center bottom maxrows 2 Left reverse width 2 samplen 2
 set style fill solid 0.25 noborder
 plot '+' using ($1):(0.9 * brown_lawler($1)):(1.1 * brown_lawler($1)) with filledcurves lc rgb "#b0b0b0" title "Brown and Lawler 2003, 10 % to either side", \
      brown_lawler(x) lc rgb "#1a1a1a" notitle, \

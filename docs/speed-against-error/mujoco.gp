@@ -19,7 +19,7 @@ titles = "'place after 1 s, error relative to the path' 'orientation after 1 s, 
 set multiplot layout 1, 2 margins 0.06, 0.99, 0.23, 0.92 spacing 0.07
 do for [p = 1:2] {
   set title word(titles, p)
-  if (p == 2) { set key at screen 0.5, 0.02 center bottom maxrows 1 width -3 samplen 2 }
+  if (p == 2) { set key at screen 0.5, 0.02 center bottom maxrows 1 Left reverse width -4 samplen 2 }
   plot for [m = 1:5] rows using (strcol(1) eq word(methods, m) ? $3 : NaN):(column(4 + p)) \
     with linespoints pt 7 ps 1.3 lc rgb color[m] title word(methods, m)
 }

@@ -241,7 +241,7 @@ set ylabel "measured over published"
 set yrange [0:*]
 set xrange [-0.6:{len(shown) - 0.4}]
 set xtics rotate by 40 right font ",11" scale 0 ({tics})
-set key outside top center horizontal samplen 1.5 width 2
+set key outside top center horizontal Left reverse samplen 1.5 width 2
 set lmargin 20
 set rmargin 4
 set bmargin 13
