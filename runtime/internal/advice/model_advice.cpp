@@ -276,12 +276,22 @@ class Advisor {
         return all;
     }
 
-    /// Leaves out the dearest part that can go, and again of what is left, until none can.
+    /// Whether leaving this out of the fullest set alone was found to be felt: beside another omission whose
+    /// error cancels its own it may seem not to be.
+    [[nodiscard]] bool matters(const std::string& left_out) const {
+        return std::ranges::any_of(advice_.omissions, [&](const ModelEffect& one) {
+            return one.left_out == left_out && one.effect.verdict == EffectVerdict::beyond;
+        });
+    }
+
+    /// Leaves out the dearest part that can go, and again of what is left, until none can. What matters alone
+    /// stays.
     ModelSet cheapest() {
         ModelSet now = full_;
         for (bool found = true; found;) {
             found = false;
             for (const Reduction& reduction : reductions(now)) {
+                if (matters(reduction.left_out)) continue;
                 if (effect(reduction.models, "").effect.verdict != EffectVerdict::within) continue;
                 now = reduction.models;
                 found = true;

@@ -135,12 +135,11 @@ FigureComparison compare_figure(const std::optional<Estimate>& motion,
     FigureComparison result;
     result.motion = motion;
     result.reference = reference;
+    if (!motion && !reference) return result;
     if (!motion || !reference) {
-        // Both without a frequency fall alike in that; one with and one without do not, unless the reference
-        // itself may have it or not.
-        const bool alike = !motion && !reference;
+        // One with a frequency and one without differ, unless the reference itself may have it or not.
         const bool undecided = uncertainty >= 1.0;
-        if (tolerance) result.verdict = Verdict{0.0, alike || undecided, !undecided};
+        if (tolerance) result.verdict = Verdict{0.0, undecided, !undecided};
         return result;
     }
     const double magnitude = std::abs(reference->value);

@@ -91,7 +91,7 @@ Comparison compare(const FallChoice& motion, const FallChoice& reference, const 
 /// One figure of two. Where one is of a single fall and the other of several, the error of the single one
 /// counts as no less than the deviation of the others: its own swings may tell too little. The tolerance's
 /// limit is `tolerance` of the reference's magnitude, `least_limit` at least; no verdict where it is not
-/// given. `uncertainty`: of the reference, over its magnitude.
+/// given, nor of what neither has. `uncertainty`: of the reference, over its magnitude.
 FigureComparison compare_figure(const std::optional<Estimate>& motion,
                                 const std::optional<Estimate>& reference,
                                 const std::optional<double>& tolerance = {}, double least_limit = 0.0,

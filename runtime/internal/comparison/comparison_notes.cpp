@@ -29,32 +29,51 @@ void note_lengths(Notes& notes, const Comparison& all) {
                     a, b));
 }
 
-void note_side(Notes& notes, const char* which, const FallChoice& choice, const FallSet& set) {
+/// What one side gives reason to note, and what that means for either.
+struct SideNote {
+    std::string what;
+    std::string meaning;
+};
+
+std::vector<SideNote> notes_of_side(const char* which, const FallChoice& choice, const FallSet& set) {
+    std::vector<SideNote> notes;
     if (set.distinct < set.falls) {
-        notes.push_back(fmt::format(
-            "of the {}'s {} falls {} differ{} from the others; the rest repeat {} and "
-            "do not count",
-            which, set.falls, set.distinct, set.distinct == 1 ? "s" : "", set.distinct == 1 ? "it" : "them"));
+        notes.push_back({fmt::format("of the {}'s {} falls {} differ{} from the others", which, set.falls,
+                                     set.distinct, set.distinct == 1 ? "s" : ""),
+                         "; falls that repeat others do not count"});
     }
     const auto& frequency = set.figures[Figure::frequency];
     if (frequency && frequency->value > 0.0) {
         const double frames = 0.5 / frequency->value * choice.motion().frame_rate;
         if (frames < fewest_frames) {
-            notes.push_back(fmt::format(
-                "the {} has {:.1f} frames for each swing: with fewer than six, turning points and "
-                "angles are missed",
-                which, frames));
+            notes.push_back({fmt::format("the {} has {:.1f} frames for each swing", which, frames),
+                             ": with fewer than six, turning points and angles are missed"});
         }
     }
-    if (set.distinct > 1) return;
+    if (set.distinct > 1) return notes;
     if (set.pieces < 3) {
         notes.push_back(
-            fmt::format("the {}'s window shows too few swings to tell an error from them; give a longer fall "
-                        "or more runs",
-                        which));
+            {fmt::format("the {}'s window shows too few swings to tell an error from them", which),
+             "; give a longer fall or more runs"});
     } else if (set.pieces < few_pieces) {
-        notes.push_back(fmt::format("the {}'s errors rest on {} swings and are rough", which, set.pieces));
+        notes.push_back(
+            {fmt::format("the {}'s errors rest on {} swings", which, set.pieces), ": they are rough"});
     }
+    return notes;
+}
+
+/// Both sides' notes; what is of one kind in one sentence.
+void note_sides(Notes& notes, const std::vector<SideNote>& motion, std::vector<SideNote> reference) {
+    for (const SideNote& one : motion) {
+        const auto same = std::ranges::find(reference, one.meaning, &SideNote::meaning);
+        if (same == reference.end()) {
+            notes.push_back(one.what + one.meaning);
+            continue;
+        }
+        notes.push_back(fmt::format("{}, {}{}", one.what, same->what, one.meaning));
+        reference.erase(same);
+    }
+    for (const SideNote& one : reference) notes.push_back(one.what + one.meaning);
 }
 
 void note_starts(Notes& notes, const Comparison& all) {
@@ -90,8 +109,8 @@ std::vector<std::string> comparison_notes(const FallChoice& motion, const FallCh
     }
     if (comparison.judges_inclination) note_starts(notes, comparison);
     note_lengths(notes, comparison);
-    note_side(notes, "motion", motion, comparison.motion);
-    note_side(notes, "reference", reference, comparison.reference);
+    note_sides(notes, notes_of_side("motion", motion, comparison.motion),
+               notes_of_side("reference", reference, comparison.reference));
     return notes;
 }
 

@@ -137,6 +137,42 @@ TEST(ModelAdvice, KeepsEveryPartThatMatters) {
     EXPECT_EQ(advice.omissions.size(), 7U);
 }
 
+/// Whether a set flies without what an omission left out.
+bool lacks(const ModelSet& models, const ModelEffect& omission) {
+    switch (*omission.part) {
+        case ModelPart::identified_coefficients:
+            return models.dynamic == Dynamic::by_default;
+        case ModelPart::table_loads:
+            return models.loads != Loads::table;
+        case ModelPart::turbulence:
+            return models.turbulence == omission.models.turbulence;
+        case ModelPart::reynolds_dependence:
+            return models.table_reynolds_number.has_value();
+        case ModelPart::added_mass:
+            return !models.added_mass;
+        default:
+            return models.dynamic == Dynamic::none;
+    }
+}
+
+TEST(ModelAdvice, KeepsWhatMattersAloneWhereTwoErrorsCancel) {
+    for (const double tolerance : {0.2, 0.3}) {
+        AdviceOptions options;
+        options.tolerance = tolerance;
+        options.most_falls = 64;
+        const BodyAdvice advice =
+            advice_of(scene_of(1500.0, test::water(), 2.0), test::lopsided_shape(), options);
+        int matter = 0;
+        for (const ModelEffect& one : advice.omissions) {
+            if (one.effect.verdict != EffectVerdict::beyond) continue;
+            ++matter;
+            EXPECT_FALSE(lacks(advice.recommended.models, one)) << one.left_out;
+        }
+        EXPECT_GT(matter, 0);
+        EXPECT_LT(advice.recommended.cost, advice.full.cost);
+    }
+}
+
 TEST(ModelAdvice, BeforeABakeJudgesTheAddedMassAlone) {
     const Body bare = test::exact_sphere(0.02);
     const Scene in_air = scene_of(2700.0, test::air(), 2.0);

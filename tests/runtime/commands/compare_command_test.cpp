@@ -108,6 +108,8 @@ TEST_F(CompareCommand, DrawsFallsThatDoNotSwingOrMove) {
     const ProgramRun done = run({"rest.h5", "rest.h5", "-o", "rest.png"});
     EXPECT_EQ(done.status, 0) << done.fault;
     EXPECT_GT(read_bytes(folder_ / "rest.png").size(), 20000U);
+    EXPECT_THAT(done.output, ::testing::ContainsRegex("frequency \\(Hz\\) +- +-\n"));
+    EXPECT_THAT(done.output, HasSubstr("the motion agrees with the reference"));
 }
 
 TEST_F(CompareCommand, RefusesWhatItCannotCompareInOneLine) {

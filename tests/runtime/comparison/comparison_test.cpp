@@ -288,8 +288,8 @@ TEST(Comparison, LeavesTheRegimeOpenThatTheReferenceItselfIsUncertainOf) {
     EXPECT_THAT(as_text(comparison), HasSubstr("the reference's own is uncertain"));
 }
 
-TEST(FigureComparison, WithoutAFrequencyOnBothSidesAgreesAndOnOneSideDiffers) {
-    EXPECT_TRUE(compare_figure({}, {}, 0.2).verdict->agrees);
+TEST(FigureComparison, WithoutAFrequencyOnBothSidesIsNotJudgedAndOnOneSideDiffers) {
+    EXPECT_FALSE(compare_figure({}, {}, 0.2).verdict.has_value());
     EXPECT_FALSE(compare_figure(Estimate{1.0, {}, {}}, {}, 0.2).verdict->agrees);
     EXPECT_FALSE(compare_figure({}, Estimate{1.0, {}, {}}, 0.2).verdict->agrees);
     EXPECT_FALSE(compare_figure({}, Estimate{1.0, {}, {}}).verdict.has_value());
