@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "internal/base/angles.hpp"
@@ -126,6 +127,54 @@ Regime regime_of(const Turnovers& turnovers, int plain_swings, double inclinatio
     return Regime::chaotic;
 }
 
+/// How far (m) the body is above the ground at a pose.
+double clearance(const BodyMotion& body, double ground, const Pose& pose) {
+    const Vector3d down = pose.orientation.conjugate() * -Vector3d::UnitZ();
+    return pose.position.z() - ground - reach(body.contact_points, down);
+}
+
+/// The pose after it moved on as it does for so many seconds.
+Pose moved_on(const Pose& pose, double seconds) {
+    Pose later = pose;
+    later.position += seconds * pose.velocity;
+    const double angle = seconds * pose.angular_velocity.norm();
+    if (angle != 0.0) {
+        later.orientation = Quaterniond(Eigen::AngleAxisd(angle, (seconds / angle) * pose.angular_velocity)) *
+                            pose.orientation;
+    }
+    return later;
+}
+
+/// The first frame at which a body touches the ground, or behind a touch between two frames.
+struct Touch {
+    int frame;
+    bool before_frame;
+};
+
+std::optional<Touch> first_touch(const Motion& motion, const BodyMotion& body, int run, int copy) {
+    const double radius = body.contact_points.bounding_radius;
+    if (!motion.ground || radius == 0.0) return std::nullopt;
+    const double ground = *motion.ground;
+    for (int frame = 0; frame < motion.frames(); ++frame) {
+        const Pose& pose = motion.pose(body, run, frame, copy);
+        const double height = pose.position.z() - ground;
+        if (height <= radius * (1.0 + touching) && clearance(body, ground, pose) <= touching * radius) {
+            return Touch{frame, false};
+        }
+        if (frame + 1 == motion.frames()) break;
+        const double interval =
+            motion.times[static_cast<std::size_t>(frame) + 1] - motion.times[static_cast<std::size_t>(frame)];
+        if (height + interval * pose.velocity.z() > radius) continue;
+        // It fell into the ground and came out of it, so it met it in between.
+        const Pose& next = motion.pose(body, run, frame + 1, copy);
+        if (clearance(body, ground, moved_on(pose, interval)) <= 0.0 &&
+            clearance(body, ground, moved_on(next, -interval)) <= 0.0) {
+            return Touch{frame + 1, true};
+        }
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
 const char* name_of(Regime regime) {
@@ -142,16 +191,8 @@ const char* name_of(Regime regime) {
 }
 
 std::optional<int> landing_frame(const Motion& motion, const BodyMotion& body, int run, int copy) {
-    const ContactPoints& points = body.contact_points;
-    if (!motion.ground || points.bounding_radius == 0.0) return std::nullopt;
-    for (int frame = 0; frame < motion.frames(); ++frame) {
-        const Pose& pose = motion.pose(body, run, frame, copy);
-        const double height = pose.position.z() - *motion.ground;
-        if (height > points.bounding_radius * (1.0 + touching)) continue;
-        const Vector3d down = pose.orientation.conjugate() * -Vector3d::UnitZ();
-        if (height - reach(points, down) <= touching * points.bounding_radius) return frame;
-    }
-    return std::nullopt;
+    const std::optional<Touch> touch = first_touch(motion, body, run, copy);
+    return touch ? std::optional(touch->frame) : std::nullopt;
 }
 
 TimeWindow fall_of(const Motion& motion, const BodyMotion& body, int run, int copy) {
@@ -173,8 +214,8 @@ TimeWindow fall_of(const Motion& motion, const BodyMotion& body, int run, int co
         }
     }
     if (last < 0) return {motion.times.front(), motion.times.back()};
-    if (const auto landing = landing_frame(motion, body, run, copy); landing && *landing > first) {
-        last = std::min(last, *landing - 1);
+    if (const auto touch = first_touch(motion, body, run, copy); touch && touch->frame > first) {
+        last = std::min(last, std::max(touch->frame - (touch->before_frame ? 2 : 1), first));
     }
     return {motion.times[static_cast<std::size_t>(std::max(first - 1, 0))],
             motion.times[static_cast<std::size_t>(std::min(last + 1, motion.frames() - 1))]};

@@ -38,13 +38,15 @@ struct Measures {
     Regime regime = Regime::steady;   ///< how it falls
 };
 
-/// The first frame at which a body touches the ground, to a thousandth of its bounding radius; nothing where
-/// it never does, or the motion has no ground.
+/// The first frame at which a body touches the ground, to a thousandth of its bounding radius, or that lies
+/// behind a touch between two frames: the velocities at both, kept up, lead through the ground. Nothing where
+/// there is neither, or the motion has no ground.
 std::optional<int> landing_frame(const Motion& motion, const BodyMotion& body, int run, int copy);
 
-/// The body's fall: from the last frame before it moves to the first frame at which it rests again or touches
-/// the ground. A body that waits for its start is not falling; it moves where its speed or angular speed
-/// exceeds 1e-6 of their largest values. The whole recording where it never moves.
+/// The body's fall: from the last frame before it moves to the first at which it rests again or touches the
+/// ground, or the last before a touch between two frames. It moves where its speed or angular speed exceeds
+/// 1e-6 of their largest values: waiting for its start is no falling. Where it never does, all that is
+/// recorded.
 TimeWindow fall_of(const Motion& motion, const BodyMotion& body, int run, int copy);
 
 /// The window that is measured where none is given: the last two thirds of fall_of().

@@ -121,6 +121,24 @@ TEST(Ensemble, LandingIsWhereABodyFirstTouchesTheGround) {
     EXPECT_NEAR(all.value(Figure::descent_speed), 0.2, 1e-9);  // the time on the ground does not count
 }
 
+TEST(Ensemble, ABounceBetweenTwoFramesIsALanding) {
+    constexpr double touch = 0.46;  // s, between the frames 27 and 28
+    Motion motion = ensemble_of(1, [](int /*run*/, double time) {
+        Pose pose;
+        pose.velocity.z() = time < touch ? -0.2 : 0.1;
+        pose.position.z() = -0.2 * touch + pose.velocity.z() * (time - touch);
+        return pose;
+    });
+    motion.ground = -0.2 * touch - 0.01;
+    BodyMotion& body = motion.bodies[0];
+    body.contact_points = contact_points(body.surface, body.center_of_mass);
+    EXPECT_EQ(landing_frame(motion, body, 0, 0), 28);
+    EXPECT_NEAR(fall_of(motion, body, 0, 0).end, 27.0 / 60.0, 1e-12);
+    EXPECT_NEAR(measure_all(motion, body).value(Figure::descent_speed), 0.2, 1e-9);
+    motion.ground = -0.2 * touch - 0.012;  // it turns back above the ground
+    EXPECT_FALSE(landing_frame(motion, body, 0, 0).has_value());
+}
+
 TEST(Ensemble, InPartsIsTheSameAsAtOnce) {
     const Motion motion = ensemble_of(
         6, [](int run, double time) { return test::flutter(time, 2.0, 0.4 + 0.05 * run, 0.2 + 0.01 * run); });
