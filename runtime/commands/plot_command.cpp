@@ -54,6 +54,7 @@ nlohmann::json plot_one(const PlotOptions& options, const Motion& motion, const 
         result["fall"] = {shown.fall.begin, shown.fall.end};
         result["highest_rate"] = shown.highest_rate;
         result["lines"] = shown.lines;
+        result["frames_in_swing"] = or_null(shown.frames_in_swing);
         result["measures"] = as_json(shown.measures);
         return result;
     }

@@ -21,6 +21,7 @@ constexpr Box portrait = {140.0, 1125.0, canvas::bottom, canvas::top};
 constexpr double series_left = 1270.0;
 constexpr double right_edge = canvas::width - 45.0;
 constexpr double gap = 100.0;
+constexpr double smooth_swing = 12.0;  // frames: of fewer the curve is seen to have corners
 
 Range even_range(double largest) {
     const double most = largest > 1e-9 ? 1.08 * largest : 1.0;
@@ -96,11 +97,14 @@ std::string series_plot(const Tilt& tilt, const PhasePlot& shown, int column) {
     const Range times =
         fall.end > fall.begin ? Range{fall.begin, fall.end} : Range{fall.begin - 0.5, fall.begin + 0.5};
     const PanelAxis up = upper ? angle_axis(tilt, "Tilt (°)") : rate_axis(tilt, "Rate (rad/s)");
-    const std::string beyond = !upper && shown.highest_rate > up.range.high
-                                   ? fmt::format("not shown: up to {:.3g}", shown.highest_rate)
-                                   : "";
+    std::string aside;
+    if (upper && shown.frames_in_swing && *shown.frames_in_swing < smooth_swing) {
+        aside = fmt::format("{:.2g} frames a swing: raise frame_rate", *shown.frames_in_swing);
+    } else if (!upper && shown.highest_rate > up.range.high) {
+        aside = fmt::format("not shown: up to {:.3g}", shown.highest_rate);
+    }
     std::string plot = begin_panel({series_left, right_edge, bottom, bottom + tall},
-                                   {times, upper ? "" : "time (s)", 0.0}, up, beyond);
+                                   {times, upper ? "" : "time (s)", 0.0}, up, aside);
     plot += shaded_window(shown.measures.window);
     plot += fmt::format("plot $phase using 1:{}:4 with {} lw 2.5 lc rgb variable notitle\n", column,
                         fall.end > fall.begin ? "lines" : "points pt 7 ps dot_size");
@@ -122,6 +126,9 @@ PhasePlot plot_phase(const std::filesystem::path& file, const Motion& motion, co
     shown.fall = {tilt.times.front(), tilt.times.back()};
     shown.highest_rate = largest_of(tilt.rate);
     shown.measures = measure(motion, body, run, copy);
+    if (const auto& frequency = shown.measures.frequency; frequency && *frequency > 0.0) {
+        shown.frames_in_swing = 0.5 / *frequency * motion.frame_rate;
+    }
     std::string script = data_of(tilt, shown.lines) + "set multiplot\n";
     script += picture_title(motion, body, run, copy, shown.measures);
     script += portrait_plot(tilt, shown.fall);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "samara/motion/measures.hpp"
 
@@ -8,10 +9,11 @@ namespace samara {
 
 /// What a phase portrait showed.
 struct PhasePlot {
-    TimeWindow fall;            ///< s, what is drawn
-    double highest_rate = 0.0;  ///< rad/s, of the tilt, either way
-    int lines = 0;              ///< unbroken pieces of the curve
-    Measures measures;          ///< of the copy, in its default window
+    TimeWindow fall;                        ///< s, what is drawn
+    double highest_rate = 0.0;              ///< rad/s, of the tilt, either way
+    int lines = 0;                          ///< unbroken pieces of the curve
+    std::optional<double> frames_in_swing;  ///< where the body swings; of fewer than 12 the picture says so
+    Measures measures;                      ///< of the copy, in its default window
 };
 
 /// Draws the phase portrait of one copy in one run by gnuplot, in the size and formats of plot_motion(): how

@@ -9,6 +9,7 @@
 
 #include "internal/base/angles.hpp"
 #include "internal/figures/inclination.hpp"
+#include "internal/plot/heading.hpp"
 #include "internal/plot/panel.hpp"
 #include "internal/plot/silhouette.hpp"
 #include "internal/plot/strip_panel.hpp"
@@ -107,16 +108,18 @@ std::string scalar_plot(int column) {
         column);
 }
 
-/// One line for each component, a dot where it is of one frame alone, named in the header in the line's
-/// colour (Okabe and Ito's palette).
-std::string component_plots(const Series& series, const Box& box) {
+/// One line for each component, a dot where it is of one frame alone, named in the header, left of the text
+/// at its right, in the line's colour (Okabe and Ito's palette).
+std::string component_plots(const Series& series, const Box& box, const std::string& right) {
     constexpr std::array<unsigned, 3> colors = {0xd55e00, 0x009e73, 0x0072b2};
     constexpr std::array<const char*, 3> names = {"x", "y", "z"};
     const char* style = series.times.size() > 1 ? "lines" : "points pt 7 ps dot_size";
+    constexpr double apart = 38.0;
+    const double last = box.right - std::max(164.0, text_width(right, canvas::heading_size) + apart);
     std::string labels;
     std::string plots;
     for (std::size_t i = 0; i < 3; ++i) {
-        labels += bold_label(names[i], box.right - 240.0 + 38.0 * static_cast<double>(i),
+        labels += bold_label(names[i], last - apart * static_cast<double>(2 - i),
                              box.top + canvas::header_lift, "center", colors[i]);
         plots += fmt::format("{} $series using 1:{} with {} lc rgb '#{:06x}' lw 2.5 notitle",
                              i == 0 ? "plot" : ",", i + 4, style, colors[i]);
@@ -152,9 +155,9 @@ SeriesPanel series_panel(const Motion& motion, const BodyMotion& body, int run, 
     std::vector<double> components;
     for (const Vector3d& spin : series.spin) components.insert(components.end(), spin.begin(), spin.end());
     const Box box = panel_box(left, 2);
-    begin(box, {range_of(components), "Angular velocity (rad/s)", 0.0},
-          fmt::format("rms {:.3g}", measures.rms_angular_speed), true);
-    panel.plots += component_plots(series, box) + end_panel();
+    const std::string right = fmt::format("rms {:.3g}", measures.rms_angular_speed);
+    begin(box, {range_of(components), "Angular velocity (rad/s)", 0.0}, right, true);
+    panel.plots += component_plots(series, box, right) + end_panel();
     return panel;
 }
 

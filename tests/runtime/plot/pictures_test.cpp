@@ -129,6 +129,14 @@ std::vector<NamedMotion> hard_motions() {
         {"TwoFrames", of(fluttering, 1.0 / 60.0)},
         {"StraightDown", of([](double t) { return sinking(t, 0.5); }, 6.0)},
         {"Slow", of([](double t) { return sinking(t, 1e-7); }, 2.0)},
+        {"HardlyTurning", of(
+                              [](double t) {
+                                  Pose pose = sinking(t, 0.5);
+                                  pose.angular_velocity.y() = -3.81e-5;
+                                  return pose;
+                              },
+                              2.0)},
+        {"Coarse", [] { return test::motion_of(fluttering, 4.0, 18.0); }},
         {"Long", [] { return test::motion_of(fluttering, 400.0, 20.0); }},
         {"FarAway",
          [] {

@@ -100,6 +100,21 @@ TEST_F(PlotKinds, APhasePortraitHasBothAxesNamedAndIsOneCurveForAFlutter) {
     EXPECT_GE(picture.count("stroke='rgb\\("), 200);
 }
 
+TEST_F(PlotKinds, APhasePortraitSaysWhereItsCornersAreItsFrames) {
+    const auto portrait = [&](const char* motion) {
+        const ProgramRun done = plot({motion, "-o", "phase.svg", "--kind", "phase", "--json"});
+        EXPECT_EQ(done.status, 0) << done.fault;
+        return done.json()["frames_in_swing"].get<double>();
+    };
+    EXPECT_NEAR(portrait("flutter.h5"), 30.0, 0.1);
+    EXPECT_THAT(svg("phase.svg").text, testing::Not(HasSubstr("raise frame_rate")));
+    write_motion_file(
+        folder_ / "coarse.h5",
+        test::motion_of([](double t) { return test::flutter(t, 1.0, 40.0 * degree, 0.2); }, 4.0, 18.0));
+    EXPECT_NEAR(portrait("coarse.h5"), 9.0, 0.1);
+    EXPECT_THAT(svg("phase.svg").text, HasSubstr("9 frames a swing: raise frame_rate"));
+}
+
 TEST_F(PlotKinds, ThePhasePortraitOfATumblingBodyBreaksAtEachTurnover) {
     const nlohmann::json json = plot({"tumble.h5", "-o", "phase.svg", "--kind", "phase", "--json"}).json();
     EXPECT_EQ(json["lines"], 9);  // 4 s at 6 rad/s: upright at 90 degrees and every half turn
