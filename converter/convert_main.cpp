@@ -250,7 +250,7 @@ int run(int argc, const char* const* argv) {
     std::string output;
     bool fluctuations = false;
     std::optional<double> begin;
-    Arguments arguments("samara-convert",
+    Arguments arguments("samara convert",
                         "Turns solved OpenFOAM cases into the load and turbulence tables of a body file");
     arguments.positional("CASES", cases, "the folder NAME.cases that 'samara bake' made, or one of your own");
     arguments.required_option("-o,--output", output,

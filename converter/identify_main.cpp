@@ -46,6 +46,9 @@ std::vector<FallRecord> records_of(const std::string& list) {
 }
 
 nlohmann::json identify(const IdentifyOptions& options, bool quiet) {
+    if (!options.output.empty() && !is_body_file_name(options.output)) {
+        throw Error(fmt::format("{}: the name of a body file ends in .body.h5", options.output));
+    }
     Body body = read_body_file(options.body);
     if (!body.kirchhoff || !body.tables) {
         throw Error(fmt::format("{}: holds no Kirchhoff tensor or no tables; bake it first", options.body));
@@ -69,7 +72,7 @@ nlohmann::json identify(const IdentifyOptions& options, bool quiet) {
 
 int run(int argc, const char* const* argv) {
     IdentifyOptions options;
-    Arguments arguments("samara-identify", "Identifies a body's dynamic coefficients from solved free falls");
+    Arguments arguments("samara identify", "Identifies a body's dynamic coefficients from solved free falls");
     arguments.positional("BODY", options.body, "a baked body file (.body.h5)");
     arguments.positional(
         "FALLS", options.falls,

@@ -65,7 +65,7 @@ void print_check(const TableCheck& check) {
 int run(int argc, const char* const* argv) {
     std::string body_file;
     std::string cases;
-    Arguments arguments("samara-check-tables",
+    Arguments arguments("samara check-tables",
                         "Holds a body's tables against solved cases that they were not made from");
     arguments.positional("BODY", body_file, "NAME.body.h5 with tables");
     arguments.positional(

@@ -29,6 +29,7 @@ struct BakeOptions {
     std::string output;
     std::string fluid = "water";
     double density = 1200.0;
+    double scale = 1.0;
     int jobs = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 1024);
     int ranks = 1;
     std::string cluster;
@@ -61,6 +62,7 @@ BakeRequest request_for_shape(const BakeOptions& options) {
     }
     BakeRequest request;
     request.shape = options.input;
+    request.scale = options.scale;
     request.output = options.output;
     request.fluid = *fluid_preset(options.fluid);
     request.mass.density = options.density;
@@ -84,16 +86,17 @@ std::vector<BakeRequest> requests_for(const BakeOptions& options, const Argument
         }
         return {request_for_shape(options)};
     }
-    for (const char* option : {"--fluid", "--density"}) {
+    for (const char* option : {"--fluid", "--density", "--scale"}) {
         if (arguments.given(option)) {
-            throw Error(fmt::format("{}: the scene says of which fluid and density its bodies are; drop {}",
-                                    options.input, option));
+            throw Error(
+                fmt::format("{}: the scene says which fluid, density and scale its bodies have; drop {}",
+                            options.input, option));
         }
     }
     if (options.probes > 0) {
         throw Error(fmt::format("{}: --probes takes a shape or a body file, not a scene", options.input));
     }
-    if (is_body_file_name(options.output)) {
+    if (fs::path(options.output).extension() == ".h5") {
         throw Error(
             fmt::format("{}: the output for a scene is a folder, for it gets one body file for each body",
                         options.output));
@@ -111,29 +114,35 @@ std::vector<BakeRequest> requests_for(const BakeOptions& options, const Argument
 nlohmann::json run_requests(const std::vector<BakeRequest>& requests, const BakeOptions& options,
                             bool quiet) {
     nlohmann::json results = nlohmann::json::array();
+    BodyNotes notes("samara bake");
     for (const BakeRequest& request : requests) {
         nlohmann::json one;
         if (options.dry_run) {
             const BakePreparation preparation = prepare_bake(request);
-            note_laminar_flow(preparation);
+            note_doubts(notes, request, preparation);
             if (!quiet) print_preparation(request, preparation, options.jobs);
             one = bake_as_json(request, preparation);
         } else {
             if (request.output.has_parent_path()) fs::create_directories(request.output.parent_path());
-            const BakeResult result = bake_body(request, {options.jobs, options.cluster}, note_laminar_flow);
+            const BakeResult result =
+                bake_body(request, {options.jobs, options.cluster}, [&](const BakePreparation& preparation) {
+                    note_doubts(notes, request, preparation);
+                    notes.print();
+                });
             warn_of_left_out_cases(request, result);
             if (!quiet) print_result(request, result);
             one = bake_as_json(request, result);
         }
         results.push_back(one);
     }
+    notes.print();
     if (is_scene(options.input)) return {{"bodies", results}};
     return results.front();
 }
 
 int run(int argc, const char* const* argv) {
     BakeOptions options;
-    Arguments arguments("samara-bake",
+    Arguments arguments("samara bake",
                         "Bakes a body: mesh, Kirchhoff tensor, OpenFOAM cases, load and turbulence tables");
     arguments.positional("INPUT", options.input,
                          "a scene (.toml), or a shape (.geo .stl .obj .step) or body file (.body.h5)");
@@ -141,6 +150,7 @@ int run(int argc, const char* const* argv) {
                               "NAME.body.h5; for a scene the folder of its body files");
     arguments.choice("--fluid", options.fluid, {"water", "air"}, "that the shape falls in, at 20 C");
     arguments.option("--density", options.density, "of the body (kg/m^3)", 1e-3, 1e6);
+    arguments.option("--scale", options.scale, "metres for one unit of the shape file", 1e-12, 1e12);
     arguments.option("--jobs", options.jobs, "cases solved at once", 1, 4096);
     arguments.option("--ranks", options.ranks,
                      "processes that share each case, by MPI: for cases too large for one core; the cases "

@@ -114,7 +114,10 @@ ModelAdvice advised(const Scene& scene, const std::vector<LoadedBody>& loaded, d
 
 nlohmann::json run(const PlanOptions& options, const Arguments& arguments) {
     if (std::filesystem::path(options.scene).extension() != ".toml") {
-        throw Error(fmt::format("{}: is no scene; give a scene file NAME.toml", options.scene));
+        throw Error(fmt::format(
+            "{0}: a plan is of a scene (.toml), since what a fall needs depends on it; 'samara bake {0} "
+            "-o NAME.body.h5 --dry-run' says what baking a shape in all directions takes",
+            options.scene));
     }
     const Scene scene = read_scene_file(options.scene);
     if (!options.picture.empty()) {
@@ -130,11 +133,14 @@ nlohmann::json run(const PlanOptions& options, const Arguments& arguments) {
     wanted.tolerance = options.tolerance;
     nlohmann::json result = {{"bodies", nlohmann::json::array()}};
     std::vector<LoadedBody> loaded;
+    BodyNotes notes("samara plan");
     for (const BakeRequest& request : requests_for_scene(scene, folder, wanted)) {
         const BakePreparation preparation = prepare_bake(request);
+        note_doubts(notes, request, preparation);
         result["bodies"].push_back(plan_body(request, preparation, options, arguments.json()));
         loaded.push_back(as_baked(request, preparation, !options.bodies.empty()));
     }
+    notes.print();
     const ModelAdvice advice = advised(scene, loaded, options.tolerance);
     if (!arguments.json()) print_result("{}", as_text(advice));
     result["models"] = as_json(advice);
@@ -148,7 +154,7 @@ int main(int argc, char** argv) {
     using namespace samara;
     PlanOptions options;
     Arguments arguments(
-        "samara-plan",
+        "samara plan",
         "Shows what a scene needs: the directions and Reynolds numbers that its bodies visit, "
         "and the cases that a bake starts with");
     arguments.positional("SCENE", options.scene, "scene file (.toml)");

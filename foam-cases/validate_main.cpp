@@ -11,6 +11,7 @@
 #include "foam-cases/falls/validate.hpp"
 #include "foam-cases/farm/cluster_jobs.hpp"
 #include "internal/command/arguments.hpp"
+#include "internal/command/motion_output.hpp"
 #include "internal/command/print.hpp"
 #include "internal/motion/description.hpp"
 #include "samara/base/error.hpp"
@@ -84,6 +85,7 @@ void warn_of_doubts(const ValidationResult& result) {
 }
 
 nlohmann::json run_validation(const ValidateOptions& options, bool quiet) {
+    require_motion_file_name(options.output);
     ValidationRequest request;
     request.scene = read_scene_file(options.scene);
     request.output = options.output;
@@ -127,7 +129,7 @@ nlohmann::json run_validation(const ValidateOptions& options, bool quiet) {
 
 int run(int argc, const char* const* argv) {
     ValidateOptions options;
-    Arguments arguments("samara-validate", "Solves a scene by full CFD: the yardstick for samara simulate");
+    Arguments arguments("samara validate", "Solves a scene by full CFD: the yardstick for samara simulate");
     arguments.positional("SCENE", options.scene, "scene file (.toml) of one body");
     arguments.required_option("-o,--output", options.output, "motion file to write (.h5)");
     arguments.option("--cells", options.cells,

@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "internal/advice/unit_doubts.hpp"
 #include "internal/command/arguments.hpp"
+#include "internal/command/body_notes.hpp"
 #include "internal/command/print.hpp"
 #include "internal/command/progress.hpp"
 #include "meshes/make_body.hpp"
@@ -119,6 +121,9 @@ int main(int argc, char** argv) {
                                      [&](double share) { progress.update(100.0 * share, 100.0); });
         }();
         samara::write_body_file(output, body);
+        samara::BodyNotes notes("samara mesh");
+        notes.add("units", body.name, 0.0, samara::size_doubts(body, samara::ScaleRemedy::option));
+        notes.print();
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
         if (!arguments.json()) print_for_people(body, options, output, elapsed.count());
         return summary(body, output, elapsed.count());

@@ -12,6 +12,7 @@
 #include "foam-cases/farm/case_record.hpp"
 #include "foam-cases/farm/disk_need.hpp"
 #include "foam-cases/scene/scene_plan_report.hpp"
+#include "internal/advice/unit_doubts.hpp"
 #include "internal/base/vector_json.hpp"
 #include "internal/command/print.hpp"
 #include "samara/body/body_file.hpp"
@@ -198,19 +199,29 @@ void print_result(const BakeRequest& request, const BakeResult& result) {
         result.conversion_seconds, case_folder_of(request.output).string());
 }
 
-void note_laminar_flow(const BakePreparation& preparation) {
+void note_doubts(BodyNotes& notes, const BakeRequest& request, const BakePreparation& preparation) {
+    const std::string& name = preparation.body.name;
+    notes.add("units", name, 0.0,
+              unit_doubts(preparation.body, request.mass, request.fluid, request.gravity,
+                          is_body_file_name(request.shape) ? ScaleRemedy::mesh_again
+                          : request.name.empty()           ? ScaleRemedy::option
+                                                           : ScaleRemedy::scene_key));
     if (!preparation.plan || preparation.plan->main_reynolds_number >= laminar_reynolds_number) return;
-    print_note(
-        "samara-bake: note: at Reynolds number {:.3g}, below {:.0f}, the flow is taken as laminar: "
-        "loads, but no turbulence\n",
-        preparation.plan->main_reynolds_number, laminar_reynolds_number);
+    notes.add(
+        "laminar", name, preparation.plan->main_reynolds_number,
+        fmt::format("at Reynolds number {:.3g}, below {:.0f}, the flow is taken as laminar: loads, but no "
+                    "turbulence",
+                    preparation.plan->main_reynolds_number, laminar_reynolds_number));
 }
 
 void warn_of_left_out_cases(const BakeRequest& request, const BakeResult& result) {
+    if (result.left_out.empty()) return;
+    std::vector<std::string> cases;
     for (const LeftOutCase& failed : result.left_out) {
-        print_note("samara-bake: warning: {}: left out after its retries: {}\n",
-                   (case_folder_of(request.output) / failed.name).string(), failed.reason);
+        cases.push_back(fmt::format("{} ({})", failed.name, failed.reason));
     }
+    print_note("samara bake: note: of {} left out after retries: {}\n",
+               case_folder_of(request.output).string(), fmt::join(cases, ", "));
 }
 
 }  // namespace samara

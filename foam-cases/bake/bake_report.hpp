@@ -3,10 +3,11 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "foam-cases/bake/bake.hpp"
+#include "internal/command/body_notes.hpp"
 
 namespace samara {
 
-/// What samara-bake prints as JSON of one body with --dry-run, and after baking it.
+/// What samara bake prints as JSON of one body with --dry-run, and after baking it.
 nlohmann::json bake_as_json(const BakeRequest& request, const BakePreparation& preparation);
 nlohmann::json bake_as_json(const BakeRequest& request, const BakeResult& result);
 
@@ -14,10 +15,11 @@ nlohmann::json bake_as_json(const BakeRequest& request, const BakeResult& result
 void print_preparation(const BakeRequest& request, const BakePreparation& preparation, int jobs);
 void print_result(const BakeRequest& request, const BakeResult& result);
 
-/// One line on standard error where the Reynolds number is below laminar_reynolds_number.
-void note_laminar_flow(const BakePreparation& preparation);
+/// Notes where a figure looks as if it were in another unit, and where the Reynolds number is below
+/// laminar_reynolds_number.
+void note_doubts(BodyNotes& notes, const BakeRequest& request, const BakePreparation& preparation);
 
-/// One line on standard error for each case that was left out.
+/// One line on standard error that names the cases that were left out.
 void warn_of_left_out_cases(const BakeRequest& request, const BakeResult& result);
 
 }  // namespace samara

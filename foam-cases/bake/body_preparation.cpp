@@ -53,7 +53,7 @@ Body prepare_body(const fs::path& shape, double scale, const fs::path& folder) {
     const std::string name = shape.string().starts_with('-') ? "./" + shape.string() : shape.string();
     std::vector<std::string> words = {require_program("samara-mesh").string(), name, "-o", meshed.string()};
     if (scale != 1.0) words.insert(words.end(), {"--scale", fmt::format("{}", scale)});
-    run_stage(words, folder / "log.mesh", "samara-mesh");
+    run_stage(words, folder / "log.mesh", "samara mesh");
     Body body = read_body_file(meshed);
     body.name = body_name_of(shape);
     return body;
@@ -71,7 +71,7 @@ void add_kirchhoff_tensor(Body& body, const fs::path& earlier, const fs::path& f
     const fs::path file = folder / "kirchhoff.body.h5";
     write_body_file(file, body);
     run_stage({require_program("samara").string(), "kirchhoff", file.string(), "-o", file.string()},
-              folder / "log.kirchhoff", "samara-kirchhoff");
+              folder / "log.kirchhoff", "samara kirchhoff");
     body.kirchhoff = read_body_file(file).kirchhoff;
     if (!body.kirchhoff) throw Error(fmt::format("{}: has no Kirchhoff tensor", body.name));
 }

@@ -17,11 +17,14 @@
 #include "commands/commands.hpp"
 #include "commands/table_errors_report.hpp"
 #include "internal/advice/model_advice.hpp"
+#include "internal/advice/unit_doubts.hpp"
 #include "internal/base/content_hash.hpp"
 #include "internal/base/labelled.hpp"
 #include "internal/base/vector_json.hpp"
 #include "internal/command/arguments.hpp"
+#include "internal/command/body_notes.hpp"
 #include "internal/command/load_body.hpp"
+#include "internal/command/motion_output.hpp"
 #include "internal/command/print.hpp"
 #include "internal/command/progress.hpp"
 #include "internal/dynamics/immersed_body.hpp"
@@ -39,6 +42,8 @@
 
 namespace samara {
 namespace {
+
+constexpr const char* program = "samara simulate";
 
 struct Request {
     std::string scene;
@@ -92,17 +97,26 @@ std::filesystem::path file_of(const SceneBody& scene_body, const std::string& bo
 }
 
 void note(const std::string& text) {
-    print_note("samara simulate: note: {}\n", text);
+    print_note("{}: note: {}\n", program, text);
 }
 
-/// Says where the added mass is too uncertain to trust the motion.
-void warn_of_added_mass(const SceneBody& scene_body, const KirchhoffTensor& kirchhoff) {
+/// Says before the flight where figures of the bodies make the motion doubtful.
+void note_doubtful_bodies(const Scene& scene, const std::vector<LoadedBody>& loaded) {
     constexpr double doubtful = 0.2;
-    if (kirchhoff.error_estimate <= doubtful) return;
-    note(
-        fmt::format("the added mass of '{}' may be wrong by {:.0f} % (error estimate): the body is thin or "
-                    "its mesh coarse",
-                    scene_body.name, 100.0 * kirchhoff.error_estimate));
+    BodyNotes notes(program);
+    for (std::size_t i = 0; i < loaded.size(); ++i) {
+        const SceneBody& body = scene.bodies[i];
+        notes.add("units", body.name, 0.0,
+                  unit_doubts(*loaded[i].body, body.mass, scene.fluid, scene.gravity.norm(),
+                              scale_remedy_in_scene(body.shape)));
+        const double error = body.added_mass ? loaded[i].body->kirchhoff->error_estimate : 0.0;
+        if (error <= doubtful) continue;
+        notes.add("added mass", body.name, error,
+                  fmt::format("the added mass may be wrong by {:.0f} % (error estimate): the body is thin or "
+                              "its mesh coarse",
+                              100.0 * error));
+    }
+    notes.print();
 }
 
 /// Refuses a body that was baked before its shape was changed.
@@ -125,7 +139,6 @@ class LoadedBodies {
         const auto [place, is_new] = known_.try_emplace({file, scale, scene_body.added_mass});
         if (is_new) place->second = load(file, scale, scene_body.added_mass);
         if (!folder_.empty()) require_same_shape(file, *place->second->body, scene_body);
-        if (scene_body.added_mass) warn_of_added_mass(scene_body, *place->second->body->kirchhoff);
         return *place->second;
     }
 
@@ -144,24 +157,25 @@ class LoadedBodies {
 };
 
 /// Says where coefficients were held at an end of their tables.
-void warn_of_reynolds_numbers(const SceneBody& scene_body, const Body& body, const BodyReport& report) {
+void note_reynolds_numbers(BodyNotes& notes, const SceneBody& scene_body, const Body& body,
+                           const BodyReport& report) {
     if (scene_body.loads != Loads::table && scene_body.turbulence != Turbulence::table) return;
     if (scene_body.table_reynolds_number) return;  // as the scene asks
     const double lowest = body.tables->reynolds_numbers.front();
     const double highest = body.tables->reynolds_numbers.back();
     // A table of one Reynolds number is made for the terminal speed: swings around it are expected.
     if (report.highest_reynolds_number > 2.0 * highest) {
-        note(
-            fmt::format("'{}' reached the Reynolds number {:.3g}, its table ends at {:.3g}: its last values "
-                        "were held",
-                        scene_body.name, report.highest_reynolds_number, highest));
+        notes.add("above the table", scene_body.name, report.highest_reynolds_number / highest,
+                  fmt::format("reached the Reynolds number {:.3g}, its table ends at {:.3g}: its last values "
+                              "were held",
+                              report.highest_reynolds_number, highest));
     }
     const double share = report.share_below_table();
     if (scene_body.loads == Loads::table && share > 0.5) {
-        note(fmt::format(
-            "'{}' moved below half its table's lowest Reynolds number, {:.3g}, for {:.0f} % of its "
-            "flight: there Stokes resistance is added to the table's first values",
-            scene_body.name, lowest, 100.0 * share));
+        notes.add("below the table", scene_body.name, share,
+                  fmt::format("moved below half its table's lowest Reynolds number, {:.3g}, for {:.0f} % of "
+                              "its flight: there Stokes resistance is added to the table's first values",
+                              lowest, 100.0 * share));
     }
 }
 
@@ -241,6 +255,7 @@ nlohmann::json body_result(const MotionReader& file, std::size_t index, const Bo
 }
 
 nlohmann::json run(const Request& request, const Arguments& arguments) {
+    require_motion_file_name(request.output);
     Scene scene = read_scene_file(request.scene);
     if (arguments.given("--seed")) scene.seed = request.seed;
     if (arguments.given("--step")) scene.step = request.step;
@@ -254,14 +269,14 @@ nlohmann::json run(const Request& request, const Arguments& arguments) {
     const std::optional<ModelAdvice> advice = choose_models(scene, loaded, request.threads);
     if (advice && !arguments.json()) print_result("models = \"auto\" chose:\n{}", as_text(*advice));
 
+    note_doubtful_bodies(scene, loaded);
     const SimulationReport report = fly(scene, loaded, request);
+    BodyNotes notes(program);
     for (std::size_t i = 0; i < loaded.size(); ++i) {
-        warn_of_reynolds_numbers(scene.bodies[i], *loaded[i].body, report.bodies[i]);
-        for (const std::string& warning :
-             table_error_warnings(scene.bodies[i].name, report.bodies[i].table_errors)) {
-            note(warning);
-        }
+        note_reynolds_numbers(notes, scene.bodies[i], *loaded[i].body, report.bodies[i]);
+        note_table_errors(notes, scene.bodies[i].name, report.bodies[i].table_errors);
     }
+    notes.print();
     warn_of_substeps(report);
 
     const MotionReader file(request.output);
@@ -299,7 +314,7 @@ nlohmann::json run(const Request& request, const Arguments& arguments) {
 
 int simulate_command(int argc, const char* const* argv) {
     Request request;
-    Arguments arguments("samara simulate", "Simulates a scene and writes the motion of its bodies.");
+    Arguments arguments(program, "Simulates a scene and writes the motion of its bodies.");
     arguments.positional("SCENE", request.scene, "scene file (.toml; docs/scene-file.md lists its keys)");
     arguments.required_option("-o,--output", request.output, "motion file to write (.h5)");
     arguments.option(

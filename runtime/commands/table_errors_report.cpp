@@ -1,6 +1,10 @@
 #include "commands/table_errors_report.hpp"
 
+#include <algorithm>
+#include <vector>
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 namespace samara {
@@ -56,24 +60,29 @@ nlohmann::json table_errors_as_json(const std::optional<LoadTables>& tables, con
     return result;
 }
 
-std::vector<std::string> table_error_warnings(const std::string& body, const TableErrorsMet& met) {
-    std::vector<std::string> warnings;
-    const auto warn = [&](const char* quantity, double error) {
+void note_table_errors(BodyNotes& notes, const std::string& body, const TableErrorsMet& met) {
+    std::vector<std::string> quantities;
+    double worst = 0.0;
+    const auto look_at = [&](const char* quantity, double error) {
         if (error <= doubtful) return;
-        warnings.push_back(
-            fmt::format("the tables of '{}' are uncertain by {:.0f} % of {} along its flight "
-                        "(standard error); bake it with a higher quality",
-                        body, 100.0 * error, quantity));
+        quantities.push_back(fmt::format("{:.0f} % of {}", 100.0 * error, quantity));
+        worst = std::max(worst, error);
     };
-    warn("the force", met.mean_force());
-    warn("k", met.mean_turbulent_kinetic_energy());
-    if (met.share_strayed() > worth_a_note) {
-        warnings.push_back(fmt::format(
-            "'{}' moved for {:.0f} % of its flight in directions that its bake was not planned for: "
-            "there its tables are extrapolated; bake this scene, or bake with --whole-grid",
-            body, 100.0 * met.share_strayed()));
+    look_at("the force", met.mean_force());
+    look_at("k", met.mean_turbulent_kinetic_energy());
+    if (!quantities.empty()) {
+        notes.add("tables", body, worst,
+                  fmt::format("the tables are uncertain by {} along the flight (standard error); bake with a "
+                              "higher quality",
+                              fmt::join(quantities, " and ")));
     }
-    return warnings;
+    if (met.share_strayed() > worth_a_note) {
+        notes.add(
+            "strayed", body, met.share_strayed(),
+            fmt::format("moved for {:.0f} % of the flight in directions that the bake was not planned for: "
+                        "there its tables are extrapolated; bake this scene, or bake with --whole-grid",
+                        100.0 * met.share_strayed()));
+    }
 }
 
 }  // namespace samara

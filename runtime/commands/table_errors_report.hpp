@@ -2,10 +2,10 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "internal/command/body_notes.hpp"
 #include "samara/body/load_tables.hpp"
 #include "samara/flight/table_errors_met.hpp"
 
@@ -23,7 +23,7 @@ std::string table_errors_as_text(const std::optional<LoadTables>& tables, const 
 /// flight did not use them), `sources`, `left_out`; null where the flight used no tables.
 nlohmann::json table_errors_as_json(const std::optional<LoadTables>& tables, const TableErrorsMet& met);
 
-/// A sentence for each mean error above 30 %.
-std::vector<std::string> table_error_warnings(const std::string& body, const TableErrorsMet& met);
+/// Notes each mean error above 30 %, and a flight that left what its bake was planned for.
+void note_table_errors(BodyNotes& notes, const std::string& body, const TableErrorsMet& met);
 
 }  // namespace samara

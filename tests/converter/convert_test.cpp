@@ -403,7 +403,7 @@ TEST_F(ConvertProgram, AnswersForeignFoldersWithOneLine) {
     for (const std::string& folder : {scratch_.path().string(), std::string("/no/such/folder")}) {
         const auto [status, text] = run({folder, "-o", output});
         EXPECT_EQ(status, 1);
-        EXPECT_THAT(text, testing::StartsWith("samara-convert: " + folder + ": is no folder"));
+        EXPECT_THAT(text, testing::StartsWith("samara convert: " + folder + ": is no folder"));
         EXPECT_THAT(text, EndsWith("give the folder NAME.cases that 'samara bake' made\n"));
     }
     EXPECT_FALSE(std::filesystem::exists(output));

@@ -45,10 +45,8 @@ std::string last_line(const std::filesystem::path& log) {
     for (std::string line; std::getline(stream, line);) {
         if (!line.empty()) last = line;
     }
-    for (const std::string_view name : {"samara-mesh: ", "samara mesh: "}) {
-        if (last.starts_with(name)) return last.substr(name.size());
-    }
-    return last;
+    constexpr std::string_view name = "samara mesh: ";
+    return last.starts_with(name) ? last.substr(name.size()) : last;
 }
 
 Body meshed(const std::filesystem::path& shape, double scale, int triangles) {

@@ -49,6 +49,15 @@ class Validate : public testing::Test {
     test::TemporaryFolder folder_;
 };
 
+TEST_F(Validate, RefusesNamesThatMotionFilesDoNotHave) {
+    write_scene("", "", "density = 1200\nturbulence = \"none\"");
+    const test::ProgramRun run =
+        test::run_program_in(folder_, {"samara-validate", "scene.toml", "-o", "out.glb"});
+    EXPECT_EQ(run.status, 1);
+    EXPECT_THAT(run.fault,
+                HasSubstr("out.glb: the output is a motion file; write out.h5, then 'samara export"));
+}
+
 TEST_F(Validate, RefusesScenesThatFullCfdDoesNotSolve) {
     const std::string body = "density = 1200\nturbulence = \"none\"";
     write_scene("", "", body + "\n[[body]]\nname = \"other\"\nshape = \"ball.body.h5\"\ndensity = 1200");

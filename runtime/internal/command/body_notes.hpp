@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace samara {
+
+/// Notes about the bodies of a scene, on standard error: those of one kind come once, in one line.
+class BodyNotes {
+  public:
+    /// `program`: the name before each line, as "samara simulate".
+    explicit BodyNotes(std::string program);
+
+    /// Notes a body's text, unless it is empty. Of the notes of a kind, the one of the highest severity is
+    /// told, with the names of all its bodies.
+    void add(const std::string& kind, const std::string& body, double severity, const std::string& text);
+    /// "PROGRAM: note: 'a', 'b' and 3 more (figures of 'b'): TEXT" for each kind, in the order in which they
+    /// came up; then forgets them.
+    void print();
+
+  private:
+    struct Note {
+        std::string kind;
+        std::vector<std::string> bodies;
+        std::string worst;
+        double severity;
+        std::string text;
+    };
+
+    std::string program_;
+    std::vector<Note> notes_;
+};
+
+}  // namespace samara
