@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "samara/base/error.hpp"
+#include "support/expect_error.hpp"
 
 namespace samara {
 namespace {
@@ -193,6 +194,9 @@ TEST_F(SceneFile, ContradictionsAreRefused) {
 
 TEST_F(SceneFile, BrokenTomlIsNamedWithItsLine) {
     EXPECT_THAT(refusal("[scene]\nduration = \n"), HasSubstr("scene.toml:2"));
+    EXPECT_THAT(refusal("[scene]\nduration = \n"), testing::Not(HasSubstr("is this a scene")));
+    EXPECT_THAT(test::error_of([&] { (void)read_scene_file(folder_ / "ball.stl"); }),
+                HasSubstr("is this a scene file (.toml)?"));
 }
 
 }  // namespace
