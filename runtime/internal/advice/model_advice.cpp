@@ -7,6 +7,7 @@
 #include <optional>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "internal/base/laminar_flow.hpp"
 #include "internal/dynamics/dynamic_coefficients.hpp"
@@ -110,15 +111,15 @@ class Advisor {
         if (uses_tables(asked) && !tables) {
             judges_all_ = false;
             const ModelSet guessed = model_set_of(guessed_before_bake(scene_, scene_body_, *loaded_.body));
-            if (asked.loads == Loads::table) {
-                advice_.notes.emplace_back("table loads: not known before a bake; flown by coefficients");
-            }
+            std::vector<std::string> unknown;
+            if (asked.loads == Loads::table) unknown.emplace_back("table loads, flown by coefficients");
             if (asked.turbulence == Turbulence::table) {
-                advice_.notes.push_back(fmt::format("turbulence: not known before a bake; flown {}",
-                                                    guessed.turbulence == Turbulence::none
-                                                        ? "without"
-                                                        : "with a tenth of the terminal speed (rms)"));
+                unknown.push_back(
+                    fmt::format("turbulence, flown {}", guessed.turbulence == Turbulence::none
+                                                            ? "without"
+                                                            : "with a tenth of the terminal speed (rms)"));
             }
+            advice_.notes.push_back(fmt::format("not known before a bake: {}", fmt::join(unknown, "; ")));
             return guessed;
         }
         ModelSet models = asked;
