@@ -201,11 +201,11 @@ void print_result(const BakeRequest& request, const BakeResult& result) {
 
 void note_doubts(BodyNotes& notes, const BakeRequest& request, const BakePreparation& preparation) {
     const std::string& name = preparation.body.name;
-    notes.add("units", name, 0.0,
-              unit_doubts(preparation.body, request.mass, request.fluid, request.gravity,
-                          is_body_file_name(request.shape) ? ScaleRemedy::mesh_again
-                          : request.name.empty()           ? ScaleRemedy::option
-                                                           : ScaleRemedy::scene_key));
+    const std::string units = unit_doubts(preparation.body, request.mass, request.fluid, request.gravity,
+                                          is_body_file_name(request.shape) ? ScaleRemedy::mesh_again
+                                          : request.name.empty()           ? ScaleRemedy::option
+                                                                           : ScaleRemedy::scene_key);
+    notes.add(units, name, 0.0, units);
     if (!preparation.plan || preparation.plan->main_reynolds_number >= laminar_reynolds_number) return;
     notes.add(
         "laminar", name, preparation.plan->main_reynolds_number,

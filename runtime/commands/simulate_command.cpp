@@ -106,9 +106,9 @@ void note_doubtful_bodies(const Scene& scene, const std::vector<LoadedBody>& loa
     BodyNotes notes(program);
     for (std::size_t i = 0; i < loaded.size(); ++i) {
         const SceneBody& body = scene.bodies[i];
-        notes.add("units", body.name, 0.0,
-                  unit_doubts(*loaded[i].body, body.mass, scene.fluid, scene.gravity.norm(),
-                              scale_remedy_in_scene(body.shape)));
+        const std::string units = unit_doubts(*loaded[i].body, body.mass, scene.fluid, scene.gravity.norm(),
+                                              scale_remedy_in_scene(body.shape));
+        notes.add(units, body.name, 0.0, units);
         const double error = body.added_mass ? loaded[i].body->kirchhoff->error_estimate : 0.0;
         if (error <= doubtful) continue;
         notes.add("added mass", body.name, error,

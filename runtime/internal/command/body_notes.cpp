@@ -36,6 +36,7 @@ void BodyNotes::add(const std::string& kind, const std::string& body, double sev
         return;
     }
     known->bodies.push_back(body);
+    known->alike = known->alike && text == known->text;
     if (severity <= known->severity) return;
     known->worst = body;
     known->severity = severity;
@@ -45,7 +46,7 @@ void BodyNotes::add(const std::string& kind, const std::string& body, double sev
 void BodyNotes::print() {
     for (const Note& note : notes_) {
         print_note("{}: note: {}{}: {}\n", program_, names_of(note.bodies),
-                   note.bodies.size() > 1 ? fmt::format(" (figures of '{}')", note.worst) : "", note.text);
+                   !note.alike ? fmt::format(" (figures of '{}')", note.worst) : "", note.text);
     }
     notes_.clear();
 }

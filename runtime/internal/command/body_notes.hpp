@@ -14,8 +14,8 @@ class BodyNotes {
     /// Notes a body's text, unless it is empty. Of the notes of a kind, the one of the highest severity is
     /// told, with the names of all its bodies.
     void add(const std::string& kind, const std::string& body, double severity, const std::string& text);
-    /// "PROGRAM: note: 'a', 'b' and 3 more (figures of 'b'): TEXT" for each kind, in the order in which they
-    /// came up; then forgets them.
+    /// "PROGRAM: note: 'a', 'b' and 3 more (figures of 'b'): TEXT" for each kind, without the brackets where
+    /// all said the same, in the order in which they came up; then forgets them.
     void print();
 
   private:
@@ -25,6 +25,7 @@ class BodyNotes {
         std::string worst;
         double severity;
         std::string text;
+        bool alike = true;  ///< whether all said the same
     };
 
     std::string program_;

@@ -82,6 +82,21 @@ TEST_F(HelpfulWords, OfOneKindComeOnceInOneLine) {
         "(error estimate): the body is thin or its mesh coarse\n");
 }
 
+TEST_F(HelpfulWords, OfUnitsAreOneLineForThoseThatSayTheSame) {
+    std::string scene = "[scene]\nduration = 0.1\n";
+    for (const char* name : {"a", "b", "c"}) {
+        scene += std::string("[[body]]\nname = \"") + name +
+                 "\"\nshape = \"rubber.body.h5\"\nadded_mass = false\n" +
+                 "loads = \"none\"\ndensity = " + (*name == 'c' ? "0.6" : "2.7") + "\n";
+    }
+    (void)folder_.file("light.toml", scene);
+    const test::ProgramRun done = run({"simulate", "light.toml", "-o", "x.h5"});
+    ASSERT_EQ(done.status, 0);
+    EXPECT_THAT(done.fault,
+                testing::StartsWith("samara simulate: note: 'a' and 'b': has a density of 2.7 kg/m^3"));
+    EXPECT_THAT(done.fault, HasSubstr("samara simulate: note: 'c': has a density of 0.6 kg/m^3"));
+}
+
 TEST_F(HelpfulWords, AreJsonWithJsonWhateverIsWrong) {
     const auto fault_of = [&](const std::vector<std::string>& words) {
         const test::ProgramRun done = run(words);
