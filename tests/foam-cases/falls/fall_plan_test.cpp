@@ -184,7 +184,7 @@ double error_after(int steps, double share, double ratio) {
 
 TEST(FallPlan, RelaxesSoMuchThatErrorsDieOutInTimeOfSecondOrder) {
     const FallModel model = fall_model_of(Closure::k_omega_sst_lm);
-    for (const double ratio : {0.05, 0.4, 1.3, 3.0, 10.0, 25.0}) {
+    for (const double ratio : {0.05, 0.4, 0.5, 0.57, 0.65, 0.8, 1.0, 1.3, 3.0, 10.0, 25.0}) {
         const double share = model.acceleration_relaxation(ratio);
         EXPECT_LE(share, 0.7);
         EXPECT_LT(error_after(100, share, ratio), 1e-3) << ratio;
