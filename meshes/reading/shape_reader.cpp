@@ -3,11 +3,11 @@
 #include <functional>
 #include <string>
 
+#include "internal/body/obj_file.hpp"
+#include "internal/body/stl_file.hpp"
 #include "meshes/reading/confined_surface.hpp"
 #include "meshes/reading/gmsh_session.hpp"
 #include "meshes/reading/gmsh_surface.hpp"
-#include "meshes/reading/obj_file.hpp"
-#include "meshes/reading/stl_file.hpp"
 #include "samara/body/body_file.hpp"
 
 namespace samara {

@@ -7,13 +7,13 @@
 #include <optional>
 
 #include "harness.hpp"
+#include "internal/body/obj_file.hpp"
+#include "internal/body/stl_file.hpp"
 #include "internal/body/welded_surface.hpp"
 #include "internal/files/temporary_folder.hpp"
 #include "meshes/checks/sound_surface.hpp"
 #include "meshes/checks/volume_moments.hpp"
-#include "meshes/reading/obj_file.hpp"
 #include "meshes/reading/script_check.hpp"
-#include "meshes/reading/stl_file.hpp"
 
 namespace samara::fuzz {
 

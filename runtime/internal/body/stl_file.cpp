@@ -1,4 +1,4 @@
-#include "meshes/reading/stl_file.hpp"
+#include "internal/body/stl_file.hpp"
 
 #include <array>
 #include <bit>

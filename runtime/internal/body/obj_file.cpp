@@ -1,4 +1,4 @@
-#include "meshes/reading/obj_file.hpp"
+#include "internal/body/obj_file.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "internal/base/content_hash.hpp"
-#include "meshes/reading/polygon_triangles.hpp"
+#include "internal/body/polygon_triangles.hpp"
 #include "samara/base/error.hpp"
 
 namespace samara {

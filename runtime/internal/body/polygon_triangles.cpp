@@ -1,4 +1,4 @@
-#include "meshes/reading/polygon_triangles.hpp"
+#include "internal/body/polygon_triangles.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "meshes/reading/obj_file.hpp"
+#include "internal/body/obj_file.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -9,7 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "meshes/reading/polygon_triangles.hpp"
+#include "internal/body/polygon_triangles.hpp"
 #include "samara/base/error.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
