@@ -1,7 +1,10 @@
-// The motion in the page: a JSON object in #motion-header, and for each body its arrays in base64.
+// The motion in the page: a JSON object in #motion-header, and for each body and obstacle its arrays in base64.
 
 /** Floats of a pose: position (3), quaternion x y z w, descent speed, inclination, angular speed. */
 const FLOATS = 10;
+
+/** Floats of an obstacle's place: position (3), quaternion x y z w; one place where it stands still. */
+export const PLACE_FLOATS = 7;
 
 /** The measures that follow the pose. `scale` turns SI units into those shown. */
 export const MEASURES = [
@@ -27,6 +30,12 @@ export function readMotion() {
         body.normals = new Float32Array(bytesOf(`motion-${index}-normals`));
         body.triangles = new Uint32Array(bytesOf(`motion-${index}-triangles`));
         body.poses = new Float32Array(bytesOf(`motion-${index}-poses`));
+    });
+    motion.obstacles.forEach((obstacle, index) => {
+        obstacle.points = new Float32Array(bytesOf(`motion-obstacle-${index}-points`));
+        obstacle.normals = new Float32Array(bytesOf(`motion-obstacle-${index}-normals`));
+        obstacle.triangles = new Uint32Array(bytesOf(`motion-obstacle-${index}-triangles`));
+        obstacle.places = new Float32Array(bytesOf(`motion-obstacle-${index}-places`));
     });
     return motion;
 }

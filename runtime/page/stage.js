@@ -1,18 +1,27 @@
 // The bodies in space: z up, metres, one instanced mesh for each body.
 
 import {
-    BufferAttribute, BufferGeometry, Color, DirectionalLight, GridHelper, HemisphereLight, InstancedMesh, Line,
+    BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, GridHelper, HemisphereLight, InstancedMesh, Line,
     LineBasicMaterial, Matrix4, Mesh, MeshBasicMaterial, MeshStandardMaterial, PerspectiveCamera, PlaneGeometry,
     Quaternion, Raycaster, Scene, Vector2, Vector3, WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
-import { placeOf, poseAt } from './motion.js';
+import { PLACE_FLOATS, placeOf, poseAt } from './motion.js';
 import { roundStep } from './series.js';
 
 const COLORS = ['#4c8fbd', '#e08e45', '#5fa777', '#b779a8', '#c9b458', '#7d8ca3'];
+const OBSTACLE = '#b9b2a4';
 const CHOSEN = '#d1495b';
 const TRAIL_FRAMES = 20000;
 const MOST_GHOSTS = 80;
+
+function geometryOf({ points, normals, triangles }) {
+    const geometry = new BufferGeometry();
+    geometry.setAttribute('position', new BufferAttribute(points, 3));
+    geometry.setAttribute('normal', new BufferAttribute(normals, 3));
+    geometry.setIndex(new BufferAttribute(triangles, 1));
+    return geometry;
+}
 
 export class Stage {
     constructor(canvas, motion) {
@@ -33,6 +42,7 @@ export class Stage {
         this.showAll();
 
         this.meshes = motion.bodies.map((body, index) => this.bodyMesh(body, COLORS[index % COLORS.length]));
+        this.obstacles = motion.obstacles.map((obstacle) => this.obstacleMesh(obstacle));
         this.addGround();
         this.trail = new Line(new BufferGeometry(), new LineBasicMaterial({ color: CHOSEN }));
         this.trail.frustumCulled = false;
@@ -88,11 +98,15 @@ export class Stage {
         this.controls.update();
     }
 
+    obstacleMesh(obstacle) {
+        const material = new MeshStandardMaterial({ color: OBSTACLE, roughness: 0.9, metalness: 0, side: DoubleSide });
+        const mesh = new Mesh(geometryOf(obstacle), material);
+        this.scene.add(mesh);
+        return mesh;
+    }
+
     bodyMesh(body, color) {
-        const geometry = new BufferGeometry();
-        geometry.setAttribute('position', new BufferAttribute(body.points, 3));
-        geometry.setAttribute('normal', new BufferAttribute(body.normals, 3));
-        geometry.setIndex(new BufferAttribute(body.triangles, 1));
+        const geometry = geometryOf(body);
         const material = new MeshStandardMaterial({ roughness: 0.55, metalness: 0 });
         const mesh = new InstancedMesh(geometry, material, body.copies);
         mesh.frustumCulled = false;
@@ -215,6 +229,14 @@ export class Stage {
             }
             mesh.instanceMatrix.needsUpdate = true;
             mesh.boundingSphere = null;
+        });
+        this.motion.obstacles.forEach(({ places }, index) => {
+            const mesh = this.obstacles[index];
+            const moves = places.length > PLACE_FLOATS;
+            const a = moves ? frame * PLACE_FLOATS : 0;
+            const b = moves ? next * PLACE_FLOATS : 0;
+            mesh.position.fromArray(places, a).lerp(after.fromArray(places, b), fraction);
+            mesh.quaternion.fromArray(places, a + 3).slerp(turnAfter.fromArray(places, b + 3), fraction);
         });
         this.endTrail(frame);
         this.followPlace(follow);

@@ -77,19 +77,20 @@ void require_no_stray_face(const Surface& surface, const std::vector<std::span<c
     }
 }
 
+void require_two_faces_at_most(const Surface& surface, const std::span<const EdgeUse>& edge) {
+    if (edge.size() <= 2) return;
+    throw Error(fmt::format(
+        "{} faces share the edge from {} to {}; a body's surface has two at each edge: "
+        "delete inner faces, or join the parts into one solid",
+        edge.size(), place(vertex(surface, edge.front().low)), place(vertex(surface, edge.front().high))));
+}
+
 void require_two_faces_at_each_edge(const Surface& surface,
                                     const std::vector<std::span<const EdgeUse>>& edges) {
     std::size_t open = 0;
     const EdgeUse* first_open = nullptr;
     for (const auto& edge : edges) {
-        const Vector3d& from = vertex(surface, edge.front().low);
-        const Vector3d& to = vertex(surface, edge.front().high);
-        if (edge.size() > 2) {
-            throw Error(
-                fmt::format("{} faces share the edge from {} to {}; a body's surface has two at each edge: "
-                            "delete inner faces, or join the parts into one solid",
-                            edge.size(), place(from), place(to)));
-        }
+        require_two_faces_at_most(surface, edge);
         if (edge.size() == 1 && open++ == 0) first_open = &edge.front();
     }
     if (open > 0) {
@@ -246,6 +247,18 @@ void require_bounding_surface(const Surface& surface) {
     const std::vector<Component> pieces = components(surface);
     require_faces_to_agree(surface, pieces);
     require_matter_inside(surface, pieces);
+}
+
+void require_solid_surface(const Surface& surface) {
+    const std::vector<EdgeUse> uses = edge_uses(surface);
+    const auto edges = edges_of(uses);
+    const bool ends =
+        std::any_of(edges.begin(), edges.end(), [](const auto& edge) { return edge.size() == 1; });
+    if (!ends) return require_bounding_surface(surface);
+    require_area(surface);
+    require_each_face_once(surface);
+    for (const auto& edge : edges) require_two_faces_at_most(surface, edge);
+    require_faces_to_agree(surface, components(surface));
 }
 
 }  // namespace samara

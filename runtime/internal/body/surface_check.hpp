@@ -14,6 +14,10 @@ namespace samara {
 /// the vertices. Whether faces cross is not looked at.
 void require_bounding_surface(const Surface& surface);
 
+/// The same of a surface that may end: a closed one is checked as a body's is; a sheet for faces without
+/// area, faces given twice, edges of three or more faces, and faces turned round.
+void require_solid_surface(const Surface& surface);
+
 /// The point, "(x, y, z)" in four digits, as errors name it.
 std::string place(const Vector3d& point);
 

@@ -11,6 +11,7 @@
 #include "internal/body/surface_patches.hpp"
 #include "internal/c_interface/guard.hpp"
 #include "internal/scene/number_limits.hpp"
+#include "internal/scene/plain_name.hpp"
 
 namespace samara {
 namespace {
@@ -73,11 +74,6 @@ template <typename Choice>
 Choice choice(std::int32_t value, std::int32_t last, const char* member) {
     if (value < 0 || value > last) refuse(member, fmt::format("is {}, which names nothing", value));
     return static_cast<Choice>(value);
-}
-
-bool is_plain_name(const std::string& name) {
-    constexpr const char* allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
-    return !name.empty() && name.size() <= 64 && name.find_first_not_of(allowed) == std::string::npos;
 }
 
 MassSpecification read_mass(const samara_kind& kind) {

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t blocks_a_piece = 64;
 
-/// The ground that the bodies of a batch touch.
+/// What the bodies of a batch touch.
 struct BatchGround {
     const ImmersedBody& body;
     const Surroundings& surroundings;
@@ -35,21 +35,29 @@ struct BatchGround {
 
     [[nodiscard]] kernel::Contact contact(double start, double time_step, std::uint64_t first_step,
                                           std::uint64_t steps) const noexcept {
-        if (!surroundings.ground) return {};
+        if (!has_ground(surroundings)) return {};
         const double radius = body.contact_points.bounding_radius;
         const double fastest = surroundings.current.norm() + surroundings.gust.amplitude.norm();
+        const ObstacleSet* obstacles = surroundings.obstacles.get();
         double highest = -std::numeric_limits<double>::infinity();
+        Eigen::AlignedBox3d box;
         for (std::uint64_t step = first_step; step <= first_step + steps; ++step) {
             const double time = step_time(start, time_step, step);
-            highest = std::max(highest, *surroundings.ground - flow_displacement(surroundings, time).z());
+            const Vector3d displacement = flow_displacement(surroundings, time);
+            if (surroundings.ground) highest = std::max(highest, *surroundings.ground - displacement.z());
+            if (obstacles != nullptr) box.extend(obstacles->whereabouts().translated(-displacement));
         }
+        const Vector3d between_steps = Vector3d::Constant(fastest * time_step);
         return {.resolve = resolve,
                 .stay = is_steady(body, surroundings) ? stay : nullptr,
                 .moves = fastest > 0.0,
                 .context = this,
                 .reach = highest + radius + fastest * time_step,
                 .radius = radius,
-                .ground_speed = fastest};
+                .ground_speed = fastest,
+                .has_obstacles = obstacles != nullptr,
+                .box_low = box.min() - between_steps,
+                .box_high = box.max() + between_steps};
     }
 };
 

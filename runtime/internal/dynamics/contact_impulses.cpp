@@ -7,8 +7,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
-#include "internal/dynamics/ground_contact.hpp"
-
 namespace samara {
 namespace {
 
@@ -18,35 +16,37 @@ constexpr int most_sweeps = 100;
 constexpr int most_attempts = 12;   // to find what holds
 constexpr double converged = 1e-6;  // change of an impulse in a sweep, over the largest
 constexpr double settling = 1e-2;   // the same, from which on further points are looked for
-constexpr double sinking = 1e-7;    // speed of a point through the ground that is let be, over the body's
+constexpr double sinking = 1e-7;    // speed of a point through what it meets that is let be, over the body's
 constexpr double stiffness = 1e3;   // of what holds the points that stick, over the body's inertia there
 
 using Block = Eigen::Matrix<double, 3, 6>;
 
-/// Impulses that act on the body together, along the rows of a block (world axes: x, y, z) and within a
-/// length that the normal impulse bounds.
+/// Impulses that act on the body together, along the rows of a block (two tangents and the normal; over the
+/// ground the world's x, y, z) and within a length that the normal impulse bounds.
 struct Impulses {
     Block along;                           ///< J: velocity -> rates along the rows
     Eigen::Matrix<double, 6, 3> response;  ///< K^-1 J^T
     Matrix3d mobility;                     ///< J K^-1 J^T
+    Vector3d meant;  ///< rates that the impulses bring about: those of the surface, along the rows
     Vector3d size;
     Vector3d step;  ///< a change of the size
     bool holds;     ///< within the bound: what it holds is at rest
 
-    void set(const Block& rows, const Matrix6d& inverse_inertia) {
+    void set(const Block& rows, const Vector3d& rates, const Matrix6d& inverse_inertia) {
         along = rows;
+        meant = rates;
         response = inverse_inertia * rows.transpose();
         mobility = rows * response;
         size.setZero();
         holds = false;
     }
 
-    /// Holds the rows from `first` on by springs, the last of them at the rate -`allowed_speed`.
-    void brace(int first, double allowed_speed, const Vector6d& velocity, Matrix6d& stiff, Vector6d& pull) {
+    /// Holds the rows from `first` on by springs at the rates that are meant.
+    void brace(int first, const Vector6d& velocity, Matrix6d& stiff, Vector6d& pull) {
         step.setZero();
         for (int row = first; row < 3; ++row) {
             const double spring = stiffness / mobility(row, row);
-            const double rate = along.row(row).dot(velocity) + (row == 2 ? allowed_speed : 0.0);
+            const double rate = along.row(row).dot(velocity) - meant[row];
             step[row] = -spring * rate;
             stiff += along.row(row).transpose() * (spring * along.row(row));
             pull += along.row(row).transpose() * step[row];
@@ -61,9 +61,10 @@ struct Impulses {
 };
 
 struct Contact {
-    double allowed_speed;  ///< at which the point may come down
-    Impulses push;         ///< friction along x and y, the normal impulse along z
-    Impulses turn;         ///< rolling resistance
+    double friction;
+    double rising;  ///< m/s: of the surface, along the normal
+    Impulses push;  ///< friction along x and y, the normal impulse along z
+    Impulses turn;  ///< rolling resistance
 };
 
 /// The share, up to 1, of a step that keeps a size within its bound, which changes with it.
@@ -80,35 +81,40 @@ double share_within(const Part& size, const Part& step, double bound, double bou
     return a > 0.0 ? std::clamp((root - b) / a, 0.0, 1.0) : 1.0;
 }
 
-/// A contact point that no impulse acts on yet.
+/// A near point that no impulse acts on yet.
 struct Candidate {
-    Vector3d point;
-    double allowed_speed;
+    const NearPoint* near;
+    double allowed_speed;  ///< against the normal, relative to the ground
 };
 
-/// The points near the ground.
+/// The points within the margin.
 class Candidates {
   public:
-    Candidates(const ContactPoints& points, const Stance& stance) noexcept : up_(stance.to_world.row(2)) {
-        const auto look_at = [&](const Vector3d& point) {
-            const double gap = stance.height + up_.dot(point);
-            if (gap > stance.margin) return;
-            const double drift = up_.dot(stance.drift.tail<3>() + stance.drift.head<3>().cross(point));
-            const double left = std::max(0.0, gap - stance.touching) / stance.time_step;
-            candidates_[count_++] = {point, std::max(0.0, left + drift)};
-        };
-        for (const Vector3d& corner : points.corners) look_at(corner);
-        if (!points.round.empty()) look_at(lowest_round_point(points, -up_));
+    Candidates(const ContactSet& near, const Approach& approach) noexcept : up_(near.to_world().row(2)) {
+        for (const NearPoint& point : near) {
+            if (point.gap > approach.margin) continue;
+            const double left = std::max(0.0, point.gap - approach.touching) / approach.time_step;
+            const double rising = point.normal.dot(point.surface_velocity);
+            double allowed = left - rising;
+            if (approach.drift) {
+                const Vector6d& drift = *approach.drift;
+                allowed = std::max(
+                    0.0,
+                    left + point.normal.dot(drift.tail<3>() + drift.head<3>().cross(point.point)) - rising);
+            }
+            candidates_[count_++] = {&point, allowed};
+        }
     }
 
     /// Takes out the candidate that sinks fastest, if any does by more than `tolerance` (m/s).
     bool take_fastest(const Vector6d& velocity, double tolerance, Candidate& taken) noexcept {
-        const double moving = up_.dot(velocity.tail<3>());
-        const Vector3d turning = up_.cross(velocity.head<3>());
+        const Sinking over_ground(up_, velocity);
         std::size_t fastest = count_;
         double worst = -tolerance;
         for (std::size_t i = 0; i < count_; ++i) {
-            const double speed = moving + turning.dot(candidates_[i].point) + candidates_[i].allowed_speed;
+            const NearPoint& near = *candidates_[i].near;
+            const Sinking sinking_there = near.on_ground ? over_ground : Sinking(near.normal, velocity);
+            const double speed = sinking_there.speed_of(near.point) + candidates_[i].allowed_speed;
             if (speed >= worst) continue;
             worst = speed;
             fastest = i;
@@ -120,16 +126,37 @@ class Candidates {
     }
 
   private:
+    /// What a velocity is along a normal.
+    struct Sinking {
+        Sinking(const Vector3d& normal, const Vector6d& velocity)
+            : moving(normal.dot(velocity.tail<3>())), turning(normal.cross(velocity.head<3>())) {}
+        [[nodiscard]] double speed_of(const Vector3d& point) const { return moving + turning.dot(point); }
+        double moving;
+        Vector3d turning;
+    };
+
     Vector3d up_;  // body axes
-    std::array<Candidate, most_corners + 1> candidates_;
+    std::array<Candidate, most_near_points> candidates_;
     std::size_t count_ = 0;
 };
+
+/// Two tangents and the normal, as rows in body axes.
+Matrix3d axes_of(const NearPoint& near, const Matrix3d& to_world) noexcept {
+    if (near.on_ground) return to_world;
+    Matrix3d axes;
+    axes.row(0) = near.normal.unitOrthogonal().transpose();
+    axes.row(1) = near.normal.cross(axes.row(0).transpose()).transpose();
+    axes.row(2) = near.normal.transpose();
+    return axes;
+}
 
 /// The velocity relative to the ground while impulses act on it.
 class ImpulseSolver {
   public:
-    ImpulseSolver(const ImmersedBody& body, const Stance& stance, const Vector6d& velocity) noexcept
-        : body_(body), to_world_(stance.to_world), velocity_(velocity) {}
+    /// `surfaces_move`: whether what bodies meet has its velocity, or stands still.
+    ImpulseSolver(const ImmersedBody& body, const Matrix3d& to_world, bool surfaces_move,
+                  const Vector6d& velocity) noexcept
+        : body_(body), to_world_(to_world), surfaces_move_(surfaces_move), velocity_(velocity) {}
 
     void solve(Candidates& candidates) noexcept {
         const double radius = body_.contact_points.bounding_radius;
@@ -146,9 +173,9 @@ class ImpulseSolver {
             change_ = largest_ = 0.0;
             for (std::size_t i = 0; i < count_; ++i) {
                 Contact& contact = contacts_[i];
-                press(contact.push, contact.allowed_speed);
+                press(contact.push);
                 const double normal = contact.push.size.z();
-                hold<2>(contact.push, ground_friction * normal);
+                hold<2>(contact.push, contact.friction * normal);
                 hold<3>(contact.turn, rolling_resistance * radius * normal);
             }
             stick(radius);
@@ -157,21 +184,40 @@ class ImpulseSolver {
 
     [[nodiscard]] const Vector6d& velocity() const { return velocity_; }
 
+    /// The work (J) of the surfaces that move.
+    [[nodiscard]] double work() const noexcept {
+        double sum = 0.0;
+        if (!surfaces_move_) return sum;
+        for (std::size_t i = 0; i < count_; ++i) {
+            const Contact& contact = contacts_[i];
+            sum += contact.push.size.head<2>().dot(contact.push.meant.head<2>()) +
+                   contact.push.size.z() * contact.rising + contact.turn.size.dot(contact.turn.meant);
+        }
+        return sum;
+    }
+
   private:
     void add(const Candidate& candidate) noexcept {
+        const NearPoint& near = *candidate.near;
+        const Matrix3d axes = axes_of(near, to_world_);
+        const bool moves = surfaces_move_ && !near.on_ground;
+        Vector3d rates = moves ? Vector3d(axes * near.surface_velocity) : Vector3d::Zero();
+        const Vector3d turning = moves ? Vector3d(axes * near.surface_turning) : Vector3d::Zero();
         Contact& contact = contacts_[count_++];
-        contact.allowed_speed = candidate.allowed_speed;
+        contact.friction = near.friction;
+        contact.rising = rates.z();
+        rates.z() = -candidate.allowed_speed;
         Block rows;
-        rows << -to_world_ * skew(candidate.point), to_world_;
-        contact.push.set(rows, body_.inverse_inertia);
-        rows << to_world_, Matrix3d::Zero();
-        contact.turn.set(rows, body_.inverse_inertia);
+        rows << -axes * skew(near.point), axes;
+        contact.push.set(rows, rates, body_.inverse_inertia);
+        rows << axes, Matrix3d::Zero();
+        contact.turn.set(rows, turning, body_.inverse_inertia);
     }
 
     /// Lets the point come down no faster than is allowed.
-    void press(Impulses& impulses, double allowed_speed) noexcept {
+    void press(Impulses& impulses) noexcept {
         const double mobility = impulses.mobility(2, 2);
-        const double speed = impulses.along.row(2).dot(velocity_) + allowed_speed;
+        const double speed = impulses.along.row(2).dot(velocity_) - impulses.meant.z();
         const double before = impulses.size.z();
         impulses.size.z() = std::max(0.0, before - speed / mobility);
         velocity_ += impulses.response.col(2) * (impulses.size.z() - before);
@@ -183,7 +229,7 @@ class ImpulseSolver {
     void hold(Impulses& impulses, double bound) noexcept {
         using Part = Eigen::Matrix<double, N, 1>;
         const Eigen::Matrix<double, N, N> mobility = impulses.mobility.topLeftCorner<N, N>();
-        const Part rates = impulses.along.topRows<N>() * velocity_;
+        const Part rates = impulses.along.topRows<N>() * velocity_ - impulses.meant.head<N>();
         const Part before = impulses.size.head<N>();
         Part after = before - mobility.inverse() * rates;
         impulses.holds = after.norm() <= bound;
@@ -199,7 +245,7 @@ class ImpulseSolver {
     }
 
     /// Solves at once for all points that press and all that is held, as if by springs so stiff that they
-    /// leave next to nothing. Where one would pull at the ground or leave friction's bounds it goes as far as
+    /// leave next to nothing. Where one would pull or leave friction's bounds it goes as far as
     /// that, lets go of it, and goes on. Sweeps alone take hundreds where points stand close together.
     void stick(double radius) noexcept {
         const double lever = rolling_resistance * radius;
@@ -207,8 +253,8 @@ class ImpulseSolver {
             Matrix6d stiff = body_.inertia;
             Vector6d pull = Vector6d::Zero();
             for_each_pressing([&](Contact& contact) {
-                contact.push.brace(contact.push.holds ? 0 : 2, contact.allowed_speed, velocity_, stiff, pull);
-                contact.turn.brace(contact.turn.holds ? 0 : 3, 0.0, velocity_, stiff, pull);
+                contact.push.brace(contact.push.holds ? 0 : 2, velocity_, stiff, pull);
+                contact.turn.brace(contact.turn.holds ? 0 : 3, velocity_, stiff, pull);
             });
             const Vector6d change = Eigen::LLT<Matrix6d>(stiff).solve(pull);
             double share = 1.0;
@@ -228,8 +274,8 @@ class ImpulseSolver {
                 if (contact.push.holds) {
                     const Eigen::Vector2d size = contact.push.size.head<2>();
                     const Eigen::Vector2d step = contact.push.step.head<2>();
-                    limit(share_within(size, step, ground_friction * normal, ground_friction * more), contact,
-                          &contact.push);
+                    limit(share_within(size, step, contact.friction * normal, contact.friction * more),
+                          contact, &contact.push);
                 }
                 if (contact.turn.holds) {
                     limit(share_within(contact.turn.size, contact.turn.step, lever * normal, lever * more),
@@ -271,6 +317,7 @@ class ImpulseSolver {
 
     const ImmersedBody& body_;
     const Matrix3d& to_world_;
+    bool surfaces_move_;
     std::array<Contact, most_contacts> contacts_;
     std::size_t count_ = 0;
     Vector6d velocity_;
@@ -278,11 +325,11 @@ class ImpulseSolver {
     double largest_ = 0.0;
 };
 
-/// The change that was found, or as much of it as adds no energy: friction that was bounded by a normal
-/// impulse which later fell may add a little.
-Vector6d passive(const ImmersedBody& body, const Vector6d& velocity, const Vector6d& change) {
+/// The change that was found, or as much of it as adds no energy beyond the `work` (J) of surfaces that move:
+/// friction that was bounded by a normal impulse which later fell may add a little.
+Vector6d passive(const ImmersedBody& body, const Vector6d& velocity, const Vector6d& change, double work) {
     const Vector6d momentum = body.inertia * change;
-    const double gain = velocity.dot(momentum);
+    const double gain = velocity.dot(momentum) - work;
     const double square = change.dot(momentum);
     if (gain + 0.5 * square <= 0.0) return change;
     return std::max(0.0, -gain / square) * change;
@@ -290,11 +337,12 @@ Vector6d passive(const ImmersedBody& body, const Vector6d& velocity, const Vecto
 
 }  // namespace
 
-Vector6d after_impulses(const ImmersedBody& body, const Stance& stance, const Vector6d& velocity) noexcept {
-    Candidates candidates(body.contact_points, stance);
-    ImpulseSolver solver(body, stance, velocity);
+Vector6d after_impulses(const ImmersedBody& body, const ContactSet& near, const Approach& approach,
+                        const Vector6d& velocity) noexcept {
+    Candidates candidates(near, approach);
+    ImpulseSolver solver(body, near.to_world(), !approach.drift, velocity);
     solver.solve(candidates);
-    return velocity + passive(body, velocity, solver.velocity() - velocity);
+    return velocity + passive(body, velocity, solver.velocity() - velocity, solver.work());
 }
 
 }  // namespace samara

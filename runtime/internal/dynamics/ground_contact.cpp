@@ -1,8 +1,7 @@
 #include "internal/dynamics/ground_contact.hpp"
 
 #include <algorithm>
-
-#include "internal/dynamics/contact_impulses.hpp"
+#include <limits>
 
 namespace samara {
 namespace {
@@ -19,39 +18,46 @@ Vector6d relative_to(const Vector3d& ground_velocity, const BodyState& state) {
     return velocity;
 }
 
-/// How a body stood before a step, over the ground as it is after it.
-Stance stance_before(const Ground& ground, const BodyState& before, double time_step) {
-    return {.to_world = before.orientation.toRotationMatrix(),
-            .height = before.position.z() + ground.travel.z() - ground.height,
-            .time_step = time_step};
-}
-
 /// Whether a body comes to rest or stays at rest where it stood before a step. `velocity`: before it;
-/// `change`: in it, without the ground.
-bool rests(const ImmersedBody& body, Stance stance, const Vector6d& velocity,
+/// `change`: in it, without what it stands on.
+bool rests(const ImmersedBody& body, const ContactSet& stood, double time_step, const Vector6d& velocity,
            const Vector6d& change) noexcept {
     const auto energy = [&](const Vector6d& u) { return 0.5 * u.dot(body.inertia * u); };
     const double radius = body.contact_points.bounding_radius;
-    const double load = (body.inertia * change).tail<3>().norm() / stance.time_step;
+    const double load = (body.inertia * change).tail<3>().norm() / time_step;
     if (!(energy(velocity) < resting_energy * load * radius)) return false;
-    stance.margin = stance.touching =
-        supporting * radius + hovering * stance.time_step * change.tail<3>().norm();
-    return energy(after_impulses(body, stance, change)) < still * still * energy(change);
+    const double near = supporting * radius + hovering * time_step * change.tail<3>().norm();
+    const bool is_moved = std::any_of(stood.begin(), stood.end(), [&](const NearPoint& point) {
+        return point.gap <= near &&
+               !(point.surface_velocity.isZero(0.0) && point.surface_turning.isZero(0.0));
+    });
+    if (is_moved) return false;
+    const Approach approach{.margin = near, .touching = near, .time_step = time_step};
+    return energy(after_impulses(body, stood, approach, change)) < still * still * energy(change);
 }
 
-/// Takes back what the load moved the body by in a step, as far as the ground was in its way. Else it would
-/// turn a little in each step that it lies, and never lie still.
-void hold_against_load(const ImmersedBody& body, Stance stance, const Vector6d& velocity,
+/// Takes back what the load moved the body by in a step, as far as what it stood on was in its way. Else it
+/// would turn a little in each step that it lies, and never lie still.
+void hold_against_load(const ImmersedBody& body, const ContactSet& stood, const Approach& approach,
                        const Vector6d& change, BodyState& state) noexcept {
-    stance.touching = touching * body.contact_points.bounding_radius;
-    stance.drift = velocity;
     const Vector6d moved = 0.5 * change;
-    const Vector6d held = stance.time_step * (after_impulses(body, stance, moved) - moved);
+    const Vector6d held = approach.time_step * (after_impulses(body, stood, approach, moved) - moved);
     if (held.isZero(0.0)) return;
-    state.position += stance.to_world * held.tail<3>();
+    state.position += stood.to_world() * held.tail<3>();
     const Vector3d half_turn = 0.5 * held.head<3>();
     state.orientation =
         (state.orientation * Quaterniond(1.0, half_turn.x(), half_turn.y(), half_turn.z())).normalized();
+}
+
+/// Keeps a body out of the obstacles on its way since before the step.
+void keep_out_of_obstacles(const ImmersedBody& body, const Ground& ground, double time_step,
+                           const BodyState& before, BodyState& state) noexcept {
+    const BodyPlace reached = ground.in_world(state);
+    BodyPlace mended = reached;
+    keep_out(*ground.obstacles, body.contact_points, ground.time - time_step, ground.time,
+             ground.in_world_before(before), mended);
+    if (mended.position != reached.position) state.position = mended.position + ground.origin;
+    state.orientation = mended.orientation;
 }
 
 }  // namespace
@@ -59,10 +65,18 @@ void hold_against_load(const ImmersedBody& body, Stance stance, const Vector6d& 
 Ground ground_in_flow(const Surroundings& surroundings, double begin, double end) noexcept {
     const Vector3d displacement = flow_displacement(surroundings, end);
     const Vector3d velocity = flow_velocity(surroundings, end);
-    return {.height = *surroundings.ground - displacement.z(),
+    constexpr double none = -std::numeric_limits<double>::infinity();
+    return {.height = surroundings.ground ? *surroundings.ground - displacement.z() : none,
             .velocity = -velocity,
             .travel = flow_displacement(surroundings, begin) - displacement,
-            .gain = flow_velocity(surroundings, begin) - velocity};
+            .gain = flow_velocity(surroundings, begin) - velocity,
+            .obstacles = surroundings.obstacles.get(),
+            .origin = -displacement,
+            .time = end};
+}
+
+bool has_ground(const Surroundings& surroundings) noexcept {
+    return surroundings.ground || surroundings.obstacles != nullptr;
 }
 
 void touch_ground(const ImmersedBody& body, const Ground& ground, double time_step, const BodyState& before,
@@ -72,31 +86,48 @@ void touch_ground(const ImmersedBody& body, const Ground& ground, double time_st
     Vector6d velocity = relative_to(ground.velocity, state);
     // No point moves faster than this, nor twice as fast once impulses have turned the body.
     const double margin = 2.0 * time_step * (velocity.tail<3>().norm() + radius * velocity.head<3>().norm());
-    const double height = state.position.z() - ground.height;
-    if (!(height - radius <= margin)) return;
-
+    const bool is_over_ground = state.position.z() - ground.height - radius <= margin;
     const Vector6d velocity_before = relative_to(ground.velocity - ground.gain, before);
     const Vector6d change = velocity - velocity_before;
-    Stance stood = stance_before(ground, before, time_step);
-    if (rests(body, stood, velocity_before, change)) {
+    // From a standstill the load alone may bring it against a thin sheet.
+    const double reached = margin + time_step * change.tail<3>().norm();
+    const ContactPoints& points = body.contact_points;
+    const bool is_at_obstacle =
+        ground.obstacles != nullptr && passes_near(*ground.obstacles, points, ground.in_world_before(before),
+                                                   ground.in_world(state), reached);
+    if (!is_over_ground && !is_at_obstacle) return;
+
+    ContactSet stood(before.orientation.toRotationMatrix());
+    if (is_over_ground) {
+        stood.add_ground(points, before.position.z() + ground.travel.z() - ground.height, margin);
+    }
+    if (is_at_obstacle) {
+        add_obstacles(*ground.obstacles, points, ground.in_world_before(before), velocity_before,
+                      ground.time - time_step, time_step, reached, stood);
+    }
+    if (rests(body, stood, time_step, velocity_before, change)) {
         state.position = before.position;
         state.orientation = before.orientation;
         stay_on(ground, state);
         return;
     }
-    stood.margin = margin;
-    hold_against_load(body, stood, velocity_before, change, state);
+    const Approach on_the_way{
+        .margin = reached, .touching = touching * radius, .time_step = time_step, .drift = velocity_before};
+    hold_against_load(body, stood, on_the_way, change, state);
+    if (is_at_obstacle) keep_out_of_obstacles(body, ground, time_step, before, state);
     velocity = relative_to(ground.velocity, state);
     const Matrix3d to_world = state.orientation.toRotationMatrix();
     const double above = state.position.z() - ground.height;
-    const double lift = std::max(0.0, reach(body.contact_points, -to_world.row(2).transpose()) - above);
+    const double lift = std::max(0.0, reach(points, -to_world.row(2).transpose()) - above);
     state.position.z() += lift;
-    const Stance stance{.to_world = to_world,
-                        .height = above + lift,
-                        .margin = margin,
-                        .touching = touching * radius,
-                        .time_step = time_step};
-    state.velocity += after_impulses(body, stance, velocity) - velocity;
+    ContactSet near(to_world);
+    if (is_over_ground) near.add_ground(points, above + lift, margin);
+    if (is_at_obstacle) {
+        add_obstacles(*ground.obstacles, points, ground.in_world(state), velocity, ground.time, time_step,
+                      reached, near);
+    }
+    const Approach next{.margin = reached, .touching = touching * radius, .time_step = time_step};
+    state.velocity += after_impulses(body, near, next, velocity) - velocity;
 }
 
 void stay_on(const Ground& ground, BodyState& state) noexcept {
@@ -108,6 +139,7 @@ void stay_on(const Ground& ground, BodyState& state) noexcept {
 
 bool is_steady(const ImmersedBody& body, const Surroundings& surroundings) noexcept {
     return surroundings.gust.amplitude.isZero(0.0) &&
+           (surroundings.obstacles == nullptr || !surroundings.obstacles->moves()) &&
            (body.turbulence == Turbulence::none ||
             (body.turbulence == Turbulence::table && surroundings.current.isZero(0.0)));
 }

@@ -1,51 +1,61 @@
 #pragma once
 
+#include "internal/dynamics/contact_impulses.hpp"
 #include "internal/dynamics/immersed_body.hpp"
+#include "internal/dynamics/obstacle_contact.hpp"
 #include "internal/dynamics/step.hpp"
 #include "internal/dynamics/surroundings.hpp"
 
 namespace samara {
 
-/// Level ground in the frame that moves with the undisturbed flow, at the end of a step.
+/// Level ground and obstacles in the frame that moves with the undisturbed flow, at the end of a step.
 struct Ground {
-    double height = 0.0;                   ///< m
+    double height = 0.0;                   ///< m: of level ground; minus infinity where there is none
     Vector3d velocity = Vector3d::Zero();  ///< m/s
     Vector3d travel = Vector3d::Zero();    ///< m: how far it came in the step
     Vector3d gain = Vector3d::Zero();      ///< m/s: of its velocity in the step
+    const ObstacleSet* obstacles = nullptr;
+    Vector3d origin = Vector3d::Zero();  ///< m: of the world's frame
+    double time = 0.0;                   ///< s, of the world
+
+    /// Where a body with a state of the flow's frame is in the world.
+    [[nodiscard]] BodyPlace in_world(const BodyState& state) const noexcept {
+        return {state.position - origin, state.orientation};
+    }
+    /// The same at the step's beginning.
+    [[nodiscard]] BodyPlace in_world_before(const BodyState& before) const noexcept {
+        return {before.position + travel - origin, before.orientation};
+    }
 };
 
-/// The ground of the surroundings, which must have one, in the flow's frame over the step from `begin` to
+/// Whether there is anything that bodies can touch.
+bool has_ground(const Surroundings& surroundings) noexcept;
+
+/// What bodies touch in the surroundings, in the flow's frame over the step from `begin` to
 /// `end` (s).
 Ground ground_in_flow(const Surroundings& surroundings, double begin, double end) noexcept;
-
-/// Coulomb's coefficient of friction between every body and the ground: chosen, not measured. Handbooks have
-/// 0.25 to 0.5 for dry wood on wood.
-inline constexpr double ground_friction = 0.5;
-
-/// How far the load of a contact point stands off it, over the bounding radius: what stops a ball that rolls
-/// and a body that rocks or spins. Chosen, not measured: 0.1 mm for a body of 2 cm (docs/theory.md#ground).
-inline constexpr double rolling_resistance = 0.005;
 
 /// The kinetic energy below which a body that the ground can hold comes to rest, over the work of its load
 /// along the bounding radius: it moves slower than what falls a millionth of that (docs/theory.md#ground).
 inline constexpr double resting_energy = 1e-6;
 
 /// Corrects velocity and pose of a body after an implicit step of `time_step` (s), before which its state was
-/// `before`, for contact with the ground: inelastic, with friction.
+/// `before`, for contact with the ground and with obstacles: inelastic, with friction.
 ///
-/// What stands below the ground is lifted out of it, by translation alone. Impulses (contact_impulses.hpp)
-/// then leave no contact point with a velocity that takes it below the ground within the next step. They
-/// never add energy: with w the velocity relative to the ground, w K w / 2 does not grow. A body whose
-/// kinetic energy is below resting_energy and which the ground's impulses hold, where it stood before the
-/// step, against all that the step would have done to its velocity, is at rest: it keeps its place on the
-/// ground to the last bit. Never throws or allocates.
+/// What stands below the ground is lifted out of it, by translation alone, and what would pass an obstacle is
+/// kept out of it (keep_out). Impulses (contact_impulses.hpp) then leave no contact point with a velocity
+/// that takes it into them within the next step. They never add energy but by obstacles that move: with w the
+/// velocity relative to the ground, w K w / 2 does not grow. A body whose kinetic energy is below
+/// resting_energy and which impulses of what stands still hold, where it stood before the step, against all
+/// that the step would have done to its velocity, is at rest: it keeps its place to the last bit. Never
+/// throws or allocates.
 void touch_ground(const ImmersedBody& body, const Ground& ground, double time_step, const BodyState& before,
                   BodyState& state) noexcept;
 
 /// Leaves a body at rest on the ground for a step, at the end of which the ground is as given.
 void stay_on(const Ground& ground, BodyState& state) noexcept;
 
-/// Whether a body at rest stays so: nothing that acts on it changes.
+/// Whether a body at rest stays so: nothing that acts on it changes, and no obstacle moves.
 bool is_steady(const ImmersedBody& body, const Surroundings& surroundings) noexcept;
 
 }  // namespace samara

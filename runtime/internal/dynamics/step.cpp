@@ -40,7 +40,7 @@ StepResult advance(const ImmersedBody& body, const Surroundings& surroundings, d
     BodyState before = state;
     for (int i = 0; i < result.substeps; ++i) {
         kernel::implicit_step(body.constants, gravity, substep, stream, i, result.substeps, result.state);
-        if (!surroundings.ground) continue;
+        if (!has_ground(surroundings)) continue;
         const double now = time + (i + 1) * substep;
         touch_ground(body, ground_in_flow(surroundings, now - substep, now), substep, before, result.state);
         before = result.state;

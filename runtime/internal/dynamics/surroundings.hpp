@@ -1,7 +1,9 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 
+#include "internal/dynamics/obstacle_set.hpp"
 #include "samara/base/linear_algebra.hpp"
 #include "samara/physics/fluid.hpp"
 
@@ -14,7 +16,8 @@ struct Surroundings {
     Vector3d gravity = Vector3d(0.0, 0.0, -9.81);  ///< m/s^2, world axes
     Vector3d current = Vector3d::Zero();           ///< m/s, world axes
     Gust gust = {};
-    std::optional<double> ground = {};  ///< m: the height (world z) of level ground
+    std::optional<double> ground = {};                  ///< m: the height (world z) of level ground
+    std::shared_ptr<const ObstacleSet> obstacles = {};  ///< none where null
 };
 
 /// The undisturbed flow's velocity (m/s) at a time (s).

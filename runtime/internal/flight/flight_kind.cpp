@@ -94,13 +94,17 @@ Surroundings surroundings_of(const FlightSettings& settings) {
     return {.gravity = settings.gravity,
             .current = settings.fluid.current,
             .gust = settings.fluid.gust,
-            .ground = settings.ground};
+            .ground = settings.ground,
+            .obstacles = settings.obstacles.empty()
+                             ? nullptr
+                             : std::make_shared<const ObstacleSet>(settings.obstacles)};
 }
 
 FlightSettings flight_settings(const Scene& scene, int runs, int threads) {
     return {.fluid = scene.fluid,
             .gravity = scene.gravity,
             .ground = scene.ground,
+            .obstacles = scene.obstacles,
             .step = scene.step,
             .seed = scene.seed,
             .runs = runs,
@@ -111,11 +115,12 @@ Surroundings surroundings_of(const Scene& scene) {
     return surroundings_of(flight_settings(scene, 1, 1));
 }
 
-FlightKind::FlightKind(const FlightSettings& settings, const LoadedBody& body, const BodyPhysics& physics,
-                       const Release& release, std::string name, std::size_t first)
+FlightKind::FlightKind(const FlightSettings& settings, const Surroundings& surroundings,
+                       const LoadedBody& body, const BodyPhysics& physics, const Release& release,
+                       std::string name, std::size_t first)
     : name_(std::move(name)),
       first_(first),
-      surroundings_(surroundings_of(settings)),
+      surroundings_(surroundings),
       release_(release),
       physics_(physics),
       hash_(body.hash),
@@ -140,6 +145,7 @@ FlightKind::FlightKind(const FlightSettings& settings, const LoadedBody& body, c
                               fmt::format("body {} of '{}' starts beyond the range of numbers", i, name_));
         }
         require_above_ground(*body_, name_, surroundings_, release.start, state, i % copies, copies);
+        require_outside_obstacles(*body_, name_, surroundings_, release.start, state, i % copies, copies);
         batch_.set_state(i, state);
         before_[i] = flow_pose(state);
     }

@@ -31,9 +31,9 @@ FlightSettings flight_settings(const Scene& scene, int runs, int threads);
 /// numbered run by run, copy by copy; times are the world's (s).
 class FlightKind {
   public:
-    /// Throws what Flight::add throws of the body and its release.
-    FlightKind(const FlightSettings& settings, const LoadedBody& body, const BodyPhysics& physics,
-               const Release& release, std::string name, std::size_t first);
+    /// `surroundings`: those of the settings. Throws what Flight::add throws of the body and its release.
+    FlightKind(const FlightSettings& settings, const Surroundings& surroundings, const LoadedBody& body,
+               const BodyPhysics& physics, const Release& release, std::string name, std::size_t first);
 
     [[nodiscard]] const std::string& name() const noexcept { return name_; }
     [[nodiscard]] std::size_t first() const noexcept { return first_; }

@@ -4,9 +4,18 @@
 
 #include <fmt/format.h>
 
+#include "internal/body/surface_check.hpp"
+#include "internal/dynamics/obstacle_contact.hpp"
 #include "samara/base/error.hpp"
 
 namespace samara {
+namespace {
+
+std::string copy_in_words(const std::string& name, std::size_t copy, std::size_t copies) {
+    return fmt::format("body '{}'{}", name, copies > 1 ? fmt::format(", copy {},", copy) : "");
+}
+
+}  // namespace
 
 Pose flow_pose(const BodyState& state) {
     return {.position = state.position,
@@ -83,9 +92,21 @@ void require_above_ground(const ImmersedBody& body, const std::string& name, con
     const double depth = *surroundings.ground - height + reach(body.contact_points, down);
     if (depth <= 1e-6 * body.contact_points.bounding_radius) return;
     throw Error(
-        fmt::format("body '{}'{} starts {:.4g} m below the ground at {:g} m; start it higher, or "
+        fmt::format("{} starts {:.4g} m below the ground at {:g} m; start it higher, or "
                     "lower the ground",
-                    name, copies > 1 ? fmt::format(", copy {},", copy) : "", depth, *surroundings.ground));
+                    copy_in_words(name, copy, copies), depth, *surroundings.ground));
+}
+
+void require_outside_obstacles(const ImmersedBody& body, const std::string& name,
+                               const Surroundings& surroundings, double start, const BodyState& state,
+                               std::size_t copy, std::size_t copies) {
+    if (surroundings.obstacles == nullptr) return;
+    const BodyPlace place{state.position + flow_displacement(surroundings, start), state.orientation};
+    const auto overlap = first_overlap(*surroundings.obstacles, body.contact_points, place, start);
+    if (!overlap) return;
+    throw Error(fmt::format("{} starts inside obstacle '{}', at {}; start it elsewhere, or move the obstacle",
+                            copy_in_words(name, copy, copies), overlap->obstacle,
+                            samara::place(overlap->position)));
 }
 
 }  // namespace samara

@@ -45,4 +45,9 @@ BodyState initial_state(const Release& release, const Vector3d& center_of_mass,
 void require_above_ground(const ImmersedBody& body, const std::string& name, const Surroundings& surroundings,
                           double start, const BodyState& state, std::size_t copy, std::size_t copies);
 
+/// The same where copy number `copy` starts inside an obstacle of the surroundings, or across a face of it.
+void require_outside_obstacles(const ImmersedBody& body, const std::string& name,
+                               const Surroundings& surroundings, double start, const BodyState& state,
+                               std::size_t copy, std::size_t copies);
+
 }  // namespace samara

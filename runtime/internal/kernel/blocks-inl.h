@@ -85,16 +85,29 @@ HWY_INLINE SixNormals<Lanes<Tag>> normals_of(Tag tag, const BlockOf<Tag>& block,
                                    unit_interval(tag, b[0]), unit_interval(tag, b[1]));
 }
 
-/// The bodies that may touch the ground by the end of the next substep: no fewer than touch_ground() would
-/// find.
+/// The bodies that may have touched the ground or an obstacle since before the substep, or may by the end of
+/// the next: no fewer than touch_ground() would find.
 template <class Tag>
-HWY_INLINE hn::Mask<Tag> near_ground(const kernel::Contact& contact, const Flight<Lanes<Tag>>& flight,
-                                     Lanes<Tag> substep) {
+HWY_INLINE hn::Mask<Tag> near_ground(const kernel::Contact& contact, const Flight<Lanes<Tag>>& before,
+                                     const Flight<Lanes<Tag>>& flight, Lanes<Tag> substep) {
     using V = Lanes<Tag>;
     const V turning = root(dot(flight.angular_velocity, flight.angular_velocity));
     const V speed = root(dot(flight.velocity, flight.velocity));
     const V margin = V(2.001) * substep * (speed + V(contact.ground_speed) + V(contact.radius) * turning);
-    return flight.position.z - V(contact.reach) < margin + V(1e-5 * contact.radius);
+    const auto near = flight.position.z - V(contact.reach) < margin + V(1e-5 * contact.radius);
+    if (!contact.has_obstacles) return near;
+    // The velocity's change, by which touch_ground() looks farther, is that of both.
+    const V speed_before = root(dot(before.velocity, before.velocity));
+    const V around = margin + V(1.001) * (substep * (speed + speed_before + V(2.0 * contact.ground_speed)) +
+                                          V(contact.radius));
+    const auto in_reach = [&](V a, V b, double low, double high) HWY_ATTR {
+        return hn::And(smaller(a, b) - around < V(high), V(low) < larger(a, b) + around);
+    };
+    const auto by_obstacle = hn::And(
+        in_reach(before.position.x, flight.position.x, contact.box_low.x(), contact.box_high.x()),
+        hn::And(in_reach(before.position.y, flight.position.y, contact.box_low.y(), contact.box_high.y()),
+                in_reach(before.position.z, flight.position.z, contact.box_low.z(), contact.box_high.z())));
+    return hn::Or(near, by_obstacle);
 }
 
 /// Lets the bodies of the lanes touch the ground. `before`: the block before the substep.
@@ -212,7 +225,7 @@ HWY_INLINE void advance_lanes(Tag tag, const FlightConstants<Real>& c, const ker
         implicit_step(c, gravity, substep, sees_fluid(c), part_of(stream, i, divisor), next);
         flight = select_flight<Tag>(V(i) < substeps, next, flight);
         if (task.contact.resolve == nullptr) continue;
-        if (!hn::AllFalse(tag, near_ground(task.contact, flight, substep))) {
+        if (!hn::AllFalse(tag, near_ground(task.contact, previous, flight, substep))) {
             FlightBlock<Real> before;
             std::copy_n(block.at_rest + first, lanes, before.at_rest + first);
             store_flight(tag, previous, before, first);

@@ -14,7 +14,7 @@
 /// same bytes on every instruction set.
 namespace samara::kernel {
 
-/// What is done with a body after each implicit step, where there is ground to meet.
+/// What is done with a body after each implicit step, where there is ground or an obstacle to meet.
 struct Contact {
     /// Mends the state after a substep (s) that ended at a time (s, of the world) and began from `before`.
     using Resolve = void (*)(const void* context, double time, double substep, const BodyState& before,
@@ -29,6 +29,9 @@ struct Contact {
     double reach = 0.0;   ///< m, in the flow's frame: bodies whose centre is higher do not touch the ground
     double radius = 0.0;  ///< m: of the sphere about the centre that holds the body
     double ground_speed = 0.0;  ///< m/s, at most
+    bool has_obstacles = false;
+    /// m, in the flow's frame: no obstacle leaves it.
+    Vector3d box_low = Vector3d::Zero(), box_high = Vector3d::Zero();
 };
 
 /// Steps for blocks to take.

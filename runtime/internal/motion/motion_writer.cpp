@@ -7,6 +7,7 @@
 #include "internal/body/surface_file.hpp"
 #include "internal/files/row_major.hpp"
 #include "internal/motion/motion_rules.hpp"
+#include "internal/motion/obstacle_file.hpp"
 #include "samara/base/error.hpp"
 #include "samara/base/version.hpp"
 
@@ -109,6 +110,10 @@ std::uintmax_t expected_size(const Motion& motion) {
         bytes += poses * pose_bytes + poses * pose_bytes / 1000;  // and the list of chunks
         bytes += body.surface.vertices.size() * 24 + body.surface.corners.size() * 24;
     }
+    for (const Obstacle& obstacle : motion.obstacles) {
+        bytes += small_parts + obstacle.surface.vertices.size() * 24 + obstacle.surface.corners.size() * 24 +
+                 obstacle.keys.size() * 64;
+    }
     return bytes;
 }
 
@@ -126,6 +131,7 @@ MotionWriter::MotionWriter(Hdf5Writer& file, const Motion& motion) : file_(file)
     file.write_block("/time", motion.times, {0}, {motion.times.size()});
     file.write("/gravity", row_major(motion.gravity), {3}, "m/s^2", "world axes");
     file.write_text("/scene", motion.scene_text, "the scene file as it was read");
+    write_obstacles(file, motion.obstacles);
     for (std::size_t i = 0; i < motion.bodies.size(); ++i) write_body(file, motion, i);
 }
 

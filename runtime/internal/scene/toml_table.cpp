@@ -112,6 +112,14 @@ std::optional<Vector3d> TomlTable::vector(std::string_view key) {
     return Vector3d(values->data());
 }
 
+std::optional<Quaterniond> TomlTable::quaternion(std::string_view key) {
+    const auto values = numbers(key, 4);
+    if (!values) return std::nullopt;
+    const Quaterniond quaternion((*values)[0], (*values)[1], (*values)[2], (*values)[3]);
+    if (quaternion.norm() < 1e-6) throw fault(key, "must be a quaternion (w, x, y, z) that is not zero");
+    return quaternion.normalized();
+}
+
 std::optional<TomlTable> TomlTable::table(std::string_view key) {
     const toml::node* found = node(key);
     if (found == nullptr) return std::nullopt;

@@ -46,6 +46,8 @@ class TomlTable {
     /// `length` finite numbers.
     std::optional<std::vector<double>> numbers(std::string_view key, std::size_t length);
     std::optional<Vector3d> vector(std::string_view key);
+    /// A turn as (w, x, y, z), made one of length one.
+    std::optional<Quaterniond> quaternion(std::string_view key);
     std::optional<TomlTable> table(std::string_view key);
     /// The tables of an array of tables, [[key]].
     std::vector<TomlTable> tables(std::string_view key);

@@ -65,6 +65,13 @@ double reach_of(const std::vector<Vector3d>& points, const Vector3d& direction) 
     return farthest;
 }
 
+Vector3d mean_of(const ContactPoints& points) {
+    Vector3d sum = Vector3d::Zero();
+    for (const Vector3d& point : points.corners) sum += point;
+    for (const Vector3d& point : points.round) sum += point;
+    return sum / static_cast<double>(points.corners.size() + points.round.size());
+}
+
 /// Evenly spread over the sphere: a spiral whose turns are a golden angle apart.
 Vector3d spiral_direction(int index) {
     const double z = 1.0 - (2.0 * index + 1.0) / directions;
@@ -170,7 +177,10 @@ ContactPoints contact_points(const Surface& surface, const Vector3d& center_of_m
         reaches.noalias() = points.points * direction;
         has_round_sides = reach_of(result.corners, direction) < reaches.maxCoeff() - width;
     });
-    if (!has_round_sides) return result;
+    if (!has_round_sides) {
+        result.middle = mean_of(result);
+        return result;
+    }
     for_each_node([&](const Vector3d& direction) {
         reaches.noalias() = points.points * direction;
         Vector3d point = smoothed_extreme(points, reaches, width);
@@ -178,6 +188,7 @@ ContactPoints contact_points(const Surface& surface, const Vector3d& center_of_m
         if (result.corners.empty()) point += (reaches.maxCoeff() - point.dot(direction)) * direction;
         result.round.push_back(point);
     });
+    result.middle = mean_of(result);
     return result;
 }
 
@@ -189,6 +200,20 @@ Vector3d lowest_round_point(const ContactPoints& points, const Vector3d& down) n
     const double s = cell.column_fraction;
     return (1.0 - cell.row_fraction) * ((1.0 - s) * first[0] + s * first[1]) +
            cell.row_fraction * ((1.0 - s) * first[size] + s * first[size + 1]);
+}
+
+Vector3d farthest_point(const ContactPoints& points, const Vector3d& direction) noexcept {
+    Vector3d farthest = Vector3d::Zero();
+    double most = -std::numeric_limits<double>::infinity();
+    const auto look_at = [&](const Vector3d& point) {
+        const double along = point.dot(direction);
+        if (along <= most) return;
+        most = along;
+        farthest = point;
+    };
+    for (const Vector3d& corner : points.corners) look_at(corner);
+    if (!points.round.empty()) look_at(lowest_round_point(points, direction));
+    return farthest;
 }
 
 double reach(const ContactPoints& points, const Vector3d& direction) noexcept {

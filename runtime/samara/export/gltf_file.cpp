@@ -105,14 +105,16 @@ std::vector<float> y_up_floats(const std::vector<Vector3d>& vectors) {
     return values;
 }
 
-int add_mesh(Builder& builder, const BodyMotion& body, const std::filesystem::path& file) {
-    const ShadedMesh shaded = shaded_mesh(body.surface);
+/// `material`: its number.
+int add_mesh(Builder& builder, const std::string& name, const Surface& surface, int material,
+             const std::filesystem::path& file) {
+    const ShadedMesh shaded = shaded_mesh(surface);
     if (shaded.triangles.empty()) {
-        throw Error(fmt::format("{}: the surface of {} has no area to show", file.string(), body.name));
+        throw Error(fmt::format("{}: the surface of {} has no area to show", file.string(), name));
     }
     tinygltf::Primitive primitive;
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
-    primitive.material = 0;
+    primitive.material = material;
     builder.begin_view(TINYGLTF_TARGET_ARRAY_BUFFER);
     primitive.attributes["POSITION"] =
         builder.add_floats(y_up_floats(shaded.positions), 3, TINYGLTF_TYPE_VEC3);
@@ -121,7 +123,7 @@ int add_mesh(Builder& builder, const BodyMotion& body, const std::filesystem::pa
     builder.begin_view(TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
     primitive.indices = builder.add_indices(shaded.triangles);
     tinygltf::Mesh mesh;
-    mesh.name = printable(body.name);
+    mesh.name = printable(name);
     mesh.primitives.push_back(primitive);
     builder.model().meshes.push_back(mesh);
     return static_cast<int>(builder.model().meshes.size()) - 1;
@@ -231,13 +233,32 @@ class Keys {
     int all_times_ = -1;
 };
 
-tinygltf::Material matte_material() {
+tinygltf::Material matte_material(const char* name, double grey) {
     tinygltf::Material material;
-    material.name = "body";
-    material.pbrMetallicRoughness.baseColorFactor = {0.8, 0.8, 0.8, 1.0};
+    material.name = name;
+    material.pbrMetallicRoughness.baseColorFactor = {grey, grey, grey, 1.0};
     material.pbrMetallicRoughness.metallicFactor = 0.0;
     material.pbrMetallicRoughness.roughnessFactor = 0.6;
     return material;
+}
+
+/// Where an obstacle is at each frame.
+std::vector<ShapePose> places_of(const Motion& motion, const Obstacle& obstacle) {
+    std::vector<ShapePose> places;
+    for (const double time : motion.times) {
+        const ObstaclePlace place = samara::place_of(obstacle, time);
+        places.push_back({.position = place.position, .orientation = place.orientation});
+        if (places.size() > 1)
+            keep_sign_continuous(places.back().orientation, places[places.size() - 2].orientation);
+    }
+    return places;
+}
+
+/// How far keys may be off for an obstacle: as for a body of its size.
+KeyTolerance key_tolerance_of(const Obstacle& obstacle, const std::optional<double>& given) {
+    BodyMotion as_body;
+    as_body.surface = obstacle.surface;
+    return key_tolerance(as_body, given);
 }
 
 }  // namespace
@@ -248,7 +269,7 @@ std::size_t write_glb(const std::filesystem::path& file, const Motion& motion, i
     tinygltf::Model& model = builder.model();
     model.scenes.emplace_back();
     model.defaultScene = 0;
-    model.materials.push_back(matte_material());
+    model.materials.push_back(matte_material("body", 0.8));
     tinygltf::Animation animation;
     animation.name = "motion";
     const bool moves = motion.times.size() > 1;
@@ -256,7 +277,7 @@ std::size_t write_glb(const std::filesystem::path& file, const Motion& motion, i
     Keys keys(builder, motion, times, animation);
     std::size_t count = 0;
     for (const BodyMotion& body : motion.bodies) {
-        const int mesh = add_mesh(builder, body, file);
+        const int mesh = add_mesh(builder, body.name, body.surface, 0, file);
         const KeyTolerance body_tolerance = key_tolerance(body, tolerance);
         if (moves) builder.begin_view(0);
         for (int copy = 0; copy < body.copies; ++copy) {
@@ -264,6 +285,18 @@ std::size_t write_glb(const std::filesystem::path& file, const Motion& motion, i
             const int node = add_node(model, copy_name(body, copy), mesh, poses.front());
             if (moves) count += keys.add(node, poses, body_tolerance);
         }
+    }
+    if (!motion.obstacles.empty()) {
+        model.materials.push_back(matte_material("obstacle", 0.5));
+        model.materials.back().doubleSided = true;
+    }
+    for (const Obstacle& obstacle : motion.obstacles) {
+        const int mesh = add_mesh(builder, obstacle.name, obstacle.surface, 1, file);
+        const std::vector<ShapePose> places = places_of(motion, obstacle);
+        const int node = add_node(model, obstacle.name, mesh, places.front());
+        if (!moves || !obstacle.moves()) continue;
+        builder.begin_view(0);
+        count += keys.add(node, places, key_tolerance_of(obstacle, tolerance));
     }
     if (moves) model.animations.push_back(animation);
     if (model.buffers[0].data.size() > std::numeric_limits<std::uint32_t>::max() / 2) {

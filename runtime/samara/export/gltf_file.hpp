@@ -16,6 +16,9 @@ namespace samara {
 /// not given: the default of key_tolerance()) have no key of their own. A motion of one frame has no
 /// animation. Values are floats; lengths are metres and times seconds.
 ///
+/// Each obstacle is a mesh and a node of its name, with a material that is seen from both sides; one that
+/// moves has keys of its own.
+///
 /// Nodes move the shape file's origin. glTF has y up: shapes and keys alike are turned by -90 degrees about
 /// x, (x, y, z) -> (x, z, -y), with no parent node in between; importers that turn y up into z up, as Blender
 /// does, thus arrive at the shape's own coordinates and at the motion's own positions and quaternions.

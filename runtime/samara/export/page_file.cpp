@@ -78,20 +78,32 @@ std::vector<float> poses_of(const Motion& motion, const BodyMotion& body, int ru
     return floats;
 }
 
-void write_body(std::ostream& stream, const Motion& motion, const BodyMotion& body, std::size_t index,
-                int run) {
-    const ShadedMesh mesh = shaded_mesh(body.surface);
+/// The arrays NAME-points, NAME-normals and NAME-triangles, about `origin` (m, shape axes).
+void write_mesh(std::ostream& stream, const std::string& name, const Surface& surface,
+                const Vector3d& origin) {
+    const ShadedMesh mesh = shaded_mesh(surface);
     std::vector<float> points;
     std::vector<float> normals;
     std::vector<std::uint32_t> triangles;
-    for (const Vector3d& position : mesh.positions) append(points, Vector3d(position - body.center_of_mass));
+    for (const Vector3d& position : mesh.positions) append(points, Vector3d(position - origin));
     for (const Vector3d& normal : mesh.normals) append(normals, normal);
     for (const auto& triangle : mesh.triangles)
         triangles.insert(triangles.end(), triangle.begin(), triangle.end());
-    write_array(stream, fmt::format("{}-points", index), points);
-    write_array(stream, fmt::format("{}-normals", index), normals);
-    write_array(stream, fmt::format("{}-triangles", index), triangles);
-    write_array(stream, fmt::format("{}-poses", index), poses_of(motion, body, run));
+    write_array(stream, name + "-points", points);
+    write_array(stream, name + "-normals", normals);
+    write_array(stream, name + "-triangles", triangles);
+}
+
+/// Position and quaternion (x, y, z, w) of an obstacle at each frame; of one that stands still once.
+std::vector<float> places_of(const Motion& motion, const Obstacle& obstacle) {
+    std::vector<float> floats;
+    for (const double time : motion.times) {
+        const ObstaclePlace place = samara::place_of(obstacle, time);
+        append(floats, place.position);
+        append(floats, place.orientation.coeffs());
+        if (!obstacle.moves()) break;
+    }
+    return floats;
 }
 
 /// JSON in ASCII and without "<": nothing in it ends or opens an element of the page.
@@ -102,6 +114,9 @@ std::string header_of(const Motion& motion, const std::string& title, const std:
         header["bodies"].push_back(
             {{"name", body.name}, {"copies", body.copies}, {"radius", radius_of(body)}});
     }
+    header["obstacles"] = nlohmann::json::array();
+    for (const Obstacle& obstacle : motion.obstacles)
+        header["obstacles"].push_back({{"name", obstacle.name}});
     std::string text = header.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
     for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) {
         text.replace(at, 1, "\\u003c");
@@ -145,7 +160,14 @@ void write_page(const std::filesystem::path& file, const Motion& motion, int run
                << header_of(motion, title, detail) << "</script>\n";
         write_array(stream, "times", motion.times);
         for (std::size_t b = 0; b < motion.bodies.size(); ++b) {
-            write_body(stream, motion, motion.bodies[b], b, run);
+            const BodyMotion& body = motion.bodies[b];
+            write_mesh(stream, std::to_string(b), body.surface, body.center_of_mass);
+            write_array(stream, fmt::format("{}-poses", b), poses_of(motion, body, run));
+        }
+        for (std::size_t i = 0; i < motion.obstacles.size(); ++i) {
+            const std::string name = fmt::format("obstacle-{}", i);
+            write_mesh(stream, name, motion.obstacles[i].surface, Vector3d::Zero());
+            write_array(stream, name + "-places", places_of(motion, motion.obstacles[i]));
         }
         stream << page.substr(place + mark.size());
     });

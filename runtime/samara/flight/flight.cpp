@@ -7,11 +7,30 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "internal/base/as_index.hpp"
+#include "internal/base/content_hash.hpp"
 #include "internal/base/parallel_for.hpp"
 #include "internal/flight/flight_kind.hpp"
 
 namespace samara {
 namespace {
+
+/// All of an obstacle that shapes the motion, exactly.
+std::string description_of(const Obstacle& obstacle) {
+    std::string text = fmt::format("obstacle friction {} keys", obstacle.friction);
+    for (const ObstacleKey& key : obstacle.keys) {
+        text += fmt::format(" {} {} {}", key.time, fmt::join(key.position.reshaped(), " "),
+                            fmt::join(key.orientation.coeffs().reshaped(), " "));
+    }
+    std::string shape;
+    for (const auto& corners : obstacle.surface.corners) {
+        for (const std::int32_t corner : corners) {
+            const Vector3d& vertex = obstacle.surface.vertices[as_index(corner)];
+            shape += fmt::format("{} ", fmt::join(vertex.reshaped(), " "));
+        }
+    }
+    return fmt::format("{} shape {}\n", text, content_hash(shape));
+}
 
 [[noreturn]] void refuse(FlightError::Kind kind, const std::string& why) {
     throw FlightError(kind, why);
@@ -21,6 +40,7 @@ namespace {
 
 struct Flight::Parts {
     FlightSettings settings;
+    Surroundings surroundings;
     std::vector<std::unique_ptr<FlightKind>> kinds;
     std::size_t size = 0;
     double time = 0.0;
@@ -47,6 +67,7 @@ Flight::Flight(const FlightSettings& settings) : parts_(std::make_unique<Parts>(
         refuse(FlightError::Kind::invalid_argument, "a flight needs a step above zero and one run at least");
     }
     parts_->settings = settings;
+    parts_->surroundings = surroundings_of(settings);
 }
 
 Flight::~Flight() = default;
@@ -65,8 +86,8 @@ std::size_t Flight::add(const LoadedBody& body, const BodyPhysics& physics, cons
                fmt::format("the name '{}' is taken by another kind; give this one another", name));
     }
     const std::size_t first = parts_->size;
-    parts_->kinds.push_back(
-        std::make_unique<FlightKind>(parts_->settings, body, physics, release, name, first));
+    parts_->kinds.push_back(std::make_unique<FlightKind>(parts_->settings, parts_->surroundings, body,
+                                                         physics, release, name, first));
     parts_->size += parts_->kinds.back()->size();
     return first;
 }
@@ -162,6 +183,7 @@ std::string Flight::fingerprint() const {
                                    fmt::join(all.fluid.gust.amplitude.reshaped(), " "), all.fluid.gust.period,
                                    fmt::join(all.gravity.reshaped(), " "),
                                    all.ground ? fmt::format("{}", *all.ground) : "none", all.step, all.runs);
+    for (const Obstacle& obstacle : all.obstacles) text += description_of(obstacle);
     for (const auto& kind : parts_->kinds) text += kind->description();
     return text;
 }

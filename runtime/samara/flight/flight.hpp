@@ -12,6 +12,7 @@
 #include "samara/motion/pose.hpp"
 #include "samara/physics/body_physics.hpp"
 #include "samara/physics/fluid.hpp"
+#include "samara/physics/obstacle.hpp"
 #include "samara/physics/release.hpp"
 
 namespace samara {
@@ -21,6 +22,7 @@ struct FlightSettings {
     Fluid fluid = {};                              ///< what the bodies are in
     Vector3d gravity = Vector3d(0.0, 0.0, -9.81);  ///< m/s^2, world axes
     std::optional<double> ground = {};             ///< m: the height (world z) of level ground
+    std::vector<Obstacle> obstacles = {};          ///< what bodies touch besides
     double step = 0.002;                           ///< s
     std::uint64_t seed = 1;                        ///< of all random numbers
     std::uint32_t first_run = 0;                   ///< of the noise: runs differ by it
@@ -84,7 +86,7 @@ class Flight {
     /// run r has the number first + r * count + c. `name`, on which the random numbers depend, is the body's
     /// own where it is empty. Throws FlightError where the name is taken or the flight has begun; Error where
     /// the body lacks what its physics asks for, the inertia is that of no body, or a copy starts below the
-    /// ground.
+    /// ground or inside an obstacle.
     std::size_t add(const LoadedBody& body, const BodyPhysics& physics, const Release& release,
                     const std::string& name = {});
 

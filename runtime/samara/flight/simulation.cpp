@@ -72,6 +72,7 @@ Simulation::Simulation(const Scene& scene, const std::vector<LoadedBody>& loaded
     motion_.frame_rate = scene.frame_rate;
     motion_.gravity = scene.gravity;
     motion_.ground = scene.ground;
+    motion_.obstacles = scene.obstacles;
     motion_.seed = scene.seed;
     motion_.scene_text = scene.text;
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {

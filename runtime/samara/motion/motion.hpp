@@ -9,6 +9,7 @@
 #include "samara/body/contact_points.hpp"
 #include "samara/body/surface.hpp"
 #include "samara/motion/pose.hpp"
+#include "samara/physics/obstacle.hpp"
 
 namespace samara {
 
@@ -45,6 +46,7 @@ struct Motion {
     double frame_rate = 60.0;                      ///< frames per second
     Vector3d gravity = Vector3d(0.0, 0.0, -9.81);  ///< m/s^2, world axes
     std::optional<double> ground;                  ///< m: the height of the ground, where there is one
+    std::vector<Obstacle> obstacles;               ///< what the bodies touched besides the ground
     std::uint64_t seed = 1;                        ///< of the noise and the starts
     std::string scene_text;                        ///< the scene file as it was read
     std::vector<BodyMotion> bodies;                ///< in the scene's order

@@ -11,6 +11,7 @@
 #include "internal/files/row_major.hpp"
 #include "internal/motion/motion_rules.hpp"
 #include "internal/motion/motion_writer.hpp"
+#include "internal/motion/obstacle_file.hpp"
 #include "samara/base/error.hpp"
 
 namespace samara {
@@ -113,6 +114,7 @@ MotionReader::MotionReader(const std::filesystem::path& path) : file_(std::make_
     if (file_->has_attribute("/", "ground")) motion_.ground = file_->number_attribute("/", "ground");
     motion_.gravity = from_row_major<Vector3d>(file_->finite_doubles("/gravity", {3}));
     motion_.scene_text = file_->text("/scene");
+    motion_.obstacles = read_obstacles(*file_);
     read_bodies_but_poses(*file_, motion_);
     check_motion_but_poses(path, motion_);
     if (!motion_.ground) return;
@@ -153,6 +155,7 @@ void MotionReader::for_each_block(std::size_t body,
                 .frame_rate = motion_.frame_rate,
                 .gravity = motion_.gravity,
                 .ground = motion_.ground,
+                .obstacles = motion_.obstacles,
                 .seed = motion_.seed,
                 .scene_text = {},
                 .bodies = {all}};

@@ -9,6 +9,7 @@
 #include "samara/base/linear_algebra.hpp"
 #include "samara/physics/body_physics.hpp"
 #include "samara/physics/fluid.hpp"
+#include "samara/physics/obstacle.hpp"
 #include "samara/physics/release.hpp"
 
 namespace samara {
@@ -30,6 +31,7 @@ struct Scene {
     Vector3d gravity = Vector3d(0.0, 0.0, -9.81);  ///< m/s^2
     std::optional<double> ground;                  ///< m: the height of level ground
     Fluid fluid;                                   ///< what the bodies are in
+    std::vector<Obstacle> obstacles;               ///< in the file's order, with unlike names
     std::vector<SceneBody> bodies;                 ///< in the file's order
     std::string text;                              ///< the file as it was read
     std::filesystem::path file;                    ///< where it was read from

@@ -11,6 +11,8 @@
 
 #include "internal/body/surface_patches.hpp"
 #include "internal/files/input_file.hpp"
+#include "internal/scene/obstacle_table.hpp"
+#include "internal/scene/plain_name.hpp"
 #include "internal/scene/toml_table.hpp"
 #include "samara/base/error.hpp"
 #include "samara/scene/ready_bodies.hpp"
@@ -191,12 +193,7 @@ void read_turbulence(TomlTable& table, SceneBody& body) {
 
 void read_start(TomlTable& table, SceneBody& body) {
     assign(body.position, table.vector("position"));
-    if (const auto values = table.numbers("orientation", 4)) {
-        const Quaterniond quaternion((*values)[0], (*values)[1], (*values)[2], (*values)[3]);
-        if (quaternion.norm() < 1e-6)
-            throw table.fault("orientation", "must be a quaternion (w, x, y, z) that is not zero");
-        body.orientation = quaternion.normalized();
-    }
+    assign(body.orientation, table.quaternion("orientation"));
     assign(body.velocity, table.vector("velocity"));
     assign(body.angular_velocity, table.vector("angular_velocity"));
     assign(body.start, table.number("start", non_negative_number));
@@ -207,11 +204,6 @@ void read_start(TomlTable& table, SceneBody& body) {
                spread->number("angle", {0.0, std::numbers::pi, "must lie between 0 and pi"}));
         spread->finish();
     }
-}
-
-bool is_plain_name(const std::string& name) {
-    constexpr std::string_view allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
-    return !name.empty() && name.size() <= 64 && name.find_first_not_of(allowed) == std::string::npos;
 }
 
 /// The file that `shape` names: a ready-baked body, or a file seen from the scene's folder.
@@ -294,6 +286,14 @@ Scene read_scene_file(const std::filesystem::path& file) {
         if (!names.insert(scene.bodies.back().name).second) {
             throw table.fault("name", fmt::format("'{}' is taken by another body", scene.bodies.back().name));
         }
+    }
+    std::set<std::string> obstacle_names;
+    for (TomlTable& table : top.tables("obstacle")) {
+        scene.obstacles.push_back(read_obstacle(table, folder));
+        const std::string& name = scene.obstacles.back().name;
+        if (obstacle_names.insert(name).second) continue;
+        throw table.fault("name",
+                          fmt::format("'{}' is taken by another obstacle; give this one another", name));
     }
     top.finish();
     if (scene.bodies.empty())

@@ -1,0 +1,86 @@
+#include "internal/scene/obstacle_table.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+#include <fmt/format.h>
+
+#include "internal/body/obj_file.hpp"
+#include "internal/body/stl_file.hpp"
+#include "internal/body/surface_check.hpp"
+#include "internal/body/welded_surface.hpp"
+#include "internal/files/input_file.hpp"
+#include "internal/scene/plain_name.hpp"
+
+namespace samara {
+namespace {
+
+std::string extension_of(const std::filesystem::path& file) {
+    std::string extension = file.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+    return extension;
+}
+
+Surface read_mesh(const TomlTable& table, const std::filesystem::path& file) {
+    const std::string extension = extension_of(file);
+    if (extension != ".stl" && extension != ".obj") {
+        throw table.fault("shape",
+                          fmt::format("must be a mesh, .stl or .obj, not '{}'", file.filename().string()));
+    }
+    if (const std::string fault = reading_fault(file); !fault.empty()) {
+        throw table.fault("shape", fmt::format("cannot be had: {}: {}", file.string(), fault));
+    }
+    const Surface read = extension == ".stl" ? read_stl_file(file) : read_obj_file(file);
+    try {
+        Surface surface = welded(read);
+        require_solid_surface(surface);
+        return surface;
+    } catch (const Error& fault) {
+        throw table.fault("shape", fmt::format("is no sound surface: {}: {}", file.string(), fault.what()));
+    }
+}
+
+ObstaclePlace read_place(TomlTable& table, const ObstaclePlace& standard) {
+    return {.position = table.vector("position").value_or(standard.position),
+            .orientation = table.quaternion("orientation").value_or(standard.orientation)};
+}
+
+std::vector<ObstacleKey> read_keys(TomlTable& table, const ObstaclePlace& place) {
+    std::vector<ObstacleKey> keys;
+    for (TomlTable& each : table.tables("keys")) {
+        const auto time = each.number("time", any_number);
+        if (!time) throw each.fault("time", "is missing; give the second at which the obstacle is there");
+        if (!keys.empty() && !(*time > keys.back().time)) {
+            throw each.fault("time", "must be later than that of the key before");
+        }
+        keys.push_back({read_place(each, place), *time});
+        each.finish();
+    }
+    if (keys.empty()) keys.push_back({place, 0.0});
+    return keys;
+}
+
+}  // namespace
+
+Obstacle read_obstacle(TomlTable& table, const std::filesystem::path& folder) {
+    Obstacle obstacle;
+    const auto name = table.text("name");
+    if (!name) throw table.fault("name", "is missing; give the obstacle a name");
+    if (!is_plain_name(*name)) {
+        throw table.fault("name", "may hold letters, digits, '-' and '_' alone, 64 at most");
+    }
+    obstacle.name = *name;
+    const auto shape = table.text("shape");
+    if (!shape) throw table.fault("shape", "is missing; give a mesh, .stl or .obj");
+    obstacle.surface = read_mesh(table, folder / *shape);
+    const double scale = table.number("scale", positive_number).value_or(1.0);
+    for (Vector3d& vertex : obstacle.surface.vertices) vertex *= scale;
+    obstacle.friction = table.number("friction", non_negative_number).value_or(obstacle.friction);
+    const ObstaclePlace place = read_place(table, {});
+    obstacle.keys = read_keys(table, place);
+    table.finish();
+    return obstacle;
+}
+
+}  // namespace samara

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "internal/dynamics/surroundings.hpp"
+#include "samara/physics/obstacle.hpp"
+
+namespace samara::test {
+
+/// A rectangle of two triangles about the origin in the plane z = 0: an open sheet.
+Surface sheet(double length, double width);
+
+/// The same of 2 n^2 triangles.
+Surface sheet_of_many(double length, double width, int n);
+
+/// An obstacle that stands still.
+Obstacle obstacle(const Surface& surface, const ObstaclePlace& place = {}, double friction = 0.5);
+
+/// Surroundings with these obstacles, without ground, and with the usual gravity.
+Surroundings with_obstacles(const std::vector<Obstacle>& obstacles);
+
+}  // namespace samara::test
