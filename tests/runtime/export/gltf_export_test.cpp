@@ -192,6 +192,35 @@ std::pair<std::size_t, double> place_of(const Track& track, double time) {
     return {key, (time - track.times[key]) / (track.times[key + 1] - track.times[key])};
 }
 
+TEST(GltfExport, ObstaclesAreNodesSeenFromBothSidesAndMoveByTheirKeys) {
+    const TemporaryFolder folder;
+    Motion motion = leaves(1, 1.0);
+    const Surface sheet{
+        .vertices = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}}, .corners = {{0, 1, 2}}, .edge_nodes = {}};
+    motion.obstacles = {
+        {.name = "roof", .surface = sheet, .keys = {{{Vector3d(1, 2, 3)}, 0.0}}},
+        {.name = "hand", .surface = sheet, .keys = {{{Vector3d(0, 0, 0)}, 0.0}, {{Vector3d(0, 0, 5)}, 0.5}}}};
+    write_glb(folder / "obstacles.glb", motion);
+    const tinygltf::Model model = read_glb(folder / "obstacles.glb");
+    ASSERT_EQ(model.nodes.size(), 4U);
+    const tinygltf::Node& roof = model.nodes[2];
+    EXPECT_EQ(roof.name, "roof");
+    EXPECT_EQ(roof.translation, (std::vector<double>{1.0, 3.0, -2.0}));
+    const int material = model.meshes[static_cast<std::size_t>(roof.mesh)].primitives[0].material;
+    EXPECT_TRUE(model.materials[static_cast<std::size_t>(material)].doubleSided);
+    std::vector<float> heights;
+    for (const auto& channel : model.animations[0].channels) {
+        EXPECT_NE(channel.target_node, 2);
+        if (channel.target_node != 3 || channel.target_path != "translation") continue;
+        const auto& sampler = model.animations[0].samplers[static_cast<std::size_t>(channel.sampler)];
+        heights = floats_of(model, sampler.output, 3);
+    }
+    ASSERT_EQ(heights.size(), 9U);  // at its keys and at the end
+    EXPECT_EQ(heights[1], 0.0F);
+    EXPECT_EQ(heights[4], 5.0F);
+    EXPECT_EQ(heights[7], 5.0F);
+}
+
 TEST(GltfExport, KeptKeysGiveEveryFrameWithinTheTolerance) {
     const TemporaryFolder folder;
     Motion motion = test::motion_of([](double t) { return test::flutter(t, 0.7, 0.6, 0.2); }, 4.0, 240.0);
