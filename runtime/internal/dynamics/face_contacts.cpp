@@ -50,6 +50,8 @@ bool stands_free(const ObstacleTriangle& triangle, const std::array<bool, 3>& hi
     }
     const auto corner =
         static_cast<std::size_t>(std::find(highest.begin(), highest.end(), true) - highest.begin());
+    // A corner amid one plane is none.
+    if (!triangle.stands_out[corner] && !triangle.stands_out[(corner + 2) % 3]) return false;
     const auto& around = triangle.around[corner];
     return std::all_of(around.begin(), around.end(),
                        [&](const Vector3d& way) { return normal.dot(way) <= beyond_plane; });

@@ -15,6 +15,7 @@ namespace {
 constexpr double drawn_in = 0.03;
 constexpr int most_rounds = 32;      // five are common, round bodies need some more
 constexpr double converged = 1e-13;  // of the squared distance
+constexpr double flat = 1e-9;        // sine of the angle between a face and a corner that lies in its plane
 constexpr double better = 1e-6;      // over the radius: gap from which another plane than the face's is taken
 
 /// A point of the difference of hull and triangle, and the triangle's part in it.
@@ -117,8 +118,11 @@ struct Simplex {
             const Vector3d& a = whole.point(face[0]);
             const Vector3d normal = (whole.point(face[1]) - a).cross(whole.point(face[2]) - a);
             const double origin_side = -normal.dot(a);
-            const double other_side = normal.dot(whole.point(face[3]) - a);
-            if (origin_side * other_side > 0.0) continue;
+            const Vector3d height = whole.point(face[3]) - a;
+            const double other_side = normal.dot(height);
+            // Of a tetrahedron without volume every face may be the nearest.
+            const bool is_flat = std::abs(other_side) <= flat * normal.norm() * height.norm();
+            if (!is_flat && origin_side * other_side > 0.0) continue;
             Simplex part = whole;
             part.keep({{face[0], 0.0}, {face[1], 0.0}, {face[2], 0.0}});
             part.reduce_triangle();
@@ -152,14 +156,16 @@ bool nearest_way(const PlacedHull& hull, const ObstacleTriangle& triangle, Simpl
         const Vector3d of_hull = hull.farthest(-direction);
         const Vector3d& of_triangle = farthest_corner(triangle, direction);
         const Vector3d point = of_hull + drawn_in * (middle - of_hull) - of_triangle;
-        if (round > 0 && way.squaredNorm() - way.dot(point) <= converged * square) return true;
+        const double parted = way.dot(point);
+        if (round > 0 && way.squaredNorm() - parted <= converged * square) return true;
         const Simplex before = simplex;
         simplex.corners[static_cast<std::size_t>(simplex.size++)] = {point, of_triangle, 1.0};
-        if (!simplex.reduce()) return false;
-        const Vector3d next = simplex.nearest();
+        const bool is_outside = simplex.reduce();
+        const Vector3d next = is_outside ? simplex.nearest() : Vector3d::Zero();
         const double next_square = next.squaredNorm();
-        if (!(next_square > 0.0)) return false;
-        if (!(next_square < square)) {
+        if (!(next_square > 0.0) && parted <= 0.0) return false;
+        // Where a plane parts the two already, nothing but rounding finds the origin within.
+        if (!(next_square > 0.0) || !(next_square < square)) {
             simplex = before;
             return true;
         }
