@@ -114,6 +114,7 @@ void require_one_fall(const Scene& scene) {
     if (body.count != 1) throw refuse("full CFD solves one copy of a body; drop 'count'");
     if (scene.ground)
         throw refuse("full CFD knows no ground; drop 'ground' and let the scene end before the landing");
+    if (!scene.obstacles.empty()) throw refuse("full CFD knows no obstacles; drop [[obstacle]]");
     if (scene.fluid.gust.amplitude.norm() > 0.0) throw refuse("full CFD knows no gust; drop 'gust'");
     if (!(scene.duration > body.start)) throw refuse("the scene ends before its body starts");
 }

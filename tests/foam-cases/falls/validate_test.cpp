@@ -66,6 +66,10 @@ TEST_F(Validate, RefusesScenesThatFullCfdDoesNotSolve) {
     EXPECT_THAT(fault(), HasSubstr("'count'"));
     write_scene("ground = -2.0", "", body);
     EXPECT_THAT(fault(), HasSubstr("'ground'"));
+    std::ofstream(folder_ / "roof.stl") << "solid roof\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"
+                                           "vertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n";
+    write_scene("", "", body + "\n[[obstacle]]\nname = \"roof\"\nshape = \"roof.stl\"");
+    EXPECT_THAT(fault(), HasSubstr("[[obstacle]]"));
     write_scene("", "gust = { amplitude = [0.1, 0, 0], period = 1.0 }", body);
     EXPECT_THAT(fault(), HasSubstr("'gust'"));
     write_scene("", "", body + "\nstart = 1.5");
