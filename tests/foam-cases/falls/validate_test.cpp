@@ -2,6 +2,8 @@
 
 #include "foam-cases/falls/validate.hpp"
 
+#include <fstream>
+
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
