@@ -57,7 +57,7 @@ LD_LIBRARY_PATH=$(dirname "$(find "$work/root" -name libsamara.so)") \
 python3 "$source_folder/docs/examples/fall.py" "$(find "$work/root" -name libsamara.so)" \
   "$work/root/usr/share/samara/bodies/airplane.body.h5" >poses || fail "the example in Python does not run"
 [ "$(wc -l <poses)" = 25 ] || fail "the example in Python did not print 25 poses"
-nm -D --defined-only "$(find "$work/root" -name libsamara.so)" | awk '{ print $3 }' | grep -v '^samara_' |
+nm -D --defined-only --extern-only "$(find "$work/root" -name libsamara.so)" | awk '{ print $3 }' | grep -v '^samara_' |
   grep -q . && fail "libsamara.so shows more than the C interface"
 
 # Both together: the tools are found beside samara, and their templates beside them.

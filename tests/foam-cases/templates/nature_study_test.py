@@ -114,14 +114,21 @@ class Tables(unittest.TestCase):
                 self.assertIn(row["quantity"], measures[row["case"]], row["case"])
 
     def test_what_is_not_measured_is_not_solved_yet(self):
-        rows = merged(published(), [])
+        rows = merged(published(), [], [])
         self.assertEqual(len(rows), len(published()))
         self.assertEqual({told(row, column) for row in rows for column in ("runtime", "cfd")}, {"not solved yet", "no case yet"})
+
+    def test_what_a_folder_has_not_stays_as_it_was_measured(self):
+        before = [dict(row, runtime="1.3", runtime_error="0.1") if row["case"] == "sphere-ga-144" else row
+                  for row in merged(published(), [], [])]
+        after = merged(published(), [], before)
+        self.assertEqual({row["runtime"] for row in after if row["case"] == "sphere-ga-144"}, {"1.3"})
+        self.assertEqual({row["runtime"] for row in after if row["case"] != "sphere-ga-144"}, {""})
 
     def test_a_miss_is_bold_and_a_figure_within_the_uncertainty_is_not(self):
         def row(speed):
             found = merged(published(), [{"case": "sphere-ga-144", "quantity": "descent speed", "model": "runtime", "value": speed,
-                                          "error": "0", "by": ""}])
+                                          "error": "0", "by": ""}], [])
             return next(each for each in found if each["case"] == "sphere-ga-144" and each["quantity"] == "descent speed")
 
         speed = 1.285 * 0.442944691807

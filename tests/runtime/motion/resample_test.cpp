@@ -71,13 +71,15 @@ TEST(Resample, FollowsTheReferenceFallsByFullCfd) {
         const Motion fall = read_motion_file(entry.path());
         const Errors at_60 = errors_of_fall(fall, 60.0);
         const Errors at_24 = errors_of_fall(fall, 24.0);
+        // The samara turns by half a turn between two frames of 24.
+        const bool spins = entry.path().stem() == "samara";
         EXPECT_LT(at_60.position, 0.0045) << entry.path();
-        EXPECT_LT(at_60.orientation, 0.11 * test::degree) << entry.path();
-        EXPECT_LT(at_24.position, 0.016) << entry.path();
-        EXPECT_LT(at_24.orientation, 0.23 * test::degree) << entry.path();
+        EXPECT_LT(at_60.orientation, (spins ? 0.19 : 0.11) * test::degree) << entry.path();
+        EXPECT_LT(at_24.position, spins ? 0.03 : 0.016) << entry.path();
+        EXPECT_LT(at_24.orientation, (spins ? 7.1 : 0.25) * test::degree) << entry.path();
         ++falls;
     }
-    EXPECT_EQ(falls, 10);
+    EXPECT_EQ(falls, 11);
 }
 
 TEST(Resample, FollowsABodyThatTurnsSeveralTimesBetweenFrames) {
