@@ -23,7 +23,6 @@ CELLS, COARSE_CELLS = 20000, 6000
 CLOSURE, OTHER_CLOSURE = "kOmegaSSTLM", "kOmegaSST"
 NAMES = list(SCENES) + ["cube", "airplane", "samara"]
 ROWS = f"{FALLS}/references.csv"
-MOTION_FIGURES = ("descent_speed", "frequency", "inclination_amplitude", "rms_angular_speed")
 
 
 def solved(programs, work, name, cells, closure, others=()):
@@ -56,12 +55,12 @@ def row_of(programs, work, name, mesh_alone):
     by_mesh, regime_by_mesh = differences(programs, coarse, file)
     return ([name, result["cells"], result["cpu_seconds"], result["balance"]["force"], result["balance"]["moment"],
              result["largest_courant_number"], body["regime"], regime_by_mesh, regime_by_closure]
-            + [body.get(figure) for figure in MOTION_FIGURES] + by_mesh + by_closure)
+            + [body.get(figure) for figure in FIGURES] + by_mesh + by_closure)
 
 
 def heading():
     return (["fall", "cells", "cpu_seconds", "balance_force", "balance_moment", "largest_courant_number", "regime",
-             "regime_coarse", "regime_other_closure"] + list(MOTION_FIGURES)
+             "regime_coarse", "regime_other_closure"] + list(FIGURES)
             + [f"{figure}_by_{cause}" for cause in ("mesh", "closure") for figure in FIGURES])
 
 
