@@ -97,7 +97,8 @@ def row_of(scene, noise, comparison):
         row += [of_motion.get("value"), of_reference.get("value"), of_reference.get("error"),
                 measure.get("relative_difference"),
                 measure["reference_uncertainty"] / magnitude if magnitude and measure.get("reference_uncertainty") else None]
-    return row + [comparison["first_swing"]["path_distance"]["value"] if comparison["first_swing"] else None,
+    apart = comparison["first_swing"]["path_distance"]
+    return row + [apart["value"] if apart else None,
                   "yes" if comparison["agrees"] else "no"]
 
 
@@ -179,8 +180,8 @@ def falls_table(programs, folder):
     return tables_of_falls()
 
 
-def rows_of_falls(noise):
-    with open(f"{FALLS}/falls.csv", newline="") as file:
+def rows_of_falls(noise, table=f"{FALLS}/falls.csv"):
+    with open(table, newline="") as file:
         return [row for row in csv.DictReader(file) if row["noise"] == noise]
 
 
@@ -188,11 +189,11 @@ def tables_of_falls():
     return [table_of_falls(rows_of_falls(noise)) for noise in RUNS]
 
 
-def table_of_falls(rows):
-    """A table of docs/falls.md, of rows of falls.csv."""
+def table_of_falls(rows, who="runtime"):
+    """A table of docs/falls.md, of rows of falls.csv; `who` was held against the references."""
     if not rows:
         return "Not flown yet.\n"
-    lines = ["| fall | descent | frequency | amplitude | rms angular speed | regime (runtime / CFD) | worst figure "
+    lines = [f"| fall | descent | frequency | amplitude | rms angular speed | regime ({who} / reference) | worst figure "
              "| within 10, 20, 30 % | within 5, 15, 25, 25 % |", "|---" * 9 + "|"]
     for row in rows:
         cells = [row["fall"]]

@@ -3,7 +3,7 @@
 
     references_report.py BIN WORK [--mesh-alone] [NAME...]
         solves what is missing in WORK, some three CPU hours where nothing is, and writes docs/falls/NAME.h5 with its
-        uncertainties, references.csv and the tables of docs/falls.md; of the falls that are named, or all; with
+        uncertainties, references.csv, and the tables of docs/falls.md, where those by kEpsilon stand beside them; of the falls that are named, or all; with
         --mesh-alone not by the other closure
     references_report.py
         writes the tables again from references.csv
@@ -16,13 +16,14 @@ import os
 import shutil
 import sys
 
-from falls_report import FALLS, FIGURES, SCENES, percent, run, written
+import falls_report
+from falls_report import FALLS, FIGURES, SCENES, percent, rows_of_falls, run, table_of_falls, written
 from report_tables import mark, write_tables
 
 CELLS, COARSE_CELLS = 20000, 6000
 CLOSURE, OTHER_CLOSURE = "kOmegaSSTLM", "kOmegaSST"
 NAMES = list(SCENES) + ["cube", "airplane", "samara"]
-ROWS = f"{FALLS}/references.csv"
+ROWS, OLD_CLOSURE_ROWS = f"{FALLS}/references.csv", f"{FALLS}/k-epsilon/falls.csv"
 
 
 def solved(programs, work, name, cells, closure, others=()):
@@ -56,6 +57,15 @@ def row_of(programs, work, name, mesh_alone):
     return ([name, result["cells"], result["cpu_seconds"], result["balance"]["force"], result["balance"]["moment"],
              result["largest_courant_number"], body["regime"], regime_by_mesh, regime_by_closure]
             + [body.get(figure) for figure in FIGURES] + by_mesh + by_closure)
+
+
+def hold_k_epsilon(programs):
+    """Writes the falls by kEpsilon beside the references."""
+    rows = [falls_report.heading()]
+    for name in SCENES:
+        words = [f"{programs}/samara", "compare", f"{FALLS}/k-epsilon/{name}.h5", f"{FALLS}/{name}.h5", "--json"]
+        rows.append(falls_report.row_of(name, "off", run(words)))
+    written(OLD_CLOSURE_ROWS, rows)
 
 
 def heading():
@@ -92,7 +102,8 @@ def tables():
             cells += [percent(float(row[f"{figure}_by_{cause}"]) if row[f"{figure}_by_{cause}"] else None) for figure in FIGURES]
             cells.append(row[regime] or "-")
         errors.append("| " + " | ".join(cells) + " |")
-    return ["\n".join(lines) + "\n" for lines in (falls, errors)]
+    beside = table_of_falls(rows_of_falls("off", OLD_CLOSURE_ROWS), "kEpsilon")
+    return ["\n".join(lines) + "\n" for lines in (falls, errors)] + [beside]
 
 
 def main(words):
@@ -110,6 +121,7 @@ def main(words):
             old[name] = row_of(words[1], words[2], name, mesh_alone)
             print(*old[name])
         written(ROWS, [heading()] + [old[name] for name in NAMES if name in old])
+        hold_k_epsilon(words[1])
     write_tables("docs/falls.md", tables(), mark("references"))
     return 0
 

@@ -202,9 +202,11 @@ std::string as_text(const Comparison& all) {
                 : all.regimes_agree       ? "agrees"
                                           : "differs");
     for (const CataloguedFigure& entry : figure_catalogue) {
+        const FigureComparison& figure = all.figures[entry.figure];
+        if (is_of_autorotation(entry.figure) && !figure.motion && !figure.reference) continue;
         const std::string what = entry.refines_last ? fmt::format("  {}", entry.title)
                                                     : fmt::format("{} ({})", entry.title, entry.unit);
-        text += figure_row(what, all.figures[entry.figure], entry.in_unit, entry.relative);
+        text += figure_row(what, figure, entry.in_unit, entry.relative);
     }
     text += distribution_text(all) + first_swing_text(all);
     for (const std::string& note : all.notes) text += "note: " + note + '\n';

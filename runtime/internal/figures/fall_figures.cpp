@@ -22,6 +22,7 @@ struct Sums {
     Vector3d way = Vector3d::Zero();           // m s, of the way since the release
     double inclination = 0.0;                  // rad s
     double squared_spin = 0.0;                 // rad^2/s
+    double upright_turn = 0.0;                 // rad
 };
 
 Sums& operator+=(Sums& sum, const Sums& other) {
@@ -31,6 +32,7 @@ Sums& operator+=(Sums& sum, const Sums& other) {
     sum.way += other.way;
     sum.inclination += other.inclination;
     sum.squared_spin += other.squared_spin;
+    sum.upright_turn += other.upright_turn;
     return sum;
 }
 
@@ -45,6 +47,7 @@ Sums sums_of(const FallSeries& record, const Piece& piece) {
         sums.way += half * (record.ways[i - 1] + record.ways[i]);
         sums.inclination += half * (record.inclinations[i - 1] + record.inclinations[i]);
         sums.squared_spin += half * (record.squared_spins[i - 1] + record.squared_spins[i]);
+        sums.upright_turn += half * (record.upright_spins[i - 1] + record.upright_spins[i]);
     }
     return sums;
 }
@@ -284,6 +287,10 @@ FallFigures fall_figures(const FallSeries& record, double segment) {
         jackknife.error_of_sums([](const Sums& s) { return s.inclination / s.duration; });
     figures[Figure::rms_angular_speed]->error =
         jackknife.error_of_sums([](const Sums& s) { return std::sqrt(s.squared_spin / s.duration); });
+    if (auto& spin = figures[Figure::spin_rate]) {
+        spin->error =
+            jackknife.error_of_sums([](const Sums& s) { return std::abs(s.upright_turn) / s.duration; });
+    }
     figures[Figure::path_spread]->error = path_spread_error(record, jackknife);
     figures[Figure::drift_speed]->error = drift_speed_error(record, jackknife);
     return result;

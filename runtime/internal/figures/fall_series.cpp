@@ -44,6 +44,7 @@ FallSeries fall_series(const Motion& motion, const BodyMotion& body, int run, in
         record.ways.emplace_back(pose.position - start);
         record.inclinations.push_back(inclination(motion, body, pose));
         record.squared_spins.push_back(pose.angular_velocity.squaredNorm());
+        record.upright_spins.push_back(pose.angular_velocity.dot(record.down));
         record.axes.emplace_back(pose.orientation * body.shortest_axis);
     }
     record.measures = measure(motion, body, run, copy,
@@ -73,7 +74,8 @@ Pieces pieces_of(const FallSeries& record) {
     const std::vector<double> inclinations = part(record.inclinations);
     Pieces result;
     result.minima = inclination_minima(part(record.times), inclinations, required_prominence(inclinations));
-    if (record.measures.regime == Regime::steady && result.minima.size() < 4) {
+    const Regime regime = record.measures.regime;
+    if ((regime == Regime::steady || regime == Regime::autorotating) && result.minima.size() < 4) {
         if (last - first < steady_pieces) return result;
         std::vector<std::size_t> cuts;
         for (std::size_t i = 0; i <= steady_pieces; ++i) {

@@ -13,6 +13,7 @@ struct FallSeries {
     std::vector<Vector3d> ways;         ///< m, world: of the centre of mass since the release
     std::vector<double> inclinations;   ///< rad
     std::vector<double> squared_spins;  ///< rad^2/s^2
+    std::vector<double> upright_spins;  ///< rad/s: about the down direction
     std::vector<Vector3d> axes;         ///< the shortest axis, world
     Vector3d down = Vector3d(0.0, 0.0, -1.0);
     Measures measures;  ///< of the window (measures.hpp), whose times count from the release
@@ -42,8 +43,9 @@ struct Pieces {
 };
 
 /// The pieces of the window's frames: a swing each, from one minimum of the inclination to the next, with
-/// what is left at either end of the window added to its neighbour. Eight equal lengths of time for a steady
-/// fall. None for a fall that swings but shows fewer than two swings, and for fewer frames than pieces.
+/// what is left at either end of the window added to its neighbour. Eight equal lengths of time for a fall
+/// that is steady or autorotates without a wobble. None for a fall that swings but shows fewer than two
+/// swings, and for fewer frames than pieces.
 Pieces pieces_of(const FallSeries& record);
 
 }  // namespace samara

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <iterator>
+#include <numbers>
 #include <optional>
 
 #include "internal/base/angles.hpp"
@@ -26,6 +27,10 @@ enum class Figure {
     rms_angular_speed,      ///< rad/s
     path_spread,            ///< m, rms horizontal distance from the release over the window
     drift_speed,            ///< m/s, horizontal mean velocity over the window, whatever its direction
+    spin_rate,              ///< rad/s, this and the following of what autorotates alone
+    coning_angle,           ///< rad
+    helix_radius,           ///< m
+    spin_up_height,         ///< m
 };
 
 /// What of a motion a figure tells. One of the inclination says nothing of a body without a shortest axis
@@ -63,6 +68,13 @@ std::optional<double> held(const Measures& measures) {
     return measures.*member;
 }
 
+/// What it holds as `member` of its autorotation.
+template <auto member>
+std::optional<double> held_of_autorotation(const Measures& measures) {
+    if (!measures.autorotation) return std::nullopt;
+    return (*measures.autorotation).*member;
+}
+
 // clang-format off
 /// All figures, in the order of Figure.
 inline constexpr CataloguedFigure figure_catalogue[] = {
@@ -87,6 +99,16 @@ inline constexpr CataloguedFigure figure_catalogue[] = {
      .unit = "m", .mean = Mean::root_mean_square, .relative = false, .allowed = {3.0}},
     {.figure = Figure::drift_speed, .key = "drift_speed", .title = "drift speed", .unit = "m/s",
      .relative = false},
+    {.figure = Figure::spin_rate, .key = "spin_rate", .title = "spin about the vertical",
+     .unit = "turns/s", .in_unit = 1.0 / (2.0 * std::numbers::pi), .subject = FigureSubject::turning,
+     .measured = held_of_autorotation<&Autorotation::spin_rate>},
+    {.figure = Figure::coning_angle, .key = "coning_angle", .title = "coning angle", .unit = "degrees",
+     .in_unit = degrees, .subject = FigureSubject::inclination, .relative = false,
+     .measured = held_of_autorotation<&Autorotation::coning_angle>},
+    {.figure = Figure::helix_radius, .key = "helix_radius", .title = "helix radius", .unit = "mm",
+     .in_unit = 1000.0, .measured = held_of_autorotation<&Autorotation::helix_radius>},
+    {.figure = Figure::spin_up_height, .key = "spin_up_height", .title = "height lost until it spins",
+     .unit = "m", .measured = held_of_autorotation<&Autorotation::spin_up_height>},
 };
 // clang-format on
 inline constexpr std::size_t figure_count = std::size(figure_catalogue);
@@ -101,6 +123,11 @@ static_assert(std::ranges::all_of(figure_catalogue,
                                       return &entry == &catalogued(entry.figure);
                                   }),
               "the catalogue has the figures in the order of the enumeration");
+
+/// Whether a figure is one of Autorotation, which other falls do not have.
+constexpr bool is_of_autorotation(Figure figure) {
+    return figure >= Figure::spin_rate && figure <= Figure::spin_up_height;
+}
 
 /// One value for each figure.
 template <typename Value>

@@ -37,7 +37,7 @@ double inclination(const Motion& motion, const BodyMotion& body, const Pose& pos
     return std::atan2(axis.cross(down).norm(), std::abs(axis.dot(down)));
 }
 
-bool has_shortest_axis(const Surface& surface) {
+SurfaceSpread surface_spread(const Surface& surface) {
     double area = 0.0;
     Vector3d middle = Vector3d::Zero();
     Matrix3d squares = Matrix3d::Zero();
@@ -55,8 +55,11 @@ bool has_shortest_axis(const Surface& surface) {
         }
     }
     middle /= area;
-    const Matrix3d spread = squares / area - middle * middle.transpose();
-    const Vector3d extents = eigenvalues_of(spread).cwiseSqrt();
+    return {middle, squares / area - middle * middle.transpose()};
+}
+
+bool has_shortest_axis(const Surface& surface) {
+    const Vector3d extents = eigenvalues_of(surface_spread(surface).covariance).cwiseSqrt();
     return extents.maxCoeff() - extents.minCoeff() > alike * extents.maxCoeff();
 }
 

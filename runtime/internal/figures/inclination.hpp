@@ -15,6 +15,14 @@ Vector3d down_direction(const Vector3d& gravity);
 /// it is measured from the world's vertical.
 double inclination(const Motion& motion, const BodyMotion& body, const Pose& pose);
 
+/// How a surface's area spreads: its centroid (m) and the covariance (m^2) of its points about it.
+struct SurfaceSpread {
+    Vector3d centroid = Vector3d::Zero();
+    Matrix3d covariance = Matrix3d::Zero();
+};
+
+SurfaceSpread surface_spread(const Surface& surface);
+
 /// Whether the surface's body has a shortest axis: false for a sphere or a cube, whose surface spreads alike
 /// in all directions, to 1 % of its extent. Then the inclination is that of an axis chosen by chance.
 bool has_shortest_axis(const Surface& surface);

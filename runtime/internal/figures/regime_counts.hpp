@@ -12,7 +12,8 @@ std::array<double, 2> wilson_interval(int count, int samples);
 
 /// How many falls are of each regime.
 struct RegimeCounts {
-    std::array<int, 4> counts = {};  ///< in the enumeration's order
+    std::array<int, static_cast<std::size_t>(Regime::autorotating) + 1> counts =
+        {};  ///< in the enumeration's order
 
     void add(Regime regime) { ++counts[static_cast<std::size_t>(regime)]; }
     [[nodiscard]] int of(Regime regime) const { return counts[static_cast<std::size_t>(regime)]; }

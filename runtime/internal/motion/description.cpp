@@ -69,6 +69,17 @@ std::string ensemble_text(const BodyMeasures& all) {
     return text + "\n";
 }
 
+/// The figures of the flights that autorotate, at the catalogue's names and units.
+std::string autorotation_text(const BodyMeasures& all) {
+    std::string text;
+    for (const CataloguedFigure& entry : figure_catalogue) {
+        if (!is_of_autorotation(entry.figure) || !all.figures[entry.figure]) continue;
+        text += fmt::format("{}{} {:.4g} {}", text.empty() ? "  " : ", ", entry.title,
+                            entry.in_unit * all.value(entry.figure), entry.unit);
+    }
+    return text.empty() ? text : text + '\n';
+}
+
 std::string landing_text(const Landing& landing, int samples) {
     std::string text = fmt::format("  landed at [{:.4g}, {:.4g}] m", landing.mean.x(), landing.mean.y());
     if (samples > 1) {
@@ -140,6 +151,7 @@ std::string as_text(const BodyMeasures& all) {
     if (const auto& frequency = all.figures[Figure::frequency])
         text += fmt::format(", {:.4g} Hz", frequency->value);
     text += fmt::format(", rms angular speed {:.4g} rad/s\n", all.value(Figure::rms_angular_speed));
+    text += autorotation_text(all);
     if (many) text += ensemble_text(all);
     if (all.landing.count > 0) text += landing_text(all.landing, all.samples);
     return text;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "internal/base/angles.hpp"
+#include "internal/figures/autorotation.hpp"
 #include "internal/figures/inclination.hpp"
 #include "samara/base/error.hpp"
 
@@ -115,13 +116,14 @@ int count_plain_swings(const std::vector<double>& minima, const std::vector<doub
     return plain;
 }
 
-Regime regime_of(const Turnovers& turnovers, int plain_swings, double inclination_range) {
+Regime regime_of(const Turnovers& turnovers, int plain_swings, double inclination_range, bool autorotates) {
     const double turns = turnovers.count;
     const double all = turns + plain_swings;
     if (turns > 0 && turns >= (1.0 - exception_share) * all &&
         turnovers.reversals <= exception_share * turns) {
         return Regime::tumbling;
     }
+    if (autorotates) return Regime::autorotating;
     if (turnovers.count == 0 && inclination_range < steady_range) return Regime::steady;
     if (turns <= exception_share * all) return Regime::fluttering;
     return Regime::chaotic;
@@ -181,6 +183,8 @@ const char* name_of(Regime regime) {
     switch (regime) {
         case Regime::fluttering:
             return "fluttering";
+        case Regime::autorotating:
+            return "autorotating";
         case Regime::tumbling:
             return "tumbling";
         case Regime::chaotic:
@@ -259,8 +263,12 @@ Measures measure(const Motion& motion, const BodyMotion& body, int run, int copy
     }
     const Turnovers turnovers = find_turnovers(track);
     measures.turnovers = turnovers.count;
+    if (turnovers.count == 0) {
+        measures.autorotation = autorotation_of(motion, body, run, copy, track.begin, track.end);
+    }
     measures.regime = regime_of(turnovers, count_plain_swings(minima, turnovers.times),
-                                measures.inclination_amplitude - percentile(inclinations, 5.0));
+                                measures.inclination_amplitude - percentile(inclinations, 5.0),
+                                measures.autorotation.has_value());
     return measures;
 }
 

@@ -8,10 +8,11 @@ namespace samara {
 
 /// How a body falls, judged on one copy in one run (see measure()).
 enum class Regime {
-    steady,      ///< keeps its inclination
-    fluttering,  ///< swings from side to side without turning over
-    tumbling,    ///< turns over and over in one sense
-    chaotic,     ///< mixes swings and turns, or turns in changing senses
+    steady,        ///< keeps its inclination
+    fluttering,    ///< swings from side to side without turning over
+    tumbling,      ///< turns over and over in one sense
+    chaotic,       ///< mixes swings and turns, or turns in changing senses
+    autorotating,  ///< turns round the vertical in one sense without turning over
 };
 
 /// The regime in words, as above.
@@ -21,6 +22,15 @@ const char* name_of(Regime regime);
 struct TimeWindow {
     double begin = 0.0;  ///< s
     double end = 0.0;    ///< s
+};
+
+/// How a body turns round the vertical.
+struct Autorotation {
+    double spin_rate = 0.0;              ///< rad/s: mean angular velocity about the vertical, of either sense
+    double helix_radius = 0.0;           ///< m: rms horizontal velocity about its mean, over spin_rate
+    std::optional<double> coning_angle;  ///< rad: mean elevation of the longest axis' end that is farther
+                                         ///< from the centre of mass; nothing where both ends are alike
+    double spin_up_height = 0.0;  ///< m: fallen from the release until 0.8 of spin_rate was first reached
 };
 
 /// The figures of one copy in one run over a window of time.
@@ -35,7 +45,8 @@ struct Measures {
     int swings = 0;                   ///< minima of the inclination in the window
     int turnovers = 0;                ///< half turns of the shortest axis, from one end up to the other
     double rms_angular_speed = 0.0;   ///< rad/s
-    Regime regime = Regime::steady;   ///< how it falls
+    std::optional<Autorotation> autorotation;  ///< where that is the regime
+    Regime regime = Regime::steady;            ///< how it falls
 };
 
 /// The first frame at which a body touches the ground, to a thousandth of its bounding radius, or that lies
@@ -62,6 +73,8 @@ TimeWindow default_window(const Motion& motion, const BodyMotion& body, int run,
 /// to the one before, by the axis' angular velocity while it passes. With s = turnovers / (turnovers +
 /// swings):
 ///  - tumbling where s >= 0.9 and at most a tenth of the turnovers are reversals;
+///  - otherwise autorotating where nothing turns over and the mean angular velocity about the vertical makes
+///    more than half of the mean square angular speed, and two turns or more;
 ///  - otherwise steady where the 5th and 95th percentile of the inclination differ by less than 5 degrees and
 ///    nothing turns over;
 ///  - otherwise fluttering where s <= 0.1;

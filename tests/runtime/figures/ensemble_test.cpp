@@ -53,7 +53,7 @@ TEST(Ensemble, CountsRegimesAndGivesTheCommonestWithItsConfidence) {
         return run < 7 ? test::flutter(time, 2.0, 0.5, 0.2) : test::tumble(time, 12.0, 0.2);
     });
     const BodyMeasures all = measure_all(motion, motion.bodies[0]);
-    EXPECT_EQ(all.regimes.counts, (std::array<int, 4>{0, 7, 3, 0}));
+    EXPECT_EQ(all.regimes.counts, (std::array<int, 5>{0, 7, 3, 0, 0}));
     EXPECT_EQ(all.regimes.commonest(), Regime::fluttering);
     EXPECT_EQ(all.regimes.share(Regime::fluttering), 0.7);
     EXPECT_EQ(all.regimes.confidence(), wilson_interval(7, 10));

@@ -33,7 +33,7 @@ constexpr ShippedFall falls[] = {
     {"falls/disc-light", "disc", Regime::fluttering, 0.1352, 1.043, 4.146},
     {"falls/disc-heavy", "disc", Regime::tumbling, 0.5929, 2.252, 16.47},
     {"falls/sheet", "sheet", Regime::tumbling, 1.066, 1.574, 11.65},
-    {"scenes/samara", "samara", Regime::fluttering, 1.697, {}, 73.3},
+    {"scenes/samara", "samara", Regime::autorotating, 1.697, {}, 73.3},
 };
 
 BodyMeasures flown(const ShippedFall& fall) {
