@@ -52,7 +52,7 @@ Inflow inflow_of(const BakeOptions& options) {
     return options.inflow == "paper" ? paper_inflow() : Inflow();
 }
 
-BakeRequest request_for_shape(const BakeOptions& options) {
+BakeRequest request_for_shape(const BakeOptions& options, bool density_is_given) {
     if (options.probes > 0 && fs::path(options.output).extension() != ".csv") {
         throw Error(
             fmt::format("{}: the output of --probes is a table of cases; name it NAME.csv", options.output));
@@ -65,7 +65,10 @@ BakeRequest request_for_shape(const BakeOptions& options) {
     request.scale = options.scale;
     request.output = options.output;
     request.fluid = *fluid_preset(options.fluid);
-    request.mass.density = options.density;
+    // A body file may have a mass of its own.
+    if (density_is_given || !is_body_file_name(options.input) || !read_body_file(options.input).mass) {
+        request.mass.density = options.density;
+    }
     request.quality = quality_of(options);
     request.inflow = inflow_of(options);
     request.probes = options.probes;
@@ -84,7 +87,7 @@ std::vector<BakeRequest> requests_for(const BakeOptions& options, const Argument
                                         options.input, option));
             }
         }
-        return {request_for_shape(options)};
+        return {request_for_shape(options, arguments.given("--density"))};
     }
     for (const char* option : {"--fluid", "--density", "--scale"}) {
         if (arguments.given(option)) {
@@ -149,7 +152,8 @@ int run(int argc, const char* const* argv) {
     arguments.required_option("-o,--output", options.output,
                               "NAME.body.h5; for a scene the folder of its body files");
     arguments.choice("--fluid", options.fluid, {"water", "air"}, "that the shape falls in, at 20 C");
-    arguments.option("--density", options.density, "of the body (kg/m^3)", 1e-3, 1e6);
+    arguments.option("--density", options.density,
+                     "of the body (kg/m^3); of a body file that has a mass: that", 1e-3, 1e6);
     arguments.option("--scale", options.scale, "metres for one unit of the shape file", 1e-12, 1e12);
     arguments.option("--jobs", options.jobs, "cases solved at once", 1, 4096);
     arguments.option("--ranks", options.ranks,

@@ -138,7 +138,7 @@ typedef struct samara_kind {
     const char* name; /* keys the noise: letters, digits, - and _; default (null): the body file's name */
     uint32_t count;   /* how many, which do not feel each other; default: 1 */
 
-    double density;             /* kg/m^3, uniform. This, or mass; 0: not given */
+    double density;             /* kg/m^3, uniform. This, or mass, or neither where the body file has one; 0: not given */
     double mass;                /* kg */
     int32_t has_center_of_mass; /* whether the next member counts */
     double center_of_mass[3];   /* m, shape axes, with `mass`; else the centroid of the volume */

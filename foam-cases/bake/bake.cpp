@@ -45,6 +45,12 @@ class Stopwatch {
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
+/// Writes the output; the body weighs from now on what it was baked for.
+void write_result(const BakeRequest& request, Body& body) {
+    body.mass = mass_asked_or_own(request.mass, body);
+    write_body_file(request.output, body);
+}
+
 bool plans_falls(const BakeRequest& request) {
     return request.tables && request.probes == 0 && request.quality.falls > 0;
 }
@@ -169,7 +175,7 @@ void bake_for_scene(const BakeRequest& request, CaseSolving& solving, BakeResult
     result.conversion = std::move(conversion);
     result.preparation.plan = plan.cases;
     result.preparation.scene_plan = std::move(plan);
-    write_body_file(request.output, result.conversion->body);
+    write_result(request, result.conversion->body);
 }
 
 void solve_and_convert(const BakeRequest& request, const Body& body, const FarmOptions& farm,
@@ -188,7 +194,7 @@ void solve_and_convert(const BakeRequest& request, const Body& body, const FarmO
         return;
     }
     result.conversion = solving.converted();
-    write_body_file(request.output, result.conversion->body);
+    write_result(request, result.conversion->body);
 }
 
 }  // namespace
@@ -220,7 +226,7 @@ BakeResult bake_body(const BakeRequest& request, const FarmOptions& farm, const 
     if (request.tables) {
         solve_and_convert(request, body, farm, result);
     } else {
-        write_body_file(request.output, body);
+        write_result(request, body);
     }
     return result;
 }

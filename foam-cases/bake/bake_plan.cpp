@@ -250,9 +250,9 @@ void add_ladder(const char* kind, std::size_t index, const Vector3d& direction, 
     }
 }
 
-double mass_of(const MassSpecification& mass, const Body& body) {
-    if (mass.mass) return *mass.mass;
-    if (mass.density) return *mass.density * body.moments.volume;
+double mass_of(const MassSpecification& asked, const Body& body) {
+    const MassSpecification mass = mass_asked_or_own(asked, body);
+    if (mass.is_given()) return mass_properties(body, mass).mass;
     throw Error(fmt::format("{}: has neither a density nor a mass; give one", body.name));
 }
 

@@ -94,8 +94,8 @@ void add_further_reynolds_number(const Vector3d& direction, double reynolds_numb
 /// Adds the quality's other closures to such a direction, likewise; none where the flow is laminar.
 void add_other_closures(const Vector3d& direction, BakePlan& plan);
 
-/// The body's mass (kg) as a scene gives it. Throws Error where it gives neither a density nor a mass.
-double mass_of(const MassSpecification& mass, const Body& body);
+/// The body's mass (kg): mass_asked_or_own(). Throws Error where there is neither a density nor a mass.
+double mass_of(const MassSpecification& asked, const Body& body);
 
 /// The terminal_speed() (m/s) of a body, to bake at. Throws Error where it has none.
 double bake_speed(const Body& body, const Fluid& fluid, double mass, double gravity);

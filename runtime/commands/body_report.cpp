@@ -10,6 +10,7 @@
 
 #include "commands/provenance_summary.hpp"
 #include "commands/table_errors_report.hpp"
+#include "internal/base/symmetric_matrix.hpp"
 #include "internal/base/vector_json.hpp"
 #include "internal/command/print.hpp"
 
@@ -190,7 +191,25 @@ nlohmann::json tables_as_json(const LoadTables& tables) {
     return result;
 }
 
+nlohmann::json mass_as_json(const Body& body) {
+    const MassProperties mass = mass_properties(body, *body.mass);
+    return {{"density", or_null(body.mass->density)},
+            {"mass", mass.mass},
+            {"center_of_mass", as_json(mass.center_of_mass)},
+            {"inertia", rows_as_json(mass.inertia)}};
+}
+
 }  // namespace
+
+void print_mass(const Body& body) {
+    const MassProperties mass = mass_properties(body, *body.mass);
+    const bool is_uniform = body.mass->density.has_value();
+    print_row("mass, where none is said", "{:.6g} kg{}", mass.mass,
+              is_uniform ? fmt::format(", uniform, {:.6g} kg/m^3", *body.mass->density) : "");
+    if (is_uniform) return;
+    print_row("  centre of mass", "{} m", in_words(mass.center_of_mass));
+    print_row("  principal inertia", "{} kg m^2", in_words(eigenvalues_of(mass.inertia)));
+}
 
 Vector3d principal_extents(const Body& body) {
     const Matrix3d axes = principal_axes(body.moments);
@@ -216,6 +235,7 @@ void print_body(const Body& body) {
     print_row("surface area", "{:.6g} m^2", moments.surface_area);
     print_row("principal extents", "{} m", in_words(principal_extents(body)));
     print_row("symmetry", "{}", in_words(body.symmetry));
+    if (body.mass) print_mass(body);
     if (body.kirchhoff) {
         print_kirchhoff(*body.kirchhoff);
     } else {
@@ -246,11 +266,13 @@ nlohmann::json body_as_json(const Body& body) {
         {"surface_area", moments.surface_area},
         {"principal_extents", as_json(principal_extents(body))},
         {"symmetry", {{"kind", name_of(body.symmetry.kind)}, {"elements", body.symmetry.elements.size()}}},
+        {"mass", nullptr},
         {"kirchhoff", nullptr},
         {"tables", nullptr},
         {"dynamic_coefficients", nullptr},
     };
     if (body.symmetry.kind == Symmetry::Kind::axial) result["symmetry"]["axis"] = as_json(body.symmetry.axis);
+    if (body.mass) result["mass"] = mass_as_json(body);
     if (body.kirchhoff) {
         result["kirchhoff"] = {{"added_mass", rows_as_json(body.kirchhoff->matrix)},
                                {"error_estimate", body.kirchhoff->error_estimate},

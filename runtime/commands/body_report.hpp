@@ -9,6 +9,9 @@ namespace samara {
 /// The body's lengths along its principal axes (m), shortest first.
 Vector3d principal_extents(const Body& body);
 
+/// What a body weighs where nobody says otherwise, for people, on standard output. It has a mass.
+void print_mass(const Body& body);
+
 /// What a body holds, for people, on standard output.
 void print_body(const Body& body);
 

@@ -7,6 +7,9 @@ namespace samara {
 /// samara kirchhoff: the added mass of a body or shape.
 int kirchhoff_command(int argc, const char* const* argv);
 
+/// samara mass: what a body weighs where a scene does not say.
+int mass_command(int argc, const char* const* argv);
+
 /// samara simulate: a scene's motion.
 int simulate_command(int argc, const char* const* argv);
 

@@ -30,6 +30,7 @@ constexpr Command commands[] = {
     {"mesh", "shape file -> checked surface, volume moments, symmetry", nullptr},
     {"kirchhoff", "body or shape -> added mass (Kirchhoff tensor) in an unbounded fluid",
      samara::kirchhoff_command},
+    {"mass", "what a body weighs where a scene does not say, into its file", samara::mass_command},
     {"plan", "scene -> the cases that it needs, and their cost", nullptr},
     {"bake", "OpenFOAM cases around a body -> load and turbulence tables", nullptr},
     {"convert", "solved cases -> tables in the body file", nullptr},

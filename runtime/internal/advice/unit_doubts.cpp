@@ -72,9 +72,10 @@ std::string size_doubts(const Body& body, ScaleRemedy remedy) {
     return length_doubt(length_of(body), std::nullopt, remedy);
 }
 
-std::string unit_doubts(const Body& body, const MassSpecification& mass, const Fluid& fluid, double gravity,
+std::string unit_doubts(const Body& body, const MassSpecification& asked, const Fluid& fluid, double gravity,
                         ScaleRemedy remedy) {
     const double volume = body.moments.volume;
+    const MassSpecification mass = mass_asked_or_own(asked, body);
     const double density = mass.density ? *mass.density : mass.mass.value_or(0.0) / volume;
     const double reynolds_number = terminal_speed(body, fluid, density * volume, gravity) *
                                    reference_length(body.moments.surface_area) / fluid.kinematic_viscosity();

@@ -23,7 +23,7 @@ std::string size_doubts(const Body& body, ScaleRemedy remedy);
 /// The same of a body that falls: also of a Reynolds number above 2e7 at the estimated terminal speed, and of
 /// a mean density below 10 kg/m^3 or above that of any metal. One line, to stand behind the body's name.
 /// Throws nothing: what is beyond all bounds is refused elsewhere.
-std::string unit_doubts(const Body& body, const MassSpecification& mass, const Fluid& fluid, double gravity,
+std::string unit_doubts(const Body& body, const MassSpecification& asked, const Fluid& fluid, double gravity,
                         ScaleRemedy remedy);
 
 }  // namespace samara

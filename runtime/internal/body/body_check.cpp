@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "internal/base/symmetric_matrix.hpp"
+#include "internal/body/mass_check.hpp"
 
 namespace samara {
 namespace {
@@ -191,6 +192,7 @@ std::string fault_of(const Body& body) {
     if (fault.empty() && body.kirchhoff) fault = fault_of(*body.kirchhoff, radius);
     if (fault.empty() && body.tables) fault = fault_of(*body.tables, body.moments.surface_area);
     if (fault.empty() && body.dynamic) fault = fault_of(body.dynamic->values, radius);
+    if (fault.empty() && body.mass) fault = fault_of(*body.mass, body.surface);
     return fault;
 }
 

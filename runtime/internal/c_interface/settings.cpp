@@ -80,10 +80,7 @@ MassSpecification read_mass(const samara_kind& kind) {
     MassSpecification mass;
     if (non_negative(kind.density, "density") > 0.0) mass.density = kind.density;
     if (non_negative(kind.mass, "mass") > 0.0) mass.mass = kind.mass;
-    if (mass.density.has_value() == mass.mass.has_value()) {
-        refuse("density", mass.density ? "and mass are both given; give one of the two"
-                                       : "or mass is missing; give one of the two");
-    }
+    if (mass.density && mass.mass) refuse("density", "and mass are both given; give one of the two");
     if (kind.has_center_of_mass != 0) mass.center_of_mass = vector(kind.center_of_mass, "center_of_mass");
     Matrix3d inertia = Eigen::Map<const Matrix3d>(kind.inertia);
     for (const double value : kind.inertia) finite(value, "inertia");
@@ -92,9 +89,10 @@ MassSpecification read_mass(const samara_kind& kind) {
             refuse("inertia", "must be symmetric");
         mass.inertia = inertia;
     }
-    if (mass.density && (mass.center_of_mass || mass.inertia)) {
+    if (!mass.mass && (mass.center_of_mass || mass.inertia)) {
         refuse(mass.inertia ? "inertia" : "center_of_mass",
-               "contradicts a uniform density; give mass instead of density");
+               mass.density ? "contradicts a uniform density; give mass instead of density"
+                            : "stands alone; give mass with it");
     }
     return mass;
 }
@@ -240,6 +238,9 @@ GivenKind read_kind(const samara_kind& given) {
 
 void require_data(const Body& body, const GivenKind& kind) {
     const std::string& name = kind.name.empty() ? body.name : kind.name;
+    if (!mass_asked_or_own(kind.mass, body).is_given()) {
+        refuse("density", "or mass is missing, and the body file has none; give one of the two");
+    }
     if (kind.added_mass && !body.kirchhoff) {
         throw Fault(SAMARA_MISSING_DATA,
                     fmt::format("body '{}' holds no added mass; add it with 'samara kirchhoff', or set "

@@ -17,31 +17,8 @@
 namespace samara {
 namespace {
 
-struct Mass {
-    double mass;
-    Vector3d center;
-    Matrix3d inertia;
-};
-
-Mass mass_of(const Body& body, const MassSpecification& specification, const std::string& name) {
-    const VolumeMoments& moments = body.moments;
-    const double mass = specification.mass.value_or(specification.density.value_or(0.0) * moments.volume);
-    Mass result{mass, specification.center_of_mass.value_or(moments.centroid),
-                uniform_inertia(moments, mass / moments.volume)};
-    if (specification.inertia) result.inertia = *specification.inertia;
-    const Vector3d principal = eigenvalues_of(result.inertia);
-    const bool sane = principal.x() > 0.0 && principal.z() <= (principal.x() + principal.y()) * (1.0 + 1e-9);
-    if (!sane) {
-        throw Error(fmt::format(
-            "body '{}': no body has the principal moments of inertia {:.4g}, {:.4g}, {:.4g}: each must "
-            "be positive and at most the sum of the others",
-            name, principal.x(), principal.y(), principal.z()));
-    }
-    return result;
-}
-
 /// Blocks about the centre of mass: diag(I, m 1).
-Matrix6d body_inertia(const Mass& mass) {
+Matrix6d body_inertia(const MassProperties& mass) {
     Matrix6d inertia = Matrix6d::Zero();
     inertia.topLeftCorner<3, 3>() = mass.inertia;
     inertia.bottomRightCorner<3, 3>() = mass.mass * Matrix3d::Identity();
@@ -123,7 +100,7 @@ ImmersedBody make_immersed_body(const Body& body, const BodyPhysics& physics, co
     const Matrix6d fluid_inertia = fluid_inertia_of(body, physics, fluid, name);
     require_tables(body, physics, name);
     require_sound(body, physics, fluid, name);
-    const Mass mass = mass_of(body, physics.mass, name);
+    const MassProperties mass = mass_properties(body, mass_asked_or_own(physics.mass, body));
 
     ImmersedBody result;
     result.name = name;
@@ -131,8 +108,8 @@ ImmersedBody make_immersed_body(const Body& body, const BodyPhysics& physics, co
     result.volume = body.moments.volume;
     result.fluid_density = fluid.density;
     result.viscosity = fluid.viscosity;
-    result.center_of_mass = mass.center;
-    result.center_of_buoyancy = body.moments.centroid - mass.center;
+    result.center_of_mass = mass.center_of_mass;
+    result.center_of_buoyancy = body.moments.centroid - mass.center_of_mass;
     result.to_centroid.block<3, 3>(3, 0) = -skew(result.center_of_buoyancy);
     result.own_inertia = mass.inertia;
     result.added_mass = fluid_inertia.bottomRightCorner<3, 3>();
@@ -145,7 +122,7 @@ ImmersedBody make_immersed_body(const Body& body, const BodyPhysics& physics, co
             "tensor with more triangles",
             name));
     }
-    result.contact_points = contact_points(body.surface, mass.center);
+    result.contact_points = contact_points(body.surface, mass.center_of_mass);
     result.turning_scale = turning_scale(result.inertia, result.added_mass);
     result.length = reference_length(body.moments.surface_area);
     result.reference_area = std::numbers::pi * result.length * result.length / 4.0;

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "internal/body/mass_check.hpp"
 #include "internal/body/surface_patches.hpp"
 #include "samara/base/error.hpp"
 
@@ -49,17 +50,6 @@ void check_surface(const NamedChecks& checks, const Surface& surface) {
             checks.require(corner >= 0 && corner < count, "surface.corners", "numbers of vertices");
         }
     }
-}
-
-void check_mass(const NamedChecks& checks, const MassSpecification& mass) {
-    checks.require(mass.density.has_value() || mass.mass.has_value(), "density or mass", "given");
-    if (mass.density) checks.positive(*mass.density, "density");
-    if (mass.mass) checks.positive(*mass.mass, "mass");
-    if (mass.center_of_mass) checks.finite(*mass.center_of_mass, "center_of_mass");
-    if (!mass.inertia) return;
-    checks.finite(*mass.inertia, "inertia");
-    const Matrix3d& inertia = *mass.inertia;
-    checks.require((inertia - inertia.transpose()).norm() <= 1e-9 * inertia.norm(), "inertia", "symmetric");
 }
 
 void check_tables(const NamedChecks& checks, const LoadTables& tables) {
@@ -115,7 +105,15 @@ void require_sound(const Body& body, const BodyPhysics& physics, const Fluid& fl
     checks.positive(body.moments.surface_area, "moments.surface_area");
     checks.finite(body.moments.centroid, "moments.centroid");
     checks.finite(body.moments.second_moments, "moments.second_moments");
-    check_mass(checks, physics.mass);
+    const MassSpecification mass = mass_asked_or_own(physics.mass, body);
+    if (!mass.is_given()) {
+        throw Error(fmt::format(
+            "body '{}': density is missing, and its body file says no mass either; give density or mass",
+            name));
+    }
+    if (const std::string fault = fault_of(mass, body.surface); !fault.empty()) {
+        throw Error(fmt::format("body '{}': {}", name, fault));
+    }
     if (body.kirchhoff && physics.added_mass) checks.finite(body.kirchhoff->matrix, "kirchhoff.matrix");
     if (body.tables && (physics.loads == Loads::table || physics.turbulence == Turbulence::table)) {
         check_tables(checks, *body.tables);

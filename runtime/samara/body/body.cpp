@@ -40,4 +40,17 @@ Matrix6d in_rotated_axes(const Matrix6d& tensor, const Matrix3d& rotation) {
     return turn * tensor * turn.transpose();
 }
 
+MassSpecification mass_asked_or_own(const MassSpecification& asked, const Body& body) {
+    return asked.is_given() ? asked : body.mass.value_or(asked);
+}
+
+MassProperties mass_properties(const Body& body, const MassSpecification& mass) {
+    const VolumeMoments& moments = body.moments;
+    MassProperties result;
+    result.mass = mass.mass.value_or(mass.density.value_or(0.0) * moments.volume);
+    result.center_of_mass = mass.center_of_mass.value_or(moments.centroid);
+    result.inertia = mass.inertia.value_or(uniform_inertia(moments, result.mass / moments.volume));
+    return result;
+}
+
 }  // namespace samara

@@ -7,6 +7,7 @@
 #include "samara/base/linear_algebra.hpp"
 #include "samara/body/dynamic_coefficients.hpp"
 #include "samara/body/load_tables.hpp"
+#include "samara/body/mass_specification.hpp"
 #include "samara/body/surface.hpp"
 
 namespace samara {
@@ -76,6 +77,21 @@ struct Body {
     std::optional<KirchhoffTensor> kirchhoff;       ///< none before `samara kirchhoff`
     std::optional<LoadTables> tables;               ///< none before `samara bake`
     std::optional<IdentifiedCoefficients> dynamic;  ///< of a body in rotation; without them, defaults
+    std::optional<MassSpecification> mass;          ///< what it weighs where nobody says otherwise
 };
+
+/// The mass of a body for which `asked` is asked: that, where it is one, else the body's own; not given where
+/// neither has one.
+MassSpecification mass_asked_or_own(const MassSpecification& asked, const Body& body);
+
+/// A mass in figures.
+struct MassProperties {
+    double mass = 0.0;                           ///< kg
+    Vector3d center_of_mass = Vector3d::Zero();  ///< m, shape axes
+    Matrix3d inertia = Matrix3d::Zero();         ///< kg m^2 about the centre of mass, shape axes
+};
+
+/// What a mass that is given to a body comes to. It is not checked.
+MassProperties mass_properties(const Body& body, const MassSpecification& mass);
 
 }  // namespace samara

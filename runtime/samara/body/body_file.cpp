@@ -8,6 +8,7 @@
 #include "internal/base/content_hash.hpp"
 #include "internal/body/body_check.hpp"
 #include "internal/body/dynamic_coefficients_file.hpp"
+#include "internal/body/mass_file.hpp"
 #include "internal/body/planned_region_file.hpp"
 #include "internal/body/surface_file.hpp"
 #include "internal/body/table_errors_file.hpp"
@@ -225,6 +226,7 @@ Body read_body_file(const std::filesystem::path& path) {
     if (file.has("/kirchhoff")) body.kirchhoff = read_kirchhoff(file);
     if (file.has("/tables")) body.tables = read_tables(file);
     if (file.has("/dynamic_coefficients")) body.dynamic = read_dynamic_coefficients(file);
+    if (file.has("/mass")) body.mass = read_mass(file);
     if (const std::string fault = fault_of(body); !fault.empty()) {
         throw Error(fmt::format("{}: {}; make the file again", path.string(), fault));
     }
@@ -253,6 +255,7 @@ void write_body_file(const std::filesystem::path& path, const Body& body) {
         if (body.kirchhoff) write_kirchhoff(file, *body.kirchhoff);
         if (body.tables) write_tables(file, *body.tables);
         if (body.dynamic) write_dynamic_coefficients(file, *body.dynamic);
+        if (body.mass) write_mass(file, *body.mass);
     });
 }
 

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "samara/base/linear_algebra.hpp"
+#include "samara/body/mass_specification.hpp"
 
 namespace samara {
 
@@ -28,24 +29,13 @@ struct CoefficientLoads {
     bool operator==(const CoefficientLoads&) const = default;
 };
 
-/// A body's mass: of uniform density, or given by its total, its centre and its inertia.
-struct MassSpecification {
-    std::optional<double> density;           ///< kg/m^3
-    std::optional<double> mass;              ///< kg
-    std::optional<Vector3d> center_of_mass;  ///< m, shape axes; default: the centroid of the volume
-    std::optional<Matrix3d> inertia;  ///< kg m^2 about the centre of mass, shape axes; default: as if uniform
-
-    /// Member by member.
-    bool operator==(const MassSpecification&) const = default;
-};
-
 /// What a body is physically, wherever it starts: with the shape and the fluid, all that its equations of
 /// motion hold. A member more is to be listed in visit_members() below, on which the scene file, the C
 /// interface, saved states and what is shared between equal bodies rest.
 struct BodyPhysics {
-    MassSpecification mass;                       ///< density, or mass and how it is distributed
-    Loads loads = Loads::table;                   ///< where force and moment come from
-    CoefficientLoads coefficients;                ///< where the loads are coefficients
+    MassSpecification mass;         ///< density, or mass and how it is distributed; default: the body file's
+    Loads loads = Loads::table;     ///< where force and moment come from
+    CoefficientLoads coefficients;  ///< where the loads are coefficients
     std::optional<double> table_reynolds_number;  ///< at which alone tables are read
     int patches = 1;         ///< of the surface, each of which meets the flow with its own velocity
     bool added_mass = true;  ///< whether the fluid's inertia is part of the body's

@@ -33,6 +33,7 @@ BodiesByName read_index(const fs::path& file) {
         body.purpose = table.text("purpose").value_or("");
         table.text("shape");
         table.text("quality");
+        for (const char* key : {"mass", "center_of_mass", "inertia"}) table.text(key);
         table.finish();
     }
     top.finish();

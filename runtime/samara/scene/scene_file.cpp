@@ -15,6 +15,7 @@
 #include "internal/scene/plain_name.hpp"
 #include "internal/scene/toml_table.hpp"
 #include "samara/base/error.hpp"
+#include "samara/body/body_file.hpp"
 #include "samara/scene/ready_bodies.hpp"
 
 namespace samara {
@@ -109,14 +110,11 @@ MassSpecification read_mass(TomlTable& table) {
     mass.mass = table.number("mass", positive_number);
     mass.center_of_mass = table.vector("center_of_mass");
     mass.inertia = read_inertia(table);
-    if (mass.density.has_value() == mass.mass.has_value()) {
-        throw table.fault(
-            mass.density ? "mass" : "density",
-            mass.density ? "stands beside density; give one of the two" : "is missing; give it, or mass");
-    }
-    if (mass.density && (mass.center_of_mass || mass.inertia)) {
+    if (mass.density && mass.mass) throw table.fault("mass", "stands beside density; give one of the two");
+    if (!mass.mass && (mass.center_of_mass || mass.inertia)) {
         throw table.fault(mass.inertia ? "inertia" : "center_of_mass",
-                          "contradicts a uniform density; give mass instead of density");
+                          mass.density ? "contradicts a uniform density; give mass instead of density"
+                                       : "stands alone; give mass with it");
     }
     return mass;
 }
@@ -237,6 +235,9 @@ SceneBody read_body(TomlTable& table, const std::filesystem::path& folder) {
     body.shape = shape_file(table, *shape, folder);
     assign(body.scale, table.number("scale", positive_number));
     body.mass = read_mass(table);
+    if (!body.mass.is_given() && !is_body_file_name(body.shape)) {
+        throw table.fault("density", "is missing; give it, or mass");
+    }
     read_start(table, body);
     read_models(table, body);
     body.coefficients = read_coefficients(table, body.loads);

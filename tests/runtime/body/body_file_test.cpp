@@ -78,6 +78,7 @@ void expect_equal(const Body& a, const Body& b) {
         expect_equal(a.dynamic->values, b.dynamic->values);
         expect_equal(a.dynamic->standard_errors, b.dynamic->standard_errors);
     }
+    EXPECT_EQ(a.mass, b.mass);
     ASSERT_EQ(a.tables.has_value(), b.tables.has_value());
     if (!a.tables) return;
     EXPECT_EQ(a.tables->reference_length, b.tables->reference_length);
@@ -124,6 +125,48 @@ TEST(BodyFile, GivesBackABodyWithoutTensorTablesAndCoefficients) {
     body.symmetry.kind = Symmetry::Kind::spherical;
     write_body_file(folder / "a.body.h5", body);
     expect_equal(read_body_file(folder / "a.body.h5"), body);
+}
+
+TEST(BodyFile, GivesBackWhatTheBodyWeighs) {
+    const test::TemporaryFolder folder;
+    Body body = test::full_body();
+    MassSpecification uniform;
+    uniform.density = 700.0;
+    MassSpecification of_parts;
+    of_parts.mass = 0.25;
+    of_parts.center_of_mass = body.moments.centroid + Vector3d(1e-3, -2e-3, 3e-3);
+    of_parts.inertia = Vector3d(3.0, 4.0, 5.0).asDiagonal();
+    for (const MassSpecification& mass : {uniform, of_parts}) {
+        body.mass = mass;
+        write_body_file(folder / "a.body.h5", body);
+        expect_equal(read_body_file(folder / "a.body.h5"), body);
+    }
+}
+
+TEST(BodyFile, RefusesAMassThatContradictsTheShapeOrItself) {
+    const test::TemporaryFolder folder;
+    using Spoil = void (*)(MassSpecification&);
+    const std::vector<std::pair<const char*, Spoil>> cases = {
+        {"density",
+         [](MassSpecification& m) {
+             m = {.density = -1.0, .mass = {}, .center_of_mass = {}, .inertia = {}};
+         }},
+        {"/mass must hold", [](MassSpecification& m) { m.density = 1.0; }},
+        {"/mass must hold", [](MassSpecification& m) { m.mass.reset(); }},
+        {"within the box", [](MassSpecification& m) { m.center_of_mass = Vector3d(0.0, 0.0, 1e3); }},
+        {"symmetric", [](MassSpecification& m) { (*m.inertia)(0, 1) = 1.0; }},
+        {"sum of the others", [](MassSpecification& m) { (*m.inertia)(2, 2) = 8.0; }},
+    };
+    for (const auto& [words, spoil] : cases) {
+        Body body = test::full_body();
+        body.mass = MassSpecification{.density = {},
+                                      .mass = 0.25,
+                                      .center_of_mass = body.moments.centroid,
+                                      .inertia = Matrix3d(Vector3d(3.0, 4.0, 5.0).asDiagonal())};
+        spoil(*body.mass);
+        write_body_file(folder / "a.body.h5", body);
+        EXPECT_THAT(fault_of(folder / "a.body.h5"), AllOf(HasSubstr("a.body.h5"), HasSubstr(words)));
+    }
 }
 
 TEST(BodyFile, RewritingGivesEqualBytes) {

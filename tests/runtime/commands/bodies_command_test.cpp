@@ -136,7 +136,7 @@ TEST(ReadyBodies, OfTheProjectCanAllBeReadAndSayWhatTheyAreFor) {
                         SAMARA_SOURCE_DIRECTORY "/meshes/shapes/" + body["shape"].get<std::string>())) !=
                     std::string::npos)
             << body["name"] << " was baked from another shape than meshes/ holds: run ./dev bodies";
-        EXPECT_LT(std::filesystem::file_size(body["file"].get<std::string>()), 300'000U);
+        EXPECT_LT(std::filesystem::file_size(body["file"].get<std::string>()), 400'000U);
     }
 }
 

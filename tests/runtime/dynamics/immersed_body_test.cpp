@@ -81,8 +81,21 @@ TEST(ImmersedBody, RefusesAMassThatIsNone) {
         {"center_of_mass", [&](Given& g) { by_mass(g).center_of_mass = off; }},
         {"inertia", [&](Given& g) { by_mass(g).inertia = Matrix3d::Constant(infinity); }},
         {"inertia", [&](Given& g) { by_mass(g).inertia = lopsided; }},
+        {"within the box", [&](Given& g) { by_mass(g).center_of_mass = Vector3d(0.0, 0.0, 1.0); }},
         {"moments of inertia", [&](Given& g) { by_mass(g).inertia = -Matrix3d::Identity(); }},
     });
+}
+
+TEST(ImmersedBody, WeighsWhatItsFileSaysWhereNothingElseIsAsked) {
+    Given given;
+    const ImmersedBody asked = given.made();
+    given.body.mass = given.scene_body.mass;
+    given.scene_body.mass = {};
+    EXPECT_EQ(given.made().inertia, asked.inertia);
+    given.body.mass->density = 2400.0;
+    EXPECT_DOUBLE_EQ(given.made().mass, 2.0 * asked.mass);
+    given.scene_body.mass.density = 1200.0;
+    EXPECT_EQ(given.made().mass, asked.mass);
 }
 
 TEST(ImmersedBody, RefusesAShapeThatIsNone) {

@@ -181,6 +181,7 @@ TEST_F(SceneFile, AMissingFileOrKeyIsNamed) {
 TEST_F(SceneFile, ContradictionsAreRefused) {
     EXPECT_THAT(refusal(with_body("density = 1\nmass = 1")), HasSubstr("one of the two"));
     EXPECT_THAT(refusal(with_body("density = 1\ninertia = [1, 1, 1]")), HasSubstr("mass instead of density"));
+    EXPECT_THAT(refusal(with_body("center_of_mass = [0, 0, 0]")), HasSubstr("give mass with it"));
     EXPECT_THAT(refusal(with_body("density = 1\ndrag_coefficient = 1")),
                 HasSubstr("loads = \"coefficients\""));
     EXPECT_THAT(refusal(with_body("density = 1\nturbulence = \"constant\"")),

@@ -1,0 +1,97 @@
+// samara mass: what a body weighs where a scene does not say.
+
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "commands/body_report.hpp"
+#include "commands/commands.hpp"
+#include "commands/vector_words.hpp"
+#include "internal/body/mass_check.hpp"
+#include "internal/command/arguments.hpp"
+#include "internal/motion/file_check.hpp"
+#include "samara/base/error.hpp"
+#include "samara/body/body_file.hpp"
+
+namespace samara {
+namespace {
+
+struct Request {
+    std::string file;
+    std::string output;
+    std::optional<double> density;
+    std::optional<double> mass;
+    std::string center_of_mass;
+    std::string inertia;
+};
+
+Vector3d vector_option(const char* option, const std::string& words, const char* example) {
+    if (const auto vector = vector_of_words(words)) return *vector;
+    throw Error(fmt::format("{}: '{}' is no vector; give x,y,z, such as {}", option, words, example));
+}
+
+MassSpecification asked(const Request& request) {
+    MassSpecification mass;
+    mass.density = request.density;
+    mass.mass = request.mass;
+    if (!request.center_of_mass.empty()) {
+        mass.center_of_mass = vector_option("--center-of-mass", request.center_of_mass, "0.0035,-0.0003,0");
+    }
+    if (!request.inertia.empty()) {
+        mass.inertia = vector_option("--inertia", request.inertia, "6.8e-10,1.07e-8,1.12e-8").asDiagonal();
+    }
+    if (mass.density.has_value() == mass.mass.has_value()) {
+        throw Error(mass.density ? "--density and --mass are both given; give one of the two"
+                                 : "say what the body weighs: --density or --mass");
+    }
+    if (mass.density && (mass.center_of_mass || mass.inertia)) {
+        throw Error(fmt::format("{} contradicts a uniform --density; give --mass instead",
+                                mass.inertia ? "--inertia" : "--center-of-mass"));
+    }
+    return mass;
+}
+
+nlohmann::json run(const Request& request, bool json) {
+    const MassSpecification mass = asked(request);
+    const std::string output = request.output.empty() ? request.file : request.output;
+    if (!is_body_file_name(output)) {
+        throw Error(fmt::format("{}: the name of a body file must end in .body.h5", output));
+    }
+    check_before_reading(request.file);
+    Body body = read_body_file(request.file);
+    if (const std::string fault = fault_of(mass, body.surface); !fault.empty()) {
+        throw Error(fmt::format("{}: {}", request.file, fault));
+    }
+    body.mass = mass;
+    write_body_file(output, body);
+    if (!json) print_mass(body);
+    nlohmann::json result = body_as_json(body)["mass"];
+    result["output"] = output;
+    return result;
+}
+
+}  // namespace
+
+int mass_command(int argc, const char* const* argv) {
+    Request request;
+    Arguments arguments("samara mass",
+                        "Writes into a body file what the body weighs where a scene does not say.");
+    arguments.positional("FILE", request.file, "body file (.body.h5)");
+    arguments.option("-o,--output", request.output, "another body file; else FILE itself is written anew");
+    arguments.option("--density", request.density, "kg/m^3, uniform", 1e-3, 1e6);
+    arguments.option("--mass", request.mass, "kg, in place of a density", 1e-15, 1e15);
+    arguments.option("--center-of-mass", request.center_of_mass,
+                     "x,y,z: metres, shape axes; else the centroid of the volume");
+    arguments.option("--inertia", request.inertia,
+                     "x,y,z: moments (kg m^2) about the centre of mass, along the shape axes; else as if "
+                     "uniform");
+    arguments.footer(
+        "A scene's own density or mass goes before it.\n"
+        "JSON: density (null where the mass is given), mass, center_of_mass, inertia (3x3), output.\n\n"
+        "Example: samara mass seed.body.h5 --mass 1.42e-4 --center-of-mass 0.0035,-0.0003,0");
+    return run_program(argc, argv, arguments, [&] { return run(request, arguments.json()); });
+}
+
+}  // namespace samara
