@@ -29,7 +29,7 @@ extern "C" {
 #endif
 
 /* The version of this header: it grows with every addition, and what was there stays as it was. */
-#define SAMARA_API_VERSION 4
+#define SAMARA_API_VERSION 5
 
 /* The SAMARA_API_VERSION of the library that is linked: at least that of the header, or functions may lack.
  */
@@ -95,6 +95,16 @@ SAMARA_API samara_status samara_body_get_triangles(const samara_body* body, int3
 /* ---- Settings --------------------------------------------------------------------------------------------
  */
 
+/* A wind of the caller's, since version 5. Fills `velocities` with the fluid's velocity beyond `current` and
+ * gust (x, y, z of each; m/s, world axes) at `count` places (x, y, z of each; m, world) at a time (s). It is
+ * called inside samara_advance_to, and for the Reynolds number by samara_get_report, for a block of bodies at
+ * a time: with six places around each body and twice a step, so that its differences give the gradient and
+ * the acceleration. Must give the same for the same arguments, whatever the order, must not throw or call
+ * this simulation, and with `threads` other than 1 is called by several threads at once. What is not finite,
+ * or beyond 1e30, ends the call of samara_advance_to with SAMARA_OUT_OF_RANGE. */
+typedef void (*samara_wind_function)(void* context, double time, size_t count, const double* places,
+                                     double* velocities);
+
 /* A simulation. Fill it with samara_default_settings, then change what differs: later versions may add
  * members at the end, and `size` tells the library which ones are there. */
 typedef struct samara_settings {
@@ -111,6 +121,10 @@ typedef struct samara_settings {
     int32_t threads;    /* for many bodies; 0: all cores; default: 1. Does not change the motion */
     int32_t has_ground; /* whether there is level ground, on which bodies settle; default: 0 */
     double ground;      /* m: its height, with has_ground; a kind that starts below it is refused */
+
+    /* since SAMARA_API_VERSION 5 */
+    samara_wind_function wind; /* default (null): none */
+    void* wind_context;        /* handed to `wind`; must live as long as the simulation */
 } samara_settings;
 
 SAMARA_API samara_status samara_default_settings(samara_settings* settings, size_t size, char* error,

@@ -13,7 +13,8 @@ class Settings(ctypes.Structure):  # samara_settings of samara.h
     _fields_ = [("size", c_size_t), ("fluid_density", c_double), ("fluid_viscosity", c_double),
                 ("current", c_double * 3), ("gust_amplitude", c_double * 3), ("gust_period", c_double),
                 ("gravity", c_double * 3), ("step", c_double), ("seed", c_uint64), ("run", c_uint32),
-                ("threads", c_int32), ("has_ground", c_int32), ("ground", c_double)]
+                ("threads", c_int32), ("has_ground", c_int32), ("ground", c_double),
+                ("wind", ctypes.c_void_p), ("wind_context", ctypes.c_void_p)]
 
 
 class Kind(ctypes.Structure):  # samara_kind

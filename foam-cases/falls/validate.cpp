@@ -115,6 +115,8 @@ void require_one_fall(const Scene& scene) {
     if (scene.ground)
         throw refuse("full CFD knows no ground; drop 'ground' and let the scene end before the landing");
     if (!scene.obstacles.empty()) throw refuse("full CFD knows no obstacles; drop [[obstacle]]");
+    if (!scene.wind.is_calm())
+        throw refuse("full CFD knows no wind; drop [wind], or give a uniform one as 'current'");
     if (scene.fluid.gust.amplitude.norm() > 0.0) throw refuse("full CFD knows no gust; drop 'gust'");
     if (!(scene.duration > body.start)) throw refuse("the scene ends before its body starts");
 }

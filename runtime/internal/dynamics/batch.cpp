@@ -71,6 +71,7 @@ BatchReport advance_alone(const ImmersedBody& body, const Surroundings& surround
         const StepResult result = advance(body, surroundings, task.start, task.time_step, state, noise, step);
         state = result.state;
         report.count(result.substeps);
+        report.wind_is_sound = report.wind_is_sound && result.wind_is_sound;
     }
     keep_state(state, block, 0);
     return report;
@@ -121,12 +122,14 @@ BatchReport BasicBatch<Real>::advance(const Surroundings& surroundings, double s
                                              step_time(start, time_step, step + 1)));
     }
     const BatchGround ground{*body_, surroundings};
+    const WindMeeting wind(*body_, surroundings, start, time_step);
     const kernel::BlockSteps task{.gravities = gravities.data(),
                                   .start = start,
                                   .time_step = time_step,
                                   .first_step = first_step,
                                   .steps = steps,
-                                  .contact = ground.contact(start, time_step, first_step, steps)};
+                                  .contact = ground.contact(start, time_step, first_step, steps),
+                                  .wind = wind.source()};
     if constexpr (std::is_same_v<Real, double>) {
         if (size_ == 1) return advance_alone(*body_, surroundings, task, blocks_.front());
     }
@@ -137,6 +140,7 @@ BatchReport BasicBatch<Real>::advance(const Surroundings& surroundings, double s
         const std::lock_guard lock(mutex);
         report.add(piece);
     });
+    report.wind_is_sound = wind.is_sound();
     return report;
 }
 

@@ -138,7 +138,7 @@ void stay_on(const Ground& ground, BodyState& state) noexcept {
 }
 
 bool is_steady(const ImmersedBody& body, const Surroundings& surroundings) noexcept {
-    return surroundings.gust.amplitude.isZero(0.0) &&
+    return surroundings.gust.amplitude.isZero(0.0) && surroundings.wind == nullptr &&
            (surroundings.obstacles == nullptr || !surroundings.obstacles->moves()) &&
            (body.turbulence == Turbulence::none ||
             (body.turbulence == Turbulence::table && surroundings.current.isZero(0.0)));

@@ -16,8 +16,9 @@ BodyState implicit_step(const ImmersedBody& body, const Vector3d& gravity, doubl
     result.seen_fluid = seen_fluid;
     const bool moves = !state.seen_fluid.velocity.isZero(0.0) || !seen_fluid.velocity.isZero(0.0) ||
                        !seen_fluid.angular_velocity.isZero(0.0);
-    kernel::implicit_step(body.constants, gravity, time_step,
-                          {state.seen_fluid.velocity, seen_fluid.velocity, moves}, 0, 1, result);
+    kernel::implicit_step(
+        body.constants, gravity, time_step,
+        {state.seen_fluid.velocity, seen_fluid.velocity, seen_fluid.angular_velocity, moves}, 0, 1, result);
     return result;
 }
 
@@ -32,11 +33,13 @@ StepResult advance(const ImmersedBody& body, const Surroundings& surroundings, d
         stay_on(ground_in_flow(surroundings, time, end), result.state);
         return result;
     }
-    result.substeps = kernel::begin_step(body.constants, time_step, noise, step, result.state);
+    const WindMeeting wind(body, surroundings, start, time_step);
+    const auto [parts, stream] =
+        kernel::begin_step(body.constants, time_step, wind.source(), noise, step, result.state);
+    result.substeps = parts;
+    result.wind_is_sound = wind.is_sound();
     const Vector3d gravity = apparent_gravity(surroundings, time, end);
     const double substep = time_step / result.substeps;
-    const bool sees_fluid = body.turbulence != Turbulence::none && body.langevin == Langevin::seen_fluid;
-    const kernel::SeenStream stream{state.seen_fluid.velocity, result.state.seen_fluid.velocity, sees_fluid};
     BodyState before = state;
     for (int i = 0; i < result.substeps; ++i) {
         kernel::implicit_step(body.constants, gravity, substep, stream, i, result.substeps, result.state);

@@ -33,6 +33,7 @@ BodyState implicit_step(const ImmersedBody& body, const Vector3d& gravity, doubl
 struct StepResult {
     BodyState state;
     int substeps = 1;
+    bool wind_is_sound = true;  ///< false: a caller's wind gave what is no velocity
 };
 StepResult advance(const ImmersedBody& body, const Surroundings& surroundings, double start, double time_step,
                    const BodyState& state, const Noise& noise, std::uint64_t step) noexcept;

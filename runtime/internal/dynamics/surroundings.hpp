@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "internal/dynamics/obstacle_set.hpp"
+#include "internal/dynamics/wind_field.hpp"
 #include "samara/base/linear_algebra.hpp"
 #include "samara/physics/fluid.hpp"
 
@@ -18,6 +19,8 @@ struct Surroundings {
     Gust gust = {};
     std::optional<double> ground = {};                  ///< m: the height (world z) of level ground
     std::shared_ptr<const ObstacleSet> obstacles = {};  ///< none where null
+    /// What blows beyond current and gust, at places of the world; null where nothing does.
+    std::shared_ptr<const WindField> wind = {};
 };
 
 /// The undisturbed flow's velocity (m/s) at a time (s).

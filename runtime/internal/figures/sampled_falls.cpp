@@ -56,9 +56,11 @@ Scene sampling_scene(const Scene& scene, std::size_t index, const Body& body, st
     // Nothing may start below the ground that would not without this further turn.
     if (one.ground) only.position.z() += sinking(body, more);
     const double duration = sampled_duration(scene, only, sampling);
-    // Nothing but a gust knows the time.
-    only.start =
-        scene.fluid.gust.amplitude.isZero(0.0) ? 0.0 : std::fmod(only.start, scene.fluid.gust.period);
+    // Nothing but a gust and a wind knows the time.
+    if (!scene.wind.is_field()) {
+        only.start =
+            scene.fluid.gust.amplitude.isZero(0.0) ? 0.0 : std::fmod(only.start, scene.fluid.gust.period);
+    }
     one.duration = only.start + duration;
     one.frame_rate = frame_rate_of(scene, duration, terminal_speed_of(scene, only, body), body);
     one.seed = scene.seed + batch;
@@ -164,17 +166,17 @@ SampledFalls sample_falls(const Scene& scene, std::size_t body, const LoadedBody
     const BodyMotion& falling = motion.bodies.front();
     const double shortest =
         fewest_frames / least_frame_rate_of(scene, one.duration - one.bodies.front().start);
+    const Surroundings surroundings = surroundings_of(one);
     SampledFalls result;
     result.falls.resize(static_cast<std::size_t>(falling.copies));
     parallel_for(result.falls.size(), 4, sampling.threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             result.falls[i] =
-                sampled_fall(motion, falling, static_cast<int>(i), scene.fluid.current, shortest);
+                sampled_fall(motion, falling, static_cast<int>(i), surroundings.current, shortest);
         }
     });
     const ImmersedBody immersed =
         make_immersed_body(*loaded.body, one.bodies.front(), one.fluid, falling.name);
-    const Surroundings surroundings = surroundings_of(one);
     result.flow = flow_met(motion, falling, surroundings, immersed, loaded.body->tables);
     result.visits = flow_visits(motion, 0, immersed, surroundings);
     result.highest_reynolds_number = flown.report.bodies.front().highest_reynolds_number;

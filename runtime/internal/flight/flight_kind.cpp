@@ -91,13 +91,17 @@ constexpr std::size_t report_bytes = 5 * sizeof(std::uint64_t) + sizeof(int) + s
 }  // namespace
 
 Surroundings surroundings_of(const FlightSettings& settings) {
-    return {.gravity = settings.gravity,
-            .current = settings.fluid.current,
-            .gust = settings.fluid.gust,
-            .ground = settings.ground,
-            .obstacles = settings.obstacles.empty()
-                             ? nullptr
-                             : std::make_shared<const ObstacleSet>(settings.obstacles)};
+    const Wind wind = settings.wind.seeded(settings.seed);
+    // A mean wind that is the same everywhere is a current, to the last bit.
+    const Vector3d uniform = wind.profile ? Vector3d::Zero() : wind.velocity;
+    return {
+        .gravity = settings.gravity,
+        .current = settings.fluid.current + uniform,
+        .gust = settings.fluid.gust,
+        .ground = settings.ground,
+        .obstacles =
+            settings.obstacles.empty() ? nullptr : std::make_shared<const ObstacleSet>(settings.obstacles),
+        .wind = wind.is_field() ? std::make_shared<const WindField>(wind, settings.fluid.current) : nullptr};
 }
 
 FlightSettings flight_settings(const Scene& scene, int runs, int threads) {
@@ -105,6 +109,7 @@ FlightSettings flight_settings(const Scene& scene, int runs, int threads) {
             .gravity = scene.gravity,
             .ground = scene.ground,
             .obstacles = scene.obstacles,
+            .wind = scene.wind,
             .step = scene.step,
             .seed = scene.seed,
             .runs = runs,
@@ -193,6 +198,13 @@ void FlightKind::step_to(std::uint64_t steps) {
                      .most_substeps = done.most_substeps,
                      .steps_at_limit = done.steps_at_limit});
         steps_ = end;
+        if (!done.wind_is_sound) {
+            throw FlightError(
+                FlightError::Kind::out_of_range,
+                fmt::format("the wind function gave '{}' a velocity that is not finite, or beyond "
+                            "1e30 m/s, by {:.6g} s",
+                            name_, release_.start + time_of(steps_)));
+        }
         if (end == next_sample) {
             require_finite();
             report_.add(sampled());
@@ -212,12 +224,15 @@ void FlightKind::require_finite() const {
 
 FlightReport FlightKind::sampled() const {
     const double lowest = body_->tables ? 0.5 * body_->tables->reynolds_numbers.front() : 0.0;
+    const double now = release_.start + time_of(steps_);
     FlightReport all;
     std::mutex mutex;
     parallel_for(batch_.size(), poses_a_piece, threads_, [&](std::size_t begin, std::size_t end) {
         FlightReport piece;
         for (std::size_t i = begin; i < end; ++i) {
-            const Vector3d velocity = batch_.state(i).velocity.tail<3>();
+            const BodyState state = batch_.state(i);
+            const Vector3d wind = wind_velocity(*body_, surroundings_, state.position, now);
+            const Vector3d velocity = state.velocity.tail<3>() - state.orientation.conjugate() * wind;
             const double reynolds = reynolds_number(*body_, velocity.norm());
             piece.highest_reynolds_number = std::max(piece.highest_reynolds_number, reynolds);
             if (velocity.isZero(0.0)) continue;
@@ -249,6 +264,10 @@ Pose FlightKind::pose(std::size_t index, double time) const {
     if (time - release_.start < 0.0)
         return held(flow_pose(batch_.state(index)), surroundings_, release_.start);
     return in_world(pose_in_flow(index, time), surroundings_, time);
+}
+
+Pose FlightKind::pose_in_wind(std::size_t index, double time) const {
+    return in_wind(pose_in_flow(index, time), *body_, surroundings_, time);
 }
 
 void FlightKind::set_pose(std::size_t index, const Pose& pose, double time) {

@@ -54,6 +54,8 @@ class FlightKind {
     [[nodiscard]] Pose pose(std::size_t index, double time) const;
     /// The same in the flow's frame, and not held.
     [[nodiscard]] Pose pose_in_flow(std::size_t index, double time) const;
+    /// The same with the velocity relative to the wind there.
+    [[nodiscard]] Pose pose_in_wind(std::size_t index, double time) const;
     void set_pose(std::size_t index, const Pose& pose, double time);
     void set_seed(std::uint64_t seed, std::uint32_t first_run);
 

@@ -7,7 +7,8 @@ namespace samara {
 
 std::optional<FlowVisit> flow_visit(const Pose& pose, double time, const ImmersedBody& immersed,
                                     const Surroundings& surroundings) {
-    const Vector3d velocity = centroid_velocity(in_flow(pose, surroundings, time), immersed);
+    const Pose met = in_wind(in_flow(pose, surroundings, time), immersed, surroundings, time);
+    const Vector3d velocity = centroid_velocity(met, immersed);
     const double speed = velocity.norm();
     if (!(speed > 0.0)) return std::nullopt;
     return FlowVisit{velocity / speed, reynolds_number(immersed, speed),

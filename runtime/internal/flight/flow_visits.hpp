@@ -12,7 +12,7 @@ namespace samara {
 
 /// The flow that a body met at one frame: where its tables were read.
 struct FlowVisit {
-    Vector3d direction;  ///< unit vector, body axes: the centroid's velocity relative to the undisturbed flow
+    Vector3d direction;      ///< unit vector, body axes: the centroid's velocity relative to flow and wind
     double reynolds_number;  ///< of that velocity
     double pressure;         ///< rho |v|^2 / 2 (Pa)
 };

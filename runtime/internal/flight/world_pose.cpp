@@ -38,6 +38,12 @@ Pose in_flow(const Pose& in_world, const Surroundings& surroundings, double time
     return pose;
 }
 
+Pose in_wind(const Pose& in_flow, const ImmersedBody& body, const Surroundings& surroundings, double time) {
+    Pose pose = in_flow;
+    pose.velocity -= wind_velocity(body, surroundings, in_flow.position, time);
+    return pose;
+}
+
 BodyState state_of(const Pose& in_flow) {
     BodyState state;
     state.position = in_flow.position;

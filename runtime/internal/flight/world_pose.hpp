@@ -21,6 +21,9 @@ Pose in_world(const Pose& in_flow, const Surroundings& surroundings, double time
 /// The reverse of in_world.
 Pose in_flow(const Pose& in_world, const Surroundings& surroundings, double time);
 
+/// A pose of the flow's frame whose velocity is made relative to the wind where the body is, at a time (s).
+Pose in_wind(const Pose& in_flow, const ImmersedBody& body, const Surroundings& surroundings, double time);
+
 /// The state of a pose in the flow's frame. The seen fluid is at rest.
 BodyState state_of(const Pose& in_flow);
 

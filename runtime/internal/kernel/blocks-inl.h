@@ -143,6 +143,68 @@ HWY_INLINE void meet_turbulence(const FlightConstants<Real>& c, V h, const Draw&
     }
 }
 
+template <class V>
+HWY_INLINE Stream<V> no_stream() {
+    const Triple<V> none = broadcast<V>(Triple<double>{0.0, 0.0, 0.0});
+    return {none, none, none};
+}
+
+/// Where the centroid is halfway through a step, as far as its velocity says (m, in the flow's frame).
+template <class V, class Real>
+HWY_INLINE Triple<V> halfway(const FlightConstants<Real>& c, V h, const Flight<V>& flight) {
+    const Square<V> to_world = rotation_matrix(flight.orientation);
+    const Triple<V> way = (V(0.5) * h * V(c.length)) * centroid_velocity(c, flight);
+    return flight.position + to_world * (broadcast<V>(c.center_of_buoyancy) + way);
+}
+
+/// The Langevin update of one step in a wind, or without (then `wind` is none), and the stream that the body
+/// is in. What turbulence a body meets is a matter of its velocity in the wind.
+template <class V, class Real, class Draw>
+HWY_INLINE Stream<V> meet_fluid(const FlightConstants<Real>& c, V h, bool windy, const Stream<V>& wind,
+                                const Draw& draw, Flight<V>& flight) {
+    const Triple<V> seen_before = flight.seen_velocity;
+    if (!windy) {
+        meet_turbulence(c, h, draw, flight);
+        return {seen_before, flight.seen_velocity, flight.seen_rotation};
+    }
+    const Triple<V> velocity = flight.velocity;
+    const Triple<V> of_wind = transposed_times(rotation_matrix(flight.orientation), wind.begin);
+    flight.velocity = velocity - of_wind;
+    meet_turbulence(c, h, draw, flight);
+    const bool driven = c.turbulence != Turbulence::none && c.langevin == Langevin::body_velocity;
+    flight.velocity = driven ? flight.velocity + of_wind : velocity;
+    if (!sees_turbulence(c)) return wind;
+    return {seen_before + wind.begin, flight.seen_velocity + wind.end, flight.seen_rotation + wind.rotation};
+}
+
+/// The wind that the bodies of the lanes meet in a step.
+template <class Tag, class Real = hn::TFromD<Tag>>
+HWY_INLINE Stream<Lanes<Tag>> met_wind(Tag tag, const FlightConstants<Real>& c,
+                                       const kernel::WindSource& source, std::uint64_t step,
+                                       std::size_t bodies, Lanes<Tag> h, const Flight<Lanes<Tag>>& flight) {
+    using V = Lanes<Tag>;
+    if (source.meet == nullptr) return no_stream<V>();
+    HWY_ALIGN_MAX Real row[hn::MaxLanes(Tag())];
+    kernel::MetWind met;
+    const auto give = [&](V value, double* to) HWY_ATTR {
+        hn::Store(value.raw, tag, row);
+        for (std::size_t i = 0; i < bodies; ++i) to[i] = static_cast<double>(row[i]);
+    };
+    const auto take = [&](const double* from) HWY_ATTR {
+        for (std::size_t i = 0; i < hn::Lanes(tag); ++i) row[i] = static_cast<Real>(from[i]);
+        return V(hn::Load(tag, row));
+    };
+    const Triple<V> place = halfway(c, h, flight);
+    give(place.x, met.place[0]);
+    give(place.y, met.place[1]);
+    give(place.z, met.place[2]);
+    source.meet(source.context, step, bodies, met);
+    const auto three = [&](const double(&rows)[3][kernel::MetWind::size]) HWY_ATTR {
+        return Triple<V>{take(rows[0]), take(rows[1]), take(rows[2])};
+    };
+    return {three(met.begin), three(met.end), three(met.rotation)};
+}
+
 /// Where bodies of the lanes [first, first + N) move: 1, and 0 in lanes without a body or with one that
 /// rests.
 template <class Real>
@@ -195,8 +257,12 @@ HWY_INLINE void advance_lanes(Tag tag, const FlightConstants<Real>& c, const ker
     const V h(task.time_step);
     const V moves(hn::Load(tag, lively.moves));
     Flight<V> previous = flight;
-    meet_turbulence(
-        c, h, [&]() HWY_ATTR { return normals_of(tag, block, first, task.first_step + number); }, flight);
+    const std::size_t used_lanes = std::min<std::size_t>(lanes, block.bodies - first);
+    const bool windy = task.wind.meet != nullptr;
+    const Stream<V> wind = met_wind(tag, c, task.wind, task.first_step + number, used_lanes, h, flight);
+    const Stream<V> met = meet_fluid(
+        c, h, windy, wind, [&]() HWY_ATTR { return normals_of(tag, block, first, task.first_step + number); },
+        flight);
     if (lively.any_rests) {
         const auto stirred = V(0.5) < moves;
         flight = select_flight<Tag>(stirred, flight, previous);
@@ -205,10 +271,10 @@ HWY_INLINE void advance_lanes(Tag tag, const FlightConstants<Real>& c, const ker
     }
 
     HWY_ALIGN_MAX Real parts[hn::MaxLanes(Tag())];
-    const V substeps = moves * substeps_of(c, h, previous.seen_velocity, flight);
+    const bool sees_fluid = windy || sees_turbulence(c);
+    const V substeps = moves * substeps_of(c, h, sees_fluid, met.begin, flight);
     hn::Store(substeps.raw, tag, parts);
     int most = 0;
-    const std::size_t used_lanes = std::min<std::size_t>(lanes, block.bodies - first);
     for (std::size_t lane = 0; lane < used_lanes; ++lane) {
         const int taken = static_cast<int>(parts[lane]);
         report.count(taken);
@@ -217,12 +283,11 @@ HWY_INLINE void advance_lanes(Tag tag, const FlightConstants<Real>& c, const ker
 
     const V divisor = larger(V(1.0), substeps);
     const V substep = h / divisor;
-    const Stream<V> stream{previous.seen_velocity, flight.seen_velocity};
     const Vector3d& pull = task.gravities[number];
     const Triple<V> gravity{V(pull.x()), V(pull.y()), V(pull.z())};
     for (int i = 0; i < most; ++i) {
         Flight<V> next = flight;
-        implicit_step(c, gravity, substep, sees_fluid(c), part_of(stream, i, divisor), next);
+        implicit_step(c, gravity, substep, sees_fluid, part_of(met, i, divisor), next);
         flight = select_flight<Tag>(V(i) < substeps, next, flight);
         if (task.contact.resolve == nullptr) continue;
         if (!hn::AllFalse(tag, near_ground(task.contact, previous, flight, substep))) {

@@ -13,6 +13,7 @@ struct BatchReport {
     std::uint64_t implicit_steps = 0;  ///< over all bodies
     int most_substeps = 1;             ///< that any body took in one step
     std::uint64_t steps_at_limit = 0;  ///< steps, over all bodies, that took samara::most_substeps
+    bool wind_is_sound = true;         ///< false: a caller's wind gave what is no velocity
 
     /// Counts one step of one body that was cut into `substeps`.
     void count(int substeps) noexcept {
@@ -24,6 +25,7 @@ struct BatchReport {
         implicit_steps += other.implicit_steps;
         most_substeps = std::max(most_substeps, other.most_substeps);
         steps_at_limit += other.steps_at_limit;
+        wind_is_sound = wind_is_sound && other.wind_is_sound;
     }
 };
 

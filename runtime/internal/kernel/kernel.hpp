@@ -34,6 +34,22 @@ struct Contact {
     Vector3d box_low = Vector3d::Zero(), box_high = Vector3d::Zero();
 };
 
+/// What bodies side by side meet of a wind over one step: the stream that each is in, beyond the undisturbed
+/// flow (world axes; m/s, rad/s). It changes evenly from `begin` to `end`.
+struct MetWind {
+    static constexpr std::size_t size = 16;
+    double place[3][size] = {};  ///< m, in the flow's frame: where each centroid is halfway through the step
+    double begin[3][size] = {}, end[3][size] = {}, rotation[3][size] = {};
+};
+
+/// Where a wind comes from; null where there is none.
+struct WindSource {
+    /// Fills what the first `count` bodies meet in step number `step`.
+    using Meet = void (*)(const void* context, std::uint64_t step, std::size_t count, MetWind& met) noexcept;
+    Meet meet = nullptr;
+    const void* context = nullptr;
+};
+
 /// Steps for blocks to take.
 struct BlockSteps {
     const Vector3d* gravities = nullptr;  ///< m/s^2 in each step
@@ -42,6 +58,7 @@ struct BlockSteps {
     std::uint64_t first_step = 0;
     std::uint64_t steps = 0;
     Contact contact = {};
+    WindSource wind = {};
 };
 
 BatchReport advance_blocks(const FlightConstants<double>& constants, const BlockSteps& steps,
@@ -49,9 +66,10 @@ BatchReport advance_blocks(const FlightConstants<double>& constants, const Block
 BatchReport advance_blocks(const FlightConstants<float>& constants, const BlockSteps& steps,
                            FlightBlock<float>* blocks, std::size_t count) noexcept;
 
-/// The seen fluid's velocity over a whole step (m/s, world axes): it changes evenly from `begin` to `end`.
+/// The seen fluid's velocity over a whole step (m/s, world axes): it changes evenly from `begin` to `end`,
+/// while its rotation (rad/s) is held.
 struct SeenStream {
-    Vector3d begin, end;
+    Vector3d begin, end, rotation;
     bool moves = false;  ///< false: the seen fluid is taken to be at rest, and not to turn
 };
 
@@ -59,9 +77,15 @@ struct SeenStream {
 void implicit_step(const FlightConstants<double>& constants, const Vector3d& gravity, double h,
                    const SeenStream& stream, int part, int parts, BodyState& state) noexcept;
 
-/// The Langevin update over the whole step; returns the number of parts that the step is cut into.
-int begin_step(const FlightConstants<double>& constants, double h, const Noise& noise, std::uint64_t step,
-               BodyState& state) noexcept;
+/// How a whole step is taken.
+struct BegunStep {
+    int parts = 1;  ///< that it is cut into
+    SeenStream stream;
+};
+
+/// Meets the wind and does the Langevin update over the whole step.
+BegunStep begin_step(const FlightConstants<double>& constants, double h, const WindSource& wind,
+                     const Noise& noise, std::uint64_t step, BodyState& state) noexcept;
 
 /// load_matrices() of loads.hpp.
 LoadMatrices load_matrices(const FlightConstants<double>& constants, const Vector6d& velocity,

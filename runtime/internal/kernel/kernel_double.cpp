@@ -51,20 +51,35 @@ BatchReport advance_double_blocks(const FlightConstants<double>& constants, cons
 void step_one(const FlightConstants<double>& c, const Vector3d& gravity, double h,
               const kernel::SeenStream& stream, int part, int parts, BodyState& state) {
     Flight<double> flight = flight_of(state);
-    const Stream<double> whole{triple_of(stream.begin), triple_of(stream.end)};
+    const Stream<double> whole{triple_of(stream.begin), triple_of(stream.end), triple_of(stream.rotation)};
     implicit_step(c, triple_of(gravity), h, stream.moves, part_of(whole, part, static_cast<double>(parts)),
                   flight);
     keep(flight, state);
 }
 
-int begin_one(const FlightConstants<double>& c, double h, const Noise& noise, std::uint64_t step,
-              BodyState& state) {
+void begin_one(const FlightConstants<double>& c, double h, const kernel::WindSource& source,
+               const Noise& noise, std::uint64_t step, BodyState& state, kernel::BegunStep& begun) {
     Flight<double> flight = flight_of(state);
-    const Triple<double> seen_before = flight.seen_velocity;
-    meet_turbulence(
-        c, h, [&] { return normals_at(noise, step); }, flight);
+    Stream<double> wind = no_stream<double>();
+    if (source.meet != nullptr) {
+        kernel::MetWind met;
+        const Triple<double> place = halfway(c, h, flight);
+        met.place[0][0] = place.x;
+        met.place[1][0] = place.y;
+        met.place[2][0] = place.z;
+        source.meet(source.context, step, 1, met);
+        const auto first = [](const double(&rows)[3][kernel::MetWind::size]) {
+            return Triple<double>{rows[0][0], rows[1][0], rows[2][0]};
+        };
+        wind = {first(met.begin), first(met.end), first(met.rotation)};
+    }
+    const bool windy = source.meet != nullptr;
+    const Stream<double> stream = meet_fluid(
+        c, h, windy, wind, [&] { return normals_at(noise, step); }, flight);
     keep(flight, state);
-    return static_cast<int>(substeps_of(c, h, seen_before, flight));
+    const bool sees_fluid = windy || sees_turbulence(c);
+    begun = {static_cast<int>(substeps_of(c, h, sees_fluid, stream.begin, flight)),
+             {vector_of(stream.begin), vector_of(stream.end), vector_of(stream.rotation), sees_fluid}};
 }
 
 HWY_INLINE void keep_blocks(const FlightConstants<double>& c, const LoadBlocks<double>& blocks,
@@ -144,9 +159,11 @@ void implicit_step(const FlightConstants<double>& constants, const Vector3d& gra
     HWY_DYNAMIC_DISPATCH(step_one)(constants, gravity, h, stream, part, parts, state);
 }
 
-int begin_step(const FlightConstants<double>& constants, double h, const Noise& noise, std::uint64_t step,
-               BodyState& state) noexcept {
-    return HWY_DYNAMIC_DISPATCH(begin_one)(constants, h, noise, step, state);
+BegunStep begin_step(const FlightConstants<double>& constants, double h, const WindSource& wind,
+                     const Noise& noise, std::uint64_t step, BodyState& state) noexcept {
+    BegunStep begun;
+    HWY_DYNAMIC_DISPATCH(begin_one)(constants, h, wind, noise, step, state, begun);
+    return begun;
 }
 
 LoadMatrices load_matrices(const FlightConstants<double>& constants, const Vector6d& velocity,

@@ -12,7 +12,9 @@ enum class NoiseStream : std::uint16_t {
     seen_rotation = 1,
     start_position = 2,
     start_angle = 3,
-    table_error = 4
+    table_error = 4,
+    gust_wave = 5,
+    gust_direction = 6
 };
 
 /// A counter-based source of random numbers for one copy of a body in one run: the numbers depend on (seed,

@@ -50,10 +50,10 @@ struct VelocityChange {
 };
 
 /// The seen fluid's velocity (m/s, world axes) when a step begins and when it ends: between them it changes
-/// evenly.
+/// evenly. Its rotation (rad/s) is held.
 template <class V>
 struct Stream {
-    Triple<V> begin, end;
+    Triple<V> begin, end, rotation;
 };
 
 /// The stream of the part `i` of a step that is cut into `parts`, from that of the whole step.
@@ -62,7 +62,7 @@ HWY_INLINE Stream<V> part_of(const Stream<V>& whole, int i, V parts) {
     const Triple<V> difference = whole.end - whole.begin;
     const Triple<V> begin = i == 0 ? whole.begin : whole.begin + (V(i) / parts) * difference;
     const Triple<V> end = whole.begin + (V(i + 1) / parts) * difference;
-    return {begin, select(V(i + 1) < parts, end, whole.end)};
+    return {begin, select(V(i + 1) < parts, end, whole.end), whole.rotation};
 }
 
 /// What the passes over one step share: its start. Velocities are those relative to the seen fluid.
@@ -210,7 +210,8 @@ HWY_INLINE void improve(const FlightConstants<Real>& c, const StepStart<V>& star
 /// fluid.
 template <class V, class Real>
 HWY_INLINE StepStart<V> step_start(const FlightConstants<Real>& c, const Square<V>& to_world,
-                                   const Triple<V>& gravity, V h, bool sees_fluid, const Triple<V>& velocity,
+                                   const Triple<V>& gravity, V h, bool sees_fluid,
+                                   const Triple<V>& seen_rotation, const Triple<V>& velocity,
                                    const Flight<V>& flight) {
     StepStart<V> start;
     start.h = h;
@@ -218,7 +219,7 @@ HWY_INLINE StepStart<V> step_start(const FlightConstants<Real>& c, const Square<
     start.velocity = to_centroid(c, flight.angular_velocity, velocity);
     start.gravity = transposed_times(to_world, gravity);
     start.sees_fluid = sees_fluid;
-    if (sees_fluid) start.seen_rotation = transposed_times(to_world, flight.seen_rotation);
+    if (sees_fluid) start.seen_rotation = transposed_times(to_world, seen_rotation);
     const V munk_rate(c.munk_rate);
     start.wild = V(1.0) < (h * h) * (dot(start.omega, start.omega) +
                                      (munk_rate * munk_rate) * dot(start.velocity, start.velocity));
@@ -227,7 +228,7 @@ HWY_INLINE StepStart<V> step_start(const FlightConstants<Real>& c, const Square<
 
 /// Whether a body that meets turbulence sees it as a moving fluid.
 template <class Real>
-HWY_INLINE bool sees_fluid(const FlightConstants<Real>& c) {
+HWY_INLINE bool sees_turbulence(const FlightConstants<Real>& c) {
     return c.turbulence != Turbulence::none && c.langevin == Langevin::seen_fluid;
 }
 
@@ -255,7 +256,7 @@ HWY_INLINE void implicit_step(const FlightConstants<Real>& c, const Triple<V>& g
         guess_acceleration = guess_acceleration + pushed;
     }
     const StepStart<V> start =
-        step_start(c, to_world, apparent_gravity, h, sees_fluid, relative_velocity, flight);
+        step_start(c, to_world, apparent_gravity, h, sees_fluid, stream.rotation, relative_velocity, flight);
     StepMiddle<V> middle;
     middle.stiffness = V(0.0);
     middle.omega = start.omega + half * flight.angular_acceleration;
@@ -290,10 +291,10 @@ HWY_INLINE void implicit_step(const FlightConstants<Real>& c, const Triple<V>& g
 /// The rate (1/s) at which the body turns, or would turn by its Munk moment in a seen fluid (m/s, world
 /// axes).
 template <class V, class Real>
-HWY_INLINE V turning_rate(const FlightConstants<Real>& c, const Triple<V>& seen_velocity,
+HWY_INLINE V turning_rate(const FlightConstants<Real>& c, bool sees_fluid, const Triple<V>& seen_velocity,
                           const Flight<V>& flight) {
     Triple<V> velocity = centroid_velocity(c, flight);
-    if (sees_fluid(c)) {
+    if (sees_fluid) {
         velocity = velocity -
                    V(c.inverse_length) * transposed_times(rotation_matrix(flight.orientation), seen_velocity);
     }
@@ -304,9 +305,9 @@ HWY_INLINE V turning_rate(const FlightConstants<Real>& c, const Triple<V>& seen_
 /// Into how many equal parts the step is cut: each turns the body by at most 0.3 rad, as far as the limit on
 /// their number allows. `seen_velocity`: when the step begins (m/s, world axes).
 template <class V, class Real>
-HWY_INLINE V substeps_of(const FlightConstants<Real>& c, V h, const Triple<V>& seen_velocity,
+HWY_INLINE V substeps_of(const FlightConstants<Real>& c, V h, bool sees_fluid, const Triple<V>& seen_velocity,
                          const Flight<V>& flight) {
-    const V turns = h * turning_rate(c, seen_velocity, flight) * V(1.0 / 0.3);
+    const V turns = h * turning_rate(c, sees_fluid, seen_velocity, flight) * V(1.0 / 0.3);
     return -whole_part(-smaller(V(most_substeps), larger(V(1.0), turns)));
 }
 

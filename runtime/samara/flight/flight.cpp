@@ -67,6 +67,7 @@ Flight::Flight(const FlightSettings& settings) : parts_(std::make_unique<Parts>(
         refuse(FlightError::Kind::invalid_argument, "a flight needs a step above zero and one run at least");
     }
     parts_->settings = settings;
+    parts_->settings.wind = settings.wind.seeded(settings.seed);  // for good: set_seed() is of the noise
     parts_->surroundings = surroundings_of(settings);
 }
 
@@ -184,6 +185,7 @@ std::string Flight::fingerprint() const {
                                    fmt::join(all.gravity.reshaped(), " "),
                                    all.ground ? fmt::format("{}", *all.ground) : "none", all.step, all.runs);
     for (const Obstacle& obstacle : all.obstacles) text += description_of(obstacle);
+    text += description_of(all.wind);
     for (const auto& kind : parts_->kinds) text += kind->description();
     return text;
 }

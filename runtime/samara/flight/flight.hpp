@@ -14,6 +14,7 @@
 #include "samara/physics/fluid.hpp"
 #include "samara/physics/obstacle.hpp"
 #include "samara/physics/release.hpp"
+#include "samara/physics/wind.hpp"
 
 namespace samara {
 
@@ -23,6 +24,7 @@ struct FlightSettings {
     Vector3d gravity = Vector3d(0.0, 0.0, -9.81);  ///< m/s^2, world axes
     std::optional<double> ground = {};             ///< m: the height (world z) of level ground
     std::vector<Obstacle> obstacles = {};          ///< what bodies touch besides
+    Wind wind = {};                                ///< beside current and gust
     double step = 0.002;                           ///< s
     std::uint64_t seed = 1;                        ///< of all random numbers
     std::uint32_t first_run = 0;                   ///< of the noise: runs differ by it

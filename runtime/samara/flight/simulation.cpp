@@ -97,7 +97,7 @@ void Simulation::take_frame(std::size_t index, double time, Pose* poses, std::si
             Pose& pose = poses[(i / copies) * run_stride + i % copies];
             pose = kind.pose(i, time);
             if (time < kind.start()) continue;
-            frames.table_errors[i].add(table_errors_met(kind.body(), kind.pose_in_flow(i, time)));
+            frames.table_errors[i].add(table_errors_met(kind.body(), kind.pose_in_wind(i, time)));
             keep_sign_continuous(pose.orientation, frames.last[i]);
             frames.last[i] = pose.orientation;
         }

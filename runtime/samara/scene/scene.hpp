@@ -11,6 +11,7 @@
 #include "samara/physics/fluid.hpp"
 #include "samara/physics/obstacle.hpp"
 #include "samara/physics/release.hpp"
+#include "samara/physics/wind.hpp"
 
 namespace samara {
 
@@ -31,6 +32,7 @@ struct Scene {
     Vector3d gravity = Vector3d(0.0, 0.0, -9.81);  ///< m/s^2
     std::optional<double> ground;                  ///< m: the height of level ground
     Fluid fluid;                                   ///< what the bodies are in
+    Wind wind;                                     ///< beside current and gust
     std::vector<Obstacle> obstacles;               ///< in the file's order, with unlike names
     std::vector<SceneBody> bodies;                 ///< in the file's order
     std::string text;                              ///< the file as it was read

@@ -2,18 +2,18 @@
 
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numbers>
 #include <set>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "internal/body/surface_patches.hpp"
 #include "internal/files/input_file.hpp"
+#include "internal/scene/choice.hpp"
 #include "internal/scene/obstacle_table.hpp"
 #include "internal/scene/plain_name.hpp"
 #include "internal/scene/toml_table.hpp"
+#include "internal/scene/wind_table.hpp"
 #include "samara/base/error.hpp"
 #include "samara/body/body_file.hpp"
 #include "samara/scene/ready_bodies.hpp"
@@ -22,20 +22,6 @@ namespace samara {
 namespace {
 
 constexpr std::size_t most_bytes_of_a_scene = 64'000'000;  // devices have no end
-
-template <typename Choice>
-using Words = std::map<std::string, Choice, std::less<>>;
-
-template <typename Choice>
-Choice choice(TomlTable& table, std::string_view key, const Words<Choice>& words, Choice standard) {
-    const auto text = table.text(key);
-    if (!text) return standard;
-    const auto found = words.find(*text);
-    if (found != words.end()) return found->second;
-    std::vector<std::string> names;
-    for (const auto& [name, value] : words) names.push_back('"' + name + '"');
-    throw table.fault(key, fmt::format("must be one of {}", fmt::join(names, ", ")));
-}
 
 /// Copies a value that the file gives; leaves the default where it does not.
 template <typename Value>
@@ -280,6 +266,7 @@ Scene read_scene_file(const std::filesystem::path& file) {
     if (!settings) throw top.fault("[scene]", "is missing; it holds at least the duration");
     read_settings(*settings, scene);
     if (auto fluid = top.table("fluid")) scene.fluid = read_fluid(*fluid);
+    if (auto wind = top.table("wind")) scene.wind = read_wind(*wind, scene.ground.value_or(0.0));
     const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
     std::set<std::string> names;
     for (TomlTable& table : top.tables("body")) {

@@ -17,7 +17,8 @@ except ImportError:  # which the structs do without
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..")
 TYPES = {"size_t": ctypes.c_size_t, "double": ctypes.c_double, "uint64_t": ctypes.c_uint64, "uint32_t": ctypes.c_uint32,
-         "int32_t": ctypes.c_int32, "int": ctypes.c_int, "const char*": ctypes.c_char_p}
+         "int32_t": ctypes.c_int32, "int": ctypes.c_int, "const char*": ctypes.c_char_p,
+         "void*": ctypes.c_void_p, "samara_wind_function": ctypes.c_void_p}
 
 
 def header():

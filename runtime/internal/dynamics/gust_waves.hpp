@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "internal/kernel/wind_field.hpp"
+#include "samara/physics/wind.hpp"
+
+namespace samara {
+
+/// The one-dimensional spectrum of the velocity along a line (m^3/s^2), one-sided: its integral over the wave
+/// numbers k (rad/m) from 0 is the variance.
+double longitudinal_spectrum(const WindGusts& gusts, double k) noexcept;
+
+/// The energy spectrum (m^3/s^2) of the isotropic, divergence-free field with that longitudinal spectrum F:
+/// k^3/2 d/dk (F'/k) (Pope, Turbulent Flows, 2000, eq. 6.217).
+double energy_spectrum(const WindGusts& gusts, double k) noexcept;
+
+/// The waves of the gusts, three of each band at right angles to each other, so that every component of the
+/// velocity has the variance rms^2 in every one of them. The first and the last band hold what lies beyond.
+std::vector<GustWave> gust_waves(const WindGusts& gusts);
+
+}  // namespace samara
