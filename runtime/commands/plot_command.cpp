@@ -8,13 +8,18 @@
 #include "internal/base/vector_json.hpp"
 #include "internal/command/arguments.hpp"
 #include "internal/command/print.hpp"
+#include "internal/files/hdf5_reader.hpp"
 #include "internal/motion/description.hpp"
 #include "internal/motion/file_check.hpp"
+#include "internal/plot/convergence_plot.hpp"
 #include "internal/plot/gnuplot.hpp"
 #include "internal/plot/landing_plot.hpp"
 #include "internal/plot/motion_plot.hpp"
 #include "internal/plot/phase_plot.hpp"
+#include "internal/plot/polar_plot.hpp"
+#include "internal/plot/sphere_plot.hpp"
 #include "samara/base/error.hpp"
+#include "samara/body/body_file.hpp"
 #include "samara/motion/motion_file.hpp"
 
 namespace samara {
@@ -31,15 +36,20 @@ swings most and negative to one side, against its rate, coloured by time; both o
 landing: where all copies and runs come down, from above, with the mean and the circle
 of the rms distance; the distributions of the distance and of the time of landing.
 Without a ground: the places at the last frame, and the ways descended.
+polars, of a body file: drag, lift, moment and k against the direction of motion in the
+planes of the principal axes, with their standard errors and the solved cases.
+sphere: drag, moment, k and the force's standard error over all directions.
+convergence: drag and k over the meshes, errors by source, drag over Reynolds numbers.
 gnuplot draws them.
 
 Examples: samara plot motion.h5 -o motion.png
-          samara plot motion.h5 -o phase.svg --kind phase)";
+          samara plot motion.h5 -o phase.svg --kind phase
+          samara plot leaf.body.h5 -o polars.svg)";
 
 struct PlotOptions {
     std::string input;
     std::string output;
-    std::string kind = "strip";
+    std::string kind = "strip";  // of a body file: polars, where no kind is given
     std::string body;
     int run = 0;
     int copy = 0;
@@ -73,9 +83,37 @@ nlohmann::json landing_as_json(const LandingPlot& shown) {
             {"median", shown.median}};
 }
 
-nlohmann::json plot(const PlotOptions& options) {
-    require_picture_format(options.output);
-    check_before_reading(options.input);
+bool is_body_kind(const std::string& kind) {
+    return kind == "polars" || kind == "sphere" || kind == "convergence";
+}
+
+nlohmann::json plot_body(const PlotOptions& options) {
+    const Body body = read_body_file(options.input);
+    if (!body.tables) {
+        throw Error(fmt::format("{}: has no tables to draw; make them with 'samara bake'", options.input));
+    }
+    nlohmann::json result = {{"output", options.output}, {"kind", options.kind}, {"body", body.name}};
+    if (options.kind == "polars") {
+        const PolarPlot shown = plot_polars(options.output, body);
+        result["arcs"] = shown.arcs;
+        result["solved"] = shown.solved;
+        result["shown_angle"] = shown.shown_angle;
+        result["reynolds_number"] = shown.reynolds_number;
+    } else if (options.kind == "sphere") {
+        const SpherePlot shown = plot_sphere(options.output, body);
+        result["cases"] = shown.cases;
+        result["planned"] = shown.planned;
+        result["reynolds_number"] = shown.reynolds_number;
+    } else {
+        const ConvergencePlot shown = plot_convergence(options.output, body);
+        result["directions"] = shown.directions;
+        result["meshes"] = shown.meshes;
+        result["sources"] = shown.sources;
+    }
+    return result;
+}
+
+nlohmann::json plot_motion_file(const PlotOptions& options) {
     const Motion motion = read_motion_file(options.input);
     const BodyMotion& body = find_body(options.input, motion, options.body);
     nlohmann::json result = options.kind == "landing"
@@ -87,12 +125,42 @@ nlohmann::json plot(const PlotOptions& options) {
     return result;
 }
 
+/// The kind of picture is of the kind of file; without --kind the file's first.
+nlohmann::json plot(PlotOptions options, const Arguments& arguments) {
+    require_picture_format(options.output);
+    check_before_reading(options.input);
+    const bool of_body = Hdf5Reader(options.input).has("/surface");
+    if (of_body && !arguments.given("--kind")) options.kind = "polars";
+    if (of_body != is_body_kind(options.kind)) {
+        throw Error(fmt::format("--kind {}: is of a {}, and {} is a {}", options.kind,
+                                of_body ? "motion" : "body file", options.input,
+                                of_body ? "body file; take polars, sphere or convergence"
+                                        : "motion; take strip, phase or landing"));
+    }
+    for (const char* option : {"--body", "--run", "--copy"}) {
+        if (of_body && arguments.given(option)) {
+            throw Error(
+                fmt::format("{}: is of a motion, and {} is a body file; drop it", option, options.input));
+        }
+    }
+    return of_body ? plot_body(options) : plot_motion_file(options);
+}
+
 std::string in_words(const nlohmann::json& result) {
     const std::string start =
         fmt::format("{}: {}, ", result["output"].get<std::string>(), result["body"].get<std::string>());
     if (result["kind"] == "landing") {
         return start + fmt::format("{} of {} landed, spread {:.3g} m", result["landed"].get<int>(),
                                    result["samples"].get<int>(), result["spread"].get<double>());
+    }
+    if (result["kind"] == "convergence") {
+        return start + fmt::format("{} directions on {} meshes, {} sources of error",
+                                   result["directions"].get<int>(), result["meshes"].get<int>(),
+                                   result["sources"].get<int>());
+    }
+    if (is_body_kind(result["kind"].get<std::string>())) {
+        return start + fmt::format("{} at Reynolds number {:.4g}", result["kind"].get<std::string>(),
+                                   result["reynolds_number"].get<double>());
     }
     const std::string regime = result["measures"]["regime"].get<std::string>();
     if (result["kind"] == "phase") {
@@ -107,13 +175,15 @@ std::string in_words(const nlohmann::json& result) {
 int plot_command(int argc, const char* const* argv) {
     Arguments arguments("samara plot",
                         "Draws one body's motion: silhouettes along its path and its time series, a phase "
-                        "portrait, or a map of its landings.");
+                        "portrait, or a map of its landings; or a body's tables.");
     PlotOptions options;
     constexpr int most = 1'000'000'000;
-    arguments.positional("MOTION", options.input, "motion file, from 'samara simulate'");
+    arguments.positional("FILE", options.input,
+                         "motion file (.h5), from 'samara simulate', or body file (.body.h5) with tables");
     arguments.required_option("-o,--output", options.output,
                               "picture to write: .png (2000 x 1300 pixels) or .svg");
-    arguments.choice("--kind", options.kind, {"strip", "phase", "landing"}, "what to draw");
+    arguments.choice("--kind", options.kind, {"strip", "phase", "landing", "polars", "sphere", "convergence"},
+                     "what to draw; the last three of a body file, polars by default");
     arguments.option("--body", options.body, "the body to draw; the first where it is not given");
     arguments.option("--run", options.run, "the run to draw, counted from 0", 0, most);
     arguments.option("--copy", options.copy, "the copy to draw, counted from 0", 0, most);
@@ -124,7 +194,7 @@ int plot_command(int argc, const char* const* argv) {
                 throw Error(fmt::format("{}: a landing map is of all runs and copies; drop it", option));
             }
         }
-        nlohmann::json result = plot(options);
+        nlohmann::json result = plot(options, arguments);
         if (!arguments.json()) print_result("{}\n", in_words(result));
         return result;
     });

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+
+#include "internal/plot/canvas.hpp"
+
+namespace samara {
+
+/// The places of a body's four panels: `column` 0 or 1 from the left, `row` 0 or 1 from the top.
+Box quarter(int column, int row);
+
+/// A key: bold words in their colours in one line, set from the right.
+class ColorKey {
+  public:
+    /// The line's right end and height (pixels).
+    ColorKey(double right, double height) : right_(right), height_(height) {}
+    /// The picture's own key, at the right of its second head line.
+    ColorKey();
+    /// gnuplot commands for one more word, to the left of those before.
+    std::string add(const std::string& word, unsigned color);
+
+  private:
+    double right_;
+    double height_;
+};
+
+/// The colours of what a body's pictures tell apart (Okabe and Ito's palette).
+inline constexpr unsigned body_colors[] = {0x0072b2, 0xd55e00, 0x009e73, 0xcc79a7, 0xe69f00};
+
+}  // namespace samara
