@@ -5,32 +5,11 @@
 #include <fmt/format.h>
 
 #include "converter/openfoam/foam_file.hpp"
+#include "converter/openfoam/poly_mesh.hpp"
 #include "samara/base/error.hpp"
 
 namespace samara {
 namespace {
-
-struct FaceGeometry {
-    Vector3d center;
-    Vector3d area;  ///< out of the face's owner
-};
-
-FaceGeometry face_geometry(const std::vector<Vector3d>& corners) {
-    Vector3d middle = Vector3d::Zero();
-    for (const Vector3d& corner : corners) middle += corner;
-    middle /= static_cast<double>(corners.size());
-    Vector3d area = Vector3d::Zero();
-    Vector3d weighted = Vector3d::Zero();
-    double weight = 0.0;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-        const Vector3d& next = corners[(i + 1) % corners.size()];
-        const Vector3d triangle = 0.5 * (next - corners[i]).cross(middle - corners[i]);
-        area += triangle;
-        weighted += triangle.norm() * (corners[i] + next + middle) / 3.0;
-        weight += triangle.norm();
-    }
-    return {weight > 0.0 ? Vector3d(weighted / weight) : middle, area};
-}
 
 /// One face as a cell sees it.
 struct CellFace {

@@ -1,6 +1,5 @@
 // samara bodies: the ready-baked bodies that come with it.
 
-#include <cmath>
 #include <string>
 #include <vector>
 
@@ -12,6 +11,7 @@
 #include "commands/commands.hpp"
 #include "internal/base/content_hash.hpp"
 #include "internal/base/vector_json.hpp"
+#include "internal/body/total_error.hpp"
 #include "internal/command/arguments.hpp"
 #include "internal/command/print.hpp"
 #include "internal/files/hdf5_reader.hpp"
@@ -45,12 +45,6 @@ std::string shape_of(const Body& body) {
     return body.source.substr(0, body.source.find(' '));
 }
 
-double force_error(const LoadTables& tables) {
-    double square = 0.0;
-    for (const ErrorShare& share : tables.error_sources) square += share.force * share.force;
-    return std::sqrt(square);
-}
-
 template <typename Value>
 nlohmann::json given(const Value& value, bool is_given) {
     return is_given ? nlohmann::json(value) : nlohmann::json(nullptr);
@@ -77,7 +71,8 @@ nlohmann::json report(const ReadyBody& ready) {
     if (body.tables) {
         json["reynolds_numbers"] = body.tables->reynolds_numbers;
         json["quality"] = body.tables->quality;
-        json["force_error"] = given(force_error(*body.tables), !body.tables->error_sources.empty());
+        json["force_error"] = given(total_error(body.tables->error_sources, &ErrorShare::force),
+                                    !body.tables->error_sources.empty());
     }
     return json;
 }

@@ -28,6 +28,9 @@ int compare_command(int argc, const char* const* argv);
 /// samara info: what a file holds.
 int info_command(int argc, const char* const* argv);
 
+/// samara report: a bake judged, as a page; without its cases, which samara-report reads.
+int report_command(int argc, const char* const* argv);
+
 /// samara check: whether a file from elsewhere is sound.
 int check_command(int argc, const char* const* argv);
 

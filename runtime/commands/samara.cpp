@@ -1,4 +1,4 @@
-// The program `samara`: runs one of its own commands, or the program samara-COMMAND.
+// The program `samara`: runs the program samara-COMMAND, or one of its own commands.
 
 #include <algorithm>
 #include <cerrno>
@@ -39,15 +39,21 @@ constexpr Command commands[] = {
     {"bodies", "the ready-baked bodies that come with it", samara::bodies_command},
     {"simulate", "scene -> motion of its bodies", samara::simulate_command},
     {"export", "motion -> .glb, .usda, .chan for animation tools, .html, .csv", samara::export_command},
-    {"plot", "motion -> picture: silhouettes along the path, time series", samara::plot_command},
+    {"plot", "motion or body -> picture: silhouettes, time series; polars, maps", samara::plot_command},
     {"compare", "motion held against another, such as a fall by full CFD", samara::compare_command},
     {"validate", "scene -> the same motion by full CFD, to hold the runtime against", nullptr},
+    {"report", "bake -> page that says what it is good for, and why", samara::report_command},
     {"info", "what a file holds, its units and its provenance", samara::info_command},
     {"check", "a file from elsewhere, read in a process of its own: is it sound", samara::check_command},
 };
 
 bool is_installed(const Command& command) {
     return command.run != nullptr || samara::find_program(fmt::format("samara-{}", command.name)).has_value();
+}
+
+/// Of the commands that samara has itself, the baking tools have one that does more.
+bool has_fuller_program(const Command& command) {
+    return command.name == "report" && samara::find_program("samara-report").has_value();
 }
 
 void print_help() {
@@ -93,7 +99,8 @@ void run_other_program(const std::string& name, char** argv) {
 int main(int argc, char** argv) {
     const std::string name = argc > 1 ? argv[1] : "--help";
     for (const Command& command : commands) {
-        if (command.name == name && command.run != nullptr) return command.run(argc - 1, argv + 1);
+        if (command.name != name || command.run == nullptr || has_fuller_program(command)) continue;
+        return command.run(argc - 1, argv + 1);
     }
     const bool as_json =
         std::any_of(argv, argv + argc, [](std::string_view word) { return word == "--json"; });

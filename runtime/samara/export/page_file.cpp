@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "internal/base/base64.hpp"
 #include "internal/export/page_bytes.hpp"
 #include "internal/export/shaded_mesh.hpp"
 #include "internal/export/shape_pose.hpp"
@@ -23,30 +24,12 @@ constexpr std::string_view mark = "<!--MOTION-->";
 constexpr std::size_t floats_of_pose = 10;  // as runtime/page/motion.js reads them
 constexpr double most_bytes = 384e6;
 
-/// Base64 of RFC 4648, padded.
-std::string base64(const void* data, std::size_t size) {
-    constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    const auto* bytes = static_cast<const unsigned char*>(data);
-    std::string text;
-    text.reserve((size + 2) / 3 * 4);
-    for (std::size_t i = 0; i < size; i += 3) {
-        const std::size_t left = size - i;
-        const std::uint32_t three = static_cast<std::uint32_t>(bytes[i]) << 16 |
-                                    (left > 1 ? static_cast<std::uint32_t>(bytes[i + 1]) << 8 : 0U) |
-                                    (left > 2 ? static_cast<std::uint32_t>(bytes[i + 2]) : 0U);
-        text += letters[three >> 18];
-        text += letters[three >> 12 & 63];
-        text += left > 1 ? letters[three >> 6 & 63] : '=';
-        text += left > 2 ? letters[three & 63] : '=';
-    }
-    return text;
-}
-
 /// An array for motion.js to find by its name.
 template <typename Number>
 void write_array(std::ostream& stream, const std::string& name, const std::vector<Number>& numbers) {
     stream << "<script type=\"text/plain\" id=\"motion-" << name << "\">"
-           << base64(numbers.data(), numbers.size() * sizeof(Number)) << "</script>\n";
+           << base64({reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number)})
+           << "</script>\n";
 }
 
 void append(std::vector<float>& floats, const auto& values) {

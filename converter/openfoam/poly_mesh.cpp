@@ -1,0 +1,101 @@
+#include "converter/openfoam/poly_mesh.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "converter/openfoam/foam_scanner.hpp"
+#include "samara/base/error.hpp"
+
+namespace samara {
+namespace {
+
+/// The file boundary.
+std::vector<FoamPatch> read_patches(const std::filesystem::path& file) {
+    FoamScanner scanner(file);
+    if (scanner.word() != "FoamFile") throw scanner.fault("is no OpenFOAM file");
+    scanner.expect('{');
+    scanner.text_before('}');
+    const std::int64_t count = scanner.integer();
+    scanner.expect('(');
+    std::vector<FoamPatch> patches;
+    while (!scanner.accept(')')) {
+        FoamPatch patch{.name = std::string(scanner.word()), .type = {}};
+        scanner.expect('{');
+        while (!scanner.accept('}')) {
+            const std::string key(scanner.word());
+            if (key == "nFaces" || key == "startFace") {
+                const std::int64_t number = scanner.integer();
+                if (number < 0) throw scanner.fault("a number of faces is negative");
+                (key == "nFaces" ? patch.size : patch.start) = static_cast<std::size_t>(number);
+                scanner.expect(';');
+            } else if (key == "type") {
+                patch.type = scanner.text_before(';');
+            } else {
+                scanner.text_before(';');
+            }
+        }
+        patches.push_back(std::move(patch));
+    }
+    if (static_cast<std::int64_t>(patches.size()) != count) {
+        throw scanner.fault(fmt::format("holds {} patches, but says {}", patches.size(), count));
+    }
+    return patches;
+}
+
+bool is_within(const std::vector<std::int64_t>& numbers, std::size_t count) {
+    return std::ranges::all_of(numbers, [&](std::int64_t number) {
+        return number >= 0 && static_cast<std::size_t>(number) < count;
+    });
+}
+
+}  // namespace
+
+std::size_t PolyMesh::cell_count() const {
+    return owner.empty() ? 0 : static_cast<std::size_t>(*std::ranges::max_element(owner)) + 1;
+}
+
+std::vector<Vector3d> PolyMesh::corners(std::size_t face) const {
+    std::vector<Vector3d> places;
+    for (std::int64_t i = faces.starts[face]; i < faces.starts[face + 1]; ++i) {
+        places.push_back(points[static_cast<std::size_t>(faces.points[static_cast<std::size_t>(i)])]);
+    }
+    return places;
+}
+
+FaceGeometry face_geometry(const std::vector<Vector3d>& corners) {
+    Vector3d middle = Vector3d::Zero();
+    for (const Vector3d& corner : corners) middle += corner;
+    middle /= static_cast<double>(corners.size());
+    Vector3d area = Vector3d::Zero();
+    Vector3d weighted = Vector3d::Zero();
+    double weight = 0.0;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const Vector3d& next = corners[(i + 1) % corners.size()];
+        const Vector3d triangle = 0.5 * (next - corners[i]).cross(middle - corners[i]);
+        area += triangle;
+        weighted += triangle.norm() * (corners[i] + next + middle) / 3.0;
+        weight += triangle.norm();
+    }
+    return {weight > 0.0 ? Vector3d(weighted / weight) : middle, area};
+}
+
+PolyMesh read_poly_mesh(const std::filesystem::path& poly_mesh) {
+    PolyMesh mesh{read_points(poly_mesh / "points"), read_faces(poly_mesh / "faces"),
+                  read_labels(poly_mesh / "owner"), read_labels(poly_mesh / "neighbour"),
+                  read_patches(poly_mesh / "boundary")};
+    const bool sound =
+        mesh.owner.size() == mesh.faces.size() && mesh.neighbour.size() <= mesh.faces.size() &&
+        is_within(mesh.faces.points, mesh.points.size()) && is_within(mesh.owner, mesh.faces.size()) &&
+        is_within(mesh.neighbour, mesh.cell_count()) &&
+        std::ranges::all_of(mesh.patches, [&](const FoamPatch& patch) {
+            return patch.start <= mesh.faces.size() && patch.size <= mesh.faces.size() - patch.start;
+        });
+    if (sound) return mesh;
+    throw Error(
+        fmt::format("{}: points, faces, owner, neighbour and boundary are of different meshes; copy "
+                    "the folder again",
+                    poly_mesh.string()));
+}
+
+}  // namespace samara

@@ -1,0 +1,219 @@
+#include "internal/report/body_parts.hpp"
+
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "internal/base/content_hash.hpp"
+#include "internal/body/case_records.hpp"
+#include "internal/body/total_error.hpp"
+#include "internal/files/hdf5_reader.hpp"
+#include "internal/plot/convergence_plot.hpp"
+#include "internal/plot/polar_plot.hpp"
+#include "internal/plot/sphere_plot.hpp"
+#include "internal/report/html.hpp"
+#include "samara/physics/fluid.hpp"
+
+namespace samara {
+namespace {
+
+using Rows = std::vector<std::vector<std::string>>;
+
+std::string in_words(const Vector3d& vector, const char* unit = "") {
+    return fmt::format("({:.4g}, {:.4g}, {:.4g}){}", vector.x(), vector.y(), vector.z(), unit);
+}
+
+std::string size_of(const Body& body) {
+    const Matrix3d axes = principal_axes(body.moments);
+    const double infinity = std::numeric_limits<double>::infinity();
+    Vector3d lowest = Vector3d::Constant(infinity);
+    Vector3d highest = -lowest;
+    for (const Vector3d& vertex : body.surface.vertices) {
+        lowest = lowest.cwiseMin(axes.transpose() * vertex);
+        highest = highest.cwiseMax(axes.transpose() * vertex);
+    }
+    const Vector3d size = 1e3 * (highest - lowest);
+    return fmt::format("{:.4g} x {:.4g} x {:.4g} mm along the principal axes", size.x(), size.y(), size.z());
+}
+
+/// The density (kg/m^3) with which the body falls or rises broadside at a speed, by the tables; none below 0.
+std::string density_in(const Body& body, const char* name, double reynolds_number) {
+    const Fluid fluid = *fluid_preset(name);
+    const LoadTables& tables = *body.tables;
+    const Vector3d broadside = principal_axes(body.moments).col(0);
+    const double speed = reynolds_number * fluid.kinematic_viscosity() / tables.reference_length;
+    const double area = 0.25 * std::numbers::pi * tables.reference_length * tables.reference_length;
+    const double drag = std::abs(look_up(tables, broadside, reynolds_number).force.dot(broadside));
+    const double excess = 0.5 * drag * fluid.density * speed * speed * area / (9.81 * body.moments.volume);
+    return fmt::format("{:.3g} m/s in {}, as with a density of {:.4g} kg/m³", speed, name,
+                       fluid.density + excess);
+}
+
+ReportPart part_of_body(const Body& body) {
+    const LoadTables& tables = *body.tables;
+    Rows rows = {
+        {"shape", body.source},
+        {"size", size_of(body)},
+        {"surface",
+         fmt::format("{} triangles of order {}", body.surface.triangle_count(), body.surface.order())},
+        {"volume, area", fmt::format("{:.4g} m³, {:.4g} m²", body.moments.volume, body.moments.surface_area)},
+        {"symmetry",
+         fmt::format("{}, {} elements", name_of(body.symmetry.kind), body.symmetry.elements.size())},
+        {"reference length L", fmt::format("{:.5g} m", tables.reference_length)}};
+    if (body.kirchhoff) {
+        const Matrix6d& added = body.kirchhoff->matrix;
+        rows.push_back(
+            {"added mass",
+             fmt::format("{}, estimated error {:.2g} %, {}",
+                         in_words(Vector3d(1e3 * added.diagonal().tail<3>()), " g in a fluid of 1 kg/m³"),
+                         100.0 * body.kirchhoff->error_estimate, body.kirchhoff->method)});
+    }
+    std::vector<std::string> numbers;
+    for (const double number : tables.reynolds_numbers) numbers.push_back(fmt::format("{:.4g}", number));
+    rows.push_back({"Reynolds numbers U L/ν", fmt::format("{}", fmt::join(numbers, ", "))});
+    const double main = main_reynolds_number(tables, case_records(tables));
+    for (const char* fluid : {"water", "air"}) {
+        rows.push_back({fmt::format("at {:.4g}, broadside", main), density_in(body, fluid, main)});
+    }
+    return {"The body", html_table({}, rows)};
+}
+
+std::string share_in_words(double share) {
+    return fmt::format("{:.2g} %", 100.0 * share);
+}
+
+std::string error_table(const LoadTables& tables) {
+    Rows rows;
+    for (const ErrorShare& share : tables.error_sources) {
+        rows.push_back({name_of(share.source), share_in_words(share.force), share_in_words(share.moment),
+                        share_in_words(share.turbulent_kinetic_energy),
+                        share_in_words(share.dissipation_rate)});
+    }
+    if (rows.empty()) return html_paragraph("The file does not tell its errors by source.");
+    const auto total = [&](double ErrorShare::*quantity) {
+        return share_in_words(total_error(tables.error_sources, quantity));
+    };
+    rows.push_back({"together", total(&ErrorShare::force), total(&ErrorShare::moment),
+                    total(&ErrorShare::turbulent_kinetic_energy), total(&ErrorShare::dissipation_rate)});
+    return html_paragraph(
+               "Standard errors over the quantity, root mean squares over all directions and Reynolds "
+               "numbers.") +
+           html_table({"source", "force", "moment", "k", "epsilon"}, rows);
+}
+
+std::string tensor_in_words(const Matrix3d& tensor, const char* unit) {
+    return in_words(Vector3d(tensor.diagonal())) + ' ' + unit;
+}
+
+ReportPart part_of_turning(const Body& body) {
+    if (!body.dynamic) {
+        return {"The turning body", html_paragraph("The file holds no coefficients of a turning body, for no "
+                                                   "falls were solved. It flies with those that "
+                                                   "bodies have in common (docs/falls.md). --quality "
+                                                   "standard solves falls and identifies its own.")};
+    }
+    const auto& [values, errors] = *body.dynamic;
+    Rows rows;
+    for (const NumberOfMotion& number : numbers_of_motion) {
+        rows.push_back({number.title, fmt::format("{:.3g}", values.*number.member),
+                        fmt::format("{:.2g}", errors.*number.member)});
+    }
+    for (const TensorOfMotion& tensor : tensors_of_motion) {
+        rows.push_back({tensor.title, tensor_in_words(values.*tensor.member, tensor.unit),
+                        tensor_in_words(errors.*tensor.member, tensor.unit)});
+    }
+    return {"The turning body",
+            html_paragraph("From: " + values.origin) +
+                html_table({"coefficient (tensors: xx, yy, zz)", "value", "standard error"}, rows)};
+}
+
+std::string or_dash(double number, const char* format) {
+    return number > 0.0 ? fmt::format(fmt::runtime(format), number) : "-";
+}
+
+ReportPart part_of_cases(const LoadTables& tables) {
+    const std::vector<CaseRecord> records = case_records(tables);
+    std::string html;
+    if (!tables.left_out.empty()) {
+        Rows rows;
+        for (const LeftOutCase& one : tables.left_out) rows.push_back({one.name, one.reason});
+        html += html_table({"left out", "why"}, rows);
+    }
+    Rows rows;
+    for (const CaseRecord& one : records) {
+        rows.push_back({one.name, one.purpose, in_words(one.direction),
+                        fmt::format("{:.4g}", one.reynolds_number), one.closure, or_dash(one.cells, "{:.0f}"),
+                        fmt::format("{:.3f}", one.drag), one.k ? fmt::format("{:.3g}", *one.k) : "-",
+                        one.verdict, or_dash(one.final_residual, "{:.1g}"),
+                        fmt::format("{:.1f}", one.cpu_seconds)});
+    }
+    if (rows.empty())
+        return {"The cases", html + html_paragraph("The file does not say how its cases were solved.")};
+    double seconds = 0.0;
+    for (const CaseRecord& one : records) seconds += one.cpu_seconds;
+    return {"The cases",
+            html + html_details(fmt::format("{} solved cases, {:.0f} CPU seconds", records.size(), seconds),
+                                html_table({"case", "for", "moving along", "Reynolds", "closure", "cells",
+                                            "drag", "k/U²", "verdict", "residual of p", "CPU s"},
+                                           rows))};
+}
+
+std::string joined(const std::set<std::string>& words) {
+    return words.empty() ? "not said" : fmt::format("{}", fmt::join(words, ", "));
+}
+
+ReportPart part_of_provenance(const std::filesystem::path& path, const Body& body) {
+    const Hdf5Reader file(path);
+    std::set<std::string> programs;
+    std::set<std::string> closures;
+    std::set<std::string> remedies;
+    for (const CaseRecord& one : case_records(*body.tables)) {
+        if (!one.openfoam.empty()) programs.insert(one.openfoam);
+        if (!one.closure.empty()) closures.insert(one.closure);
+        if (!one.mesh_remedy.empty()) remedies.insert(one.mesh_remedy);
+    }
+    return {
+        "Where it comes from",
+        html_table({}, {{"file", path.filename().string()},
+                        {"XXH3 128-bit hash", file_content_hash(path)},
+                        {"digest of its content",
+                         file.has_digest() ? "sound" : "none: 'samara check --add-digest' writes one"},
+                        {"written by", fmt::format("samara {}", file.text_attribute("/", "samara_version"))},
+                        {"quality", body.tables->quality},
+                        {"solver", joined(programs)},
+                        {"closures", joined(closures)},
+                        {"meshes made", joined(remedies)}})};
+}
+
+}  // namespace
+
+std::vector<ReportPart> body_parts(const std::filesystem::path& file, const Body& body,
+                                   const std::function<void(double share)>& progress) {
+    std::vector<ReportPart> parts = {part_of_body(body)};
+    const auto picture = [&](const char* title, const char* words, const auto& plot,
+                             const std::string& below) {
+        parts.push_back({title, html_picture(words, [&](const std::filesystem::path& picture_file) {
+                                    plot(picture_file, body);
+                                }) + below});
+        progress(static_cast<double>(parts.size() - 1) / 3.0);
+    };
+    progress(0.0);
+    picture("Polars", "Drag, lift, moment and k against the direction of motion, with standard errors",
+            plot_polars,
+            html_paragraph("Coefficients on ρU²A/2 with A = πL²/4, the moment's also on L. The direction of "
+                           "motion turns in the plane of "
+                           "two principal axes; 0° is along the shorter one. Dots are solved cases."));
+    picture("All directions", "Drag, moment, k and the force's standard error over the sphere of directions",
+            plot_sphere, "");
+    picture("Convergence and errors",
+            "Drag and k over the meshes, drag over Reynolds numbers, errors by source", plot_convergence,
+            error_table(*body.tables));
+    parts.push_back(part_of_turning(body));
+    parts.push_back(part_of_cases(*body.tables));
+    parts.push_back(part_of_provenance(file, body));
+    return parts;
+}
+
+}  // namespace samara
