@@ -28,10 +28,6 @@ struct ValidationRequest {
     std::map<std::string, std::vector<std::filesystem::path>> beside;
 };
 
-/// Above these the momenta of a fall are said not to balance: twice what the worst of ten reference falls has
-/// (docs/validate.md).
-inline constexpr FallBalance doubtful_balance = {0.05, 0.15};
-
 /// Above this a step moves the fluid past several cells at once, and the solution is smeared.
 inline constexpr double doubtful_courant_number = 5.0;
 

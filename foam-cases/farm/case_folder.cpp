@@ -26,6 +26,14 @@ namespace fs = std::filesystem;
 // It says how files are read and faults are worded, and so is no input of a solution.
 constexpr const char* helper_file = "case_files.py";
 
+// What stands in the folder for who opens or copies its cases.
+constexpr const char* folder_notes =
+    "OpenFOAM cases and their meshes, by samara (docs/bake.md, docs/file-formats.md). ParaView opens the "
+    "file NAME.foam in\n"
+    "each. The folder may be moved and copied as a whole: no link leads out of it. A case's mesh is a link "
+    "to the mesh's own\n"
+    "folder beside it; to copy one case alone take 'cp -rL CASE ELSEWHERE', which copies the mesh too.\n";
+
 // What a fall's case has from the flow's: the fluid and its turbulence.
 constexpr const char* shared_files[] = {"0.orig/k",
                                         "0.orig/epsilon",
@@ -121,6 +129,12 @@ void link_to_mesh(const fs::path& folder, const std::string& mesh, const char* n
     fs::create_directory_symlink(target, link);
 }
 
+// The empty file by which ParaView opens a case or a mesh.
+void write_foam_file(const fs::path& folder) {
+    const fs::path file = folder / (folder.filename().string() + ".foam");
+    if (!fs::exists(file)) replace_file_with(file, "");
+}
+
 // Removes a record that belongs to other inputs, or that cannot be read; says whether it did.
 bool discard_stale(const fs::path& record, const std::string& hash) {
     if (!fs::exists(record)) return false;
@@ -153,6 +167,7 @@ std::string write_mesh_case(const fs::path& folder, const CaseFiles& template_fi
     discard_stale(folder / "mesh.json", needed);
     discard_stale(folder / "failed.json", hash);
     write_files(folder, files);
+    write_foam_file(folder);
     return hash;
 }
 
@@ -167,6 +182,7 @@ void write_case(const fs::path& folder, const CaseFiles& files, const std::strin
             fs::remove_all(folder / name);
     }
     write_files(folder, files);
+    write_foam_file(folder);
     link_to_mesh(folder, mesh, "polyMesh");
 }
 
@@ -233,6 +249,7 @@ void write_case_folder(const fs::path& folder, const Body& body, const BakePlan&
         link_to_mesh(folder / entry.name, entry.mesh, "triSurface");
     }
     if (!plan.falls.empty()) write_falls(folder, plan, template_files, foam_cases, hashes, json["falls"]);
+    if (!holds(folder / "README", folder_notes)) replace_file_with(folder / "README", folder_notes);
     write_plan(folder / "plan.json", json);
 }
 

@@ -12,6 +12,7 @@
 #include "internal/body/body_check.hpp"
 #include "internal/body/case_records.hpp"
 #include "internal/body/total_error.hpp"
+#include "internal/report/words.hpp"
 #include "samara/physics/fluid.hpp"
 
 namespace samara {
@@ -20,10 +21,6 @@ namespace {
 constexpr double well_known = 0.1;       // an error that needs no mention
 constexpr double well_solved = 0.01;     // of the Kirchhoff tensor
 constexpr double mostly_planned = 0.99;  // of the nodes that a bake was planned for
-
-std::string per_cent(double share) {
-    return fmt::format("{:.2g} %", 100.0 * share);
-}
 
 Grade grade_of(double error) {
     if (error <= well_known) return Grade::good;
@@ -39,14 +36,14 @@ const ErrorShare& largest_source(const LoadTables& tables, double ErrorShare::*q
 const char* remedy_of(ErrorSource source) {
     switch (source) {
         case ErrorSource::mesh:
-            return "a higher --quality has finer meshes";
+            return "a higher quality has finer meshes";
         case ErrorSource::interpolation:
-            return "a higher --quality has more directions, and a bake of a scene has them where it needs "
+            return "a higher quality has more directions, and a bake of a scene has them where it needs "
                    "them";
         case ErrorSource::closure:
             return "--loads takes another closure";
         default:
-            return "a higher --quality solves longer";
+            return "a higher quality solves longer";
     }
 }
 
@@ -88,15 +85,15 @@ void judge_sources(std::vector<Finding>& findings, const LoadTables& tables) {
     findings.push_back(
         {closure_alone ? Grade::limited : Grade::bad, "error sources",
          fmt::format("the errors know nothing of: {}; {}", fmt::join(missing, ", "),
-                     closure_alone ? "only --quality high solves with other closures, and docs/closures.md "
+                     closure_alone ? "only quality high solves with other closures, and docs/closures.md "
                                      "says what they come to"
-                                   : "the true errors are larger; bake with a higher --quality")});
+                                   : "the true errors are larger; bake with a higher quality")});
 }
 
 void judge_quality(std::vector<Finding>& findings, const LoadTables& tables) {
     if (tables.quality != "smoke") return;
     findings.push_back(
-        {Grade::bad, "quality", "smoke is for trying the way alone; bake with --quality preview or higher"});
+        {Grade::bad, "quality", "smoke is for trying the way alone; bake with preview or higher"});
 }
 
 void judge_cases(std::vector<Finding>& findings, const LoadTables& tables,
@@ -154,7 +151,7 @@ void judge_motion(std::vector<Finding>& findings, const Body& body) {
         findings.push_back(
             {Grade::bad, "turning",
              "no falls were solved: the coefficients of a turning body are those that bodies have in common; "
-             "--quality standard identifies them"});
+             "quality standard identifies them"});
         return;
     }
     findings.push_back(
@@ -186,7 +183,7 @@ void judge_reynolds_numbers(std::vector<Finding>& findings, const LoadTables& ta
     if (numbers.size() == 1) {
         findings.push_back({Grade::limited, "Reynolds number",
                             fmt::format("{:.4g} alone ({}): at other speeds the same coefficients are held; "
-                                        "--quality standard has a range",
+                                        "quality standard has a range",
                                         numbers.front(), speeds)});
         return;
     }

@@ -14,6 +14,7 @@
 #include "internal/plot/polar_plot.hpp"
 #include "internal/plot/sphere_plot.hpp"
 #include "internal/report/html.hpp"
+#include "internal/report/words.hpp"
 #include "samara/physics/fluid.hpp"
 
 namespace samara {
@@ -80,20 +81,15 @@ ReportPart part_of_body(const Body& body) {
     return {"The body", html_table({}, rows)};
 }
 
-std::string share_in_words(double share) {
-    return fmt::format("{:.2g} %", 100.0 * share);
-}
-
 std::string error_table(const LoadTables& tables) {
     Rows rows;
     for (const ErrorShare& share : tables.error_sources) {
-        rows.push_back({name_of(share.source), share_in_words(share.force), share_in_words(share.moment),
-                        share_in_words(share.turbulent_kinetic_energy),
-                        share_in_words(share.dissipation_rate)});
+        rows.push_back({name_of(share.source), per_cent(share.force), per_cent(share.moment),
+                        per_cent(share.turbulent_kinetic_energy), per_cent(share.dissipation_rate)});
     }
     if (rows.empty()) return html_paragraph("The file does not tell its errors by source.");
     const auto total = [&](double ErrorShare::*quantity) {
-        return share_in_words(total_error(tables.error_sources, quantity));
+        return per_cent(total_error(tables.error_sources, quantity));
     };
     rows.push_back({"together", total(&ErrorShare::force), total(&ErrorShare::moment),
                     total(&ErrorShare::turbulent_kinetic_energy), total(&ErrorShare::dissipation_rate)});

@@ -1,0 +1,75 @@
+#include "converter/report/case_history.hpp"
+
+#include <cstdlib>
+#include <fstream>
+#include <numbers>
+#include <string>
+
+#include "converter/cases/load_history.hpp"
+
+namespace samara {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The solver's log; none where the folder has none.
+fs::path solver_log(const fs::path& folder) {
+    for (const char* name : {"log.simpleFoam", "log.pimpleFoam"}) {
+        if (fs::exists(folder / name)) return folder / name;
+    }
+    return {};
+}
+
+/// The first residual of the pressure after each "Time = ".
+void read_residuals(const fs::path& log, CaseHistory& history) {
+    std::ifstream stream(log);
+    constexpr std::string_view time = "Time = ";
+    constexpr std::string_view residual = "Solving for p, Initial residual = ";
+    double now = 0.0;
+    bool wanted = false;
+    for (std::string line; std::getline(stream, line);) {
+        if (line.starts_with(time)) {
+            now = std::strtod(line.c_str() + time.size(), nullptr);
+            wanted = true;
+        } else if (const auto at = line.find(residual); wanted && at != std::string::npos) {
+            history.residual_iterations.push_back(now);
+            history.residuals.push_back(std::strtod(line.c_str() + at + residual.size(), nullptr));
+            wanted = false;
+        }
+    }
+}
+
+}  // namespace
+
+CaseHistory read_case_history(const fs::path& folder, const CasePlan& plan, const PlannedCase& planned) {
+    const CaseScales& scales = planned.scales;
+    const double force_unit = 0.125 * std::numbers::pi * scales.density * scales.speed * scales.speed *
+                              scales.length * scales.length;
+    const LoadHistory loads = read_load_history(folder / "postProcessing/forces");
+    CaseHistory history{.name = planned.name,
+                        .iterations = loads.force.times,
+                        .drag = {},
+                        .moment = {},
+                        .k = {},
+                        .residual_iterations = {},
+                        .residuals = {}};
+    for (const Vector3d& force : loads.force.values) {
+        history.drag.push_back(-(plan.to_map_axes() * force).dot(planned.direction) / force_unit);
+    }
+    for (const Vector3d& moment : loads.moment.values) {
+        history.moment.push_back(moment.norm() / (force_unit * scales.length));
+    }
+    history.moment.resize(history.drag.size());
+    const fs::path shell = folder / "postProcessing/shell";
+    if (planned.closure != Closure::laminar && !history_files(shell, "volFieldValue").empty()) {
+        const FoamHistory means = read_joined_history(shell, "volFieldValue");
+        for (const double k : means.column("volAverage(k)", 0.0)) {
+            history.k.push_back(k / (scales.speed * scales.speed));
+        }
+        history.k.resize(history.drag.size());
+    }
+    read_residuals(solver_log(folder), history);
+    return history;
+}
+
+}  // namespace samara

@@ -1,0 +1,311 @@
+#include "converter/report/case_parts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <optional>
+#include <set>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "converter/cases/case_folder_reduction.hpp"
+#include "converter/cases/case_reduction.hpp"
+#include "converter/cases/wall_spacing.hpp"
+#include "converter/falls/fall_identification.hpp"
+#include "converter/report/case_history.hpp"
+#include "internal/base/angles.hpp"
+#include "internal/report/html.hpp"
+#include "internal/report/words.hpp"
+#include "samara/base/error.hpp"
+#include "samara/body/body_file.hpp"
+
+namespace samara {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+using Rows = std::vector<std::vector<std::string>>;
+using Told = std::function<void(double share)>;
+
+constexpr std::size_t most_meshes = 4;     // that one picture shows
+constexpr std::size_t most_pieces = 9000;  // of a drawn mesh
+constexpr double around_body = 1.7;        // of what is shown, over the body
+constexpr double closer = 0.8;
+constexpr double good_fall = 0.1;  // difference of descent speeds
+constexpr double poor_fall = 0.3;
+
+/// A mesh that cases of the plan were solved on.
+struct CaseMesh {
+    std::string name;
+    Json record;  // mesh.json
+    PolyMesh mesh;
+};
+
+double cells_of(const CaseMesh& mesh) {
+    return static_cast<double>(mesh.mesh.cell_count());
+}
+
+std::string text_of(const Json& record, const char* key) {
+    const auto found = record.find(key);
+    return found != record.end() && found->is_string() ? found->get<std::string>() : "not said";
+}
+
+std::string number_of(const Json& record, const char* key) {
+    const auto found = record.find(key);
+    return found != record.end() && found->is_number() ? fmt::format("{:.3g}", found->get<double>())
+                                                       : "not said";
+}
+
+Json record_in(const fs::path& file) {
+    std::ifstream stream(file);
+    Json record = Json::parse(stream, nullptr, false);
+    return record.is_object() ? record : Json::object();
+}
+
+void require_same_body(const fs::path& folder, const Body& body) {
+    const Body solved = read_body_file(folder / "body.body.h5");
+    if (std::abs(solved.moments.volume - body.moments.volume) <= 1e-9 * body.moments.volume) return;
+    throw Error(fmt::format("{}: holds the cases of another body; --cases names the folder of this one",
+                            folder.string()));
+}
+
+/// What each part reads of the folder.
+class Folder {
+  public:
+    Folder(fs::path path, const Body& body, CasesReport& report)
+        : path_(std::move(path)), body_(body), plan_(read_case_plan(path_)), report_(report) {}
+
+    void tell_meshes(const Told& told);
+    void tell_histories(const Told& told);
+    void tell_falls(const Told& told);
+
+  private:
+    std::vector<CaseMesh> meshes(const Told& told);
+    std::string meshes_picture(const std::vector<CaseMesh>& meshes) const;
+    std::string spacing_table(const std::vector<CaseMesh>& meshes, const Told& told);
+    [[nodiscard]] DrawnMesh drawn(const CaseMesh& mesh, std::size_t count) const;
+    /// What cannot be read of a case or mesh is missing in the report.
+    template <typename Work>
+    void or_missing(const Work& work) {
+        try {
+            work();
+        } catch (const Error& fault) {
+            report_.missing.emplace_back(fault.what());
+        }
+    }
+    [[nodiscard]] bool solved(const std::string& name) const {
+        return plan_.solved_by_user || is_solved(path_ / name);
+    }
+
+    fs::path path_;
+    const Body& body_;
+    CasePlan plan_;
+    CasesReport& report_;
+};
+
+std::vector<CaseMesh> Folder::meshes(const Told& told) {
+    std::set<std::string> names;
+    for (const PlannedCase& one : plan_.cases) names.insert(one.mesh);
+    std::vector<CaseMesh> meshes;
+    std::size_t done = 0;
+    for (const std::string& name : names) {
+        or_missing([&] {
+            meshes.push_back({name, record_in(path_ / name / "mesh.json"),
+                              read_poly_mesh(path_ / name / "constant/polyMesh")});
+        });
+        told(static_cast<double>(++done) / static_cast<double>(names.size()));
+    }
+    std::ranges::sort(meshes, {}, cells_of);
+    return meshes;
+}
+
+DrawnMesh Folder::drawn(const CaseMesh& mesh, std::size_t count) const {
+    const Matrix3d to_case = plan_.case_axes.transpose();
+    const Matrix3d principal = principal_axes(body_.moments);
+    const Vector3d right = to_case * principal.col(2);
+    const Vector3d up = to_case * principal.col(0);
+    double half = 0.0;
+    for (const Vector3d& vertex : body_.surface.vertices) {
+        half = std::max(half, std::abs((vertex - body_.moments.centroid).dot(principal.col(2))));
+    }
+    const std::vector<double> shape = mesh_panel_shape(count);
+    DrawnMesh picture{.title = fmt::format("{}: {} cells", mesh.name, mesh.mesh.cell_count()),
+                      .section = {},
+                      .half_width = around_body * half / plan_.reference_length,
+                      .half_height = 0.0};
+    do {
+        picture.half_height = picture.half_width * shape[1] / shape[0];
+        picture.section = mesh_section(mesh.mesh, right, up, picture.half_width, picture.half_height);
+        picture.half_width *= closer;
+    } while (picture.section.cells.size() > most_pieces);
+    picture.half_width /= closer;
+    return picture;
+}
+
+std::string Folder::meshes_picture(const std::vector<CaseMesh>& meshes) const {
+    const std::size_t count = std::min(meshes.size(), most_meshes);
+    std::vector<DrawnMesh> drawings;
+    for (std::size_t i = meshes.size() - count; i < meshes.size(); ++i)
+        drawings.push_back(drawn(meshes[i], count));
+    return html_picture("The meshes where a plane cuts them", [&](const fs::path& file) {
+        plot_meshes(file, body_.name, "in the plane of the shortest (up) and the longest axis", drawings);
+    });
+}
+
+std::string Folder::spacing_table(const std::vector<CaseMesh>& meshes, const Told& told) {
+    Rows rows;
+    std::optional<WallSpacing> worst;
+    std::size_t done = 0;
+    for (const PlannedCase& one : plan_.cases) {
+        told(static_cast<double>(++done) / static_cast<double>(plan_.cases.size()));
+        const auto mesh = std::ranges::find(meshes, one.mesh, &CaseMesh::name);
+        if (mesh == meshes.end() || !solved(one.name) || plan_.solved_by_user) continue;
+        or_missing([&] {
+            const WallSpacing spacing = wall_spacing(path_ / one.name, mesh->mesh);
+            rows.push_back({one.name, spacing.wall_functions ? "wall functions" : "resolved",
+                            fmt::format("{:.2g}", spacing.least), fmt::format("{:.2g}", spacing.median),
+                            fmt::format("{:.2g}", spacing.most),
+                            spacing.wall_functions ? per_cent(spacing.below_30) + " below 30"
+                                                   : per_cent(spacing.above_1) + " above 1"});
+            if (one.purpose != CasePurpose::table) return;
+            const auto badness = [](const WallSpacing& given) {
+                return given.wall_functions ? given.below_30 : given.above_1;
+            };
+            if (!worst || badness(spacing) > badness(*worst)) worst = spacing;
+        });
+    }
+    if (rows.empty()) return "";
+    if (worst && worst->wall_functions) {
+        report_.findings.push_back(
+            {worst->below_30 > 0.5 ? Grade::limited : Grade::good, "y+",
+             fmt::format(
+                 "median {:.2g}, below 30 on {} of the body, where wall functions are out of their range{}",
+                 worst->median, per_cent(worst->below_30),
+                 worst->below_30 > 0.5 ? "; --loads kOmegaSSTLM resolves the boundary layer" : "")});
+    } else if (worst) {
+        report_.findings.push_back({worst->above_1 > 0.5 ? Grade::limited : Grade::good, "y+",
+                                    fmt::format("median {:.2g}, above 1 on {} of the body", worst->median,
+                                                per_cent(worst->above_1))});
+    }
+    return html_details(fmt::format("y+ of the cells along the body, of {} cases", rows.size()),
+                        html_table({"case", "wall", "least", "median", "most", "share of the body"}, rows));
+}
+
+void Folder::tell_meshes(const Told& told) {
+    const std::vector<CaseMesh> all = meshes([&](double share) { told(0.3 * share); });
+    if (all.empty()) return;
+    Rows rows;
+    for (const CaseMesh& mesh : all) {
+        rows.push_back({mesh.name, fmt::format("{}", mesh.mesh.cell_count()), text_of(mesh.record, "verdict"),
+                        text_of(mesh.record, "remedy"), number_of(mesh.record, "body_area_over_true_area"),
+                        number_of(mesh.record, "max_non_orthogonality")});
+    }
+    const std::string picture = meshes_picture(all);
+    told(0.5);
+    const std::string spacing = spacing_table(all, [&](double share) { told(0.5 + 0.5 * share); });
+    report_.parts.push_back(
+        {"Meshes and y+", picture +
+                              html_table({"mesh", "cells", "checkMesh", "remedy",
+                                          "area of the body over the true one", "most non-orthogonality (°)"},
+                                         rows) +
+                              spacing});
+}
+
+void Folder::tell_histories(const Told& told) {
+    std::vector<CaseHistory> histories;
+    Rows failed;
+    std::size_t done = 0;
+    for (const PlannedCase& one : plan_.cases) {
+        told(static_cast<double>(++done) / static_cast<double>(plan_.cases.size() + 1));
+        if (!solved(one.name)) {
+            or_missing([&] {
+                const auto reason = failure_of(path_, one.name, one.mesh);
+                failed.push_back({one.name, reason ? *reason : "neither solved nor failed"});
+            });
+            continue;
+        }
+        or_missing([&] { histories.push_back(read_case_history(path_ / one.name, plan_, one)); });
+    }
+    std::string html;
+    if (!histories.empty()) {
+        html = html_picture("Drag, moment, k and residuals of all cases over their iterations",
+                            [&](const fs::path& file) { plot_histories(file, body_.name, histories); });
+    }
+    if (!failed.empty()) html += html_table({"not solved", "why"}, failed);
+    if (!html.empty()) report_.parts.push_back({"How the cases settled", html});
+    told(1.0);
+}
+
+std::string figures_of(const Measures& measures) {
+    return fmt::format("{:.3g} m/s, {} Hz, {:.0f}°, {:.3g} rad/s, {}", measures.descent_speed,
+                       measures.frequency ? fmt::format("{:.3g}", *measures.frequency) : "-",
+                       degrees * measures.inclination_amplitude, measures.rms_angular_speed,
+                       name_of(measures.regime));
+}
+
+void Folder::tell_falls(const Told& told) {
+    Rows rows;
+    double farthest = 0.0;
+    FallBalance worst;
+    for (std::size_t i = 0; i < plan_.falls.size(); ++i) {
+        const PlannedFall& planned = plan_.falls[i];
+        told(static_cast<double>(i) / static_cast<double>(plan_.falls.size()));
+        or_missing([&] {
+            if (const auto reason = failure_of(path_, planned.name, planned.mesh)) {
+                rows.push_back({planned.name, "failed: " + *reason});
+                return;
+            }
+            const FallRecord record = read_fall_record(path_ / planned.name);
+            const FlownFall flown = fly_fall(body_, record);
+            const double difference = std::abs(flown.flown.descent_speed / flown.solved.descent_speed - 1.0);
+            farthest = std::max(farthest, std::isfinite(difference) ? difference : 1.0);
+            worst = {std::max(worst.force, flown.balance.force),
+                     std::max(worst.moment, flown.balance.moment)};
+            rows.push_back(
+                {planned.name, figures_of(flown.solved), figures_of(flown.flown), per_cent(difference),
+                 fmt::format("{}, {}", per_cent(flown.balance.force), per_cent(flown.balance.moment)),
+                 fmt::format("{:.3g}", record.fall.mass / record.fall.volume * record.fall.fluid_density)});
+        });
+    }
+    told(1.0);
+    if (rows.empty()) return;
+    report_.parts.push_back(
+        {"The falls, solved and flown",
+         html_paragraph(
+             "Descent speed, frequency, inclination that 95 % are below, rms angular speed and regime: of "
+             "the free "
+             "falls in full CFD, and of the runtime's flights from the same starts with this file.") +
+             html_table({"fall", "solved", "flown", "descent speeds differ by",
+                         "momenta balance to (force, moment)", "density kg/m³"},
+                        rows)});
+    if (farthest > 0.0) {
+        report_.findings.push_back(
+            {farthest <= good_fall   ? Grade::good
+             : farthest <= poor_fall ? Grade::limited
+                                     : Grade::bad,
+             "falls",
+             fmt::format("flown from the starts of the solved falls, descent speeds differ by up to {}",
+                         per_cent(farthest))});
+        const bool balances =
+            worst.force <= doubtful_balance.force && worst.moment <= doubtful_balance.moment;
+        report_.findings.push_back(
+            {balances ? Grade::good : Grade::limited, "balance",
+             fmt::format("the solved falls' momenta balance to {} (force) and {} (moment)",
+                         per_cent(worst.force), per_cent(worst.moment))});
+    }
+}
+
+}  // namespace
+
+CasesReport read_cases_for_report(const fs::path& folder, const Body& body, const Told& progress) {
+    require_same_body(folder, body);
+    CasesReport report;
+    Folder read(folder, body, report);
+    read.tell_meshes([&](double share) { progress(0.6 * share); });
+    read.tell_histories([&](double share) { progress(0.6 + 0.2 * share); });
+    read.tell_falls([&](double share) { progress(0.8 + 0.2 * share); });
+    return report;
+}
+
+}  // namespace samara

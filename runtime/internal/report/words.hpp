@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include <fmt/format.h>
+
+namespace samara {
+
+/// A share as "0.12 %", "17 %" or "120 %".
+inline std::string per_cent(double share) {
+    return share < 1.0 ? fmt::format("{:.2g} %", 100.0 * share) : fmt::format("{:.0f} %", 100.0 * share);
+}
+
+}  // namespace samara
