@@ -32,7 +32,9 @@ constexpr std::size_t most_meshes = 4;     // that one picture shows
 constexpr std::size_t most_pieces = 9000;  // of a drawn mesh
 constexpr double around_body = 1.7;        // of what is shown, over the body
 constexpr double closer = 0.8;
-constexpr double good_fall = 0.1;  // difference of descent speeds
+constexpr double beyond = 1.3;         // pieces that cross the panel reach out of it
+constexpr double off_symmetry = 0.01;  // L: meshes have faces in planes of symmetry
+constexpr double good_fall = 0.1;      // difference of descent speeds
 constexpr double poor_fall = 0.3;
 
 /// A mesh that cases of the plan were solved on.
@@ -136,7 +138,8 @@ DrawnMesh Folder::drawn(const CaseMesh& mesh, std::size_t count) const {
                       .half_height = 0.0};
     do {
         picture.half_height = picture.half_width * shape[1] / shape[0];
-        picture.section = mesh_section(mesh.mesh, right, up, picture.half_width, picture.half_height);
+        picture.section = mesh_section(mesh.mesh, right, up, off_symmetry, beyond * picture.half_width,
+                                       beyond * picture.half_height);
         picture.half_width *= closer;
     } while (picture.section.cells.size() > most_pieces);
     picture.half_width /= closer;

@@ -120,7 +120,7 @@ PanelText series_panel(const std::vector<CaseHistory>& cases, std::size_t number
                     {range, series.title, series.logarithmic ? 1.0 : 0.0});
     if (series.logarithmic) text.plots += "set format y '10^{%g}'\n";
     text.plots +=
-        fmt::format("plot $series{} using 1:2 with lines lw 1.2 lc rgb '#700072b2' notitle\n", number);
+        fmt::format("plot $series{} using 1:2 with lines lw 1.2 lc rgb '#400072b2' notitle\n", number);
     text.plots += end_panel();
     return text;
 }

@@ -11,7 +11,7 @@ namespace samara {
 namespace {
 
 constexpr double step = 5.0;         // degrees between the directions that are compared
-constexpr double same_share = 1e-3;  // of the largest drag: below it values are alike
+constexpr double same_share = 0.02;  // of the largest force: closer, it is interpolation that differs
 constexpr double nearly = 0.6;       // degrees off an arc that still count as on it
 
 double largest_drag(const LoadTables& tables, double reynolds_number) {
@@ -65,7 +65,7 @@ Vector3d BodyArc::across(double angle) const {
 
 double ArcValues::largest_difference(const ArcValues& other) const {
     return std::max({std::abs(drag - other.drag), std::abs(std::abs(lift) - std::abs(other.lift)),
-                     std::abs(std::abs(moment) - std::abs(other.moment)), std::abs(k - other.k)});
+                     std::abs(std::abs(moment) - std::abs(other.moment))});
 }
 
 ArcValues values_on(const LoadTables& tables, const BodyArc& arc, double angle, double reynolds_number) {

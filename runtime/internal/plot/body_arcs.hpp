@@ -26,6 +26,7 @@ struct ArcValues {
     double moment;  ///< about the arc's normal
     double k;
 
+    /// Of drag, lift and moment, the last two by size.
     [[nodiscard]] double largest_difference(const ArcValues& other) const;
 };
 
@@ -33,7 +34,8 @@ struct ArcValues {
 ArcValues values_on(const LoadTables& tables, const BodyArc& arc, double angle, double reynolds_number);
 ArcValues errors_on(const LoadTables& tables, const BodyArc& arc, double angle, double reynolds_number);
 
-/// The body's arcs, up to three: one whose values are another's is left out. The body has tables.
+/// The body's arcs, up to three: one whose loads are another's, to 2 % of the largest force, is left out. The
+/// body has tables.
 std::vector<BodyArc> arcs_of(const Body& body, double reynolds_number);
 
 /// To which angle (degrees) the drag on the arcs has to be shown until the body's symmetry repeats it: 90,

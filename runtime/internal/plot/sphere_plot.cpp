@@ -117,9 +117,9 @@ Raster raster_of(const Sphere& sphere, const Layer& layer) {
     return raster;
 }
 
-/// What is the same everywhere is not told apart by its last bits.
+/// Tables of a body that is alike in all directions differ between their nodes, by interpolation, no more.
 bool is_flat(const Range& range) {
-    return range.size() <= 1e-4 * std::max(std::abs(range.high), std::abs(range.low));
+    return range.size() <= 0.02 * std::max(std::abs(range.high), std::abs(range.low));
 }
 
 double share_in(const Range& range, double value) {

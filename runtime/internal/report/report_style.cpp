@@ -6,15 +6,14 @@ namespace samara {
 const char* const report_style = R"css(
 :root {
     color-scheme: light dark;
-    --ink: #1f2933; --soft: #5f6b77; --line: #d9dee4; --paper: #ffffff; --card: #f4f6f8;
+    --ink: #1f2933; --soft: #5f6b77; --line: #d9dee4; --paper: #ffffff; --card: #f4f6f8; --picture: #ffffff;
     --good: #0b7a4b; --limited: #9a5b00; --bad: #b3261e;
 }
 @media (prefers-color-scheme: dark) {
     :root {
-        --ink: #e6eaee; --soft: #a0abb6; --line: #38424c; --paper: #14181c; --card: #1d2328;
+        --ink: #e6eaee; --soft: #a0abb6; --line: #38424c; --paper: #14181c; --card: #1d2328; --picture: #141414;
         --good: #5fd3a0; --limited: #f0b35a; --bad: #ff8a80;
     }
-    figure { background: #14181c; }
     figure img { filter: invert(0.92) hue-rotate(180deg); }
 }
 * { box-sizing: border-box; }
@@ -52,15 +51,15 @@ table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size
 th, td { padding: 0.28rem 1.3rem 0.28rem 0; text-align: left; vertical-align: top; border-bottom: 1px solid var(--line); }
 thead th { color: var(--soft); font-weight: 500; }
 tbody th { font-weight: 500; white-space: nowrap; }
-figure { margin: 0.8rem 0; padding: 0.6rem; background: #ffffff; border: 1px solid var(--line); border-radius: 0.4rem; }
+figure { margin: 0.8rem 0; padding: 0.6rem; background: var(--picture); border: 1px solid var(--line); border-radius: 0.4rem; }
 figure img { display: block; width: 100%; height: auto; }
 details { margin: 0.8rem 0; }
 summary { cursor: pointer; color: var(--soft); }
 footer { margin-top: 3.5rem; color: var(--soft); font-size: 0.9rem; }
 @media (max-width: 40rem) { dl { grid-template-columns: 1fr; gap: 0; } dd { margin-bottom: 0.7rem; } }
 @media print {
-    :root { --ink: #000; --soft: #444; --line: #bbb; --paper: #fff; --card: #fff; --good: #0b7a4b; --limited: #9a5b00; --bad: #b3261e; }
-    figure { background: #fff; break-inside: avoid; }
+    :root { --ink: #000; --soft: #444; --line: #bbb; --paper: #fff; --card: #fff; --picture: #fff; --good: #0b7a4b; --limited: #9a5b00; --bad: #b3261e; }
+    figure { break-inside: avoid; }
     figure img { filter: none; }
     body { max-width: none; padding: 0; font-size: 10.5pt; }
     nav, summary { display: none; }

@@ -6,6 +6,7 @@
 #include <regex>
 #include <sstream>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -81,6 +82,22 @@ TEST_F(CaseFolder, HoldsAPlainCaseForEachDirectionOnOneMesh) {
         EXPECT_NEAR((flow + entry.direction).norm(), 0.0, 1e-12);
         EXPECT_EQ(std::stod(entry_of(parameters, "viscosity")), 1e-4);
     }
+}
+
+TEST_F(CaseFolder, CanBeOpenedByParaviewAndCopiedWithoutLinksThatLeadOutOfIt) {
+    write_case_folder(folder_, body_, plan_, foam_cases);
+    std::size_t opened = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_)) {
+        if (entry.path().extension() == ".foam") ++opened;
+        if (!entry.is_symlink()) continue;
+        const auto target = std::filesystem::weakly_canonical(entry.path().parent_path() /
+                                                              std::filesystem::read_symlink(entry.path()));
+        const auto within = std::filesystem::relative(target, std::filesystem::canonical(folder_)).string();
+        EXPECT_FALSE(within.starts_with("..")) << entry.path();
+    }
+    EXPECT_EQ(opened, plan_.cases.size() + plan_.all_meshes().size());
+    EXPECT_TRUE(std::filesystem::exists(folder_ / plan_.cases[0].name / (plan_.cases[0].name + ".foam")));
+    EXPECT_THAT(read_bytes(folder_ / "README"), testing::HasSubstr("cp -rL"));
 }
 
 TEST_F(CaseFolder, MakesAScriptExecutableThatAKillLeftWithoutTheRight) {
