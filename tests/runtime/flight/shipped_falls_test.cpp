@@ -25,10 +25,10 @@ struct ShippedFall {
     std::optional<double> rms_angular_speed;  ///< rad/s
 };
 
-/// Without noise, as the previews of runtime/bodies fell when this was written.
+/// Without noise, as the bodies of runtime/bodies fell when this was written.
 constexpr ShippedFall falls[] = {
-    {"falls/ellipsoid-tilted", "ellipsoid", Regime::fluttering, 0.2392, 0.989, 4.055},
-    {"falls/ellipsoid-heavy", "ellipsoid", Regime::fluttering, 0.5177, 2.477, 10.74},
+    {"falls/ellipsoid-tilted", "ellipsoid", Regime::fluttering, 0.2231, 0.7618, 2.893},
+    {"falls/ellipsoid-heavy", "ellipsoid", Regime::fluttering, 0.4771, 1.782, 4.215},
     {"falls/sphere", "sphere", Regime::steady, 0.7815, {}, {}},
     {"falls/disc-light", "disc", Regime::fluttering, 0.1352, 1.043, 4.146},
     {"falls/disc-heavy", "disc", Regime::tumbling, 0.5929, 2.252, 16.47},
