@@ -3,6 +3,8 @@
 
     falls_report.py BIN BODIES    bakes what is missing in BODIES, flies every scene and compares; then identifies
                                   anew without each term, and holds the falls again
+    falls_report.py BIN BODIES FALL...
+                                  bakes, flies and compares these falls alone; the rows of others stay as they are
     falls_report.py               writes the tables again from the rows of the last run
 
 Writes docs/falls/falls.csv and terms.csv, and the tables of docs/falls.md. BIN: the folder of the programs; BODIES: a
@@ -167,16 +169,18 @@ def written(target, rows):
     print(f"Written: {target}")
 
 
-def falls_table(programs, folder):
-    """Writes falls.csv; the tables of docs/falls.md, with noise and without."""
-    rows = [heading()]
+def falls_table(programs, folder, scenes):
+    """Flies the scenes and writes their rows into falls.csv; the tables of docs/falls.md, with noise and without."""
+    with open(f"{FALLS}/falls.csv", newline="") as file:
+        rows = {(row[0], row[1]): row for row in csv.reader(file)}
     with tempfile.TemporaryDirectory() as work:
         for noise in RUNS:
-            for scene, body in SCENES.items():
-                file, _ = baked(programs, folder, body)
-                rows.append(row_of(scene, noise, compared(programs, file, scene, work, noise)))
-                print(*rows[-1])
-    written(f"{FALLS}/falls.csv", rows)
+            for scene in scenes:
+                file, _ = baked(programs, folder, SCENES[scene])
+                rows[scene, noise] = row_of(scene, noise, compared(programs, file, scene, work, noise))
+                print(*rows[scene, noise])
+    written(f"{FALLS}/falls.csv", [heading()] + [rows[scene, noise] for noise in RUNS for scene in SCENES
+                                                 if (scene, noise) in rows])
     return tables_of_falls()
 
 
@@ -248,12 +252,13 @@ def table_of_terms():
 
 
 def main(words):
-    if len(words) not in (1, 3):
+    if len(words) == 2 or not set(words[3:]) <= set(SCENES):
         sys.stderr.write(__doc__)
         return 2
-    if len(words) == 3:
+    if len(words) >= 3:
         os.makedirs(words[2], exist_ok=True)
-        tables = [*falls_table(words[1], words[2]), terms_table(words[1], words[2])]
+        tables = [*falls_table(words[1], words[2], words[3:] or SCENES),
+                  table_of_terms() if words[3:] else terms_table(words[1], words[2])]
     else:
         tables = [*tables_of_falls(), table_of_terms()]
     write_tables("docs/falls.md", tables, mark("falls"))
