@@ -1,5 +1,7 @@
 // Time of one step of the runtime.
 
+#include <memory>
+
 #include <benchmark/benchmark.h>
 
 #include "internal/dynamics/batch.hpp"
@@ -90,6 +92,47 @@ void double_batch(benchmark::State& state) {
     batch<Batch>(state, 1);
 }
 
+/// 1024 bodies side by side in a wind with everything: items a second are body-steps.
+void windy_batch(benchmark::State& state, const Wind& wind) {
+    ImmersedBody body = test::blunt_ellipsoid();
+    body.turbulence = Turbulence::table;
+    prepare(body);
+    Surroundings surroundings;
+    if (wind.is_field()) surroundings.wind = std::make_shared<const WindField>(wind, Vector3d::Zero());
+    constexpr std::size_t count = 1024;
+    Batch bodies(body, count);
+    for (std::size_t i = 0; i < count; ++i) {
+        bodies.set_state(i, test::tumbling_state(0.1, 0.001 * static_cast<double>(i)));
+        bodies.set_noise(i, Noise(1, "leaf", 0, static_cast<std::uint32_t>(i)));
+    }
+    std::uint64_t step = 0;
+    while (state.KeepRunning()) {
+        bodies.advance(surroundings, 0.0, 0.002, step, 8);
+        step += 8;
+    }
+    state.SetItemsProcessed(static_cast<std::int64_t>(step * count));
+}
+void in_no_wind(benchmark::State& state) {
+    windy_batch(state, {});
+}
+void in_a_wind_with_profile(benchmark::State& state) {
+    Wind wind;
+    wind.velocity = Vector3d(0.1, 0.0, 0.0);
+    wind.profile = WindProfile{.ground = -100.0};
+    windy_batch(state, wind);
+}
+void in_a_wind_with_vortex_and_fan(benchmark::State& state) {
+    Wind wind;
+    wind.vortices.push_back({.circulation = 0.1, .core = 0.5});
+    wind.fans.push_back({.position = Vector3d(-1.0, 0.0, 0.0), .speed = 0.1});
+    windy_batch(state, wind);
+}
+void in_a_wind_with_gusts(benchmark::State& state) {
+    Wind wind;
+    wind.gusts = WindGusts{.rms = 0.02, .length = 1.0};
+    windy_batch(state, wind);
+}
+
 /// A million leaves of ten kinds (densities): a frame of 1/60 s in one step of each.
 void million_leaves(benchmark::State& state) {
     constexpr std::size_t kinds = 10;
@@ -127,6 +170,10 @@ BENCHMARK(million_leaves)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(float_batch)->Arg(4096)->Arg(1'000'000)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(float_batch_on_all_cores)->Arg(1'000'000)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(double_batch)->Arg(4096)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(in_no_wind);
+BENCHMARK(in_a_wind_with_profile);
+BENCHMARK(in_a_wind_with_vortex_and_fan);
+BENCHMARK(in_a_wind_with_gusts);
 BENCHMARK(step_with_tables_and_noise);
 BENCHMARK(step_with_tables);
 BENCHMARK(step_with_tables_and_every_term);

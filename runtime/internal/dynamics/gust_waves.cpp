@@ -62,17 +62,13 @@ std::vector<GustWave> gust_waves(const WindGusts& gusts) {
     const Noise noise(gusts.seed.value_or(0), "[wind]", 0, 0);
     std::vector<GustWave> waves;
     const double ratio = std::pow(highest / lowest, 1.0 / gusts.bands);
-    const double variance = gusts.rms * gusts.rms;
-    double left = 1.5 * variance;
+    const double begin = nothing_below / gusts.length;
+    const double held = energy_between(gusts, begin, highest / gusts.length);
+    const double whole = 1.5 * gusts.rms * gusts.rms;
     for (int band = 0; band < gusts.bands; ++band) {
         const double first = lowest / gusts.length * std::pow(ratio, band);
-        double energy = left;
-        if (band + 1 < gusts.bands) {
-            const double begin = band == 0 ? nothing_below / gusts.length : first;
-            energy = energy_between(gusts, begin, first * ratio);
-        }
-        left -= energy;
-        const double amplitude = std::sqrt(2.0 / 3.0 * energy);
+        const double energy = energy_between(gusts, band == 0 ? begin : first, first * ratio);
+        const double amplitude = held > 0.0 ? std::sqrt(2.0 / 3.0 * whole * energy / held) : 0.0;
         const auto turn = noise.normals(static_cast<std::uint64_t>(band), NoiseStream::gust_direction);
         const Matrix3d axes = Quaterniond(turn[0], turn[1], turn[2], turn[3]).normalized().toRotationMatrix();
         for (Eigen::Index i = 0; i < 3; ++i) {

@@ -72,6 +72,8 @@ TEST_F(Validate, RefusesScenesThatFullCfdDoesNotSolve) {
                                            "vertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n";
     write_scene("", "", body + "\n[[obstacle]]\nname = \"roof\"\nshape = \"roof.stl\"");
     EXPECT_THAT(fault(), HasSubstr("[[obstacle]]"));
+    write_scene("", "", body + "\n[wind]\nvelocity = [1, 0, 0]");
+    EXPECT_THAT(fault(), HasSubstr("[wind]"));
     write_scene("", "gust = { amplitude = [0.1, 0, 0], period = 1.0 }", body);
     EXPECT_THAT(fault(), HasSubstr("'gust'"));
     write_scene("", "", body + "\nstart = 1.5");

@@ -222,6 +222,7 @@ TEST(WindMotion, SideBySideIsToTheLastBitThatOfEachAlone) {
         const auto noise_of = [](std::size_t i) {
             return Noise(7, "leaf", 1, static_cast<std::uint32_t>(i));
         };
+        SCOPED_TRACE(static_cast<int>(body.turbulence));
         Batch whole(body, count);
         Batch cut(body, count);
         FloatBatch single(body, count);
