@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "internal/kernel/noise.hpp"
 #include "samara/base/linear_algebra.hpp"
@@ -62,13 +63,17 @@ std::vector<GustWave> gust_waves(const WindGusts& gusts) {
     const Noise noise(gusts.seed.value_or(0), "[wind]", 0, 0);
     std::vector<GustWave> waves;
     const double ratio = std::pow(highest / lowest, 1.0 / gusts.bands);
-    const double begin = nothing_below / gusts.length;
-    const double held = energy_between(gusts, begin, highest / gusts.length);
-    const double whole = 1.5 * gusts.rms * gusts.rms;
+    std::vector<double> energies;
+    for (int band = 0; band < gusts.bands; ++band) {
+        const double first = (band == 0 ? nothing_below : lowest * std::pow(ratio, band)) / gusts.length;
+        energies.push_back(energy_between(gusts, first, lowest / gusts.length * std::pow(ratio, band + 1)));
+    }
+    const double held = std::accumulate(energies.begin(), energies.end(), 0.0);
+    const double made_larger = held > 0.0 ? 1.5 * gusts.rms * gusts.rms / held : 0.0;
     for (int band = 0; band < gusts.bands; ++band) {
         const double first = lowest / gusts.length * std::pow(ratio, band);
-        const double energy = energy_between(gusts, band == 0 ? begin : first, first * ratio);
-        const double amplitude = held > 0.0 ? std::sqrt(2.0 / 3.0 * whole * energy / held) : 0.0;
+        const double energy = made_larger * energies[static_cast<std::size_t>(band)];
+        const double amplitude = std::sqrt(2.0 / 3.0 * energy);
         const auto turn = noise.normals(static_cast<std::uint64_t>(band), NoiseStream::gust_direction);
         const Matrix3d axes = Quaterniond(turn[0], turn[1], turn[2], turn[3]).normalized().toRotationMatrix();
         for (Eigen::Index i = 0; i < 3; ++i) {

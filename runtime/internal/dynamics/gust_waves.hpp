@@ -16,8 +16,8 @@ double longitudinal_spectrum(const WindGusts& gusts, double k) noexcept;
 double energy_spectrum(const WindGusts& gusts, double k) noexcept;
 
 /// The waves of the gusts, three of each band at right angles to each other, so that every component of the
-/// velocity has the same variance in every one of them, rms^2 in all. The first band holds what lies below it;
-/// what lies above the last is left out, and the rest made larger for it (von Karman's by 3 %).
+/// velocity has the same variance in every one of them, rms^2 in all. The first band holds what lies below
+/// it; what lies above the last, 6 % of von Karman's energy and 10 % of Kaimal's, is spread over all.
 std::vector<GustWave> gust_waves(const WindGusts& gusts);
 
 }  // namespace samara
