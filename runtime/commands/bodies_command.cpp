@@ -7,10 +7,10 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "commands/body_report.hpp"
 #include "commands/commands.hpp"
 #include "internal/base/content_hash.hpp"
 #include "internal/base/vector_json.hpp"
+#include "internal/body/principal_extents.hpp"
 #include "internal/body/total_error.hpp"
 #include "internal/command/arguments.hpp"
 #include "internal/command/print.hpp"

@@ -12,6 +12,7 @@
 #include "commands/table_errors_report.hpp"
 #include "internal/base/symmetric_matrix.hpp"
 #include "internal/base/vector_json.hpp"
+#include "internal/body/principal_extents.hpp"
 #include "internal/command/print.hpp"
 
 namespace samara {
@@ -209,19 +210,6 @@ void print_mass(const Body& body) {
     if (is_uniform) return;
     print_row("  centre of mass", "{} m", in_words(mass.center_of_mass));
     print_row("  principal inertia", "{} kg m^2", in_words(eigenvalues_of(mass.inertia)));
-}
-
-Vector3d principal_extents(const Body& body) {
-    const Matrix3d axes = principal_axes(body.moments);
-    const double infinity = std::numeric_limits<double>::infinity();
-    Vector3d lowest = Vector3d::Constant(infinity);
-    Vector3d highest = -lowest;
-    for (const Vector3d& vertex : body.surface.vertices) {
-        const Vector3d place = axes.transpose() * vertex;
-        lowest = lowest.cwiseMin(place);
-        highest = highest.cwiseMax(place);
-    }
-    return highest - lowest;
 }
 
 void print_body(const Body& body) {

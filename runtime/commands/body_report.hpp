@@ -6,9 +6,6 @@
 
 namespace samara {
 
-/// The body's lengths along its principal axes (m), shortest first.
-Vector3d principal_extents(const Body& body);
-
 /// What a body weighs where nobody says otherwise, for people, on standard output. It has a mass.
 void print_mass(const Body& body);
 

@@ -159,7 +159,7 @@ std::string in_words(const nlohmann::json& result) {
                                    result["sources"].get<int>());
     }
     if (is_body_kind(result["kind"].get<std::string>())) {
-        return start + fmt::format("{} at Reynolds number {:.4g}", result["kind"].get<std::string>(),
+        return start + fmt::format("{} at Reynolds number {:.6g}", result["kind"].get<std::string>(),
                                    result["reynolds_number"].get<double>());
     }
     const std::string regime = result["measures"]["regime"].get<std::string>();

@@ -224,7 +224,7 @@ TEST(BadInput, AnUnknownCommandOrOptionIsNamedInOneLine) {
 TEST(Help, OfEveryCommandWorks) {
     const test::TemporaryFolder folder;
     for (const char* command : {"mesh", "kirchhoff", "plan", "bake", "convert", "identify", "validate",
-                                "check-tables", "simulate", "export", "plot", "compare", "info"}) {
+                                "check-tables", "simulate", "export", "plot", "compare", "info", "report"}) {
         const auto help = run_program_in(folder, {"samara", command, "--help"});
         EXPECT_EQ(help.status, 0) << help.fault;
         EXPECT_THAT(help.output, HasSubstr("--json")) << command;

@@ -231,7 +231,7 @@ ConvergencePlot plot_convergence(const std::filesystem::path& file, const Body& 
         plots += panel.plots;
     }
     std::string text =
-        heading({body.name, fmt::format(": convergence at Reynolds number {:.4g}", reynolds_number),
+        heading({body.name, fmt::format(": convergence at Reynolds number {:.6g}", reynolds_number),
                  fmt::format("each line on the left: one direction on {} meshes", shown.meshes)});
     draw_picture(file, data + "set multiplot\n" + text + plots + "unset multiplot\nset output\n");
     return shown;

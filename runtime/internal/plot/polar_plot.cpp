@@ -142,7 +142,7 @@ int solved_on_arcs(const Polars& polars) {
 
 std::string heading_of(const Polars& polars) {
     std::string text =
-        heading({polars.body.name, fmt::format(": polars at Reynolds number {:.4g}", polars.reynolds_number),
+        heading({polars.body.name, fmt::format(": polars at Reynolds number {:.6g}", polars.reynolds_number),
                  "0°: along the first axis  ·  bars: standard errors  ·  dots: solved cases"});
     ColorKey key;
     for (std::size_t arc = polars.arcs.size(); arc-- > 0;) {

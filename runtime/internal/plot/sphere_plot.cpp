@@ -119,7 +119,7 @@ Raster raster_of(const Sphere& sphere, const Layer& layer) {
 
 /// Tables of a body that is alike in all directions differ between their nodes, by interpolation, no more.
 bool is_flat(const Range& range) {
-    return range.size() <= 0.02 * std::max(std::abs(range.high), std::abs(range.low));
+    return range.size() <= 0.03 * std::max(std::abs(range.high), std::abs(range.low));
 }
 
 double share_in(const Range& range, double value) {
@@ -292,7 +292,7 @@ SpherePlot plot_sphere(const std::filesystem::path& file, const Body& body) {
     if (shown.planned < 1.0) below += "  ·  pale: extrapolated";
     draw_picture(file, data + "set multiplot\n" +
                            heading({body.name,
-                                    fmt::format(": tables at Reynolds number {:.4g}", sphere.reynolds_number),
+                                    fmt::format(": tables at Reynolds number {:.6g}", sphere.reynolds_number),
                                     below}) +
                            plots + "unset multiplot\nset output\n");
     return shown;

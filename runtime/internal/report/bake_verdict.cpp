@@ -182,13 +182,13 @@ void judge_reynolds_numbers(std::vector<Finding>& findings, const LoadTables& ta
     const std::string speeds = speeds_in("water", tables) + ", " + speeds_in("air", tables);
     if (numbers.size() == 1) {
         findings.push_back({Grade::limited, "Reynolds number",
-                            fmt::format("{:.4g} alone ({}): at other speeds the same coefficients are held; "
+                            fmt::format("{:.6g} alone ({}): at other speeds the same coefficients are held; "
                                         "quality standard has a range",
                                         numbers.front(), speeds)});
         return;
     }
     findings.push_back({Grade::good, "Reynolds numbers",
-                        fmt::format("{:.4g} to {:.4g} ({}); beyond, the last coefficients are held",
+                        fmt::format("{:.6g} to {:.6g} ({}); beyond, the last coefficients are held",
                                     numbers.front(), numbers.back(), speeds)});
 }
 

@@ -1,6 +1,7 @@
 #include "internal/report/body_parts.hpp"
 
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include <fmt/format.h>
@@ -8,6 +9,7 @@
 
 #include "internal/base/content_hash.hpp"
 #include "internal/body/case_records.hpp"
+#include "internal/body/principal_extents.hpp"
 #include "internal/body/total_error.hpp"
 #include "internal/files/hdf5_reader.hpp"
 #include "internal/plot/convergence_plot.hpp"
@@ -27,19 +29,12 @@ std::string in_words(const Vector3d& vector, const char* unit = "") {
 }
 
 std::string size_of(const Body& body) {
-    const Matrix3d axes = principal_axes(body.moments);
-    const double infinity = std::numeric_limits<double>::infinity();
-    Vector3d lowest = Vector3d::Constant(infinity);
-    Vector3d highest = -lowest;
-    for (const Vector3d& vertex : body.surface.vertices) {
-        lowest = lowest.cwiseMin(axes.transpose() * vertex);
-        highest = highest.cwiseMax(axes.transpose() * vertex);
-    }
-    const Vector3d size = 1e3 * (highest - lowest);
+    const Vector3d size = 1e3 * principal_extents(body);
     return fmt::format("{:.4g} x {:.4g} x {:.4g} mm along the principal axes", size.x(), size.y(), size.z());
 }
 
-/// The density (kg/m^3) with which the body falls or rises broadside at a speed, by the tables; none below 0.
+/// The speed of a Reynolds number in a fluid, and the density with which the body falls broadside at it, by
+/// the tables.
 std::string density_in(const Body& body, const char* name, double reynolds_number) {
     const Fluid fluid = *fluid_preset(name);
     const LoadTables& tables = *body.tables;
@@ -76,7 +71,7 @@ ReportPart part_of_body(const Body& body) {
     rows.push_back({"Reynolds numbers U L/ν", fmt::format("{}", fmt::join(numbers, ", "))});
     const double main = main_reynolds_number(tables, case_records(tables));
     for (const char* fluid : {"water", "air"}) {
-        rows.push_back({fmt::format("at {:.4g}, broadside", main), density_in(body, fluid, main)});
+        rows.push_back({fmt::format("at {:.6g}, broadside", main), density_in(body, fluid, main)});
     }
     return {"The body", html_table({}, rows)};
 }
@@ -107,7 +102,7 @@ ReportPart part_of_turning(const Body& body) {
     if (!body.dynamic) {
         return {"The turning body", html_paragraph("The file holds no coefficients of a turning body, for no "
                                                    "falls were solved. It flies with those that "
-                                                   "bodies have in common (docs/falls.md). --quality "
+                                                   "bodies have in common (docs/falls.md). Quality "
                                                    "standard solves falls and identifies its own.")};
     }
     const auto& [values, errors] = *body.dynamic;

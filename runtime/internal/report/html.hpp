@@ -18,7 +18,7 @@ std::string html_table(const std::vector<std::string>& headings,
 /// A paragraph of plain text.
 std::string html_paragraph(const std::string& text);
 
-/// What is folded until it is asked for; printed unfolded.
+/// What is folded until it is asked for.
 std::string html_details(const std::string& summary, const std::string& html);
 
 /// A picture within the page, with what it shows in words. `draw` draws it into the .svg file it is given.

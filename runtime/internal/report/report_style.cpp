@@ -62,7 +62,8 @@ footer { margin-top: 3.5rem; color: var(--soft); font-size: 0.9rem; }
     figure { break-inside: avoid; }
     figure img { filter: none; }
     body { max-width: none; padding: 0; font-size: 10.5pt; }
-    nav, summary { display: none; }
+    nav { display: none; }
+    details::details-content { content-visibility: visible; }
     h2, h3 { break-after: avoid; }
     .verdict { border: 1px solid var(--line); border-left: 0.5rem solid; }
 }
