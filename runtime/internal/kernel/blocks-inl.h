@@ -143,6 +143,7 @@ HWY_INLINE void meet_turbulence(const FlightConstants<Real>& c, V h, const Draw&
     }
 }
 
+/// Fluid at rest.
 template <class V>
 HWY_INLINE Stream<V> no_stream() {
     const Triple<V> none = broadcast<V>(Triple<double>{0.0, 0.0, 0.0});

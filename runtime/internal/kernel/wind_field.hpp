@@ -14,7 +14,7 @@ struct GustWave {
     double phase;                ///< turns
 };
 
-/// A vortex as the formulas need it: velocity rate f(s) (axis x d), with the way d from the axis, s = |d|^2.
+/// A vortex as the formulas need it: u = g(|d|^2) axis x d, with the way d from its axis.
 struct VortexConstants {
     bool rankine;
     Triple<double> position, axis, velocity;
