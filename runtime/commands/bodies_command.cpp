@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "commands/body_report.hpp"
 #include "commands/commands.hpp"
 #include "internal/base/content_hash.hpp"
 #include "internal/base/vector_json.hpp"
