@@ -66,6 +66,12 @@ ReportPart part_of_body(const Body& body) {
                          in_words(Vector3d(1e3 * added.diagonal().tail<3>()), " g in a fluid of 1 kg/m³"),
                          100.0 * body.kirchhoff->error_estimate, body.kirchhoff->method)});
     }
+    if (body.mass) {
+        const MassProperties mass = mass_properties(body, *body.mass);
+        rows.push_back(
+            {"mass, where none is said", fmt::format("{:.4g} g, {:.4g} kg/m³ on average", 1e3 * mass.mass,
+                                                     mass.mass / body.moments.volume)});
+    }
     std::vector<std::string> numbers;
     for (const double number : tables.reynolds_numbers) numbers.push_back(fmt::format("{:.4g}", number));
     rows.push_back({"Reynolds numbers U L/ν", fmt::format("{}", fmt::join(numbers, ", "))});
