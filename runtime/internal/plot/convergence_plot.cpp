@@ -149,9 +149,7 @@ PanelText error_panel(const LoadTables& tables, const Box& box) {
     for (std::size_t i = 0; i < std::size(quantities); ++i) {
         names += fmt::format("{}'{}' {}", i == 0 ? "" : ", ", quantities[i].name, i);
     }
-    const double most = *std::ranges::max_element(values);
-    text.plots =
-        begin_panel(box, {{-0.6, 3.6}, "", 1.0}, {{0.0, most > 0.0 ? 1.08 * most : 1.0}, title, 0.0});
+    text.plots = begin_panel(box, {{-0.6, 3.6}, "", 1.0}, {airy_range(values), title, 0.0});
     text.plots += fmt::format("set format x '%s'; set xtics ({})\n", names) + sources + plot + '\n' +
                   end_panel() + linear_axis;
     return text;

@@ -120,7 +120,7 @@ PanelText quantity_panel(const Polars& polars, std::size_t quantity) {
     const auto add = [&](const std::string& curve) { plot += (plot.empty() ? "plot " : ", ") + curve; };
     for (std::size_t arc = 0; arc < polars.arcs.size(); ++arc) {
         const unsigned color = body_colors[arc];
-        add(fmt::format("{} using 1:2:3 with yerrorbars pt 0 lw 1.5 lc rgb '#{:06x}' notitle",
+        add(fmt::format("{} using 1:2:3 with yerrorbars pt 7 ps 0.01 lw 1.5 lc rgb '#{:06x}' notitle",
                         block_name("bars", quantity, arc), color));
         add(fmt::format("{} using 1:2 with lines lw 3 lc rgb '#{:06x}' notitle",
                         block_name("curve", quantity, arc), color));
