@@ -28,11 +28,12 @@ constexpr const char* helper_file = "case_files.py";
 
 // What stands in the folder for who opens or copies its cases.
 constexpr const char* folder_notes =
-    "OpenFOAM cases and their meshes, by samara (docs/bake.md, docs/file-formats.md). ParaView opens the "
-    "file NAME.foam in\n"
-    "each. The folder may be moved and copied as a whole: no link leads out of it. A case's mesh is a link "
-    "to the mesh's own\n"
-    "folder beside it; to copy one case alone take 'cp -rL CASE ELSEWHERE', which copies the mesh too.\n";
+    "OpenFOAM cases and their meshes, by samara (docs/bake.md, docs/file-formats.md). ParaView opens each by "
+    "its file\n"
+    "case.foam. The folder may be moved and copied as a whole: no link leads out of it. A case's mesh is a "
+    "link to the\n"
+    "mesh's own folder beside it; to copy one case alone take 'cp -rL CASE ELSEWHERE', which copies the mesh "
+    "too.\n";
 
 // What a fall's case has from the flow's: the fluid and its turbulence.
 constexpr const char* shared_files[] = {"0.orig/k",
@@ -131,7 +132,7 @@ void link_to_mesh(const fs::path& folder, const std::string& mesh, const char* n
 
 // The empty file by which ParaView opens a case or a mesh.
 void write_foam_file(const fs::path& folder) {
-    const fs::path file = folder / (folder.filename().string() + ".foam");
+    const fs::path file = folder / "case.foam";
     if (!fs::exists(file)) replace_file_with(file, "");
 }
 

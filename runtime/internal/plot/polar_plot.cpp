@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include <fmt/format.h>
@@ -22,15 +23,16 @@ constexpr int bars_of_curve = 9;
 struct Quantity {
     const char* title;
     double ArcValues::*member;
+    double least;                                         // that the axis reaches: below, it is noise
     std::optional<double> (*of_case)(const CaseRecord&);  // null: cases do not say
 };
 
 constexpr Quantity quantities[] = {
-    {"Drag coefficient", &ArcValues::drag,
+    {"Drag coefficient", &ArcValues::drag, 0.01,
      [](const CaseRecord& record) { return std::optional(record.drag); }},
-    {"Lift coefficient, towards growing angles", &ArcValues::lift, nullptr},
-    {"Moment coefficient, about the plane's normal", &ArcValues::moment, nullptr},
-    {"Turbulent kinetic energy k/U²", &ArcValues::k, [](const CaseRecord& record) { return record.k; }},
+    {"Lift coefficient, towards growing angles", &ArcValues::lift, 0.01, nullptr},
+    {"Moment coefficient, about the plane's normal", &ArcValues::moment, 0.01, nullptr},
+    {"Turbulent kinetic energy k/U²", &ArcValues::k, 1e-4, [](const CaseRecord& record) { return record.k; }},
 };
 
 struct Polars {
@@ -65,7 +67,7 @@ std::string block_name(const char* kind, std::size_t quantity, std::size_t arc) 
 /// All values that have to fit into the panel are added to `shown`.
 std::string curve_data(const Polars& polars, std::size_t quantity, std::size_t number,
                        std::vector<double>& shown) {
-    const auto& [title, member, of_case] = quantities[quantity];
+    const auto& [title, member, least, of_case] = quantities[quantity];
     const BodyArc& arc = polars.arcs[number];
     const LoadTables& tables = *polars.body.tables;
     std::string data = block_name("curve", quantity, number) + " << EOD\n";
@@ -107,7 +109,7 @@ bool has_cases(const Polars& polars, std::size_t quantity, std::size_t arc) {
 
 PanelText quantity_panel(const Polars& polars, std::size_t quantity) {
     PanelText text;
-    std::vector<double> shown = {0.0};
+    std::vector<double> shown = {0.0, quantities[quantity].least};
     for (std::size_t arc = 0; arc < polars.arcs.size(); ++arc) {
         text.data += curve_data(polars, quantity, arc, shown);
     }

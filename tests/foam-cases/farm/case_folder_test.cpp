@@ -96,7 +96,7 @@ TEST_F(CaseFolder, CanBeOpenedByParaviewAndCopiedWithoutLinksThatLeadOutOfIt) {
         EXPECT_FALSE(within.starts_with("..")) << entry.path();
     }
     EXPECT_EQ(opened, plan_.cases.size() + plan_.all_meshes().size());
-    EXPECT_TRUE(std::filesystem::exists(folder_ / plan_.cases[0].name / (plan_.cases[0].name + ".foam")));
+    EXPECT_TRUE(std::filesystem::exists(folder_ / plan_.cases[0].name / "case.foam"));
     EXPECT_THAT(read_bytes(folder_ / "README"), testing::HasSubstr("cp -rL"));
 }
 
