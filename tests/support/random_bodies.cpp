@@ -117,9 +117,7 @@ ImmersedBody RandomBodies::body() {
     const Matrix3d inertia = mass * size * size * turned * principal.asDiagonal() * turned.transpose();
     given.mass = {.density = {},
                   .mass = mass,
-                  .center_of_mass = Vector3d((magnitude(1e-3, 2.0) * size * vector())
-                                                 .cwiseMax(Vector3d::Constant(-0.99 * size))
-                                                 .cwiseMin(Vector3d::Constant(0.99 * size))),
+                  .center_of_mass = Vector3d(magnitude(1e-3, 2.0) * size * vector()),
                   .inertia = Matrix3d(0.5 * (inertia + inertia.transpose()))};
     const double kind = uniform(0.0, 1.0);
     if (kind < 0.1) given.loads = Loads::none;

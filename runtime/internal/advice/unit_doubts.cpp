@@ -76,7 +76,8 @@ std::string unit_doubts(const Body& body, const MassSpecification& asked, const 
                         ScaleRemedy remedy) {
     const double volume = body.moments.volume;
     const MassSpecification mass = mass_asked_or_own(asked, body);
-    const double density = mass.density ? *mass.density : mass.mass.value_or(0.0) / volume;
+    if (!mass.is_given()) return {};
+    const double density = mass_properties(body, mass).mass / volume;
     const double reynolds_number = terminal_speed(body, fluid, density * volume, gravity) *
                                    reference_length(body.moments.surface_area) / fluid.kinematic_viscosity();
     std::vector<std::string> doubts;

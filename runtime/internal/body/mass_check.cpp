@@ -18,7 +18,6 @@ std::string fault_of_number(const std::optional<double>& value, const char* name
 }
 
 std::string fault_of_center(const Vector3d& center, const Surface& surface) {
-    if (!center.allFinite()) return "center_of_mass must be of finite numbers";
     Eigen::AlignedBox3d box;
     for (const Vector3d& vertex : surface.vertices) box.extend(vertex);
     const Vector3d slack = Vector3d::Constant(rounding * box.diagonal().norm());
@@ -46,12 +45,20 @@ std::string fault_of_inertia(const Matrix3d& inertia) {
 
 }  // namespace
 
-std::string fault_of(const MassSpecification& mass, const Surface& surface) {
+std::string fault_of(const MassSpecification& mass) {
     if (!mass.is_given()) return "density or mass must be given";
     std::string fault = fault_of_number(mass.density, "density");
     if (fault.empty()) fault = fault_of_number(mass.mass, "mass");
-    if (fault.empty() && mass.center_of_mass) fault = fault_of_center(*mass.center_of_mass, surface);
+    if (fault.empty() && mass.center_of_mass && !mass.center_of_mass->allFinite()) {
+        fault = "center_of_mass must be of finite numbers";
+    }
     if (fault.empty() && mass.inertia) fault = fault_of_inertia(*mass.inertia);
+    return fault;
+}
+
+std::string fault_of(const MassSpecification& mass, const Surface& surface) {
+    std::string fault = fault_of(mass);
+    if (fault.empty() && mass.center_of_mass) fault = fault_of_center(*mass.center_of_mass, surface);
     return fault;
 }
 

@@ -6,9 +6,12 @@
 
 namespace samara {
 
-/// What is wrong with a mass that is given to a body, in words that follow "body 'seed': ", with what it must
-/// be; empty where nothing is. A centre of mass lies within the box around the surface; principal moments of
-/// inertia are positive, each at most the sum of the others.
+/// What is wrong with a mass, in words that follow "body 'seed': ", with what it must be; empty where nothing
+/// is. Principal moments of inertia are positive, each at most the sum of the others.
+std::string fault_of(const MassSpecification& mass);
+
+/// The same of what a body is said to weigh by itself: its centre of mass lies within the box around its
+/// surface. A scene may hang a weight outside of it.
 std::string fault_of(const MassSpecification& mass, const Surface& surface);
 
 }  // namespace samara

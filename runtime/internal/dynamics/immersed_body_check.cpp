@@ -111,7 +111,7 @@ void require_sound(const Body& body, const BodyPhysics& physics, const Fluid& fl
             "body '{}': density is missing, and its body file says no mass either; give density or mass",
             name));
     }
-    if (const std::string fault = fault_of(mass, body.surface); !fault.empty()) {
+    if (const std::string fault = fault_of(mass); !fault.empty()) {
         throw Error(fmt::format("body '{}': {}", name, fault));
     }
     if (body.kirchhoff && physics.added_mass) checks.finite(body.kirchhoff->matrix, "kirchhoff.matrix");
