@@ -152,8 +152,8 @@ typedef struct samara_kind {
     const char* name; /* keys the noise: letters, digits, - and _; default (null): the body file's name */
     uint32_t count;   /* how many, which do not feel each other; default: 1 */
 
-    double density;             /* kg/m^3, uniform. This, or mass, or neither where the body file has one; 0: not given */
-    double mass;                /* kg */
+    double density;             /* kg/m^3, uniform; 0: not given */
+    double mass;                /* kg, in place of a density. Neither: what the body file says */
     int32_t has_center_of_mass; /* whether the next member counts */
     double center_of_mass[3];   /* m, shape axes, with `mass`; else the centroid of the volume */
     double inertia[9]; /* kg m^2 about the centre of mass, shape axes, with `mass`; all 0: as if uniform */
