@@ -132,6 +132,11 @@ std::vector<Value> read_list(FoamScanner& scanner, const FoamHeader& header) {
     }
     const auto count = static_cast<std::size_t>(stated);
     if (scanner.accept('{')) {
+        // No byte of the file vouches for the count: a few would ask for all memory.
+        constexpr std::size_t most = 32'000'000;
+        if (count > most) {
+            throw scanner.fault(fmt::format("a list in braces may have {} values, not {}", most, count));
+        }
         const Value value = read_value<Value>(scanner);
         scanner.expect('}');
         return std::vector<Value>(count, value);

@@ -231,6 +231,8 @@ TEST_F(FoamFile, FaultsNameFileAndLine) {
     EXPECT_THAT(fault_in("internalField nonuniform List<scalar> 2\n(\n1\n"),
                 HasSubstr("expected a number, found the end of the file"));
     EXPECT_THAT(fault_in("internalField nonuniform List<scalar> -2();"), HasSubstr("cannot have -2 values"));
+    EXPECT_THAT(fault_in("internalField nonuniform List<scalar> 900000000{1};"),
+                HasSubstr("may have 32000000 values, not 900000000"));
     EXPECT_THAT(fault_in("internalField sometimes 3;"), HasSubstr("found 'sometimes'"));
     EXPECT_THAT(fault_in("internalField uniform 3"), HasSubstr("expected ';', found the end of the file"));
     EXPECT_THAT(fault_in("boundaryField { far { type patch; } }"), HasSubstr("has no internalField"));
