@@ -4,11 +4,8 @@
 #include <array>
 #include <atomic>
 #include <csignal>
-#include <map>
 #include <optional>
 #include <string>
-#include <tuple>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -18,25 +15,19 @@
 #include "commands/table_errors_report.hpp"
 #include "internal/advice/model_advice.hpp"
 #include "internal/advice/unit_doubts.hpp"
-#include "internal/base/content_hash.hpp"
-#include "internal/base/labelled.hpp"
 #include "internal/base/vector_json.hpp"
 #include "internal/command/arguments.hpp"
 #include "internal/command/body_notes.hpp"
-#include "internal/command/load_body.hpp"
 #include "internal/command/motion_output.hpp"
 #include "internal/command/print.hpp"
 #include "internal/command/progress.hpp"
-#include "internal/dynamics/immersed_body.hpp"
-#include "internal/files/input_file.hpp"
+#include "internal/command/scene_bodies.hpp"
 #include "internal/flight/run_needs.hpp"
 #include "internal/kernel/body_state.hpp"
 #include "internal/motion/description.hpp"
 #include "internal/motion/motion_writer.hpp"
 #include "samara/base/error.hpp"
-#include "samara/body/body_file.hpp"
 #include "samara/flight/simulation.hpp"
-#include "samara/kirchhoff/kirchhoff_solver.hpp"
 #include "samara/motion/motion_file.hpp"
 #include "samara/scene/scene_file.hpp"
 
@@ -85,17 +76,6 @@ class NotedInterrupts {
     std::array<struct sigaction, signals.size()> before_ = {};
 };
 
-/// The file a body of the scene flies with: the baked one where a folder of them is given.
-std::filesystem::path file_of(const SceneBody& scene_body, const std::string& bodies) {
-    if (bodies.empty()) return scene_body.shape;
-    const auto baked = std::filesystem::path(bodies) / (scene_body.name + ".body.h5");
-    if (const std::string fault = reading_fault(baked); !fault.empty()) {
-        throw Error(
-            fmt::format("{}: {}; bake it with 'samara bake SCENE -o {}'", baked.string(), fault, bodies));
-    }
-    return baked;
-}
-
 void note(const std::string& text) {
     print_note("{}: note: {}\n", program, text);
 }
@@ -118,43 +98,6 @@ void note_doubtful_bodies(const Scene& scene, const std::vector<LoadedBody>& loa
     }
     notes.print();
 }
-
-/// Refuses a body that was baked before its shape was changed.
-void require_same_shape(const std::filesystem::path& file, const Body& body, const SceneBody& scene_body) {
-    if (is_body_file_name(scene_body.shape)) return;
-    if (body.source.find(file_content_hash(scene_body.shape)) != std::string::npos) return;
-    throw Error(fmt::format("{}: was made from another shape than {} is now; bake the scene again",
-                            file.string(), scene_body.shape.string()));
-}
-
-/// The bodies of a scene: what several have in common is read, meshed and solved once.
-class LoadedBodies {
-  public:
-    explicit LoadedBodies(std::string folder) : folder_(std::move(folder)) {}
-
-    LoadedBody operator()(const SceneBody& scene_body) {
-        const std::filesystem::path file = file_of(scene_body, folder_);
-        // A baked body is in metres already: the scene's scale went into it.
-        const double scale = folder_.empty() ? scene_body.scale : 1.0;
-        const auto [place, is_new] = known_.try_emplace({file, scale, scene_body.added_mass});
-        if (is_new) place->second = load(file, scale, scene_body.added_mass);
-        if (!folder_.empty()) require_same_shape(file, *place->second->body, scene_body);
-        return *place->second;
-    }
-
-  private:
-    static LoadedBody load(const std::filesystem::path& file, double scale, bool added_mass) {
-        Body body = load_body(file, scale);
-        if (added_mass && !body.kirchhoff) {
-            body.kirchhoff =
-                labelled(file.string(), [&] { return kirchhoff_tensor(body.surface, body.moments); });
-        }
-        return {std::move(body), file_content_hash(file)};
-    }
-
-    std::string folder_;
-    std::map<std::tuple<std::filesystem::path, double, bool>, std::optional<LoadedBody>> known_;
-};
 
 /// Says where coefficients were held at an end of their tables.
 void note_reynolds_numbers(BodyNotes& notes, const SceneBody& scene_body, const Body& body,
@@ -187,24 +130,11 @@ void warn_of_substeps(const SimulationReport& report) {
                     report.steps_at_limit, report.steps, most_substeps));
 }
 
-/// Chooses the models of the bodies that leave them to the advice, and says which; nothing where none does.
-std::optional<ModelAdvice> choose_models(Scene& scene, const std::vector<LoadedBody>& loaded, int threads) {
-    bool any = false;
-    for (std::size_t i = 0; i < loaded.size(); ++i) {
-        if (!scene.bodies[i].models_auto) continue;
-        (void)make_immersed_body(*loaded[i].body, scene.bodies[i], scene.fluid,
-                                 scene.bodies[i].name);  // throws where tables lack
-        any = true;
-    }
-    if (!any) return std::nullopt;
-    AdviceOptions options;
-    options.auto_alone = true;
-    options.sampling.threads = threads;
+std::optional<ModelAdvice> choose_with_progress(Scene& scene, const std::vector<LoadedBody>& loaded,
+                                                int threads) {
     Progress progress("judging models", "flights");
-    ModelAdvice advice = advise_models(scene, loaded, options,
-                                       [&](double done, double total) { progress.update(done, total); });
-    apply(advice, scene);
-    return advice;
+    return choose_models(scene, loaded, threads,
+                         [&](double done, double total) { progress.update(done, total); });
 }
 
 /// Says what a large run will take, and refuses one that the machine has not the room for.
@@ -262,11 +192,8 @@ nlohmann::json run(const Request& request, const Arguments& arguments) {
 
     const RunNeeds needs = judged_needs(scene, request);
 
-    std::vector<LoadedBody> loaded;
-    LoadedBodies load(request.bodies);
-    for (const SceneBody& body : scene.bodies) loaded.push_back(load(body));
-
-    const std::optional<ModelAdvice> advice = choose_models(scene, loaded, request.threads);
+    const std::vector<LoadedBody> loaded = load_scene_bodies(scene, request.bodies);
+    const std::optional<ModelAdvice> advice = choose_with_progress(scene, loaded, request.threads);
     if (advice && !arguments.json()) print_result("models = \"auto\" chose:\n{}", as_text(*advice));
 
     note_doubtful_bodies(scene, loaded);

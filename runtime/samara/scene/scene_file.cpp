@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -257,17 +258,21 @@ void read_settings(TomlTable& table, Scene& scene) {
 }  // namespace
 
 Scene read_scene_file(const std::filesystem::path& file) {
+    return read_scene_text(read_at_most(file, most_bytes_of_a_scene), file.string(),
+                           file.has_parent_path() ? file.parent_path() : ".");
+}
+
+Scene read_scene_text(std::string text, const std::string& name, const std::filesystem::path& folder) {
     Scene scene;
-    scene.file = file;
-    scene.text = read_at_most(file, most_bytes_of_a_scene);
-    const toml::table document = parse_toml(scene.text, file.string());
-    TomlTable top(document, file.string(), "the scene");
+    scene.file = name;
+    scene.text = std::move(text);
+    const toml::table document = parse_toml(scene.text, name);
+    TomlTable top(document, name, "the scene");
     auto settings = top.table("scene");
     if (!settings) throw top.fault("[scene]", "is missing; it holds at least the duration");
     read_settings(*settings, scene);
     if (auto fluid = top.table("fluid")) scene.fluid = read_fluid(*fluid);
     if (auto wind = top.table("wind")) scene.wind = read_wind(*wind, scene.ground.value_or(0.0));
-    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
     std::set<std::string> names;
     for (TomlTable& table : top.tables("body")) {
         scene.bodies.push_back(read_body(table, folder));
@@ -278,14 +283,13 @@ Scene read_scene_file(const std::filesystem::path& file) {
     std::set<std::string> obstacle_names;
     for (TomlTable& table : top.tables("obstacle")) {
         scene.obstacles.push_back(read_obstacle(table, folder));
-        const std::string& name = scene.obstacles.back().name;
-        if (obstacle_names.insert(name).second) continue;
+        const std::string& obstacle = scene.obstacles.back().name;
+        if (obstacle_names.insert(obstacle).second) continue;
         throw table.fault("name",
-                          fmt::format("'{}' is taken by another obstacle; give this one another", name));
+                          fmt::format("'{}' is taken by another obstacle; give this one another", obstacle));
     }
     top.finish();
-    if (scene.bodies.empty())
-        throw Error(fmt::format("{}: there is no [[body]] in the scene", file.string()));
+    if (scene.bodies.empty()) throw Error(fmt::format("{}: there is no [[body]] in the scene", name));
     return scene;
 }
 

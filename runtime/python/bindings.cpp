@@ -1,0 +1,112 @@
+#include "bindings.hpp"
+
+#include <cstddef>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "samara/base/error.hpp"
+
+namespace samara::python {
+namespace {
+
+constexpr auto between_calls = std::chrono::milliseconds(100);
+
+std::atomic<bool> exiting = false;
+std::atomic<int> at_work = 0;
+
+/// Where a member lies in a pose, in bytes, and how many numbers it has.
+std::pair<std::size_t, py::ssize_t> place_of(PoseMember member) {
+    switch (member) {
+        case PoseMember::position:
+            return {offsetof(Pose, position), 3};
+        case PoseMember::orientation:
+            return {offsetof(Pose, orientation), 4};
+        case PoseMember::velocity:
+            return {offsetof(Pose, velocity), 3};
+        case PoseMember::angular_velocity:
+            return {offsetof(Pose, angular_velocity), 3};
+    }
+    return {};
+}
+
+}  // namespace
+
+py::array pose_view(const Pose* poses, std::vector<py::ssize_t> leading, PoseMember member,
+                    const py::handle& owner) {
+    static_assert(sizeof(Quaterniond) == 4 * sizeof(double) && sizeof(Vector3d) == 3 * sizeof(double));
+    const auto [offset, numbers] = place_of(member);
+    std::vector<py::ssize_t> strides(leading.size() + 1, sizeof(double));
+    py::ssize_t stride = sizeof(Pose);
+    for (std::size_t i = leading.size(); i-- > 0; stride *= leading[i]) strides[i] = stride;
+    leading.push_back(numbers);
+    const auto* first = reinterpret_cast<const double*>(reinterpret_cast<const std::byte*>(poses) + offset);
+    py::array array(py::dtype::of<double>(), std::move(leading), std::move(strides), first, owner);
+    array.attr("setflags")(py::arg("write") = false);
+    return array;
+}
+
+py::object as_python(const nlohmann::json& value) {
+    switch (value.type()) {
+        case nlohmann::json::value_t::object: {
+            py::dict dict;
+            for (const auto& [key, member] : value.items()) dict[py::str(key)] = as_python(member);
+            return dict;
+        }
+        case nlohmann::json::value_t::array: {
+            py::list list;
+            for (const auto& member : value) list.append(as_python(member));
+            return list;
+        }
+        case nlohmann::json::value_t::string:
+            return py::str(value.get_ref<const std::string&>());
+        case nlohmann::json::value_t::boolean:
+            return py::bool_(value.get<bool>());
+        case nlohmann::json::value_t::number_integer:
+            return py::int_(value.get<std::int64_t>());
+        case nlohmann::json::value_t::number_unsigned:
+            return py::int_(value.get<std::uint64_t>());
+        case nlohmann::json::value_t::number_float:
+            return py::float_(value.get<double>());
+        default:
+            return py::none();
+    }
+}
+
+std::mutex& hdf5_mutex() {
+    static std::mutex mutex;
+    return mutex;
+}
+
+LongWork::Counted::Counted() {
+    ++at_work;
+}
+
+LongWork::Counted::~Counted() {
+    --at_work;
+    at_work.notify_all();
+}
+
+bool LongWork::tell(double done, double total) {
+    if (raised_) return false;
+    const Clock::time_point now = Clock::now();
+    if (!exiting && now - last_ < between_calls && done < total) return true;
+    last_ = now;
+    const py::gil_scoped_acquire interpreter;
+    try {
+        if (exiting) throw Error("the interpreter exits: the flight was ended");
+        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+        if (!progress_.is_none()) progress_(done, total);
+    } catch (...) {
+        raised_ = std::current_exception();
+    }
+    return !raised_;
+}
+
+void LongWork::end_all() {
+    exiting = true;
+    const py::gil_scoped_release others_end;
+    for (int count = at_work; count > 0; count = at_work) at_work.wait(count);
+}
+
+}  // namespace samara::python

@@ -1,0 +1,117 @@
+#pragma once
+
+// What the parts of the Python module `samara` share: one file a part, each with its bind_ function.
+
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include "samara/flight/simulation.hpp"
+#include "samara/motion/motion.hpp"
+#include "samara/scene/scene.hpp"
+
+namespace samara::python {
+
+namespace py = pybind11;
+
+/// A body of a motion, which it keeps alive.
+struct BodyOfMotion {
+    std::shared_ptr<const Motion> motion;
+    std::size_t index = 0;
+
+    [[nodiscard]] const BodyMotion& body() const { return motion->bodies[index]; }
+};
+
+/// A motion, and what was counted on the way where it was flown here.
+struct FlownMotion {
+    std::shared_ptr<const Motion> motion;
+    std::shared_ptr<const SimulationReport> report;  ///< null where the motion was read
+};
+
+/// What of a pose is an array of its own.
+enum class PoseMember { position, orientation, velocity, angular_velocity };
+
+/// Poses in row-major order as a numpy array that shows them in place and cannot be written to: shape
+/// (leading..., 3), of orientations (leading..., 4) as x, y, z, w. `owner` keeps them alive.
+py::array pose_view(const Pose* poses, std::vector<py::ssize_t> leading, PoseMember member,
+                    const py::handle& owner);
+
+/// The same for any numbers, in row-major order.
+template <typename Number>
+py::array view(const Number* numbers, const std::vector<py::ssize_t>& shape, const py::handle& owner) {
+    py::array array(py::dtype::of<Number>(), shape, numbers, owner);
+    array.attr("setflags")(py::arg("write") = false);
+    return array;
+}
+
+/// A JSON value as Python's own: dict, list, float, int, str, bool, None.
+py::object as_python(const nlohmann::json& value);
+
+/// Holds libhdf5, which is not made for several threads, while a file is read or written without the
+/// interpreter.
+std::mutex& hdf5_mutex();
+
+/// Runs a long piece of work without the interpreter's lock, so that other threads of Python go on, and calls
+/// back for progress and interrupts. An exception that Python raises on the way, Ctrl-C among them, ends the
+/// work at its next call of tell() and is what the caller sees.
+class LongWork {
+  public:
+    /// `progress`: None, or what is called with (done, total), ten times a second at most.
+    explicit LongWork(py::object progress) : progress_(std::move(progress)) {}
+
+    /// To be called now and then; false: the work is to end.
+    bool tell(double done, double total);
+
+    /// Does the work, whose own exception where it was ended from here is not seen.
+    template <typename Work>
+    auto operator()(const Work& work) {
+        const Counted counted;
+        std::optional<decltype(work())> result;
+        try {
+            const py::gil_scoped_release others_go_on;
+            result = work();
+        } catch (...) {
+            if (!raised_) throw;
+        }
+        if (raised_) std::rethrow_exception(raised_);
+        return std::move(*result);
+    }
+
+    /// Ends all work in progress and waits for it: called as the interpreter exits, since threads without
+    /// its lock cannot take it afterwards.
+    static void end_all();
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    /// While it lives, end_all() waits.
+    struct Counted {
+        Counted();
+        ~Counted();
+        Counted(const Counted&) = delete;
+        Counted& operator=(const Counted&) = delete;
+    };
+
+    py::object progress_;
+    std::exception_ptr raised_;
+    Clock::time_point last_ = Clock::now();
+};
+
+/// Scenes: samara.Scene.
+void bind_scene(py::module_& module);
+/// Motions: samara.Motion, BodyMotion, simulate, read_motion, compare.
+void bind_motion(py::module_& module);
+/// Live flights: samara.Flight.
+void bind_flight(py::module_& module);
+/// Body files: samara.Body.
+void bind_body(py::module_& module);
+
+}  // namespace samara::python

@@ -1,0 +1,164 @@
+// samara.Body: what a body file holds.
+
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "bindings.hpp"
+#include "samara/base/error.hpp"
+#include "samara/body/body_file.hpp"
+
+namespace samara::python {
+namespace {
+
+using SharedBody = std::shared_ptr<Body>;
+
+SharedBody read(const std::filesystem::path& file) {
+    const py::gil_scoped_release others_go_on;
+    const std::lock_guard lock(hdf5_mutex());
+    return std::make_shared<Body>(read_body_file(file));
+}
+
+py::ssize_t length(std::size_t size) {
+    return static_cast<py::ssize_t>(size);
+}
+
+/// One member of all entries of the tables, shape (Reynolds numbers, rows, columns[, 3]).
+template <typename Member>
+py::object entries_view(const py::object& self, Member member,
+                        const std::vector<LoadEntry> LoadTables::*entries) {
+    const auto& body = self.cast<const Body&>();
+    if (!body.tables || ((*body.tables).*entries).empty()) return py::none();
+    const LoadTables& tables = *body.tables;
+    const LoadEntry& first = (tables.*entries).front();
+    const auto size = static_cast<py::ssize_t>(tables.map_size());
+    std::vector<py::ssize_t> shape = {length(tables.reynolds_numbers.size()), size, size};
+    constexpr py::ssize_t entry = sizeof(LoadEntry);
+    std::vector<py::ssize_t> strides = {size * size * entry, size * entry, entry};
+    const double* numbers = nullptr;
+    if constexpr (std::is_same_v<Member, double LoadEntry::*>) {
+        numbers = &(first.*member);
+    } else {
+        numbers = (first.*member).data();
+        shape.push_back(3);
+        strides.push_back(sizeof(double));
+    }
+    py::array array(py::dtype::of<double>(), shape, strides, numbers, self);
+    array.attr("setflags")(py::arg("write") = false);
+    return array;
+}
+
+}  // namespace
+
+void bind_body(py::module_& module) {
+    py::class_<Body, SharedBody>(module, "Body",
+                                 "What a body file holds. Arrays are views that cannot be written to.")
+        .def_static("read", &read, py::arg("file"), "Reads a body file (.body.h5).")
+        .def_readonly("name", &Body::name, "Of the file it came from, or of the scene.")
+        .def_readonly("source", &Body::source, "How the surface was made, one line.")
+        .def_property_readonly(
+            "vertices",
+            [](const py::object& self) {
+                const auto& surface = self.cast<const Body&>().surface;
+                return view(surface.vertices.data()->data(), {length(surface.vertices.size()), 3}, self);
+            },
+            "m, shape axes, shape (n, 3).")
+        .def_property_readonly(
+            "triangles",
+            [](const py::object& self) {
+                const auto& surface = self.cast<const Body&>().surface;
+                return view(surface.corners.data()->data(), {length(surface.corners.size()), 3}, self);
+            },
+            "Numbers of vertices, anticlockwise from outside, shape (m, 3).")
+        .def_property_readonly(
+            "volume", [](const Body& body) { return body.moments.volume; }, "m^3")
+        .def_property_readonly(
+            "surface_area", [](const Body& body) { return body.moments.surface_area; }, "m^2")
+        .def_property_readonly(
+            "centroid", [](const Body& body) { return body.moments.centroid; }, "m, shape axes, shape (3,).")
+        .def_property_readonly(
+            "mass",
+            [](const Body& body) -> std::optional<double> {
+                if (!body.mass) return {};
+                return mass_properties(body, *body.mass).mass;
+            },
+            "kg, where the body says what it weighs, or None.")
+        .def_property_readonly(
+            "kirchhoff_tensor",
+            [](const Body& body) -> std::optional<Matrix6d> {
+                if (!body.kirchhoff) return {};
+                return body.kirchhoff->matrix;
+            },
+            "The added mass for a fluid of 1 kg/m^3, shape (6, 6): order omega, v; about the centroid; shape "
+            "axes. Or None.")
+        .def_property_readonly(
+            "kirchhoff_error",
+            [](const Body& body) -> std::optional<double> {
+                if (!body.kirchhoff) return {};
+                return body.kirchhoff->error_estimate;
+            },
+            "The tensor's relative error as estimated, or None.")
+        .def_property_readonly(
+            "quality", [](const Body& body) { return body.tables ? body.tables->quality : std::string(); },
+            "Of the bake: preview, standard, high; empty without tables.")
+        .def_property_readonly(
+            "reynolds_numbers",
+            [](const py::object& self) -> py::object {
+                const auto& tables = self.cast<const Body&>().tables;
+                if (!tables) return py::none();
+                return view(tables->reynolds_numbers.data(), {length(tables->reynolds_numbers.size())}, self);
+            },
+            "Of the tables, ascending, shape (r,), or None.")
+        .def_property_readonly(
+            "force_table",
+            [](const py::object& self) {
+                return entries_view(self, &LoadEntry::force, &LoadTables::entries);
+            },
+            "F / (rho U^2 A / 2) over the octahedral map, body axes, shape (r, n, n, 3), or None.")
+        .def_property_readonly(
+            "moment_table",
+            [](const py::object& self) {
+                return entries_view(self, &LoadEntry::moment, &LoadTables::entries);
+            },
+            "M / (rho U^2 A L / 2), as force_table.")
+        .def_property_readonly(
+            "force_error_table",
+            [](const py::object& self) { return entries_view(self, &LoadEntry::force, &LoadTables::errors); },
+            "Standard errors of force_table, or None.")
+        .def_property_readonly(
+            "turbulent_kinetic_energy_table",
+            [](const py::object& self) {
+                return entries_view(self, &LoadEntry::turbulent_kinetic_energy, &LoadTables::entries);
+            },
+            "k / U^2 over the octahedral map, shape (r, n, n), or None.")
+        .def_property_readonly(
+            "dissipation_rate_table",
+            [](const py::object& self) {
+                return entries_view(self, &LoadEntry::dissipation_rate, &LoadTables::entries);
+            },
+            "epsilon L / U^3, as turbulent_kinetic_energy_table.")
+        .def(
+            "loads",
+            [](const Body& body, const Vector3d& direction, double reynolds_number) {
+                if (!body.tables)
+                    throw Error(fmt::format("{}: has no tables; make them with 'samara bake'", body.name));
+                if (!(direction.norm() > 0.0) || !direction.allFinite()) {
+                    throw Error("direction: give three finite numbers, not all zero");
+                }
+                if (!(reynolds_number > 0.0)) throw Error("reynolds_number: give a number above 0");
+                const LoadEntry entry = look_up(*body.tables, direction.normalized(), reynolds_number);
+                return std::make_pair(entry.force, entry.moment);
+            },
+            py::arg("direction"), py::arg("reynolds_number"),
+            "The tables' force and moment coefficients where the body moves in a direction (shape axes) "
+            "relative to the fluid.")
+        .def("__repr__", [](const Body& body) {
+            return fmt::format("<samara.Body {}: {} triangles{}>", body.name, body.surface.triangle_count(),
+                               body.tables ? ", tables of quality " + body.tables->quality : "");
+        });
+}
+
+}  // namespace samara::python

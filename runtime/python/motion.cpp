@@ -1,0 +1,334 @@
+// samara.Motion: what is flown, read, measured, compared and shown.
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "bindings.hpp"
+#include "internal/command/scene_bodies.hpp"
+#include "internal/comparison/comparison_report.hpp"
+#include "internal/figures/ensemble.hpp"
+#include "internal/files/temporary_folder.hpp"
+#include "internal/motion/description.hpp"
+#include "samara/base/error.hpp"
+#include "samara/export/chan_file.hpp"
+#include "samara/export/csv_file.hpp"
+#include "samara/export/gltf_file.hpp"
+#include "samara/export/page_file.hpp"
+#include "samara/export/usd_file.hpp"
+#include "samara/motion/measures.hpp"
+#include "samara/motion/motion_file.hpp"
+
+namespace samara::python {
+namespace {
+
+py::ssize_t length(std::size_t size) {
+    return static_cast<py::ssize_t>(size);
+}
+
+FlownMotion read(const std::filesystem::path& file) {
+    const py::gil_scoped_release others_go_on;
+    const std::lock_guard lock(hdf5_mutex());
+    return {std::make_shared<const Motion>(read_motion_file(file)), nullptr};
+}
+
+void write(const FlownMotion& motion, const std::filesystem::path& file) {
+    const py::gil_scoped_release others_go_on;
+    const std::lock_guard lock(hdf5_mutex());
+    write_motion_file(file, *motion.motion);
+}
+
+FlownMotion fly(Scene scene, int runs, std::optional<std::uint64_t> seed, std::optional<double> step,
+                int threads, const std::filesystem::path& bodies, py::object progress) {
+    if (runs < 1 || runs > 1'000'000) throw Error("runs: give 1 to 1000000");
+    if (threads < 0 || threads > 4096) throw Error("threads: give 0 for all cores, or up to 4096");
+    if (step && !(*step >= 1e-9 && *step <= 1e3)) throw Error("step: give seconds, from 1e-9 to 1000");
+    if (seed) scene.seed = *seed;
+    if (step) scene.step = *step;
+    LongWork work(std::move(progress));
+    return work([&]() -> FlownMotion {
+        std::vector<LoadedBody> loaded;
+        {
+            const std::lock_guard lock(hdf5_mutex());
+            loaded = load_scene_bodies(scene, bodies.string());
+        }
+        // Judging models flies as well, and is ended by tell() as soon as the flight itself begins.
+        choose_models(scene, loaded, threads, [&](double, double) {});
+        SimulationResult result = simulate(
+            scene, loaded, runs, [&](double done, double total) { return work.tell(done, total); }, threads);
+        return {std::make_shared<const Motion>(std::move(result.motion)),
+                std::make_shared<const SimulationReport>(std::move(result.report))};
+    });
+}
+
+py::object report_of(const FlownMotion& motion) {
+    if (!motion.report) return py::none();
+    const SimulationReport& report = *motion.report;
+    py::dict bodies;
+    for (std::size_t i = 0; i < report.bodies.size(); ++i) {
+        py::dict body;
+        body["highest_reynolds_number"] = report.bodies[i].highest_reynolds_number;
+        body["share_below_table"] = report.bodies[i].share_below_table();
+        bodies[py::str(motion.motion->bodies[i].name)] = body;
+    }
+    py::dict result;
+    result["steps"] = report.steps;
+    result["implicit_steps"] = report.implicit_steps;
+    result["most_substeps"] = report.most_substeps;
+    result["steps_at_limit"] = report.steps_at_limit;
+    result["seconds"] = report.seconds;
+    result["bodies"] = bodies;
+    return result;
+}
+
+std::string names_of(const Motion& motion) {
+    std::string names;
+    for (const BodyMotion& body : motion.bodies) names += (names.empty() ? "" : ", ") + body.name;
+    return names;
+}
+
+BodyOfMotion body_named(const FlownMotion& motion, const std::string& name) {
+    for (std::size_t i = 0; i < motion.motion->bodies.size(); ++i) {
+        if (motion.motion->bodies[i].name == name) return {motion.motion, i};
+    }
+    throw py::key_error(fmt::format("'{}': the bodies are {}", name, names_of(*motion.motion)));
+}
+
+void require_fall(const BodyOfMotion& body, int run, int copy) {
+    if (run < 0 || run >= body.motion->runs) {
+        throw py::index_error(fmt::format("run {}: there are {}, counted from 0", run, body.motion->runs));
+    }
+    if (copy < 0 || copy >= body.body().copies) {
+        throw py::index_error(fmt::format("copy {}: there are {}, counted from 0", copy, body.body().copies));
+    }
+}
+
+template <PoseMember member>
+py::array poses(const py::object& self) {
+    const auto& body = self.cast<const BodyOfMotion&>();
+    return pose_view(body.body().poses.data(), {body.motion->runs, body.motion->frames(), body.body().copies},
+                     member, self);
+}
+
+py::object measured(const BodyOfMotion& body, int run, int copy,
+                    std::optional<std::pair<double, double>> window) {
+    require_fall(body, run, copy);
+    std::optional<TimeWindow> times;
+    if (window) times = TimeWindow{window->first, window->second};
+    nlohmann::json measures;
+    {
+        const py::gil_scoped_release others_go_on;
+        measures = as_json(measure(*body.motion, body.body(), run, copy, times));
+    }
+    return as_python(measures);
+}
+
+py::object ensemble(const BodyOfMotion& body) {
+    nlohmann::json measures;
+    {
+        const py::gil_scoped_release others_go_on;
+        measures = as_json(measure_all(*body.motion, body.body()));
+    }
+    return as_python(measures);
+}
+
+/// A motion as a file: where it is one, itself; else written to `folder`.
+std::filesystem::path file_of(const py::object& motion, const std::filesystem::path& folder,
+                              const char* name) {
+    if (!py::isinstance<FlownMotion>(motion)) return motion.cast<std::filesystem::path>();
+    const std::filesystem::path file = folder / name;
+    write(motion.cast<const FlownMotion&>(), file);
+    return file;
+}
+
+FallChoice choice_of(const MotionReader& file, const std::string& name,
+                     const std::optional<std::string>& body) {
+    const std::vector<BodyMotion>& bodies = file.motion().bodies;
+    if (!body && bodies.size() == 1) return {name, &file, 0, {}, {}};
+    for (std::size_t i = 0; body && i < bodies.size(); ++i) {
+        if (bodies[i].name == *body) return {name, &file, i, {}, {}};
+    }
+    throw Error(
+        fmt::format("{}: holds the bodies {}; give one of these as body", name, names_of(file.motion())));
+}
+
+py::object comparison(const py::object& motion, const py::object& reference,
+                      const std::optional<std::string>& body, std::optional<std::pair<double, double>> window,
+                      py::object progress) {
+    const TemporaryFolder folder;
+    const std::filesystem::path motion_file = file_of(motion, folder.path(), "motion.h5");
+    const std::filesystem::path reference_file = file_of(reference, folder.path(), "reference.h5");
+    ComparisonSettings settings;
+    if (window) settings.window = TimeWindow{window->first, window->second};
+    LongWork work(std::move(progress));
+    const nlohmann::json result = work([&] {
+        const std::lock_guard lock(hdf5_mutex());
+        const MotionReader first(motion_file);
+        const MotionReader second(reference_file);
+        const Comparison compared =
+            compare(choice_of(first, "the motion", body), choice_of(second, "the reference", body), settings,
+                    [&](double done, double total) {
+                        if (!work.tell(done, total)) throw Error("the comparison was ended");
+                    });
+        return as_json(compared);
+    });
+    return as_python(result);
+}
+
+void require_run(const FlownMotion& motion, int run) {
+    if (run >= 0 && run < motion.motion->runs) return;
+    throw py::index_error(fmt::format("run {}: there are {}, counted from 0", run, motion.motion->runs));
+}
+
+void export_to(const FlownMotion& motion, const std::filesystem::path& file, int run) {
+    require_run(motion, run);
+    const std::string format = file.extension().string();
+    const Motion& written = *motion.motion;
+    const py::gil_scoped_release others_go_on;
+    if (format == ".glb") {
+        write_glb(file, written, run);
+    } else if (format == ".usda") {
+        write_usda(file, written, run);
+    } else if (format == ".chan") {
+        write_chan(file, written, run);
+    } else if (format == ".csv") {
+        write_csv(file, written, run);
+    } else if (format == ".html") {
+        write_page(file, written, run, file.stem().string(),
+                   fmt::format("{} frames per second", written.frame_rate));
+    } else {
+        throw Error(
+            fmt::format("{}: the format '{}' is unknown; end the name in .glb, .usda, .chan, .html or .csv",
+                        file.string(), format));
+    }
+}
+
+std::string page(const FlownMotion& motion, int run) {
+    const TemporaryFolder folder;
+    const std::filesystem::path file = folder.path() / "motion.html";
+    export_to(motion, file, run);
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+void bind_body_motion(py::module_& module) {
+    py::class_<BodyOfMotion>(module, "BodyMotion",
+                             "A body of a motion with all its copies, runs and frames. Arrays are views that "
+                             "cannot be written to; "
+                             "they keep the motion alive.")
+        .def_property_readonly(
+            "name", [](const BodyOfMotion& body) { return body.body().name; }, "In the scene.")
+        .def_property_readonly(
+            "copies", [](const BodyOfMotion& body) { return body.body().copies; }, "How many.")
+        .def_property_readonly(
+            "models", [](const BodyOfMotion& body) { return body.body().models; },
+            "In words: the loads, turbulence and defaults that were used.")
+        .def_property_readonly(
+            "center_of_mass", [](const BodyOfMotion& body) { return body.body().center_of_mass; },
+            "m, shape axes, shape (3,).")
+        .def_property_readonly(
+            "position", &poses<PoseMember::position>,
+            "Of the centre of mass: m, world axes (z up), shape (runs, frames, copies, 3).")
+        .def_property_readonly(
+            "orientation", &poses<PoseMember::orientation>,
+            "Shape to world axes as unit quaternions x, y, z, w (as scipy's Rotation has them), shape (runs, "
+            "frames, copies, 4).")
+        .def_property_readonly("velocity", &poses<PoseMember::velocity>,
+                               "Of the centre of mass: m/s, world axes, shape (runs, frames, copies, 3).")
+        .def_property_readonly("angular_velocity", &poses<PoseMember::angular_velocity>,
+                               "rad/s, world axes, shape (runs, frames, copies, 3).")
+        .def_property_readonly(
+            "vertices",
+            [](const py::object& self) {
+                const Surface& surface = self.cast<const BodyOfMotion&>().body().surface;
+                return view(surface.vertices.data()->data(), {length(surface.vertices.size()), 3}, self);
+            },
+            "m, shape axes, shape (n, 3).")
+        .def_property_readonly(
+            "triangles",
+            [](const py::object& self) {
+                const Surface& surface = self.cast<const BodyOfMotion&>().body().surface;
+                return view(surface.corners.data()->data(), {length(surface.corners.size()), 3}, self);
+            },
+            "Numbers of vertices, anticlockwise from outside, shape (m, 3).")
+        .def("measure", &measured, py::arg("run") = 0, py::arg("copy") = 0, py::arg("window") = py::none(),
+             "The figures of one fall as a dict in SI units and radians: descent_speed, frequency, "
+             "inclination_amplitude, "
+             "rms_angular_speed, regime, ... over `window`, (begin, end) in s; by default the last two "
+             "thirds of the fall.")
+        .def("ensemble", &ensemble,
+             "The figures of all runs and copies together: means, deviations, standard errors, regimes, "
+             "path_spread, landing.")
+        .def("__repr__", [](const BodyOfMotion& body) {
+            return fmt::format("<samara.BodyMotion {}: {} runs, {} frames, {} copies>", body.body().name,
+                               body.motion->runs, body.motion->frames(), body.body().copies);
+        });
+}
+
+}  // namespace
+
+void bind_motion(py::module_& module) {
+    bind_body_motion(module);
+    py::class_<FlownMotion>(module, "Motion",
+                            "What bodies did: poses at even times, in runs that differ by their noise alone.")
+        .def_static("read", &read, py::arg("file"), "Reads a motion file (.h5).")
+        .def("write", &write, py::arg("file"),
+             "Writes a motion file (.h5): the file stands whole, or not at all.")
+        .def("export", &export_to, py::arg("file"), py::arg("run") = 0,
+             "Writes one run for other programs, by the name's ending: .glb, .usda, .chan, .csv, .html.")
+        .def("page", &page, py::arg("run") = 0, "The page (.html) that plays a run, as text.")
+        .def_property_readonly(
+            "times",
+            [](const py::object& self) {
+                const Motion& motion = *self.cast<const FlownMotion&>().motion;
+                return view(motion.times.data(), {length(motion.times.size())}, self);
+            },
+            "s, shape (frames,).")
+        .def_property_readonly(
+            "runs", [](const FlownMotion& motion) { return motion.motion->runs; }, "How many.")
+        .def_property_readonly(
+            "frame_rate", [](const FlownMotion& motion) { return motion.motion->frame_rate; },
+            "Frames per second.")
+        .def_property_readonly(
+            "seed", [](const FlownMotion& motion) { return motion.motion->seed; },
+            "Of the noise and the starts.")
+        .def_property_readonly(
+            "scene_text", [](const FlownMotion& motion) { return motion.motion->scene_text; },
+            "The scene as it was read.")
+        .def_property_readonly(
+            "report", &report_of,
+            "Of a motion that was flown here: steps, seconds, highest Reynolds numbers, ...; else None.")
+        .def_property_readonly(
+            "bodies",
+            [](const FlownMotion& motion) {
+                std::vector<BodyOfMotion> bodies;
+                for (std::size_t i = 0; i < motion.motion->bodies.size(); ++i)
+                    bodies.push_back({motion.motion, i});
+                return bodies;
+            },
+            "The bodies, in the scene's order.")
+        .def("__getitem__", &body_named, py::arg("name"), "The body of that name.")
+        .def("__len__", [](const FlownMotion& motion) { return motion.motion->bodies.size(); })
+        .def("__repr__", [](const FlownMotion& motion) {
+            return fmt::format("<samara.Motion of {} s: {}; {} runs, {} frames>",
+                               motion.motion->times.back() - motion.motion->times.front(),
+                               names_of(*motion.motion), motion.motion->runs, motion.motion->frames());
+        });
+    module.def("fly", &fly, py::arg("scene"), py::kw_only(), py::arg("runs"), py::arg("seed"),
+               py::arg("step"), py::arg("threads"), py::arg("bodies"), py::arg("progress"));
+    module.def("compare", &comparison, py::arg("motion"), py::arg("reference"), py::kw_only(),
+               py::arg("body") = py::none(), py::arg("window") = py::none(), py::arg("progress") = py::none(),
+               "Holds a motion against a reference, such as a fall by full CFD; each a Motion or a file. A "
+               "dict, as 'samara "
+               "compare --json' prints it (docs/output.md): `agrees`, `certain`, and each figure of both "
+               "with its standard "
+               "error, their difference and the verdict. `window`: (begin, end) in s after the release.");
+}
+
+}  // namespace samara::python

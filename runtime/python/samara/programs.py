@@ -1,0 +1,60 @@
+"""plan and bake, which are programs of their own: they need gmsh and OpenFOAM (the package samara-baking)."""
+
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+
+from ._samara import Error
+
+_COUNT = re.compile(r": ([\d.]+) of ([\d.]+) ")
+
+
+def _run(command, arguments, progress):
+    program = shutil.which("samara")
+    if program is None:
+        raise Error("samara: the program is not found; install the package samara-baking, or put its folder into PATH")
+    words = [program, command, *map(os.fspath, arguments), "--json"]
+    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        last = ""
+        try:
+            for line in process.stderr:
+                last = line.strip() or last
+                count = _COUNT.search(line)
+                if progress and count:
+                    progress(float(count[1]), float(count[2]))
+            result = process.stdout.read()
+        except BaseException:
+            process.send_signal(signal.SIGINT)  # which keeps what is solved
+            process.communicate()
+            raise
+    if process.returncode != 0:
+        raise Error(last.removeprefix(f"samara {command}: ") or f"samara {command} ended with the status {process.returncode}")
+    return json.loads(result)
+
+
+def _options(options):
+    words = []
+    for key, value in options.items():
+        if value is None or value is False:
+            continue
+        words.append("--" + key.replace("_", "-"))
+        if value is not True:
+            words.append(",".join(map(str, value)) if isinstance(value, (list, tuple)) else str(value))
+    return words
+
+
+def plan(scene, *, progress=None, **options):
+    """What a scene needs, as a dict: the models that matter and the bake for it. `scene`: a scene file or a shape. The options are
+    those of 'samara plan', with underscores: plan("scene.toml", tolerance=0.1)."""
+    return _run("plan", [scene, *_options(options)], progress)
+
+
+def bake(shape, output, *, progress=None, **options):
+    """Solves the flow around a shape (or the bodies of a scene) with OpenFOAM into a body file (or a folder), and returns what the
+    program says of it as a dict. It may take minutes to hours; an interrupt keeps what is solved, and the same call goes on from
+    there. progress: called with (done, total) cases. The options are those of 'samara bake', with underscores:
+    bake("leaf.geo", "leaf.body.h5", quality="standard", fluid="air", density=600)."""
+    return _run("bake", [shape, "-o", output, *_options(options)], progress)

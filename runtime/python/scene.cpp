@@ -1,0 +1,133 @@
+// samara.Scene: a scene file, a text of one, or a dict with the same keys.
+
+#include <filesystem>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+#include <toml++/toml.h>
+
+#include "bindings.hpp"
+#include "samara/base/error.hpp"
+#include "samara/scene/ready_bodies.hpp"
+#include "samara/scene/scene_file.hpp"
+
+namespace samara::python {
+namespace {
+
+Error no_toml(const std::string& place, const py::handle& value) {
+    return Error(fmt::format("{} is of the type {}; a scene holds numbers, texts, booleans, lists and dicts",
+                             place, py::str(py::type::of(value).attr("__name__")).cast<std::string>()));
+}
+
+toml::array as_toml_array(const py::handle& values, const std::string& place);
+toml::table as_toml_table(const py::dict& values, const std::string& place);
+
+/// Calls `put` with the value as TOML knows it. `place`: for messages, as in scene['body'][0].
+template <typename Put>
+void put_as_toml(const py::handle& value, const std::string& place, const Put& put) {
+    if (py::isinstance<py::array>(value)) {  // and numpy's numbers with it
+        put_as_toml(value.attr("tolist")(), place, put);
+    } else if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) {
+        put(as_toml_array(value, place));
+    } else if (py::isinstance<py::dict>(value)) {
+        put(as_toml_table(py::reinterpret_borrow<py::dict>(value), place));
+    } else if (py::isinstance<py::bool_>(value)) {
+        put(value.cast<bool>());
+    } else if (py::isinstance<py::str>(value)) {
+        put(value.cast<std::string>());
+    } else if (py::hasattr(value, "__fspath__")) {
+        put(value.cast<std::filesystem::path>().string());
+    } else if (py::hasattr(value, "__index__")) {
+        put(py::int_(py::reinterpret_borrow<py::object>(value)).cast<std::int64_t>());
+    } else if (py::hasattr(value, "__float__")) {
+        put(py::float_(py::reinterpret_borrow<py::object>(value)).cast<double>());
+    } else {
+        throw no_toml(place, value);
+    }
+}
+
+toml::array as_toml_array(const py::handle& values, const std::string& place) {
+    toml::array array;
+    std::size_t index = 0;
+    for (const py::handle value : py::iter(values)) {
+        put_as_toml(value, fmt::format("{}[{}]", place, index++),
+                    [&](auto&& as_toml) { array.push_back(std::forward<decltype(as_toml)>(as_toml)); });
+    }
+    return array;
+}
+
+toml::table as_toml_table(const py::dict& values, const std::string& place) {
+    toml::table table;
+    for (const auto& [key, value] : values) {
+        if (!py::isinstance<py::str>(key)) {
+            throw Error(
+                fmt::format("{} has the key {}; keys are texts", place, py::repr(key).cast<std::string>()));
+        }
+        const auto name = key.cast<std::string>();
+        if (value.is_none()) continue;
+        put_as_toml(value, fmt::format("{}['{}']", place, name),
+                    [&](auto&& as_toml) { table.insert(name, std::forward<decltype(as_toml)>(as_toml)); });
+    }
+    return table;
+}
+
+Scene scene_of_dict(const py::dict& values, const std::filesystem::path& folder) {
+    std::ostringstream text;
+    text << as_toml_table(values, "scene") << '\n';
+    return read_scene_text(text.str(), "scene", folder);
+}
+
+std::vector<std::string> names_of(const Scene& scene) {
+    std::vector<std::string> names;
+    for (const SceneBody& body : scene.bodies) names.push_back(body.name);
+    return names;
+}
+
+}  // namespace
+
+void bind_scene(py::module_& module) {
+    py::class_<Scene, std::shared_ptr<Scene>>(
+        module, "Scene",
+        "What falls in what, and how it starts: a scene file, checked. It does not change; make another for "
+        "other values.")
+        .def(py::init(&scene_of_dict), py::arg("values"), py::arg("folder") = ".",
+             "A scene from a dict with the keys of a scene file: {'scene': {'duration': 2}, 'fluid': {...}, "
+             "'body': [{...}, ...]}. Keys that are None are left out. Paths in it are taken from `folder`.")
+        .def_static(
+            "read", [](const std::filesystem::path& file) { return read_scene_file(file); }, py::arg("file"),
+            "Reads a scene file (.toml). Paths in it are taken from its folder.")
+        .def_static(
+            "from_text",
+            [](const std::string& text, const std::filesystem::path& folder) {
+                return read_scene_text(text, "scene", folder);
+            },
+            py::arg("text"), py::arg("folder") = ".", "A scene from the text of a scene file.")
+        .def_readonly("duration", &Scene::duration, "s")
+        .def_readonly("step", &Scene::step, "s")
+        .def_readonly("frame_rate", &Scene::frame_rate, "Frames per second.")
+        .def_readonly("seed", &Scene::seed, "Of the noise and the spread of starts.")
+        .def_readonly("ground", &Scene::ground, "m: the height of level ground, or None.")
+        .def_property_readonly(
+            "gravity", [](const Scene& scene) { return scene.gravity; }, "m/s^2, world axes, shape (3,).")
+        .def_property_readonly("names", &names_of, "The bodies' names, in the scene's order.")
+        .def_readonly("text", &Scene::text, "As a scene file has it.")
+        .def("__repr__", [](const Scene& scene) {
+            return fmt::format("<samara.Scene of {} s: {}>", scene.duration,
+                               fmt::join(names_of(scene), ", "));
+        });
+    module.def(
+        "ready_bodies",
+        [] {
+            py::dict bodies;
+            for (const ReadyBody& body : ready_bodies(ready_bodies_folder())) {
+                if (body.exists) bodies[py::str(body.name)] = body.purpose;
+            }
+            return bodies;
+        },
+        "The ready-baked bodies, which a scene calls 'samara:NAME', and what each is for.");
+}
+
+}  // namespace samara::python
