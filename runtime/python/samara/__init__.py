@@ -12,6 +12,7 @@ whose text is one line that names the place and the remedy.
 """
 
 import os as _os
+from typing import Any, Callable, Optional, Union
 
 from ._samara import Body, BodyMotion, Error, Flight, Motion, Poses, Scene, __version__, compare, fly as _fly, ready_bodies
 from .programs import bake, plan
@@ -20,28 +21,29 @@ __all__ = ["Body", "BodyMotion", "Error", "Flight", "Motion", "Poses", "Scene", 
            "simulate", "__version__"]
 
 
-def _as_scene(scene):
-    if isinstance(scene, Scene):
-        return scene
-    if isinstance(scene, dict):
-        return Scene(scene)
-    return Scene.read(_os.fspath(scene))
-
-
-def simulate(scene, *, runs=1, seed=None, step=None, threads=0, bodies="", progress=None):
+def simulate(scene: Union[Scene, dict[str, Any], str, "_os.PathLike[str]"], *, runs: int = 1, seed: Optional[int] = None,
+             step: Optional[float] = None, threads: int = 0, bodies: Union[str, "_os.PathLike[str]"] = "",
+             progress: Optional[Callable[[float, float], object]] = None) -> Motion:
     """Flies a scene (a Scene, a dict, or the name of a scene file) into a Motion.
 
     runs: that differ by their noise alone. seed, step: instead of the scene's. threads: 0 for all cores; the motion is the same
     for any number. bodies: a folder of baked bodies, NAME.body.h5 for each body of the scene. progress: called with (done, total)
     ten times a second at most; what it raises ends the flight. Other threads of Python go on meanwhile.
     """
-    return _fly(_as_scene(scene), runs=runs, seed=seed, step=step, threads=threads, bodies=bodies, progress=progress)
+    if isinstance(scene, dict):
+        scene = Scene(scene)
+    elif not isinstance(scene, Scene):
+        scene = Scene.read(scene)
+    return _fly(scene, runs=runs, seed=seed, step=step, threads=threads, bodies=bodies, progress=progress)
 
 
-def _show_in_notebook(motion):
+def _show_in_notebook(motion: Motion) -> str:
     from html import escape
     return (f'<iframe srcdoc="{escape(motion.page(), quote=True)}" style="width: 100%; height: 560px; border: 0" '
             f'title="{escape(repr(motion), quote=True)}"></iframe>')
 
 
-Motion._repr_html_ = _show_in_notebook
+Motion._repr_html_ = _show_in_notebook  # type: ignore[attr-defined]
+for _public in (Body, BodyMotion, Error, Flight, Motion, Poses, Scene):
+    _public.__module__ = __name__
+del _public

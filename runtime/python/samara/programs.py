@@ -6,20 +6,26 @@ import re
 import shutil
 import signal
 import subprocess
+from collections.abc import Iterable
+from typing import Any, Callable, Optional, Union
 
 from ._samara import Error
 
 _COUNT = re.compile(r": ([\d.]+) of ([\d.]+) ")
 
+_Path = Union[str, "os.PathLike[str]"]
+_Progress = Optional[Callable[[float, float], object]]
 
-def _run(command, arguments, progress):
+
+def _run(command: str, arguments: Iterable[_Path], progress: _Progress) -> dict[str, Any]:
     program = shutil.which("samara")
     if program is None:
         raise Error("samara: the program is not found; install the package samara-baking, or put its folder into PATH")
-    words = [program, command, *map(os.fspath, arguments), "--json"]
+    words = [program, command, *(os.fspath(argument) for argument in arguments), "--json"]
     with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         last = ""
         try:
+            assert process.stderr and process.stdout
             for line in process.stderr:
                 last = line.strip() or last
                 count = _COUNT.search(line)
@@ -32,11 +38,12 @@ def _run(command, arguments, progress):
             raise
     if process.returncode != 0:
         raise Error(last.removeprefix(f"samara {command}: ") or f"samara {command} ended with the status {process.returncode}")
-    return json.loads(result)
+    told: dict[str, Any] = json.loads(result)
+    return told
 
 
-def _options(options):
-    words = []
+def _options(options: dict[str, Any]) -> list[str]:
+    words: list[str] = []
     for key, value in options.items():
         if value is None or value is False:
             continue
@@ -46,13 +53,13 @@ def _options(options):
     return words
 
 
-def plan(scene, *, progress=None, **options):
+def plan(scene: _Path, *, progress: _Progress = None, **options: Any) -> dict[str, Any]:
     """What a scene needs, as a dict: the models that matter and the bake for it. `scene`: a scene file or a shape. The options are
     those of 'samara plan', with underscores: plan("scene.toml", tolerance=0.1)."""
     return _run("plan", [scene, *_options(options)], progress)
 
 
-def bake(shape, output, *, progress=None, **options):
+def bake(shape: _Path, output: _Path, *, progress: _Progress = None, **options: Any) -> dict[str, Any]:
     """Solves the flow around a shape (or the bodies of a scene) with OpenFOAM into a body file (or a folder), and returns what the
     program says of it as a dict. It may take minutes to hours; an interrupt keeps what is solved, and the same call goes on from
     there. progress: called with (done, total) cases. The options are those of 'samara bake', with underscores:

@@ -1,0 +1,337 @@
+#!/usr/bin/env python3
+"""The Python module, with real bodies, files and threads. PYTHONPATH names its folder, PATH that of the programs."""
+
+import gc
+import json
+import math
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import textwrap
+import threading
+import unittest
+
+import numpy
+
+import samara
+
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+
+
+def leaves(**more):
+    body = {"name": "leaf", "shape": "samara:leaf", "position": [0, 0, 2], "count": 3, "spread": {"angle": 0.5}}
+    return {"scene": {"duration": 0.5, "step": 0.002, "frame_rate": 50}, "fluid": {"preset": "air"}, "body": [body | more]}
+
+
+class Scenes(unittest.TestCase):
+    def test_a_dict_a_text_and_a_file_give_the_same_motion(self):
+        scene = samara.Scene(leaves())
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "leaves.toml"
+            file.write_text(scene.text)
+            motions = [samara.simulate(s) for s in (leaves(), scene, samara.Scene.from_text(scene.text), file, str(file))]
+        for motion in motions[1:]:
+            numpy.testing.assert_array_equal(motion["leaf"].position, motions[0]["leaf"].position)
+
+    def test_numbers_may_be_numpys_and_paths_pathlibs(self):
+        shape = ROOT / "runtime/bodies/leaf.body.h5"
+        scene = samara.Scene(leaves(shape=shape, position=numpy.array([0.0, 0.0, 2.0]), count=numpy.int32(3), density=numpy.float32(600),
+                                    start=numpy.array(0.25)))
+        self.assertIn("density = 600.0", scene.text)
+        self.assertIn("count = 3\n", scene.text)
+        self.assertIn("start = 0.25", scene.text)
+
+    def test_a_scene_tells_what_it_holds(self):
+        scene = samara.Scene(leaves())
+        self.assertEqual((scene.duration, scene.step, scene.frame_rate, scene.ground), (0.5, 0.002, 50.0, None))
+        self.assertEqual(scene.names, ["leaf"])
+        numpy.testing.assert_array_equal(scene.gravity, [0, 0, -9.81])
+
+    def test_faults_name_the_place_and_the_remedy(self):
+        for fault, scene in {
+            "did you mean 'density'": leaves(densty=600),
+            "scene['body'][0]['position'] is of the type set": leaves(position={1, 2}),
+            "a list of 3 numbers": leaves(position=[0, 0]),
+            "finite": leaves(position=[0, 0, math.nan]),
+            "has the key 3; keys are texts": {"scene": {3: 1}},
+            "there is no ready-baked body": leaves(shape="samara:lead"),
+        }.items():
+            with self.subTest(fault), self.assertRaises(samara.Error) as caught:
+                samara.Scene(scene)
+            self.assertIn(fault, str(caught.exception))
+            self.assertNotIn("\n", str(caught.exception))
+        with self.assertRaisesRegex(samara.Error, "nowhere.toml"):
+            samara.simulate("nowhere.toml")
+
+
+class Motions(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.motion = samara.simulate(leaves(), runs=2)
+        cls.leaf = cls.motion["leaf"]
+
+    def test_poses_are_runs_by_frames_by_copies_in_one_memory(self):
+        self.assertEqual(self.leaf.position.shape, (2, 26, 3, 3))
+        self.assertEqual(self.leaf.orientation.shape, (2, 26, 3, 4))
+        self.assertEqual(self.leaf.velocity.shape, self.leaf.angular_velocity.shape)
+        self.assertFalse(self.leaf.position.flags.owndata)
+        self.assertTrue(numpy.shares_memory(self.leaf.position, self.motion["leaf"].position))
+        with self.assertRaises(ValueError):
+            self.leaf.position[0, 0, 0] = 0
+
+    def test_poses_are_those_of_the_file_formats(self):
+        with tempfile.TemporaryDirectory() as folder:
+            table = pathlib.Path(folder) / "motion.csv"
+            self.motion.export(table, run=1)
+            rows = numpy.genfromtxt(table, delimiter=",", names=True, usecols=range(2, 17))
+        chosen = rows[rows["copy"] == 2]
+        quaternions = numpy.stack([chosen["orientation_" + axis] for axis in "xyzw"], axis=-1)
+        numpy.testing.assert_allclose(quaternions, self.leaf.orientation[1, :, 2], rtol=0, atol=1e-15)
+        spins = numpy.stack([chosen["angular_velocity_" + axis] for axis in "xyz"], axis=-1)
+        numpy.testing.assert_array_equal(spins, self.leaf.angular_velocity[1, :, 2])
+        numpy.testing.assert_array_equal(chosen["time"], self.motion.times)
+
+    def test_velocities_are_the_derivatives_of_places(self):
+        moved = self.leaf.position[:, 2:] - self.leaf.position[:, :-2]
+        speed = moved * self.motion.frame_rate / 2
+        self.assertLess(numpy.abs(speed - self.leaf.velocity[:, 1:-1]).max(), 0.02 * numpy.abs(speed).max())
+
+    def test_arrays_outlive_the_motion(self):
+        position = samara.simulate(leaves())["leaf"].position
+        first = position.copy()
+        gc.collect()
+        other = [samara.simulate(leaves(), seed=seed) for seed in (5, 6, 7)]
+        numpy.testing.assert_array_equal(position, first)
+        self.assertFalse((other[0]["leaf"].position == first).all())
+
+    def test_a_file_gives_back_what_was_written(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "motion.h5")
+            self.motion.write(file)
+            again = samara.Motion.read(file)
+            numpy.testing.assert_array_equal(again["leaf"].velocity, self.leaf.velocity)
+            self.assertEqual(again.scene_text, self.motion.scene_text)
+            self.assertIsNone(again.report)
+            with open(file, "r+b") as damaged:
+                damaged.truncate(2000)
+            with self.assertRaisesRegex(samara.Error, "motion.h5"):
+                samara.Motion.read(file)
+
+    def test_figures_are_those_of_the_program(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "motion.h5")
+            self.motion.write(file)
+            told = json.loads(subprocess.run(["samara", "info", file, "--json"], check=True, capture_output=True).stdout)
+        ensemble = self.leaf.ensemble()
+        for figure in ("descent_speed", "descent_speed_error", "rms_angular_speed", "regime", "samples"):
+            self.assertEqual(ensemble[figure], told["bodies"][0][figure])
+        measures = self.leaf.measure(run=1, copy=2, window=(0.1, 0.5))
+        self.assertEqual(measures["window"], [0.1, 0.5])
+        fallen = self.leaf.position[1, 5, 2, 2] - self.leaf.position[1, 25, 2, 2]
+        self.assertAlmostEqual(measures["descent_speed"], fallen / 0.4, places=12)
+
+    def test_a_motion_agrees_with_itself_and_not_with_a_sphere(self):
+        verdict = samara.compare(self.motion, self.motion)
+        self.assertTrue(verdict["agrees"])
+        sphere = samara.simulate(leaves(shape="samara:sphere", density=3000))
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "sphere.h5"
+            sphere.write(file)
+            self.assertFalse(samara.compare(self.motion, file)["agrees"])
+        with self.assertRaisesRegex(samara.Error, "holds the bodies leaf"):
+            samara.compare(self.motion, sphere, body="seed")
+
+    def test_what_is_not_there_is_named(self):
+        with self.assertRaisesRegex(KeyError, "the bodies are leaf"):
+            self.motion["seed"]
+        with self.assertRaisesRegex(IndexError, "run 2: there are 2"):
+            self.leaf.measure(run=2)
+        with self.assertRaisesRegex(IndexError, "copy -1"):
+            self.leaf.measure(copy=-1)
+        with self.assertRaisesRegex(samara.Error, "'.fbx' is unknown"):
+            self.motion.export("motion.fbx")
+        for wrong in ({"runs": 0}, {"threads": -1}, {"step": 0.0}, {"step": math.nan}):
+            with self.subTest(wrong), self.assertRaises(samara.Error):
+                samara.simulate(leaves(), **wrong)
+
+    def test_the_page_shows_in_a_notebook(self):
+        shown = self.motion._repr_html_()
+        self.assertTrue(shown.startswith("<iframe srcdoc="))
+        self.assertIn("&lt;html", shown.lower())
+
+
+class LongFlights(unittest.TestCase):
+    long = leaves(count=200) | {"scene": {"duration": 60.0}}
+
+    def test_progress_is_told_and_what_it_raises_ends_the_flight(self):
+        told = []
+
+        def stop_soon(done, total):
+            told.append(done / total)
+            if len(told) == 2:
+                raise ZeroDivisionError("enough")
+
+        with self.assertRaisesRegex(ZeroDivisionError, "enough"):
+            samara.simulate(self.long, progress=stop_soon)
+        self.assertEqual(len(told), 2)
+        self.assertLess(told[1], 1.0)
+
+    def test_other_threads_of_python_go_on(self):
+        counts = []
+        ready = threading.Event()
+
+        def count():
+            ready.set()
+            while not done.is_set():
+                counts.append(len(counts))
+
+        done = threading.Event()
+        thread = threading.Thread(target=count)
+        thread.start()
+        ready.wait()
+        before = len(counts)
+        samara.simulate(leaves(count=100), runs=4)
+        after = len(counts)
+        done.set()
+        thread.join()
+        self.assertGreater(after - before, 100)
+
+    def test_ctrl_c_ends_a_flight(self):
+        timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
+        timer.start()
+        with self.assertRaises(KeyboardInterrupt):
+            samara.simulate(self.long)
+
+    def test_an_interpreter_may_exit_in_the_middle_of_a_flight(self):
+        program = textwrap.dedent(f"""
+            import threading, samara
+            begun = threading.Event()
+            thread = threading.Thread(target=samara.simulate, args=({self.long!r},), daemon=True,
+                                      kwargs=dict(progress=lambda done, total: begun.set()))
+            thread.start()
+            begun.wait()
+        """)
+        ended = subprocess.run([sys.executable, "-c", program], capture_output=True, timeout=100, check=False)
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+
+    def test_flights_on_several_threads_give_what_one_gives(self):
+        motions = {}
+
+        def fly(seed):
+            motions[seed] = samara.simulate(leaves(), seed=seed)
+
+        threads = [threading.Thread(target=fly, args=(seed,)) for seed in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        for seed, motion in motions.items():
+            numpy.testing.assert_array_equal(motion["leaf"].position, samara.simulate(leaves(), seed=seed)["leaf"].position)
+
+
+class LiveFlights(unittest.TestCase):
+    def setUp(self):
+        self.scene = samara.Scene(leaves())
+        self.flight = samara.Flight(self.scene, runs=2)
+
+    def test_its_poses_are_the_frames_of_a_motion(self):
+        motion = samara.simulate(self.scene, runs=2)
+        for frame in (0, 10, 25):
+            self.flight.advance(motion.times[frame])
+            poses = self.flight.poses("leaf")
+            numpy.testing.assert_array_equal(poses.position, motion["leaf"].position[:, frame])
+            numpy.testing.assert_array_equal(poses.velocity, motion["leaf"].velocity[:, frame])
+
+    def test_a_state_brings_it_back(self):
+        self.flight.advance(0.2)
+        state = self.flight.state()
+        self.flight.advance(0.4)
+        expected = self.flight.poses("leaf").position
+        other = samara.Flight(self.scene, runs=2)
+        other.set_state(state)
+        self.assertEqual(other.time, 0.2)
+        other.advance(0.4)
+        numpy.testing.assert_array_equal(other.poses("leaf").position, expected)
+        for foreign in (b"", b"nonsense", state[:-1], state[:-1] + b"?"):
+            with self.assertRaises(samara.Error):
+                other.set_state(foreign)
+        with self.assertRaises(samara.Error):
+            samara.Flight(self.scene, runs=1).set_state(state)
+
+    def test_a_body_can_be_put_elsewhere(self):
+        self.flight.advance(0.1)
+        before = self.flight.poses("leaf")
+        self.flight.set_pose("leaf", run=1, copy=2, position=(1, 2, 3), velocity=[0, 0, 0])
+        after = self.flight.poses("leaf")
+        numpy.testing.assert_allclose(after.position[1, 2], [1, 2, 3], rtol=1e-12)
+        numpy.testing.assert_allclose(after.orientation[1, 2], before.orientation[1, 2], atol=1e-12)
+        numpy.testing.assert_array_equal(after.position[0], before.position[0])
+
+    def test_wrong_arrays_are_refused(self):
+        for wrong in ({"position": (1, 2)}, {"position": "here"}, {"orientation": numpy.zeros((2, 2))}):
+            with self.subTest(wrong), self.assertRaises(TypeError):
+                self.flight.set_pose("leaf", **wrong)
+        for wrong in ({"position": (1, 2, math.inf)}, {"orientation": (0, 0, 0, 2)}, {"velocity": (math.nan, 0, 0)}):
+            with self.subTest(wrong), self.assertRaises(samara.Error):
+                self.flight.set_pose("leaf", **wrong)
+        with self.assertRaisesRegex(samara.Error, "finite"):
+            self.flight.advance(math.nan)
+        self.flight.advance(0.2)
+        with self.assertRaises(samara.Error):
+            self.flight.advance(0.1)
+
+    def test_poses_outlive_the_flight(self):
+        position = self.flight.poses("leaf").position
+        del self.flight
+        gc.collect()
+        self.assertTrue(numpy.isfinite(position).all())
+
+    def test_calls_of_several_threads_wait_for_one_another(self):
+        times = numpy.linspace(0.0, 0.5, 51)
+        seen = []
+        reader = threading.Thread(target=lambda: seen.extend(self.flight.poses("leaf").position for _ in range(200)))
+        reader.start()
+        for time in times:
+            self.flight.advance(time)
+        reader.join()
+        self.assertTrue(numpy.isfinite(seen).all())
+        numpy.testing.assert_array_equal(self.flight.poses("leaf").position,
+                                         samara.simulate(self.scene, runs=2)["leaf"].position[:, -1])
+
+
+class Bodies(unittest.TestCase):
+    def test_a_body_file_as_arrays(self):
+        body = samara.Body.read(ROOT / "runtime/bodies/ellipsoid.body.h5")
+        corners = body.vertices[body.triangles]
+        volume = numpy.linalg.det(corners).sum() / 6
+        self.assertAlmostEqual(volume / body.volume, 1.0, delta=0.02)  # its triangles are curved
+        numpy.testing.assert_allclose(body.kirchhoff_tensor, body.kirchhoff_tensor.T, atol=1e-12 * numpy.abs(body.kirchhoff_tensor).max())
+        rows = len(body.reynolds_numbers)
+        self.assertEqual(body.force_table.shape[0], rows)
+        self.assertEqual(body.force_table.shape[:3], body.dissipation_rate_table.shape)
+        # A node of the map lies in the direction z: what is looked up there stands in the table.
+        force, _ = body.loads([0, 0, 1], body.reynolds_numbers[-1])
+        self.assertLess(numpy.abs(body.force_table[-1].reshape(-1, 3) - force).max(axis=1).min(), 1e-9)
+        with self.assertRaises(samara.Error):
+            body.loads([0, 0, 0], 1000)
+        with self.assertRaises(samara.Error):
+            samara.Body.read(ROOT / "README.md")
+
+
+class Programs(unittest.TestCase):
+    def test_a_plan_is_a_dict(self):
+        told = []
+        plan = samara.plan(ROOT / "docs/scenes/leaves.toml", progress=lambda done, total: told.append(done / total), tolerance=0.5)
+        self.assertIn("bodies", plan)
+        self.assertTrue(all(0 <= share <= 1 for share in told))
+
+    def test_faults_of_a_program_are_errors(self):
+        with self.assertRaisesRegex(samara.Error, "nowhere.geo"):
+            samara.bake("nowhere.geo", "nowhere.body.h5")
+
+
+if __name__ == "__main__":
+    unittest.main()
