@@ -22,6 +22,16 @@ set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS gnuplot-nox)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS
   "samara-baking, libeigen3-dev, libhdf5-dev, libfmt-dev, libhwy-dev, libtinygltf-dev, libtomlplusplus-dev, nlohmann-json3-dev")
 
+if(TARGET samara_python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-samara)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_COMPONENT_PYTHON_DESCRIPTION
+    "The Python module: scenes to motions as numpy arrays, figures and comparisons, live
+flights.")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "samara-runtime (= ${PROJECT_VERSION}), ${SAMARA_PYTHON_DEPENDS}")
+endif()
+
 if(SAMARA_BAKING)
   list(APPEND CPACK_COMPONENTS_ALL baking)
   set(CPACK_DEBIAN_BAKING_PACKAGE_NAME samara-baking)

@@ -60,6 +60,16 @@ python3 "$source_folder/docs/examples/fall.py" "$(find "$work/root" -name libsam
 nm -D --defined-only --extern-only "$(find "$work/root" -name libsamara.so)" | awk '{ print $3 }' | grep -v '^samara_' |
   grep -q . && fail "libsamara.so shows more than the C interface"
 
+# The Python module, where it was built.
+module=$(find "$work/packages" -name 'python3-samara_*.deb')
+if [ -n "$module" ]; then
+  dpkg-deb -f "$module" Depends | grep -q 'python3-numpy' || fail "the Python module does not depend on numpy"
+  dpkg -x "$module" "$work/root"
+  SAMARA_BODIES=$work/root/usr/share/samara/bodies PYTHONPATH=$work/root/usr/lib/python3/dist-packages /usr/bin/python3 -c '
+import samara
+print(samara.simulate("scene.toml")["dart"].measure()["descent_speed"])' >speed || fail "the Python module does not fly"
+fi
+
 # Both together: the tools are found beside samara, and their templates beside them.
 dpkg -x "$baking" "$work/root"
 "$samara" mesh "$work/root/usr/share/samara/meshes/sphere.geo" -o ball.body.h5
