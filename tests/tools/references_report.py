@@ -20,8 +20,8 @@ import falls_report
 from falls_report import FALLS, FIGURES, SCENES, percent, rows_of_falls, run, table_of_falls, written
 from report_tables import mark, write_tables
 
-# Cells of the reference and of the coarser mesh; of the plate a third of the usual ones is too coarse to tell anything.
-CELLS, CELLS_OF = (20000, 6000), {"plate": (60000, 20000)}
+# Cells of the reference and of the coarser mesh; a third of the usual ones is too coarse to tell anything of these.
+CELLS, CELLS_OF = (20000, 6000), {"plate": (60000, 20000), "spheroid": (60000, 20000)}
 CLOSURE, OTHER_CLOSURE = "kOmegaSSTLM", "kOmegaSST"
 NAMES = list(SCENES) + ["cube", "airplane", "samara"]
 ROWS, OLD_CLOSURE_ROWS = f"{FALLS}/references.csv", f"{FALLS}/k-epsilon/falls.csv"
