@@ -21,7 +21,7 @@ from falls_report import FALLS, FIGURES, SCENES, percent, rows_of_falls, run, ta
 from report_tables import mark, write_tables
 
 # Cells of the reference and of the coarser mesh; a third of the usual ones is too coarse to tell anything of these.
-CELLS, CELLS_OF = (20000, 6000), {"plate": (60000, 20000), "spheroid": (60000, 20000)}
+CELLS, CELLS_OF = (20000, 6000), {name: (60000, 20000) for name in ("spheroid", "disc-light", "plate")}
 CLOSURE, OTHER_CLOSURE = "kOmegaSSTLM", "kOmegaSST"
 NAMES = list(SCENES) + ["cube", "airplane", "samara"]
 ROWS, OLD_CLOSURE_ROWS = f"{FALLS}/references.csv", f"{FALLS}/k-epsilon/falls.csv"
