@@ -39,16 +39,16 @@ int check_command(int argc, const char* const* argv) {
     bool seal = false;
     Arguments arguments(
         "samara check",
-        "Whether a body, motion or surface file from elsewhere is sound: reads all of it in a "
+        "Whether a body, motion, wind or surface file from elsewhere is sound: reads all of it in a "
         "process of its own.");
-    arguments.positional("FILE", file, "body file (.body.h5), motion file (.h5) or shape");
+    arguments.positional("FILE", file, "body file (.body.h5), motion or wind file (.h5), or shape");
     arguments.flag(
         "--add-digest", seal,
-        "write a digest of the content behind it, where a body or motion file is sound and has none");
+        "write a digest of the content behind it, where a body, motion or wind file is sound and has none");
     arguments.footer(
         "Exit status 0: the file is sound. 1: it is refused, or its reader crashed, took too long or too "
         "much\n"
-        "memory. JSON: kind (body, motion or surface), digest (whether the file carries one, which is "
+        "memory. JSON: kind (body, motion, wind or surface), digest (whether the file carries one, which is "
         "right).");
     return run_program(argc, argv, arguments, [&] {
         CheckedFile found = check(file);

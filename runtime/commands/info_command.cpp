@@ -11,6 +11,7 @@
 #include "commands/commands.hpp"
 #include "commands/table_lookup_report.hpp"
 #include "commands/vector_words.hpp"
+#include "internal/base/vector_json.hpp"
 #include "internal/command/arguments.hpp"
 #include "internal/command/print.hpp"
 #include "internal/command/progress.hpp"
@@ -20,6 +21,7 @@
 #include "samara/base/error.hpp"
 #include "samara/body/body_file.hpp"
 #include "samara/motion/motion_file.hpp"
+#include "samara/physics/wind_file.hpp"
 
 namespace samara {
 namespace {
@@ -39,13 +41,38 @@ nlohmann::json report_motion(const std::string& path, bool json) {
     return describe_motion(file.motion(), measures);
 }
 
+std::string in_words(const Vector3d& v) {
+    return fmt::format("({:.4g}, {:.4g}, {:.4g})", v.x(), v.y(), v.z());
+}
+
+nlohmann::json report_wind(const std::string& path, bool json) {
+    const WindGrid grid = read_wind_file(path);
+    const Vector3d end =
+        grid.origin + grid.spacing.cwiseProduct(Vector3d(static_cast<double>(grid.nodes[0] - 1),
+                                                         static_cast<double>(grid.nodes[1] - 1),
+                                                         static_cast<double>(grid.nodes[2] - 1)));
+    if (!json) {
+        print_result("wind of {}\n  {} x {} x {} nodes, {} m apart, from {} to {} m\n  {}\n", grid.source,
+                     grid.nodes[0], grid.nodes[1], grid.nodes[2], in_words(grid.spacing),
+                     in_words(grid.origin), in_words(end),
+                     grid.frames == 1 ? std::string("steady")
+                                      : fmt::format("{} times, {:.4g} s apart", grid.frames, grid.interval));
+    }
+    return {{"kind", "wind"},
+            {"source", grid.source},
+            {"nodes", grid.nodes},
+            {"origin", as_json(grid.origin)},
+            {"spacing", as_json(grid.spacing)},
+            {"frames", grid.frames},
+            {"interval", grid.interval}};
+}
+
 nlohmann::json report(const std::string& path, bool json) {
     check_before_reading(path);
     const Hdf5Reader file(path);
-    if (!file.has("/surface") && !file.has("/bodies")) {
-        throw Error(fmt::format("{}: is an HDF5 file, but neither a body nor a motion of samara's", path));
-    }
-    nlohmann::json result = file.has("/surface") ? report_body(path, json) : report_motion(path, json);
+    nlohmann::json result = file.has("/surface")  ? report_body(path, json)
+                            : file.has("/bodies") ? report_motion(path, json)
+                                                  : report_wind(path, json);
     result["digest"] = file.has_digest();
     if (!json && !file.has_digest()) print_result("without a digest of its content\n");
     return result;
@@ -76,8 +103,9 @@ int info_command(int argc, const char* const* argv) {
     std::string file;
     std::string direction;
     double reynolds_number = 0.0;
-    Arguments arguments("samara info", "What a body or motion file holds, its units and its provenance.");
-    arguments.positional("FILE", file, "body file (.body.h5) or motion file (.h5)");
+    Arguments arguments("samara info",
+                        "What a body, motion or wind file holds, its units and its provenance.");
+    arguments.positional("FILE", file, "body file (.body.h5), motion file or wind file (.h5)");
     arguments.option("--direction", direction,
                      "x,y,z: instead, what a body's tables say where it moves that way (shape axes)");
     arguments.option("--reynolds-number", reynolds_number, "U L/nu, with --direction; the tables' last", 1e-9,

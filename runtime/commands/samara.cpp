@@ -36,6 +36,7 @@ constexpr Command commands[] = {
     {"convert", "solved cases -> tables in the body file", nullptr},
     {"identify", "solved free falls -> dynamic coefficients in the body file", nullptr},
     {"check-tables", "tables against solved cases that they were not made from", nullptr},
+    {"wind", "velocity grids of OpenVDB -> wind file, for a scene's [wind.file]", nullptr},
     {"bodies", "the ready-baked bodies that come with it", samara::bodies_command},
     {"simulate", "scene -> motion of its bodies", samara::simulate_command},
     {"export", "motion -> .glb, .usda, .chan for animation tools, .html, .csv", samara::export_command},

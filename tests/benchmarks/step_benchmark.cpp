@@ -132,6 +132,18 @@ void in_a_wind_with_gusts(benchmark::State& state) {
     wind.gusts = WindGusts{.rms = 0.02, .length = 1.0};
     windy_batch(state, wind);
 }
+void in_a_wind_from_a_file(benchmark::State& state) {
+    auto grid = std::make_shared<WindGrid>();
+    grid->origin = Vector3d::Constant(-16.0);
+    grid->nodes = {33, 33, 33};
+    grid->frames = 10;
+    for (std::size_t i = 0; i < grid->size(); ++i) {
+        grid->velocities.push_back(static_cast<float>(0.02 * std::sin(0.1 * static_cast<double>(i))));
+    }
+    Wind wind;
+    wind.file = WindFile{.grid = grid, .repeats = true};
+    windy_batch(state, wind);
+}
 
 /// A million leaves of ten kinds (densities): a frame of 1/60 s in one step of each.
 void million_leaves(benchmark::State& state) {
@@ -174,6 +186,7 @@ BENCHMARK(in_no_wind);
 BENCHMARK(in_a_wind_with_profile);
 BENCHMARK(in_a_wind_with_vortex_and_fan);
 BENCHMARK(in_a_wind_with_gusts);
+BENCHMARK(in_a_wind_from_a_file);
 BENCHMARK(step_with_tables_and_noise);
 BENCHMARK(step_with_tables);
 BENCHMARK(step_with_tables_and_every_term);

@@ -223,8 +223,9 @@ TEST(BadInput, AnUnknownCommandOrOptionIsNamedInOneLine) {
 
 TEST(Help, OfEveryCommandWorks) {
     const test::TemporaryFolder folder;
-    for (const char* command : {"mesh", "kirchhoff", "plan", "bake", "convert", "identify", "validate",
-                                "check-tables", "simulate", "export", "plot", "compare", "info", "report"}) {
+    for (const char* command :
+         {"mesh", "kirchhoff", "plan", "bake", "convert", "identify", "validate", "check-tables", "simulate",
+          "export", "plot", "compare", "info", "report", "wind"}) {
         const auto help = run_program_in(folder, {"samara", command, "--help"});
         EXPECT_EQ(help.status, 0) << help.fault;
         EXPECT_THAT(help.output, HasSubstr("--json")) << command;

@@ -93,6 +93,11 @@ void Arguments::optional_positional(const std::string& name, std::string& value,
     parser_->app.add_option(name, value, help);
 }
 
+void Arguments::positionals(const std::string& name, std::vector<std::string>& values,
+                            const std::string& help) {
+    parser_->app.add_option(name, values, help)->required();
+}
+
 void Arguments::flag(const std::string& name, bool& value, const std::string& help) {
     parser_->app.add_flag(name, value, help);
 }

@@ -25,6 +25,8 @@ class Arguments {
     void positional(const std::string& name, std::string& value, const std::string& help);
     /// A word by its place that may be left out: then the value stays as it is.
     void optional_positional(const std::string& name, std::string& value, const std::string& help);
+    /// One word or more, by their place.
+    void positionals(const std::string& name, std::vector<std::string>& values, const std::string& help);
     /// A flag without a value, such as "--keep".
     void flag(const std::string& name, bool& value, const std::string& help);
     /// An option with a value, such as "-o,--output"; the default shown in the help is the value it has now.

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "internal/dynamics/grid_wind.hpp"
 #include "internal/dynamics/gust_waves.hpp"
 #include "internal/dynamics/surroundings.hpp"
 
@@ -69,7 +70,7 @@ Vector3d column(const double (&rows)[3][WindBlock::size], std::size_t lane) {
 }  // namespace
 
 WindField::WindField(const Wind& wind, const Vector3d& current)
-    : function_(wind.function), context_(wind.function_context) {
+    : file_(wind.file), function_(wind.function), context_(wind.function_context) {
     if (wind.profile) set_profile(wind, constants_);
     if (wind.gusts) {
         constants_.drift = triple(current + wind.velocity);
@@ -81,7 +82,22 @@ WindField::WindField(const Wind& wind, const Vector3d& current)
 
 bool WindField::blow(double time, const WindSpan& span, std::size_t count, WindBlock& block) const noexcept {
     kernel::blow(constants_, time, count, block);
+    if (file_) add_file(time, count, block);
     return function_ == nullptr || add_function(time, span, count, block);
+}
+
+void WindField::add_file(double time, std::size_t count, WindBlock& block) const noexcept {
+    for (std::size_t lane = 0; lane < count; ++lane) {
+        const GridWind there = grid_wind(*file_, column(block.place, lane), time);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto row = static_cast<Eigen::Index>(i);
+            block.velocity[i][lane] += there.velocity[row];
+            block.rate[i][lane] += there.rate[row];
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                block.gradient[3 * i + axis][lane] += there.gradient(row, static_cast<Eigen::Index>(axis));
+            }
+        }
+    }
 }
 
 bool WindField::add_function(double time, const WindSpan& span, std::size_t count,
@@ -208,6 +224,11 @@ std::string description_of(const Wind& wind) {
     for (const WindFan& f : wind.fans) {
         text +=
             fmt::format(" fan {} {} {} {}", numbers(f.position), numbers(f.direction), f.diameter, f.speed);
+    }
+    if (wind.file) {
+        const WindFile& f = *wind.file;
+        text += fmt::format(" file {} {} {} {} {}", f.grid->hash, numbers(f.position), f.start, f.repeats,
+                            static_cast<int>(f.outside));
     }
     if (wind.function != nullptr) text += " function";
     return text + '\n';

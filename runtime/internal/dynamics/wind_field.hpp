@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "internal/dynamics/immersed_body.hpp"
@@ -35,9 +36,11 @@ class WindField {
     [[nodiscard]] const WindConstants& constants() const noexcept { return constants_; }
 
   private:
+    void add_file(double time, std::size_t count, WindBlock& block) const noexcept;
     bool add_function(double time, const WindSpan& span, std::size_t count, WindBlock& block) const noexcept;
 
     WindConstants constants_;
+    std::optional<WindFile> file_;
     WindFunction function_;
     void* context_;
 };

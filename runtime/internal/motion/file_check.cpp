@@ -13,6 +13,7 @@
 #include "samara/base/error.hpp"
 #include "samara/body/body_file.hpp"
 #include "samara/motion/motion_file.hpp"
+#include "samara/physics/wind_file.hpp"
 
 namespace samara {
 namespace {
@@ -21,8 +22,9 @@ std::string kind_of(const std::filesystem::path& file) {
     const Hdf5Reader reader(file);
     if (reader.has("/surface")) return "body";
     if (reader.has("/bodies")) return "motion";
-    throw Error(
-        fmt::format("{}: is an HDF5 file, but neither a body nor a motion of samara's", file.string()));
+    if (reader.has("/wind")) return "wind";
+    throw Error(fmt::format("{}: is an HDF5 file, but neither a body nor a motion nor a wind of samara's",
+                            file.string()));
 }
 
 /// Reads all of the file, or all but a motion's poses. Returns its kind.
@@ -30,6 +32,10 @@ std::string read_through(const std::filesystem::path& file, bool poses) {
     const std::string kind = kind_of(file);
     if (kind == "body") {
         (void)read_body_file(file);
+        return kind;
+    }
+    if (kind == "wind") {
+        (void)read_wind_file(file);
         return kind;
     }
     const MotionReader motion(file);
@@ -63,7 +69,7 @@ CheckedFile check(const std::filesystem::path& file, bool poses) {
     run_confined(
         file.string(), limits_for(input), [&](const SendBytes& send) { send(read_through(file, poses)); },
         [&](std::string_view bytes) { kind = bytes; });
-    if (kind != "body" && kind != "motion") {
+    if (kind != "body" && kind != "motion" && kind != "wind") {
         throw Error(fmt::format("{}: its reader was led astray; do not use it", file.string()));
     }
     return {kind, has_digest(input)};

@@ -7,13 +7,14 @@ namespace samara {
 
 /// What a sound file of samara's is.
 struct CheckedFile {
-    std::string kind;         ///< "body" or "motion"
+    std::string kind;         ///< "body", "motion" or "wind"
     bool has_digest = false;  ///< of its content; without it damage is found by what HDF5 checks alone
 };
 
-/// Reads a body or motion file to its end, as the commands do, in a process of its own that can do nothing
-/// else (run_confined), so that nothing that a file holds can harm this one. Throws Error where a reader
-/// refuses it, where it crashes, hangs or takes too much memory, and where the system offers no such process.
+/// Reads a body, motion or wind file to its end, as the commands do, in a process of its own that can do
+/// nothing else (run_confined), so that nothing that a file holds can harm this one. Throws Error where a
+/// reader refuses it, where it crashes, hangs or takes too much memory, and where the system offers no such
+/// process.
 CheckedFile check_file(const std::filesystem::path& file);
 
 /// The same before this process reads the file itself, without the values of a motion's poses, which take the

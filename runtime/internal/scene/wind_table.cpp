@@ -1,9 +1,14 @@
 #include "internal/scene/wind_table.hpp"
 
 #include <limits>
+#include <memory>
 #include <string_view>
 
+#include <fmt/format.h>
+
+#include "internal/motion/file_check.hpp"
 #include "internal/scene/choice.hpp"
+#include "samara/physics/wind_file.hpp"
 
 namespace samara {
 namespace {
@@ -92,9 +97,33 @@ WindFan read_fan(TomlTable& table) {
     return fan;
 }
 
+WindFile read_file(TomlTable& table, const std::filesystem::path& folder, double end) {
+    using Outside = WindFile::Outside;
+    WindFile file;
+    const auto path = table.text("path");
+    if (!path) throw table.fault("path", "is missing; give a wind file, from 'samara wind'");
+    check_before_reading(folder / *path);
+    file.grid = std::make_shared<const WindGrid>(read_wind_file(folder / *path));
+    file.position = table.vector("position").value_or(file.position);
+    file.start = table.number("start", any_number).value_or(file.start);
+    file.repeats = table.boolean("repeat").value_or(file.repeats);
+    file.outside =
+        choice<Outside>(table, "outside", {{"edge", Outside::edge}, {"still", Outside::still}}, file.outside);
+    const bool is_steady = file.grid->frames == 1;
+    const double file_end = file.start + file.grid->duration();
+    if (!is_steady && !file.repeats && file_end < end * (1.0 - 1e-9)) {
+        throw table.fault("path",
+                          fmt::format("holds the wind until {:g} s, and the scene ends at {:g} s; give "
+                                      "repeat = true, a shorter duration or a longer file",
+                                      file_end, end));
+    }
+    table.finish();
+    return file;
+}
+
 }  // namespace
 
-Wind read_wind(TomlTable& table, double ground) {
+Wind read_wind(TomlTable& table, const std::filesystem::path& folder, double ground, double end) {
     Wind wind;
     wind.velocity = table.vector("velocity").value_or(wind.velocity);
     if (auto profile = table.table("profile")) {
@@ -109,6 +138,7 @@ Wind read_wind(TomlTable& table, double ground) {
     if (auto gusts = table.table("gusts")) wind.gusts = read_gusts(*gusts);
     for (TomlTable& vortex : table.tables("vortex")) wind.vortices.push_back(read_vortex(vortex));
     for (TomlTable& fan : table.tables("fan")) wind.fans.push_back(read_fan(fan));
+    if (auto file = table.table("file")) wind.file = read_file(*file, folder, end);
     table.finish();
     return wind;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "samara/base/linear_algebra.hpp"
+#include "samara/physics/wind_grid.hpp"
 
 namespace samara {
 
@@ -81,12 +82,13 @@ struct Wind {
     std::optional<WindGusts> gusts = {};      ///< none where absent
     std::vector<WindVortex> vortices = {};    ///< any number
     std::vector<WindFan> fans = {};           ///< any number
+    std::optional<WindFile> file = {};        ///< none where absent
     WindFunction function = nullptr;          ///< none where null
     void* function_context = nullptr;         ///< handed to `function`
 
     /// Whether it is more than a uniform and steady velocity.
     [[nodiscard]] bool is_field() const {
-        return profile || gusts || !vortices.empty() || !fans.empty() || function != nullptr;
+        return profile || gusts || !vortices.empty() || !fans.empty() || file || function != nullptr;
     }
     /// The same wind, whose gusts have a seed.
     [[nodiscard]] Wind seeded(std::uint64_t seed) const {

@@ -272,7 +272,8 @@ Scene read_scene_text(std::string text, const std::string& name, const std::file
     if (!settings) throw top.fault("[scene]", "is missing; it holds at least the duration");
     read_settings(*settings, scene);
     if (auto fluid = top.table("fluid")) scene.fluid = read_fluid(*fluid);
-    if (auto wind = top.table("wind")) scene.wind = read_wind(*wind, scene.ground.value_or(0.0));
+    if (auto wind = top.table("wind"))
+        scene.wind = read_wind(*wind, folder, scene.ground.value_or(0.0), scene.duration);
     std::set<std::string> names;
     for (TomlTable& table : top.tables("body")) {
         scene.bodies.push_back(read_body(table, folder));

@@ -250,5 +250,29 @@ TEST(WindMotion, SideBySideIsToTheLastBitThatOfEachAlone) {
     }
 }
 
+TEST(WindMotion, AFileOfOneVelocityIsACurrent) {
+    const Vector3d velocity(0.5, -0.25, 0.125);
+    auto grid = std::make_shared<WindGrid>();
+    grid->nodes = {3, 4, 5};
+    for (std::size_t i = 0; i < grid->size(); ++i) {
+        grid->velocities.push_back(static_cast<float>(velocity[static_cast<Eigen::Index>(i % 3)]));
+    }
+    Wind wind;
+    wind.file = WindFile{.grid = grid};
+    const ImmersedBody body = noisy_ellipsoid(Turbulence::constant);
+    BodyState start;
+    start.position = Vector3d(0.3, 0.4, 1.7);
+    const BodyState in_file = flown(body, in(wind), start, 500);
+    Surroundings current = in(wind);
+    current.wind = nullptr;
+    current.current = velocity;
+    // The flow's frame moves with the current, which in it is at rest.
+    BodyState relative = start;
+    relative.velocity.tail<3>() -= relative.orientation.conjugate() * velocity;
+    const BodyState in_current = flown(body, current, relative, 500);
+    const Vector3d drift = 500 * h * velocity;
+    EXPECT_LT((in_file.position - in_current.position - drift).norm(), 1e-9 * drift.norm());
+}
+
 }  // namespace
 }  // namespace samara

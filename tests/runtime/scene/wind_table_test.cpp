@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "paths.hpp"
+#include "samara/physics/wind_file.hpp"
 #include "samara/scene/scene_file.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
@@ -127,6 +128,49 @@ TEST(WindTable, RefusesWithOneLineThatNamesThePlace) {
     fan("position = [1, 0, 0], direction = [1, 0, 0]", "speed in [[fan]] is missing");
     fan("position = [1, 0, 0], direction = [0, 0, 0], speed = 1", "direction in [[fan]] must not");
     fan("position = [1, 0, 0], direction = [1, 0, 0], speed = 1, diameter = 0", "diameter in [[fan]] must");
+}
+
+/// The file of a wind that lasts a second.
+std::filesystem::path wind_file_in(const test::TemporaryFolder& folder, std::size_t frames) {
+    WindGrid grid;
+    grid.frames = frames;
+    grid.interval = 0.5;
+    grid.velocities.assign(grid.size(), 2.0F);
+    const std::filesystem::path file = folder.path() / "gust.h5";
+    write_wind_file(file, grid);
+    return file;
+}
+
+TEST(WindTable, TakesAFile) {
+    const test::TemporaryFolder folder;
+    const std::string path = wind_file_in(folder, 3).string();
+    const Wind wind =
+        scene_with(
+            fmt::format("[wind.file]\npath = \"{}\"\nposition = [1, 2, 3]\nstart = 0.5\noutside = \"still\"",
+                        path))
+            .wind;
+    ASSERT_TRUE(wind.file);
+    EXPECT_EQ(wind.file->grid->frames, 3U);
+    EXPECT_EQ(wind.file->position, Vector3d(1, 2, 3));
+    EXPECT_EQ(wind.file->start, 0.5);
+    EXPECT_EQ(wind.file->outside, WindFile::Outside::still);
+    EXPECT_FALSE(wind.file->repeats);
+    EXPECT_TRUE(wind.is_field());
+}
+
+TEST(WindTable, RefusesAFileThatEndsBeforeTheScene) {
+    const test::TemporaryFolder folder;
+    const std::string path = wind_file_in(folder, 2).string();  // half a second, and the scene a whole one
+    const std::string lines = fmt::format("[wind.file]\npath = \"{}\"\n", path);
+    expect_refused(lines, "holds the wind until 0.5 s, and the scene ends at 1 s; give repeat = true");
+    EXPECT_TRUE(scene_with(lines + "repeat = true").wind.file->repeats);
+    EXPECT_TRUE(scene_with(lines + "start = 0.5").wind.file);
+    EXPECT_TRUE(
+        scene_with(fmt::format("[wind.file]\npath = \"{}\"", wind_file_in(folder, 1).string())).wind.file);
+    expect_refused("[wind.file]\nstart = 1", "path in [file] is missing");
+    expect_refused("[wind.file]\npath = \"nowhere.h5\"", "nowhere.h5");
+    expect_refused(lines + "outside = \"far\"", "outside");
+    expect_refused(lines + "loop = true", "unknown key 'loop'");
 }
 
 }  // namespace
