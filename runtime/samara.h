@@ -29,7 +29,7 @@ extern "C" {
 #endif
 
 /* The version of this header: it grows with every addition, and what was there stays as it was. */
-#define SAMARA_API_VERSION 5
+#define SAMARA_API_VERSION 6
 
 /* The SAMARA_API_VERSION of the library that is linked: at least that of the header, or functions may lack.
  */
@@ -201,8 +201,9 @@ SAMARA_API samara_status samara_simulation_create(const samara_settings* setting
 
 SAMARA_API void samara_simulation_free(samara_simulation* simulation); /* null is allowed */
 
-/* Adds the bodies of a kind, before the first advance. Bodies are numbered from 0 in the order in which they
- * are added; *first (may be null) is the number of the first new one. */
+/* Adds the bodies of a kind. Bodies are numbered from 0 in the order in which they are added; *first (may be
+ * null) is the number of the first new one. Before version 6 only before the first advance; since then also
+ * in flight, with a `start` at the simulation's time or later. */
 SAMARA_API samara_status samara_simulation_add(samara_simulation* simulation, const samara_body* body,
                                                const samara_kind* kind, size_t* first, char* error,
                                                size_t error_size);
@@ -243,14 +244,81 @@ SAMARA_API samara_status samara_set_poses(samara_simulation* simulation, size_t 
 SAMARA_API samara_status samara_set_seed(samara_simulation* simulation, uint64_t seed, uint32_t run,
                                          char* error, size_t error_size);
 
-/* The whole state as bytes: time, seed, report and all bodies. A simulation that is set to it goes on as this
- * one does, to the last bit. It fits simulations with the same settings and kinds (threads, seed, run and
- * where the kinds start may differ) of the same samara on machines with the same byte order. */
+/* The whole state as bytes: time, seed, report, all bodies, and the keys of obstacles, with which it grows. A
+ * simulation that is set to it goes on as this one does, to the last bit. It fits simulations with the same
+ * settings, ground, wind, obstacles and kinds (threads, seed, run, the obstacles' keys and where the kinds
+ * start may differ) of the same samara on machines with the same byte order. */
 SAMARA_API size_t samara_state_size(const samara_simulation* simulation); /* 0 for a null simulation */
 SAMARA_API samara_status samara_get_state(const samara_simulation* simulation, void* bytes, size_t size,
                                           char* error, size_t error_size);
 SAMARA_API samara_status samara_set_state(samara_simulation* simulation, const void* bytes, size_t size,
                                           char* error, size_t error_size);
+
+/* ---- Surroundings, since SAMARA_API_VERSION 6 -------------------------------------------------------------
+ */
+
+/* Where an obstacle is at one time: 8 doubles without gaps. */
+typedef struct samara_obstacle_key {
+    double time;           /* s, of the simulation */
+    double position[3];    /* of the obstacle's origin, m, world */
+    double orientation[4]; /* w, x, y, z: the obstacle's axes to the world's; is normalised */
+} samara_obstacle_key;
+
+/* Something solid that bodies touch and that does not feel them. Fill it with samara_default_obstacle. The
+ * library copies what the pointers point to. */
+typedef struct samara_obstacle {
+    size_t size;      /* sizeof(samara_obstacle): which members are there */
+    const char* name; /* for messages: letters, digits, - and _; default (null): "obstacle-" and its
+                         number */
+    const double*
+        vertices; /* x, y, z of each, m, in the obstacle's axes; with a place of none: the world's */
+    size_t vertex_count;
+    const int32_t* triangles; /* three vertex numbers each; of a closed surface counter-clockwise seen from
+                                 outside; a sheet is met from both sides */
+    size_t triangle_count;
+    double friction;                 /* Coulomb's coefficient; default: 0.5 */
+    double position[3];              /* where the obstacle's origin is, m; default: 0, 0, 0 */
+    double orientation[4];           /* w, x, y, z; is normalised; default: 1, 0, 0, 0 */
+    const samara_obstacle_key* keys; /* where it moves: in order of time, and in place of the two above */
+    size_t key_count;                /* default: 0 */
+} samara_obstacle;
+
+SAMARA_API samara_status samara_default_obstacle(samara_obstacle* obstacle, size_t size, char* error,
+                                                 size_t error_size);
+
+/* Adds an obstacle, before all bodies. Obstacles are numbered from 0 in the order in which they are added;
+ * *index (may be null) is the number of the new one. A kind that starts inside of it is refused. */
+SAMARA_API samara_status samara_simulation_add_obstacle(samara_simulation* simulation,
+                                                        const samara_obstacle* obstacle, size_t* index,
+                                                        char* error, size_t error_size);
+
+SAMARA_API size_t samara_simulation_obstacle_count(const samara_simulation* simulation); /* 0 for null */
+
+/* Other keys of an obstacle: between two it goes evenly on the straight way and by the shortest turn; behind
+ * the last it stands. In flight it goes on from where it is at the simulation's time to the first of the keys
+ * that lie ahead, or within one step to the last where none does: it never jumps. An engine gives one key,
+ * the pose at the time that it asks for next. Before the first advance the keys replace those it has. */
+SAMARA_API samara_status samara_set_obstacle_keys(samara_simulation* simulation, size_t obstacle,
+                                                  const samara_obstacle_key* keys, size_t count, char* error,
+                                                  size_t error_size);
+
+/* The wind beside `current`, gust and function of the settings, from the next step on: the keys of [wind] of
+ * a scene (docs/scene-file.md), in TOML:
+ *
+ *     "velocity = [4, 0, 0]\n"
+ *     "profile = { law = \"log\" }\n"
+ *     "gusts = { rms = 0.8, length = 2, seed = 3 }\n"
+ *     "[[fan]]\n"
+ *     "position = [0, 0, 1]\n" ...
+ *
+ * Gusts without a seed have the settings' own. An empty text: none. At any time; bodies keep their motion. */
+SAMARA_API samara_status samara_set_wind(samara_simulation* simulation, const char* wind, char* error,
+                                         size_t error_size);
+
+/* Level ground at a height (m), or none with `has_ground` 0, from the next step on. Bodies at rest wake; what
+ * is below it is lifted onto it in the next step. */
+SAMARA_API samara_status samara_set_ground(samara_simulation* simulation, int32_t has_ground, double height,
+                                           char* error, size_t error_size);
 
 /* What the simulation did so far. Set `size` to sizeof(samara_report) before the call. */
 typedef struct samara_report {

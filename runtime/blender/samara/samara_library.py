@@ -11,7 +11,7 @@ from ctypes import POINTER, byref, c_char_p, c_double, c_int, c_int32, c_size_t,
 import numpy
 
 LIBRARY = os.path.join(os.path.dirname(os.path.abspath(__file__)), "libsamara.so")
-API_VERSION = 5
+API_VERSION = 6
 
 LOADS_NONE, LOADS_COEFFICIENTS, LOADS_TABLE = 0, 1, 2
 TURBULENCE_NONE, TURBULENCE_AS_LOADS = 0, 3
@@ -82,6 +82,30 @@ class Kind(ctypes.Structure):
     ]
 
 
+class ObstacleKey(ctypes.Structure):
+    """samara_obstacle_key."""
+
+    _fields_ = [("time", c_double), ("position", c_double * 3), ("orientation", c_double * 4)]
+
+
+class Obstacle(ctypes.Structure):
+    """samara_obstacle."""
+
+    _fields_ = [
+        ("size", c_size_t),
+        ("name", c_char_p),
+        ("vertices", c_void_p),
+        ("vertex_count", c_size_t),
+        ("triangles", c_void_p),
+        ("triangle_count", c_size_t),
+        ("friction", c_double),
+        ("position", c_double * 3),
+        ("orientation", c_double * 4),
+        ("keys", c_void_p),
+        ("key_count", c_size_t),
+    ]
+
+
 # Every function's result and arguments, but for the buffer of the error and its size, which end those that can fail.
 _PLAIN = {
     "samara_api_version": (c_int, []),
@@ -102,6 +126,9 @@ _FALLIBLE = {
     "samara_default_kind": [POINTER(Kind), c_size_t],
     "samara_simulation_create": [POINTER(Settings), POINTER(c_void_p)],
     "samara_simulation_add": [c_void_p, c_void_p, POINTER(Kind), c_void_p],
+    "samara_default_obstacle": [POINTER(Obstacle), c_size_t],
+    "samara_simulation_add_obstacle": [c_void_p, POINTER(Obstacle), c_void_p],
+    "samara_set_wind": [c_void_p, c_char_p],
     "samara_advance_to": [c_void_p, c_double],
     "samara_get_poses": [c_void_p, c_size_t, c_size_t, c_void_p, c_size_t],
 }

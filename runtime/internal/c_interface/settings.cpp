@@ -10,8 +10,8 @@
 
 #include "internal/body/surface_patches.hpp"
 #include "internal/c_interface/guard.hpp"
+#include "internal/c_interface/members.hpp"
 #include "internal/scene/number_limits.hpp"
-#include "internal/scene/plain_name.hpp"
 
 namespace samara {
 namespace {
@@ -26,56 +26,6 @@ constexpr std::size_t first_kind_size = offsetof(samara_kind, langevin) + sizeof
 static_assert(offsetof(samara_settings, wind) % alignof(samara_settings) == 0);
 static_assert(offsetof(samara_kind, table_reynolds_number) % alignof(samara_kind) == 0);
 static_assert(offsetof(samara_kind, patches) % alignof(samara_kind) == 0);
-
-[[noreturn]] void refuse(const char* member, const std::string& why) {
-    throw Fault(SAMARA_INVALID_ARGUMENT, fmt::format("{} {}", member, why));
-}
-
-double finite(double value, const char* member) {
-    if (!std::isfinite(value)) refuse(member, "is not a finite number");
-    if (std::abs(value) > largest_number) {
-        refuse(member, fmt::format("is {}, beyond {:.0e}; is a unit wrong?", value, largest_number));
-    }
-    return value;
-}
-
-double non_negative(double value, const char* member) {
-    if (finite(value, member) < 0.0) refuse(member, "must not be negative");
-    if (value > 0.0 && value < smallest_number) {
-        refuse(member, fmt::format("is {}, below {:.0e}; is a unit wrong?", value, smallest_number));
-    }
-    return value;
-}
-
-double positive(double value, const char* member) {
-    if (!(non_negative(value, member) > 0.0)) refuse(member, "must be above zero");
-    return value;
-}
-
-Vector3d vector(const double (&values)[3], const char* member) {
-    for (const double value : values) finite(value, member);
-    return {values[0], values[1], values[2]};
-}
-
-/// The caller's struct as far as it goes, over the defaults of what it lacks.
-template <typename Struct>
-Struct known_part(const Struct& given, Struct defaults, std::size_t size_of_version_1, const char* name) {
-    if (given.size < size_of_version_1 || given.size > sizeof(Struct)) {
-        throw Fault(
-            SAMARA_INVALID_ARGUMENT,
-            fmt::format("{0}.size is {1}, but this library knows {2} to {3} bytes; fill the struct with "
-                        "samara_default_{4}, and use a library as new as samara.h",
-                        name, given.size, size_of_version_1, sizeof(Struct), name));
-    }
-    std::memcpy(&defaults, &given, given.size);
-    return defaults;
-}
-
-template <typename Choice>
-Choice choice(std::int32_t value, std::int32_t last, const char* member) {
-    if (value < 0 || value > last) refuse(member, fmt::format("is {}, which names nothing", value));
-    return static_cast<Choice>(value);
-}
 
 MassSpecification read_mass(const samara_kind& kind) {
     MassSpecification mass;
@@ -148,11 +98,7 @@ void read_models(const samara_kind& kind, GivenKind& body) {
 
 void read_start(const samara_kind& kind, GivenKind& body) {
     body.position = vector(kind.position, "position");
-    const auto& q = kind.orientation;
-    const Quaterniond orientation(q[0], q[1], q[2], q[3]);
-    for (const double value : q) finite(value, "orientation");
-    if (!(orientation.norm() >= 1e-6)) refuse("orientation", "must be a quaternion that is not zero");
-    body.orientation = orientation.normalized();
+    body.orientation = orientation(kind.orientation, "orientation");
     body.velocity = vector(kind.velocity, "velocity");
     body.angular_velocity = vector(kind.angular_velocity, "angular_velocity");
     body.start = non_negative(kind.start, "start");
@@ -224,12 +170,7 @@ samara_kind default_kind() {
 GivenKind read_kind(const samara_kind& given) {
     const samara_kind kind = known_part(given, default_kind(), first_kind_size, "kind");
     GivenKind body;
-    if (kind.name != nullptr) {
-        body.name = kind.name;
-        if (!is_plain_name(body.name)) {
-            refuse("name", "may hold letters, digits, '-' and '_' alone, 64 at most");
-        }
-    }
+    if (kind.name != nullptr) body.name = plain_name(kind.name, "name");
     body.mass = read_mass(kind);
     read_start(kind, body);
     body.loads = choice<Loads>(kind.loads, SAMARA_LOADS_TABLE, "loads");

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "internal/c_interface/guard.hpp"
+#include "internal/c_interface/members.hpp"
 #include "internal/c_interface/objects.hpp"
 #include "internal/c_interface/settings.hpp"
 #include "internal/scene/number_limits.hpp"
@@ -14,27 +15,12 @@
 namespace {
 
 using samara::Fault;
+using samara::fill;
 using samara::guarded;
 using samara::Pose;
 using samara::Quaterniond;
 using samara::require;
 using samara::Vector3d;
-
-/// Fills as much of a caller's struct as the caller knows.
-template <typename Struct>
-void fill(Struct* target, std::size_t size, const Struct& defaults, const char* name) {
-    require(target, name);
-    if (size < sizeof(size_t) || size > sizeof(Struct)) {
-        throw Fault(
-            SAMARA_INVALID_ARGUMENT,
-            fmt::format("size is {}, but this library knows {} bytes of the {}; give sizeof, and use a "
-                        "library as new as samara.h",
-                        size, sizeof(Struct), name));
-    }
-    Struct filled = defaults;
-    filled.size = size;
-    std::memcpy(target, &filled, size);
-}
 
 /// Checks that bodies and stride are there, and returns the stride in bytes.
 std::size_t checked_stride(const samara_simulation* simulation, std::size_t first, std::size_t count,

@@ -28,6 +28,7 @@ bool rests(const ImmersedBody& body, const ContactSet& stood, double time_step, 
     if (!(energy(velocity) < resting_energy * load * radius)) return false;
     const double near = supporting * radius + hovering * time_step * change.tail<3>().norm();
     const bool is_moved = std::any_of(stood.begin(), stood.end(), [&](const NearPoint& point) {
+        if (point.on_ground && point.gap < -near) return true;  // the ground was raised over it
         return point.gap <= near &&
                !(point.surface_velocity.isZero(0.0) && point.surface_turning.isZero(0.0));
     });

@@ -35,13 +35,18 @@ double radius_of(const Surface& surface) {
 }  // namespace
 
 ObstacleFaces::ObstacleFaces(Obstacle obstacle) : obstacle_(std::move(obstacle)) {
-    for (std::size_t i = 1; i < obstacle_.keys.size(); ++i) {
-        Quaterniond& turned = obstacle_.keys[i].orientation;
-        if (turned.dot(obstacle_.keys[i - 1].orientation) < 0.0) turned.coeffs() *= -1.0;
-    }
     prepare_triangles();
     look_around_corners();
     build(0, static_cast<std::uint32_t>(triangles_.size()));
+    set_keys(std::move(obstacle_.keys));
+}
+
+void ObstacleFaces::set_keys(std::vector<ObstacleKey> keys) {
+    for (std::size_t i = 1; i < keys.size(); ++i) {
+        Quaterniond& turned = keys[i].orientation;
+        if (turned.dot(keys[i - 1].orientation) < 0.0) turned.coeffs() *= -1.0;
+    }
+    obstacle_.keys = std::move(keys);
     measure_ways();
 }
 
@@ -133,6 +138,8 @@ void ObstacleFaces::build(std::uint32_t first, std::uint32_t count) {
 
 void ObstacleFaces::measure_ways() {
     const auto& keys = obstacle_.keys;
+    whereabouts_.setEmpty();
+    fastest_ = 0.0;
     if (!obstacle_.moves()) {
         for (const Vector3d& vertex : obstacle_.surface.vertices) whereabouts_.extend(keys[0](vertex));
         return;
@@ -164,8 +171,23 @@ bool ObstacleFaces::encloses(const Vector3d& point) const noexcept {
 }
 
 ObstacleSet::ObstacleSet(const std::vector<Obstacle>& obstacles) {
-    for (const Obstacle& obstacle : obstacles) {
-        const ObstacleFaces& faces = obstacles_.emplace_back(obstacle);
+    for (const Obstacle& obstacle : obstacles) add(obstacle);
+}
+
+void ObstacleSet::add(Obstacle obstacle) {
+    obstacles_.emplace_back(std::move(obstacle));
+    measure();
+}
+
+void ObstacleSet::set_keys(std::size_t index, std::vector<ObstacleKey> keys) {
+    obstacles_[index].set_keys(std::move(keys));
+    measure();
+}
+
+void ObstacleSet::measure() {
+    whereabouts_.setEmpty();
+    fastest_ = 0.0;
+    for (const ObstacleFaces& faces : obstacles_) {
         fastest_ = std::max(fastest_, faces.fastest());
         whereabouts_.extend(faces.whereabouts());
     }

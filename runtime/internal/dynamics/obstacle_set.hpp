@@ -46,6 +46,8 @@ class ObstacleFaces {
     ~ObstacleFaces() = default;
 
     [[nodiscard]] const Obstacle& obstacle() const noexcept { return obstacle_; }
+    /// Other keys to move between: one at least, in ascending order of time.
+    void set_keys(std::vector<ObstacleKey> keys);
     /// Whether it has an inside.
     [[nodiscard]] bool is_closed() const noexcept { return is_closed_; }
     /// Whether a point (m, shape axes) lies inside it, which must be closed.
@@ -99,6 +101,11 @@ class ObstacleSet {
   public:
     explicit ObstacleSet(const std::vector<Obstacle>& obstacles);
 
+    /// One more, as ObstacleFaces takes it.
+    void add(Obstacle obstacle);
+    /// Other keys of an obstacle, as ObstacleFaces takes them.
+    void set_keys(std::size_t index, std::vector<ObstacleKey> keys);
+
     [[nodiscard]] const std::vector<ObstacleFaces>& obstacles() const noexcept { return obstacles_; }
     /// Whether any of them has keys.
     [[nodiscard]] bool moves() const noexcept { return fastest_ > 0.0; }
@@ -108,6 +115,8 @@ class ObstacleSet {
     [[nodiscard]] const Eigen::AlignedBox3d& whereabouts() const noexcept { return whereabouts_; }
 
   private:
+    void measure();
+
     std::vector<ObstacleFaces> obstacles_;
     double fastest_ = 0.0;
     Eigen::AlignedBox3d whereabouts_;

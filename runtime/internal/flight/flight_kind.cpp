@@ -281,6 +281,27 @@ void FlightKind::set_pose(std::size_t index, const Pose& pose, double time) {
     batch_.set_state(index, state);
 }
 
+void FlightKind::set_surroundings(const Surroundings& surroundings) {
+    const bool same_flow = surroundings.current == surroundings_.current &&
+                           surroundings.gust.amplitude == surroundings_.gust.amplitude &&
+                           surroundings.gust.period == surroundings_.gust.period;
+    const auto in_new_flow = [&](const Pose& pose, double time) {
+        return in_flow(in_world(pose, surroundings_, time), surroundings, time);
+    };
+    for (std::size_t i = 0; i < batch_.size(); ++i) {
+        BodyState state = batch_.state(i);
+        state.at_rest = false;
+        if (!same_flow) {
+            const BodyState moved = state_of(in_new_flow(flow_pose(state), reached()));
+            state.position = moved.position;
+            state.velocity = moved.velocity;
+            before_[i] = in_new_flow(before_[i], release_.start + before_time_[i]);
+        }
+        batch_.set_state(i, state);
+    }
+    surroundings_ = surroundings;
+}
+
 std::string FlightKind::description() const {
     std::string text = fmt::format("{} {} {} {} inertia {} models", name_, release_.count, release_.start,
                                    hash_, fmt::join(body_->inertia.reshaped(), " "));

@@ -58,6 +58,10 @@ class FlightKind {
     [[nodiscard]] Pose pose_in_wind(std::size_t index, double time) const;
     void set_pose(std::size_t index, const Pose& pose, double time);
     void set_seed(std::uint64_t seed, std::uint32_t first_run);
+    /// Other surroundings from the last step on: bodies keep place and motion in the world, and wake.
+    void set_surroundings(const Surroundings& surroundings);
+    /// When the last step ended or, before the first, the flight begins (s, of the world).
+    [[nodiscard]] double reached() const noexcept { return release_.start + time_of(steps_); }
 
     /// All that shapes the motion, exactly: states fit equal descriptions.
     [[nodiscard]] std::string description() const;
@@ -69,7 +73,9 @@ class FlightKind {
 
   private:
     [[nodiscard]] Noise noise_of(std::uint64_t seed, std::uint32_t first_run, std::size_t index) const;
-    [[nodiscard]] double time_of(std::uint64_t step) const { return static_cast<double>(step) * step_; }
+    [[nodiscard]] double time_of(std::uint64_t step) const noexcept {
+        return static_cast<double>(step) * step_;
+    }
     void step_to(std::uint64_t steps);
     void require_finite() const;
     [[nodiscard]] FlightReport sampled() const;

@@ -39,6 +39,13 @@ void visit_pose(AnyPose& pose, const Visit& visit) {
     for (auto& number : pose.angular_velocity) visit(number);
 }
 
+template <typename Key, typename Visit>
+void visit_key(Key& key, const Visit& visit) {
+    visit(key.time);
+    for (auto& number : key.position) visit(number);
+    for (auto& number : key.orientation.coeffs()) visit(number);
+}
+
 }  // namespace
 
 void StateWriter::write(const BodyState& state) {
@@ -61,6 +68,21 @@ void StateReader::read(Pose& pose) {
     visit_pose(pose, [&](double& number) { read(number); });
 }
 
+void StateWriter::write(const std::vector<ObstacleKey>& keys) {
+    write(static_cast<std::uint64_t>(keys.size()));
+    for (const ObstacleKey& key : keys) visit_key(key, [&](double number) { write(number); });
+}
+
+bool StateReader::read(std::vector<ObstacleKey>& keys) {
+    if (bytes_.size() < keys_size(1)) return false;
+    std::uint64_t count = 0;
+    read(count);
+    if (count < 1 || count > bytes_.size() / (keys_size(1) - keys_size(0))) return false;
+    keys.resize(static_cast<std::size_t>(count));
+    for (ObstacleKey& key : keys) visit_key(key, [&](double& number) { read(number); });
+    return true;
+}
+
 std::size_t seal_size() {
     return mark.size() + 2 * sizeof(std::uint32_t) + sizeof(std::uint64_t) + 2 * hash_size;
 }
@@ -77,7 +99,7 @@ std::string sealed_state(std::string_view payload, std::string_view fingerprint)
 }
 
 std::string_view opened_state(std::string_view bytes, std::string_view fingerprint,
-                              std::size_t payload_size) {
+                              std::size_t least_payload) {
     if (bytes.substr(0, mark.size()) != mark) refuse("the bytes are no state of a simulation");
     if (bytes.size() < seal_size()) refuse("the state is cut short");
     StateReader numbers(bytes.substr(mark.size()));
@@ -97,7 +119,7 @@ std::string_view opened_state(std::string_view bytes, std::string_view fingerpri
     const std::string_view whole = bytes.substr(0, bytes.size() - hash_size);
     if (content_hash(whole) != bytes.substr(whole.size())) refuse("the state is damaged");
     const std::size_t head = seal_size() - 2 * hash_size;
-    if (size != payload_size || content_hash(fingerprint) != bytes.substr(head, hash_size)) {
+    if (size < least_payload || content_hash(fingerprint) != bytes.substr(head, hash_size)) {
         refuse("the state is of a simulation with other settings, kinds or bodies");
     }
     return whole.substr(head + hash_size);

@@ -5,9 +5,11 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include "internal/kernel/body_state.hpp"
 #include "samara/motion/pose.hpp"
+#include "samara/physics/obstacle.hpp"
 
 namespace samara {
 
@@ -21,13 +23,14 @@ class StateWriter {
     }
     void write(const BodyState& state);
     void write(const Pose& pose);
+    void write(const std::vector<ObstacleKey>& keys);
     [[nodiscard]] const std::string& bytes() const { return bytes_; }
 
   private:
     std::string bytes_;
 };
 
-/// Takes them apart again. The bytes must be as many as are asked for.
+/// Takes them apart again. The bytes must be as many as are asked for, but for those of keys.
 class StateReader {
   public:
     explicit StateReader(std::string_view bytes) : bytes_(bytes) {}
@@ -39,6 +42,10 @@ class StateReader {
     }
     void read(BodyState& state);
     void read(Pose& pose);
+    /// Returns whether the bytes hold keys of an obstacle.
+    [[nodiscard]] bool read(std::vector<ObstacleKey>& keys);
+    /// Whether all bytes were read.
+    [[nodiscard]] bool at_end() const { return bytes_.empty(); }
 
   private:
     std::string_view bytes_;
@@ -48,6 +55,11 @@ class StateReader {
 inline constexpr std::size_t body_state_bytes = 25 * sizeof(double) + sizeof(std::uint8_t);
 inline constexpr std::size_t pose_bytes = 13 * sizeof(double);
 
+/// How many bytes the keys of an obstacle take.
+inline constexpr std::size_t keys_size(std::size_t keys) {
+    return sizeof(std::uint64_t) + 8 * sizeof(double) * keys;
+}
+
 /// The payload between a head (mark, version, byte order, size, fingerprint) and a hash of all before it.
 std::string sealed_state(std::string_view payload, std::string_view fingerprint);
 
@@ -55,7 +67,8 @@ std::string sealed_state(std::string_view payload, std::string_view fingerprint)
 std::size_t seal_size();
 
 /// The payload of sealed bytes. Throws FlightError of a foreign state where they were not made by
-/// sealed_state with this fingerprint and this many bytes of payload, or were changed since.
-std::string_view opened_state(std::string_view bytes, std::string_view fingerprint, std::size_t payload_size);
+/// sealed_state with this fingerprint and this many bytes of payload at least, or were changed since.
+std::string_view opened_state(std::string_view bytes, std::string_view fingerprint,
+                              std::size_t least_payload);
 
 }  // namespace samara

@@ -15,8 +15,7 @@ toml::table parse_toml(std::string_view text, const std::string& file) {
     try {
         return toml::parse(text, file);
     } catch (const toml::parse_error& fault) {
-        throw Error(fmt::format("{}:{}: {}{}", file, fault.source().begin.line, fault.description(),
-                                file.ends_with(".toml") ? "" : "; is this a scene file (.toml)?"));
+        throw Error(fmt::format("{}:{}: {}", file, fault.source().begin.line, fault.description()));
     }
 }
 

@@ -15,13 +15,8 @@
 namespace samara {
 namespace {
 
-/// All of an obstacle that shapes the motion, exactly.
+/// All of an obstacle but for its keys that shapes the motion, exactly.
 std::string description_of(const Obstacle& obstacle) {
-    std::string text = fmt::format("obstacle friction {} keys", obstacle.friction);
-    for (const ObstacleKey& key : obstacle.keys) {
-        text += fmt::format(" {} {} {}", key.time, fmt::join(key.position.reshaped(), " "),
-                            fmt::join(key.orientation.coeffs().reshaped(), " "));
-    }
     std::string shape;
     for (const auto& corners : obstacle.surface.corners) {
         for (const std::int32_t corner : corners) {
@@ -29,7 +24,35 @@ std::string description_of(const Obstacle& obstacle) {
             shape += fmt::format("{} ", fmt::join(vertex.reshaped(), " "));
         }
     }
-    return fmt::format("{} shape {}\n", text, content_hash(shape));
+    return fmt::format("obstacle friction {} shape {}\n", obstacle.friction, content_hash(shape));
+}
+
+/// Keys by which an obstacle goes on from where it is at `now`, and is when the last step has ended, to those
+/// given.
+std::vector<ObstacleKey> keys_from(const Obstacle& obstacle, double now, double stepped, double step,
+                                   const std::vector<ObstacleKey>& given) {
+    std::vector<ObstacleKey> keys = {{place_of(obstacle, now), now}};
+    if (stepped > now) keys.push_back({place_of(obstacle, stepped), stepped});
+    for (const ObstacleKey& key : given) {
+        if (key.time > stepped + 0.5 * step) keys.push_back(key);
+    }
+    if (keys.back().time <= stepped) keys.push_back({given.back(), stepped + step});
+    const auto stands_as_first = [&](const ObstacleKey& key) {
+        return key.position == keys.front().position &&
+               key.orientation.coeffs() == keys.front().orientation.coeffs();
+    };
+    if (std::all_of(keys.begin(), keys.end(), stands_as_first)) keys.resize(1);
+    return keys;
+}
+
+bool is_sound(const std::vector<ObstacleKey>& keys) {
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        const ObstacleKey& key = keys[i];
+        if (!std::isfinite(key.time) || !key.position.allFinite()) return false;
+        if (!(std::abs(key.orientation.norm() - 1.0) <= 1e-6)) return false;
+        if (i > 0 && !(key.time > keys[i - 1].time)) return false;
+    }
+    return true;
 }
 
 [[noreturn]] void refuse(FlightError::Kind kind, const std::string& why) {
@@ -40,6 +63,8 @@ std::string description_of(const Obstacle& obstacle) {
 
 struct Flight::Parts {
     FlightSettings settings;
+    std::uint64_t wind_seed;                 ///< for good: set_seed() is of the noise
+    std::shared_ptr<ObstacleSet> obstacles;  ///< null: none. The kinds see what becomes of them
     Surroundings surroundings;
     std::vector<std::unique_ptr<FlightKind>> kinds;
     std::size_t size = 0;
@@ -67,8 +92,11 @@ Flight::Flight(const FlightSettings& settings) : parts_(std::make_unique<Parts>(
         refuse(FlightError::Kind::invalid_argument, "a flight needs a step above zero and one run at least");
     }
     parts_->settings = settings;
-    parts_->settings.wind = settings.wind.seeded(settings.seed);  // for good: set_seed() is of the noise
-    parts_->surroundings = surroundings_of(settings);
+    parts_->wind_seed = settings.seed;
+    parts_->settings.wind = settings.wind.seeded(parts_->wind_seed);
+    if (!settings.obstacles.empty()) parts_->obstacles = std::make_shared<ObstacleSet>(settings.obstacles);
+    parts_->settings.obstacles.clear();
+    renew_surroundings();
 }
 
 Flight::~Flight() = default;
@@ -77,8 +105,10 @@ Flight& Flight::operator=(Flight&&) noexcept = default;
 
 std::size_t Flight::add(const LoadedBody& body, const BodyPhysics& physics, const Release& release,
                         const std::string& given_name) {
-    if (parts_->has_begun) {
-        refuse(FlightError::Kind::invalid_argument, "bodies cannot be added after the first advance");
+    if (release.start < parts_->time) {
+        refuse(FlightError::Kind::invalid_argument,
+               fmt::format("start is {} s, but the simulation is at {} s; let the bodies start then or later",
+                           release.start, parts_->time));
     }
     const std::string name = given_name.empty() ? body.body->name : given_name;
     for (const auto& other : parts_->kinds) {
@@ -91,6 +121,71 @@ std::size_t Flight::add(const LoadedBody& body, const BodyPhysics& physics, cons
                                                          physics, release, name, first));
     parts_->size += parts_->kinds.back()->size();
     return first;
+}
+
+std::size_t Flight::add_obstacle(Obstacle obstacle) {
+    if (!parts_->kinds.empty()) {
+        refuse(FlightError::Kind::invalid_argument, "obstacles must be added before the bodies");
+    }
+    auto& set = parts_->obstacles;
+    if (set != nullptr) {
+        for (const ObstacleFaces& other : set->obstacles()) {
+            if (other.obstacle().name != obstacle.name) continue;
+            refuse(FlightError::Kind::invalid_argument,
+                   fmt::format("the name '{}' is taken by another obstacle; give this one another",
+                               obstacle.name));
+        }
+        set->add(std::move(obstacle));
+    } else {
+        set = std::make_shared<ObstacleSet>(std::vector{std::move(obstacle)});
+    }
+    renew_surroundings();
+    return set->obstacles().size() - 1;
+}
+
+std::size_t Flight::obstacle_count() const noexcept {
+    return parts_->obstacles == nullptr ? 0 : parts_->obstacles->obstacles().size();
+}
+
+void Flight::set_obstacle_keys(std::size_t index, const std::vector<ObstacleKey>& keys) {
+    ObstacleSet& set = *parts_->obstacles;
+    const Obstacle& obstacle = set.obstacles()[index].obstacle();
+    if (!parts_->has_begun) {
+        set.set_keys(index, keys);
+        return;
+    }
+    double stepped = parts_->time;
+    for (const auto& kind : parts_->kinds) {
+        if (kind->steps() > 0) stepped = std::max(stepped, kind->reached());
+    }
+    const bool stood = !obstacle.moves();
+    set.set_keys(index, keys_from(obstacle, parts_->time, stepped, parts_->settings.step, keys));
+    if (stood && !obstacle.moves()) return;
+    for (const auto& kind : parts_->kinds) kind->set_surroundings(parts_->surroundings);
+}
+
+void Flight::set_ground(std::optional<double> ground) {
+    parts_->settings.ground = ground;
+    renew_surroundings();
+}
+
+const std::optional<double>& Flight::ground() const noexcept {
+    return parts_->settings.ground;
+}
+
+void Flight::set_wind(const Wind& wind) {
+    parts_->settings.wind = wind.seeded(parts_->wind_seed);
+    renew_surroundings();
+}
+
+const Wind& Flight::wind() const noexcept {
+    return parts_->settings.wind;
+}
+
+void Flight::renew_surroundings() {
+    parts_->surroundings = surroundings_of(parts_->settings);
+    parts_->surroundings.obstacles = parts_->obstacles;
+    for (const auto& kind : parts_->kinds) kind->set_surroundings(parts_->surroundings);
 }
 
 std::size_t Flight::size() const noexcept {
@@ -184,16 +279,26 @@ std::string Flight::fingerprint() const {
                                    fmt::join(all.fluid.gust.amplitude.reshaped(), " "), all.fluid.gust.period,
                                    fmt::join(all.gravity.reshaped(), " "),
                                    all.ground ? fmt::format("{}", *all.ground) : "none", all.step, all.runs);
-    for (const Obstacle& obstacle : all.obstacles) text += description_of(obstacle);
+    for (std::size_t i = 0; i < obstacle_count(); ++i) {
+        text += description_of(parts_->obstacles->obstacles()[i].obstacle());
+    }
     text += description_of(all.wind);
     for (const auto& kind : parts_->kinds) text += kind->description();
     return text;
 }
 
-std::size_t Flight::state_size() const {
-    std::size_t size = seal_size() + sizeof(parts_->time) + sizeof(std::uint8_t) +
-                       sizeof(parts_->settings.seed) + sizeof(parts_->settings.first_run);
+std::size_t Flight::fixed_state_size() const {
+    std::size_t size = sizeof(parts_->time) + sizeof(std::uint8_t) + sizeof(parts_->settings.seed) +
+                       sizeof(parts_->settings.first_run);
     for (const auto& kind : parts_->kinds) size += kind->state_size();
+    return size;
+}
+
+std::size_t Flight::state_size() const {
+    std::size_t size = seal_size() + fixed_state_size();
+    for (std::size_t i = 0; i < obstacle_count(); ++i) {
+        size += keys_size(parts_->obstacles->obstacles()[i].obstacle().keys.size());
+    }
     return size;
 }
 
@@ -205,11 +310,14 @@ std::string Flight::state() const {
     writer.write(parts_->settings.seed);
     writer.write(parts_->settings.first_run);
     for (const auto& kind : parts_->kinds) kind->write(writer);
+    for (std::size_t i = 0; i < obstacle_count(); ++i) {
+        writer.write(parts_->obstacles->obstacles()[i].obstacle().keys);
+    }
     return sealed_state(writer.bytes(), fingerprint());
 }
 
 void Flight::set_state(std::string_view bytes) {
-    const std::string_view payload = opened_state(bytes, fingerprint(), state_size() - seal_size());
+    const std::string_view payload = opened_state(bytes, fingerprint(), fixed_state_size());
     // Sealed by another hand it may hold anything: all of it is looked at before any of it is kept.
     if (!read_state(payload, false)) {
         refuse(FlightError::Kind::foreign_state, "the state holds numbers that no simulation has");
@@ -229,6 +337,12 @@ bool Flight::read_state(std::string_view payload, bool keep) {
     reader.read(first_run);
     bool sound = time >= 0.0 && time / parts_->settings.step <= most_steps_off;
     for (const auto& kind : parts_->kinds) sound = sound && kind->read(reader, time, keep);
+    std::vector<ObstacleKey> keys;
+    for (std::size_t i = 0; i < obstacle_count(); ++i) {
+        sound = sound && reader.read(keys) && is_sound(keys);
+        if (keep) parts_->obstacles->set_keys(i, keys);
+    }
+    sound = sound && reader.at_end();
     if (!keep) return sound;
     parts_->time = time;
     parts_->has_begun = has_begun != 0;

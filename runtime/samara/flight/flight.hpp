@@ -84,11 +84,15 @@ class Flight {
     /// The other is left without bodies, fit to be assigned to or destroyed.
     Flight& operator=(Flight&&) noexcept;
 
-    /// Adds all bodies of a kind, before the first advance, and returns the number of the first: copy c of
-    /// run r has the number first + r * count + c. `name`, on which the random numbers depend, is the body's
-    /// own where it is empty. Throws FlightError where the name is taken or the flight has begun; Error where
-    /// the body lacks what its physics asks for, the inertia is that of no body, or a copy starts below the
-    /// ground or inside an obstacle.
+    /// Adds an obstacle, before the first kind, and returns its number, from 0. Its surface must be welded
+    /// and sound. Throws FlightError where there is a kind already, or the name is taken.
+    std::size_t add_obstacle(Obstacle obstacle);
+
+    /// Adds all bodies of a kind, which start at time() or later, and returns the number of the first: copy c
+    /// of run r has the number first + r * count + c. `name`, on which the random numbers depend, is the
+    /// body's own where it is empty. Throws FlightError where the name is taken or the start has passed;
+    /// Error where the body lacks what its physics asks for, the inertia is that of no body, or a copy starts
+    /// below the ground or inside an obstacle.
     std::size_t add(const LoadedBody& body, const BodyPhysics& physics, const Release& release,
                     const std::string& name = {});
 
@@ -114,15 +118,33 @@ class Flight {
     /// Of a body: m, shape axes.
     [[nodiscard]] const Vector3d& center_of_mass(std::size_t index) const;
 
+    /// How many obstacles there are.
+    [[nodiscard]] std::size_t obstacle_count() const noexcept;
+    /// Other keys of an obstacle, one at least, in ascending order of time. Before the first advance they
+    /// take the place of its own. Later the obstacle goes from where it is at time() evenly to the first that
+    /// lies half a step behind the last step taken, and to the last within a step where none does. Needs
+    /// index < obstacle_count().
+    void set_obstacle_keys(std::size_t index, const std::vector<ObstacleKey>& keys);
+    /// Other ground from the last step on: what is below it is lifted onto it in the next one.
+    void set_ground(std::optional<double> ground);
+    /// m: the height of level ground, where there is some.
+    [[nodiscard]] const std::optional<double>& ground() const noexcept;
+    /// Another wind from the last step on; its gusts have the seed that the flight was made with, where they
+    /// have none.
+    void set_wind(const Wind& wind);
+    /// The one that blows.
+    [[nodiscard]] const Wind& wind() const noexcept;
+
     /// Other random numbers from the next step on; run r of the flight is then run first_run + r.
     void set_seed(std::uint64_t seed, std::uint32_t first_run);
 
-    /// Bytes of state().
+    /// Bytes of state(), which grow with the obstacles' keys.
     [[nodiscard]] std::size_t state_size() const;
     /// All that the rest of the flight depends on. Throws FlightError where the flight has stopped.
     [[nodiscard]] std::string state() const;
-    /// Goes on from such a state, of a flight with the same settings, kinds and bodies. Throws FlightError,
-    /// and changes nothing, where the bytes are none.
+    /// Goes on from such a state, of a flight with the same settings, ground, wind, obstacles, kinds and
+    /// bodies; obstacles get their keys from it. Throws FlightError, and changes nothing, where the bytes are
+    /// none.
     void set_state(std::string_view bytes);
 
     /// Throws FlightError where the flight has stopped, since a body's motion left the range of numbers.
@@ -135,6 +157,8 @@ class Flight {
     struct Parts;
     [[nodiscard]] FlightKind& kind_of(std::size_t index) const;
     [[nodiscard]] std::string fingerprint() const;
+    [[nodiscard]] std::size_t fixed_state_size() const;
+    void renew_surroundings();
     bool read_state(std::string_view payload, bool keep);
 
     std::unique_ptr<Parts> parts_;

@@ -255,6 +255,17 @@ void read_settings(TomlTable& table, Scene& scene) {
     table.finish();
 }
 
+toml::table parsed_scene(const Scene& scene) {
+    const std::string file = scene.file.string();
+    try {
+        return parse_toml(scene.text, file);
+    } catch (const Error& fault) {
+        const std::filesystem::path ending = scene.file.extension();
+        if (ending.empty() || ending == ".toml") throw;
+        throw Error(fmt::format("{}; is this a scene file (.toml)?", fault.what()));
+    }
+}
+
 }  // namespace
 
 Scene read_scene_file(const std::filesystem::path& file) {
@@ -266,7 +277,7 @@ Scene read_scene_text(std::string text, const std::string& name, const std::file
     Scene scene;
     scene.file = name;
     scene.text = std::move(text);
-    const toml::table document = parse_toml(scene.text, name);
+    const toml::table document = parsed_scene(scene);
     TomlTable top(document, name, "the scene");
     auto settings = top.table("scene");
     if (!settings) throw top.fault("[scene]", "is missing; it holds at least the duration");

@@ -18,7 +18,8 @@ except ImportError:  # which the structs do without
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..")
 TYPES = {"size_t": ctypes.c_size_t, "double": ctypes.c_double, "uint64_t": ctypes.c_uint64, "uint32_t": ctypes.c_uint32,
          "int32_t": ctypes.c_int32, "int": ctypes.c_int, "const char*": ctypes.c_char_p,
-         "void*": ctypes.c_void_p, "samara_wind_function": ctypes.c_void_p}
+         "void*": ctypes.c_void_p, "samara_wind_function": ctypes.c_void_p, "const double*": ctypes.c_void_p,
+         "const int32_t*": ctypes.c_void_p, "const samara_obstacle_key*": ctypes.c_void_p}
 
 
 def header():
@@ -53,6 +54,8 @@ class CStructsTest(unittest.TestCase):
         library = module("runtime", "blender", "samara", "samara_library.py")
         self.check(library.Settings, "samara_settings")
         self.check(library.Kind, "samara_kind")
+        self.check(library.Obstacle, "samara_obstacle")
+        self.assertEqual(library.ObstacleKey._fields_, fields_of("samara_obstacle_key"))
         self.assertEqual(library.POSE_SIZE, ctypes.sizeof(type("Pose", (ctypes.Structure,), {"_fields_": fields_of("samara_pose")})) // 8)
 
     def test_the_add_on_is_of_the_version_of_the_header(self):

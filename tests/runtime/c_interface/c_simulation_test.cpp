@@ -25,7 +25,7 @@ double distance(const double (&a)[3], const Vector3d& b) {
     return (Vector3d(a) - b).norm();
 }
 
-TEST(CSimulation, KindsHaveNamesOfTheirOwnAndAreAddedBeforeTheFirstAdvance) {
+TEST(CSimulation, KindsHaveNamesOfTheirOwn) {
     const BodyOnDisk body;
     const SimulationPointer simulation = simulation_of(body, rubber_kind(3));
     samara_kind kind = rubber_kind(2);
@@ -39,10 +39,6 @@ TEST(CSimulation, KindsHaveNamesOfTheirOwnAndAreAddedBeforeTheFirstAdvance) {
     EXPECT_EQ(CALL(samara_simulation_add, simulation.get(), body.get(), &kind, &first), SAMARA_OK);
     EXPECT_EQ(first, 3U);
     EXPECT_EQ(samara_simulation_count(simulation.get()), 5U);
-    EXPECT_EQ(CALL(samara_advance_to, simulation.get(), 0.0), SAMARA_OK);
-    kind.name = "late";
-    EXPECT_EQ(CALL(samara_simulation_add, simulation.get(), body.get(), &kind, &first),
-              SAMARA_INVALID_ARGUMENT);
 }
 
 TEST(CSimulation, AnEmptyOneAdvances) {
