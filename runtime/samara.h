@@ -75,6 +75,8 @@ SAMARA_API void samara_body_free(samara_body* body);
 SAMARA_API const char* samara_body_name(const samara_body* body);
 SAMARA_API const char* samara_body_source(const samara_body* body); /* one line: the shape file it is from */
 SAMARA_API double samara_body_volume(const samara_body* body);      /* m^3 */
+SAMARA_API double samara_body_mass(const samara_body* body); /* kg: what its file says it weighs; 0 where it
+                                                                says nothing. Since version 6 */
 SAMARA_API int samara_body_has_added_mass(const samara_body* body); /* which a kind needs by default */
 SAMARA_API int samara_body_has_tables(const samara_body* body);     /* of loads and turbulence */
 

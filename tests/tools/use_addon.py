@@ -135,6 +135,199 @@ def live(file):
     return found
 
 
+def clear_keys(objects):
+    for o in objects:
+        o.animation_data_clear()
+
+
+def bodies_over_roof(file):
+    """Three bodies over a roof that is scaled, turned, parented and bevelled by a modifier."""
+    objects = three_bodies(file)
+    bpy.ops.object.empty_add(location=(1.0, 0.0, -3.0), rotation=(0.0, 0.3, 0.4))
+    parent = bpy.context.object
+    bpy.ops.mesh.primitive_cube_add(size=1.0)
+    roof = bpy.context.object
+    roof.name = "Roof"
+    roof.parent = parent
+    roof.scale = (-9.0, 7.0, 0.5)
+    bevel = roof.modifiers.new("bevel", "BEVEL")
+    bevel.width, bevel.segments = 0.1, 2
+    roof.samara.is_obstacle = True
+    roof.samara.friction = 0.3
+    select(objects)
+    return objects, roof
+
+
+def set_wind():
+    settings = scene.samara
+    settings.use_wind = True
+    settings.wind_speed = 0.5
+    settings.wind_direction = (0.0, 2.0, 0.0)
+    settings.wind_profile = "LOG"
+    settings.wind_height = 20.0
+    settings.wind_roughness = 0.5
+    settings.ground = -8.0
+    settings.use_ground = True
+    settings.gust_speed = 0.2
+    settings.gust_length = 3.0
+    settings.gust_seed = 4
+
+
+def world_triangles(o):
+    """As lists of corners, metres, each anticlockwise from outside."""
+    evaluated = o.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    mesh = evaluated.to_mesh()
+    mesh.calc_loop_triangles()
+    corners = [[list(0.1 * (o.matrix_world @ mesh.vertices[i].co)) for i in t.vertices] for t in mesh.loop_triangles]
+    evaluated.to_mesh_clear()
+    mirrored = o.matrix_world.determinant() < 0.0
+    return [t[::-1] for t in corners] if mirrored else corners
+
+
+def roof(file):
+    """Keys and Live over a roof in a wind, and Live once the roof has been moved."""
+    objects, roof = bodies_over_roof(file)
+    set_wind()
+    frames = range(11, 72)
+    found = {"starts": starts(objects), "error": run(bpy.ops.samara.simulate)}
+    found["triangles"] = world_triangles(roof)
+    found["matrices"] = matrices(objects, frames)
+    clear_keys(objects)
+    scene.frame_set(11)
+    for o in objects:
+        o.matrix_world = mathutils.Matrix(found["matrices"][o.name][0])
+    found["live_error"] = run(bpy.ops.samara.live)
+    found["live"] = matrices(objects, frames)
+    roof.parent.location.z -= 20.0
+    bpy.context.view_layer.update()
+    found["roof_far"] = matrices(objects, [71])
+    roof.parent.location.z += 20.0
+    bpy.context.view_layer.update()
+    found["roof_back"] = matrices(objects, frames)
+    roof.samara.is_obstacle = False
+    found["no_roof"] = matrices(objects, [71])
+    found["live_errors"] = [o.samara.live_error for o in objects]
+    return found
+
+
+def lift(file):
+    """Bodies on a platform that keys raise, and its scale animated."""
+    objects = three_bodies(file)
+    bpy.ops.mesh.primitive_cube_add(size=1.0, location=(1.5, 0.0, -2.0))
+    lift = bpy.context.object
+    lift.scale = (20.0, 20.0, 1.0)
+    lift.samara.is_obstacle = True
+    for frame, height in ((41, -2.0), (71, 2.0)):
+        lift.location.z = height
+        lift.keyframe_insert("location", frame=frame)
+    for curve in lift.animation_data.action.fcurves:
+        for point in curve.keyframe_points:
+            point.interpolation = "LINEAR"
+    scene.frame_set(11)
+    select(objects)
+    found = {"error": run(bpy.ops.samara.simulate), "frame": scene.frame_current}
+    found["matrices"] = matrices(objects, [41, 56, 71])
+    clear_keys(objects)
+    scene.frame_set(11)
+    for i, o in enumerate(objects):
+        o.location = (1.5 * i, -0.5 * i, 0.25 * i)
+        o.rotation_quaternion = mathutils.Quaternion((1.0, 0.3 * i, -0.2, 0.1 * i)).normalized()
+    found["live_error"] = run(bpy.ops.samara.live)
+    found["live"] = matrices(objects, [41, 56, 71])
+    assert run(bpy.ops.samara.live) == ""
+    lift.scale.x = 1.0
+    lift.keyframe_insert("scale", frame=11)
+    lift.scale.x = 2.0
+    lift.keyframe_insert("scale", frame=71)
+    found["scale"] = run(bpy.ops.samara.simulate)
+    lift.animation_data_clear()
+    lift.scale.x = 20.0
+    lift.location.z = 0.0
+    found["inside"] = run(bpy.ops.samara.simulate)
+    lift.data.clear_geometry()
+    found["no_faces"] = run(bpy.ops.samara.simulate)
+    lift.samara.is_obstacle = False
+    objects[0].samara.is_obstacle = True
+    found["is_obstacle"] = run(bpy.ops.samara.simulate)
+    return found
+
+
+def masses(file):
+    """Where a body is after a second, by how its mass is given."""
+    empty_scene()
+    (o,) = add_bodies(file, 1, density=3000.0)
+    scene.frame_end = 25
+    body = o.samara
+    body.noise = False
+    start = list(o.location)
+
+    def end():
+        clear_keys([o])
+        o.location, o.rotation_quaternion = start, (0.8, 0.0, 0.6, 0.0)
+        assert run(bpy.ops.samara.simulate) == ""
+        return matrices([o], [25])[o.name][0]
+
+    found = {"source": body.mass_source, "file": end()}
+    body.mass_source = "DENSITY"
+    found["density"] = end()
+    body.density = 1200.0
+    found["same_density"] = end()
+    body.mass_source = "MASS"
+    body.mass = 1200.0 * 33.51032163829e-6
+    found["same_mass"] = end()
+    body.use_center_of_mass = True
+    body.center_of_mass = (0.0, 0.0, 0.004)
+    found["off_center"] = end()
+    body.use_inertia = True
+    body.inertia = (2e-5, 2e-5, 2e-5)
+    found["inertia"] = end()
+    body.inertia = (2e-5, 0.0, 0.0)
+    clear_keys([o])
+    found["no_inertia"] = run(bpy.ops.samara.simulate)
+    o.samara.mass_source = "FILE"
+    found["start"] = [list(row) for row in o.matrix_basis]
+    return found
+
+
+def cache(file, folder):
+    """Live from the disk: in a saved file that is opened again, and with a flight that is damaged."""
+    from samara import flight, live
+
+    objects = three_bodies(file)
+    bpy.ops.wm.save_as_mainfile(filepath=os.path.join(folder, "scene.blend"))
+    assert run(bpy.ops.samara.live) == ""
+    shown = [40, 71, 12]
+    found = {"first": matrices(objects, shown)}
+    live.wait()
+    cached = os.path.join(folder, "samara", "live")
+    found["files"] = len(os.listdir(cached))
+    bpy.ops.wm.save_mainfile()
+
+    flown = []
+    fleet = flight.Fleet.__init__
+
+    def counted(self, surroundings, requests, refused):
+        flown.extend(request.name for request in requests)
+        fleet(self, surroundings, requests, refused)
+
+    flight.Fleet.__init__ = counted
+    bpy.ops.wm.open_mainfile(filepath=os.path.join(folder, "scene.blend"))
+    global scene
+    scene = bpy.context.scene
+    objects = live.live_objects(scene)
+    found["again"] = matrices(objects, shown)
+    found["flown_again"] = len(flown)
+    for i, name in enumerate(sorted(os.listdir(cached))):
+        with open(os.path.join(cached, name), "r+b") as damaged:
+            damaged.truncate(0 if i == 0 else 500)
+    bpy.ops.wm.open_mainfile(filepath=os.path.join(folder, "scene.blend"))
+    scene = bpy.context.scene
+    found["damaged"] = matrices(live.live_objects(scene), shown)
+    found["flown_damaged"] = len(flown)
+    live.wait()
+    return found
+
+
 def errors(good, newer, cut):
     empty_scene()
     found = {"none_selected": run(bpy.ops.samara.simulate)}
@@ -256,6 +449,40 @@ def crowd(file, count, frames):
     }
 
 
+def scrub(file, count, frames, folder):
+    """Seconds of many bodies live over ground and a roof of 2,000 triangles: until they are live, until all is flown, and of
+    the slowest change of a frame: while it is flown, after that, and in the file opened anew."""
+    from samara import live
+
+    empty_scene()
+    bpy.ops.mesh.primitive_grid_add(x_subdivisions=32, y_subdivisions=32, size=2.0, location=(0.0, 0.0, -1.5), rotation=(0.3, 0.0, 0.0))
+    bpy.context.object.samara.is_obstacle = True
+    objects = add_bodies(file, int(count), spread=(0.8, 0.8, 0.8), turn=True, density=600.0)
+    scene.samara.fluid, scene.samara.use_ground, scene.samara.ground = "AIR", True, -3.0
+    scene.frame_end = int(frames)
+    bpy.ops.wm.save_as_mainfile(filepath=os.path.join(folder, "scrub.blend"))
+
+    def slowest(scene):
+        shuffled = [1 + (97 * i) % int(frames) for i in range(int(frames))]
+        seconds = []
+        for frame in shuffled:
+            start = time.perf_counter()
+            scene.frame_set(frame)
+            seconds.append(time.perf_counter() - start)
+        return {"first": seconds[0], "slowest": max(seconds), "mean": sum(seconds) / len(seconds)}
+
+    start = time.perf_counter()
+    assert run(bpy.ops.samara.live) == ""
+    found = {"live": time.perf_counter() - start, "while_flown": slowest(scene)}
+    live.wait()
+    found["all_flown"] = time.perf_counter() - start
+    found["flown"] = slowest(scene)
+    bpy.ops.wm.save_mainfile()
+    bpy.ops.wm.open_mainfile(filepath=os.path.join(folder, "scrub.blend"))
+    found["from_disk"] = slowest(bpy.context.scene)
+    return found
+
+
 class Watch:
     """What an operator's calls for events return, and its lines while it runs."""
 
@@ -321,6 +548,31 @@ def simulate_in_window(file):
     found["keys"] = sorted({len(c.keyframe_points) for o in objects for c in o.animation_data.action.fcurves})
     objects[0].scale = (2.0, 2.0, 2.0)
     found["refused"] = run(bpy.ops.samara.simulate)
+    return found
+
+
+def live_in_window(file):
+    """Live while the flights are slow: a late frame is asked for, waited for, and flown to."""
+    from samara import live
+
+    objects = three_bodies(file)
+    scene.samara.step = 2e-5  # some seconds
+    found = {"error": run(bpy.ops.samara.live)}
+    scene.frame_set(71)
+    found["flown"] = min(flight.flown for flight in live._flights.values())
+    early = [list(o.location) for o in objects]
+    yield 0.2
+    while [list(o.location) for o in objects] == early:
+        yield 0.1
+    found["moved_on"] = min(flight.flown for flight in live._flights.values())
+    while any(flight.is_flying() for flight in live._flights.values()):
+        yield 0.2
+    yield 0.3
+    found["frame"] = scene.frame_current
+    found["shown"] = {o.name: [list(row) for row in o.matrix_basis] for o in objects}
+    assert run(bpy.ops.samara.live) == ""
+    assert run(bpy.ops.samara.simulate) == ""
+    found["keyed"] = {name: rows[0] for name, rows in matrices(objects, [71]).items()}
     return found
 
 
@@ -400,7 +652,7 @@ def go_on(steps):
     return None
 
 
-tasks = (keys, live, errors, bake, render, crowd, simulate_in_window, bake_in_window, version)
+tasks = (keys, live, roof, lift, masses, cache, scrub, errors, bake, render, crowd, simulate_in_window, live_in_window, bake_in_window, version)
 found = {f.__name__: f for f in tasks}[task](*arguments)
 if inspect.isgenerator(found):
     bpy.context.preferences.view.show_splash = False

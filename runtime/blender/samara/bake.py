@@ -10,6 +10,7 @@ from bpy.props import EnumProperty
 from .bake_job import BakeJob, bake_command, find_program, write_stl
 from .conventions import metres_per_unit, noise_name
 from .job_operator import JobOperator
+from .meshes import evaluated_mesh
 from .objects import fluid_of
 from .samara_library import SamaraError
 
@@ -20,23 +21,8 @@ def mesh_corners(context, o):
         raise SamaraError(f"{o.name}: has a negative scale, which turns its faces; apply it (Ctrl A, Scale)")
     if any(s == 0.0 for s in o.scale):
         raise SamaraError(f"{o.name}: has a scale of 0; it has no volume")
-    evaluated = o.evaluated_get(context.evaluated_depsgraph_get())
-    try:
-        mesh = evaluated.to_mesh()
-    except RuntimeError:
-        raise SamaraError(f"{o.name}: has no mesh; bake a mesh") from None
-    try:
-        mesh.calc_loop_triangles()
-        vertices = numpy.empty(3 * len(mesh.vertices), numpy.float32)
-        corners = numpy.empty(3 * len(mesh.loop_triangles), numpy.int32)
-        mesh.vertices.foreach_get("co", vertices)
-        mesh.loop_triangles.foreach_get("vertices", corners)
-    finally:
-        evaluated.to_mesh_clear()
-    if not len(corners):
-        raise SamaraError(f"{o.name}: has no faces; bake a closed mesh")
-    scaled = vertices.reshape(-1, 3) * numpy.array(o.scale) * metres_per_unit(context.scene)
-    return scaled[corners].reshape(-1, 3, 3)
+    vertices, triangles = evaluated_mesh(o, context.evaluated_depsgraph_get())
+    return (vertices * numpy.array(o.scale) * metres_per_unit(context.scene))[triangles]
 
 
 def output_folder():

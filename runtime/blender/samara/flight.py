@@ -1,7 +1,9 @@
-"""Flights: the poses of objects at every frame, and many of them at once on all cores. Knows nothing of Blender."""
+"""Flights: the poses of objects at every frame, many of them in one simulation. Knows nothing of Blender."""
 
 import concurrent.futures
 import dataclasses
+import functools
+import hashlib
 import os
 import threading
 from typing import Optional
@@ -14,6 +16,74 @@ from .samara_library import SamaraError
 
 
 @dataclasses.dataclass(frozen=True)
+class Obstacle:
+    """What bodies touch, in SI units; arrays as bytes, so that equal obstacles are the same to all that depends on them."""
+
+    name: str
+    vertices: bytes  # doubles (n, 3), in the object's axes
+    triangles: bytes  # int32 (m, 3)
+    friction: float
+    keys: bytes  # doubles (k, 8): time, place, quaternion
+
+    @functools.cached_property
+    def digest(self):
+        """In hexadecimal digits: of all of it."""
+        parts = (self.name.encode(), self.vertices, self.triangles, repr(self.friction).encode(), self.keys)
+        return hashlib.sha256(b"".join(hashlib.sha256(part).digest() for part in parts)).hexdigest()
+
+    def add_to(self, simulation):
+        simulation.add_obstacle(
+            noise_name(self.name),
+            numpy.frombuffer(self.vertices).reshape(-1, 3),
+            numpy.frombuffer(self.triangles, numpy.int32).reshape(-1, 3),
+            self.friction,
+            numpy.frombuffer(self.keys).reshape(-1, 8),
+        )
+
+
+@dataclasses.dataclass(frozen=True)
+class Surroundings:
+    """What all bodies of a scene share, and the frames at which they are shown."""
+
+    fluid_density: float
+    fluid_viscosity: float
+    current: tuple
+    wind: str  # TOML
+    gravity: tuple
+    ground: Optional[float]
+    obstacles: tuple
+    step: float
+    seed: int
+    frames: int
+    frame_seconds: float
+    metres_per_unit: float
+
+    @functools.cached_property
+    def digest(self):
+        """In hexadecimal digits: of all of it."""
+        plain = dataclasses.replace(self, obstacles=tuple(obstacle.digest for obstacle in self.obstacles))
+        return hashlib.sha256(repr(plain).encode()).hexdigest()
+
+    def simulation(self):
+        """One without bodies."""
+        settings = samara_library.default_settings()
+        settings.fluid_density = self.fluid_density
+        settings.fluid_viscosity = self.fluid_viscosity
+        settings.current[:] = self.current
+        settings.gravity[:] = self.gravity
+        settings.step = self.step
+        settings.seed = self.seed
+        if self.ground is not None:
+            settings.has_ground, settings.ground = 1, self.ground
+        simulation = samara_library.Simulation(settings)
+        if self.wind:
+            simulation.set_wind(self.wind)
+        for obstacle in self.obstacles:
+            obstacle.add_to(simulation)
+        return simulation
+
+
+@dataclasses.dataclass(frozen=True)
 class Request:
     """All that an object's motion depends on, in SI units. Equal requests have equal motions."""
 
@@ -21,6 +91,8 @@ class Request:
     body_file: str
     body_file_time: int  # when the file was written: a file that is baked anew is another request
     density: float
+    mass: str  # FILE: as the file says, by the density where it says nothing; DENSITY, MASS
+    mass_given: tuple  # kg, centre of mass or None, inertia (9 numbers) or None; with MASS
     loads: str  # AUTO: from tables where the file has them, TABLE, COEFFICIENTS
     drag_coefficient: float
     lift_coefficient: float
@@ -29,75 +101,66 @@ class Request:
     orientation: tuple  # w, x, y, z
     velocity: tuple  # of the centre of mass, world axes
     angular_velocity: tuple  # world axes
-    fluid_density: float
-    fluid_viscosity: float
-    current: tuple
-    gravity: tuple
-    ground: Optional[float]
-    step: float
-    seed: int
-    frames: int
-    frame_seconds: float
-    metres_per_unit: float
+    surroundings: Surroundings
 
+    def kind(self, body):
+        kind = samara_library.default_kind()
+        kind.name = noise_name(self.name).encode()
+        self._weigh(kind, body)
+        kind.position[:] = self.position
+        kind.orientation[:] = self.orientation
+        kind.velocity[:] = self.velocity
+        kind.angular_velocity[:] = self.angular_velocity
+        has_tables = self.loads == "TABLE" or (self.loads == "AUTO" and body.has_tables)
+        kind.loads = samara_library.LOADS_TABLE if has_tables else samara_library.LOADS_COEFFICIENTS
+        kind.drag_coefficient = self.drag_coefficient
+        kind.lift_coefficient = self.lift_coefficient
+        kind.turbulence = samara_library.TURBULENCE_AS_LOADS if self.noise else samara_library.TURBULENCE_NONE
+        return kind
 
-def _settings(request):
-    settings = samara_library.default_settings()
-    settings.fluid_density = request.fluid_density
-    settings.fluid_viscosity = request.fluid_viscosity
-    settings.current[:] = request.current
-    settings.gravity[:] = request.gravity
-    settings.step = request.step
-    settings.seed = request.seed
-    if request.ground is not None:
-        settings.has_ground, settings.ground = 1, request.ground
-    return settings
+    def _weigh(self, kind, body):
+        if self.mass == "MASS":
+            mass, center, inertia = self.mass_given
+            kind.mass = mass
+            if center is not None:
+                kind.has_center_of_mass = 1
+                kind.center_of_mass[:] = center
+            if inertia is not None:
+                kind.inertia[:] = inertia
+        elif self.mass == "DENSITY" or body.mass == 0.0:
+            kind.density = self.density
 
-
-def _kind(request, body):
-    kind = samara_library.default_kind()
-    kind.name = noise_name(request.name).encode()
-    kind.density = request.density
-    kind.position[:] = request.position
-    kind.orientation[:] = request.orientation
-    kind.velocity[:] = request.velocity
-    kind.angular_velocity[:] = request.angular_velocity
-    has_tables = request.loads == "TABLE" or (request.loads == "AUTO" and body.has_tables)
-    kind.loads = samara_library.LOADS_TABLE if has_tables else samara_library.LOADS_COEFFICIENTS
-    kind.drag_coefficient = request.drag_coefficient
-    kind.lift_coefficient = request.lift_coefficient
-    kind.turbulence = (
-        samara_library.TURBULENCE_AS_LOADS if request.noise else samara_library.TURBULENCE_NONE
-    )
-    return kind
+    def digest(self):
+        """In hexadecimal digits: of all that the motion depends on, the library's version included."""
+        plain = dataclasses.replace(self, surroundings=None)
+        return hashlib.sha256(f"{samara_library.version()} {self.surroundings.digest} {plain!r}".encode()).hexdigest()
 
 
 class Flight:
     """The motion of one object, flown as far as it was asked for."""
 
-    def __init__(self, request):
+    def __init__(self, request, poses, fleet=None):
         self.request = request
-        self.poses = numpy.empty((request.frames, samara_library.POSE_SIZE))
-        self.flown = 0  # frames
-        try:
-            body = samara_library.body_of_file(request.body_file)
-            self._simulation = samara_library.Simulation(_settings(request), body, _kind(request, body))
-        except SamaraError as fault:
-            raise SamaraError(f"{request.name}: {fault}") from None
+        self.poses = poses  # (frames, POSE_SIZE)
+        self.fleet = fleet  # that flies it; None: it is all there
 
-    def fly_to(self, frame, cancelled=None):
-        """Up to a frame of the range, counted from 0; ends early once the event `cancelled` is set."""
-        try:
-            while self.flown <= frame and not (cancelled and cancelled.is_set()):
-                self._simulation.advance_to(self.flown * self.request.frame_seconds)
-                self._simulation.read_pose(self.poses[self.flown])
-                self.flown += 1
-        except SamaraError as fault:
-            raise SamaraError(f"{self.request.name}: {fault}") from None
+    @property
+    def flown(self):
+        """How many frames."""
+        return self.fleet.flown if self.fleet else len(self.poses)
+
+    def is_flying(self):
+        """Whether frames are missing that a thread may add; not once it was ended or has failed."""
+        return self.fleet is not None and self.fleet.is_flying()
+
+    def fly_to(self, frame):
+        """Up to a frame of the range, counted from 0."""
+        if frame >= self.flown:
+            self.fleet.fly_to(frame)
 
     def locations(self):
         """Of the shape's origin at the frames that were flown (n, 3), in Blender units."""
-        return self.poses[: self.flown, 0:3] / self.request.metres_per_unit
+        return self.poses[: self.flown, 0:3] / self.request.surroundings.metres_per_unit
 
     def rotations(self):
         """Quaternions at the frames that were flown (n, 4), their signs continuous."""
@@ -106,7 +169,7 @@ class Flight:
     def pose_at(self, frame):
         """Location (3, Blender units) and quaternion at a frame of the range, counted from 0, or between two: there
         as linear keys have it. Held before the first and behind the last."""
-        frame = min(max(frame, 0.0), self.request.frames - 1.0)
+        frame = min(max(frame, 0.0), self.request.surroundings.frames - 1.0)
         before = int(frame)
         share = frame - before
         self.fly_to(before + (share > 0.0))
@@ -114,25 +177,96 @@ class Flight:
         if share > 0.0:
             pose = (1.0 - share) * pose + share * self.poses[before + 1]
         rotation = pose[3:7] / numpy.linalg.norm(pose[3:7])
-        return pose[0:3] / self.request.metres_per_unit, rotation
+        return pose[0:3] / self.request.surroundings.metres_per_unit, rotation
+
+
+class Fleet:
+    """Flights in the same surroundings, flown by one simulation. May be asked by several threads."""
+
+    def __init__(self, surroundings, requests, refused):
+        """`refused`: takes (request, SamaraError) of those that cannot be flown, which are left out."""
+        self.surroundings = surroundings
+        self.flown = 0
+        self.cancelled = threading.Event()  # ends its flights within a frame
+        self.failed = False
+        self._turn = threading.Condition()
+        self._flying = False
+        accepted = []
+        self._simulation = surroundings.simulation()
+        for request in requests:
+            try:
+                body = samara_library.body_of_file(request.body_file)
+                self._simulation.add(body, request.kind(body))
+                accepted.append(request)
+            except SamaraError as fault:
+                refused(request, SamaraError(f"{request.name}: {fault}"))
+        # Frame by frame, all bodies of one on end, as the library writes them.
+        self._poses = numpy.empty((surroundings.frames, len(accepted), samara_library.POSE_SIZE))
+        self.flights = [Flight(request, self._poses[:, i], self) for i, request in enumerate(accepted)]
+
+    def is_flying(self):
+        return self.flown < self.surroundings.frames and not self.failed and not self.cancelled.is_set()
+
+    def fly_to(self, frame):
+        """Up to a frame of the range, counted from 0. Who asks for an early one need not wait for another's late one."""
+        while not self.cancelled.is_set():
+            with self._turn:
+                while self._flying and self.flown <= frame:
+                    self._turn.wait()
+                if self.flown > frame:
+                    return
+                self._flying = True
+            try:
+                self._simulation.advance_to(self.flown * self.surroundings.frame_seconds)
+                self._simulation.read_poses(self._poses[self.flown])
+                self.flown += 1
+            except SamaraError:
+                self.failed = True
+                raise
+            finally:
+                with self._turn:
+                    self._flying = False
+                    self._turn.notify_all()
+
+
+def fleets_of(requests, refused, count=1):
+    """Fleets for requests, `count` for each surroundings at most. `refused`: takes (request, SamaraError)."""
+    by_surroundings = {}
+    for request in requests:
+        by_surroundings.setdefault(request.surroundings, []).append(request)
+    fleets = []
+    for surroundings, group in by_surroundings.items():
+        for i in range(min(count, len(group))):
+            share = group[i::count]
+            try:
+                fleets.append(Fleet(surroundings, share, refused))
+            except SamaraError as fault:  # of an obstacle or the wind
+                for request in share:
+                    refused(request, fault)
+    return fleets
 
 
 class FlightJob:
     """Many flights over all frames, on all cores, beside the thread that started them."""
 
     def __init__(self, requests):
-        self.flights = [Flight(request) for request in requests]
-        self._cancelled = threading.Event()
-        self._threads = concurrent.futures.ThreadPoolExecutor(max_workers=os.cpu_count() or 1)
+        def refuse(_, fault):
+            raise fault
+
+        cores = os.cpu_count() or 1
+        fleets = fleets_of(requests, refuse, cores)
+        flights = {flight.request.name: flight for fleet in fleets for flight in fleet.flights}
+        self.flights = [flights[request.name] for request in requests]
+        self._fleets = fleets
+        self._threads = concurrent.futures.ThreadPoolExecutor(max_workers=cores)
         self._futures = [
-            self._threads.submit(flight.fly_to, flight.request.frames - 1, self._cancelled)
-            for flight in self.flights
+            self._threads.submit(fleet.fly_to, fleet.surroundings.frames - 1) for fleet in fleets
         ]
 
     def progress(self):
         """From 0 to 1."""
-        total = sum(flight.request.frames for flight in self.flights)
-        return sum(flight.flown for flight in self.flights) / total if total else 1.0
+        total = sum(fleet.surroundings.frames for fleet in self._fleets)
+        return sum(fleet.flown for fleet in self._fleets) / total if total else 1.0
 
     def is_done(self):
         """Whether all are flown. Raises what went wrong in one of them."""
@@ -151,5 +285,6 @@ class FlightJob:
 
     def cancel(self):
         """Ends all flights within a frame."""
-        self._cancelled.set()
+        for fleet in self._fleets:
+            fleet.cancelled.set()
         self._threads.shutdown(wait=True)

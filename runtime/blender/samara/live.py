@@ -1,58 +1,189 @@
 """Live playback: objects take the poses of their simulations whenever the frame changes."""
 
+import os
+import threading
+import time
+
 import bpy
 from bpy.app.handlers import persistent
 
-from .flight import Flight
-from .objects import has_keys, request_of
+from . import pose_cache
+from .flight import fleets_of
+from .objects import has_keys, request_of, surroundings_of
+from .obstacles import ObstaclesOfScene
 from .samara_library import SamaraError
 
 _flights = {}  # by the name of scene and object
+_obstacles = {}  # by the name of the scene: what they depend on, and how they were when last looked at
+_stale = set()  # names of scenes whose obstacles have changed since
+_ahead = []  # threads that fly on while nobody asks
+_busy = False  # while the frames of a scene are gone through
+_renders = False
+PATIENCE = 0.05  # s: so long a change of the frame waits for flights, but for renders, which wait for all
 
 
-def _flight_of(o, scene):
-    """The object's flight, flown anew where anything that it depends on has changed."""
-    request = request_of(o, scene)
-    key = (scene.name, o.name)
-    if key not in _flights or _flights[key].request != request:
-        _flights[key] = Flight(request)
-    return _flights[key]
+def live_objects(scene):
+    return [o for o in scene.objects if o.samara.live]
 
 
-def _show_object(o, scene):
-    frame = scene.frame_current_final - scene.frame_start
-    location, rotation = _flight_of(o, scene).pose_at(frame)
-    o.location = location
-    o.rotation_quaternion = rotation
+def look_at_obstacles(context):
+    """Takes the obstacles of the scene with their ways, frame by frame. Not for handlers."""
+    global _busy
+    scene = context.scene
+    _busy = True
+    try:
+        obstacles = ObstaclesOfScene(scene)
+        _obstacles[scene.name] = (obstacles.frame, obstacles.taken_over_frames(context))
+        _stale.discard(scene.name)
+    finally:
+        _busy = False
+    return _obstacles[scene.name][1]
+
+
+def _known_obstacles(scene):
+    """Those of the last look; in a handler anew only where they stand still."""
+    obstacles = ObstaclesOfScene(scene)
+    known = _obstacles.get(scene.name)
+    if known is not None and known[0] == obstacles.frame and scene.name not in _stale:
+        return known[1]
+    if not obstacles.move:
+        depsgraph = bpy.context.evaluated_depsgraph_get() if obstacles.objects else None
+        _obstacles[scene.name] = (obstacles.frame, obstacles.taken_at(depsgraph))
+        _stale.discard(scene.name)
+    elif known is None:
+        raise SamaraError("an obstacle moves, and its way is not known yet; click Live again")
+    else:
+        note_change(scene)
+    return _obstacles[scene.name][1]
+
+
+def _fly(requests, scene, refused):
+    """Flights for what has changed: from the disk where they lie there, else in a few fleets."""
+    missing, left = [], set()
+    folder = pose_cache.folder_of_file()
+    for request in requests:
+        key = (scene.name, request.name)
+        if key in _flights and _flights[key].request == request:
+            continue
+        if key in _flights:
+            left.add(_flights.pop(key).fleet)
+        flight = pose_cache.read(request, folder)
+        if flight is None:
+            missing.append(request)
+        else:
+            _flights[key] = flight
+    for fleet in left - {None} - {flight.fleet for flight in _flights.values()}:
+        fleet.cancelled.set()
+    for fleet in fleets_of(missing, refused, os.cpu_count() or 1):
+        for flight in fleet.flights:
+            _flights[(scene.name, flight.request.name)] = flight
+        thread = threading.Thread(target=_fly_ahead, args=(fleet, folder), daemon=True)
+        _ahead[:] = [other for other in _ahead if other.is_alive()] + [thread]
+        thread.start()
+
+
+def _fly_ahead(fleet, folder):
+    """To the end, beside Blender, and onto the disk."""
+    try:
+        fleet.fly_to(fleet.surroundings.frames - 1)
+    except SamaraError:
+        return  # told where its frame is shown
+    if fleet.cancelled.is_set():
+        return
+    for flight in fleet.flights:
+        pose_cache.write(flight, folder)
+    pose_cache.trim(folder)
+
+
+def wait():
+    """Until all is flown, and lies on the disk."""
+    for thread in _ahead:
+        thread.join()
+
+
+def _may_wait():
+    """Whether what is shown must be right rather than soon."""
+    return bpy.app.background or _renders
+
+
+def _show_object(o, scene, deadline):
+    """Returns whether the object is where it will be: else it waits at the last frame that is flown."""
+    flight = _flights[(scene.name, o.name)]
+    frame = min(scene.frame_current_final - scene.frame_start, flight.request.surroundings.frames - 1.0)
+    if deadline is not None:
+        while flight.flown <= frame and flight.is_flying() and time.monotonic() < deadline:
+            time.sleep(0.001)
+        if flight.is_flying():
+            frame = min(frame, max(0.0, flight.flown - 1.0))
+            if flight.flown == 0:
+                return False
+    o.location, o.rotation_quaternion = flight.pose_at(frame)
+    return frame >= scene.frame_current_final - scene.frame_start or not flight.is_flying()
 
 
 def show(scene):
-    """Puts all live objects where they are at the scene's frame. One that cannot be flown goes off, and says why."""
-    for o in scene.objects:
-        if not o.samara.live:
-            continue
-        try:
-            _show_object(o, scene)
-        except SamaraError as fault:
+    """Puts all live objects where they are at the scene's frame. One that cannot be flown goes off, and says why. Returns
+    whether one of them waits at an earlier frame, since it is not flown so far."""
+    objects = {o.name: o for o in live_objects(scene)}
+    if not objects or _busy:
+        return False
+
+    def give_up(name, fault):
+        o = objects.pop(name, None)
+        if o is not None:
             o.samara.live_error = str(fault)
             go_off(o)
 
+    requests = []
+    try:
+        surroundings = surroundings_of(scene, _known_obstacles(scene))
+    except SamaraError as fault:
+        for name in list(objects):
+            give_up(name, fault)
+        return False
+    for o in list(objects.values()):
+        try:
+            requests.append(request_of(o, surroundings))
+        except SamaraError as fault:
+            give_up(o.name, fault)
+    _fly(requests, scene, lambda request, fault: give_up(request.name, fault))
+    deadline = None if _may_wait() else time.monotonic() + PATIENCE
+    behind = False
+    for o in list(objects.values()):
+        try:
+            behind = not _show_object(o, scene, deadline) or behind
+        except SamaraError as fault:
+            give_up(o.name, fault)
+    if behind and not bpy.app.timers.is_registered(_catch_up):
+        bpy.app.timers.register(_catch_up, first_interval=0.1)
+    return behind
 
-def go_live(objects, scene):
+
+def _catch_up():
+    """Shows the frame again, once more of it is flown."""
+    return 0.1 if show(bpy.context.scene) else None
+
+
+def go_live(objects, context):
     """All of them, or none and a SamaraError."""
+    scene = context.scene
     for o in objects:
         if has_keys(o):
             raise SamaraError(
                 f"{o.name}: has keys or drivers, which would hide the live motion; clear them "
                 "(Object > Animation > Clear Keyframes)"
             )
-    for o in objects:
-        _flight_of(o, scene)
-    for o in objects:
-        flight = _flight_of(o, scene)
+    surroundings = surroundings_of(scene, look_at_obstacles(context))
+
+    def refuse(_, fault):
+        raise fault
+
+    requests = [request_of(o, surroundings) for o in objects]
+    _fly(requests, scene, refuse)
+    for o, request in zip(objects, requests):
         body = o.samara
-        body.start_location = [x / flight.request.metres_per_unit for x in flight.request.position]
-        body.start_rotation = flight.request.orientation
+        body.start_location = [x / surroundings.metres_per_unit for x in request.position]
+        body.start_rotation = request.orientation
         body.start_rotation_mode = o.rotation_mode
         o.rotation_mode = "QUATERNION"
         body.live_error = ""
@@ -78,16 +209,88 @@ def _on_frame_change(scene, _=None):
 
 
 @persistent
+def _on_render(*_):
+    global _renders
+    _renders = True
+
+
+@persistent
+def _on_render_end(*_):
+    global _renders
+    _renders = False
+
+
+@persistent
+def _on_update(scene, depsgraph):
+    """Notes that an obstacle has changed, and looks at it as soon as no handler runs."""
+    if _busy or not live_objects(scene):
+        return
+    obstacles = ObstaclesOfScene(scene)
+    names = {o.name for o in obstacles.objects} | {o.data.name for o in obstacles.objects if o.data}
+    for update in depsgraph.updates:
+        is_way = isinstance(update.id, bpy.types.Action)
+        is_shape = update.is_updated_geometry or (update.is_updated_transform and not obstacles.move)
+        if is_way or (is_shape and update.id.name in names):
+            note_change(scene)
+
+
+def note_change(scene):
+    """Obstacles of the scene have changed: they are looked at again once no handler runs."""
+    _stale.add(scene.name)
+    if not bpy.app.background and not bpy.app.timers.is_registered(_look_again):
+        bpy.app.timers.register(_look_again, first_interval=0.1)
+
+
+def _look_again():
+    scene = bpy.context.scene
+    if scene.name in _stale and live_objects(scene):
+        try:
+            look_at_obstacles(bpy.context)
+        except SamaraError:
+            _stale.discard(scene.name)
+        show(scene)
+    return None
+
+
+@persistent
 def _on_load(*_):
+    _forget()
+    if live_objects(bpy.context.scene):
+        try:
+            look_at_obstacles(bpy.context)
+        except SamaraError:
+            return  # told at the first frame change
+        show(bpy.context.scene)
+
+
+def _forget():
+    for flight in _flights.values():
+        if flight.fleet is not None:
+            flight.fleet.cancelled.set()
     _flights.clear()
+    _obstacles.clear()
+    _stale.clear()
+
+
+_HANDLERS = (
+    ("frame_change_pre", _on_frame_change),
+    ("depsgraph_update_post", _on_update),
+    ("load_post", _on_load),
+    ("render_init", _on_render),
+    ("render_complete", _on_render_end),
+    ("render_cancel", _on_render_end),
+)
 
 
 def register():
-    bpy.app.handlers.frame_change_pre.append(_on_frame_change)
-    bpy.app.handlers.load_post.append(_on_load)
+    for name, handler in _HANDLERS:
+        getattr(bpy.app.handlers, name).append(handler)
 
 
 def unregister():
-    bpy.app.handlers.frame_change_pre.remove(_on_frame_change)
-    bpy.app.handlers.load_post.remove(_on_load)
-    _flights.clear()
+    for name, handler in _HANDLERS:
+        getattr(bpy.app.handlers, name).remove(handler)
+    for timer in (_look_again, _catch_up):
+        if bpy.app.timers.is_registered(timer):
+            bpy.app.timers.unregister(timer)
+    _forget()

@@ -5,7 +5,7 @@ import os
 import bpy
 
 from .conventions import checked_scale, frame_count, metres_per_unit, seconds_per_frame
-from .flight import Request
+from .flight import Request, Surroundings
 from .samara_library import SamaraError
 
 FLUIDS = {"WATER": (998.2, 1.002e-3), "AIR": (1.204, 1.825e-5)}  # kg/m^3, Pa s; at 20 degrees Celsius
@@ -56,19 +56,81 @@ def start_pose(o):
     return tuple(location), tuple(rotation)
 
 
-def request_of(o, scene):
+def wind_of(scene):
+    """The scene's wind as the keys of [wind], in TOML and SI units; empty where there is none."""
+    wind, unit = scene.samara, metres_per_unit(scene)
+    if not wind.use_wind:
+        return ""
+    direction = wind.wind_direction.copy()
+    if wind.wind_profile != "NONE":
+        direction.z = 0.0
+    if direction.length == 0.0 and wind.wind_speed > 0.0:
+        raise SamaraError("the wind has no direction; with a profile it must be level, and not straight up or down")
+    direction.normalize()
+    lines = [f"velocity = {[unit * wind.wind_speed * x for x in direction]}"]
+    if wind.wind_profile != "NONE" and wind.wind_speed > 0.0:
+        law = (
+            f'law = "log", roughness = {unit * wind.wind_roughness!r}'
+            if wind.wind_profile == "LOG"
+            else f'law = "power", exponent = {wind.wind_exponent!r}'
+        )
+        ground = unit * wind.ground if wind.use_ground else 0.0
+        lines.append(f"profile = {{ {law}, height = {unit * wind.wind_height!r}, ground = {ground!r} }}")
+    if wind.gust_speed > 0.0:
+        spectrum = {"VON_KARMAN": "von-karman", "KAIMAL": "kaimal"}[wind.gust_spectrum]
+        lines.append(
+            f'gusts = {{ spectrum = "{spectrum}", rms = {unit * wind.gust_speed!r}, '
+            f"length = {unit * wind.gust_length!r}, seed = {wind.gust_seed} }}"
+        )
+    return "\n".join(lines)
+
+
+def surroundings_of(scene, obstacles):
+    """What the scene's bodies share. obstacles: those of obstacles.py."""
+    settings, unit = scene.samara, metres_per_unit(scene)
+    fluid_density, fluid_viscosity = fluid_of(scene)
+    return Surroundings(
+        fluid_density=fluid_density,
+        fluid_viscosity=fluid_viscosity,
+        current=tuple(unit * x for x in settings.current),
+        wind=wind_of(scene),
+        gravity=tuple(scene.gravity) if scene.use_gravity else (0.0, 0.0, 0.0),
+        ground=unit * settings.ground if settings.use_ground else None,
+        obstacles=obstacles,
+        step=settings.step,
+        seed=settings.seed,
+        frames=frame_count(scene),
+        frame_seconds=seconds_per_frame(scene),
+        metres_per_unit=unit,
+    )
+
+
+def _mass_of(body, unit):
+    """Mass, centre and inertia that are given with the object; () where they do not count."""
+    if body.mass_source != "MASS":
+        return ()
+    center = tuple(unit * x for x in body.center_of_mass) if body.use_center_of_mass else None
+    if not body.use_inertia:
+        return body.mass, center, None
+    (xx, yy, zz), (xy, xz, yz) = body.inertia, body.products_of_inertia
+    return body.mass, center, (xx, xy, xz, xy, yy, yz, xz, yz, zz)
+
+
+def request_of(o, surroundings):
     """The object's flight over the scene's frame range."""
-    body, surroundings = o.samara, scene.samara
+    body, unit = o.samara, surroundings.metres_per_unit
+    if body.is_obstacle:
+        raise SamaraError(f"{o.name}: is an obstacle, and does not fly; untick Obstacle, or leave it out")
     checked_scale(o.name, o.scale, body.body_scale)
     location, rotation = start_pose(o)
     file = body_file_of(o)
-    unit = metres_per_unit(scene)
-    fluid_density, fluid_viscosity = fluid_of(scene)
     return Request(
         name=o.name,
         body_file=file,
         body_file_time=os.stat(file).st_mtime_ns if os.path.exists(file) else 0,
         density=body.density,
+        mass=body.mass_source,
+        mass_given=_mass_of(body, unit),
         loads=body.loads,
         drag_coefficient=body.drag_coefficient,
         lift_coefficient=body.lift_coefficient,
@@ -77,14 +139,5 @@ def request_of(o, scene):
         orientation=rotation,
         velocity=tuple(unit * x for x in body.velocity),
         angular_velocity=tuple(body.angular_velocity),
-        fluid_density=fluid_density,
-        fluid_viscosity=fluid_viscosity,
-        current=tuple(unit * x for x in surroundings.current),
-        gravity=tuple(scene.gravity) if scene.use_gravity else (0.0, 0.0, 0.0),
-        ground=unit * surroundings.ground if surroundings.use_ground else None,
-        step=surroundings.step,
-        seed=surroundings.seed,
-        frames=frame_count(scene),
-        frame_seconds=seconds_per_frame(scene),
-        metres_per_unit=unit,
+        surroundings=surroundings,
     )

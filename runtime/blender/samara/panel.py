@@ -23,12 +23,17 @@ class SAMARA_PT_body(bpy.types.Panel):
         layout.use_property_decorate = False
         body = context.object.samara
 
+        layout.prop(body, "is_obstacle")
+        if body.is_obstacle:
+            layout.prop(body, "friction")
+            return
+
         layout.prop(body, "body_file")
         row = layout.row()
         row.operator_menu_enum("samara.bake", "quality", text="Bake from Mesh", icon="MESH_DATA")
-        has_tables = _draw_file(layout, context.object)
+        has_tables, has_mass = _draw_file(layout, context.object)
 
-        layout.prop(body, "density")
+        _draw_mass(layout, body, has_mass)
         layout.prop(body, "loads")
         if body.loads == "COEFFICIENTS" or (body.loads == "AUTO" and not has_tables):
             column = layout.column(align=True)
@@ -48,16 +53,50 @@ class SAMARA_PT_body(bpy.types.Panel):
 
 
 def _draw_file(layout, o):
-    """What the file holds, or why it cannot be read. Returns whether it has tables."""
+    """What the file holds, or why it cannot be read. Returns whether it has tables and a mass."""
     if not o.samara.body_file:
-        return False
+        return False, False
     try:
         body = body_of_file(body_file_of(o))
     except SamaraError as fault:
         layout.label(text=str(fault), icon="ERROR")
-        return False
-    layout.label(text=f"{body.name}: added mass{' and tables' if body.has_tables else ''}", icon="INFO")
-    return body.has_tables
+        return False, False
+    weighs = f", {1000.0 * body.mass:.4g} g" if body.mass > 0.0 else ""
+    layout.label(text=f"{body.name}: added mass{' and tables' if body.has_tables else ''}{weighs}", icon="INFO")
+    return body.has_tables, body.mass > 0.0
+
+
+def _draw_mass(layout, body, has_mass):
+    layout.prop(body, "mass_source")
+    if body.mass_source == "DENSITY" or (body.mass_source == "FILE" and not has_mass):
+        layout.prop(body, "density")
+    if body.mass_source == "MASS":
+        column = layout.column()
+        column.prop(body, "mass")
+        column.prop(body, "use_center_of_mass")
+        if body.use_center_of_mass:
+            column.prop(body, "center_of_mass", text="")
+        column.prop(body, "use_inertia")
+        if body.use_inertia:
+            column.prop(body, "inertia")
+            column.prop(body, "products_of_inertia")
+
+
+def _draw_wind(layout, wind):
+    layout.prop(wind, "use_wind")
+    if not wind.use_wind:
+        return
+    layout.prop(wind, "wind_speed")
+    layout.prop(wind, "wind_direction")
+    layout.prop(wind, "wind_profile")
+    if wind.wind_profile != "NONE":
+        layout.prop(wind, "wind_height")
+        layout.prop(wind, "wind_roughness" if wind.wind_profile == "LOG" else "wind_exponent")
+    layout.prop(wind, "gust_speed")
+    if wind.gust_speed > 0.0:
+        layout.prop(wind, "gust_length")
+        layout.prop(wind, "gust_spectrum")
+        layout.prop(wind, "gust_seed")
 
 
 class SAMARA_PT_surroundings(bpy.types.Panel):
@@ -77,6 +116,7 @@ class SAMARA_PT_surroundings(bpy.types.Panel):
             layout.prop(surroundings, "fluid_density")
             layout.prop(surroundings, "fluid_viscosity")
         layout.prop(surroundings, "current")
+        _draw_wind(layout, surroundings)
         layout.prop(surroundings, "seed")
         layout.prop(surroundings, "step")
         layout.prop(surroundings, "use_ground")

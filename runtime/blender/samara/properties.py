@@ -11,6 +11,12 @@ from bpy.props import (
     StringProperty,
 )
 
+from . import live
+
+
+def _obstacles_changed(_, context):
+    live.note_change(context.scene)
+
 
 class SamaraBody(bpy.types.PropertyGroup):
     """The body of an object."""
@@ -25,6 +31,27 @@ class SamaraBody(bpy.types.PropertyGroup):
     )
     density: FloatProperty(
         name="Density", description="kg/m^3, uniform", default=1200.0, min=0.001, soft_max=20000.0, precision=1
+    )
+    mass_source: EnumProperty(
+        name="Mass",
+        description="What the body weighs",
+        items=[
+            ("FILE", "As Baked", "What the body file says; by the density where it says nothing"),
+            ("DENSITY", "Density", "Uniform"),
+            ("MASS", "Mass", "With a centre and moments of inertia of its own, where they are ticked"),
+        ],
+    )
+    mass: FloatProperty(name="Mass", description="kg", default=0.001, min=1e-9, precision=6)
+    use_center_of_mass: BoolProperty(name="Centre", description="Of mass; else that of the volume")
+    center_of_mass: FloatVectorProperty(
+        name="Centre", description="Of mass, in the object's axes", subtype="TRANSLATION", size=3, precision=5
+    )
+    use_inertia: BoolProperty(name="Inertia", description="Else as if the mass were spread evenly")
+    inertia: FloatVectorProperty(
+        name="Moments", description="xx, yy, zz about the centre of mass, kg m^2", size=3, min=0.0, precision=9, step=0.0001
+    )
+    products_of_inertia: FloatVectorProperty(
+        name="Products", description="xy, xz, yz of the tensor, kg m^2", size=3, precision=9, step=0.0001
     )
     loads: EnumProperty(
         name="Loads",
@@ -46,6 +73,12 @@ class SamaraBody(bpy.types.PropertyGroup):
     angular_velocity: FloatVectorProperty(
         name="Angular Velocity", description="At the first frame: rad/s about the world's axes", size=3
     )
+    is_obstacle: BoolProperty(
+        name="Obstacle",
+        description="Bodies land on this object's mesh, with modifiers, slide on it and fall off; it does not feel them",
+        update=_obstacles_changed,
+    )
+    friction: FloatProperty(name="Friction", description="Coulomb's coefficient", default=0.5, min=0.0, soft_max=2.0, update=_obstacles_changed)
     live: BoolProperty(description="Whether the object follows its simulation at every frame change")
     live_error: StringProperty(description="Why it no longer does")
     start_location: FloatVectorProperty(size=3)
@@ -71,6 +104,34 @@ class SamaraSurroundings(bpy.types.PropertyGroup):
     current: FloatVectorProperty(
         name="Current", description="Of the fluid, uniform and steady", subtype="VELOCITY", size=3
     )
+    use_wind: BoolProperty(name="Wind", description="Beside the current; every body feels it where it is")
+    wind_speed: FloatProperty(name="Speed", description="Of the mean wind", default=3.0, min=0.0)
+    wind_direction: FloatVectorProperty(
+        name="Direction", description="Where it blows", subtype="XYZ", size=3, default=(1.0, 0.0, 0.0)
+    )
+    wind_profile: EnumProperty(
+        name="Profile",
+        description="How the mean wind grows with the height over the ground",
+        items=[
+            ("NONE", "Uniform", "The same everywhere"),
+            ("LOG", "Logarithmic", "Over rough ground"),
+            ("POWER", "Power Law", "By an exponent"),
+        ],
+    )
+    wind_height: FloatProperty(
+        name="Height", description="Over the ground, where it has its speed", subtype="DISTANCE", default=10.0, min=1e-3
+    )
+    wind_roughness: FloatProperty(
+        name="Roughness", description="z0: 0.03 m for grass, 1 m for a town", subtype="DISTANCE", default=0.03, min=1e-6, precision=4
+    )
+    wind_exponent: FloatProperty(name="Exponent", default=0.14, min=1e-3, max=1.0, precision=3)
+    gust_speed: FloatProperty(name="Gusts", description="Root mean square of each component; 0: none", default=0.0, min=0.0)
+    gust_length: FloatProperty(name="Size", description="Of the gusts along the wind", subtype="DISTANCE", default=1.0, min=1e-4)
+    gust_spectrum: EnumProperty(
+        name="Spectrum",
+        items=[("VON_KARMAN", "von Karman", "Free turbulence"), ("KAIMAL", "Kaimal", "Near the ground")],
+    )
+    gust_seed: IntProperty(name="Gust Seed", description="Another one gives other gusts of the same strength", default=1, min=0)
     use_ground: BoolProperty(name="Ground", description="Level ground, on which bodies come to rest")
     ground: FloatProperty(name="Height", description="Of the ground", subtype="DISTANCE")
     seed: IntProperty(

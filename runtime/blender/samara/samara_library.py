@@ -112,6 +112,7 @@ _PLAIN = {
     "samara_version": (c_char_p, []),
     "samara_body_free": (None, [c_void_p]),
     "samara_body_name": (c_char_p, [c_void_p]),
+    "samara_body_mass": (c_double, [c_void_p]),
     "samara_body_has_added_mass": (c_int, [c_void_p]),
     "samara_body_has_tables": (c_int, [c_void_p]),
     "samara_body_vertex_count": (c_size_t, [c_void_p]),
@@ -182,6 +183,11 @@ class Body:
         return library().samara_body_name(self.handle).decode("utf-8", "replace")
 
     @property
+    def mass(self):
+        """kg: what the file says; 0 where it says nothing."""
+        return library().samara_body_mass(self.handle)
+
+    @property
     def has_added_mass(self):
         return bool(library().samara_body_has_added_mass(self.handle))
 
@@ -228,21 +234,39 @@ def default_kind():
 
 
 class Simulation:
-    """One body's simulation. A call lets other threads run meanwhile; one thread at a time may call."""
+    """Bodies of several kinds among obstacles. A call lets other threads run meanwhile; one thread at a time may call."""
 
-    def __init__(self, settings, body, kind):
+    def __init__(self, settings):
         self.handle = c_void_p()
         _call("samara_simulation_create", byref(settings), byref(self.handle))
-        _call("samara_simulation_add", self.handle, body.handle, byref(kind), None)
 
     def __del__(self):
         if self.handle:
             library().samara_simulation_free(self.handle)
 
+    def add_obstacle(self, name, vertices, triangles, friction, keys):
+        """Before all bodies. vertices: (n, 3) doubles; triangles: (m, 3) int32; keys: (k, 8) doubles, of time, place and
+        quaternion each, k at least 1."""
+        obstacle = Obstacle()
+        _call("samara_default_obstacle", byref(obstacle), ctypes.sizeof(obstacle))
+        obstacle.name = name.encode()
+        obstacle.vertices, obstacle.vertex_count = vertices.ctypes.data, len(vertices)
+        obstacle.triangles, obstacle.triangle_count = triangles.ctypes.data, len(triangles)
+        obstacle.friction = friction
+        obstacle.keys, obstacle.key_count = keys.ctypes.data, len(keys)
+        _call("samara_simulation_add_obstacle", self.handle, byref(obstacle), None)
+
+    def set_wind(self, text):
+        """The keys of [wind] of a scene, as TOML."""
+        _call("samara_set_wind", self.handle, text.encode())
+
+    def add(self, body, kind):
+        _call("samara_simulation_add", self.handle, body.handle, byref(kind), None)
+
     def advance_to(self, time):
         """To a time (s) not before the one of the last call."""
         _call("samara_advance_to", self.handle, time)
 
-    def read_pose(self, row):
-        """Puts the pose into a row of POSE_SIZE doubles without gaps."""
-        _call("samara_get_poses", self.handle, 0, 1, row.ctypes.data, 0)
+    def read_poses(self, rows):
+        """Puts the poses of all bodies into rows of POSE_SIZE doubles, (bodies, POSE_SIZE) without gaps."""
+        _call("samara_get_poses", self.handle, 0, len(rows), rows.ctypes.data, 0)

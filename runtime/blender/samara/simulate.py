@@ -5,7 +5,7 @@ import bpy
 from . import keyframes, live
 from .flight import FlightJob
 from .job_operator import JobOperator
-from .objects import flown_objects, has_keys, request_of
+from .objects import flown_objects, has_keys, request_of, surroundings_of
 from .samara_library import SamaraError
 
 
@@ -13,11 +13,13 @@ def requests_of(context, objects):
     """The objects' flights, from their poses at the scene's first frame where keys move them, else of now."""
     scene = context.scene
     now = scene.frame_current_final
+    obstacles = live.look_at_obstacles(context)
     if any(has_keys(o) for o in objects):
         scene.frame_set(scene.frame_start)
     context.view_layer.update()
     try:
-        return [request_of(o, scene) for o in objects]
+        surroundings = surroundings_of(scene, obstacles)
+        return [request_of(o, surroundings) for o in objects]
     finally:
         if scene.frame_current_final != now:
             scene.frame_set(int(now), subframe=now % 1.0)
@@ -49,7 +51,7 @@ class SAMARA_OT_simulate(JobOperator, bpy.types.Operator):
 
     def finish(self, context):
         insert_flights(context, self._objects, self.job.flights)
-        frames = self.job.flights[0].request.frames
+        frames = self.job.flights[0].request.surroundings.frames
         self.report({"INFO"}, f"{len(self._objects)} objects simulated over {frames} frames")
         return {"FINISHED"}
 
@@ -71,7 +73,7 @@ class SAMARA_OT_live(bpy.types.Operator):
                     live.go_off(o)
             else:
                 context.view_layer.update()
-                live.go_live([o for o in objects if not o.samara.live], context.scene)
+                live.go_live([o for o in objects if not o.samara.live], context)
         except SamaraError as fault:
             self.report({"ERROR"}, str(fault))
             return {"CANCELLED"}
@@ -88,6 +90,13 @@ class SAMARA_OT_copy_settings(bpy.types.Operator):
         "body_file",
         "body_scale",
         "density",
+        "mass_source",
+        "mass",
+        "use_center_of_mass",
+        "center_of_mass",
+        "use_inertia",
+        "inertia",
+        "products_of_inertia",
         "loads",
         "drag_coefficient",
         "lift_coefficient",

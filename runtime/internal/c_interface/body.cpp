@@ -80,6 +80,11 @@ double samara_body_volume(const samara_body* body) {
     return body == nullptr ? 0.0 : body->loaded.body->moments.volume;
 }
 
+double samara_body_mass(const samara_body* body) {
+    if (body == nullptr || !body->loaded.body->mass) return 0.0;
+    return samara::mass_properties(*body->loaded.body, *body->loaded.body->mass).mass;
+}
+
 int samara_body_has_added_mass(const samara_body* body) {
     return body != nullptr && body->loaded.body->kirchhoff.has_value() ? 1 : 0;
 }

@@ -1,8 +1,6 @@
 #include "internal/c_interface/settings.hpp"
 
-#include <cmath>
 #include <cstddef>
-#include <cstring>
 #include <numbers>
 #include <string>
 

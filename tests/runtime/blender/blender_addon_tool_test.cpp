@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "c_interface_calls.hpp"
+#include "blender/blender_poses.hpp"
 #include "internal/base/content_hash.hpp"
 #include "internal/export/shape_pose.hpp"
 #include "internal/files/hdf5_writer.hpp"
@@ -21,6 +21,11 @@ namespace samara {
 namespace {
 
 using nlohmann::json;
+using test::angle;
+using test::distance;
+using test::expect_same_poses;
+using test::pose_of;
+using test::rubber_file;
 using test::TemporaryFolder;
 using test::use_addon;
 using test::use_addon_in_window;
@@ -29,44 +34,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::MatchesRegex;
 using testing::Not;
-
-constexpr double unit = 0.1;  // metres, of the task's scene
-
-std::string rubber_file(const TemporaryFolder& folder) {
-    const auto file = folder / "rubber.body.h5";
-    write_body_file(file, test::rubber());
-    return file.string();
-}
-
-ShapePose pose_of(const json& rows) {
-    Matrix3d turn;
-    ShapePose pose;
-    for (std::size_t row = 0; row < 3; ++row) {
-        const auto i = static_cast<Eigen::Index>(row);
-        const auto values = rows[row].get<std::vector<double>>();
-        turn.row(i) = Eigen::Map<const Eigen::RowVector3d>(values.data());
-        pose.position[i] = unit * values[3];
-    }
-    pose.orientation = Quaterniond(turn).normalized();
-    return pose;
-}
-
-double distance(const ShapePose& a, const ShapePose& b) {
-    return (a.position - b.position).norm();
-}
-
-/// rad
-double angle(const ShapePose& a, const ShapePose& b) {
-    return 2.0 * std::asin(std::min(1.0, (a.orientation.conjugate() * b.orientation).vec().norm()));
-}
-
-void expect_same_poses(const json& is, const json& shall) {
-    ASSERT_EQ(is.size(), shall.size());
-    for (std::size_t i = 0; i < is.size(); ++i) {
-        EXPECT_LT(distance(pose_of(is[i]), pose_of(shall[i])), 1e-6) << "pose " << i;
-        EXPECT_LT(angle(pose_of(is[i]), pose_of(shall[i])), 1e-5) << "pose " << i;
-    }
-}
 
 /// The scene of `samara simulate` that is the one in Blender: water, seed 5, 24 over 1.001 frames a second.
 std::string scene_of(const json& starts, const std::string& body_file) {

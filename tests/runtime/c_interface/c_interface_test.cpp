@@ -31,6 +31,7 @@ TEST(CBody, TellsWhatItsFileHolds) {
     EXPECT_STREQ(samara_body_name(body.get()), "rubber");
     EXPECT_STREQ(samara_body_source(body.get()), "invented");
     EXPECT_EQ(samara_body_volume(body.get()), exact.moments.volume);
+    EXPECT_EQ(samara_body_mass(body.get()), 0.0) << "it says nothing";
     EXPECT_EQ(samara_body_has_added_mass(body.get()), 1);
     EXPECT_EQ(samara_body_has_tables(body.get()), 1);
     std::vector<double> coordinates(3 * samara_body_vertex_count(body.get()));

@@ -1,0 +1,25 @@
+"""Meshes of objects as they are shown: with modifiers."""
+
+import numpy
+
+from .samara_library import SamaraError
+
+
+def evaluated_mesh(o, depsgraph):
+    """Vertices (n, 3), Blender units in the object's own axes, and triangles (m, 3)."""
+    evaluated = o.evaluated_get(depsgraph)
+    try:
+        mesh = evaluated.to_mesh()
+    except RuntimeError:
+        raise SamaraError(f"{o.name}: has no mesh; take an object with one") from None
+    try:
+        mesh.calc_loop_triangles()
+        vertices = numpy.empty(3 * len(mesh.vertices), numpy.float32)
+        triangles = numpy.empty(3 * len(mesh.loop_triangles), numpy.int32)
+        mesh.vertices.foreach_get("co", vertices)
+        mesh.loop_triangles.foreach_get("vertices", triangles)
+    finally:
+        evaluated.to_mesh_clear()
+    if not len(triangles):
+        raise SamaraError(f"{o.name}: has no faces; take a mesh with faces")
+    return vertices.reshape(-1, 3).astype(float), triangles.reshape(-1, 3)

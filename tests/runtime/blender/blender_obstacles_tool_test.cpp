@@ -1,0 +1,169 @@
+// Obstacles, wind, masses and flights on disk of the add-on in real Blender (tests/tools/use_addon.py).
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "blender/blender_poses.hpp"
+#include "paths.hpp"
+#include "samara/motion/motion_file.hpp"
+#include "support/blender_addon.hpp"
+#include "support/program_run.hpp"
+
+namespace samara {
+namespace {
+
+using nlohmann::json;
+using test::distance;
+using test::expect_same_poses;
+using test::pose_of;
+using test::rubber_file;
+using test::TemporaryFolder;
+using test::use_addon;
+using testing::Each;
+using testing::HasSubstr;
+
+/// Triangles, corner by corner, as an .obj file.
+std::string obj_of(const json& triangles) {
+    std::string text;
+    for (const json& triangle : triangles) {
+        for (const json& corner : triangle) {
+            text += fmt::format("v {} {} {}\n", corner[0].get<double>(), corner[1].get<double>(),
+                                corner[2].get<double>());
+        }
+    }
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        text += fmt::format("f {} {} {}\n", 3 * i + 1, 3 * i + 2, 3 * i + 3);
+    }
+    return text;
+}
+
+/// The scene of `samara simulate` that is the task roof.
+std::string roof_scene(const json& starts, const std::string& body_file) {
+    std::string text =
+        "[scene]\nduration = 2.51\nframe_rate = 23.976023976023978\nseed = 5\nground = -0.8\n"
+        "[wind]\nvelocity = [0, 0.05, 0]\n"
+        "profile = { law = \"log\", height = 2, roughness = 0.05 }\n"
+        "gusts = { rms = 0.02, length = 0.3, seed = 4 }\n"
+        "[[obstacle]]\nname = \"Roof\"\nshape = \"roof.obj\"\nfriction = 0.3\n";
+    for (const auto& [name, start] : starts.items()) {
+        text +=
+            fmt::format("[[body]]\nname = {}\nshape = \"{}\"\ndensity = 1600\nturbulence = \"{}\"\n",
+                        start["noise_name"].dump(), body_file, start["noise"].get<bool>() ? "table" : "none");
+        for (const char* key : {"position", "orientation", "velocity", "angular_velocity"}) {
+            text += fmt::format("{} = {}\n", key, start[key].dump());
+        }
+    }
+    return text;
+}
+
+TEST(BlenderObstacles, AreMetInTheWindAsInSamaraSimulate) {
+    const TemporaryFolder folder;
+    const std::string file = rubber_file(folder);
+    const json found = use_addon({"roof", file});
+    EXPECT_EQ(found["error"], "");
+    (void)folder.file("roof.obj", obj_of(found["triangles"]));
+    (void)folder.file("scene.toml", roof_scene(found["starts"], file));
+    const auto run = run_program_in(folder, {"samara", "simulate", "scene.toml", "-o", "motion.h5"});
+    ASSERT_EQ(run.status, 0) << run.fault;
+    const Motion motion = read_motion_file(folder / "motion.h5");
+    for (const auto& [name, start] : found["starts"].items()) {
+        const auto body =
+            std::find_if(motion.bodies.begin(), motion.bodies.end(),
+                         [&](const BodyMotion& one) { return one.name == start["noise_name"]; });
+        ASSERT_NE(body, motion.bodies.end());
+        const auto poses = shape_poses(motion, *body, 0, 0);
+        for (std::size_t frame = 0; frame < 61; ++frame) {
+            const double error = distance(pose_of(found["matrices"][name][frame]), poses[frame]);
+            EXPECT_LT(error, 1e-3) << name << ", frame " << frame << ": its vertices are of single precision";
+        }
+    }
+}
+
+TEST(BlenderObstacles, AreMetLiveAsByTheKeysAndFollowedWhereTheyAreMovedOrUnticked) {
+    const TemporaryFolder folder;
+    const json found = use_addon({"roof", rubber_file(folder)});
+    EXPECT_EQ(found["live_error"], "");
+    EXPECT_THAT(found["live_errors"].get<std::vector<std::string>>(), Each(""));
+    for (const auto& [name, matrices] : found["matrices"].items()) {
+        const auto last = pose_of(matrices.back());
+        expect_same_poses(found["live"][name], matrices);
+        expect_same_poses(found["roof_back"][name], matrices);
+        EXPECT_GT(distance(pose_of(found["roof_far"][name][0]), last), 0.1);
+        EXPECT_GT(distance(pose_of(found["no_roof"][name][0]), last), 0.1);
+    }
+}
+
+TEST(BlenderObstacles, ThatKeysMoveLiftBodies) {
+    const TemporaryFolder folder;
+    const json found = use_addon({"lift", rubber_file(folder)});
+    EXPECT_EQ(found["error"], "");
+    EXPECT_EQ(found["live_error"], "");
+    EXPECT_EQ(found["frame"], 11) << "the scene's frame stays";
+    for (const auto& [name, matrices] : found["matrices"].items()) {
+        // Its top is at -0.15 m, 0.05 m and 0.25 m; the bodies reach from 1 to 4 cm.
+        for (std::size_t i = 1; i < 3; ++i) {
+            const double height = pose_of(matrices[i]).position.z();
+            const double top = i == 1 ? 0.05 : 0.25;
+            EXPECT_GT(height, top + 0.0095) << name;
+            EXPECT_LT(height, top + 0.05) << name;
+        }
+        expect_same_poses(found["live"][name], matrices);
+    }
+}
+
+TEST(BlenderObstacles, ThatCannotBeAreNamed) {
+    const TemporaryFolder folder;
+    const json found = use_addon({"lift", rubber_file(folder)});
+    const auto error = [&](const char* name) { return found[name].get<std::string>(); };
+    EXPECT_THAT(error("scale"), HasSubstr("Cube: its scale is animated"));
+    EXPECT_THAT(error("inside"), HasSubstr("starts inside obstacle 'Cube'"));
+    EXPECT_THAT(error("no_faces"), HasSubstr("Cube: has no faces"));
+    EXPECT_THAT(error("is_obstacle"), HasSubstr("rubber: is an obstacle"));
+}
+
+TEST(BlenderMass, IsTheFilesOrTheDensityOrGivenWithCentreAndInertia) {
+    const TemporaryFolder folder;
+    Body body = test::rubber();
+    body.mass.emplace().density = 1200.0;
+    const auto file = folder / "rubber.body.h5";
+    write_body_file(file, body);
+    const json found = use_addon({"masses", file.string()});
+    EXPECT_EQ(found["source"], "FILE") << "the default";
+    const auto pose = [&](const char* name) { return pose_of(found[name]); };
+    EXPECT_LT(distance(pose("file"), pose("same_density")), 1e-6);
+    EXPECT_LT(distance(pose("file"), pose("same_mass")), 1e-4) << "its mass is of single precision";
+    EXPECT_GT(distance(pose("file"), pose("density")), 0.01);
+    EXPECT_GT(distance(pose("file"), pose("off_center")), 1e-3);
+    EXPECT_GT(distance(pose("off_center"), pose("inertia")), 1e-3);
+    EXPECT_THAT(found["no_inertia"].get<std::string>(), HasSubstr("moments of inertia"));
+}
+
+TEST(BlenderLive, ReadsFlightsFromTheDiskAndFliesThoseAnewThatAreDamaged) {
+    const TemporaryFolder folder;
+    const json found = use_addon({"cache", rubber_file(folder), folder.path().string()});
+    EXPECT_EQ(found["files"], 3);
+    EXPECT_EQ(found["flown_again"], 0);
+    EXPECT_EQ(found["flown_damaged"], 3);
+    for (const auto& [name, matrices] : found["first"].items()) {
+        expect_same_poses(found["again"][name], matrices);
+        expect_same_poses(found["damaged"][name], matrices);
+    }
+}
+
+TEST(BlenderLive, DoesNotWaitForASlowFlightAndShowsItAsItGoesOn) {
+    const TemporaryFolder folder;
+    const json found = test::use_addon_in_window({"live_in_window", rubber_file(folder)});
+    EXPECT_EQ(found["error"], "");
+    EXPECT_LT(found["flown"], 61) << "the frame was not there yet";
+    EXPECT_LT(found["moved_on"], 61) << "they moved before all was there";
+    EXPECT_EQ(found["frame"], 71);
+    for (const auto& [name, keyed] : found["keyed"].items()) {
+        expect_same_poses(json::array({found["shown"][name]}), json::array({keyed}));
+    }
+}
+
+}  // namespace
+}  // namespace samara
