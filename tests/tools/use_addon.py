@@ -624,6 +624,14 @@ def bake_in_window(program, folder):
     return found
 
 
+def glb(motion):
+    """A .glb file, with the importer as this Blender has it."""
+    empty_scene()
+    found = {"error": run(bpy.ops.import_scene.gltf, filepath=motion)}
+    found["meshes"] = sum(o.type == "MESH" for o in scene.objects)
+    return found
+
+
 def version():
     from samara import bl_info, samara_library
 
@@ -652,7 +660,7 @@ def go_on(steps):
     return None
 
 
-tasks = (keys, live, roof, lift, masses, cache, scrub, errors, bake, render, crowd, simulate_in_window, live_in_window, bake_in_window, version)
+tasks = (keys, live, roof, lift, masses, cache, scrub, errors, bake, render, crowd, simulate_in_window, live_in_window, bake_in_window, glb, version)
 found = {f.__name__: f for f in tasks}[task](*arguments)
 if inspect.isgenerator(found):
     bpy.context.preferences.view.show_splash = False

@@ -13,9 +13,11 @@
 #include "internal/files/replace_file.hpp"
 #include "paths.hpp"
 #include "samara/base/version.hpp"
+#include "samara/export/gltf_file.hpp"
 #include "samara/motion/motion_file.hpp"
 #include "support/blender_addon.hpp"
 #include "support/program_run.hpp"
+#include "synthetic_motion.hpp"
 
 namespace samara {
 namespace {
@@ -185,6 +187,14 @@ TEST(BlenderAddon, BakesBesideTheWindowAndEscapeEndsTheProgram) {
     EXPECT_EQ(found["refused"], "CANCELLED");
     EXPECT_EQ(found["finished"], "FINISHED");
     EXPECT_THAT(found["file"].get<std::string>(), HasSubstr("Sphere.body.h5"));
+}
+
+TEST(BlenderAddon, MendsTheImporterOfGlbFiles) {
+    const TemporaryFolder folder;
+    write_glb(folder / "motion.glb", test::motion_of(test::wander, 1.0));
+    const json found = use_addon({"glb", folder / "motion.glb"});
+    EXPECT_EQ(found["error"], "");
+    EXPECT_EQ(found["meshes"], 1);
 }
 
 TEST(BlenderAddon, RendersAFrameOfTheMotion) {
