@@ -14,13 +14,8 @@
 namespace {
 
 using samara::guarded;
+using samara::hdf5_mutex;
 using samara::require;
-
-/// HDF5 is often built without its own lock. The one thing that all objects share.
-std::mutex& hdf5_mutex() {
-    static std::mutex mutex;
-    return mutex;
-}
 
 void require_capacity(std::size_t capacity, std::size_t needed, const char* what) {
     if (capacity >= needed) return;

@@ -31,6 +31,11 @@ void require(const void* pointer, const char* name) {
     if (pointer == nullptr) throw Fault(SAMARA_INVALID_ARGUMENT, std::string(name) + " is a null pointer");
 }
 
+std::mutex& hdf5_mutex() {
+    static std::mutex mutex;
+    return mutex;
+}
+
 samara_status status_of(FlightError::Kind kind) noexcept {
     switch (kind) {
         case FlightError::Kind::time_passed:

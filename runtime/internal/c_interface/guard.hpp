@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <mutex>
 #include <new>
 #include <string>
 #include <string_view>
@@ -30,6 +31,9 @@ void copy_printable(std::string_view text, char* buffer, std::size_t size) noexc
 
 /// Throws Fault of SAMARA_INVALID_ARGUMENT where the pointer is null.
 void require(const void* pointer, const char* name);
+
+/// HDF5 is often built without its own lock. The one thing that all objects share.
+std::mutex& hdf5_mutex();
 
 /// What the caller gets for a fault of a flight.
 samara_status status_of(FlightError::Kind kind) noexcept;

@@ -1,4 +1,5 @@
 #include <cstddef>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
@@ -141,7 +142,8 @@ samara_status samara_set_wind(samara_simulation* simulation, const char* wind, c
         flight.require_running();
         const toml::table document = samara::parse_toml(wind, "wind");
         samara::TomlTable table(document, "wind", "the wind");
-        samara::Wind given = samara::read_wind(table, flight.ground().value_or(0.0));
+        const std::lock_guard lock(samara::hdf5_mutex());  // of a wind file
+        samara::Wind given = samara::read_wind(table, ".", flight.ground().value_or(0.0), flight.time());
         given.function = flight.wind().function;
         given.function_context = flight.wind().function_context;
         flight.set_wind(given);
