@@ -1,6 +1,7 @@
 // Plays the motion in the page: clock, controls and keys.
 
 import { MEASURES, placeOf, readMotion, seriesOf } from './motion.js';
+import { onPalette } from './palette.js';
 import { SeriesPlot } from './series.js';
 import { Stage } from './stage.js';
 
@@ -19,7 +20,7 @@ let time = begin;
 let playing = false;
 let before = null;
 let stale = true;
-let drawings = 0;
+let ticks = 0;
 
 function speed() {
     return Number(element('speed').value);
@@ -60,7 +61,13 @@ function refresh() {
     plots.forEach((plot, i) => plot.point(time, series[i][frame] * (1 - fraction) + series[i][next] * fraction));
     element('scrub').value = String(time);
     element('time').value = `${time.toFixed(3)} of ${end.toFixed(2)} s`;
+    element('scale').textContent = scaleText();
     stale = false;
+}
+
+function scaleText() {
+    const grid = `${motion.ground === null ? 'grid' : 'ground, grid'}: ${Number(stage.gridStep.toPrecision(2))} m`;
+    return stage.enlarged ? `${grid}\nsmall bodies drawn larger` : grid;
 }
 
 function tick(now) {
@@ -70,10 +77,12 @@ function tick(now) {
         before = now;
         if (time >= end) play(false);
     }
-    if (stale) refresh();
+    if (stage.fit() && !stage.handled && !element('follow').checked) stage.showAll();
     stage.controls.update();
-    stage.draw();
-    ++drawings;
+    if (stale) refresh();
+    else if (stage.stale) stage.show(time, element('follow').checked);  // what is near is drawn finer
+    if (stage.stale) stage.draw();
+    ++ticks;
     requestAnimationFrame(tick);
 }
 
@@ -94,6 +103,12 @@ function toggle(id) {
     stale = true;
 }
 
+function showAll() {
+    element('follow').checked = false;
+    stage.showAll();
+    stale = true;
+}
+
 const KEYS = {
     ' ': () => play(!playing),
     ArrowLeft: (event) => stepFrames(event.shiftKey ? -10 : -1),
@@ -104,6 +119,7 @@ const KEYS = {
     End: () => seek(end),
     f: () => toggle('follow'),
     t: () => toggle('trail'),
+    r: () => showAll(),
 };
 
 function fillControls() {
@@ -120,12 +136,13 @@ function fillControls() {
     detail.textContent = motion.detail;
     caption.append(detail);
     document.title = `${motion.title} \u2013 samara`;
-    element('scale').textContent =
-        `${motion.ground === null ? 'grid' : 'ground, grid'}: ${Number(stage.gridStep.toPrecision(2))} m`;
+    element('follow').checked = stage.isLost;
 }
 
 function listen() {
     element('play').addEventListener('click', () => play(!playing));
+    element('whole').addEventListener('click', showAll);
+    onPalette(() => { stale = true; });
     element('scrub').addEventListener('input', (event) => {
         play(false);
         seek(Number(event.target.value));
@@ -144,7 +161,7 @@ function listen() {
     const canvas = element('stage');
     canvas.addEventListener('pointerdown', (event) => { down = [event.offsetX, event.offsetY]; });
     canvas.addEventListener('pointerup', (event) => {
-        if (down && Math.hypot(event.offsetX - down[0], event.offsetY - down[1]) < 4) {
+        if (down && Math.hypot(event.offsetX - down[0], event.offsetY - down[1]) < (event.pointerType === 'touch' ? 12 : 4)) {
             const hit = stage.pick(event.offsetX, event.offsetY);
             if (hit) choose(hit.body, hit.copy);
         }
@@ -155,7 +172,7 @@ function listen() {
 fillControls();
 listen();
 choose(0, 0);
-play(true);
+play(!window.matchMedia('(prefers-reduced-motion: reduce)').matches);
 requestAnimationFrame(tick);
 
 /** For scripts and tests: the player by hand. */
@@ -171,7 +188,7 @@ window.samara = {
     },
     time: () => time,
     playing: () => playing,
-    drawings: () => drawings,
+    ticks: () => ticks,
     chosen,
     drawnPose: (body, copy) => stage.drawnPose(body, copy),
     series: () => series,

@@ -1,11 +1,8 @@
 // Time series under the stage: one plot for each measure, with a cursor at the time shown.
 
+import { paletteColor } from './palette.js';
+
 const MARGIN = { left: 56, right: 14, top: 26, bottom: 36 };
-const INK = '#1f2933';
-const SOFT = '#67727e';
-const LINE = '#e3e7ec';
-const CURVE = '#1769aa';
-const CURSOR = '#d1495b';
 
 /** A round step that cuts `range` into at most `most` parts. */
 export function roundStep(range, most) {
@@ -102,8 +99,8 @@ export class SeriesPlot {
     }
 
     drawAxes(pen, x, y, width, height) {
-        pen.strokeStyle = LINE;
-        pen.fillStyle = SOFT;
+        pen.strokeStyle = paletteColor('line');
+        pen.fillStyle = paletteColor('soft');
         pen.lineWidth = 1;
         pen.textBaseline = 'middle';
         pen.textAlign = 'right';
@@ -128,7 +125,7 @@ export class SeriesPlot {
     }
 
     drawCurve(pen, x, y) {
-        pen.strokeStyle = CURVE;
+        pen.strokeStyle = paletteColor('curve');
         pen.lineWidth = 1.6;
         pen.lineJoin = 'round';
         pen.beginPath();
@@ -137,22 +134,22 @@ export class SeriesPlot {
     }
 
     drawCursor(pen, x, y, width, height) {
-        pen.strokeStyle = CURSOR;
+        pen.strokeStyle = paletteColor('cursor');
         pen.lineWidth = 1;
         pen.beginPath();
         pen.moveTo(x(this.time), MARGIN.top - 4);
         pen.lineTo(x(this.time), height - MARGIN.bottom);
         pen.stroke();
-        pen.fillStyle = CURSOR;
+        pen.fillStyle = paletteColor('cursor');
         pen.beginPath();
         pen.arc(x(this.time), y(this.value), 3.5, 0, 2 * Math.PI);
         pen.fill();
         pen.textBaseline = 'top';
         pen.textAlign = 'left';
-        pen.fillStyle = INK;
+        pen.fillStyle = paletteColor('ink');
         pen.fillText(`${this.measure.name} (${this.measure.unit})`, MARGIN.left, 3);
         pen.textAlign = 'right';
-        pen.fillStyle = CURSOR;
+        pen.fillStyle = paletteColor('cursor');
         const digits = decimals(this.step) + 1;
         const space = this.measure.unit === '\u00b0' ? '' : ' ';
         pen.fillText(this.value.toFixed(digits) + space + this.measure.unit, width - MARGIN.right, 3);

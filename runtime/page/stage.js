@@ -1,60 +1,70 @@
 // The bodies in space: z up, metres, one instanced mesh for each body.
 
 import {
-    BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, GridHelper, HemisphereLight, InstancedMesh, Line,
-    LineBasicMaterial, Matrix4, Mesh, MeshBasicMaterial, MeshStandardMaterial, PerspectiveCamera, PlaneGeometry,
-    Quaternion, Raycaster, Scene, Vector2, Vector3, WebGLRenderer,
+    DoubleSide, InstancedMesh, Matrix4, Mesh, MeshStandardMaterial, PerspectiveCamera, Quaternion, Raycaster,
+    Scene, Vector2, Vector3, WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import { Line2 } from 'three/addons/lines/Line2.js';
+import { LineGeometry } from 'three/addons/lines/LineGeometry.js';
+import { LineMaterial } from 'three/addons/lines/LineMaterial.js';
+import { Crowd, coarse, geometryOf } from './crowd.js';
+import { Ground, Light } from './light.js';
 import { PLACE_FLOATS, placeOf, poseAt } from './motion.js';
+import { BODIES, CHOSEN, OBSTACLE, onPalette, paletteColor } from './palette.js';
 import { roundStep } from './series.js';
 
-const COLORS = ['#4c8fbd', '#e08e45', '#5fa777', '#b779a8', '#c9b458', '#7d8ca3'];
-const OBSTACLE = '#b9b2a4';
-const CHOSEN = '#d1495b';
 const TRAIL_FRAMES = 20000;
 const MOST_GHOSTS = 80;
-
-function geometryOf({ points, normals, triangles }) {
-    const geometry = new BufferGeometry();
-    geometry.setAttribute('position', new BufferAttribute(points, 3));
-    geometry.setAttribute('normal', new BufferAttribute(normals, 3));
-    geometry.setIndex(new BufferAttribute(triangles, 1));
-    return geometry;
-}
+const LANDMARKS = 1000;  // of one body
+const MOST_PIXEL_RATIO = 2;
+const MARKED_BELOW = 9;  // pixels of radius: the chosen body is ringed
+const FOLLOWED_BELOW = 8;  // pixels of radius: a body alone is followed from the start
 
 export class Stage {
     constructor(canvas, motion) {
         this.motion = motion;
-        this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
-        this.renderer.setPixelRatio(window.devicePixelRatio || 1);
+        this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
+        this.renderer.info.autoReset = false;
         this.scene = new Scene();
-        this.scene.background = new Color('#f4f6f8');
-        this.scene.add(new HemisphereLight('#ffffff', '#ccd3da', 2.4));
         this.measureSpace();
-        const sun = new DirectionalLight('#ffffff', 1.9);
-        sun.position.set(-0.4, -0.6, 1).multiplyScalar(10 * this.size);
-        this.scene.add(sun);
+        this.light = new Light(this.renderer, this.scene, this.size);
 
         this.camera = new PerspectiveCamera(35, 1, 1e-3 * this.size, 100 * this.size);
         this.camera.up.set(0, 0, 1);
         this.controls = new OrbitControls(this.camera, canvas);
-        this.showAll();
+        this.controls.enableDamping = !window.matchMedia('(prefers-reduced-motion: reduce)').matches;
+        this.controls.zoomToCursor = true;
+        this.controls.minDistance = 2e-3 * this.size;
+        this.controls.maxDistance = 20 * this.size;
+        this.controls.addEventListener('change', () => { this.stale = true; });
+        this.controls.addEventListener('start', () => { this.handled = true; });
 
-        this.meshes = motion.bodies.map((body, index) => this.bodyMesh(body, COLORS[index % COLORS.length]));
+        this.crowds = motion.bodies.map((body, index) => new Crowd(body, BODIES[index % BODIES.length], this.scene));
         this.obstacles = motion.obstacles.map((obstacle) => this.obstacleMesh(obstacle));
         this.addGround();
-        this.trail = new Line(new BufferGeometry(), new LineBasicMaterial({ color: CHOSEN }));
+        this.trail = new Line2(new LineGeometry(), new LineMaterial({ color: CHOSEN, linewidth: 2 }));
         this.trail.frustumCulled = false;
         this.scene.add(this.trail);
+        this.marker = document.getElementById('marker');
         this.chosen = { body: 0, copy: 0 };
         this.place = new Vector3();
         this.followed = null;
         this.time = motion.times[0];
+        this.repaint();
+        onPalette(() => this.repaint());
+        this.fit();
+        this.showAll();
+    }
+
+    repaint() {
+        this.ground.paint(paletteColor(this.motion.ground === null ? 'grid-floor' : 'ground'), paletteColor('grid'));
+        this.stale = true;
     }
 
     /** The box that all frames' centres of mass and the bodies around them take. */
     measureSpace() {
+        this.landmarks = [];  // what the first view has in it
         const low = new Vector3(Infinity, Infinity, Infinity);
         const high = new Vector3(-Infinity, -Infinity, -Infinity);
         const point = new Vector3();
@@ -65,53 +75,106 @@ export class Stage {
                 inner[0].min(point);
                 inner[1].max(point);
             }
+            const apart = Math.ceil(body.poses.length / poseAt(body, 0, 1) / LANDMARKS);
+            for (let i = 0; i < body.poses.length; i += apart * poseAt(body, 0, 1)) {
+                for (const side of [-1, 1]) {
+                    const landmark = new Vector3().fromArray(body.poses, i);
+                    this.landmarks.push(landmark.addScalar(side * body.radius));
+                }
+            }
             low.min(inner[0].subScalar(body.radius));
             high.max(inner[1].addScalar(body.radius));
         }
+        this.addObstacles(low, high);
         if (this.motion.ground !== null) low.z = Math.min(low.z, this.motion.ground);
         this.low = low;
         this.high = high;
         this.size = Math.max(low.distanceTo(high), 1e-6);
     }
 
+    /** Widens the box by what of the obstacles is beside or under the bodies. */
+    addObstacles(low, high) {
+        const room = high.clone().sub(low).multiplyScalar(0.6);
+        const least = low.clone().sub(room);
+        const most = high.clone().add(room);
+        const point = new Vector3();
+        const turn = new Quaternion();
+        for (const { points, places } of this.motion.obstacles) {
+            turn.fromArray(places, 3);
+            for (let i = 0; i < points.length; i += 3) {
+                point.fromArray(points, i).applyQuaternion(turn);
+                point.x += places[0];
+                point.y += places[1];
+                point.z += places[2];
+                point.clamp(least, most);
+                this.landmarks.push(point.clone());
+                low.min(point);
+                high.max(point);
+            }
+        }
+    }
+
     /** Looks at everything from the front, a little from the right and above, as near as all of it is in view. */
     showAll() {
-        const canvas = this.renderer.domElement;
-        this.camera.aspect = canvas.clientWidth / Math.max(1, canvas.clientHeight);
-        this.camera.updateProjectionMatrix();
         const { low, high } = this;
         const middle = new Vector3().addVectors(low, high).multiplyScalar(0.5);
         const direction = new Vector3(0.45, -1, 0.24).normalize();
-        const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((i) =>
-            new Vector3((i & 1 ? high : low).x, (i & 2 ? high : low).y, (i & 4 ? high : low).z));
-        const isOut = (corner) => {
-            const seen = corner.clone().project(this.camera);
-            return Math.abs(seen.x) > 0.9 || Math.abs(seen.y) > 0.9;
-        };
         this.controls.target.copy(middle);
-        for (let distance = 0.6 * this.size; distance < 50 * this.size; distance *= 1.04) {
-            this.camera.position.copy(middle).addScaledVector(direction, distance);
-            this.camera.lookAt(middle);
+        for (let distance = 0.3 * this.size; distance < 50 * this.size; distance *= 1.04) {
+            this.camera.position.copy(this.controls.target).addScaledVector(direction, distance);
+            this.camera.lookAt(this.controls.target);
             this.camera.updateMatrixWorld();
-            if (!corners.some(isOut)) break;
+            const { low: left, high: right } = this.viewOf(this.landmarks);
+            if (right.x - left.x < 1.8 && right.y - left.y < 1.7 && right.z < 1) {
+                const aside = left.add(right).multiplyScalar(0.5 * distance / this.camera.projectionMatrix.elements[5]);
+                const across = new Vector3().setFromMatrixColumn(this.camera.matrixWorld, 0);
+                const up = new Vector3().setFromMatrixColumn(this.camera.matrixWorld, 1);
+                const way = across.multiplyScalar(aside.x * this.camera.aspect).addScaledVector(up, aside.y);
+                this.controls.target.add(way);
+                this.camera.position.add(way);
+                break;
+            }
         }
         this.controls.update();
+        this.handled = false;
+        this.stale = true;
+    }
+
+    /** The box that points take on the screen, from -1 to 1. */
+    viewOf(points) {
+        const low = new Vector3(Infinity, Infinity, Infinity);
+        const high = new Vector3(-Infinity, -Infinity, -Infinity);
+        const seen = new Vector3();
+        for (const point of points) {
+            seen.copy(point).project(this.camera);
+            low.min(seen);
+            high.max(seen);
+        }
+        return { low, high };
+    }
+
+    /** Pixels that a metre takes at one metre from the camera. */
+    get focal() {
+        return this.renderer.domElement.clientHeight / (2 * Math.tan((this.camera.fov * Math.PI) / 360));
+    }
+
+    /** Pixels of the chosen body's radius. */
+    get chosenPixels() {
+        return (this.motion.bodies[this.chosen.body].radius * this.focal) / this.camera.position.distanceTo(this.place);
+    }
+
+    /** Whether a body falls alone and is too small to be seen where all of its way is in view. */
+    get isLost() {
+        const [body] = this.motion.bodies;
+        this.place.fromArray(body.poses, 0);
+        return this.motion.bodies.length === 1 && body.copies === 1 && this.chosenPixels < FOLLOWED_BELOW;
     }
 
     obstacleMesh(obstacle) {
         const material = new MeshStandardMaterial({ color: OBSTACLE, roughness: 0.9, metalness: 0, side: DoubleSide });
         const mesh = new Mesh(geometryOf(obstacle), material);
-        this.scene.add(mesh);
-        return mesh;
-    }
-
-    bodyMesh(body, color) {
-        const geometry = geometryOf(body);
-        const material = new MeshStandardMaterial({ roughness: 0.55, metalness: 0 });
-        const mesh = new InstancedMesh(geometry, material, body.copies);
-        mesh.frustumCulled = false;
-        mesh.userData.color = new Color(color);
-        for (let copy = 0; copy < body.copies; ++copy) mesh.setColorAt(copy, mesh.userData.color);
+        mesh.castShadow = true;
+        mesh.receiveShadow = true;
         this.scene.add(mesh);
         return mesh;
     }
@@ -122,31 +185,14 @@ export class Stage {
         const middle = new Vector3((low.x + high.x) / 2, (low.y + high.y) / 2, z);
         const extent = 1.25 * Math.max(high.x - low.x, high.y - low.y, 0.4 * (high.z - low.z));
         this.gridStep = roundStep(extent, 12);
-        const parts = 2 * Math.ceil(extent / this.gridStep / 2);
-        const grid = new GridHelper(parts * this.gridStep, parts, '#aeb7c1', '#cfd6dd');
-        grid.rotation.x = Math.PI / 2;
-        grid.position.set(
-            Math.round(middle.x / this.gridStep) * this.gridStep,
-            Math.round(middle.y / this.gridStep) * this.gridStep, z);
-        this.scene.add(grid);
-        if (this.motion.ground === null) return;
-        const plane = new Mesh(
-            new PlaneGeometry(parts * this.gridStep, parts * this.gridStep),
-            new MeshBasicMaterial({ color: '#e6e2d8', polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 2 }));
-        plane.position.copy(grid.position);
-        this.scene.add(plane);
+        this.ground = new Ground(this.scene, middle, 4 * this.size, this.gridStep);
     }
 
     choose(body, copy) {
-        const paint = (color) => {
-            const mesh = this.meshes[this.chosen.body];
-            mesh.setColorAt(this.chosen.copy, color ?? mesh.userData.color);
-            mesh.instanceColor.needsUpdate = true;
-        };
-        paint();
+        this.crowds[this.chosen.body].paint();
         this.chosen = { body, copy };
         const bodies = this.motion.bodies;
-        if (bodies.length > 1 || bodies[0].copies > 1) paint(new Color(CHOSEN));
+        if (bodies.length > 1 || bodies[0].copies > 1) this.crowds[body].paint(copy, CHOSEN);
         this.layTrail();
         this.layGhosts();
         this.followed = null;
@@ -157,6 +203,7 @@ export class Stage {
         const body = this.motion.bodies[this.chosen.body];
         if (this.ghosts) {
             this.scene.remove(this.ghosts);
+            this.ghosts.geometry.dispose();
             this.ghosts.dispose();
         }
         let length = 0;
@@ -174,7 +221,7 @@ export class Stage {
         const material = new MeshStandardMaterial({
             color: CHOSEN, roughness: 0.8, transparent: true, opacity: 0.28, depthWrite: false,
         });
-        this.ghosts = new InstancedMesh(this.meshes[this.chosen.body].geometry, material, this.ghostFrames.length);
+        this.ghosts = new InstancedMesh(geometryOf(coarse(body)), material, this.ghostFrames.length);
         this.ghosts.frustumCulled = false;
         const matrix = new Matrix4();
         const one = new Vector3(1, 1, 1);
@@ -203,33 +250,22 @@ export class Stage {
         }
         points.push(0, 0, 0);  // the place at the time shown
         this.trail.geometry.dispose();
-        this.trail.geometry = new BufferGeometry();
-        this.trail.geometry.setAttribute('position', new BufferAttribute(new Float32Array(points), 3));
+        this.trail.geometry = new LineGeometry().setPositions(points);
+        this.trailPoints = points;
+        this.trailEnd = undefined;
     }
 
-    /** Places all bodies as they are at `time`: linear in position, along the arc in orientation. */
+    /** Places all bodies and obstacles as they are at `time`, and what goes with them. */
     show(time, follow) {
         this.time = time;
         const { frame, next, fraction } = placeOf(this.motion, time);
-        const position = new Vector3();
         const after = new Vector3();
-        const turn = new Quaternion();
+        const body = this.motion.bodies[this.chosen.body];
+        this.place.fromArray(body.poses, poseAt(body, frame, this.chosen.copy))
+            .lerp(after.fromArray(body.poses, poseAt(body, next, this.chosen.copy)), fraction);
+        this.followPlace(follow);
+        for (const crowd of this.crowds) crowd.place(frame, next, fraction, this.camera.position, this.focal);
         const turnAfter = new Quaternion();
-        const matrix = new Matrix4();
-        const one = new Vector3(1, 1, 1);
-        this.motion.bodies.forEach((body, index) => {
-            const mesh = this.meshes[index];
-            for (let copy = 0; copy < body.copies; ++copy) {
-                const a = poseAt(body, frame, copy);
-                const b = poseAt(body, next, copy);
-                position.fromArray(body.poses, a).lerp(after.fromArray(body.poses, b), fraction);
-                turn.fromArray(body.poses, a + 3).slerp(turnAfter.fromArray(body.poses, b + 3), fraction);
-                mesh.setMatrixAt(copy, matrix.compose(position, turn, one));
-                if (index === this.chosen.body && copy === this.chosen.copy) this.place.copy(position);
-            }
-            mesh.instanceMatrix.needsUpdate = true;
-            mesh.boundingSphere = null;
-        });
         this.motion.obstacles.forEach(({ places }, index) => {
             const mesh = this.obstacles[index];
             const moves = places.length > PLACE_FLOATS;
@@ -239,22 +275,21 @@ export class Stage {
             mesh.quaternion.fromArray(places, a + 3).slerp(turnAfter.fromArray(places, b + 3), fraction);
         });
         this.endTrail(frame);
-        this.followPlace(follow);
+        this.stale = true;
     }
 
+    /** Ends the path at the place shown: segment i goes from point i to point i + 1. */
     endTrail(frame) {
-        const points = this.trail.geometry.getAttribute('position');
-        const last = Math.floor(frame / this.trailStride) + 1;
-        const body = this.motion.bodies[this.chosen.body];
-        // The point after the last whole one is the place shown; the one that was there before is put back.
-        if (this.trailEnd !== undefined && this.trailEnd < points.count - 1) {
-            const at = poseAt(body, this.trailEnd * this.trailStride, this.chosen.copy);
-            points.setXYZ(this.trailEnd, body.poses[at], body.poses[at + 1], body.poses[at + 2]);
+        const { data } = this.trail.geometry.getAttribute('instanceStart');
+        const last = Math.floor(frame / this.trailStride);
+        if (this.trailEnd !== undefined) {
+            const whole = 3 * (this.trailEnd + 1);
+            data.array.set(this.trailPoints.slice(whole, whole + 3), 6 * this.trailEnd + 3);
         }
         this.trailEnd = last;
-        points.setXYZ(last, this.place.x, this.place.y, this.place.z);
-        points.needsUpdate = true;
-        this.trail.geometry.setDrawRange(0, last + 1);
+        this.place.toArray(data.array, 6 * last + 3);
+        data.needsUpdate = true;
+        this.trail.geometry.instanceCount = last + 1;
         this.ghosts.count = this.ghostFrames.filter((ghost) => ghost <= frame).length;
     }
 
@@ -284,30 +319,50 @@ export class Stage {
         const pointer = new Vector2((2 * x) / canvas.clientWidth - 1, 1 - (2 * y) / canvas.clientHeight);
         const ray = new Raycaster();
         ray.setFromCamera(pointer, this.camera);
-        const hit = ray.intersectObjects(this.meshes)[0];
-        return hit ? { body: this.meshes.indexOf(hit.object), copy: hit.instanceId } : null;
+        const hit = ray.intersectObjects(this.crowds.flatMap((crowd) => crowd.meshes.filter((mesh) => mesh.visible)))[0];
+        if (!hit) return null;
+        const body = this.crowds.findIndex((crowd) => crowd.meshes.includes(hit.object));
+        return { body, copy: hit.object.userData.copies[hit.instanceId] };
+    }
+
+    /** Whether some bodies are drawn larger than they are. */
+    get enlarged() {
+        return this.crowds.some((crowd) => crowd.enlarged);
+    }
+
+    /** Takes the canvas's size and the screen's density; whether either has changed. */
+    fit() {
+        const { clientWidth, clientHeight } = this.renderer.domElement;
+        const ratio = Math.min(MOST_PIXEL_RATIO, window.devicePixelRatio || 1);
+        const size = this.renderer.getSize(new Vector2());
+        if (size.x === clientWidth && size.y === clientHeight && this.renderer.getPixelRatio() === ratio) return false;
+        this.renderer.setPixelRatio(ratio);
+        this.renderer.setSize(clientWidth, clientHeight, false);
+        this.camera.aspect = clientWidth / Math.max(1, clientHeight);
+        this.camera.updateProjectionMatrix();
+        this.stale = true;
+        return true;
+    }
+
+    /** A ring around the chosen body where it is small. */
+    mark() {
+        const seen = this.place.clone().project(this.camera);
+        this.marker.hidden = this.chosenPixels > MARKED_BELOW || Math.abs(seen.z) > 1;
+        const { clientWidth, clientHeight } = this.renderer.domElement;
+        const x = ((1 + seen.x) / 2) * clientWidth;
+        const y = ((1 - seen.y) / 2) * clientHeight;
+        this.marker.style.transform = `translate(${x}px, ${y}px)`;
     }
 
     draw() {
-        const canvas = this.renderer.domElement;
-        const width = canvas.clientWidth;
-        const height = canvas.clientHeight;
-        const size = this.renderer.getSize(new Vector2());
-        if (size.x !== width || size.y !== height) {
-            this.renderer.setSize(width, height, false);
-            this.camera.aspect = width / height;
-            this.camera.updateProjectionMatrix();
-        }
+        this.light.aim(this.controls.target, this.camera.position.distanceTo(this.controls.target));
+        this.mark();
+        this.renderer.info.reset();
         this.renderer.render(this.scene, this.camera);
+        this.stale = false;
     }
 
-    /** The pose that is drawn: read from the mesh itself. */
     drawnPose(body, copy) {
-        const matrix = new Matrix4();
-        this.meshes[body].getMatrixAt(copy, matrix);
-        const position = new Vector3();
-        const turn = new Quaternion();
-        matrix.decompose(position, turn, new Vector3());
-        return { position: position.toArray(), orientation: [turn.w, turn.x, turn.y, turn.z] };
+        return this.crowds[body].drawnPose(copy);
     }
 }

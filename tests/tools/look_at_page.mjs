@@ -44,12 +44,13 @@ const colours = (selector) => page.evaluate((which) => {
 }, selector);
 /** Waits until everything asked for so far is drawn. */
 const settle = async () => {
-    const drawings = await page.evaluate('window.samara.drawings()');
-    await page.waitForFunction(`window.samara.drawings() > ${drawings + 1}`);
+    const ticks = await page.evaluate('window.samara.ticks()');
+    await page.waitForFunction(`window.samara.ticks() > ${ticks + 1}`);
 };
 const samara = (expression) => page.evaluate(`(() => { const s = window.samara; return ${expression}; })()`);
 
 const found = { plays: await samara('s.playing()') };
+found.follows = await page.isChecked('#follow');
 if (found.plays) await page.waitForFunction('window.samara.time() > 0');
 if (found.plays) await page.keyboard.press('Space');
 found.paused = !(await samara('s.playing()'));
@@ -73,6 +74,33 @@ for (const i of [1, 2, 3]) found.plots.push(await colours(`#series canvas:nth-ch
 found.text = await page.evaluate('document.body.innerText');
 await page.screenshot({ path: picture });
 
+// What a picture costs, and whether it is drawn again where nothing moves.
+await settle();
+const drawn = await samara('s.stage.renderer.info.render.frame');
+for (let i = 0; i < 3; ++i) await settle();
+found.drawn_at_rest = (await samara('s.stage.renderer.info.render.frame')) - drawn;
+found.cost = await samara('({ calls: s.stage.renderer.info.render.calls, triangles: s.stage.renderer.info.render.triangles })');
+found.enlarged = await samara('s.stage.enlarged');
+found.marked = await page.isVisible('#marker');
+
+// The share of the stage's pixels that shadows change.
+found.shadow_share = await page.evaluate(async () => {
+    const { stage } = window.samara;
+    const pixels = (shadows) => {
+        stage.light.key.castShadow = shadows;
+        stage.draw();
+        const copy = document.createElement('canvas');
+        const source = document.getElementById('stage');
+        [copy.width, copy.height] = [source.width, source.height];
+        const pen = copy.getContext('2d');
+        pen.drawImage(source, 0, 0);
+        return new Uint32Array(pen.getImageData(0, 0, copy.width, copy.height).data.buffer);
+    };
+    const without = pixels(false);
+    const having = pixels(true);
+    return having.filter((word, i) => word !== without[i]).length / having.length;
+});
+
 // A click on the first body picks it, wherever it is drawn.
 const last = found.poses.length - 1;
 await samara(`s.choose(${last}, 0)`);
@@ -86,6 +114,24 @@ found.picked = await samara('({ ...s.chosen })');
 await page.keyboard.press('f');
 await settle();
 found.followed = await samara('s.stage.controls.target.distanceTo(s.stage.place)');
+
+// A narrow window, then a reader who wants the dark, a fine screen and nothing that moves by itself.
+await page.setViewportSize({ width: 600, height: 700 });
+await settle();
+found.narrow = await page.evaluate(`(() => { const c = document.getElementById('stage');
+    return { canvas: c.width, box: c.clientWidth, page: document.documentElement.scrollWidth }; })()`);
+const other = await browser.newPage({
+    viewport: { width: 640, height: 480 }, deviceScaleFactor: 2, colorScheme: 'dark', reducedMotion: 'reduce', hasTouch: true,
+});
+other.setDefaultTimeout(240_000);
+other.on('pageerror', (fault) => faults.push(String(fault)));
+await other.goto(pathToFileURL(resolve(page_file)).href);
+await other.waitForFunction('window.samara.ticks() > 1');
+found.dark = await other.evaluate(`(() => { const c = document.getElementById('stage'); return {
+    plays: window.samara.playing(), paper: getComputedStyle(document.body).backgroundColor, fine: c.width / c.clientWidth }; })()`);
+await other.touchscreen.tap(...await other.evaluate(`(() => { const b = document.getElementById('play').getBoundingClientRect();
+    return [b.left + b.width / 2, b.top + b.height / 2]; })()`));
+found.dark.plays_after_a_tap = await other.evaluate('window.samara.playing()');
 
 await browser.close();
 console.log(JSON.stringify({ ...found, faults, requests }));

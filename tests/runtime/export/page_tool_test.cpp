@@ -97,6 +97,50 @@ TEST(Page, ShowsSeriesAndAPictureWithoutFaultsOrANetwork) {
     EXPECT_THAT(text, HasSubstr("die <!--<script></script> <b>red</b>"));
     EXPECT_THAT(text, HasSubstr("ground"));
     EXPECT_THAT(read_bytes(folder / "picture.png"), HasSubstr("PNG"));
+    EXPECT_GT(found["shadow_share"], 0.0005);
+    EXPECT_EQ(found["drawn_at_rest"], 0);
+}
+
+TEST(Page, FitsItsWindowAndItsReader) {
+    ASSERT_TRUE(has_page()) << "configure with -DSAMARA_PAGE=ON";
+    const TemporaryFolder folder;
+    write_page(folder / "motion.html", ellipsoid_and_cubes(3), 0, "leaves", "");
+    const json found = look_at(folder / "motion.html", 1.0, folder);
+    EXPECT_EQ(found["narrow"], json::parse(R"({"canvas": 600, "box": 600, "page": 600})"));
+    EXPECT_EQ(found["dark"]["paper"], "rgb(20, 25, 31)");
+    EXPECT_EQ(found["dark"]["fine"], 2);
+    EXPECT_EQ(found["dark"]["plays"], false) << "reduced motion";
+    EXPECT_EQ(found["dark"]["plays_after_a_tap"], true);
+    EXPECT_EQ(found["faults"], json::array());
+}
+
+TEST(Page, DrawsACrowdInFewCallsAndFewTriangles) {
+    ASSERT_TRUE(has_page()) << "configure with -DSAMARA_PAGE=ON";
+    const TemporaryFolder folder;
+    Motion motion = ellipsoid_and_cubes(200);
+    std::swap(motion.bodies[0].surface, motion.bodies[1].surface);  // the crowd is of the finer
+    write_page(folder / "motion.html", motion, 0, "crowd", "");
+    const json found = look_at(folder / "motion.html", 0.5, folder);
+    EXPECT_LE(found["cost"]["calls"], 12);
+    EXPECT_LT(found["cost"]["triangles"], 2 * 200 * motion.bodies[1].surface.triangles.size());
+    EXPECT_EQ(found["faults"], json::array());
+}
+
+TEST(Page, FollowsABodyThatWouldBeTooSmallToSee) {
+    ASSERT_TRUE(has_page()) << "configure with -DSAMARA_PAGE=ON";
+    const TemporaryFolder folder;
+    Motion motion = test::motion_of(test::wander, 2.0);
+    for (std::size_t frame = 0; frame < motion.times.size(); ++frame)
+        motion.bodies[0].poses[frame].position.z() = -20.0 * motion.times[frame];
+    write_page(folder / "far.html", motion, 0, "far", "");
+    EXPECT_EQ(look_at(folder / "far.html", 1.0, folder)["follows"], true);
+    motion.bodies.push_back(motion.bodies[0]);
+    motion.bodies[1].name = "other";
+    write_page(folder / "two.html", motion, 0, "two", "");
+    const json found = look_at(folder / "two.html", 1.0, folder);
+    EXPECT_EQ(found["follows"], false);
+    EXPECT_EQ(found["enlarged"], true);
+    EXPECT_EQ(found["marked"], true);
 }
 
 TEST(Page, ObeysKeysAndClicks) {

@@ -1,0 +1,196 @@
+// All copies of one body: two instanced meshes, the body's own for those near and a coarser one for those far.
+
+import {
+    BufferAttribute, BufferGeometry, Color, DynamicDrawUsage, InstancedMesh, Matrix4, MeshStandardMaterial, Quaternion, Vector3,
+} from 'three';
+import { poseAt } from './motion.js';
+
+const MOST_COARSE_TRIANGLES = 320;
+const FINE_FROM = 22;  // pixels of radius
+const LEAST_RADIUS = 3.5;  // pixels: what is smaller is drawn larger
+
+export function geometryOf({ points, normals, triangles }) {
+    const geometry = new BufferGeometry();
+    geometry.setAttribute('position', new BufferAttribute(points, 3));
+    geometry.setAttribute('normal', new BufferAttribute(normals, 3));
+    geometry.setIndex(new BufferAttribute(triangles, 1));
+    return geometry;
+}
+
+/** Numbers keys in the order in which they are met. */
+class Numbering {
+    constructor() {
+        this.numbers = new Map();
+    }
+
+    of(key) {
+        if (!this.numbers.has(key)) this.numbers.set(key, this.numbers.size);
+        return this.numbers.get(key);
+    }
+}
+
+/**
+ * The surface with all points of a cell in their mean. A point's normal keeps its octant, so that the two faces of a
+ * thin body stay apart in the light though they may coincide in space.
+ */
+function clustered({ points, normals, triangles }, cell) {
+    const places = new Numbering();
+    const corners = new Numbering();
+    const sums = [];
+    const shading = [];
+    const placeOfCorner = [];
+    const cornerOf = new Uint32Array(points.length / 3);
+    for (let i = 0; i < cornerOf.length; ++i) {
+        const at = 3 * i;
+        const place = places.of([0, 1, 2].map((k) => Math.floor(points[at + k] / cell)).join());
+        const octant = (normals[at] > 0) + 2 * (normals[at + 1] > 0) + 4 * (normals[at + 2] > 0);
+        const corner = corners.of(8 * place + octant);
+        const sum = (sums[place] ??= [0, 0, 0, 0]);
+        const shade = (shading[corner] ??= [0, 0, 0]);
+        for (let k = 0; k < 3; ++k) {
+            sum[k] += points[at + k];
+            shade[k] += normals[at + k];
+        }
+        ++sum[3];
+        placeOfCorner[corner] = place;
+        cornerOf[i] = corner;
+    }
+    const kept = [];
+    for (let i = 0; i < triangles.length; i += 3) {
+        const [a, b, c] = [0, 1, 2].map((k) => cornerOf[triangles[i + k]]);
+        const [p, q, r] = [a, b, c].map((corner) => placeOfCorner[corner]);
+        if (p !== q && q !== r && r !== p) kept.push(a, b, c);
+    }
+    return {
+        points: Float32Array.from(placeOfCorner.flatMap((place) => {
+            const [x, y, z, count] = sums[place];
+            return [x / count, y / count, z / count];
+        })),
+        normals: Float32Array.from(shading.flatMap((shade) => {
+            const length = Math.hypot(...shade) || 1;
+            return shade.map((value) => value / length);
+        })),
+        triangles: Uint32Array.from(kept),
+    };
+}
+
+/** The body's surface in few triangles, for copies that are small on the screen. */
+export function coarse(body) {
+    if (body.triangles.length <= 3 * MOST_COARSE_TRIANGLES) return body;
+    for (let parts = 16; parts > 3; --parts) {
+        const surface = clustered(body, (2 * body.radius) / parts);
+        if (surface.triangles.length <= 3 * MOST_COARSE_TRIANGLES) return surface;
+    }
+    return body;
+}
+
+/** A shade of its own for each copy, so that a crowd is not of one cast. */
+function shadesOf(color, copies) {
+    const shades = new Float32Array(3 * copies);
+    const shade = new Color();
+    for (let copy = 0; copy < copies; ++copy) {
+        const part = copies > 1 ? ((copy * 0.618034) % 1) - 0.5 : 0;
+        shade.copy(color).offsetHSL(0.03 * part, 0, 0.14 * part).toArray(shades, 3 * copy);
+    }
+    return shades;
+}
+
+export class Crowd {
+    constructor(body, color, scene) {
+        this.body = body;
+        this.shades = shadesOf(new Color(color), body.copies);
+        this.painted = null;
+        const material = new MeshStandardMaterial({ roughness: 0.5, metalness: 0 });
+        const meshOf = (surface) => {
+            const mesh = new InstancedMesh(geometryOf(surface), material, body.copies);
+            mesh.instanceMatrix.setUsage(DynamicDrawUsage);
+            mesh.setColorAt(0, new Color());
+            mesh.instanceColor.setUsage(DynamicDrawUsage);
+            mesh.frustumCulled = false;
+            mesh.castShadow = true;
+            mesh.receiveShadow = true;
+            mesh.userData.copies = new Uint32Array(body.copies);  // of each instance
+            scene.add(mesh);
+            return mesh;
+        };
+        const near = meshOf(body);
+        this.meshes = body.copies > 1 ? [near, meshOf(coarse(body))] : [near];
+        this.slots = new Uint32Array(2 * body.copies);  // of each copy: its mesh, its instance
+        this.enlarged = false;
+    }
+
+    /** Draws one copy in a colour of its own; without one, none. */
+    paint(copy, color) {
+        this.painted = color ? { copy, color: new Color(color) } : null;
+    }
+
+    /**
+     * Places all copies, a fraction of the way from one frame to the next: linear in position, along the arc in
+     * orientation. `eye`: where the camera is; `focal`: pixels that a metre takes at one metre from it.
+     */
+    place(frame, next, fraction, eye, focal) {
+        const { body } = this;
+        const { poses, radius } = body;
+        const counts = [0, 0];
+        const turn = [0, 0, 0, 1];
+        this.enlarged = false;
+        for (let copy = 0; copy < body.copies; ++copy) {
+            const a = poseAt(body, frame, copy);
+            const b = poseAt(body, next, copy);
+            const x = poses[a] + fraction * (poses[b] - poses[a]);
+            const y = poses[a + 1] + fraction * (poses[b + 1] - poses[a + 1]);
+            const z = poses[a + 2] + fraction * (poses[b + 2] - poses[a + 2]);
+            Quaternion.slerpFlat(turn, 0, poses, a + 3, poses, b + 3, fraction);
+            const pixels = (radius * focal) / Math.hypot(x - eye.x, y - eye.y, z - eye.z);
+            const kind = this.meshes.length === 1 || pixels > FINE_FROM ? 0 : 1;
+            const mesh = this.meshes[kind];
+            const instance = counts[kind]++;
+            const scale = Math.max(1, LEAST_RADIUS / pixels);
+            if (scale > 1.2) this.enlarged = true;
+            writeMatrix(mesh.instanceMatrix.array, 16 * instance, x, y, z, turn, scale);
+            const colors = mesh.instanceColor.array;
+            for (let k = 0; k < 3; ++k) colors[3 * instance + k] = this.shades[3 * copy + k];
+            if (this.painted?.copy === copy) this.painted.color.toArray(colors, 3 * instance);
+            mesh.userData.copies[instance] = copy;
+            this.slots[2 * copy] = kind;
+            this.slots[2 * copy + 1] = instance;
+        }
+        this.meshes.forEach((mesh, kind) => {
+            mesh.count = counts[kind];
+            mesh.visible = mesh.count > 0;
+            mesh.instanceMatrix.needsUpdate = true;
+            mesh.instanceColor.needsUpdate = true;
+            mesh.boundingSphere = null;
+        });
+    }
+
+    /** The pose that is drawn: read from the mesh itself. */
+    drawnPose(copy) {
+        const matrix = new Matrix4();
+        this.meshes[this.slots[2 * copy]].getMatrixAt(this.slots[2 * copy + 1], matrix);
+        const position = new Vector3();
+        const turn = new Quaternion();
+        matrix.decompose(position, turn, new Vector3());
+        return { position: position.toArray(), orientation: [turn.w, turn.x, turn.y, turn.z] };
+    }
+}
+
+/** A place, a turn (x y z w) and a scale as a matrix by columns. */
+function writeMatrix(to, at, x, y, z, [i, j, k, w], scale) {
+    to[at] = (1 - 2 * (j * j + k * k)) * scale;
+    to[at + 1] = 2 * (i * j + k * w) * scale;
+    to[at + 2] = 2 * (i * k - j * w) * scale;
+    to[at + 3] = 0;
+    to[at + 4] = 2 * (i * j - k * w) * scale;
+    to[at + 5] = (1 - 2 * (i * i + k * k)) * scale;
+    to[at + 6] = 2 * (j * k + i * w) * scale;
+    to[at + 7] = 0;
+    to[at + 8] = 2 * (i * k + j * w) * scale;
+    to[at + 9] = 2 * (j * k - i * w) * scale;
+    to[at + 10] = (1 - 2 * (i * i + j * j)) * scale;
+    to[at + 11] = 0;
+    to[at + 12] = x;
+    to[at + 13] = y;
+    to[at + 14] = z;
+    to[at + 15] = 1;
+}
