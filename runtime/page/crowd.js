@@ -1,12 +1,12 @@
-// All copies of one body: two instanced meshes, the body's own for those near and a coarser one for those far.
+// All copies of one body: an instanced mesh for those near, and coarser ones for those far.
 
 import {
     BufferAttribute, BufferGeometry, Color, DynamicDrawUsage, InstancedMesh, Matrix4, MeshStandardMaterial, Quaternion, Vector3,
 } from 'three';
 import { poseAt } from './motion.js';
 
-const MOST_COARSE_TRIANGLES = 320;
-const FINE_FROM = 22;  // pixels of radius
+/** The surfaces of a copy: from how many pixels of radius, and of how many triangles at most. */
+const LEVELS = [{ from: 22, most: Infinity }, { from: 6, most: 320 }, { from: 0, most: 48 }];
 const LEAST_RADIUS = 3.5;  // pixels: what is smaller is drawn larger
 
 export function geometryOf({ points, normals, triangles }) {
@@ -74,14 +74,16 @@ function clustered({ points, normals, triangles }, cell) {
     };
 }
 
-/** The body's surface in few triangles, for copies that are small on the screen. */
-export function coarse(body) {
-    if (body.triangles.length <= 3 * MOST_COARSE_TRIANGLES) return body;
-    for (let parts = 16; parts > 3; --parts) {
-        const surface = clustered(body, (2 * body.radius) / parts);
-        if (surface.triangles.length <= 3 * MOST_COARSE_TRIANGLES) return surface;
+/** The body's surface at a level of LEVELS, or the coarsest that still has a shape. */
+export function surfaceAt(body, level) {
+    const { most } = LEVELS[level];
+    let surface = body;
+    for (let parts = 16; surface.triangles.length > 3 * most && parts > 2; --parts) {
+        const coarser = clustered(body, (2 * body.radius) / parts);
+        if (coarser.triangles.length === 0) break;
+        surface = coarser;
     }
-    return body;
+    return surface;
 }
 
 /** A shade of its own for each copy, so that a crowd is not of one cast. */
@@ -113,9 +115,9 @@ export class Crowd {
             scene.add(mesh);
             return mesh;
         };
-        const near = meshOf(body);
-        this.meshes = body.copies > 1 ? [near, meshOf(coarse(body))] : [near];
-        this.slots = new Uint32Array(2 * body.copies);  // of each copy: its mesh, its instance
+        const levels = body.copies > 1 ? LEVELS : LEVELS.slice(0, 1);
+        this.meshes = levels.map((_, level) => meshOf(surfaceAt(body, level)));
+        this.slots = new Uint32Array(2 * body.copies);  // of each copy: its level, its instance
         this.enlarged = false;
     }
 
@@ -131,7 +133,8 @@ export class Crowd {
     place(frame, next, fraction, eye, focal) {
         const { body } = this;
         const { poses, radius } = body;
-        const counts = [0, 0];
+        const counts = this.meshes.map(() => 0);
+        const coarsest = this.meshes.length - 1;
         const turn = [0, 0, 0, 1];
         this.enlarged = false;
         for (let copy = 0; copy < body.copies; ++copy) {
@@ -142,9 +145,10 @@ export class Crowd {
             const z = poses[a + 2] + fraction * (poses[b + 2] - poses[a + 2]);
             Quaternion.slerpFlat(turn, 0, poses, a + 3, poses, b + 3, fraction);
             const pixels = (radius * focal) / Math.hypot(x - eye.x, y - eye.y, z - eye.z);
-            const kind = this.meshes.length === 1 || pixels > FINE_FROM ? 0 : 1;
-            const mesh = this.meshes[kind];
-            const instance = counts[kind]++;
+            let level = 0;
+            while (level < coarsest && pixels < LEVELS[level].from) ++level;
+            const mesh = this.meshes[level];
+            const instance = counts[level]++;
             const scale = Math.max(1, LEAST_RADIUS / pixels);
             if (scale > 1.2) this.enlarged = true;
             writeMatrix(mesh.instanceMatrix.array, 16 * instance, x, y, z, turn, scale);
@@ -152,11 +156,11 @@ export class Crowd {
             for (let k = 0; k < 3; ++k) colors[3 * instance + k] = this.shades[3 * copy + k];
             if (this.painted?.copy === copy) this.painted.color.toArray(colors, 3 * instance);
             mesh.userData.copies[instance] = copy;
-            this.slots[2 * copy] = kind;
+            this.slots[2 * copy] = level;
             this.slots[2 * copy + 1] = instance;
         }
-        this.meshes.forEach((mesh, kind) => {
-            mesh.count = counts[kind];
+        this.meshes.forEach((mesh, level) => {
+            mesh.count = counts[level];
             mesh.visible = mesh.count > 0;
             mesh.instanceMatrix.needsUpdate = true;
             mesh.instanceColor.needsUpdate = true;

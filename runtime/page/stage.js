@@ -8,7 +8,7 @@ import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { Line2 } from 'three/addons/lines/Line2.js';
 import { LineGeometry } from 'three/addons/lines/LineGeometry.js';
 import { LineMaterial } from 'three/addons/lines/LineMaterial.js';
-import { Crowd, coarse, geometryOf } from './crowd.js';
+import { Crowd, geometryOf, surfaceAt } from './crowd.js';
 import { Ground, Light } from './light.js';
 import { PLACE_FLOATS, placeOf, poseAt } from './motion.js';
 import { BODIES, CHOSEN, OBSTACLE, onPalette, paletteColor } from './palette.js';
@@ -221,7 +221,7 @@ export class Stage {
         const material = new MeshStandardMaterial({
             color: CHOSEN, roughness: 0.8, transparent: true, opacity: 0.28, depthWrite: false,
         });
-        this.ghosts = new InstancedMesh(geometryOf(coarse(body)), material, this.ghostFrames.length);
+        this.ghosts = new InstancedMesh(geometryOf(surfaceAt(body, 1)), material, this.ghostFrames.length);
         this.ghosts.frustumCulled = false;
         const matrix = new Matrix4();
         const one = new Vector3(1, 1, 1);
