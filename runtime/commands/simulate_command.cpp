@@ -23,6 +23,7 @@
 #include "internal/command/progress.hpp"
 #include "internal/command/scene_bodies.hpp"
 #include "internal/flight/run_needs.hpp"
+#include "internal/flight/size_range.hpp"
 #include "internal/kernel/body_state.hpp"
 #include "internal/motion/description.hpp"
 #include "internal/motion/motion_writer.hpp"
@@ -196,6 +197,9 @@ nlohmann::json run(const Request& request, const Arguments& arguments) {
     const std::optional<ModelAdvice> advice = choose_with_progress(scene, loaded, request.threads);
     if (advice && !arguments.json()) print_result("models = \"auto\" chose:\n{}", as_text(*advice));
 
+    for (std::size_t i = 0; i < loaded.size(); ++i) {
+        require_sizes_in_tables(scene, scene.bodies[i], loaded[i]);
+    }
     note_doubtful_bodies(scene, loaded);
     const SimulationReport report = fly(scene, loaded, request);
     BodyNotes notes(program);

@@ -132,7 +132,7 @@ export class Crowd {
      */
     place(frame, next, fraction, eye, focal) {
         const { body } = this;
-        const { poses, radius } = body;
+        const { poses, radius, sizes } = body;
         const counts = this.meshes.map(() => 0);
         const coarsest = this.meshes.length - 1;
         const turn = [0, 0, 0, 1];
@@ -144,14 +144,14 @@ export class Crowd {
             const y = poses[a + 1] + fraction * (poses[b + 1] - poses[a + 1]);
             const z = poses[a + 2] + fraction * (poses[b + 2] - poses[a + 2]);
             Quaternion.slerpFlat(turn, 0, poses, a + 3, poses, b + 3, fraction);
-            const pixels = (radius * focal) / Math.hypot(x - eye.x, y - eye.y, z - eye.z);
+            const pixels = (sizes[copy] * radius * focal) / Math.hypot(x - eye.x, y - eye.y, z - eye.z);
             let level = 0;
             while (level < coarsest && pixels < LEVELS[level].from) ++level;
             const mesh = this.meshes[level];
             const instance = counts[level]++;
             const scale = Math.max(1, LEAST_RADIUS / pixels);
             if (scale > 1.2) this.enlarged = true;
-            writeMatrix(mesh.instanceMatrix.array, 16 * instance, x, y, z, turn, scale);
+            writeMatrix(mesh.instanceMatrix.array, 16 * instance, x, y, z, turn, sizes[copy] * scale);
             const colors = mesh.instanceColor.array;
             for (let k = 0; k < 3; ++k) colors[3 * instance + k] = this.shades[3 * copy + k];
             if (this.painted?.copy === copy) this.painted.color.toArray(colors, 3 * instance);

@@ -30,6 +30,7 @@ export function readMotion() {
         body.normals = new Float32Array(bytesOf(`motion-${index}-normals`));
         body.triangles = new Uint32Array(bytesOf(`motion-${index}-triangles`));
         body.poses = new Float32Array(bytesOf(`motion-${index}-poses`));
+        body.sizes ??= new Array(body.copies).fill(1);
     });
     motion.obstacles.forEach((obstacle, index) => {
         obstacle.points = new Float32Array(bytesOf(`motion-obstacle-${index}-points`));

@@ -75,15 +75,16 @@ export class Stage {
                 inner[0].min(point);
                 inner[1].max(point);
             }
+            const radius = body.radius * body.sizes.reduce((a, b) => Math.max(a, b));
             const apart = Math.ceil(body.poses.length / poseAt(body, 0, 1) / LANDMARKS);
             for (let i = 0; i < body.poses.length; i += apart * poseAt(body, 0, 1)) {
                 for (const side of [-1, 1]) {
                     const landmark = new Vector3().fromArray(body.poses, i);
-                    this.landmarks.push(landmark.addScalar(side * body.radius));
+                    this.landmarks.push(landmark.addScalar(side * radius));
                 }
             }
-            low.min(inner[0].subScalar(body.radius));
-            high.max(inner[1].addScalar(body.radius));
+            low.min(inner[0].subScalar(radius));
+            high.max(inner[1].addScalar(radius));
         }
         this.addObstacles(low, high);
         if (this.motion.ground !== null) low.z = Math.min(low.z, this.motion.ground);
@@ -160,7 +161,8 @@ export class Stage {
 
     /** Pixels of the chosen body's radius. */
     get chosenPixels() {
-        return (this.motion.bodies[this.chosen.body].radius * this.focal) / this.camera.position.distanceTo(this.place);
+        const { radius, sizes } = this.motion.bodies[this.chosen.body];
+        return (radius * sizes[this.chosen.copy] * this.focal) / this.camera.position.distanceTo(this.place);
     }
 
     /** Whether a body falls alone and is too small to be seen where all of its way is in view. */
@@ -213,7 +215,8 @@ export class Stage {
             length += at(frame).distanceTo(at(frame - 1));
             ways.push(length);
         }
-        const apart = Math.max(1.3 * body.radius, length / MOST_GHOSTS);
+        const size = body.sizes[this.chosen.copy];
+        const apart = Math.max(1.3 * size * body.radius, length / MOST_GHOSTS);
         this.ghostFrames = [];
         ways.forEach((way, frame) => {
             if (way >= this.ghostFrames.length * apart) this.ghostFrames.push(frame);
@@ -224,10 +227,10 @@ export class Stage {
         this.ghosts = new InstancedMesh(geometryOf(surfaceAt(body, 1)), material, this.ghostFrames.length);
         this.ghosts.frustumCulled = false;
         const matrix = new Matrix4();
-        const one = new Vector3(1, 1, 1);
+        const scale = new Vector3(size, size, size);
         this.ghostFrames.forEach((frame, i) => {
             const turn = new Quaternion().fromArray(body.poses, poseAt(body, frame, this.chosen.copy) + 3);
-            this.ghosts.setMatrixAt(i, matrix.compose(at(frame), turn, one));
+            this.ghosts.setMatrixAt(i, matrix.compose(at(frame), turn, scale));
         });
         this.scene.add(this.ghosts);
     }
@@ -300,7 +303,8 @@ export class Stage {
             return;
         }
         if (this.followed === null) {
-            const radius = this.motion.bodies[this.chosen.body].radius;
+            const body = this.motion.bodies[this.chosen.body];
+            const radius = body.radius * body.sizes[this.chosen.copy];
             const offset = this.camera.position.clone().sub(this.controls.target);
             offset.setLength(Math.min(offset.length(), 12 * radius));
             this.controls.target.copy(this.place);

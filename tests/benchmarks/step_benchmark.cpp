@@ -93,7 +93,7 @@ void double_batch(benchmark::State& state) {
 }
 
 /// 1024 bodies side by side in a wind with everything: items a second are body-steps.
-void windy_batch(benchmark::State& state, const Wind& wind) {
+void windy_batch(benchmark::State& state, const Wind& wind, bool sized = false) {
     ImmersedBody body = test::blunt_ellipsoid();
     body.turbulence = Turbulence::table;
     prepare(body);
@@ -101,6 +101,11 @@ void windy_batch(benchmark::State& state, const Wind& wind) {
     if (wind.is_field()) surroundings.wind = std::make_shared<const WindField>(wind, Vector3d::Zero());
     constexpr std::size_t count = 1024;
     Batch bodies(body, count);
+    std::vector<double> sizes;
+    for (std::size_t i = 0; sized && i < count; ++i) {
+        sizes.push_back(0.7 + 0.7 * static_cast<double>(i) / count);
+    }
+    if (sized) bodies.set_sizes(sizes, false);
     for (std::size_t i = 0; i < count; ++i) {
         bodies.set_state(i, test::tumbling_state(0.1, 0.001 * static_cast<double>(i)));
         bodies.set_noise(i, Noise(1, "leaf", 0, static_cast<std::uint32_t>(i)));
@@ -114,6 +119,9 @@ void windy_batch(benchmark::State& state, const Wind& wind) {
 }
 void in_no_wind(benchmark::State& state) {
     windy_batch(state, {});
+}
+void in_no_wind_of_many_sizes(benchmark::State& state) {
+    windy_batch(state, {}, true);
 }
 void in_a_wind_with_profile(benchmark::State& state) {
     Wind wind;
@@ -183,6 +191,7 @@ BENCHMARK(float_batch)->Arg(4096)->Arg(1'000'000)->Unit(benchmark::kMillisecond)
 BENCHMARK(float_batch_on_all_cores)->Arg(1'000'000)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(double_batch)->Arg(4096)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(in_no_wind);
+BENCHMARK(in_no_wind_of_many_sizes);
 BENCHMARK(in_a_wind_with_profile);
 BENCHMARK(in_a_wind_with_vortex_and_fan);
 BENCHMARK(in_a_wind_with_gusts);

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "internal/base/parallel_for.hpp"
+#include "internal/dynamics/body_size.hpp"
 #include "internal/dynamics/flight_constants_of.hpp"
 #include "internal/dynamics/ground_contact.hpp"
 #include "internal/kernel/kernel.hpp"
@@ -17,26 +18,42 @@ namespace {
 constexpr std::size_t blocks_a_piece = 64;
 
 /// What the bodies of a batch touch.
+template <class Real>
 struct BatchGround {
+    const BasicBatch<Real>& batch;
     const ImmersedBody& body;
+    double largest;  ///< size
     const Surroundings& surroundings;
 
-    static void resolve(const void* context, double time, double substep, const BodyState& before,
-                        BodyState& state) noexcept {
+    static void resolve(const void* context, std::size_t index, double time, double substep,
+                        const BodyState& before, BodyState& state) noexcept {
         const auto& ground = *static_cast<const BatchGround*>(context);
-        touch_ground(ground.body, ground_in_flow(ground.surroundings, time - substep, time), substep, before,
-                     state);
+        const Ground met = ground_in_flow(ground.surroundings, time - substep, time);
+        const double size = ground.batch.size_of(index);
+        if (size == 1.0) return touch_ground(ground.batch.touching(index), met, substep, before, state);
+        const BodyState world_before = in_world_units(before, size);
+        BodyState world = in_world_units(state, size);
+        touch_ground(ground.batch.touching(index), met, substep, world_before, world);
+        state = in_own_units(world, size);
+        // What lies still keeps its place to the last bit.
+        if (world.position == world_before.position) state.position = before.position;
     }
 
-    static void stay(const void* context, double begin, double end, BodyState& state) noexcept {
+    static void stay(const void* context, std::size_t index, double begin, double end,
+                     BodyState& state) noexcept {
         const auto& ground = *static_cast<const BatchGround*>(context);
-        stay_on(ground_in_flow(ground.surroundings, begin, end), state);
+        const Ground met = ground_in_flow(ground.surroundings, begin, end);
+        const double size = ground.batch.size_of(index);
+        if (size == 1.0) return stay_on(met, state);
+        BodyState world = in_world_units(state, size);
+        stay_on(met, world);
+        state = in_own_units(world, size);
     }
 
     [[nodiscard]] kernel::Contact contact(double start, double time_step, std::uint64_t first_step,
                                           std::uint64_t steps) const noexcept {
         if (!has_ground(surroundings)) return {};
-        const double radius = body.contact_points.bounding_radius;
+        const double radius = largest * body.contact_points.bounding_radius;
         const double fastest = surroundings.current.norm() + surroundings.gust.amplitude.norm();
         const ObstacleSet* obstacles = surroundings.obstacles.get();
         double highest = -std::numeric_limits<double>::infinity();
@@ -67,7 +84,8 @@ BatchReport advance_alone(const ImmersedBody& body, const Surroundings& surround
     const Noise noise(std::array{block.noise[0][0], block.noise[1][0], block.noise[2][0], block.noise[3][0]});
     BatchReport report;
     BodyState state = state_of(block, 0);
-    for (std::uint64_t step = task.first_step; step < task.first_step + task.steps; ++step) {
+    for (std::uint64_t step = std::max(task.first_step, block.first_step[0]);
+         step < task.first_step + task.steps; ++step) {
         const StepResult result = advance(body, surroundings, task.start, task.time_step, state, noise, step);
         state = result.state;
         report.count(result.substeps);
@@ -89,18 +107,49 @@ BasicBatch<Real>::BasicBatch(const ImmersedBody& body, std::size_t count)
         blocks_[i].bodies = std::min(FlightBlock<Real>::size, count - i * FlightBlock<Real>::size);
         for (std::size_t lane = 0; lane < FlightBlock<Real>::size; ++lane) {
             keep_state(BodyState{}, blocks_[i], lane);
+            blocks_[i].size_of[lane] = Real{1};
+            blocks_[i].first_step[lane] = 0;
         }
+        blocks_[i].first_body = i * FlightBlock<Real>::size;
     }
     for (std::size_t i = 0; i < count; ++i) set_noise(i, Noise(0, "", 0, 0));
 }
 
 template <class Real>
+void BasicBatch<Real>::set_sizes(const std::vector<double>& sizes, bool touch) {
+    sizes_ = sizes;
+    touching_.clear();
+    for (std::size_t i = 0; i < size_; ++i) {
+        blocks_[i / FlightBlock<Real>::size].size_of[i % FlightBlock<Real>::size] =
+            static_cast<Real>(sizes[i]);
+        if (touch) touching_.push_back(touching_body(*body_, sizes[i]));
+    }
+}
+
+template <class Real>
+void BasicBatch<Real>::set_first_step(std::size_t index, std::uint64_t step) noexcept {
+    blocks_[index / FlightBlock<Real>::size].first_step[index % FlightBlock<Real>::size] = step;
+}
+
+template <class Real>
 void BasicBatch<Real>::set_state(std::size_t index, const BodyState& state) noexcept {
-    keep_state(state, blocks_[index / FlightBlock<Real>::size], index % FlightBlock<Real>::size);
+    const double size = size_of(index);
+    keep_own_state(index, size == 1.0 ? state : in_own_units(state, size));
 }
 
 template <class Real>
 BodyState BasicBatch<Real>::state(std::size_t index) const noexcept {
+    const double size = size_of(index);
+    return size == 1.0 ? own_state(index) : in_world_units(own_state(index), size);
+}
+
+template <class Real>
+void BasicBatch<Real>::keep_own_state(std::size_t index, const BodyState& state) noexcept {
+    keep_state(state, blocks_[index / FlightBlock<Real>::size], index % FlightBlock<Real>::size);
+}
+
+template <class Real>
+BodyState BasicBatch<Real>::own_state(std::size_t index) const noexcept {
     return state_of(blocks_[index / FlightBlock<Real>::size], index % FlightBlock<Real>::size);
 }
 
@@ -121,17 +170,20 @@ BatchReport BasicBatch<Real>::advance(const Surroundings& surroundings, double s
         gravities.push_back(apparent_gravity(surroundings, step_time(start, time_step, step),
                                              step_time(start, time_step, step + 1)));
     }
-    const BatchGround ground{*body_, surroundings};
+    const bool sized = !sizes_.empty();
+    const double largest = sized ? *std::max_element(sizes_.begin(), sizes_.end()) : 1.0;
+    const BatchGround<Real> ground{*this, *body_, largest, surroundings};
     const WindMeeting wind(*body_, surroundings, start, time_step);
     const kernel::BlockSteps task{.gravities = gravities.data(),
                                   .start = start,
                                   .time_step = time_step,
                                   .first_step = first_step,
                                   .steps = steps,
+                                  .sized = sized,
                                   .contact = ground.contact(start, time_step, first_step, steps),
                                   .wind = wind.source()};
     if constexpr (std::is_same_v<Real, double>) {
-        if (size_ == 1) return advance_alone(*body_, surroundings, task, blocks_.front());
+        if (size_ == 1 && !sized) return advance_alone(*body_, surroundings, task, blocks_.front());
     }
     BatchReport report;
     std::mutex mutex;

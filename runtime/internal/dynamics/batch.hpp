@@ -25,6 +25,22 @@ class BasicBatch {
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
     void set_state(std::size_t index, const BodyState& state) noexcept;
     [[nodiscard]] BodyState state(std::size_t index) const noexcept;
+    /// Makes body number i `sizes[i]` (above zero) times as large as the shape, at its density: before its
+    /// state is set. `touch`: whether they meet ground or obstacles.
+    void set_sizes(const std::vector<double>& sizes, bool touch);
+    /// The body waits where it is until this step begins.
+    void set_first_step(std::size_t index, std::uint64_t step) noexcept;
+    /// The state in the numbers that the steps are taken with: what keep_own_state() takes, to the last bit.
+    [[nodiscard]] BodyState own_state(std::size_t index) const noexcept;
+    void keep_own_state(std::size_t index, const BodyState& state) noexcept;
+    /// Over the shape's; 1 where none was set.
+    [[nodiscard]] double size_of(std::size_t index) const noexcept {
+        return sizes_.empty() ? 1.0 : sizes_[index];
+    }
+    /// What body number `index` touches with.
+    [[nodiscard]] const ImmersedBody& touching(std::size_t index) const noexcept {
+        return touching_.empty() ? *body_ : touching_[index];
+    }
     /// The source of the body's random numbers; without it, that of seed 0, no name, run 0 and copy 0.
     void set_noise(std::size_t index, const Noise& noise) noexcept;
 
@@ -38,6 +54,8 @@ class BasicBatch {
     std::size_t size_;
     FlightConstants<Real> constants_;
     std::vector<FlightBlock<Real>> blocks_;
+    std::vector<double> sizes_;           ///< none where all are the shape's
+    std::vector<ImmersedBody> touching_;  ///< of each size, where there is something to touch
 };
 
 extern template class BasicBatch<float>;

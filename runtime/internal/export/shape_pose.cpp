@@ -10,7 +10,7 @@ std::vector<ShapePose> shape_poses(const Motion& motion, const BodyMotion& body,
     for (int frame = 0; frame < motion.frames(); ++frame) {
         const Pose& pose = motion.pose(body, run, frame, copy);
         ShapePose shape;
-        shape.position = shape_origin(pose, body.center_of_mass);
+        shape.position = shape_origin(pose, body.size(run, copy) * body.center_of_mass);
         shape.orientation = pose.orientation.normalized();
         if (!poses.empty() && poses.back().orientation.dot(shape.orientation) < 0.0) {
             shape.orientation.coeffs() = -shape.orientation.coeffs();

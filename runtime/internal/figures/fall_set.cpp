@@ -147,6 +147,7 @@ void for_each_fall(const FallChoice& choice,
     if (choice.run && choice.copy) {
         Motion part = choice.motion();
         part.bodies = {choice.of_body()};
+        part.bodies[0].sizes = {choice.of_body().size(*choice.run, *choice.copy)};
         part.bodies[0].copies = 1;
         part.bodies[0].poses = choice.file->poses(choice.body, {*choice.run, 1, *choice.copy, 1});
         part.runs = 1;

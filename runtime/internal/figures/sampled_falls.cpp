@@ -99,7 +99,9 @@ FlowMet flow_met(const Motion& motion, const BodyMotion& body, const Surrounding
         for (int frame = 0; frame < motion.frames(); ++frame) {
             const double time = motion.times[static_cast<std::size_t>(frame)];
             if (time < window.begin || time > window.end) continue;
-            const auto visit = flow_visit(motion.pose(body, 0, frame, copy), time, immersed, surroundings);
+            const double size = body.size(0, copy);
+            const auto visit =
+                flow_visit(motion.pose(body, 0, frame, copy), time, immersed, surroundings, size);
             frames += 1.0;
             if (!visit) continue;
             met.reynolds_number += visit->reynolds_number;
@@ -107,7 +109,7 @@ FlowMet flow_met(const Motion& motion, const BodyMotion& body, const Surrounding
             const LoadEntry entry = look_up(*tables, visit->direction, visit->reynolds_number);
             const double square = 2.0 * visit->pressure / immersed.fluid_density;
             met.turbulent_kinetic_energy += square * entry.turbulent_kinetic_energy;
-            met.dissipation_rate += std::pow(square, 1.5) / immersed.length * entry.dissipation_rate;
+            met.dissipation_rate += std::pow(square, 1.5) / (size * immersed.length) * entry.dissipation_rate;
         }
     }
     frames = std::max(frames, 1.0);

@@ -12,6 +12,7 @@
 #include <fmt/ranges.h>
 
 #include "internal/base/parallel_for.hpp"
+#include "internal/dynamics/ground_contact.hpp"
 #include "internal/dynamics/loads.hpp"
 #include "internal/dynamics/prepared_bodies.hpp"
 #include "internal/flight/world_pose.hpp"
@@ -141,16 +142,35 @@ FlightKind::FlightKind(const FlightSettings& settings, const Surroundings& surro
                                       release.start, most_steps_off));
     }
     set_seed(settings.seed, settings.first_run);
-    const auto copies = static_cast<std::size_t>(release.count);
+    draw_starts(settings);
+}
+
+void FlightKind::draw_starts(const FlightSettings& settings) {
+    const auto copies = static_cast<std::size_t>(release_.count);
+    std::vector<CopyStart> starts;
     for (std::size_t i = 0; i < batch_.size(); ++i) {
-        const BodyState state = initial_state(release, body_->center_of_mass, surroundings_,
-                                              noise_of(settings.seed, settings.first_run, i));
+        starts.push_back(start_of_copy(release_, step_, noise_of(settings.seed, settings.first_run, i)));
+    }
+    if (release_.count > 1 && release_.spread_start > 0.0) {
+        for (std::size_t i = 0; i < starts.size(); ++i) {
+            first_steps_.push_back(starts[i].first_step);
+            batch_.set_first_step(i, starts[i].first_step);
+        }
+    }
+    if (release_.spreads_size()) {
+        std::vector<double> sizes;
+        for (const CopyStart& start : starts) sizes.push_back(start.size);
+        batch_.set_sizes(sizes, has_ground(surroundings_));
+    }
+    for (std::size_t i = 0; i < batch_.size(); ++i) {
+        const BodyState state = initial_state(starts[i], body_->center_of_mass, surroundings_, start(i));
         if (!is_sound(state)) {
             throw FlightError(FlightError::Kind::invalid_argument,
                               fmt::format("body {} of '{}' starts beyond the range of numbers", i, name_));
         }
-        require_above_ground(*body_, name_, surroundings_, release.start, state, i % copies, copies);
-        require_outside_obstacles(*body_, name_, surroundings_, release.start, state, i % copies, copies);
+        const ImmersedBody& touching = batch_.touching(i);
+        require_above_ground(touching, name_, surroundings_, start(i), state, i % copies, copies);
+        require_outside_obstacles(touching, name_, surroundings_, start(i), state, i % copies, copies);
         batch_.set_state(i, state);
         before_[i] = flow_pose(state);
     }
@@ -193,7 +213,7 @@ void FlightKind::step_to(std::uint64_t steps) {
         const std::uint64_t end = std::min(steps, next_sample);
         const BatchReport done =
             batch_.advance(surroundings_, release_.start, step_, steps_, end - steps_, threads_);
-        report_.add({.steps = (end - steps_) * batch_.size(),
+        report_.add({.steps = steps_between(steps_, end),
                      .implicit_steps = done.implicit_steps,
                      .most_substeps = done.most_substeps,
                      .steps_at_limit = done.steps_at_limit});
@@ -210,6 +230,13 @@ void FlightKind::step_to(std::uint64_t steps) {
             report_.add(sampled());
         }
     }
+}
+
+std::uint64_t FlightKind::steps_between(std::uint64_t begin, std::uint64_t end) const {
+    if (first_steps_.empty()) return (end - begin) * batch_.size();
+    std::uint64_t steps = 0;
+    for (const std::uint64_t first : first_steps_) steps += end - std::clamp(first, begin, end);
+    return steps;
 }
 
 void FlightKind::require_finite() const {
@@ -230,10 +257,11 @@ FlightReport FlightKind::sampled() const {
     parallel_for(batch_.size(), poses_a_piece, threads_, [&](std::size_t begin, std::size_t end) {
         FlightReport piece;
         for (std::size_t i = begin; i < end; ++i) {
+            if (steps_ <= first_step(i) && first_step(i) > 0) continue;
             const BodyState state = batch_.state(i);
             const Vector3d wind = wind_velocity(*body_, surroundings_, state.position, now);
             const Vector3d velocity = state.velocity.tail<3>() - state.orientation.conjugate() * wind;
-            const double reynolds = reynolds_number(*body_, velocity.norm());
+            const double reynolds = reynolds_number(*body_, velocity.norm()) * size_of(i);
             piece.highest_reynolds_number = std::max(piece.highest_reynolds_number, reynolds);
             if (velocity.isZero(0.0)) continue;
             ++piece.moving;
@@ -261,8 +289,7 @@ Pose FlightKind::pose_in_flow(std::size_t index, double time) const {
 }
 
 Pose FlightKind::pose(std::size_t index, double time) const {
-    if (time - release_.start < 0.0)
-        return held(flow_pose(batch_.state(index)), surroundings_, release_.start);
+    if (time - start(index) < 0.0) return held(flow_pose(batch_.state(index)), surroundings_, start(index));
     return in_world(pose_in_flow(index, time), surroundings_, time);
 }
 
@@ -306,6 +333,9 @@ std::string FlightKind::description() const {
     std::string text = fmt::format("{} {} {} {} inertia {} models", name_, release_.count, release_.start,
                                    hash_, fmt::join(body_->inertia.reshaped(), " "));
     visit_members(physics_, ExactText{text});
+    const ExactText append{text};
+    for (const std::uint64_t first : first_steps_) append.append(first);
+    for (std::size_t i = 0; release_.spreads_size() && i < batch_.size(); ++i) append.append(size_of(i));
     return text + '\n';
 }
 
@@ -317,7 +347,7 @@ void FlightKind::write(StateWriter& writer) const {
     writer.write(steps_);
     visit_report(report_, [&](auto number) { writer.write(number); });
     for (std::size_t i = 0; i < batch_.size(); ++i) {
-        writer.write(batch_.state(i));
+        writer.write(batch_.own_state(i));
         writer.write(before_[i]);
         writer.write(before_time_[i]);
     }
@@ -339,7 +369,7 @@ bool FlightKind::read(StateReader& reader, double time, bool keep) {
         reader.read(before_time);
         sound = sound && is_sound(state) && is_sound(before) && std::isfinite(before_time);
         if (!keep) continue;
-        batch_.set_state(i, state);
+        batch_.keep_own_state(i, state);
         before_[i] = before;
         before_time_[i] = before_time;
     }

@@ -38,7 +38,12 @@ class FlightKind {
     [[nodiscard]] const std::string& name() const noexcept { return name_; }
     [[nodiscard]] std::size_t first() const noexcept { return first_; }
     [[nodiscard]] std::size_t size() const noexcept { return batch_.size(); }
-    [[nodiscard]] double start() const noexcept { return release_.start; }
+    /// When a body starts (s).
+    [[nodiscard]] double start(std::size_t index) const noexcept {
+        return release_.start + time_of(first_step(index));
+    }
+    /// Over the shape's lengths.
+    [[nodiscard]] double size_of(std::size_t index) const noexcept { return batch_.size_of(index); }
     [[nodiscard]] const ImmersedBody& body() const noexcept { return *body_; }
     [[nodiscard]] FlightReport report() const;
     /// Taken so far, over all bodies.
@@ -76,6 +81,12 @@ class FlightKind {
     [[nodiscard]] double time_of(std::uint64_t step) const noexcept {
         return static_cast<double>(step) * step_;
     }
+    [[nodiscard]] std::uint64_t first_step(std::size_t index) const noexcept {
+        return first_steps_.empty() ? 0 : first_steps_[index];
+    }
+    void draw_starts(const FlightSettings& settings);
+    /// How many steps the bodies take, all together, between two of the grid.
+    [[nodiscard]] std::uint64_t steps_between(std::uint64_t begin, std::uint64_t end) const;
     void step_to(std::uint64_t steps);
     void require_finite() const;
     [[nodiscard]] FlightReport sampled() const;
@@ -90,6 +101,7 @@ class FlightKind {
     int threads_;
     std::shared_ptr<const ImmersedBody> body_;
     Batch batch_;
+    std::vector<std::uint64_t> first_steps_;  ///< of each body; none where all begin with the grid
     std::uint64_t steps_ = 0;
     std::vector<Pose> before_;         ///< in the flow's frame: where the bodies were at before_time_
     std::vector<double> before_time_;  ///< s, since the start

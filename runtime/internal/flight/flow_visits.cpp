@@ -1,18 +1,20 @@
 #include "internal/flight/flow_visits.hpp"
 
+#include "internal/dynamics/body_size.hpp"
 #include "internal/dynamics/loads.hpp"
 #include "internal/flight/world_pose.hpp"
 
 namespace samara {
 
 std::optional<FlowVisit> flow_visit(const Pose& pose, double time, const ImmersedBody& immersed,
-                                    const Surroundings& surroundings) {
-    const Pose met = in_wind(in_flow(pose, surroundings, time), immersed, surroundings, time);
+                                    const Surroundings& surroundings, double size) {
+    const Pose met =
+        in_own_units(in_wind(in_flow(pose, surroundings, time), immersed, surroundings, time), size);
     const Vector3d velocity = centroid_velocity(met, immersed);
     const double speed = velocity.norm();
     if (!(speed > 0.0)) return std::nullopt;
     return FlowVisit{velocity / speed, reynolds_number(immersed, speed),
-                     0.5 * immersed.fluid_density * speed * speed};
+                     0.5 * immersed.fluid_density * speed * speed / (size * size)};
 }
 
 std::vector<FlowVisit> flow_visits(const Motion& motion, std::size_t body, const ImmersedBody& immersed,
@@ -26,7 +28,8 @@ std::vector<FlowVisit> flow_visits(const Motion& motion, std::size_t body, const
                 const Pose& pose = motion.pose(of_body, run, frame, copy);
                 if (pose.velocity.isZero(0.0) && pose.angular_velocity.isZero(0.0)) continue;
                 const double time = motion.times[static_cast<std::size_t>(frame)];
-                if (const auto visit = flow_visit(pose, time, immersed, surroundings))
+                if (const auto visit =
+                        flow_visit(pose, time, immersed, surroundings, of_body.size(run, copy)))
                     visits.push_back(*visit);
             }
         }

@@ -17,9 +17,10 @@ struct FlowVisit {
     double pressure;         ///< rho |v|^2 / 2 (Pa)
 };
 
-/// The visit of one pose at one time (s); nothing where the body rests in the flow.
+/// The visit of one pose at one time (s) of a body of `size` over the shape's; nothing where it rests in the
+/// flow.
 std::optional<FlowVisit> flow_visit(const Pose& pose, double time, const ImmersedBody& immersed,
-                                    const Surroundings& surroundings);
+                                    const Surroundings& surroundings, double size = 1.0);
 
 /// The visits of all runs and copies of a body of a motion with its poses, frame by frame, without those in
 /// which it rests in the world or in the flow: held until its start, or lying on the ground.

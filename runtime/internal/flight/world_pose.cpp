@@ -1,6 +1,7 @@
 #include "internal/flight/world_pose.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -69,25 +70,56 @@ Vector3d centroid_velocity(const Pose& in_flow, const ImmersedBody& body) noexce
     return to_body * in_flow.velocity + (to_body * in_flow.angular_velocity).cross(body.center_of_buoyancy);
 }
 
+CopyStart start_of_copy(const Release& release, double time_step, const Noise& noise) {
+    CopyStart start;
+    Pose& pose = start.pose;
+    pose = {.position = release.position,
+            .orientation = release.orientation,
+            .velocity = release.velocity,
+            .angular_velocity = release.angular_velocity};
+    const auto drawn = noise.uniforms(0, NoiseStream::start_size_and_time);
+    if (release.count > 1) {
+        start.first_step =
+            static_cast<std::uint64_t>(std::round(release.spread_start * drawn[1] / time_step));
+    }
+    if (release.emitter != nullptr) {
+        const auto numbers = noise.uniforms(0, NoiseStream::start_emission);
+        const Emission left =
+            emission(*release.emitter, release.start + static_cast<double>(start.first_step) * time_step,
+                     {numbers[0], numbers[1], numbers[2]});
+        pose.position = left.place.position;
+        pose.orientation = left.place.orientation * pose.orientation;
+        pose.velocity += left.velocity;
+        pose.angular_velocity += left.angular_velocity;
+    }
+    if (release.count == 1) return start;
+    const auto place = noise.uniforms(0, NoiseStream::start_position);
+    for (int axis = 0; axis < 3; ++axis) {
+        pose.position[axis] +=
+            (2.0 * place[static_cast<std::size_t>(axis)] - 1.0) * release.spread_position[axis];
+    }
+    const auto axis = noise.normals(0, NoiseStream::start_angle);
+    const double angle = release.spread_angle * place[3];
+    const Vector3d about(axis[0], axis[1], axis[2]);
+    pose.orientation = Quaterniond(Eigen::AngleAxisd(angle, about.normalized())) * pose.orientation;
+    if (release.spreads_size()) {
+        start.size = release.smallest_size * std::pow(release.largest_size / release.smallest_size, drawn[0]);
+    }
+    return start;
+}
+
+BodyState initial_state(const CopyStart& start, const Vector3d& center_of_mass,
+                        const Surroundings& surroundings, double time) {
+    Pose pose = start.pose;
+    pose.position += pose.orientation * (start.size * center_of_mass);
+    return state_of(in_flow(pose, surroundings, time));
+}
+
 BodyState initial_state(const Release& release, const Vector3d& center_of_mass,
                         const Surroundings& surroundings, const Noise& noise) {
-    Pose pose{.position = release.position,
-              .orientation = release.orientation,
-              .velocity = release.velocity,
-              .angular_velocity = release.angular_velocity};
-    if (release.count > 1) {
-        const auto place = noise.uniforms(0, NoiseStream::start_position);
-        for (int axis = 0; axis < 3; ++axis) {
-            pose.position[axis] +=
-                (2.0 * place[static_cast<std::size_t>(axis)] - 1.0) * release.spread_position[axis];
-        }
-        const auto axis = noise.normals(0, NoiseStream::start_angle);
-        const double angle = release.spread_angle * place[3];
-        const Vector3d about(axis[0], axis[1], axis[2]);
-        pose.orientation = Quaterniond(Eigen::AngleAxisd(angle, about.normalized())) * pose.orientation;
-    }
-    pose.position += pose.orientation * center_of_mass;
-    return state_of(in_flow(pose, surroundings, release.start));
+    constexpr double any_step = 1.0;  // one copy starts with its grid
+    return initial_state(start_of_copy(release, any_step, noise), center_of_mass, surroundings,
+                         release.start);
 }
 
 void require_above_ground(const ImmersedBody& body, const std::string& name, const Surroundings& surroundings,

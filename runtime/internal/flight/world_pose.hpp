@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "internal/dynamics/immersed_body.hpp"
 #include "internal/dynamics/surroundings.hpp"
@@ -38,8 +39,18 @@ Pose pose_between(const Pose& before, const Pose& after, double begin, double du
 /// undisturbed flow.
 Vector3d centroid_velocity(const Pose& in_flow, const ImmersedBody& body) noexcept;
 
-/// How one copy starts at release.start: as that says or, where there are several, drawn around it from
-/// `noise`. `center_of_mass`: m, shape axes.
+/// How one copy starts: as its release says or, where there are several, drawn around it from `noise`.
+struct CopyStart {
+    Pose pose;                     ///< in the world, of the shape file's origin
+    double size = 1.0;             ///< over the shape's lengths
+    std::uint64_t first_step = 0;  ///< of the kind's grid, which begins at release.start
+};
+CopyStart start_of_copy(const Release& release, double time_step, const Noise& noise);
+
+/// The state at `time` (s) of a copy that starts then. `center_of_mass`: m, shape axes.
+BodyState initial_state(const CopyStart& start, const Vector3d& center_of_mass,
+                        const Surroundings& surroundings, double time);
+/// The same at release.start of a release of one copy.
 BodyState initial_state(const Release& release, const Vector3d& center_of_mass,
                         const Surroundings& surroundings, const Noise& noise);
 

@@ -89,24 +89,29 @@ HWY_INLINE SixNormals<Lanes<Tag>> normals_of(Tag tag, const BlockOf<Tag>& block,
 /// the next: no fewer than touch_ground() would find.
 template <class Tag>
 HWY_INLINE hn::Mask<Tag> near_ground(const kernel::Contact& contact, const Flight<Lanes<Tag>>& before,
-                                     const Flight<Lanes<Tag>>& flight, Lanes<Tag> substep) {
+                                     const Flight<Lanes<Tag>>& flight, Lanes<Tag> own_substep,
+                                     Lanes<Tag> size) {
     using V = Lanes<Tag>;
-    const V turning = root(dot(flight.angular_velocity, flight.angular_velocity));
-    const V speed = root(dot(flight.velocity, flight.velocity));
+    const V per_size = V(1.0) / size;
+    const V substep = (size * size) * own_substep;
+    const V turning = (per_size * per_size) * root(dot(flight.angular_velocity, flight.angular_velocity));
+    const V speed = per_size * root(dot(flight.velocity, flight.velocity));
+    const Triple<V> place = size * flight.position;
+    const Triple<V> place_before = size * before.position;
     const V margin = V(2.001) * substep * (speed + V(contact.ground_speed) + V(contact.radius) * turning);
-    const auto near = flight.position.z - V(contact.reach) < margin + V(1e-5 * contact.radius);
+    const auto near = place.z - V(contact.reach) < margin + V(1e-5 * contact.radius);
     if (!contact.has_obstacles) return near;
     // The velocity's change, by which touch_ground() looks farther, is that of both.
-    const V speed_before = root(dot(before.velocity, before.velocity));
+    const V speed_before = per_size * root(dot(before.velocity, before.velocity));
     const V around = margin + V(1.001) * (substep * (speed + speed_before + V(2.0 * contact.ground_speed)) +
                                           V(contact.radius));
     const auto in_reach = [&](V a, V b, double low, double high) HWY_ATTR {
         return hn::And(smaller(a, b) - around < V(high), V(low) < larger(a, b) + around);
     };
-    const auto by_obstacle = hn::And(
-        in_reach(before.position.x, flight.position.x, contact.box_low.x(), contact.box_high.x()),
-        hn::And(in_reach(before.position.y, flight.position.y, contact.box_low.y(), contact.box_high.y()),
-                in_reach(before.position.z, flight.position.z, contact.box_low.z(), contact.box_high.z())));
+    const auto by_obstacle =
+        hn::And(in_reach(place_before.x, place.x, contact.box_low.x(), contact.box_high.x()),
+                hn::And(in_reach(place_before.y, place.y, contact.box_low.y(), contact.box_high.y()),
+                        in_reach(place_before.z, place.z, contact.box_low.z(), contact.box_high.z())));
     return hn::Or(near, by_obstacle);
 }
 
@@ -119,22 +124,27 @@ void meet_ground(const kernel::Contact& contact, const FlightBlock<Real>& before
         const double parts = static_cast<double>(substeps[lane - first]);
         if (substep >= parts) continue;
         BodyState state = state_of(block, lane);
-        contact.resolve(contact.context, time + (substep + 1) * (h / parts), h / parts,
-                        state_of(before, lane), state);
+        contact.resolve(contact.context, block.first_body + lane, time + (substep + 1) * (h / parts),
+                        h / parts, state_of(before, lane), state);
         keep_state(state, block, lane);
     }
 }
 
-/// The Langevin update of one step. `draw` gives its random numbers.
+/// The Langevin update of one step. `draw` gives its random numbers; `size_square`: of the body's size.
 template <class V, class Real, class Draw>
-HWY_INLINE void meet_turbulence(const FlightConstants<Real>& c, V h, const Draw& draw, Flight<V>& flight) {
+HWY_INLINE void meet_turbulence(const FlightConstants<Real>& c, V h, const Draw& draw, V size_square,
+                                Flight<V>& flight) {
     if (c.turbulence == Turbulence::none) {
         const V zero(0.0);
         flight.seen_velocity = {zero, zero, zero};
         flight.seen_rotation = {zero, zero, zero};
         return;
     }
-    const Level<V> level = turbulence_level(c, centroid_velocity(c, flight));
+    Level<V> level = turbulence_level(c, centroid_velocity(c, flight));
+    if (c.turbulence == Turbulence::constant) {
+        level = {size_square * level.turbulent_kinetic_energy,
+                 (size_square * size_square) * level.dissipation_rate};
+    }
     const SixNormals<V> normals = draw();
     if (c.langevin == Langevin::seen_fluid) {
         advance_seen_fluid(c, level, h, normals, flight);
@@ -162,16 +172,16 @@ HWY_INLINE Triple<V> halfway(const FlightConstants<Real>& c, V h, const Flight<V
 /// is in. What turbulence a body meets is a matter of its velocity in the wind.
 template <class V, class Real, class Draw>
 HWY_INLINE Stream<V> meet_fluid(const FlightConstants<Real>& c, V h, bool windy, const Stream<V>& wind,
-                                const Draw& draw, Flight<V>& flight) {
+                                const Draw& draw, V size_square, Flight<V>& flight) {
     const Triple<V> seen_before = flight.seen_velocity;
     if (!windy) {
-        meet_turbulence(c, h, draw, flight);
+        meet_turbulence(c, h, draw, size_square, flight);
         return {seen_before, flight.seen_velocity, flight.seen_rotation};
     }
     const Triple<V> velocity = flight.velocity;
     const Triple<V> of_wind = transposed_times(rotation_matrix(flight.orientation), wind.begin);
     flight.velocity = velocity - of_wind;
-    meet_turbulence(c, h, draw, flight);
+    meet_turbulence(c, h, draw, size_square, flight);
     const bool driven = c.turbulence != Turbulence::none && c.langevin == Langevin::body_velocity;
     flight.velocity = driven ? flight.velocity + of_wind : velocity;
     if (!sees_turbulence(c)) return wind;
@@ -182,7 +192,8 @@ HWY_INLINE Stream<V> meet_fluid(const FlightConstants<Real>& c, V h, bool windy,
 template <class Tag, class Real = hn::TFromD<Tag>>
 HWY_INLINE Stream<Lanes<Tag>> met_wind(Tag tag, const FlightConstants<Real>& c,
                                        const kernel::WindSource& source, std::uint64_t step,
-                                       std::size_t bodies, Lanes<Tag> h, const Flight<Lanes<Tag>>& flight) {
+                                       std::size_t bodies, Lanes<Tag> h, Lanes<Tag> size,
+                                       const Flight<Lanes<Tag>>& flight) {
     using V = Lanes<Tag>;
     if (source.meet == nullptr) return no_stream<V>();
     HWY_ALIGN_MAX Real row[hn::MaxLanes(Tag())];
@@ -195,7 +206,7 @@ HWY_INLINE Stream<Lanes<Tag>> met_wind(Tag tag, const FlightConstants<Real>& c,
         for (std::size_t i = 0; i < hn::Lanes(tag); ++i) row[i] = static_cast<Real>(from[i]);
         return V(hn::Load(tag, row));
     };
-    const Triple<V> place = halfway(c, h, flight);
+    const Triple<V> place = size * halfway(c, h, flight);
     give(place.x, met.place[0]);
     give(place.y, met.place[1]);
     give(place.z, met.place[2]);
@@ -203,26 +214,30 @@ HWY_INLINE Stream<Lanes<Tag>> met_wind(Tag tag, const FlightConstants<Real>& c,
     const auto three = [&](const double(&rows)[3][kernel::MetWind::size]) HWY_ATTR {
         return Triple<V>{take(rows[0]), take(rows[1]), take(rows[2])};
     };
-    return {three(met.begin), three(met.end), three(met.rotation)};
+    return {size * three(met.begin), size * three(met.end), (size * size) * three(met.rotation)};
 }
 
 /// Where bodies of the lanes [first, first + N) move: 1, and 0 in lanes without a body or with one that
-/// rests.
+/// rests or waits.
 template <class Real>
 struct MovingLanes {
-    MovingLanes(const kernel::Contact& contact, const FlightBlock<Real>& block, std::size_t first,
-                std::size_t lanes) {
+    MovingLanes(const kernel::Contact& contact, const FlightBlock<Real>& block, std::uint64_t step,
+                std::size_t first, std::size_t lanes) {
         for (std::size_t lane = 0; lane < lanes; ++lane) {
             const bool used = first + lane < block.bodies;
-            const bool rests = used && contact.stay != nullptr && lies_in_stillness(block, first + lane);
-            moves[lane] = used && !rests ? Real{1} : Real{0};
-            any_moves = any_moves || (used && !rests);
+            const bool waits = used && step < block.first_step[first + lane];
+            const bool rests =
+                used && !waits && contact.stay != nullptr && lies_in_stillness(block, first + lane);
+            moves[lane] = used && !rests && !waits ? Real{1} : Real{0};
+            any_moves = any_moves || moves[lane] != Real{0};
             any_rests = any_rests || rests;
+            any_waits = any_waits || waits;
         }
     }
     HWY_ALIGN_MAX Real moves[FlightBlock<Real>::size];
     bool any_moves = false;
     bool any_rests = false;
+    bool any_waits = false;
 };
 
 /// Leaves the bodies of the lanes that rest on the ground there for a step.
@@ -231,9 +246,10 @@ void stay_on_ground(const kernel::BlockSteps& task, std::uint64_t number, Flight
                     std::size_t first, std::size_t lanes, const MovingLanes<Real>& lively) {
     const std::uint64_t step = task.first_step + number;
     for (std::size_t lane = first; lane < std::min<std::size_t>(first + lanes, block.bodies); ++lane) {
-        if (lively.moves[lane - first] != Real{0}) continue;
+        if (lively.moves[lane - first] != Real{0} || step < block.first_step[lane]) continue;
         BodyState state = state_of(block, lane);
-        task.contact.stay(task.contact.context, step_time(task.start, task.time_step, step),
+        task.contact.stay(task.contact.context, block.first_body + lane,
+                          step_time(task.start, task.time_step, step),
                           step_time(task.start, task.time_step, step + 1), state);
         keep_state(state, block, lane);
     }
@@ -246,7 +262,7 @@ HWY_INLINE void advance_lanes(Tag tag, const FlightConstants<Real>& c, const ker
                               Flight<Lanes<Tag>>& flight, BatchReport& report) {
     using V = Lanes<Tag>;
     const std::size_t lanes = hn::Lanes(tag);
-    const MovingLanes<Real> lively(task.contact, block, first, lanes);
+    const MovingLanes<Real> lively(task.contact, block, task.first_step + number, first, lanes);
     const auto let_others_stay = [&]() HWY_ATTR {
         if (!lively.any_rests || !task.contact.moves) return;
         store_flight(tag, flight, block, first);
@@ -255,16 +271,18 @@ HWY_INLINE void advance_lanes(Tag tag, const FlightConstants<Real>& c, const ker
     };
     if (!lively.any_moves) return let_others_stay();
 
-    const V h(task.time_step);
+    const V size = task.sized ? V(hn::Load(tag, block.size_of + first)) : V(1.0);
+    const V size_square = size * size;
+    const V h = V(task.time_step) / size_square;
     const V moves(hn::Load(tag, lively.moves));
     Flight<V> previous = flight;
     const std::size_t used_lanes = std::min<std::size_t>(lanes, block.bodies - first);
     const bool windy = task.wind.meet != nullptr;
-    const Stream<V> wind = met_wind(tag, c, task.wind, task.first_step + number, used_lanes, h, flight);
+    const Stream<V> wind = met_wind(tag, c, task.wind, task.first_step + number, used_lanes, h, size, flight);
     const Stream<V> met = meet_fluid(
         c, h, windy, wind, [&]() HWY_ATTR { return normals_of(tag, block, first, task.first_step + number); },
-        flight);
-    if (lively.any_rests) {
+        size_square, flight);
+    if (lively.any_rests || lively.any_waits) {
         const auto stirred = V(0.5) < moves;
         flight = select_flight<Tag>(stirred, flight, previous);
         flight.seen_velocity = select(stirred, flight.seen_velocity, previous.seen_velocity);
@@ -285,13 +303,13 @@ HWY_INLINE void advance_lanes(Tag tag, const FlightConstants<Real>& c, const ker
     const V divisor = larger(V(1.0), substeps);
     const V substep = h / divisor;
     const Vector3d& pull = task.gravities[number];
-    const Triple<V> gravity{V(pull.x()), V(pull.y()), V(pull.z())};
+    const Triple<V> gravity = (size_square * size) * Triple<V>{V(pull.x()), V(pull.y()), V(pull.z())};
     for (int i = 0; i < most; ++i) {
         Flight<V> next = flight;
         implicit_step(c, gravity, substep, sees_fluid, part_of(met, i, divisor), next);
         flight = select_flight<Tag>(V(i) < substeps, next, flight);
         if (task.contact.resolve == nullptr) continue;
-        if (!hn::AllFalse(tag, near_ground(task.contact, previous, flight, substep))) {
+        if (!hn::AllFalse(tag, near_ground(task.contact, previous, flight, substep, size))) {
             FlightBlock<Real> before;
             std::copy_n(block.at_rest + first, lanes, before.at_rest + first);
             store_flight(tag, previous, before, first);

@@ -38,9 +38,14 @@ struct alignas(64) FlightBlock {
     /// Position, orientation (w, x, y, z), angular velocity, velocity, seen velocity, seen rotation,
     /// acceleration (angular, linear).
     Real numbers[fields][size];
-    std::uint32_t noise[4][size];  ///< key (2), copy, run
-    std::uint32_t at_rest[size];   ///< 0 or 1
-    std::uint64_t bodies;          ///< lanes in use
+    /// Of each body, over the shape's. The numbers of a body of another size are those of the shape's own
+    /// that moves alike (body_size.hpp).
+    Real size_of[size];
+    std::uint32_t noise[4][size];    ///< key (2), copy, run
+    std::uint32_t at_rest[size];     ///< 0 or 1
+    std::uint64_t bodies;            ///< lanes in use
+    std::uint64_t first_body;        ///< number in the batch of lane 0
+    std::uint64_t first_step[size];  ///< before it the body waits where it is
 };
 
 template <class Real>

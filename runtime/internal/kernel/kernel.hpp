@@ -16,18 +16,20 @@ namespace samara::kernel {
 
 /// What is done with a body after each implicit step, where there is ground or an obstacle to meet.
 struct Contact {
-    /// Mends the state after a substep (s) that ended at a time (s, of the world) and began from `before`.
-    using Resolve = void (*)(const void* context, double time, double substep, const BodyState& before,
-                             BodyState& state) noexcept;
+    /// Mends the state of body number `body` after a substep (s) that ended at a time (s, of the world) and
+    /// began from `before`.
+    using Resolve = void (*)(const void* context, std::size_t body, double time, double substep,
+                             const BodyState& before, BodyState& state) noexcept;
     Resolve resolve = nullptr;
     /// Leaves a body at rest on the ground over a step between two times; null where rest must be judged anew
     /// in each step.
-    using Stay = void (*)(const void* context, double begin, double end, BodyState& state) noexcept;
+    using Stay = void (*)(const void* context, std::size_t body, double begin, double end,
+                          BodyState& state) noexcept;
     Stay stay = nullptr;
     bool moves = false;  ///< whether the ground does, in the flow's frame
     const void* context = nullptr;
     double reach = 0.0;   ///< m, in the flow's frame: bodies whose centre is higher do not touch the ground
-    double radius = 0.0;  ///< m: of the sphere about the centre that holds the body
+    double radius = 0.0;  ///< m: of the sphere about the centre that holds any of the bodies
     double ground_speed = 0.0;  ///< m/s, at most
     bool has_obstacles = false;
     /// m, in the flow's frame: no obstacle leaves it.
@@ -57,6 +59,7 @@ struct BlockSteps {
     double time_step = 0.0;               ///< s
     std::uint64_t first_step = 0;
     std::uint64_t steps = 0;
+    bool sized = false;  ///< whether any body's size is not the shape's
     Contact contact = {};
     WindSource wind = {};
 };

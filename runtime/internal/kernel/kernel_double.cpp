@@ -75,7 +75,7 @@ void begin_one(const FlightConstants<double>& c, double h, const kernel::WindSou
     }
     const bool windy = source.meet != nullptr;
     const Stream<double> stream = meet_fluid(
-        c, h, windy, wind, [&] { return normals_at(noise, step); }, flight);
+        c, h, windy, wind, [&] { return normals_at(noise, step); }, 1.0, flight);
     keep(flight, state);
     const bool sees_fluid = windy || sees_turbulence(c);
     begun = {static_cast<int>(substeps_of(c, h, sees_fluid, stream.begin, flight)),

@@ -14,7 +14,9 @@ enum class NoiseStream : std::uint16_t {
     start_angle = 3,
     table_error = 4,
     gust_wave = 5,
-    gust_direction = 6
+    gust_direction = 6,
+    start_size_and_time = 7,
+    start_emission = 8
 };
 
 /// A counter-based source of random numbers for one copy of a body in one run: the numbers depend on (seed,

@@ -36,8 +36,17 @@ void check_times(const std::filesystem::path& file, const std::vector<double>& t
     }
 }
 
-void check_body(const std::filesystem::path& file, const BodyMotion& body) {
+void check_body(const std::filesystem::path& file, const BodyMotion& body, int runs) {
     if (body.copies < 1) fail(file, place(body.name, "has no copy"));
+    const auto all = static_cast<std::size_t>(runs) * static_cast<std::size_t>(body.copies);
+    if (!body.sizes.empty() && body.sizes.size() != all) {
+        fail(file, place(body.name, "has not one size for each run and copy"));
+    }
+    for (const double size : body.sizes) {
+        if (!(size > 0.0) || !std::isfinite(size)) {
+            fail(file, place(body.name, "has a size that is no positive number"));
+        }
+    }
     if (body.surface.corners.empty()) fail(file, place(body.name, "has a surface without triangles"));
     if (!body.center_of_mass.allFinite())
         fail(file, place(body.name, "has a centre of mass that is not finite"));
@@ -79,7 +88,7 @@ void check_motion_but_poses(const std::filesystem::path& file, const Motion& mot
         }
         if (!names.insert(body.name).second)
             fail(file, fmt::format("two bodies have the name {}", body.name));
-        check_body(file, body);
+        check_body(file, body, motion.runs);
     }
 }
 

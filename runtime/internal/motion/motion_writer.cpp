@@ -85,6 +85,11 @@ void write_body(Hdf5Writer& file, const Motion& motion, std::size_t index) {
     file.write(group + "/shortest_axis", row_major(body.shortest_axis), {3}, "1",
                "principal axis of the shortest extent, shape axes: the axis of the inclination");
     write_surface(file, group + "/surface", body.surface);
+    if (!body.sizes.empty()) {
+        file.write(group + "/size", body.sizes,
+                   {static_cast<hsize_t>(motion.runs), static_cast<hsize_t>(body.copies)}, "1",
+                   "lengths of each copy over the surface's: run, copy");
+    }
     for (const FigureUncertainty& one : body.uncertainties) {
         file.write(fmt::format("{}/{}/{}", uncertainty_group(body.name), one.cause, one.figure),
                    std::vector{one.relative}, {1}, "1", "by how much the figure may be wrong, over it");

@@ -139,6 +139,7 @@ Map map_of(const BodyMotion& body, const LandingPlot& figures, const Places& pla
     for (const Vector3d& vertex : body.surface.vertices) {
         radius = std::max(radius, (vertex - body.center_of_mass).norm());
     }
+    if (!body.sizes.empty()) radius *= *std::max_element(body.sizes.begin(), body.sizes.end());
     std::vector<double> x = {figures.mean.x() - radius, figures.mean.x() + radius};
     std::vector<double> y = {figures.mean.y() - radius, figures.mean.y() + radius};
     for (const Place& place : places.all) {

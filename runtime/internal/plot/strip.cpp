@@ -93,7 +93,8 @@ int start_of_stretch(const Motion& motion, const BodyMotion& body, int run, int 
 
 Strip choose_strip(const Motion& motion, const BodyMotion& body, int run, int copy) {
     const TimeWindow fall = fall_of(motion, body, run, copy);
-    const std::vector<Vector3d> hull = hull_points(body);
+    std::vector<Vector3d> hull = hull_points(body);
+    for (Vector3d& point : hull) point *= body.size(run, copy);
     double extent = 0.0;
     for (const Vector3d& a : hull) {
         for (const Vector3d& b : hull) extent = std::max(extent, (a - b).norm());

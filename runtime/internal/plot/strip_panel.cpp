@@ -191,6 +191,7 @@ double share_of(const Motion& motion, const Strip& strip, int frame) {
 StripPanel strip_panel(const Motion& motion, const BodyMotion& body, int run, int copy, const Strip& strip) {
     Scene scene;
     scene.mesh = mesh_for(body.surface, strip.frames.size());
+    for (Vector3d& position : scene.mesh.positions) position *= body.size(run, copy);
     scene.poses = shape_poses(motion, body, run, copy);
     scene.views[0] = {front_view(), "x", {}, {}};
     scene.views[1] = {side_view(), "y", {}, {}};

@@ -50,7 +50,7 @@ std::vector<ObstacleKey> read_keys(TomlTable& table, const ObstaclePlace& place)
     std::vector<ObstacleKey> keys;
     for (TomlTable& each : table.tables("keys")) {
         const auto time = each.number("time", any_number);
-        if (!time) throw each.fault("time", "is missing; give the second at which the obstacle is there");
+        if (!time) throw each.fault("time", "is missing; give the second at which it is there");
         if (!keys.empty() && !(*time > keys.back().time)) {
             throw each.fault("time", "must be later than that of the key before");
         }
@@ -61,7 +61,30 @@ std::vector<ObstacleKey> read_keys(TomlTable& table, const ObstaclePlace& place)
     return keys;
 }
 
+/// Shape, scale, place and keys.
+void read_solid(TomlTable& table, const std::filesystem::path& folder, Obstacle& obstacle) {
+    const auto shape = table.text("shape");
+    if (!shape) throw table.fault("shape", "is missing; give a mesh, .stl or .obj");
+    obstacle.surface = read_mesh(table, folder / *shape);
+    const double scale = table.number("scale", positive_number).value_or(1.0);
+    for (Vector3d& vertex : obstacle.surface.vertices) vertex *= scale;
+    obstacle.keys = read_keys(table, read_place(table, {}));
+}
+
 }  // namespace
+
+Emitter read_emitter(TomlTable& table, const std::filesystem::path& folder) {
+    Obstacle mesh;
+    read_solid(table, folder, mesh);
+    const double offset = table.number("offset", non_negative_number).value_or(0.0);
+    const double speed = table.number("speed", any_number).value_or(0.0);
+    table.finish();
+    try {
+        return make_emitter(std::move(mesh), offset, speed);
+    } catch (const Error& fault) {
+        throw table.fault("keys", fault.what());
+    }
+}
 
 Obstacle read_obstacle(TomlTable& table, const std::filesystem::path& folder) {
     Obstacle obstacle;
@@ -71,14 +94,8 @@ Obstacle read_obstacle(TomlTable& table, const std::filesystem::path& folder) {
         throw table.fault("name", "may hold letters, digits, '-' and '_' alone, 64 at most");
     }
     obstacle.name = *name;
-    const auto shape = table.text("shape");
-    if (!shape) throw table.fault("shape", "is missing; give a mesh, .stl or .obj");
-    obstacle.surface = read_mesh(table, folder / *shape);
-    const double scale = table.number("scale", positive_number).value_or(1.0);
-    for (Vector3d& vertex : obstacle.surface.vertices) vertex *= scale;
+    read_solid(table, folder, obstacle);
     obstacle.friction = table.number("friction", non_negative_number).value_or(obstacle.friction);
-    const ObstaclePlace place = read_place(table, {});
-    obstacle.keys = read_keys(table, place);
     table.finish();
     return obstacle;
 }

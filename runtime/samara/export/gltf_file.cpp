@@ -283,6 +283,9 @@ std::size_t write_glb(const std::filesystem::path& file, const Motion& motion, i
         for (int copy = 0; copy < body.copies; ++copy) {
             const std::vector<ShapePose> poses = shape_poses(motion, body, run, copy);
             const int node = add_node(model, copy_name(body, copy), mesh, poses.front());
+            if (!body.sizes.empty()) {
+                model.nodes[static_cast<std::size_t>(node)].scale.assign(3, body.size(run, copy));
+            }
             if (moves) count += keys.add(node, poses, body_tolerance);
         }
     }

@@ -90,12 +90,15 @@ std::vector<float> places_of(const Motion& motion, const Obstacle& obstacle) {
 }
 
 /// JSON in ASCII and without "<": nothing in it ends or opens an element of the page.
-std::string header_of(const Motion& motion, const std::string& title, const std::string& detail) {
+std::string header_of(const Motion& motion, int run, const std::string& title, const std::string& detail) {
     nlohmann::json header = {{"title", title}, {"detail", detail}, {"frame_rate", motion.frame_rate}};
     header["ground"] = motion.ground ? nlohmann::json(*motion.ground) : nlohmann::json(nullptr);
     for (const BodyMotion& body : motion.bodies) {
         header["bodies"].push_back(
             {{"name", body.name}, {"copies", body.copies}, {"radius", radius_of(body)}});
+        for (int copy = 0; !body.sizes.empty() && copy < body.copies; ++copy) {
+            header["bodies"].back()["sizes"].push_back(body.size(run, copy));
+        }
     }
     header["obstacles"] = nlohmann::json::array();
     for (const Obstacle& obstacle : motion.obstacles)
@@ -140,7 +143,7 @@ void write_page(const std::filesystem::path& file, const Motion& motion, int run
     require_size(file, motion);
     replace_file_by_stream(file, [&](std::ostream& stream) {
         stream << page.substr(0, place) << "<script type=\"application/json\" id=\"motion-header\">"
-               << header_of(motion, title, detail) << "</script>\n";
+               << header_of(motion, run, title, detail) << "</script>\n";
         write_array(stream, "times", motion.times);
         for (std::size_t b = 0; b < motion.bodies.size(); ++b) {
             const BodyMotion& body = motion.bodies[b];

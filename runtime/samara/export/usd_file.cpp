@@ -83,7 +83,7 @@ class Stage {
         for (int copy = 0; copy < body.copies; ++copy) {
             const std::string name = names_(copy_name(body, copy));
             print("    def Xform \"{}\"\n    {{\n", name);
-            write_samples(shape_poses(motion_, body, run_, copy), tolerance);
+            write_samples(shape_poses(motion_, body, run_, copy), tolerance, body.size(run_, copy));
             if (copy == 0) {
                 first = name;
                 print("\n        def Xform \"shape\"\n        {{\n{}        }}\n",
@@ -98,7 +98,7 @@ class Stage {
         }
     }
 
-    void write_samples(const std::vector<ShapePose>& poses, const KeyTolerance& tolerance) {
+    void write_samples(const std::vector<ShapePose>& poses, const KeyTolerance& tolerance, double size) {
         std::vector<Vector3d> positions;
         std::vector<Quaterniond> orientations;
         std::vector<Quaterniond> stored;
@@ -118,9 +118,15 @@ class Stage {
             print("            {}: ({}, {}, {}),\n", codes_[key], p.x(), p.y(), p.z());
             ++samples_;
         }
+        print("        }}\n");
+        if (size == 1.0) {
+            print("        uniform token[] xformOpOrder = [\"xformOp:translate\", \"xformOp:orient\"]\n");
+            return;
+        }
         print(
-            "        }}\n        uniform token[] xformOpOrder = [\"xformOp:translate\", "
-            "\"xformOp:orient\"]\n");
+            "        double3 xformOp:scale = ({0}, {0}, {0})\n        uniform token[] xformOpOrder = "
+            "[\"xformOp:translate\", \"xformOp:orient\", \"xformOp:scale\"]\n",
+            size);
     }
 
     static std::string quatf(const Quaterniond& q) {
@@ -151,6 +157,14 @@ class Stage {
         for (int copy = 1; copy < body.copies; ++copy) print(", 0");
         print("]\n        rel prototypes = </motion/{}/prototypes/shape>\n", name);
         const std::size_t copies = poses.size();
+        if (!body.sizes.empty()) {
+            print("        float3[] scales = [");
+            for (int copy = 0; copy < body.copies; ++copy) {
+                const auto size = static_cast<float>(body.size(run_, copy));
+                print("{}({}, {}, {})", copy == 0 ? "" : ", ", size, size, size);
+            }
+            print("]\n");
+        }
         write_array("point3f[] positions", copies, [&](std::size_t copy, std::size_t frame) {
             return usd_float3(poses[copy][frame].position);
         });
@@ -167,11 +181,13 @@ class Stage {
             usd_mesh(body.surface, 16));
     }
 
-    /// The farthest that a point of the body is from the shape's origin (m).
-    static double reach_of(const BodyMotion& body) {
+    /// The farthest that a point of any copy is from the shape's origin (m).
+    [[nodiscard]] double reach_of(const BodyMotion& body) const {
         double reach = 0.0;
         for (const Vector3d& vertex : body.surface.vertices) reach = std::max(reach, vertex.norm());
-        return reach;
+        double largest = body.size(run_, 0);
+        for (int copy = 1; copy < body.copies; ++copy) largest = std::max(largest, body.size(run_, copy));
+        return largest * reach;
     }
 
     /// An array at every frame, its values by value_at(item, frame).

@@ -262,8 +262,9 @@ void Flight::set_pose(std::size_t index, const Pose& pose) {
     kind.set_pose(index - kind.first(), pose, parts_->time);
 }
 
-const Vector3d& Flight::center_of_mass(std::size_t index) const {
-    return kind_of(index).body().center_of_mass;
+Vector3d Flight::center_of_mass(std::size_t index) const {
+    const FlightKind& kind = kind_of(index);
+    return kind.size_of(index - kind.first()) * kind.body().center_of_mass;
 }
 
 void Flight::set_seed(std::uint64_t seed, std::uint32_t first_run) {

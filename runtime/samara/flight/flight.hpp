@@ -115,8 +115,8 @@ class Flight {
     void poses(std::size_t first, std::size_t count, Pose* poses) const;
     /// Puts a body elsewhere, from time() on. Needs finite numbers and an orientation of length one.
     void set_pose(std::size_t index, const Pose& pose);
-    /// Of a body: m, shape axes.
-    [[nodiscard]] const Vector3d& center_of_mass(std::size_t index) const;
+    /// Of a body: m from the shape's origin, at the body's size, shape axes.
+    [[nodiscard]] Vector3d center_of_mass(std::size_t index) const;
 
     /// How many obstacles there are.
     [[nodiscard]] std::size_t obstacle_count() const noexcept;

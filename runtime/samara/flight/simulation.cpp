@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "internal/base/parallel_for.hpp"
+#include "internal/dynamics/body_size.hpp"
 #include "internal/flight/flight_kind.hpp"
 #include "internal/flight/world_pose.hpp"
 #include "internal/motion/motion_writer.hpp"
@@ -58,9 +59,11 @@ BodyMotion empty_motion(const SceneBody& scene_body, const ImmersedBody& immerse
     return motion;
 }
 
-/// Steps that a body takes until the end.
-double steps_of(const Scene& scene, const SceneBody& body, int runs) {
-    return std::max(0.0, scene.duration - body.start) / scene.step * body.count * runs;
+/// Steps that the bodies of a kind take until the end.
+double steps_of(const Scene& scene, const FlightKind& kind) {
+    double seconds = 0.0;
+    for (std::size_t i = 0; i < kind.size(); ++i) seconds += std::max(0.0, scene.duration - kind.start(i));
+    return seconds / scene.step;
 }
 
 }  // namespace
@@ -81,7 +84,10 @@ Simulation::Simulation(const Scene& scene, const std::vector<LoadedBody>& loaded
         const FlightKind& kind = *flight_.kinds().back();
         motion_.bodies.push_back(empty_motion(scene_body, kind.body(), loaded[i]));
         if (scene.ground) motion_.bodies[i].contact_points = kind.body().contact_points;
-        total_steps_ += steps_of(scene, scene_body, runs);
+        total_steps_ += steps_of(scene, kind);
+        for (std::size_t k = 0; scene_body.spreads_size() && k < kind.size(); ++k) {
+            motion_.bodies[i].sizes.push_back(kind.size_of(k));
+        }
         Frames frames{{}, std::vector<TableErrorsMet>(kind.size())};
         for (std::size_t k = 0; k < kind.size(); ++k) frames.last.push_back(kind.pose(k, 0.0).orientation);
         frames_.push_back(std::move(frames));
@@ -96,8 +102,9 @@ void Simulation::take_frame(std::size_t index, double time, Pose* poses, std::si
         for (std::size_t i = first; i < end; ++i) {
             Pose& pose = poses[(i / copies) * run_stride + i % copies];
             pose = kind.pose(i, time);
-            if (time < kind.start()) continue;
-            frames.table_errors[i].add(table_errors_met(kind.body(), kind.pose_in_wind(i, time)));
+            if (time < kind.start(i)) continue;
+            const Pose met = in_own_units(kind.pose_in_wind(i, time), kind.size_of(i));
+            frames.table_errors[i].add(table_errors_met(kind.body(), met));
             keep_sign_continuous(pose.orientation, frames.last[i]);
             frames.last[i] = pose.orientation;
         }

@@ -129,10 +129,10 @@ Regime regime_of(const Turnovers& turnovers, int plain_swings, double inclinatio
     return Regime::chaotic;
 }
 
-/// How far (m) the body is above the ground at a pose.
-double clearance(const BodyMotion& body, double ground, const Pose& pose) {
+/// How far (m) a body of `size` over its surface's is above the ground at a pose.
+double clearance(const BodyMotion& body, double size, double ground, const Pose& pose) {
     const Vector3d down = pose.orientation.conjugate() * -Vector3d::UnitZ();
-    return pose.position.z() - ground - reach(body.contact_points, down);
+    return pose.position.z() - ground - size * reach(body.contact_points, down);
 }
 
 /// The pose after it moved on as it does for so many seconds.
@@ -154,13 +154,14 @@ struct Touch {
 };
 
 std::optional<Touch> first_touch(const Motion& motion, const BodyMotion& body, int run, int copy) {
-    const double radius = body.contact_points.bounding_radius;
+    const double size = body.size(run, copy);
+    const double radius = size * body.contact_points.bounding_radius;
     if (!motion.ground || radius == 0.0) return std::nullopt;
     const double ground = *motion.ground;
     for (int frame = 0; frame < motion.frames(); ++frame) {
         const Pose& pose = motion.pose(body, run, frame, copy);
         const double height = pose.position.z() - ground;
-        if (height <= radius * (1.0 + touching) && clearance(body, ground, pose) <= touching * radius) {
+        if (height <= radius * (1.0 + touching) && clearance(body, size, ground, pose) <= touching * radius) {
             return Touch{frame, false};
         }
         if (frame + 1 == motion.frames()) break;
@@ -169,8 +170,8 @@ std::optional<Touch> first_touch(const Motion& motion, const BodyMotion& body, i
         if (height + interval * pose.velocity.z() > radius) continue;
         // It fell into the ground and came out of it, so it met it in between.
         const Pose& next = motion.pose(body, run, frame + 1, copy);
-        if (clearance(body, ground, moved_on(pose, interval)) <= 0.0 &&
-            clearance(body, ground, moved_on(next, -interval)) <= 0.0) {
+        if (clearance(body, size, ground, moved_on(pose, interval)) <= 0.0 &&
+            clearance(body, size, ground, moved_on(next, -interval)) <= 0.0) {
             return Touch{frame + 1, true};
         }
     }

@@ -35,8 +35,17 @@ struct BodyMotion {
     Surface surface;               ///< shape axes, so that a motion file can be shown by itself
     ContactPoints contact_points;  ///< of the surface, where the motion has a ground
     int copies = 1;                ///< of the body, each with poses of its own
+    /// Of each copy over the surface's, index run * copies + copy; none where all have the surface's own.
+    std::vector<double> sizes;
     std::vector<FigureUncertainty> uncertainties;  ///< sorted by cause and figure; none where none are known
     std::vector<Pose> poses;                       ///< index ((run * frames) + frame) * copies + copy
+
+    /// The lengths of a copy in a run, each counted from 0, over the surface's.
+    [[nodiscard]] double size(int run, int copy) const {
+        if (sizes.empty()) return 1.0;
+        return sizes[static_cast<std::size_t>(run) * static_cast<std::size_t>(copies) +
+                     static_cast<std::size_t>(copy)];
+    }
 };
 
 /// What `samara simulate` writes: frames at even times.

@@ -66,6 +66,8 @@ BodyMotion read_body_but_poses(const Hdf5Reader& file, const std::string& name, 
     body.body_hash = file.text_attribute(group, "body_hash");
     body.models = file.text_attribute(group, "models");
     body.uncertainties = read_uncertainties(file, name);
+    if (file.has(group + "/size"))
+        body.sizes = file.finite_doubles(group + "/size", {vectors[0], vectors[2]});
     return body;
 }
 
@@ -167,6 +169,10 @@ void MotionReader::for_each_block(std::size_t body,
                                   std::min(copies, all.copies - copy)};
             part.runs = block.runs;
             part.bodies[0].copies = block.copies;
+            part.bodies[0].sizes.clear();
+            for (int i = 0; !all.sizes.empty() && i < block.runs * block.copies; ++i) {
+                part.bodies[0].sizes.push_back(all.size(run + i / block.copies, copy + i % block.copies));
+            }
             part.bodies[0].poses = poses(body, block);
             use(part, block);
         }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <set>
 #include <utility>
@@ -176,8 +177,15 @@ void read_turbulence(TomlTable& table, SceneBody& body) {
     }
 }
 
-void read_start(TomlTable& table, SceneBody& body) {
-    assign(body.position, table.vector("position"));
+void read_start(TomlTable& table, const std::filesystem::path& folder, SceneBody& body) {
+    const auto position = table.vector("position");
+    assign(body.position, position);
+    if (auto emitter = table.table("emitter")) {
+        if (position) {
+            throw table.fault("position", "stands beside emitter, which says where bodies start; give one");
+        }
+        body.emitter = std::make_shared<const Emitter>(read_emitter(*emitter, folder));
+    }
     assign(body.orientation, table.quaternion("orientation"));
     assign(body.velocity, table.vector("velocity"));
     assign(body.angular_velocity, table.vector("angular_velocity"));
@@ -187,6 +195,18 @@ void read_start(TomlTable& table, SceneBody& body) {
         assign(body.spread_position, spread->vector("position"));
         assign(body.spread_angle,
                spread->number("angle", {0.0, std::numbers::pi, "must lie between 0 and pi"}));
+        assign(body.spread_start, spread->number("start", non_negative_number));
+        if (const auto sizes = spread->numbers("size", 2)) {
+            body.smallest_size = (*sizes)[0];
+            body.largest_size = (*sizes)[1];
+            constexpr double most = 1e3;  // beyond it a unit is wrong
+            if (!(body.smallest_size >= 1.0 / most && body.smallest_size <= body.largest_size &&
+                  body.largest_size <= most)) {
+                throw spread->fault("size",
+                                    "must be the smallest and the largest size over the shape's, within "
+                                    "0.001 and 1000, as [0.8, 1.25]");
+            }
+        }
         spread->finish();
     }
 }
@@ -225,7 +245,7 @@ SceneBody read_body(TomlTable& table, const std::filesystem::path& folder) {
     if (!body.mass.is_given() && !is_body_file_name(body.shape)) {
         throw table.fault("density", "is missing; give it, or mass");
     }
-    read_start(table, body);
+    read_start(table, folder, body);
     read_models(table, body);
     body.coefficients = read_coefficients(table, body.loads);
     read_turbulence(table, body);

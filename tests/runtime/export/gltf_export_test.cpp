@@ -341,5 +341,22 @@ TEST(ShadedMesh, TakesTheMiddleNodesOfOrderTwoAndLeavesOutTrianglesWithoutArea) 
     EXPECT_EQ(shaded_mesh(surface).triangles.size(), 1U);
 }
 
+TEST(GltfExport, EachCopyIsShownAtItsSize) {
+    const TemporaryFolder folder;
+    Motion motion = leaves(3, 0.1);
+    motion.bodies[0].sizes = {0.5, 1.0, 2.0};
+    write_glb(folder.path() / "sizes.glb", motion, 0, {});
+    const tinygltf::Model model = read_glb(folder.path() / "sizes.glb");
+    for (std::size_t copy = 0; copy < 3; ++copy) {
+        const double size = motion.bodies[0].sizes[copy];
+        EXPECT_EQ(model.nodes[copy].scale, std::vector<double>(3, size));
+        // The shape's origin lies beside the centre of mass by that of the size.
+        const Pose& pose = motion.pose(motion.bodies[0], 0, 0, static_cast<int>(copy));
+        const Vector3d origin = shape_poses(motion, motion.bodies[0], 0, static_cast<int>(copy))[0].position;
+        EXPECT_NEAR((origin - pose.position).norm(), size * motion.bodies[0].center_of_mass.norm(), 1e-12);
+    }
+    EXPECT_TRUE(model.nodes[3].scale.empty());
+}
+
 }  // namespace
 }  // namespace samara

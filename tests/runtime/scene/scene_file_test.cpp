@@ -73,8 +73,8 @@ TEST_F(SceneFile, EveryKeyIsRead) {
         "gust = { amplitude = [0, 0.5, 0], period = 2 }\n"
         "[[body]]\nname = \"a\"\nshape = \"ball.stl\"\nscale = 0.5\nmass = 3\ncenter_of_mass = [0.1, 0, 0]\n"
         "inertia = [1, 2, 2.5]\nposition = [1, 1, 1]\norientation = [0, 2, 0, 0]\nvelocity = [1, 0, 0]\n"
-        "angular_velocity = [0, 1, 0]\nstart = 0.5\ncount = 3\nspread = { position = [1, 2, 3], angle = 0.5 "
-        "}\n"
+        "angular_velocity = [0, 1, 0]\nstart = 0.5\ncount = 3\nspread = { position = [1, 2, 3], angle = 0.5, "
+        "size = [0.5, 2], start = 1.5 }\n"
         "loads = \"coefficients\"\ndrag_coefficient = 1.3\nlift_coefficient = 0.2\nreference_area = 0.1\n"
         "normal = [0, 0, 2]\ncenter_of_pressure = [0, 0, 0.1]\nturbulence = \"constant\"\n"
         "turbulent_kinetic_energy = 0.1\ndissipation_rate = 0.2\nlangevin = \"body-velocity\"\n");
@@ -87,9 +87,40 @@ TEST_F(SceneFile, EveryKeyIsRead) {
     EXPECT_EQ((*body.mass.inertia)(2, 2), 2.5);
     EXPECT_EQ(body.orientation.coeffs(), Eigen::Vector4d(1, 0, 0, 0));
     EXPECT_EQ(body.spread_angle, 0.5);
+    EXPECT_EQ(body.smallest_size, 0.5);
+    EXPECT_EQ(body.largest_size, 2.0);
+    EXPECT_EQ(body.spread_start, 1.5);
     EXPECT_EQ(body.coefficients.normal, Vector3d(0, 0, 1));
     EXPECT_EQ(body.turbulence, Turbulence::constant);
     EXPECT_EQ(body.langevin, Langevin::body_velocity);
+}
+
+TEST_F(SceneFile, ASpreadOfSizesIsTwoNumbersInOrder) {
+    for (const char* sizes : {"[2, 1]", "[0, 1]", "[1, 5000]", "[-1, 1]"}) {
+        EXPECT_THAT(
+            refusal(with_body(std::string("density = 1\ncount = 2\nspread = { size = ") + sizes + " }\n")),
+            AllOf(HasSubstr("size"), HasSubstr("the smallest and the largest")));
+    }
+}
+
+TEST_F(SceneFile, AnEmitterHasTheKeysOfAnObstacleAndTakesThePlaceOfAPosition) {
+    std::ofstream(folder_ / "tree.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    const std::string emitter =
+        "emitter = { shape = \"tree.obj\", scale = 2, position = [0, 0, 3], offset = 0.1, speed = 0.5, "
+        "keys = [{ time = 1, position = [1, 0, 3] }, { time = 2 }] }\n";
+    const SceneBody body = read(with_body("density = 1\n" + emitter)).bodies.at(0);
+    ASSERT_NE(body.emitter, nullptr);
+    EXPECT_EQ(body.emitter->mesh.surface.vertices.at(1), Vector3d(2, 0, 0));
+    EXPECT_EQ(body.emitter->mesh.keys.size(), 2U);
+    EXPECT_EQ(body.emitter->offset, 0.1);
+    EXPECT_EQ(body.emitter->speed, 0.5);
+    EXPECT_THAT(refusal(with_body("density = 1\nposition = [0, 0, 1]\n" + emitter)),
+                AllOf(HasSubstr("position"), HasSubstr("stands beside emitter")));
+    EXPECT_THAT(refusal(with_body("density = 1\nemitter = { shape = \"tree.obj\", keys = [{ time = 0 }, "
+                                  "{ time = 0.001, position = [9, 0, 0] }] }\n")),
+                AllOf(HasSubstr("keys"), HasSubstr("jumps: from 0 s to 0.001 s")));
+    EXPECT_THAT(refusal(with_body("density = 1\nemitter = { shape = \"none.obj\" }\n")),
+                HasSubstr("cannot be had"));
 }
 
 TEST_F(SceneFile, ModelsAreSwitchedBodyByBody) {

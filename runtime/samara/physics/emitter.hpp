@@ -1,0 +1,33 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "samara/physics/obstacle.hpp"
+
+namespace samara {
+
+/// A mesh that bodies leave, at points that are drawn uniformly over its area.
+struct Emitter {
+    Obstacle mesh;              ///< its surface and keys; bodies do not touch it
+    double offset = 0.0;        ///< m: how far outside of the face a body's origin starts
+    double speed = 0.0;         ///< m/s, along the face's normal, beside the mesh's own
+    std::vector<double> areas;  ///< m^2: of each triangle and all before it
+};
+
+/// An emitter with its areas. Between two keys no point of the mesh may move faster than most_emitter_speed:
+/// else it jumps. Throws Error, which names the times, where one does.
+Emitter make_emitter(Obstacle mesh, double offset, double speed);
+inline constexpr double most_emitter_speed = 100.0;  ///< m/s
+
+/// How something leaves an emitter.
+struct Emission {
+    ObstaclePlace place;        ///< of the emitter's point, offset; its axes are the mesh's
+    Vector3d velocity;          ///< m/s, world: of the mesh there, and the emitter's speed
+    Vector3d angular_velocity;  ///< rad/s, world: of the mesh
+};
+
+/// What leaves the emitter at a time (s, of the world) for three numbers that are uniform in (0, 1).
+Emission emission(const Emitter& emitter, double time, const std::array<double, 3>& numbers);
+
+}  // namespace samara
