@@ -13,6 +13,9 @@ int mass_command(int argc, const char* const* argv);
 /// samara simulate: a scene's motion.
 int simulate_command(int argc, const char* const* argv);
 
+/// samara search: the seeds with which a body comes to a target.
+int search_command(int argc, const char* const* argv);
+
 /// samara bodies: the ready-baked bodies.
 int bodies_command(int argc, const char* const* argv);
 

@@ -39,6 +39,8 @@ constexpr Command commands[] = {
     {"wind", "velocity grids of OpenVDB -> wind file, for a scene's [wind.file]", nullptr},
     {"bodies", "the ready-baked bodies that come with it", samara::bodies_command},
     {"simulate", "scene -> motion of its bodies", samara::simulate_command},
+    {"search", "scene -> the seeds with which a body lands in a target or passes a ring",
+     samara::search_command},
     {"export", "motion -> .glb, .usda, .chan for animation tools, .html, .csv", samara::export_command},
     {"plot", "motion or body -> picture: silhouettes, time series; polars, maps", samara::plot_command},
     {"compare", "motion held against another, such as a fall by full CFD", samara::compare_command},
