@@ -27,6 +27,7 @@ struct ValidateOptions {
     double cells = ValidationRequest().cells;
     double step = 1.0;
     std::string closure = std::string(name_of(ValidationRequest().closure));
+    double fields = 0.0;
     std::string other_mesh;
     std::string other_closure;
     std::string cluster;
@@ -91,6 +92,7 @@ nlohmann::json run_validation(const ValidateOptions& options, bool quiet) {
     request.output = options.output;
     request.cells = options.cells;
     request.step = options.step;
+    request.fields = options.fields;
     request.closure = closure_of_falls(options.closure);
     request.beside = {{"mesh", motions_of("--other-mesh", options.other_mesh)},
                       {"closure", motions_of("--other-closure", options.other_closure)}};
@@ -139,6 +141,10 @@ int run(int argc, const char* const* argv) {
     arguments.option("--closure", options.closure,
                      "above Reynolds number 300: kOmegaSSTLM, kOmegaSST, laminar (none) or kEpsilon");
     arguments.option("--step", options.step, "over the step that the fall gets of itself", 0.05, 4.0);
+    arguments.option("--fields", options.fields,
+                     "keeps the flow so many times a second, for a movie: velocity and pressure in "
+                     "NAME.cases/fall_00/postProcessing/fields, which ParaView opens; 0: not",
+                     0.0, 1e4);
     arguments.option("--other-mesh", options.other_mesh,
                      "motion file of the same scene on another mesh: what it differs by is written as the "
                      "motion's uncertainty by its mesh, which samara compare reads");

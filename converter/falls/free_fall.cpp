@@ -32,6 +32,7 @@ FreeFall as_fall(const nlohmann::json& json) {
     fall.time_step = json.at("time_step").get<double>();
     fall.outer_correctors = json.at("outer_correctors").get<int>();
     fall.acceleration_relaxation = json.at("acceleration_relaxation").get<double>();
+    fall.field_interval = json.value("field_interval", 0.0);
     return fall;
 }
 
@@ -52,26 +53,27 @@ void check(const FreeFall& fall) {
 }  // namespace
 
 std::string free_fall_json(const FreeFall& fall) {
-    const nlohmann::ordered_json json = {{"name", fall.name},
-                                         {"mesh", fall.mesh},
-                                         {"closure", name_of(fall.closure)},
-                                         {"reynolds_number", fall.reynolds_number},
-                                         {"length", fall.length},
-                                         {"speed", fall.speed},
-                                         {"fluid_density", fall.fluid_density},
-                                         {"axes", rows_as_json(fall.axes)},
-                                         {"volume", fall.volume},
-                                         {"mass", fall.mass},
-                                         {"center_of_mass", as_json(fall.center_of_mass)},
-                                         {"principal_axes", rows_as_json(fall.principal_axes)},
-                                         {"principal_moments", as_json(fall.principal_moments)},
-                                         {"gravity", as_json(fall.gravity)},
-                                         {"velocity", as_json(fall.velocity)},
-                                         {"angular_velocity", as_json(fall.angular_velocity)},
-                                         {"duration", fall.duration},
-                                         {"time_step", fall.time_step},
-                                         {"outer_correctors", fall.outer_correctors},
-                                         {"acceleration_relaxation", fall.acceleration_relaxation}};
+    nlohmann::ordered_json json = {{"name", fall.name},
+                                   {"mesh", fall.mesh},
+                                   {"closure", name_of(fall.closure)},
+                                   {"reynolds_number", fall.reynolds_number},
+                                   {"length", fall.length},
+                                   {"speed", fall.speed},
+                                   {"fluid_density", fall.fluid_density},
+                                   {"axes", rows_as_json(fall.axes)},
+                                   {"volume", fall.volume},
+                                   {"mass", fall.mass},
+                                   {"center_of_mass", as_json(fall.center_of_mass)},
+                                   {"principal_axes", rows_as_json(fall.principal_axes)},
+                                   {"principal_moments", as_json(fall.principal_moments)},
+                                   {"gravity", as_json(fall.gravity)},
+                                   {"velocity", as_json(fall.velocity)},
+                                   {"angular_velocity", as_json(fall.angular_velocity)},
+                                   {"duration", fall.duration},
+                                   {"time_step", fall.time_step},
+                                   {"outer_correctors", fall.outer_correctors},
+                                   {"acceleration_relaxation", fall.acceleration_relaxation}};
+    if (fall.field_interval > 0.0) json["field_interval"] = fall.field_interval;
     return json.dump(2) + "\n";
 }
 

@@ -39,6 +39,7 @@ struct FreeFall {
     double time_step = 0.0;                ///< over L/U
     int outer_correctors = 1;              ///< solutions of flow and motion in turn in each step
     double acceleration_relaxation = 0.7;  ///< share of the new acceleration that is taken in each of them
+    double field_interval = 0.0;  ///< over L/U: from one flow that is kept for pictures to the next; 0: none
 
     [[nodiscard]] double time_unit() const { return length / speed; }
     /// Over rho L^5, about the centre of mass.

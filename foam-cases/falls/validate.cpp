@@ -71,6 +71,7 @@ BakePlan plan_of(const ValidationRequest& request, const Falling& falling) {
     FreeFall fall = plan_fall(falling.body, falling.immersed, falling.start, falling.scene.gravity,
                               speed_unit(falling), falling.scene.duration - scene_body.start, model);
     fall.time_step *= request.step;
+    if (request.fields > 0.0) fall.field_interval = 1.0 / (request.fields * fall.time_unit());
     return plan_single_fall(falling.body, request.cells, fall, model);
 }
 

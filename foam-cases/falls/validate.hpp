@@ -21,6 +21,7 @@ struct ValidationRequest {
     std::filesystem::path output;               ///< the motion file
     double cells = 20'000.0;                    ///< of the mesh, about
     double step = 1.0;                          ///< over that of the model
+    double fields = 0.0;                        ///< flows a second that are kept for pictures; 0: none
     Closure closure = Closure::k_omega_sst_lm;  ///< above the laminar Reynolds number
     /// Motion files of other solutions of the scene, by what they differ in ("mesh", "closure"): the
     /// differences between the two of a cause, or of the one to the output, are written as the motion's

@@ -105,10 +105,15 @@ Entries body_entries(const FreeFall& fall) {
 }
 
 Entries step_entries(const FreeFall& fall) {
-    return {{"timeStep", fmt::format("{}", fall.time_step)},
-            {"duration", fmt::format("{}", fall.duration)},
-            {"outerCorrectors", fmt::format("{}", fall.outer_correctors)},
-            {"accelerationRelaxation", fmt::format("{:.4g}", fall.acceleration_relaxation)}};
+    Entries entries = {{"timeStep", fmt::format("{}", fall.time_step)},
+                       {"duration", fmt::format("{}", fall.duration)},
+                       {"outerCorrectors", fmt::format("{}", fall.outer_correctors)},
+                       {"accelerationRelaxation", fmt::format("{:.4g}", fall.acceleration_relaxation)}};
+    if (fall.field_interval > 0.0) {
+        entries.emplace_back("fieldControl", "runTime");
+        entries.emplace_back("fieldInterval", fmt::format("{}", fall.field_interval));
+    }
+    return entries;
 }
 
 // Where the mesh resolves the boundary layer: the scheme and the walls by which the closures were held

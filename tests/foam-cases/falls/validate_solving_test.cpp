@@ -30,6 +30,7 @@ namespace samara {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -205,6 +206,24 @@ TEST_F(Falls, ABodyHungOffItsCentroidSwingsAsTheInertiaOfBodyAndFluidSays) {
     const double exact = 2.0 * std::numbers::pi / std::sqrt(torque * body.inverse_inertia(0, 0));
     EXPECT_NEAR(period, exact, 0.015 * exact);
     EXPECT_LT(json["balance"]["moment"].get<double>(), 0.03);
+}
+
+TEST_F(Falls, OneWithFieldsKeepsItsFlowForAMovie) {
+    write_scene("duration = 0.2", "sphere", "density = 2000");
+    const nlohmann::json result = solved({"--fields", "20"});
+    ASSERT_FALSE(result.empty());
+    const fs::path fields = folder_ / "out.cases/fall_00/postProcessing/fields";
+    const auto series = nlohmann::json::parse(read_bytes(fields / "fall_00.vtm.series"));
+    EXPECT_NEAR(static_cast<double>(series.at("files").size()), 4.0, 1.0);
+    for (const auto& file : series.at("files")) {
+        const fs::path flow = fields / fs::path(file.at("name").get<std::string>()).stem() / "internal.vtu";
+        EXPECT_THAT(read_bytes(flow), AllOf(HasSubstr("Name='U'"), HasSubstr("Name='p'")));
+    }
+    // Pictures change nothing of the fall.
+    const std::string with_fields = read_bytes(folder_ / "out.h5");
+    fs::remove_all(folder_ / "out.cases");
+    solved();
+    EXPECT_EQ(read_bytes(folder_ / "out.h5"), with_fields);
 }
 
 TEST_F(Falls, ASolvedFallIsReusedAndGivesTheSameBytes) {
