@@ -222,7 +222,7 @@ TEST_F(Falls, OneWithFieldsKeepsItsFlowForAMovie) {
     // Pictures change nothing of the fall.
     const std::string with_fields = read_bytes(folder_ / "out.h5");
     fs::remove_all(folder_ / "out.cases");
-    solved();
+    EXPECT_FALSE(solved().empty());
     EXPECT_EQ(read_bytes(folder_ / "out.h5"), with_fields);
 }
 
