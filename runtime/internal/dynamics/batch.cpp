@@ -5,6 +5,7 @@
 #include <limits>
 #include <mutex>
 #include <type_traits>
+#include <utility>
 
 #include "internal/base/parallel_for.hpp"
 #include "internal/dynamics/body_size.hpp"
@@ -116,13 +117,13 @@ BasicBatch<Real>::BasicBatch(const ImmersedBody& body, std::size_t count)
 }
 
 template <class Real>
-void BasicBatch<Real>::set_sizes(const std::vector<double>& sizes, bool touch) {
-    sizes_ = sizes;
+void BasicBatch<Real>::set_sizes(std::vector<double> sizes, bool touch) {
+    sizes_ = std::move(sizes);
     touching_.clear();
     for (std::size_t i = 0; i < size_; ++i) {
         blocks_[i / FlightBlock<Real>::size].size_of[i % FlightBlock<Real>::size] =
-            static_cast<Real>(sizes[i]);
-        if (touch) touching_.push_back(touching_body(*body_, sizes[i]));
+            static_cast<Real>(sizes_[i]);
+        if (touch) touching_.push_back(touching_body(*body_, sizes_[i]));
     }
 }
 

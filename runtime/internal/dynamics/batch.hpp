@@ -27,7 +27,9 @@ class BasicBatch {
     [[nodiscard]] BodyState state(std::size_t index) const noexcept;
     /// Makes body number i `sizes[i]` (above zero) times as large as the shape, at its density: before its
     /// state is set. `touch`: whether they meet ground or obstacles.
-    void set_sizes(const std::vector<double>& sizes, bool touch);
+    void set_sizes(std::vector<double> sizes, bool touch);
+    /// What was set; none where all are the shape's.
+    [[nodiscard]] const std::vector<double>& sizes() const noexcept { return sizes_; }
     /// The body waits where it is until this step begins.
     void set_first_step(std::size_t index, std::uint64_t step) noexcept;
     /// The state in the numbers that the steps are taken with: what keep_own_state() takes, to the last bit.

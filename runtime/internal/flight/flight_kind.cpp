@@ -319,14 +319,17 @@ void FlightKind::set_surroundings(const Surroundings& surroundings) {
         BodyState state = batch_.state(i);
         state.at_rest = false;
         if (!same_flow) {
-            const BodyState moved = state_of(in_new_flow(flow_pose(state), reached()));
+            // What waits is in the flow of its start.
+            const bool waits = reached() < start(i);
+            const BodyState moved = state_of(in_new_flow(flow_pose(state), std::max(reached(), start(i))));
             state.position = moved.position;
             state.velocity = moved.velocity;
-            before_[i] = in_new_flow(before_[i], release_.start + before_time_[i]);
+            before_[i] = waits ? flow_pose(state) : in_new_flow(before_[i], release_.start + before_time_[i]);
         }
         batch_.set_state(i, state);
     }
     surroundings_ = surroundings;
+    if (!batch_.sizes().empty()) batch_.set_sizes(batch_.sizes(), has_ground(surroundings_));
 }
 
 std::string FlightKind::description() const {
