@@ -244,6 +244,15 @@ void bind_body_motion(py::module_& module) {
         .def_property_readonly("angular_velocity", &poses<PoseMember::angular_velocity>,
                                "rad/s, world axes, shape (runs, frames, copies, 3).")
         .def_property_readonly(
+            "sizes",
+            [](const py::object& self) -> py::object {
+                const auto& body = self.cast<const BodyOfMotion&>();
+                const std::vector<double>& sizes = body.body().sizes;
+                if (sizes.empty()) return py::none();
+                return view(sizes.data(), {body.motion->runs, body.body().copies}, self);
+            },
+            "Lengths of the copies over those of the vertices, shape (runs, copies); None where all are 1.")
+        .def_property_readonly(
             "vertices",
             [](const py::object& self) {
                 const Surface& surface = self.cast<const BodyOfMotion&>().body().surface;

@@ -94,6 +94,13 @@ class Motions(unittest.TestCase):
         numpy.testing.assert_array_equal(spins, self.leaf.angular_velocity[1, :, 2])
         numpy.testing.assert_array_equal(chosen["time"], self.motion.times)
 
+    def test_sizes_of_a_crowd_are_an_array(self):
+        self.assertIsNone(self.leaf.sizes)
+        crowd = samara.simulate(leaves(spread={"size": [0.5, 2]}), runs=2)["leaf"]
+        self.assertEqual(crowd.sizes.shape, (2, 3))
+        self.assertTrue(((crowd.sizes >= 0.5) & (crowd.sizes <= 2)).all())
+        self.assertGreater(crowd.sizes.std(), 0.0)
+
     def test_velocities_are_the_derivatives_of_places(self):
         moved = self.leaf.position[:, 2:] - self.leaf.position[:, :-2]
         speed = moved * self.motion.frame_rate / 2
