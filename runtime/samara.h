@@ -313,8 +313,8 @@ SAMARA_API samara_status samara_set_obstacle_keys(samara_simulation* simulation,
  *     "[[fan]]\n"
  *     "position = [0, 0, 1]\n" ...
  *
- * Gusts without a seed have the settings' own. The path of a [file] is taken from the working folder; after its
- * last time that stays, unless it repeats. An empty text: none. At any time; bodies keep their motion. */
+ * Gusts without a seed have the settings' own. The path of a [file] is taken from the working folder; after
+ * its last time that stays, unless it repeats. An empty text: none. At any time; bodies keep their motion. */
 SAMARA_API samara_status samara_set_wind(samara_simulation* simulation, const char* wind, char* error,
                                          size_t error_size);
 

@@ -1,4 +1,5 @@
 #include <cstddef>
+#include <limits>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -26,6 +27,8 @@ using samara::require;
 // Up to the last member that version 6 had.
 constexpr std::size_t first_obstacle_size = offsetof(samara_obstacle, key_count) + sizeof(size_t);
 constexpr std::size_t most_triangles = 100'000'000;
+// Of a simulation, for wind files: they need not last.
+constexpr double no_end = -std::numeric_limits<double>::infinity();
 
 samara_obstacle default_obstacle() {
     const samara::Obstacle standard;
@@ -143,7 +146,7 @@ samara_status samara_set_wind(samara_simulation* simulation, const char* wind, c
         const toml::table document = samara::parse_toml(wind, "wind");
         samara::TomlTable table(document, "wind", "the wind");
         const std::lock_guard lock(samara::hdf5_mutex());  // of a wind file
-        samara::Wind given = samara::read_wind(table, ".", flight.ground().value_or(0.0), flight.time());
+        samara::Wind given = samara::read_wind(table, ".", flight.ground().value_or(0.0), no_end);
         given.function = flight.wind().function;
         given.function_context = flight.wind().function_context;
         flight.set_wind(given);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +12,7 @@
 
 #include "runtime/c_interface_calls.hpp"
 #include "samara/flight/flight.hpp"
+#include "samara/physics/wind_file.hpp"
 #include "support/obstacles.hpp"
 #include "support/test_shapes.hpp"
 
@@ -300,6 +302,25 @@ TEST(CSetWind, BlowsAsTheFlightsOwn) {
     settings.wind.gusts = WindGusts{.rms = 0.1, .length = 0.5};
     settings.wind.fans = {{.position = Vector3d(-1.0, 0.0, 0.0), .speed = 0.5}};
     EXPECT_EQ(velocities_of(poses_at(simulation, 0.4)), velocities_in(settings, body, lying_kind(), 0.4));
+}
+
+TEST(CSetWind, TakesAFileThatNeedNotLast) {
+    const BodyOnDisk body;
+    const test::TemporaryFolder folder;
+    WindGrid grid;
+    grid.frames = 2;
+    grid.interval = 0.05;
+    grid.velocities.assign(grid.size(), 0.2F);
+    write_wind_file(folder / "gust.h5", grid);
+    const std::string text = "[file]\npath = \"" + (folder / "gust.h5").string() + "\"";
+    const SimulationPointer simulation = empty_simulation();
+    set_wind(simulation, text.c_str());
+    add(simulation, body, lying_kind());
+    FlightSettings settings;
+    settings.wind.file.emplace().grid = std::make_shared<const WindGrid>(read_wind_file(folder / "gust.h5"));
+    const auto velocities = velocities_of(poses_at(simulation, 0.4));
+    EXPECT_EQ(velocities, velocities_in(settings, body, lying_kind(), 0.4));
+    EXPECT_NE(velocities, velocities_in({}, body, lying_kind(), 0.4));
 }
 
 TEST(CSetWind, ChangesInFlightWithoutAJumpOfTheBodies) {
