@@ -32,7 +32,7 @@ constexpr ShippedFall falls[] = {
     {"falls/sphere", "sphere", Regime::steady, 0.6690, {}, {}},
     {"falls/disc-light", "disc", Regime::fluttering, 0.1352, 1.043, 4.146},
     {"falls/disc-heavy", "disc", Regime::tumbling, 0.5929, 2.252, 16.47},
-    {"falls/sheet", "sheet", Regime::tumbling, 1.066, 1.574, 11.65},
+    {"falls/sheet", "sheet", Regime::tumbling, 0.6784, 1.896, 12.13},
     {"scenes/samara", "samara", Regime::autorotating, 1.697, {}, 73.3},
 };
 
