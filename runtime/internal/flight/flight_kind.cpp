@@ -159,6 +159,7 @@ void FlightKind::draw_starts(const FlightSettings& settings) {
     }
     if (release_.spreads_size()) {
         std::vector<double> sizes;
+        sizes.reserve(starts.size());
         for (const CopyStart& start : starts) sizes.push_back(start.size);
         batch_.set_sizes(sizes, has_ground(surroundings_));
     }

@@ -94,8 +94,8 @@ void set_wind(const SimulationPointer& simulation, const char* wind) {
 }
 
 /// The poses of the same bodies in a flight with these settings.
-std::vector<Vector3d> velocities_in(FlightSettings settings, const BodyOnDisk& body, const samara_kind& kind,
-                                    double time) {
+std::vector<Vector3d> velocities_in(const FlightSettings& settings, const BodyOnDisk& body,
+                                    const samara_kind& kind, double time) {
     Flight flight(settings);
     BodyPhysics physics;
     physics.mass.density = kind.density;
