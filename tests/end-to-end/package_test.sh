@@ -61,7 +61,7 @@ nm -D --defined-only --extern-only "$(find "$work/root" -name libsamara.so)" | a
   grep -q . && fail "libsamara.so shows more than the C interface"
 
 # The Python module, where it was built.
-module=$(find "$work/packages" -name 'python3-samara_*.deb')
+module=$(find "$work/packages" -maxdepth 1 -name 'python3-samara_*.deb')
 if [ -n "$module" ]; then
   dpkg-deb -f "$module" Depends | grep -q 'python3-numpy' || fail "the Python module does not depend on numpy"
   dpkg -x "$module" "$work/root"
