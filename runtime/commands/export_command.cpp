@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -13,6 +14,7 @@
 #include "internal/command/arguments.hpp"
 #include "internal/command/print.hpp"
 #include "internal/command/progress.hpp"
+#include "internal/export/fast_turn.hpp"
 #include "internal/motion/file_check.hpp"
 #include "internal/motion/resample.hpp"
 #include "samara/base/error.hpp"
@@ -99,6 +101,17 @@ nlohmann::json write(const ExportOptions& options, const std::string& format, co
     return {{"meshes", motion.bodies.size()}, {"nodes", copies_in(motion)}, {"keys", keys}, {"run", run}};
 }
 
+/// Says where frames are too far apart for what turns between them.
+void note_fast_turns(const Motion& motion, int run) {
+    const FastTurn fastest = fastest_turn(motion, run);
+    if (!(fastest.turns > 0.5)) return;
+    print_note(
+        "samara export: note: '{}' turns by up to {:.2g} turns from frame to frame; above half a turn "
+        "programs "
+        "that interpolate show another turn: give --frame-rate {:.0f} or more\n",
+        fastest.body, fastest.turns, std::ceil(4.0 * fastest.turns * motion.frame_rate));
+}
+
 nlohmann::json export_motion(const ExportOptions& options) {
     const std::string format = std::filesystem::path(options.output).extension().string();
     constexpr std::array<std::string_view, 5> formats = {".glb", ".usda", ".chan", ".html", ".csv"};
@@ -115,6 +128,7 @@ nlohmann::json export_motion(const ExportOptions& options) {
     Motion motion = read_motion_file(options.input);
     require_run(options.input, motion, options.run.value_or(0));
     if (options.frame_rate) motion = resampled(motion, *options.frame_rate);
+    if (format != ".csv") note_fast_turns(motion, options.run.value_or(0));
     nlohmann::json result = {{"output", options.output},
                              {"format", format.substr(1)},
                              {"frames", motion.frames()},

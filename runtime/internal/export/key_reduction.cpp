@@ -65,6 +65,12 @@ KeyTolerance key_tolerance(const BodyMotion& body, const std::optional<double>& 
     return tolerance;
 }
 
+KeyTolerance key_tolerance(const Obstacle& obstacle, const std::optional<double>& position) {
+    BodyMotion as_body;
+    as_body.surface = obstacle.surface;
+    return key_tolerance(as_body, position);
+}
+
 std::vector<std::size_t> kept_keys(const KeyedFrames<Vector3d>& frames, double tolerance) {
     return kept_of(frames.keys.size(), tolerance, [&](std::size_t begin, std::size_t end, std::size_t frame) {
         const double s = fraction_of(frames, begin, end, frame);

@@ -17,6 +17,9 @@ struct KeyTolerance {
 /// radius, the distance from its centre of mass to its farthest point.
 KeyTolerance key_tolerance(const BodyMotion& body, const std::optional<double>& position);
 
+/// The same for an obstacle: as for a body of its size.
+KeyTolerance key_tolerance(const Obstacle& obstacle, const std::optional<double>& position);
+
 /// The frames of a moving body, and what a file would hold at each of them: the same, rounded.
 template <typename Value>
 struct KeyedFrames {

@@ -22,6 +22,17 @@ std::vector<ShapePose> shape_poses(const Motion& motion, const BodyMotion& body,
     return poses;
 }
 
+std::vector<ShapePose> shape_poses(const Motion& motion, const Obstacle& obstacle) {
+    std::vector<ShapePose> places;
+    for (const double time : motion.times) {
+        const ObstaclePlace place = place_of(obstacle, time);
+        places.push_back({.position = place.position, .orientation = place.orientation});
+        if (places.size() > 1)
+            keep_sign_continuous(places.back().orientation, places[places.size() - 2].orientation);
+    }
+    return places;
+}
+
 std::string copy_name(const BodyMotion& body, int copy) {
     return copy == 0 ? body.name : fmt::format("{}.{:03d}", body.name, copy);
 }

@@ -19,6 +19,9 @@ struct ShapePose {
 /// with the one before it. The first keeps its sign.
 std::vector<ShapePose> shape_poses(const Motion& motion, const BodyMotion& body, int run, int copy);
 
+/// Where an obstacle is at each frame, in the same way; without velocities.
+std::vector<ShapePose> shape_poses(const Motion& motion, const Obstacle& obstacle);
+
 /// What a copy is called in other programs: NAME for the first one, then NAME.001, NAME.002 and so on.
 std::string copy_name(const BodyMotion& body, int copy);
 

@@ -14,7 +14,8 @@ std::string usd_float3(const Vector3d& vector);
 
 /// The Mesh prim "mesh" of a surface, its lines indented by `indent` spaces: welded points, triangles,
 /// normals (at the points of a smooth surface, at the triangles' corners where there are creases), no
-/// subdivision.
-std::string usd_mesh(const Surface& surface, std::size_t indent);
+/// subdivision. `grey`: its colour, from 0 to 1; `double_sided`: seen from behind, too.
+std::string usd_mesh(const Surface& surface, std::size_t indent, double grey = 0.8,
+                     bool double_sided = false);
 
 }  // namespace samara

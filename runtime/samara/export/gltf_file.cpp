@@ -242,25 +242,6 @@ tinygltf::Material matte_material(const char* name, double grey) {
     return material;
 }
 
-/// Where an obstacle is at each frame.
-std::vector<ShapePose> places_of(const Motion& motion, const Obstacle& obstacle) {
-    std::vector<ShapePose> places;
-    for (const double time : motion.times) {
-        const ObstaclePlace place = samara::place_of(obstacle, time);
-        places.push_back({.position = place.position, .orientation = place.orientation});
-        if (places.size() > 1)
-            keep_sign_continuous(places.back().orientation, places[places.size() - 2].orientation);
-    }
-    return places;
-}
-
-/// How far keys may be off for an obstacle: as for a body of its size.
-KeyTolerance key_tolerance_of(const Obstacle& obstacle, const std::optional<double>& given) {
-    BodyMotion as_body;
-    as_body.surface = obstacle.surface;
-    return key_tolerance(as_body, given);
-}
-
 }  // namespace
 
 std::size_t write_glb(const std::filesystem::path& file, const Motion& motion, int run,
@@ -295,11 +276,11 @@ std::size_t write_glb(const std::filesystem::path& file, const Motion& motion, i
     }
     for (const Obstacle& obstacle : motion.obstacles) {
         const int mesh = add_mesh(builder, obstacle.name, obstacle.surface, 1, file);
-        const std::vector<ShapePose> places = places_of(motion, obstacle);
+        const std::vector<ShapePose> places = shape_poses(motion, obstacle);
         const int node = add_node(model, obstacle.name, mesh, places.front());
         if (!moves || !obstacle.moves()) continue;
         builder.begin_view(0);
-        count += keys.add(node, places, key_tolerance_of(obstacle, tolerance));
+        count += keys.add(node, places, key_tolerance(obstacle, tolerance));
     }
     if (moves) model.animations.push_back(animation);
     if (model.buffers[0].data.size() > std::numeric_limits<std::uint32_t>::max() / 2) {

@@ -3,6 +3,7 @@
 #include <cctype>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 #include <ostream>
 #include <set>
 
@@ -66,6 +67,9 @@ class Stage {
                 write_transforms(body, key_tolerance(body, tolerance));
             }
         }
+        for (const Obstacle& obstacle : motion_.obstacles) {
+            write_obstacle(obstacle, key_tolerance(obstacle, tolerance));
+        }
         print("}}\n");
         return samples_;
     }
@@ -96,6 +100,13 @@ class Stage {
             }
             print("    }}\n");
         }
+    }
+
+    void write_obstacle(const Obstacle& obstacle, const KeyTolerance& tolerance) {
+        print("    def Xform \"{}\"\n    {{\n", names_(obstacle.name));
+        write_samples(shape_poses(motion_, obstacle), tolerance, 1.0);
+        print("\n        def Xform \"shape\"\n        {{\n{}        }}\n    }}\n",
+              usd_mesh(obstacle.surface, 12, 0.5, true));
     }
 
     void write_samples(const std::vector<ShapePose>& poses, const KeyTolerance& tolerance, double size) {
@@ -173,6 +184,13 @@ class Stage {
         });
         write_array("quatf[] orientationsf", copies, [&](std::size_t copy, std::size_t frame) {
             return quatf(poses[copy][frame].orientation);
+        });
+        // Between the samples readers go on by these, and motion blur is drawn by them.
+        write_array("vector3f[] velocities", copies, [&](std::size_t copy, std::size_t frame) {
+            return usd_float3(poses[copy][frame].velocity);
+        });
+        write_array("vector3f[] angularVelocities", copies, [&](std::size_t copy, std::size_t frame) {
+            return usd_float3(poses[copy][frame].angular_velocity * (180.0 / std::numbers::pi));
         });
         samples_ += 2 * copies * codes_.size();
         print(

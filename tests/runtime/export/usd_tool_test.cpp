@@ -187,6 +187,55 @@ TEST(UsdExport, ACrowdIsAPointInstancer) {
     EXPECT_EQ(samples["/motion/die__red.positions"]["times"].size(), motion.times.size());
 }
 
+TEST(UsdExport, ACrowdHasTheVelocitiesOfItsPlacesAndTurnsInDegreesASecond) {
+    const TemporaryFolder folder;
+    const Motion motion = ellipsoid_and_cubes(most_usd_transforms + 1);
+    write_usda(folder / "motion.usda", motion);
+    const json found = read_by_others(folder / "motion.usda", folder);
+    const auto text = found["tinyusdz"]["text"].get<std::string>();
+    const Samples positions = samples_in(text, "die__red", "positions");
+    const Samples velocities = samples_in(text, "die__red", "velocities");
+    const Samples turning = samples_in(text, "die__red", "angularVelocities");
+    ASSERT_EQ(velocities.size(), motion.times.size());
+    ASSERT_EQ(turning.size(), motion.times.size());
+    for (std::size_t frame = 1; frame + 1 < motion.times.size(); ++frame) {
+        const auto at = [&](const Samples& samples, double code, std::size_t place) {
+            return Vector3d(&samples.at(code)[3 * place]);
+        };
+        const auto code = static_cast<double>(frame);
+        for (const std::size_t copy : {std::size_t{0}, std::size_t{7}}) {
+            const Vector3d by_places =
+                (at(positions, code + 1, copy) - at(positions, code - 1, copy)) * (0.5 * motion.frame_rate);
+            EXPECT_LT((at(velocities, code, copy) - by_places).norm(), 0.01 * by_places.norm() + 0.01);
+            const Pose& pose =
+                motion.pose(motion.bodies[1], 0, static_cast<int>(frame), static_cast<int>(copy));
+            EXPECT_LT((at(turning, code, copy) * (std::numbers::pi / 180.0) - pose.angular_velocity).norm(),
+                      1e-5 * (1.0 + pose.angular_velocity.norm()));
+        }
+    }
+}
+
+TEST(UsdExport, ObstaclesStandWhereTheyAreAndMoveByTheirKeys) {
+    const TemporaryFolder folder;
+    Motion motion = ellipsoid_and_cubes(1);
+    const Surface sheet{
+        .vertices = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}}, .corners = {{0, 1, 2}}, .edge_nodes = {}};
+    motion.obstacles = {
+        {.name = "roof", .surface = sheet, .keys = {{{Vector3d(1, 2, 3)}, 0.0}}},
+        {.name = "hand", .surface = sheet, .keys = {{{Vector3d(0, 0, 0)}, 0.0}, {{Vector3d(0, 0, 5)}, 0.5}}}};
+    write_usda(folder / "motion.usda", motion, 0, 0.0);
+    const json found = read_by_others(folder / "motion.usda", folder);
+    const auto& samples = found["three"]["samples"];
+    const Samples roof = samples_of(samples["/motion/roof.xformOp:translate"]);
+    EXPECT_EQ(roof.begin()->second, (std::vector<double>{1, 2, 3}));
+    EXPECT_EQ(roof.rbegin()->second, (std::vector<double>{1, 2, 3}));
+    const Samples hand = samples_of(samples["/motion/hand.xformOp:translate"]);
+    EXPECT_NEAR(hand.at(15.0)[2], 2.5, 1e-6);
+    EXPECT_EQ(hand.rbegin()->second[2], 5.0);
+    EXPECT_EQ(found["three"]["meshes"].size(), 4U);
+    EXPECT_NE(found["tinyusdz"]["text"].get<std::string>().find("doubleSided = 1"), std::string::npos);
+}
+
 TEST(UsdExport, KeptSamplesGiveEveryFrameWithinTheTolerance) {
     const TemporaryFolder folder;
     Motion motion = test::motion_of([](double t) { return test::flutter(t, 0.7, 0.6, 0.2); }, 2.0, 240.0);
