@@ -30,8 +30,7 @@ constexpr ShippedFall falls[] = {
     {"falls/ellipsoid-tilted", "ellipsoid", Regime::fluttering, 0.2231, 0.7618, 2.893},
     {"falls/ellipsoid-heavy", "ellipsoid", Regime::fluttering, 0.4771, 1.782, 4.215},
     {"falls/sphere", "sphere", Regime::steady, 0.6690, {}, {}},
-    {"falls/disc-light", "disc", Regime::fluttering, 0.1352, 1.043, 4.146},
-    {"falls/disc-heavy", "disc", Regime::tumbling, 0.5929, 2.252, 16.47},
+    {"falls/disc-light", "disc", Regime::fluttering, 0.08580, 0.8372, 2.708},
     {"falls/sheet", "sheet", Regime::tumbling, 0.6784, 1.896, 12.13},
     {"scenes/samara", "samara", Regime::autorotating, 1.697, {}, 73.3},
 };
