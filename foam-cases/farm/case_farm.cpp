@@ -5,11 +5,13 @@
 #include <cstdlib>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <optional>
 #include <sstream>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "converter/cases/case_reduction.hpp"
 #include "foam-cases/falls/fall_plan.hpp"
@@ -20,6 +22,7 @@
 #include "internal/base/content_hash.hpp"
 #include "internal/command/progress.hpp"
 #include "internal/command/subprocess.hpp"
+#include "internal/files/temporary_folder.hpp"
 #include "samara/base/error.hpp"
 
 namespace samara {
@@ -254,15 +257,50 @@ double spent_cpu_seconds(const fs::path& folder, const BakePlan& plan) {
     return sum;
 }
 
+namespace {
+
+// The words before each of OpenFOAM's programs, where they are in a container.
+std::vector<std::string> words_of_container() {
+    const char* given = std::getenv("SAMARA_OPENFOAM");
+    std::istringstream stream(given == nullptr ? "" : given);
+    return {std::istream_iterator<std::string>(stream), {}};
+}
+
+// Throws Error where the container's OpenFOAM does not answer.
+void require_container(const std::string& work, const std::vector<std::string>& container) {
+    const TemporaryFolder said;
+    for (const char* program : {"simpleFoam", "pimpleFoam", "snappyHexMesh"}) {
+        std::vector<std::string> words = container;
+        words.insert(words.end(), {program, "-help"});
+        int status = 127;
+        try {
+            status = run_subprocess(words, said.path() / "said");
+        } catch (const Error&) {
+            // told below
+        }
+        if (status == 0) continue;
+        throw Error(fmt::format(
+            "{} needs OpenFOAM, but '{}' fails with exit status {}; set SAMARA_OPENFOAM to the words "
+            "that run a program in its container, such as 'apptainer exec openfoam.sif'",
+            work, fmt::join(words, " "), status));
+    }
+}
+
+}  // namespace
+
 void require_solvers(const FarmOptions& options, int ranks) {
     struct Need {
         const char* program;
         const char* package;
     };
     std::vector<Need> needs = {{"snakemake", "snakemake"}, {"python3", "python3"}};
+    const std::vector<std::string> container = words_of_container();
     if (options.cluster.empty()) {
-        needs.insert(needs.begin(),
-                     {{"simpleFoam", "openfoam"}, {"pimpleFoam", "openfoam"}, {"snappyHexMesh", "openfoam"}});
+        if (container.empty()) {
+            needs.insert(
+                needs.begin(),
+                {{"simpleFoam", "openfoam"}, {"pimpleFoam", "openfoam"}, {"snappyHexMesh", "openfoam"}});
+        }
         if (ranks > 1) needs.push_back({"mpirun", "openmpi-bin"});
     } else {
         needs.insert(needs.end(), {{"squeue", "slurm-client"}, {"scancel", "slurm-client"}});
@@ -278,7 +316,11 @@ void require_solvers(const FarmOptions& options, int ranks) {
         throw Error(fmt::format("{} needs programs that are not on PATH: {}; on Debian: apt install{}",
                                 options.work, missing, packages));
     }
-    if (!options.cluster.empty()) require_slurm();
+    if (!options.cluster.empty()) {
+        require_slurm();
+    } else if (!container.empty()) {
+        require_container(options.work, container);
+    }
 }
 
 std::vector<LeftOutCase> solve_cases(const fs::path& folder, const BakePlan& plan, const FarmOptions& options,

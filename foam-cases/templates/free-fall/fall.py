@@ -24,6 +24,7 @@ from case_files import (Failure, Fault, breakdown, could_not_read_state, cpu_sec
                         parameter, read, read_record, say, time_folders, write_entries, write_json)
 
 SOLVER = "pimpleFoam"
+CONTAINER = os.environ.get("SAMARA_OPENFOAM", "").split()  # the words before it, where it is in one
 LOG = "log." + SOLVER
 
 # Each: the factors on the step and on the relaxation of the acceleration, and the outer correctors. The relaxation is
@@ -175,7 +176,7 @@ class Fall:
     def run_solver(self):
         """Runs the solver to the end of the fall; its log goes on where that of an earlier run ended."""
         with open(LOG, "a") as log:
-            solver = subprocess.Popen([SOLVER], stdout=log, stderr=subprocess.STDOUT)
+            solver = subprocess.Popen([*CONTAINER, SOLVER], stdout=log, stderr=subprocess.STDOUT)
             try:
                 self.watch(solver)
             finally:

@@ -95,6 +95,15 @@ TEST_F(Validate, NamesTheProgramsThatAreMissing) {
     EXPECT_THAT(text, HasSubstr("apt install openfoam snakemake"));
 }
 
+TEST_F(Validate, NamesTheContainerThatRunsNoOpenFoam) {
+    write_scene("", "", "density = 1200\nturbulence = \"none\"");
+    EXPECT_THAT(fault({}, "SAMARA_OPENFOAM=false"),
+                HasSubstr("needs OpenFOAM, but 'false simpleFoam -help' fails with exit status 1; set "
+                          "SAMARA_OPENFOAM to the words that run a program in its container"));
+    EXPECT_THAT(fault({}, "SAMARA_OPENFOAM=/nowhere/apptainer"),
+                HasSubstr("'/nowhere/apptainer simpleFoam -help' fails with exit status 127"));
+}
+
 TEST_F(Validate, RefusesNumbersOutOfRangeAndFilesThatAreNone) {
     write_scene("", "", "density = 1200\nturbulence = \"none\"");
     EXPECT_THAT(fault({"--cells", "10"}), HasSubstr("--cells"));

@@ -145,6 +145,34 @@ TEST_F(CaseByHand, OfAFlowGivesTheSameWhenItIsCleanedAndRunAgain) {
     EXPECT_EQ(solution_in(flow), solution);
 }
 
+// A container stood in for by a script that notes what it runs and clears the way to OpenFOAM here.
+TEST_F(CaseByHand, RunsEveryProgramOfOpenFoamByTheWordsOfItsContainer) {
+    const fs::path flow = flow_case("flow");
+    const fs::path container = folder_.path() / "container";
+    std::ofstream(container) << "#!/bin/sh\necho \"$1\" >> '" << (folder_ / "ran").string()
+                             << "'\nexport WM_PROJECT_DIR=/usr/share/openfoam\nexec \"$@\"\n";
+    fs::permissions(container, fs::perms::owner_all);
+    std::map<std::string, std::string> parameters = {{"ranks", "2"}, {"ranksAlong", "(2 1 1)"}};
+    set_parameters(flow, parameters);
+    const std::vector<std::string> words = {"env", "SAMARA_OPENFOAM=" + container.string(), "./Allrun"};
+    ASSERT_EQ(run_subprocess(words, folder_ / "said", flow), 0) << said();
+    const std::string ran = read_bytes(folder_ / "ran");
+    for (const char* program : {"surfaceFeatureExtract", "blockMesh", "snappyHexMesh", "topoSet", "checkMesh",
+                                "decomposePar", "simpleFoam", "reconstructPar"}) {
+        EXPECT_THAT(ran, HasSubstr(std::string(program) + "\n"));
+    }
+    std::ofstream(flow / "provenance.json") << "{}";
+    const fs::path second = flow_case("second");
+    fs::create_directory_symlink("../../flow/constant/polyMesh", second / "constant/polyMesh");
+    set_parameters(second, {{"startFrom", "flow"}});
+    ASSERT_EQ(run_subprocess(words, folder_ / "said", second), 0) << said();
+    EXPECT_THAT(read_bytes(folder_ / "ran"), HasSubstr("mapFields\n"));
+    fs::rename(flow, place_ / "mesh_coarse");
+    const fs::path fall = fall_case("fall", Closure::k_epsilon);
+    ASSERT_EQ(run_subprocess(words, folder_ / "said", fall), 0) << said();
+    EXPECT_THAT(read_bytes(folder_ / "ran"), HasSubstr("pimpleFoam\n"));
+}
+
 // Its start is another case's solution, and two processes share it.
 TEST_F(CaseByHand, OnTheMeshOfAnotherKeepsThatMeshWhenItIsCleaned) {
     const fs::path first = flow_case("first");
