@@ -15,6 +15,7 @@
 #include "internal/command/print.hpp"
 #include "internal/command/progress.hpp"
 #include "internal/export/fast_turn.hpp"
+#include "internal/export/loop.hpp"
 #include "internal/motion/file_check.hpp"
 #include "internal/motion/resample.hpp"
 #include "samara/base/error.hpp"
@@ -58,6 +59,7 @@ struct ExportOptions {
     std::optional<int> run;
     std::optional<double> frame_rate;
     std::optional<double> tolerance;
+    std::optional<double> loop;
 };
 
 std::size_t copies_in(const Motion& motion) {
@@ -112,7 +114,7 @@ void note_fast_turns(const Motion& motion, int run) {
         fastest.body, fastest.turns, std::ceil(4.0 * fastest.turns * motion.frame_rate));
 }
 
-nlohmann::json export_motion(const ExportOptions& options) {
+nlohmann::json export_motion(ExportOptions options) {
     const std::string format = std::filesystem::path(options.output).extension().string();
     constexpr std::array<std::string_view, 5> formats = {".glb", ".usda", ".chan", ".html", ".csv"};
     if (std::find(formats.begin(), formats.end(), format) == formats.end()) {
@@ -128,6 +130,10 @@ nlohmann::json export_motion(const ExportOptions& options) {
     Motion motion = read_motion_file(options.input);
     require_run(options.input, motion, options.run.value_or(0));
     if (options.frame_rate) motion = resampled(motion, *options.frame_rate);
+    if (options.loop) {
+        motion = looped(motion, options.run.value_or(0), *options.loop);
+        options.run.reset();
+    }
     if (format != ".csv") note_fast_turns(motion, options.run.value_or(0));
     nlohmann::json result = {{"output", options.output},
                              {"format", format.substr(1)},
@@ -175,6 +181,8 @@ int export_command(int argc, const char* const* argv) {
                      1'000'000'000);
     arguments.option("--frame-rate", options.frame_rate,
                      "frames per second to write (default: the motion file's)", 1e-3, 1e6);
+    arguments.option("--loop", options.loop,
+                     "seconds of a loop: pieces of that length play side by side, as copies", 1e-6, 1e6);
     arguments.option("--tolerance", options.tolerance,
                      "metres that keys of .glb and .usda may be off (default: 1/500 of the radius)", 0.0,
                      1e6);
