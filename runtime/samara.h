@@ -29,7 +29,7 @@ extern "C" {
 #endif
 
 /* The version of this header: it grows with every addition, and what was there stays as it was. */
-#define SAMARA_API_VERSION 6
+#define SAMARA_API_VERSION 7
 
 /* The SAMARA_API_VERSION of the library that is linked: at least that of the header, or functions may lack.
  */
@@ -187,6 +187,11 @@ typedef struct samara_kind {
 
     /* since SAMARA_API_VERSION 4 */
     int32_t patches; /* of the surface, each of which meets the flow with its own velocity; default: 1 */
+
+    /* since SAMARA_API_VERSION 7 */
+    double spread_start;  /* s: several start up to this after `start`, drawn from the seed */
+    double smallest_size; /* over the shape's lengths, at its density: the sizes of several lie between ... */
+    double largest_size;  /* ... these two, drawn from the seed, and one has this size; default: 1 and 1 */
 } samara_kind;
 
 SAMARA_API samara_status samara_default_kind(samara_kind* kind, size_t size, char* error, size_t error_size);
@@ -246,7 +251,8 @@ SAMARA_API samara_status samara_set_poses(samara_simulation* simulation, size_t 
 SAMARA_API samara_status samara_set_seed(samara_simulation* simulation, uint64_t seed, uint32_t run,
                                          char* error, size_t error_size);
 
-/* The whole state as bytes: time, seed, report, all bodies, and the keys of obstacles, with which it grows. A
+/* The whole state as bytes: time, seed, report, all bodies, and the keys of obstacles, with which it grows;
+ * not forces that no call has flown yet, nor contacts that were noted. A
  * simulation that is set to it goes on as this one does, to the last bit. It fits simulations with the same
  * settings, ground, wind, obstacles and kinds (threads, seed, run, the obstacles' keys and where the kinds
  * start may differ) of the same samara on machines with the same byte order. */
@@ -322,6 +328,93 @@ SAMARA_API samara_status samara_set_wind(samara_simulation* simulation, const ch
  * is below it is lifted onto it in the next step. */
 SAMARA_API samara_status samara_set_ground(samara_simulation* simulation, int32_t has_ground, double height,
                                            char* error, size_t error_size);
+
+/* ---- For game engines and robotics, since SAMARA_API_VERSION 7 --------------------------------------------
+ */
+
+/* Copies the sizes of the bodies first ... first + count - 1, over the lengths of the shape. */
+SAMARA_API samara_status samara_get_sizes(const samara_simulation* simulation, size_t first, size_t count,
+                                          double* sizes, char* error, size_t error_size);
+
+/* The body alone, without fluid, at its size: 13 doubles without gaps. */
+typedef struct samara_mass_properties {
+    double mass;              /* kg */
+    double center_of_mass[3]; /* m, shape axes from the shape's origin */
+    double inertia[9];        /* kg m^2 about the centre of mass, shape axes */
+} samara_mass_properties;
+
+SAMARA_API samara_status samara_get_mass_properties(const samara_simulation* simulation, size_t body,
+                                                    samara_mass_properties* properties, char* error,
+                                                    size_t error_size);
+
+/* Pushes a body with a force (N, world axes) at a point (m, world; null: the centre of mass), or with a moment
+ * (N m), beside fluid, gravity and what it touches, in all steps of the next call of samara_advance_to
+ * that goes on in time; then it is gone. Several add up. What is given again for each call is felt evenly,
+ * at any frame rate; of one call alone the momentum is that of its steps, so give a blow as an impulse.
+ * Before its start a body feels none. */
+SAMARA_API samara_status samara_add_force(samara_simulation* simulation, size_t body, const double force[3],
+                                          const double* point, char* error, size_t error_size);
+SAMARA_API samara_status samara_add_moment(samara_simulation* simulation, size_t body, const double moment[3],
+                                           char* error, size_t error_size);
+
+/* Gives a body an impulse (N s, world axes) at a point (m, world; null: the centre of mass), or an angular
+ * impulse (N m s), at the simulation's time. Body and fluid take it together: the velocity changes by less
+ * than impulse over mass, and not along it, as the added inertia has it. */
+SAMARA_API samara_status samara_add_impulse(samara_simulation* simulation, size_t body,
+                                            const double impulse[3], const double* point, char* error,
+                                            size_t error_size);
+SAMARA_API samara_status samara_add_angular_impulse(samara_simulation* simulation, size_t body,
+                                                    const double angular_impulse[3], char* error,
+                                                    size_t error_size);
+
+/* Takes bodies out where they are: they cost no steps, touch nothing, and keep their numbers and poses.
+ * samara_set_poses puts one back, as a pool of objects does. */
+SAMARA_API samara_status samara_remove(samara_simulation* simulation, size_t first, size_t count, char* error,
+                                       size_t error_size);
+SAMARA_API int samara_is_removed(const samara_simulation* simulation, size_t body); /* 0 for none such */
+
+/* What a body met of ground and obstacles while it was watched, over all steps and points: 96 bytes without
+ * gaps. A body at rest takes no steps, and meets nothing more. */
+typedef struct samara_contact {
+    double impulse[3]; /* N s, world axes: the sum of all that the body was given */
+    double strongest;  /* N s: of one point in one step; 0: nothing was met, and the next four are 0 */
+    double point[3];   /* m, world: where that was */
+    double normal[3];  /* world axes: out of what was met there */
+    double time;       /* s: when the step ended */
+    int32_t obstacle;  /* number of what was met there; -1: level ground */
+    int32_t at_rest;   /* whether the body lies still now */
+} samara_contact;
+
+/* Notes contacts from now on, or no longer with `watch` 0. Costs next to nothing; does not change the motion. */
+SAMARA_API samara_status samara_watch_contacts(samara_simulation* simulation, int32_t watch, char* error,
+                                               size_t error_size);
+
+/* What the bodies first ... first + count - 1 met since they were last asked. `stride` as in
+ * samara_get_poses. */
+SAMARA_API samara_status samara_take_contacts(samara_simulation* simulation, size_t first, size_t count,
+                                              samara_contact* contacts, size_t stride, char* error,
+                                              size_t error_size);
+
+/* What the fluid does to a body in its next step: for a host that integrates the body itself, alone or as part
+ * of a mechanism. World axes, at the centre of mass; angular (three), then linear: 78 doubles without gaps,
+ * matrices row by row. With M the body's own inertia, g its own wrench (weight, gyroscopic moment, joints,
+ * contacts), h the step and a its acceleration (of the world, as derivative of the velocity),
+ *
+ *     (M + added_inertia + h damping) a = g + wrench
+ *
+ * is stable however stiff the drag is. A host that cannot add to M, and pushes with
+ * wrench - added_inertia a of the acceleration before, diverges where the added inertia exceeds M. */
+typedef struct samara_fluid_load {
+    double wrench[6];         /* N m, N: buoyancy, loads, turbulence, wind, and the fluid's own momentum */
+    double added_inertia[36]; /* kg m^2, kg m, kg; symmetric */
+    double damping[36];       /* N m s, N s, N s/m */
+} samara_fluid_load;
+
+/* Each step: samara_set_poses with what the host came to, samara_get_fluid_load, samara_advance_to by one
+ * `step`, by which turbulence and wind go on. At a time within a step of the body, or for a body of another
+ * size than its shape's: SAMARA_INVALID_ARGUMENT. */
+SAMARA_API samara_status samara_get_fluid_load(const samara_simulation* simulation, size_t body,
+                                               samara_fluid_load* load, char* error, size_t error_size);
 
 /* What the simulation did so far. Set `size` to sizeof(samara_report) before the call. */
 typedef struct samara_report {

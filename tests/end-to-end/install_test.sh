@@ -23,7 +23,7 @@ cmake -S "$source_folder/tests/end-to-end/consumer" -B "$work/consumer" -G Ninja
   -DEXAMPLES="$source_folder/docs/examples"
 cmake --build "$work/consumer"
 "$work/consumer/fall-cpp" "$source_folder/runtime/bodies/leaf.body.h5" | grep -q '3000 steps'
-if [ "$(find "$work/installed/include" -name '*.hpp' | wc -l)" -gt 40 ] || [ -e "$work/installed/include/internal" ]; then
+if [ "$(find "$work/installed/include" -name '*.hpp' | wc -l)" -gt 45 ] || [ -e "$work/installed/include/internal" ]; then
   echo "more headers are installed than are public" >&2
   exit 1
 fi
@@ -32,4 +32,11 @@ if "$work/consumer/fall" "$work/missing.body.h5" 2> "$work/fault"; then
   exit 1
 fi
 grep -q '^fall: .*missing.body.h5' "$work/fault"
+# Programs in C, by pkg-config.
+library=$(dirname "$(find "$work/installed" -name samara.pc)")
+PKG_CONFIG_PATH=$library pkg-config --modversion samara | grep -q '^[0-9]'
+# shellcheck disable=SC2046
+cc -std=c99 "$source_folder/docs/examples/fall.c" $(PKG_CONFIG_PATH=$library pkg-config --cflags --libs samara) \
+  -Wl,-rpath,"$(dirname "$library")" -o "$work/fall"
+"$work/fall" "$source_folder/runtime/bodies/leaf.body.h5" | grep -q '^1.0000 s  body 2'
 rm -rf "$work"

@@ -11,7 +11,7 @@ from ctypes import POINTER, byref, c_char_p, c_double, c_int, c_int32, c_size_t,
 import numpy
 
 LIBRARY = os.path.join(os.path.dirname(os.path.abspath(__file__)), "libsamara.so")
-API_VERSION = 6
+API_VERSION = 7
 
 LOADS_NONE, LOADS_COEFFICIENTS, LOADS_TABLE = 0, 1, 2
 TURBULENCE_NONE, TURBULENCE_AS_LOADS = 0, 3
@@ -79,6 +79,9 @@ class Kind(ctypes.Structure):
         ("added_mass", c_int32),
         ("dynamic_coefficients", c_int32),
         ("patches", c_int32),
+        ("spread_start", c_double),
+        ("smallest_size", c_double),
+        ("largest_size", c_double),
     ]
 
 

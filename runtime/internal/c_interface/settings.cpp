@@ -24,6 +24,7 @@ constexpr std::size_t first_kind_size = offsetof(samara_kind, langevin) + sizeof
 static_assert(offsetof(samara_settings, wind) % alignof(samara_settings) == 0);
 static_assert(offsetof(samara_kind, table_reynolds_number) % alignof(samara_kind) == 0);
 static_assert(offsetof(samara_kind, patches) % alignof(samara_kind) == 0);
+static_assert(offsetof(samara_kind, spread_start) % alignof(samara_kind) == 0);
 
 MassSpecification read_mass(const samara_kind& kind) {
     MassSpecification mass;
@@ -107,6 +108,16 @@ void read_start(const samara_kind& kind, GivenKind& body) {
     body.spread_position = vector(kind.spread_position, "spread_position");
     body.spread_angle = non_negative(kind.spread_angle, "spread_angle");
     if (body.spread_angle > std::numbers::pi) refuse("spread_angle", "must lie between 0 and pi");
+    body.spread_start = non_negative(kind.spread_start, "spread_start");
+    body.smallest_size = positive(kind.smallest_size, "smallest_size");
+    body.largest_size = positive(kind.largest_size, "largest_size");
+    if (body.largest_size < body.smallest_size) {
+        refuse("largest_size", fmt::format("is {:g}, below smallest_size, {:g}", body.largest_size,
+                                           body.smallest_size));
+    }
+    if (body.count == 1 && body.largest_size != body.smallest_size) {
+        refuse("largest_size", "differs from smallest_size, but count is 1: give both the size of that body");
+    }
 }
 
 }  // namespace
@@ -161,6 +172,8 @@ samara_kind default_kind() {
     kind.langevin = SAMARA_LANGEVIN_SEEN_FLUID;
     kind.added_mass = 1;
     kind.patches = 1;
+    kind.smallest_size = 1.0;
+    kind.largest_size = 1.0;
     kind.dynamic_coefficients = SAMARA_DYNAMIC_OF_BODY;
     return kind;
 }

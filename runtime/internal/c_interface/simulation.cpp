@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "internal/c_interface/bodies.hpp"
 #include "internal/c_interface/guard.hpp"
 #include "internal/c_interface/members.hpp"
 #include "internal/c_interface/objects.hpp"
@@ -22,23 +23,11 @@ using samara::Quaterniond;
 using samara::require;
 using samara::Vector3d;
 
-/// Checks that bodies and stride are there, and returns the stride in bytes.
+/// The stride in bytes of poses of those bodies.
 std::size_t checked_stride(const samara_simulation* simulation, std::size_t first, std::size_t count,
                            const samara_pose* poses, std::size_t stride) {
-    require(simulation, "simulation");
-    const std::size_t bodies = simulation->flight.size();
-    if (first > bodies || count > bodies - first) {
-        throw Fault(SAMARA_INVALID_ARGUMENT, fmt::format("bodies {} to {} are asked for, but there are {}",
-                                                         first, first + count, bodies));
-    }
-    if (count > 0) require(poses, "poses");
-    if (stride == 0) return sizeof(samara_pose);
-    if (stride < sizeof(samara_pose) || stride % alignof(samara_pose) != 0) {
-        throw Fault(SAMARA_INVALID_ARGUMENT,
-                    fmt::format("stride is {}; it must be 0, or at least {} and a multiple of {} bytes",
-                                stride, sizeof(samara_pose), alignof(samara_pose)));
-    }
-    return stride;
+    return samara::checked_stride(simulation, first, count, poses, "poses", stride, sizeof(samara_pose),
+                                  alignof(samara_pose));
 }
 
 void copy(const Vector3d& from, double (&to)[3]) {

@@ -25,16 +25,18 @@ struct BatchGround {
     const ImmersedBody& body;
     double largest;  ///< size
     const Surroundings& surroundings;
+    ContactRecord* met;  ///< of each body; null: not noted
 
     static void resolve(const void* context, std::size_t index, double time, double substep,
                         const BodyState& before, BodyState& state) noexcept {
         const auto& ground = *static_cast<const BatchGround*>(context);
         const Ground met = ground_in_flow(ground.surroundings, time - substep, time);
         const double size = ground.batch.size_of(index);
-        if (size == 1.0) return touch_ground(ground.batch.touching(index), met, substep, before, state);
+        ContactRecord* record = ground.met == nullptr ? nullptr : ground.met + index;
+        if (size == 1.0) return touch_ground(ground.batch.touching(index), met, substep, before, state, record);
         const BodyState world_before = in_world_units(before, size);
         BodyState world = in_world_units(state, size);
-        touch_ground(ground.batch.touching(index), met, substep, world_before, world);
+        touch_ground(ground.batch.touching(index), met, substep, world_before, world, record);
         state = in_own_units(world, size);
         // What lies still keeps its place to the last bit.
         if (world.position == world_before.position) state.position = before.position;
@@ -79,15 +81,28 @@ struct BatchGround {
     }
 };
 
+Wrench wrench_of(const kernel::ExternalLoads& external, std::size_t lane) noexcept {
+    Wrench wrench;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        wrench.force[static_cast<Eigen::Index>(axis)] = external.force[axis][lane];
+        wrench.moment[static_cast<Eigen::Index>(axis)] = external.moment[axis][lane];
+    }
+    return wrench;
+}
+
 /// One body alone: to the same bits as in a vector of them, and sooner.
 BatchReport advance_alone(const ImmersedBody& body, const Surroundings& surroundings,
-                          const kernel::BlockSteps& task, FlightBlock<double>& block) noexcept {
+                          const kernel::BlockSteps& task, ContactRecord* met,
+                          FlightBlock<double>& block) noexcept {
     const Noise noise(std::array{block.noise[0][0], block.noise[1][0], block.noise[2][0], block.noise[3][0]});
     BatchReport report;
     BodyState state = state_of(block, 0);
+    Wrench external;
+    if (task.external != nullptr) external = wrench_of(*task.external, 0);
     for (std::uint64_t step = std::max(task.first_step, block.first_step[0]);
          step < task.first_step + task.steps; ++step) {
-        const StepResult result = advance(body, surroundings, task.start, task.time_step, state, noise, step);
+        const StepResult result = advance(body, surroundings, task.start, task.time_step, state, noise, step,
+                                          task.external == nullptr ? nullptr : &external, met);
         state = result.state;
         report.count(result.substeps);
         report.wind_is_sound = report.wind_is_sound && result.wind_is_sound;
@@ -124,6 +139,19 @@ void BasicBatch<Real>::set_sizes(std::vector<double> sizes, bool touch) {
         blocks_[i / FlightBlock<Real>::size].size_of[i % FlightBlock<Real>::size] =
             static_cast<Real>(sizes_[i]);
         if (touch) touching_.push_back(touching_body(*body_, sizes_[i]));
+    }
+}
+
+template <class Real>
+void BasicBatch<Real>::set_external(const std::vector<Wrench>& external) {
+    external_.assign(external.empty() ? 0 : blocks_.size(), {});
+    for (std::size_t i = 0; i < external.size(); ++i) {
+        kernel::ExternalLoads& loads = external_[i / kernel::ExternalLoads::size];
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const std::size_t lane = i % kernel::ExternalLoads::size;
+            loads.force[axis][lane] = external[i].force[static_cast<Eigen::Index>(axis)];
+            loads.moment[axis][lane] = external[i].moment[static_cast<Eigen::Index>(axis)];
+        }
     }
 }
 
@@ -173,7 +201,8 @@ BatchReport BasicBatch<Real>::advance(const Surroundings& surroundings, double s
     }
     const bool sized = !sizes_.empty();
     const double largest = sized ? *std::max_element(sizes_.begin(), sizes_.end()) : 1.0;
-    const BatchGround<Real> ground{*this, *body_, largest, surroundings};
+    ContactRecord* met = met_.empty() ? nullptr : met_.data();
+    const BatchGround<Real> ground{*this, *body_, largest, surroundings, met};
     const WindMeeting wind(*body_, surroundings, start, time_step);
     const kernel::BlockSteps task{.gravities = gravities.data(),
                                   .start = start,
@@ -182,9 +211,10 @@ BatchReport BasicBatch<Real>::advance(const Surroundings& surroundings, double s
                                   .steps = steps,
                                   .sized = sized,
                                   .contact = ground.contact(start, time_step, first_step, steps),
-                                  .wind = wind.source()};
+                                  .wind = wind.source(),
+                                  .external = external_.empty() ? nullptr : external_.data()};
     if constexpr (std::is_same_v<Real, double>) {
-        if (size_ == 1 && !sized) return advance_alone(*body_, surroundings, task, blocks_.front());
+        if (size_ == 1 && !sized) return advance_alone(*body_, surroundings, task, met, blocks_.front());
     }
     BatchReport report;
     std::mutex mutex;

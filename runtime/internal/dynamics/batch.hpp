@@ -2,13 +2,17 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "internal/dynamics/immersed_body.hpp"
 #include "internal/dynamics/step.hpp"
 #include "internal/dynamics/surroundings.hpp"
 #include "internal/kernel/flight_block.hpp"
+#include "internal/kernel/kernel.hpp"
 #include "internal/kernel/noise.hpp"
+#include "samara/physics/contact_record.hpp"
+#include "samara/physics/wrench.hpp"
 
 namespace samara {
 
@@ -46,6 +50,15 @@ class BasicBatch {
     /// The source of the body's random numbers; without it, that of seed 0, no name, run 0 and copy 0.
     void set_noise(std::size_t index, const Noise& noise) noexcept;
 
+    /// Pushes body number i over all steps from now on by `external[i]`; none are pushed where it is empty.
+    void set_external(const std::vector<Wrench>& external);
+    /// Whether what bodies meet of ground and obstacles is noted from now on.
+    void watch_contacts(bool watch) { met_.assign(watch ? size_ : 0, {}); }
+    /// Whether it is.
+    [[nodiscard]] bool watches_contacts() const noexcept { return !met_.empty(); }
+    /// What a body met since it was last asked. Needs watches_contacts().
+    ContactRecord take_contacts(std::size_t index) noexcept { return std::exchange(met_[index], {}); }
+
     /// `steps` steps of `time_step` (s) each; the first is the bodies' step number `first_step`; their
     /// flight began at `start` (s, of the world). `threads`: 0 for all cores.
     BatchReport advance(const Surroundings& surroundings, double start, double time_step,
@@ -58,6 +71,8 @@ class BasicBatch {
     std::vector<FlightBlock<Real>> blocks_;
     std::vector<double> sizes_;           ///< none where all are the shape's
     std::vector<ImmersedBody> touching_;  ///< of each size, where there is something to touch
+    std::vector<kernel::ExternalLoads> external_;  ///< of each block; none where nothing is pushed
+    std::vector<ContactRecord> met_;               ///< of each body; none where it is not noted
 };
 
 extern template class BasicBatch<float>;

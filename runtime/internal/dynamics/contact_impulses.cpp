@@ -61,6 +61,8 @@ struct Impulses {
 };
 
 struct Contact {
+    const NearPoint* near;
+    Matrix3d axes;  ///< along whose rows `push` acts
     double friction;
     double rising;  ///< m/s: of the surface, along the normal
     Impulses push;  ///< friction along x and y, the normal impulse along z
@@ -113,7 +115,7 @@ class Candidates {
         double worst = -tolerance;
         for (std::size_t i = 0; i < count_; ++i) {
             const NearPoint& near = *candidates_[i].near;
-            const Sinking sinking_there = near.on_ground ? over_ground : Sinking(near.normal, velocity);
+            const Sinking sinking_there = near.on_ground() ? over_ground : Sinking(near.normal, velocity);
             const double speed = sinking_there.speed_of(near.point) + candidates_[i].allowed_speed;
             if (speed >= worst) continue;
             worst = speed;
@@ -142,7 +144,7 @@ class Candidates {
 
 /// Two tangents and the normal, as rows in body axes.
 Matrix3d axes_of(const NearPoint& near, const Matrix3d& to_world) noexcept {
-    if (near.on_ground) return to_world;
+    if (near.on_ground()) return to_world;
     Matrix3d axes;
     axes.row(0) = near.normal.unitOrthogonal().transpose();
     axes.row(1) = near.normal.cross(axes.row(0).transpose()).transpose();
@@ -184,6 +186,21 @@ class ImpulseSolver {
 
     [[nodiscard]] const Vector6d& velocity() const { return velocity_; }
 
+    /// What the impulses are, times `share`.
+    [[nodiscard]] ContactRecord record(double share) const noexcept {
+        ContactRecord all;
+        for (std::size_t i = 0; i < count_; ++i) {
+            const Contact& contact = contacts_[i];
+            const Vector3d impulse = share * (contact.axes.transpose() * contact.push.size);
+            all.add({.impulse = impulse,
+                     .strongest = impulse.norm(),
+                     .point = contact.near->point,
+                     .normal = contact.near->normal,
+                     .obstacle = contact.near->obstacle});
+        }
+        return all;
+    }
+
     /// The work (J) of the surfaces that move.
     [[nodiscard]] double work() const noexcept {
         double sum = 0.0;
@@ -200,10 +217,12 @@ class ImpulseSolver {
     void add(const Candidate& candidate) noexcept {
         const NearPoint& near = *candidate.near;
         const Matrix3d axes = axes_of(near, to_world_);
-        const bool moves = surfaces_move_ && !near.on_ground;
+        const bool moves = surfaces_move_ && !near.on_ground();
         Vector3d rates = moves ? Vector3d(axes * near.surface_velocity) : Vector3d::Zero();
         const Vector3d turning = moves ? Vector3d(axes * near.surface_turning) : Vector3d::Zero();
         Contact& contact = contacts_[count_++];
+        contact.near = &near;
+        contact.axes = axes;
         contact.friction = near.friction;
         contact.rising = rates.z();
         rates.z() = -candidate.allowed_speed;
@@ -325,24 +344,27 @@ class ImpulseSolver {
     double largest_ = 0.0;
 };
 
-/// The change that was found, or as much of it as adds no energy beyond the `work` (J) of surfaces that move:
+/// The share of the change that was found which adds no energy beyond the `work` (J) of surfaces that move:
 /// friction that was bounded by a normal impulse which later fell may add a little.
-Vector6d passive(const ImmersedBody& body, const Vector6d& velocity, const Vector6d& change, double work) {
+double passive_share(const ImmersedBody& body, const Vector6d& velocity, const Vector6d& change, double work) {
     const Vector6d momentum = body.inertia * change;
     const double gain = velocity.dot(momentum) - work;
     const double square = change.dot(momentum);
-    if (gain + 0.5 * square <= 0.0) return change;
-    return std::max(0.0, -gain / square) * change;
+    if (gain + 0.5 * square <= 0.0) return 1.0;
+    return std::max(0.0, -gain / square);
 }
 
 }  // namespace
 
 Vector6d after_impulses(const ImmersedBody& body, const ContactSet& near, const Approach& approach,
-                        const Vector6d& velocity) noexcept {
+                        const Vector6d& velocity, ContactRecord* met) noexcept {
     Candidates candidates(near, approach);
     ImpulseSolver solver(body, near.to_world(), !approach.drift, velocity);
     solver.solve(candidates);
-    return velocity + passive(body, velocity, solver.velocity() - velocity, solver.work());
+    const Vector6d change = solver.velocity() - velocity;
+    const double share = passive_share(body, velocity, change, solver.work());
+    if (met != nullptr) *met = solver.record(share);
+    return velocity + (share == 1.0 ? change : Vector6d(share * change));
 }
 
 }  // namespace samara

@@ -5,6 +5,7 @@
 
 #include "internal/dynamics/contact_set.hpp"
 #include "internal/dynamics/immersed_body.hpp"
+#include "samara/physics/contact_record.hpp"
 
 namespace samara {
 
@@ -21,13 +22,14 @@ struct Approach {
 /// What inelastic impulses with Coulomb friction and rolling resistance make of a velocity (omega, v; body
 /// axes, relative to the ground). They act where a near point would else go through what it may meet, found
 /// one after the other, on `most_contacts` points at most, and never add energy but the work of obstacles
-/// that move: else w K w / 2 does not grow. Never throws or allocates.
+/// that move: else w K w / 2 does not grow. `met` (null: not asked for) becomes what they are, in body axes
+/// and from the centre of mass, without a time. Never throws or allocates.
 ///
 /// Projected Gauss-Seidel on the impulses: Erleben, Velocity-based shock propagation for multibody dynamics
 /// animation, ACM Transactions on Graphics 26(2), 2007, section 3; the inertia here is K, the fluid's
 /// included.
 Vector6d after_impulses(const ImmersedBody& body, const ContactSet& near, const Approach& approach,
-                        const Vector6d& velocity) noexcept;
+                        const Vector6d& velocity, ContactRecord* met = nullptr) noexcept;
 
 /// How far the load of a contact point stands off it, over the bounding radius: what stops a ball that rolls
 /// and a body that rocks or spins. Chosen, not measured: 0.1 mm for a body of 2 cm (docs/theory.md#ground).

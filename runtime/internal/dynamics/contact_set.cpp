@@ -13,7 +13,7 @@ void ContactSet::add_ground(const ContactPoints& points, double height, double m
              .normal = up,
              .gap = gap,
              .friction = ground_friction,
-             .on_ground = true,
+             .obstacle = -1,
              .surface_velocity = Vector3d::Zero(),
              .surface_turning = Vector3d::Zero()});
     };

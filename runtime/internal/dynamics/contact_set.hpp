@@ -18,9 +18,11 @@ struct NearPoint {
     Vector3d normal;  ///< body axes: out of what it may meet
     double gap;       ///< m, along the normal
     double friction;
-    bool on_ground;             ///< else on an obstacle
+    int obstacle;               ///< the number of the one that it may meet; -1: level ground
     Vector3d surface_velocity;  ///< m/s, body axes: of what it may meet, relative to the ground
     Vector3d surface_turning;   ///< rad/s, body axes: the same
+
+    [[nodiscard]] bool on_ground() const noexcept { return obstacle < 0; }
 };
 
 /// All that a body may touch in a step, as planes at points of its hull: the ground's below each point, and

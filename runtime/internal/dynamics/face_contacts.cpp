@@ -60,7 +60,8 @@ bool stands_free(const ObstacleTriangle& triangle, const std::array<bool, 3>& hi
 }  // namespace
 
 FaceContacts::FaceContacts(const PlacedHull& hull, const Vector6d& velocity, const SurfaceMotion& surface,
-                           double time_step, double margin, double friction, ContactSet& near) noexcept
+                           double time_step, double margin, double friction, int obstacle,
+                           ContactSet& near) noexcept
     : hull_(hull),
       next_(hull),
       velocity_(velocity),
@@ -68,6 +69,7 @@ FaceContacts::FaceContacts(const PlacedHull& hull, const Vector6d& velocity, con
       time_step_(time_step),
       margin_(margin),
       friction_(friction),
+      obstacle_(obstacle),
       near_(near) {
     const Vector3d turn = time_step * (hull.orientation * velocity.head<3>() - surface.turning);
     const Vector3d way = time_step * (hull.orientation * velocity.tail<3>() - surface.at(hull.position));
@@ -90,7 +92,7 @@ void FaceContacts::add_point(const Vector3d& of_body, const Vector3d& normal, do
                .normal = hull_.orientation.transpose() * normal,
                .gap = gap,
                .friction = friction_,
-               .on_ground = false,
+               .obstacle = obstacle_,
                .surface_velocity = hull_.orientation.transpose() * surface_.at(place),
                .surface_turning = hull_.orientation.transpose() * surface_.turning});
 }

@@ -17,9 +17,10 @@ struct SurfaceMotion {
 /// the obstacle's axes. Never allocates.
 class FaceContacts {
   public:
-    /// `velocity`: of the body, (omega, v) in its axes; `margin`: m; what is found is added to `near`.
+    /// `velocity`: of the body, (omega, v) in its axes; `margin`: m; `obstacle`: its number; what is found is
+    /// added to `near`.
     FaceContacts(const PlacedHull& hull, const Vector6d& velocity, const SurfaceMotion& surface,
-                 double time_step, double margin, double friction, ContactSet& near) noexcept;
+                 double time_step, double margin, double friction, int obstacle, ContactSet& near) noexcept;
 
     /// Adds where the body may meet a face: its corners, and its lowest round point, that come to lie over
     /// the face; the ends of what its lowest side covers of the face's sides; the nearest points where an
@@ -38,6 +39,7 @@ class FaceContacts {
     Vector6d velocity_;
     SurfaceMotion surface_;
     double time_step_, margin_, friction_;
+    int obstacle_;
     ContactSet& near_;
 };
 

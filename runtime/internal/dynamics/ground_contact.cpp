@@ -28,7 +28,7 @@ bool rests(const ImmersedBody& body, const ContactSet& stood, double time_step, 
     if (!(energy(velocity) < resting_energy * load * radius)) return false;
     const double near = supporting * radius + hovering * time_step * change.tail<3>().norm();
     const bool is_moved = std::any_of(stood.begin(), stood.end(), [&](const NearPoint& point) {
-        if (point.on_ground && point.gap < -near) return true;  // the ground was raised over it
+        if (point.on_ground() && point.gap < -near) return true;  // the ground was raised over it
         return point.gap <= near &&
                !(point.surface_velocity.isZero(0.0) && point.surface_turning.isZero(0.0));
     });
@@ -61,6 +61,17 @@ void keep_out_of_obstacles(const ImmersedBody& body, const Ground& ground, doubl
     state.orientation = mended.orientation;
 }
 
+/// A record of body axes in the world.
+ContactRecord in_world(const ContactRecord& of_body, const Matrix3d& to_world, const Ground& ground,
+                       const BodyState& state) noexcept {
+    ContactRecord record = of_body;
+    record.impulse = to_world * of_body.impulse;
+    record.point = ground.in_world(state).position + to_world * of_body.point;
+    record.normal = to_world * of_body.normal;
+    record.time = ground.time;
+    return record;
+}
+
 }  // namespace
 
 Ground ground_in_flow(const Surroundings& surroundings, double begin, double end) noexcept {
@@ -81,7 +92,7 @@ bool has_ground(const Surroundings& surroundings) noexcept {
 }
 
 void touch_ground(const ImmersedBody& body, const Ground& ground, double time_step, const BodyState& before,
-                  BodyState& state) noexcept {
+                  BodyState& state, ContactRecord* met) noexcept {
     state.at_rest = false;
     const double radius = body.contact_points.bounding_radius;
     Vector6d velocity = relative_to(ground.velocity, state);
@@ -128,7 +139,9 @@ void touch_ground(const ImmersedBody& body, const Ground& ground, double time_st
                       reached, near);
     }
     const Approach next{.margin = reached, .touching = touching * radius, .time_step = time_step};
-    state.velocity += after_impulses(body, near, next, velocity) - velocity;
+    ContactRecord now;
+    state.velocity += after_impulses(body, near, next, velocity, met == nullptr ? nullptr : &now) - velocity;
+    if (met != nullptr && now.strongest > 0.0) met->add(in_world(now, to_world, ground, state));
 }
 
 void stay_on(const Ground& ground, BodyState& state) noexcept {

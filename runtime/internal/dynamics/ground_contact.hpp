@@ -47,10 +47,10 @@ inline constexpr double resting_energy = 1e-6;
 /// that takes it into them within the next step. They never add energy but by obstacles that move: with w the
 /// velocity relative to the ground, w K w / 2 does not grow. A body whose kinetic energy is below
 /// resting_energy and which impulses of what stands still hold, where it stood before the step, against all
-/// that the step would have done to its velocity, is at rest: it keeps its place to the last bit. Never
-/// throws or allocates.
+/// that the step would have done to its velocity, is at rest: it keeps its place to the last bit. What
+/// impulses do is added to `met` (null: not asked for). Never throws or allocates.
 void touch_ground(const ImmersedBody& body, const Ground& ground, double time_step, const BodyState& before,
-                  BodyState& state) noexcept;
+                  BodyState& state, ContactRecord* met = nullptr) noexcept;
 
 /// Leaves a body at rest on the ground for a step, at the end of which the ground is as given.
 void stay_on(const Ground& ground, BodyState& state) noexcept;

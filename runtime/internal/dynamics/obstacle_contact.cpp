@@ -182,7 +182,9 @@ std::optional<Overlap> first_overlap(const ObstacleSet& obstacles, const Contact
 void add_obstacles(const ObstacleSet& obstacles, const ContactPoints& points, const BodyPlace& body,
                    const Vector6d& velocity, double time, double time_step, double margin,
                    ContactSet& near) noexcept {
+    int number = -1;
     for (const ObstacleFaces& faces : obstacles.obstacles()) {
+        ++number;
         const double reached = margin + 2.0 * time_step * faces.fastest();
         const double radius = points.bounding_radius + reached;
         if (!faces.whereabouts().intersects(box_about(body.position, body.position, radius))) continue;
@@ -196,7 +198,8 @@ void add_obstacles(const ObstacleSet& obstacles, const ContactPoints& points, co
             surface.moving = to_obstacle * (next.position - now.position) / time_step;
         }
         const PlacedHull hull = placed(points, body, now);
-        FaceContacts contacts(hull, velocity, surface, time_step, reached, obstacle.friction, near);
+        FaceContacts contacts(hull, velocity, surface, time_step, reached, obstacle.friction, number,
+                              near);
         faces.visit_near(box_about(hull.position, hull.position, radius),
                          [&](const ObstacleTriangle& triangle) { contacts.add(triangle); });
     }

@@ -18,12 +18,14 @@ BodyState implicit_step(const ImmersedBody& body, const Vector3d& gravity, doubl
                        !seen_fluid.angular_velocity.isZero(0.0);
     kernel::implicit_step(
         body.constants, gravity, time_step,
-        {state.seen_fluid.velocity, seen_fluid.velocity, seen_fluid.angular_velocity, moves}, 0, 1, result);
+        {state.seen_fluid.velocity, seen_fluid.velocity, seen_fluid.angular_velocity, moves}, 0, 1, nullptr,
+        result);
     return result;
 }
 
 StepResult advance(const ImmersedBody& body, const Surroundings& surroundings, double start, double time_step,
-                   const BodyState& state, const Noise& noise, std::uint64_t step) noexcept {
+                   const BodyState& state, const Noise& noise, std::uint64_t step, const Wrench* external,
+                   ContactRecord* met) noexcept {
     StepResult result{state, 0};
     const double time = step_time(start, time_step, step);
     const double end = step_time(start, time_step, step + 1);
@@ -42,10 +44,11 @@ StepResult advance(const ImmersedBody& body, const Surroundings& surroundings, d
     const double substep = time_step / result.substeps;
     BodyState before = state;
     for (int i = 0; i < result.substeps; ++i) {
-        kernel::implicit_step(body.constants, gravity, substep, stream, i, result.substeps, result.state);
+        kernel::implicit_step(body.constants, gravity, substep, stream, i, result.substeps, external,
+                              result.state);
         if (!has_ground(surroundings)) continue;
         const double now = time + (i + 1) * substep;
-        touch_ground(body, ground_in_flow(surroundings, now - substep, now), substep, before, result.state);
+        touch_ground(body, ground_in_flow(surroundings, now - substep, now), substep, before, result.state, met);
         before = result.state;
     }
     return result;

@@ -7,6 +7,8 @@
 #include "internal/kernel/body_state.hpp"
 #include "internal/kernel/noise.hpp"
 #include "samara/base/linear_algebra.hpp"
+#include "samara/physics/contact_record.hpp"
+#include "samara/physics/wrench.hpp"
 
 namespace samara {
 
@@ -29,14 +31,16 @@ BodyState implicit_step(const ImmersedBody& body, const Vector3d& gravity, doubl
 /// One step of the scene: the Langevin update over the time step, then implicit steps over equal parts of it,
 /// so short that the body turns by at most 0.3 rad in each, or as the limit on their number allows. `step` is
 /// the number of the step in the body's flight, which began at `start` (s, of the world). A body at rest on
-/// the ground takes no implicit step where nothing that acts on it changes.
+/// the ground takes no implicit step where nothing that acts on it changes. `external` pushes it over the
+/// whole step (null: nothing does); what it meets is added to `met` (null: it is not asked for).
 struct StepResult {
     BodyState state;
     int substeps = 1;
     bool wind_is_sound = true;  ///< false: a caller's wind gave what is no velocity
 };
 StepResult advance(const ImmersedBody& body, const Surroundings& surroundings, double start, double time_step,
-                   const BodyState& state, const Noise& noise, std::uint64_t step) noexcept;
+                   const BodyState& state, const Noise& noise, std::uint64_t step,
+                   const Wrench* external = nullptr, ContactRecord* met = nullptr) noexcept;
 
 /// u K u / 2 (J): the kinetic energy of body and fluid.
 double kinetic_energy(const ImmersedBody& body, const BodyState& state) noexcept;

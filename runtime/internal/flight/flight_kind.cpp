@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <mutex>
 #include <optional>
 #include <type_traits>
@@ -12,6 +13,7 @@
 #include <fmt/ranges.h>
 
 #include "internal/base/parallel_for.hpp"
+#include "internal/dynamics/fluid_load_of.hpp"
 #include "internal/dynamics/ground_contact.hpp"
 #include "internal/dynamics/loads.hpp"
 #include "internal/dynamics/prepared_bodies.hpp"
@@ -23,6 +25,11 @@ namespace {
 /// The bodies' speeds and whether they are numbers are sampled after every so many steps of the grid,
 /// whatever times are asked for.
 constexpr std::uint64_t steps_between_samples = 32;
+
+/// That of a body; nothing where there are none.
+Wrench wrench_in(const std::vector<Wrench>& wrenches, std::size_t index) {
+    return wrenches.empty() ? Wrench{} : wrenches[index];
+}
 
 /// The pose after steady motion over `duration` (s).
 Pose carried(const Pose& pose, double duration) {
@@ -184,6 +191,8 @@ Noise FlightKind::noise_of(std::uint64_t seed, std::uint32_t first_run, std::siz
 }
 
 void FlightKind::set_seed(std::uint64_t seed, std::uint32_t first_run) {
+    seed_ = seed;
+    first_run_ = first_run;
     for (std::size_t i = 0; i < batch_.size(); ++i) batch_.set_noise(i, noise_of(seed, first_run, i));
 }
 
@@ -194,18 +203,110 @@ std::uint64_t FlightKind::steps_until(double time) const {
     return steps;
 }
 
-void FlightKind::advance_to(double time) {
+void FlightKind::advance_to(double time, double duration) {
     const std::uint64_t needed = steps_until(time);
+    take_up_wrenches(duration, needed > steps_);
     if (needed <= steps_) return;
     step_to(needed - 1);
     parallel_for(batch_.size(), poses_a_piece, threads_, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
+            if (is_removed(i)) continue;
             before_[i] = flow_pose(batch_.state(i));
             before_time_[i] = time_of(steps_);
         }
     });
     step_to(needed);
     require_finite();
+}
+
+void FlightKind::wake(std::size_t index) noexcept {
+    BodyState state = batch_.own_state(index);
+    if (!state.at_rest) return;
+    state.at_rest = false;
+    batch_.keep_own_state(index, state);
+}
+
+void FlightKind::add_wrench(std::size_t index, const Wrench& wrench) {
+    wrenches_.resize(batch_.size());
+    wrenches_[index] = wrenches_[index] + wrench;
+}
+
+void FlightKind::take_up_wrenches(double duration, bool has_steps) {
+    if (duration > 0.0 && (!wrenches_.empty() || !pushed_.empty())) {
+        wrenches_.resize(batch_.size());
+        pushed_.resize(batch_.size());
+        pushed_time_ += duration;
+        for (std::size_t i = 0; i < pushed_.size(); ++i) {
+            // The mean over the calls since the last step, so that what is held is felt as it is.
+            pushed_[i] = pushed_[i] + (duration / pushed_time_) * (wrenches_[i] + -1.0 * pushed_[i]);
+        }
+        wrenches_.clear();
+    }
+    if (!has_steps || (pushed_.empty() && acting_.empty())) return;
+    // What lies still may do so by what pushed it.
+    for (std::size_t i = 0; i < batch_.size(); ++i) {
+        if (!(wrench_in(pushed_, i) == wrench_in(acting_, i))) wake(i);
+    }
+    acting_ = std::exchange(pushed_, {});
+    pushed_time_ = 0.0;
+    batch_.set_external(acting_);
+}
+
+void FlightKind::add_impulse(std::size_t index, const Wrench& impulse, double time) {
+    const double size = size_of(index);
+    const double end = time_of(steps_);
+    const double begin = std::clamp(time - release_.start, 0.0, end);
+    Pose now = pose_in_flow(index, release_.start + begin);
+    BodyState state = batch_.own_state(index);
+    // In the units of a body of the shape's size: body_size.hpp.
+    const Quaterniond to_body = state.orientation.conjugate();
+    Vector6d momentum;
+    momentum << to_body * impulse.moment / (size * size * size), to_body * impulse.force / (size * size);
+    const Vector6d change = body_->inverse_inertia * momentum;
+    state.velocity += change;
+    state.at_rest = false;
+    const Vector3d turning = state.orientation * change.head<3>() / (size * size);
+    const Vector3d moving = state.orientation * change.tail<3>() / size;
+    Pose change_of_pose;
+    change_of_pose.velocity = moving;
+    change_of_pose.angular_velocity = turning;
+    const bool waits = time < start(index);
+    const Pose way = carried(change_of_pose, waits ? 0.0 : end - begin);
+    state.position += way.position / size;
+    state.orientation = way.orientation * state.orientation;
+    batch_.keep_own_state(index, state);
+    now.velocity += moving;
+    now.angular_velocity += turning;
+    before_[index] = now;
+    before_time_[index] = begin;
+}
+
+void FlightKind::set_removed(std::size_t index, bool removed) {
+    if (removed_.empty() && !removed) return;
+    removed_.resize(batch_.size());
+    removed_[index] = removed ? 1 : 0;
+    batch_.set_first_step(index, removed ? std::numeric_limits<std::uint64_t>::max() : first_step(index));
+}
+
+void FlightKind::remove(std::size_t index, double time) {
+    if (is_removed(index)) return;
+    before_[index] = pose(index, time);
+    set_removed(index, true);
+}
+
+FluidLoad FlightKind::fluid_load(std::size_t index, double time) const {
+    if (std::abs(reached() - time) > 1e-6 * step_) {
+        throw FlightError(FlightError::Kind::invalid_argument,
+                          fmt::format("fluid loads are those of a whole step, but {:.9g} s lies within one: "
+                                      "advance by multiples of the step, {:g} s",
+                                      time, step_));
+    }
+    if (size_of(index) != 1.0) {
+        throw FlightError(FlightError::Kind::invalid_argument,
+                          "fluid loads are there for bodies of their shape's own size alone");
+    }
+    return fluid_load_of(*body_, surroundings_, release_.start, step_, batch_.state(index),
+                         noise_of(seed_, first_run_, index), steps_);
 }
 
 void FlightKind::step_to(std::uint64_t steps) {
@@ -234,9 +335,11 @@ void FlightKind::step_to(std::uint64_t steps) {
 }
 
 std::uint64_t FlightKind::steps_between(std::uint64_t begin, std::uint64_t end) const {
-    if (first_steps_.empty()) return (end - begin) * batch_.size();
+    if (first_steps_.empty() && removed_.empty()) return (end - begin) * batch_.size();
     std::uint64_t steps = 0;
-    for (const std::uint64_t first : first_steps_) steps += end - std::clamp(first, begin, end);
+    for (std::size_t i = 0; i < batch_.size(); ++i) {
+        if (!is_removed(i)) steps += end - std::clamp(first_step(i), begin, end);
+    }
     return steps;
 }
 
@@ -258,7 +361,7 @@ FlightReport FlightKind::sampled() const {
     parallel_for(batch_.size(), poses_a_piece, threads_, [&](std::size_t begin, std::size_t end) {
         FlightReport piece;
         for (std::size_t i = begin; i < end; ++i) {
-            if (steps_ <= first_step(i) && first_step(i) > 0) continue;
+            if ((steps_ <= first_step(i) && first_step(i) > 0) || is_removed(i)) continue;
             const BodyState state = batch_.state(i);
             const Vector3d wind = wind_velocity(*body_, surroundings_, state.position, now);
             const Vector3d velocity = state.velocity.tail<3>() - state.orientation.conjugate() * wind;
@@ -290,6 +393,7 @@ Pose FlightKind::pose_in_flow(std::size_t index, double time) const {
 }
 
 Pose FlightKind::pose(std::size_t index, double time) const {
+    if (is_removed(index)) return before_[index];
     if (time - start(index) < 0.0) return held(flow_pose(batch_.state(index)), surroundings_, start(index));
     return in_world(pose_in_flow(index, time), surroundings_, time);
 }
@@ -303,7 +407,11 @@ void FlightKind::set_pose(std::size_t index, const Pose& pose, double time) {
     const double begin = std::clamp(time - release_.start, 0.0, end);
     const Pose in_flow_now = in_flow(pose, surroundings_, release_.start + begin);
     BodyState state = state_of(carried(in_flow_now, end - begin));
-    state.seen_fluid = batch_.state(index).seen_fluid;
+    if (is_removed(index)) {
+        set_removed(index, false);
+    } else {
+        state.seen_fluid = batch_.state(index).seen_fluid;
+    }
     before_[index] = in_flow_now;
     before_time_[index] = begin;
     batch_.set_state(index, state);
@@ -317,6 +425,7 @@ void FlightKind::set_surroundings(const Surroundings& surroundings) {
         return in_flow(in_world(pose, surroundings_, time), surroundings, time);
     };
     for (std::size_t i = 0; i < batch_.size(); ++i) {
+        if (is_removed(i)) continue;
         BodyState state = batch_.state(i);
         state.at_rest = false;
         if (!same_flow) {
@@ -344,16 +453,19 @@ std::string FlightKind::description() const {
 }
 
 std::size_t FlightKind::state_size() const {
-    return sizeof(steps_) + report_bytes + batch_.size() * (body_state_bytes + pose_bytes + sizeof(double));
+    return sizeof(steps_) + report_bytes + batch_.size() * (body_state_bytes + pose_bytes + sizeof(double) + sizeof(std::uint8_t));
 }
 
 void FlightKind::write(StateWriter& writer) const {
     writer.write(steps_);
     visit_report(report_, [&](auto number) { writer.write(number); });
     for (std::size_t i = 0; i < batch_.size(); ++i) {
-        writer.write(batch_.own_state(i));
+        BodyState state = batch_.own_state(i);
+        state.at_rest = state.at_rest && wrench_in(acting_, i).is_zero();  // else it is to be found anew
+        writer.write(state);
         writer.write(before_[i]);
         writer.write(before_time_[i]);
+        writer.write(static_cast<std::uint8_t>(is_removed(i) ? 1 : 0));
     }
 }
 
@@ -368,16 +480,24 @@ bool FlightKind::read(StateReader& reader, double time, bool keep) {
         BodyState state;
         Pose before;
         double before_time = 0.0;
+        std::uint8_t removed = 0;
         reader.read(state);
         reader.read(before);
         reader.read(before_time);
+        reader.read(removed);
         sound = sound && is_sound(state) && is_sound(before) && std::isfinite(before_time);
         if (!keep) continue;
         batch_.keep_own_state(i, state);
         before_[i] = before;
         before_time_[i] = before_time;
+        if (is_removed(i) != (removed != 0)) set_removed(i, removed != 0);
     }
     if (keep) {
+        wrenches_.clear();
+        pushed_.clear();
+        pushed_time_ = 0.0;
+        acting_.clear();
+        batch_.set_external({});
         steps_ = steps;
         report_ = report;
     }

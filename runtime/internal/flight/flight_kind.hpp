@@ -11,6 +11,7 @@
 #include "internal/flight/state_bytes.hpp"
 #include "internal/kernel/noise.hpp"
 #include "samara/flight/flight.hpp"
+#include "samara/physics/fluid_load.hpp"
 #include "samara/scene/scene.hpp"
 
 namespace samara {
@@ -49,9 +50,10 @@ class FlightKind {
     /// Taken so far, over all bodies.
     [[nodiscard]] std::uint64_t steps() const noexcept { return report_.steps; }
 
-    /// Steps on until the last step lies at the time or after it, the one before before it. Throws
-    /// FlightError where a body's motion leaves the range of numbers.
-    void advance_to(double time);
+    /// Steps on until the last step lies at the time or after it, the one before before it. The wrenches that
+    /// were added act in its steps, and are gone; `duration` (s): of the call. Throws FlightError where a body's
+    /// motion leaves the range of numbers.
+    void advance_to(double time, double duration);
     /// How many steps reach a time, to rounding.
     [[nodiscard]] std::uint64_t steps_until(double time) const;
 
@@ -62,6 +64,26 @@ class FlightKind {
     /// The same with the velocity relative to the wind there.
     [[nodiscard]] Pose pose_in_wind(std::size_t index, double time) const;
     void set_pose(std::size_t index, const Pose& pose, double time);
+    /// Adds to what pushes a body (N, N m) over the next advance_to.
+    void add_wrench(std::size_t index, const Wrench& wrench);
+    /// Gives a body an impulse (N s, N m s) at a time between the last two steps.
+    void add_impulse(std::size_t index, const Wrench& impulse, double time);
+    /// Takes a body out where it is: it moves no more, until it is put elsewhere.
+    void remove(std::size_t index, double time);
+    [[nodiscard]] bool is_removed(std::size_t index) const noexcept {
+        return !removed_.empty() && removed_[index] != 0;
+    }
+    /// Whether a body lies still on what it touches.
+    [[nodiscard]] bool is_at_rest(std::size_t index) const noexcept { return batch_.state(index).at_rest; }
+    /// Notes what bodies meet of ground and obstacles, or not.
+    void watch_contacts(bool watch) { batch_.watch_contacts(watch); }
+    /// What a body met since it was last asked; nothing where it is not noted.
+    ContactRecord take_contacts(std::size_t index) noexcept {
+        return batch_.watches_contacts() ? batch_.take_contacts(index) : ContactRecord{};
+    }
+    /// What the fluid does to a body in its next step. Throws FlightError where `time` is not the end of a
+    /// step, or the body is of another size than the shape's.
+    [[nodiscard]] FluidLoad fluid_load(std::size_t index, double time) const;
     void set_seed(std::uint64_t seed, std::uint32_t first_run);
     /// Other surroundings from the last step on: bodies keep place and motion in the world, and wake.
     void set_surroundings(const Surroundings& surroundings);
@@ -84,6 +106,11 @@ class FlightKind {
     [[nodiscard]] std::uint64_t first_step(std::size_t index) const noexcept {
         return first_steps_.empty() ? 0 : first_steps_[index];
     }
+    void wake(std::size_t index) noexcept;
+    /// Hands what pushes the bodies in a call of that `duration` (s) to the batch, or keeps it for the next
+    /// where it takes no step.
+    void take_up_wrenches(double duration, bool has_steps);
+    void set_removed(std::size_t index, bool removed);
     void draw_starts(const FlightSettings& settings);
     /// How many steps the bodies take, all together, between two of the grid.
     [[nodiscard]] std::uint64_t steps_between(std::uint64_t begin, std::uint64_t end) const;
@@ -106,6 +133,13 @@ class FlightKind {
     std::vector<Pose> before_;         ///< in the flow's frame: where the bodies were at before_time_
     std::vector<double> before_time_;  ///< s, since the start
     FlightReport report_;
+    std::vector<Wrench> wrenches_;       ///< over the next advance_to; none where nothing is pushed
+    std::vector<Wrench> pushed_;         ///< their mean over the calls since the last step, or none
+    double pushed_time_ = 0.0;           ///< s: how long these calls were
+    std::vector<Wrench> acting_;         ///< in the last steps; none where nothing was pushed
+    std::vector<std::uint8_t> removed_;  ///< of each body 1 or 0; none where all are there
+    std::uint64_t seed_ = 1;
+    std::uint32_t first_run_ = 0;
 };
 
 }  // namespace samara

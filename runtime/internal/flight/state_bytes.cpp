@@ -9,7 +9,7 @@ namespace samara {
 namespace {
 
 constexpr std::string_view mark = "samara state\n\x1a";
-constexpr std::uint32_t state_version = 4;
+constexpr std::uint32_t state_version = 5;
 constexpr std::uint32_t byte_order = 0x01020304;
 constexpr std::size_t hash_size = 32;  // of content_hash
 

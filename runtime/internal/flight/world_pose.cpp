@@ -92,6 +92,9 @@ CopyStart start_of_copy(const Release& release, double time_step, const Noise& n
         pose.velocity += left.velocity;
         pose.angular_velocity += left.angular_velocity;
     }
+    if (release.spreads_size()) {
+        start.size = release.smallest_size * std::pow(release.largest_size / release.smallest_size, drawn[0]);
+    }
     if (release.count == 1) return start;
     const auto place = noise.uniforms(0, NoiseStream::start_position);
     for (int axis = 0; axis < 3; ++axis) {
@@ -102,9 +105,6 @@ CopyStart start_of_copy(const Release& release, double time_step, const Noise& n
     const double angle = release.spread_angle * place[3];
     const Vector3d about(axis[0], axis[1], axis[2]);
     pose.orientation = Quaterniond(Eigen::AngleAxisd(angle, about.normalized())) * pose.orientation;
-    if (release.spreads_size()) {
-        start.size = release.smallest_size * std::pow(release.largest_size / release.smallest_size, drawn[0]);
-    }
     return start;
 }
 

@@ -217,6 +217,23 @@ HWY_INLINE Stream<Lanes<Tag>> met_wind(Tag tag, const FlightConstants<Real>& c,
     return {size * three(met.begin), size * three(met.end), (size * size) * three(met.rotation)};
 }
 
+/// What pushes the bodies of the lanes, in the units of a body of the shape's size that moves alike
+/// (body_size.hpp).
+template <class Tag, class Real = hn::TFromD<Tag>>
+HWY_INLINE Push<Lanes<Tag>> push_of(Tag tag, const kernel::ExternalLoads& external, std::size_t first,
+                                    Lanes<Tag> size) {
+    using V = Lanes<Tag>;
+    HWY_ALIGN_MAX Real row[hn::MaxLanes(Tag())];
+    const auto take = [&](const double* from) HWY_ATTR {
+        for (std::size_t i = 0; i < hn::Lanes(tag); ++i) row[i] = static_cast<Real>(from[first + i]);
+        return V(hn::Load(tag, row));
+    };
+    const auto three = [&](const double(&rows)[3][kernel::ExternalLoads::size]) HWY_ATTR {
+        return Triple<V>{take(rows[0]), take(rows[1]), take(rows[2])};
+    };
+    return {(V(1.0) / size) * three(external.moment), three(external.force)};
+}
+
 /// Where bodies of the lanes [first, first + N) move: 1, and 0 in lanes without a body or with one that
 /// rests or waits.
 template <class Real>
@@ -304,9 +321,13 @@ HWY_INLINE void advance_lanes(Tag tag, const FlightConstants<Real>& c, const ker
     const V substep = h / divisor;
     const Vector3d& pull = task.gravities[number];
     const Triple<V> gravity = (size_square * size) * Triple<V>{V(pull.x()), V(pull.y()), V(pull.z())};
+    Push<V> push;
+    const bool pushed = task.external != nullptr;
+    if (pushed) push = push_of(tag, task.external[block.first_body / block.size], first, size);
     for (int i = 0; i < most; ++i) {
         Flight<V> next = flight;
-        implicit_step(c, gravity, substep, sees_fluid, part_of(met, i, divisor), next);
+        implicit_step(c, gravity, substep, sees_fluid, part_of(met, i, divisor), pushed ? &push : nullptr,
+                      next);
         flight = select_flight<Tag>(V(i) < substeps, next, flight);
         if (task.contact.resolve == nullptr) continue;
         if (!hn::AllFalse(tag, near_ground(task.contact, previous, flight, substep, size))) {

@@ -8,6 +8,7 @@
 #include "internal/kernel/flight_constants.hpp"
 #include "internal/kernel/noise.hpp"
 #include "samara/base/linear_algebra.hpp"
+#include "samara/physics/wrench.hpp"
 
 /// The step's formulas, compiled for every instruction set and chosen once at run time. In double precision
 /// each sum and product is rounded by itself, so that one body, or any number of them side by side, gives the
@@ -52,6 +53,12 @@ struct WindSource {
     const void* context = nullptr;
 };
 
+/// What a host pushes bodies side by side with, besides fluid, gravity and contact: Wrench of each.
+struct ExternalLoads {
+    static constexpr std::size_t size = 16;
+    double moment[3][size] = {}, force[3][size] = {};
+};
+
 /// Steps for blocks to take.
 struct BlockSteps {
     const Vector3d* gravities = nullptr;  ///< m/s^2 in each step
@@ -62,6 +69,7 @@ struct BlockSteps {
     bool sized = false;  ///< whether any body's size is not the shape's
     Contact contact = {};
     WindSource wind = {};
+    const ExternalLoads* external = nullptr;  ///< of every 16 bodies of the batch; null: none
 };
 
 BatchReport advance_blocks(const FlightConstants<double>& constants, const BlockSteps& steps,
@@ -77,8 +85,10 @@ struct SeenStream {
 };
 
 /// implicit_step() of step.hpp over h, which is the part `part` of `parts` equal ones of a whole step.
+/// `external`: null where there is none.
 void implicit_step(const FlightConstants<double>& constants, const Vector3d& gravity, double h,
-                   const SeenStream& stream, int part, int parts, BodyState& state) noexcept;
+                   const SeenStream& stream, int part, int parts, const Wrench* external,
+                   BodyState& state) noexcept;
 
 /// How a whole step is taken.
 struct BegunStep {

@@ -49,11 +49,14 @@ BatchReport advance_double_blocks(const FlightConstants<double>& constants, cons
 }
 
 void step_one(const FlightConstants<double>& c, const Vector3d& gravity, double h,
-              const kernel::SeenStream& stream, int part, int parts, BodyState& state) {
+              const kernel::SeenStream& stream, int part, int parts, const Wrench* external,
+              BodyState& state) {
     Flight<double> flight = flight_of(state);
+    Push<double> push{};
+    if (external != nullptr) push = {triple_of(external->moment), triple_of(external->force)};
     const Stream<double> whole{triple_of(stream.begin), triple_of(stream.end), triple_of(stream.rotation)};
     implicit_step(c, triple_of(gravity), h, stream.moves, part_of(whole, part, static_cast<double>(parts)),
-                  flight);
+                  external == nullptr ? nullptr : &push, flight);
     keep(flight, state);
 }
 
@@ -155,8 +158,9 @@ BatchReport advance_blocks(const FlightConstants<double>& constants, const Block
 }
 
 void implicit_step(const FlightConstants<double>& constants, const Vector3d& gravity, double h,
-                   const SeenStream& stream, int part, int parts, BodyState& state) noexcept {
-    HWY_DYNAMIC_DISPATCH(step_one)(constants, gravity, h, stream, part, parts, state);
+                   const SeenStream& stream, int part, int parts, const Wrench* external,
+                   BodyState& state) noexcept {
+    HWY_DYNAMIC_DISPATCH(step_one)(constants, gravity, h, stream, part, parts, external, state);
 }
 
 BegunStep begin_step(const FlightConstants<double>& constants, double h, const WindSource& wind,

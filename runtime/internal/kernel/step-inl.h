@@ -65,6 +65,12 @@ HWY_INLINE Stream<V> part_of(const Stream<V>& whole, int i, V parts) {
     return {begin, select(V(i + 1) < parts, end, whole.end), whole.rotation};
 }
 
+/// A host's push: moment about the centre of mass and force (world axes, in the shape's own units).
+template <class V>
+struct Push {
+    Triple<V> moment, force;
+};
+
 /// What the passes over one step share: its start. Velocities are those relative to the seen fluid.
 template <class V>
 struct StepStart {
@@ -72,6 +78,8 @@ struct StepStart {
     Triple<V> omega, velocity;
     Triple<V> gravity, seen_rotation;  // body axes
     bool sees_fluid;
+    bool is_pushed;
+    Push<V> push;  // body axes, about the centroid
     /// Whether the body turns by more than a radian: its system is then solved once more for what rounding
     /// left, since the elimination does not look for the best pivots.
     typename NumberTraits<V>::Mask wild;
@@ -160,6 +168,10 @@ HWY_INLINE void improve(const FlightConstants<Real>& c, const StepStart<V>& star
     Triple<V> force =
         V(c.weight) * gravity + cross(momentum, start.omega) - cross(middle.omega, start.velocity);
     if (c.off_center) moment = moment + cross(broadcast<V>(c.weight_moment), gravity);
+    if (start.is_pushed) {
+        moment = moment + under_body(start.push.moment);
+        force = force + under_body(start.push.force);
+    }
     V step = V(0.5) * start.h;
     middle.theta = V(0.5);
     if (c.loads != Loads::none) {
@@ -226,6 +238,17 @@ HWY_INLINE StepStart<V> step_start(const FlightConstants<Real>& c, const Square<
     return start;
 }
 
+/// A push in body axes about the centroid, over m* and l.
+template <class V, class Real>
+HWY_INLINE Push<V> push_at_centroid(const FlightConstants<Real>& c, const Square<V>& to_world,
+                                    const Push<V>& push) {
+    const V force_unit(c.inverse_length / c.mass_scale);
+    const Triple<V> force = transposed_times(to_world, push.force);
+    const Triple<V> moment =
+        transposed_times(to_world, push.moment) - cross(broadcast<V>(c.center_of_buoyancy), force);
+    return {(force_unit * V(c.inverse_length)) * moment, force_unit * force};
+}
+
 /// Whether a body that meets turbulence sees it as a moving fluid.
 template <class Real>
 HWY_INLINE bool sees_turbulence(const FlightConstants<Real>& c) {
@@ -237,10 +260,10 @@ HWY_INLINE bool sees_turbulence(const FlightConstants<Real>& c) {
 ///
 /// Where the body sees fluid, the step is taken in the frame of that uniform stream, as in that of a current:
 /// velocities are relative to it, and its acceleration is taken off gravity, for body and displaced fluid
-/// alike (docs/theory, "The seen fluid").
+/// alike (docs/theory, "The seen fluid"). `push`: null where there is none.
 template <class V, class Real>
 HWY_INLINE void implicit_step(const FlightConstants<Real>& c, const Triple<V>& gravity, V h, bool sees_fluid,
-                              const Stream<V>& stream, Flight<V>& flight) {
+                              const Stream<V>& stream, const Push<V>* push, Flight<V>& flight) {
     const Square<V> to_world = rotation_matrix(flight.orientation);
     const V half = V(0.5) * h;
     const V rate = V(1.0) / h;
@@ -255,8 +278,10 @@ HWY_INLINE void implicit_step(const FlightConstants<Real>& c, const Triple<V>& g
         pushed = V(-c.weight * c.length) * transposed_times(to_world, acceleration);
         guess_acceleration = guess_acceleration + pushed;
     }
-    const StepStart<V> start =
+    StepStart<V> start =
         step_start(c, to_world, apparent_gravity, h, sees_fluid, stream.rotation, relative_velocity, flight);
+    start.is_pushed = push != nullptr;
+    if (start.is_pushed) start.push = push_at_centroid(c, to_world, *push);
     StepMiddle<V> middle;
     middle.stiffness = V(0.0);
     middle.omega = start.omega + half * flight.angular_acceleration;

@@ -70,6 +70,7 @@ struct Flight::Parts {
     std::size_t size = 0;
     double time = 0.0;
     bool has_begun = false;
+    bool watches_contacts = false;
     std::string stopped;  ///< why; empty: it has not
 };
 
@@ -119,6 +120,7 @@ std::size_t Flight::add(const LoadedBody& body, const BodyPhysics& physics, cons
     const std::size_t first = parts_->size;
     parts_->kinds.push_back(std::make_unique<FlightKind>(parts_->settings, parts_->surroundings, body,
                                                          physics, release, name, first));
+    parts_->kinds.back()->watch_contacts(parts_->watches_contacts);
     parts_->size += parts_->kinds.back()->size();
     return first;
 }
@@ -230,9 +232,10 @@ void Flight::advance_to(double time) {
             FlightError::Kind::invalid_argument,
             fmt::format("time {} s is more than {:.0e} steps off; is a unit wrong?", time, most_steps_off));
     }
+    if (time == parts_->time && parts_->has_begun) return;
     parts_->has_begun = true;
     try {
-        for (const auto& kind : parts_->kinds) kind->advance_to(time);
+        for (const auto& kind : parts_->kinds) kind->advance_to(time, time - parts_->time);
     } catch (const FlightError& lost) {
         parts_->stopped = lost.what();
         throw;
@@ -262,9 +265,64 @@ void Flight::set_pose(std::size_t index, const Pose& pose) {
     kind.set_pose(index - kind.first(), pose, parts_->time);
 }
 
+void Flight::add_wrench(std::size_t index, const Wrench& wrench) {
+    FlightKind& kind = kind_of(index);
+    kind.add_wrench(index - kind.first(), wrench);
+}
+
+void Flight::add_impulse(std::size_t index, const Wrench& impulse) {
+    FlightKind& kind = kind_of(index);
+    kind.add_impulse(index - kind.first(), impulse, parts_->time);
+}
+
+void Flight::remove(std::size_t index) {
+    FlightKind& kind = kind_of(index);
+    kind.remove(index - kind.first(), parts_->time);
+}
+
+bool Flight::is_removed(std::size_t index) const {
+    const FlightKind& kind = kind_of(index);
+    return kind.is_removed(index - kind.first());
+}
+
+bool Flight::is_at_rest(std::size_t index) const {
+    const FlightKind& kind = kind_of(index);
+    return kind.is_at_rest(index - kind.first());
+}
+
+void Flight::watch_contacts(bool watch) {
+    parts_->watches_contacts = watch;
+    for (const auto& kind : parts_->kinds) kind->watch_contacts(watch);
+}
+
+ContactRecord Flight::take_contacts(std::size_t index) {
+    FlightKind& kind = kind_of(index);
+    return kind.take_contacts(index - kind.first());
+}
+
+FluidLoad Flight::fluid_load(std::size_t index) const {
+    const FlightKind& kind = kind_of(index);
+    return kind.fluid_load(index - kind.first(), parts_->time);
+}
+
+double Flight::size_of(std::size_t index) const {
+    const FlightKind& kind = kind_of(index);
+    return kind.size_of(index - kind.first());
+}
+
+double Flight::mass(std::size_t index) const {
+    const double size = size_of(index);
+    return size * size * size * kind_of(index).body().mass;
+}
+
+Matrix3d Flight::inertia(std::size_t index) const {
+    const double size = size_of(index);
+    return (size * size * size) * (size * size) * kind_of(index).body().own_inertia;
+}
+
 Vector3d Flight::center_of_mass(std::size_t index) const {
     const FlightKind& kind = kind_of(index);
-    return kind.size_of(index - kind.first()) * kind.body().center_of_mass;
+    return size_of(index) * kind.body().center_of_mass;
 }
 
 void Flight::set_seed(std::uint64_t seed, std::uint32_t first_run) {

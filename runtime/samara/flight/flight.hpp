@@ -11,10 +11,13 @@
 #include "samara/flight/loaded_body.hpp"
 #include "samara/motion/pose.hpp"
 #include "samara/physics/body_physics.hpp"
+#include "samara/physics/contact_record.hpp"
 #include "samara/physics/fluid.hpp"
+#include "samara/physics/fluid_load.hpp"
 #include "samara/physics/obstacle.hpp"
 #include "samara/physics/release.hpp"
 #include "samara/physics/wind.hpp"
+#include "samara/physics/wrench.hpp"
 
 namespace samara {
 
@@ -115,6 +118,32 @@ class Flight {
     void poses(std::size_t first, std::size_t count, Pose* poses) const;
     /// Puts a body elsewhere, from time() on. Needs finite numbers and an orientation of length one.
     void set_pose(std::size_t index, const Pose& pose);
+    /// Pushes a body, besides fluid, gravity and what it touches, in all steps of the next advance_to to a
+    /// later time; several add up, and a body that waits for its start feels none. Calls that take no step
+    /// hand theirs on, as a mean, to the next that does. Needs index < size() and finite numbers.
+    void add_wrench(std::size_t index, const Wrench& wrench);
+    /// Gives a body an impulse (N s, N m s) at time(): body and fluid take it together, by K. The same needs.
+    void add_impulse(std::size_t index, const Wrench& impulse);
+    /// Takes a body out: it stays where it is, costs no steps, and keeps its number. set_pose() puts it back.
+    void remove(std::size_t index);
+    /// Whether it is out.
+    [[nodiscard]] bool is_removed(std::size_t index) const;
+    /// Whether a body lies still on ground or an obstacle.
+    [[nodiscard]] bool is_at_rest(std::size_t index) const;
+    /// Notes from now on what bodies meet of ground and obstacles, or no longer.
+    void watch_contacts(bool watch);
+    /// What a body met since it was last asked; nothing where it is not noted.
+    ContactRecord take_contacts(std::size_t index);
+    /// What the fluid does to a body in its next step, for a host that integrates it itself: it puts the body
+    /// where it has come to by set_pose(), asks, and advances by a step. Throws FlightError where time() lies
+    /// within a step of the body, or its size is not the shape's.
+    [[nodiscard]] FluidLoad fluid_load(std::size_t index) const;
+    /// Over the shape's lengths. Needs index < size().
+    [[nodiscard]] double size_of(std::size_t index) const;
+    /// kg: of the body alone, at its size.
+    [[nodiscard]] double mass(std::size_t index) const;
+    /// kg m^2: of the body alone about its centre of mass, shape axes, at its size.
+    [[nodiscard]] Matrix3d inertia(std::size_t index) const;
     /// Of a body: m from the shape's origin, at the body's size, shape axes.
     [[nodiscard]] Vector3d center_of_mass(std::size_t index) const;
 
@@ -140,7 +169,8 @@ class Flight {
 
     /// Bytes of state(), which grow with the obstacles' keys.
     [[nodiscard]] std::size_t state_size() const;
-    /// All that the rest of the flight depends on. Throws FlightError where the flight has stopped.
+    /// All that the rest of the flight depends on, but for wrenches that no call has flown yet and contacts
+    /// that were noted. Throws FlightError where the flight has stopped.
     [[nodiscard]] std::string state() const;
     /// Goes on from such a state, of a flight with the same settings, ground, wind, obstacles, kinds and
     /// bodies; obstacles get their keys from it. Throws FlightError, and changes nothing, where the bytes are

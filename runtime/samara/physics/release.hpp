@@ -19,15 +19,15 @@ struct Release {
         Vector3d::Zero();       ///< m: copies start within +- this of `position`, each axis uniform
     double spread_angle = 0.0;  ///< rad: copies are turned by up to this about a random axis
     /// Over the shape's lengths: the copies' sizes, all at one density, lie between these, their logarithms
-    /// uniform.
+    /// uniform. A single copy has the two, where they are one.
     double smallest_size = 1.0, largest_size = 1.0;
     double spread_start = 0.0;  ///< s: copies start up to this after `start`, uniform, as a step begins
     /// Where copies start instead of `position`, in its axes and with its motion; null where there is none.
     std::shared_ptr<const Emitter> emitter = nullptr;
 
-    /// Whether copies differ in size.
+    /// Whether any copy has another size than the shape's.
     [[nodiscard]] bool spreads_size() const noexcept {
-        return count > 1 && (smallest_size != 1.0 || largest_size != 1.0);
+        return (count > 1 || smallest_size == largest_size) && (smallest_size != 1.0 || largest_size != 1.0);
     }
 };
 
