@@ -347,8 +347,8 @@ SAMARA_API samara_status samara_get_mass_properties(const samara_simulation* sim
                                                     samara_mass_properties* properties, char* error,
                                                     size_t error_size);
 
-/* Pushes a body with a force (N, world axes) at a point (m, world; null: the centre of mass), or with a moment
- * (N m), beside fluid, gravity and what it touches, in all steps of the next call of samara_advance_to
+/* Pushes a body with a force (N, world axes) at a point (m, world; null: the centre of mass), or with a
+ * moment (N m), beside fluid, gravity and what it touches, in all steps of the next call of samara_advance_to
  * that goes on in time; then it is gone. Several add up. What is given again for each call is felt evenly,
  * at any frame rate; of one call alone the momentum is that of its steps, so give a blow as an impulse.
  * Before its start a body feels none. */
@@ -385,7 +385,8 @@ typedef struct samara_contact {
     int32_t at_rest;   /* whether the body lies still now */
 } samara_contact;
 
-/* Notes contacts from now on, or no longer with `watch` 0. Costs next to nothing; does not change the motion. */
+/* Notes contacts from now on, or no longer with `watch` 0. Costs next to nothing; does not change the motion.
+ */
 SAMARA_API samara_status samara_watch_contacts(samara_simulation* simulation, int32_t watch, char* error,
                                                size_t error_size);
 
@@ -395,10 +396,10 @@ SAMARA_API samara_status samara_take_contacts(samara_simulation* simulation, siz
                                               samara_contact* contacts, size_t stride, char* error,
                                               size_t error_size);
 
-/* What the fluid does to a body in its next step: for a host that integrates the body itself, alone or as part
- * of a mechanism. World axes, at the centre of mass; angular (three), then linear: 78 doubles without gaps,
- * matrices row by row. With M the body's own inertia, g its own wrench (weight, gyroscopic moment, joints,
- * contacts), h the step and a its acceleration (of the world, as derivative of the velocity),
+/* What the fluid does to a body in its next step: for a host that integrates the body itself, alone or as
+ * part of a mechanism. World axes, at the centre of mass; angular (three), then linear: 78 doubles without
+ * gaps, matrices row by row. With M the body's own inertia, g its own wrench (weight, gyroscopic moment,
+ * joints, contacts), h the step and a its acceleration (of the world, as derivative of the velocity),
  *
  *     (M + added_inertia + h damping) a = g + wrench
  *

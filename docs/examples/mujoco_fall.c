@@ -1,5 +1,5 @@
-/* Lets MuJoCo integrate bodies that fall in samara's water: a single one, beside samara's own flight of it, and
- * two on a hinge, one lighter than water.
+/* Lets MuJoCo integrate bodies that fall in samara's water: a single one, beside samara's own flight of it,
+ * and two on a hinge, one lighter than water.
  *
  *   cc -std=c99 mujoco_fall.c $(pkg-config --cflags --libs samara) -lmujoco -lm -o mujoco-fall
  *   ./mujoco-fall ellipsoid.body.h5
@@ -85,8 +85,8 @@ static void meet_fluid(host* h, int link, double matrix[most_dofs][most_dofs]) {
     }
 }
 
-/* One step of MuJoCo, as mj_step has it, with the fluid's part of the mass matrix. MuJoCo keeps the entries of
- * each joint with itself and those above it; the fluid's are no others. */
+/* One step of MuJoCo, as mj_step has it, with the fluid's part of the mass matrix. MuJoCo keeps the entries
+ * of each joint with itself and those above it; the fluid's are no others. */
 static void step_host(host* h) {
     mjModel* m = h->model;
     mjData* d = h->data;
@@ -157,7 +157,8 @@ static int write_link(char* text, size_t size, const samara_simulation* fluid, i
     return snprintf(text, size,
                     "<body pos='0 0 %.9g'>%s<inertial pos='%.17g %.17g %.17g' mass='%.17g' "
                     "fullinertia='%.17g %.17g %.17g %.17g %.17g %.17g'/>",
-                    link > 0 ? gap : 0.0, joint, c[0], c[1], c[2], own.mass, j[0], j[4], j[8], j[1], j[2], j[5]);
+                    link > 0 ? gap : 0.0, joint, c[0], c[1], c[2], own.mass, j[0], j[4], j[8], j[1], j[2],
+                    j[5]);
 }
 
 static mjModel* model_of(const samara_simulation* fluid, double step, int links, double gap) {
@@ -240,7 +241,8 @@ int main(int count, char** words) {
     check(samara_body_load(words[1], &body, error, sizeof error));
 
     printf("A single body after 1 s, MuJoCo beside samara:\n");
-    for (i = 0; i < 4; ++i) printf("  step %6.4f s  off by %7.4f %%\n", steps[i], 100.0 * difference(body, steps[i]));
+    for (i = 0; i < 4; ++i)
+        printf("  step %6.4f s  off by %7.4f %%\n", steps[i], 100.0 * difference(body, steps[i]));
 
     printf("Two on a hinge, 1500 and 900 kg/m^3, with turbulence:\n");
     pair = make_host(body, 0.002, 1, densities, 2, 0.1);
@@ -248,7 +250,8 @@ int main(int count, char** words) {
         step_host(&pair);
         if (i % 500 != 0) continue;
         printf("  %3.1f s  heights %7.3f %7.3f m  hinge %7.1f degrees  speed %6.3f m/s\n", pair.data->time,
-               pair.data->xpos[5], pair.data->xpos[8], pair.data->qpos[7] * 57.29578, mju_norm3(pair.data->qvel));
+               pair.data->xpos[5], pair.data->xpos[8], pair.data->qpos[7] * 57.29578,
+               mju_norm3(pair.data->qvel));
     }
     free_host(&pair);
     samara_body_free(body);

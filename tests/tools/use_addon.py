@@ -290,6 +290,38 @@ def masses(file):
     return found
 
 
+def sizes(file):
+    """Bodies of many sizes, released one after the other; and where one of twice the size is after a second."""
+    empty_scene()
+    objects = add_bodies(file, 12, density=1600.0, smallest_size=0.5, largest_size=2.0, release=10.0)
+    scene.frame_end = 25
+    for o in objects:
+        o.samara.noise = False
+    found = {
+        "scales": [list(o.scale) for o in objects],
+        "releases": [o.samara.release for o in objects],
+        "fault": run(bpy.ops.samara.simulate),
+    }
+    places = matrices(objects, [1, 4, 25])
+    found["places"] = [[places[o.name][k][2][3] for k in range(3)] for o in objects]
+
+    empty_scene()
+    (o,) = add_bodies(file, 1)
+    o.scale = (2.0, 2.0, 2.0)
+    o.rotation_quaternion = (0.8, 0.0, 0.6, 0.0)
+    body = o.samara
+    body.noise = False
+    body.release = 4.8
+    body.mass_source = "MASS"
+    body.mass = 8.0 * 1200.0 * 33.51032163829e-6
+    body.use_center_of_mass = True
+    body.center_of_mass = (0.0, 0.0, 0.008)
+    found["start"] = [list(row) for row in o.matrix_basis]
+    assert run(bpy.ops.samara.simulate) == ""
+    found["twice"] = matrices([o], [25])[o.name][0]
+    return found
+
+
 def cache(file, folder):
     """Live from the disk: in a saved file that is opened again, and with a flight that is damaged."""
     from samara import flight, live
@@ -339,7 +371,7 @@ def errors(good, newer, cut):
         found[name] = run(bpy.ops.samara.simulate)
         found[name + "_live"] = run(bpy.ops.samara.live)
     o.samara.body_file = good
-    o.scale = (2.0, 2.0, 2.0)
+    o.scale = (2.0, 2.0, 1.0)
     found["scale"] = run(bpy.ops.samara.simulate)
     o.scale = (1.0, 1.0, 1.0)
     scene.frame_end = scene.frame_start
@@ -547,7 +579,7 @@ def simulate_in_window(file):
         yield 0.05
     found["finished"] = watch.results[-1]
     found["keys"] = sorted({len(c.keyframe_points) for o in objects for c in o.animation_data.action.fcurves})
-    objects[0].scale = (2.0, 2.0, 2.0)
+    objects[0].scale = (2.0, 1.0, 2.0)
     found["refused"] = run(bpy.ops.samara.simulate)
     return found
 
@@ -670,7 +702,7 @@ def go_on(steps):
     return None
 
 
-tasks = (keys, live, roof, lift, masses, cache, scrub, errors, bake, render, crowd, simulate_in_window, live_in_window, bake_in_window, glb, version)
+tasks = (keys, live, roof, lift, masses, sizes, cache, scrub, errors, bake, render, crowd, simulate_in_window, live_in_window, bake_in_window, glb, version)
 found = {f.__name__: f for f in tasks}[task](*arguments)
 if inspect.isgenerator(found):
     bpy.context.preferences.view.show_splash = False

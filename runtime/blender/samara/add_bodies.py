@@ -4,7 +4,7 @@ import os
 
 import bpy
 import numpy
-from bpy.props import BoolProperty, FloatVectorProperty, IntProperty, StringProperty
+from bpy.props import BoolProperty, FloatProperty, FloatVectorProperty, IntProperty, StringProperty
 
 from .conventions import metres_per_unit
 from .samara_library import SamaraError, body_of_file
@@ -37,8 +37,15 @@ class SAMARA_OT_add_bodies(bpy.types.Operator):
         name="Spread", description="Up to this far from the 3D cursor along each axis", subtype="TRANSLATION", size=3
     )
     turn: BoolProperty(name="Turn", description="Each into an attitude of its own")
+    smallest_size: FloatProperty(
+        name="Smallest Size", description="Over that of the body file; each body has one between the two", default=1.0, min=0.001
+    )
+    largest_size: FloatProperty(name="Largest Size", description="Over that of the body file", default=1.0, min=0.001)
+    release: FloatProperty(
+        name="Release Over", description="So many frames: each body is held for a share of them", default=0.0, min=0.0
+    )
     spread_seed: IntProperty(name="Seed of the Spread", default=1, min=0)
-    density: bpy.props.FloatProperty(name="Density", description="kg/m^3", default=1200.0, min=0.001, precision=1)
+    density: FloatProperty(name="Density", description="kg/m^3", default=1200.0, min=0.001, precision=1)
 
     def invoke(self, context, event):
         context.window_manager.fileselect_add(self)
@@ -52,6 +59,7 @@ class SAMARA_OT_add_bodies(bpy.types.Operator):
             self.report({"ERROR"}, str(fault))
             return {"CANCELLED"}
         random = numpy.random.default_rng(self.spread_seed)
+        sizes = numpy.log([min(self.smallest_size, self.largest_size), max(self.smallest_size, self.largest_size)])
         for o in context.selected_objects:
             o.select_set(False)
         for _ in range(self.count):
@@ -61,6 +69,8 @@ class SAMARA_OT_add_bodies(bpy.types.Operator):
             o.rotation_mode = "QUATERNION"
             if self.turn:
                 o.rotation_quaternion = _random_turn(random)
+            o.scale = [numpy.exp(random.uniform(*sizes))] * 3 if sizes[0] < sizes[1] else [self.smallest_size] * 3
+            o.samara.release = random.uniform(0.0, self.release) if self.release > 0.0 else 0.0
             o.samara.body_file = self.filepath
             o.samara.density = self.density
             context.collection.objects.link(o)

@@ -46,13 +46,14 @@ def noise_name(name):
     return plain[:40] + "_" + hashlib.sha256(name.encode()).hexdigest()[:20]
 
 
-def checked_scale(name, scale, body_scale):
-    """Refuses an object that does not show its body in the body file's size."""
-    if all(math.isclose(a, b, rel_tol=1e-4) for a, b in zip(scale, body_scale)):
-        return
+def size_of(name, scale, body_scale):
+    """How large an object is, over the size of its body file. Refuses one of another shape."""
+    ratios = [a / b if b else 0.0 for a, b in zip(scale, body_scale)]
+    if ratios[0] > 0.0 and all(math.isclose(ratio, ratios[0], rel_tol=1e-4) for ratio in ratios):
+        return 1.0 if math.isclose(ratios[0], 1.0, rel_tol=1e-4) else sum(ratios) / 3.0
     text = ", ".join(f"{s:.4g}" for s in scale)
     wanted = ", ".join(f"{s:.4g}" for s in body_scale)
     raise SamaraError(
-        f"{name}: its scale is ({text}), but the size of the body file counts, which is for ({wanted}); "
-        "apply the scale (Ctrl A) and bake the body anew, or set the scale back"
+        f"{name}: its scale is ({text}), which is another shape than that of the body file, for ({wanted}), or a "
+        "multiple; apply the scale (Ctrl A) and bake the body anew, or set the scale back"
     )

@@ -92,7 +92,9 @@ class Request:
     body_file_time: int  # when the file was written: a file that is baked anew is another request
     density: float
     mass: str  # FILE: as the file says, by the density where it says nothing; DENSITY, MASS
-    mass_given: tuple  # kg, centre of mass or None, inertia (9 numbers) or None; with MASS
+    mass_given: tuple  # kg, centre of mass or None, inertia (9 numbers) or None; with MASS; at the object's size
+    size: float  # over the body file's
+    start: float  # s: held until then
     loads: str  # AUTO: from tables where the file has them, TABLE, COEFFICIENTS
     drag_coefficient: float
     lift_coefficient: float
@@ -107,6 +109,8 @@ class Request:
         kind = samara_library.default_kind()
         kind.name = noise_name(self.name).encode()
         self._weigh(kind, body)
+        kind.smallest_size = kind.largest_size = self.size
+        kind.start = self.start
         kind.position[:] = self.position
         kind.orientation[:] = self.orientation
         kind.velocity[:] = self.velocity
@@ -121,12 +125,13 @@ class Request:
     def _weigh(self, kind, body):
         if self.mass == "MASS":
             mass, center, inertia = self.mass_given
-            kind.mass = mass
+            size = self.size
+            kind.mass = mass / size**3
             if center is not None:
                 kind.has_center_of_mass = 1
-                kind.center_of_mass[:] = center
+                kind.center_of_mass[:] = [x / size for x in center]
             if inertia is not None:
-                kind.inertia[:] = inertia
+                kind.inertia[:] = [x / size**5 for x in inertia]
         elif self.mass == "DENSITY" or body.mass == 0.0:
             kind.density = self.density
 

@@ -4,7 +4,7 @@ import os
 
 import bpy
 
-from .conventions import checked_scale, frame_count, metres_per_unit, seconds_per_frame
+from .conventions import frame_count, metres_per_unit, seconds_per_frame, size_of
 from .flight import Request, Surroundings
 from .samara_library import SamaraError
 
@@ -121,7 +121,7 @@ def request_of(o, surroundings):
     body, unit = o.samara, surroundings.metres_per_unit
     if body.is_obstacle:
         raise SamaraError(f"{o.name}: is an obstacle, and does not fly; untick Obstacle, or leave it out")
-    checked_scale(o.name, o.scale, body.body_scale)
+    size = size_of(o.name, o.scale, body.body_scale)
     location, rotation = start_pose(o)
     file = body_file_of(o)
     return Request(
@@ -131,6 +131,8 @@ def request_of(o, surroundings):
         density=body.density,
         mass=body.mass_source,
         mass_given=_mass_of(body, unit),
+        size=size,
+        start=body.release * surroundings.frame_seconds,
         loads=body.loads,
         drag_coefficient=body.drag_coefficient,
         lift_coefficient=body.lift_coefficient,

@@ -43,6 +43,7 @@ class SAMARA_PT_body(bpy.types.Panel):
             layout.prop(body, "noise")
         layout.prop(body, "velocity")
         layout.prop(body, "angular_velocity")
+        layout.prop(body, "release")
 
         column = layout.column()
         column.operator("samara.copy_settings", icon="COPYDOWN")

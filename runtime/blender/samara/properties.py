@@ -73,6 +73,9 @@ class SamaraBody(bpy.types.PropertyGroup):
     angular_velocity: FloatVectorProperty(
         name="Angular Velocity", description="At the first frame: rad/s about the world's axes", size=3
     )
+    release: FloatProperty(
+        name="Release", description="So many frames after the first one; held in place until then", default=0.0, min=0.0, precision=1
+    )
     is_obstacle: BoolProperty(
         name="Obstacle",
         description="Bodies land on this object's mesh, with modifiers, slide on it and fall off; it does not feel them",

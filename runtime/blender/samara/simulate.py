@@ -103,6 +103,7 @@ class SAMARA_OT_copy_settings(bpy.types.Operator):
         "noise",
         "velocity",
         "angular_velocity",
+        "release",
     )
 
     @classmethod

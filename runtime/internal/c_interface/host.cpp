@@ -25,7 +25,8 @@ auto& flight_of(Simulation* simulation, std::size_t body) {
     samara::require_bodies(simulation, 0, 0);
     auto& flight = simulation->flight;
     flight.require_running();
-    if (body >= flight.size()) samara::refuse("body", fmt::format("is {}, but there are {}", body, flight.size()));
+    if (body >= flight.size())
+        samara::refuse("body", fmt::format("is {}, but there are {}", body, flight.size()));
     return flight;
 }
 
@@ -114,8 +115,8 @@ samara_status samara_add_angular_impulse(samara_simulation* simulation, size_t b
                                          const double angular_impulse[3], char* error, size_t error_size) {
     return guarded(error, error_size, [&] {
         flight_with(simulation, body)
-            .add_impulse(
-                body, {.force = Vector3d::Zero(), .moment = three(angular_impulse, "angular_impulse")});
+            .add_impulse(body,
+                         {.force = Vector3d::Zero(), .moment = three(angular_impulse, "angular_impulse")});
     });
 }
 
@@ -144,8 +145,9 @@ samara_status samara_watch_contacts(samara_simulation* simulation, int32_t watch
 samara_status samara_take_contacts(samara_simulation* simulation, size_t first, size_t count,
                                    samara_contact* contacts, size_t stride, char* error, size_t error_size) {
     return guarded(error, error_size, [&] {
-        const std::size_t bytes = samara::checked_stride(simulation, first, count, contacts, "contacts", stride,
-                                                         sizeof(samara_contact), alignof(samara_contact));
+        const std::size_t bytes =
+            samara::checked_stride(simulation, first, count, contacts, "contacts", stride,
+                                   sizeof(samara_contact), alignof(samara_contact));
         auto* place = reinterpret_cast<std::byte*>(contacts);
         for (std::size_t i = first; i < first + count; ++i, place += bytes) {
             const samara::ContactRecord met = simulation->flight.take_contacts(i);

@@ -112,8 +112,8 @@ void read_start(const samara_kind& kind, GivenKind& body) {
     body.smallest_size = positive(kind.smallest_size, "smallest_size");
     body.largest_size = positive(kind.largest_size, "largest_size");
     if (body.largest_size < body.smallest_size) {
-        refuse("largest_size", fmt::format("is {:g}, below smallest_size, {:g}", body.largest_size,
-                                           body.smallest_size));
+        refuse("largest_size",
+               fmt::format("is {:g}, below smallest_size, {:g}", body.largest_size, body.smallest_size));
     }
     if (body.count == 1 && body.largest_size != body.smallest_size) {
         refuse("largest_size", "differs from smallest_size, but count is 1: give both the size of that body");

@@ -33,7 +33,8 @@ struct BatchGround {
         const Ground met = ground_in_flow(ground.surroundings, time - substep, time);
         const double size = ground.batch.size_of(index);
         ContactRecord* record = ground.met == nullptr ? nullptr : ground.met + index;
-        if (size == 1.0) return touch_ground(ground.batch.touching(index), met, substep, before, state, record);
+        if (size == 1.0)
+            return touch_ground(ground.batch.touching(index), met, substep, before, state, record);
         const BodyState world_before = in_world_units(before, size);
         BodyState world = in_world_units(state, size);
         touch_ground(ground.batch.touching(index), met, substep, world_before, world, record);

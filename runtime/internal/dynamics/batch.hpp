@@ -69,8 +69,8 @@ class BasicBatch {
     std::size_t size_;
     FlightConstants<Real> constants_;
     std::vector<FlightBlock<Real>> blocks_;
-    std::vector<double> sizes_;           ///< none where all are the shape's
-    std::vector<ImmersedBody> touching_;  ///< of each size, where there is something to touch
+    std::vector<double> sizes_;                    ///< none where all are the shape's
+    std::vector<ImmersedBody> touching_;           ///< of each size, where there is something to touch
     std::vector<kernel::ExternalLoads> external_;  ///< of each block; none where nothing is pushed
     std::vector<ContactRecord> met_;               ///< of each body; none where it is not noted
 };

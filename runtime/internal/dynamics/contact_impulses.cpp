@@ -346,7 +346,8 @@ class ImpulseSolver {
 
 /// The share of the change that was found which adds no energy beyond the `work` (J) of surfaces that move:
 /// friction that was bounded by a normal impulse which later fell may add a little.
-double passive_share(const ImmersedBody& body, const Vector6d& velocity, const Vector6d& change, double work) {
+double passive_share(const ImmersedBody& body, const Vector6d& velocity, const Vector6d& change,
+                     double work) {
     const Vector6d momentum = body.inertia * change;
     const double gain = velocity.dot(momentum) - work;
     const double square = change.dot(momentum);

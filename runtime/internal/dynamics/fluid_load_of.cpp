@@ -27,8 +27,8 @@ FluidLoad fluid_load_of(const ImmersedBody& body, const Surroundings& surroundin
     if (!stream.moves) stream = {Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()};
     const Matrix3d to_world = state.orientation.toRotationMatrix();
     const Matrix3d to_body = to_world.transpose();
-    const Vector3d gravity =
-        apparent_gravity(surroundings, step_time(start, time_step, step), step_time(start, time_step, step + 1));
+    const Vector3d gravity = apparent_gravity(surroundings, step_time(start, time_step, step),
+                                              step_time(start, time_step, step + 1));
     // Of the stream that the body is in, in the world.
     const Vector3d acceleration =
         to_body * ((stream.end - stream.begin) / time_step + surroundings.gravity - gravity);

@@ -198,8 +198,7 @@ void add_obstacles(const ObstacleSet& obstacles, const ContactPoints& points, co
             surface.moving = to_obstacle * (next.position - now.position) / time_step;
         }
         const PlacedHull hull = placed(points, body, now);
-        FaceContacts contacts(hull, velocity, surface, time_step, reached, obstacle.friction, number,
-                              near);
+        FaceContacts contacts(hull, velocity, surface, time_step, reached, obstacle.friction, number, near);
         faces.visit_near(box_about(hull.position, hull.position, radius),
                          [&](const ObstacleTriangle& triangle) { contacts.add(triangle); });
     }

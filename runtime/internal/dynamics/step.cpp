@@ -48,7 +48,8 @@ StepResult advance(const ImmersedBody& body, const Surroundings& surroundings, d
                               result.state);
         if (!has_ground(surroundings)) continue;
         const double now = time + (i + 1) * substep;
-        touch_ground(body, ground_in_flow(surroundings, now - substep, now), substep, before, result.state, met);
+        touch_ground(body, ground_in_flow(surroundings, now - substep, now), substep, before, result.state,
+                     met);
         before = result.state;
     }
     return result;

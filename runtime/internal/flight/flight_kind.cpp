@@ -453,7 +453,8 @@ std::string FlightKind::description() const {
 }
 
 std::size_t FlightKind::state_size() const {
-    return sizeof(steps_) + report_bytes + batch_.size() * (body_state_bytes + pose_bytes + sizeof(double) + sizeof(std::uint8_t));
+    return sizeof(steps_) + report_bytes +
+           batch_.size() * (body_state_bytes + pose_bytes + sizeof(double) + sizeof(std::uint8_t));
 }
 
 void FlightKind::write(StateWriter& writer) const {

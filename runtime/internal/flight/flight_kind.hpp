@@ -51,8 +51,8 @@ class FlightKind {
     [[nodiscard]] std::uint64_t steps() const noexcept { return report_.steps; }
 
     /// Steps on until the last step lies at the time or after it, the one before before it. The wrenches that
-    /// were added act in its steps, and are gone; `duration` (s): of the call. Throws FlightError where a body's
-    /// motion leaves the range of numbers.
+    /// were added act in its steps, and are gone; `duration` (s): of the call. Throws FlightError where a
+    /// body's motion leaves the range of numbers.
     void advance_to(double time, double duration);
     /// How many steps reach a time, to rounding.
     [[nodiscard]] std::uint64_t steps_until(double time) const;

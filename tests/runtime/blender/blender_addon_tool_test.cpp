@@ -152,7 +152,7 @@ TEST(BlenderAddon, ReportsWhatItCannotFly) {
     EXPECT_THAT(error("cut_live"), HasSubstr("cut.body.h5"));
     EXPECT_THAT(error("missing"), HasSubstr("No such file"));
     EXPECT_THAT(error("missing_live"), HasSubstr("No such file"));
-    EXPECT_THAT(error("scale"), HasSubstr("the size of the body file counts"));
+    EXPECT_THAT(error("scale"), HasSubstr("another shape than that of the body file"));
     EXPECT_THAT(error("range"), HasSubstr("has no length"));
     EXPECT_THAT(error("parent"), HasSubstr("has a parent"));
     EXPECT_THAT(error("in_handler"), HasSubstr("cut.body.h5"));

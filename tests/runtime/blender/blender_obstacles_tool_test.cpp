@@ -8,6 +8,7 @@
 
 #include "blender/blender_poses.hpp"
 #include "paths.hpp"
+#include "samara/flight/flight.hpp"
 #include "samara/motion/motion_file.hpp"
 #include "support/blender_addon.hpp"
 #include "support/program_run.hpp"
@@ -139,6 +140,53 @@ TEST(BlenderMass, IsTheFilesOrTheDensityOrGivenWithCentreAndInertia) {
     EXPECT_GT(distance(pose("file"), pose("off_center")), 1e-3);
     EXPECT_GT(distance(pose("off_center"), pose("inertia")), 1e-3);
     EXPECT_THAT(found["no_inertia"].get<std::string>(), HasSubstr("moments of inertia"));
+}
+
+TEST(BlenderAddon, FliesObjectsAtTheirScaleAndReleasesThemOneByOne) {
+    const TemporaryFolder folder;
+    const std::string file = rubber_file(folder);
+    const json found = use_addon({"sizes", file});
+    EXPECT_EQ(found["fault"], "");
+    double smallest = 2.0;
+    double largest = 0.5;
+    int late = 0;
+    for (std::size_t i = 0; i < found["scales"].size(); ++i) {
+        const double scale = found["scales"][i][0].get<double>();
+        EXPECT_EQ(found["scales"][i], json::array({scale, scale, scale}));
+        smallest = std::min(smallest, scale);
+        largest = std::max(largest, scale);
+        const json& heights = found["places"][i];
+        const bool waits = found["releases"][i].get<double>() > 3.0;
+        late += waits ? 1 : 0;
+        EXPECT_EQ(heights[0] == heights[1], waits) << i << ": at the first frame and three later";
+        EXPECT_LT(heights[2], heights[0]);
+    }
+    EXPECT_GE(smallest, 0.5);
+    EXPECT_LE(largest, 2.0);
+    EXPECT_GT(largest / smallest, 1.5);
+    EXPECT_GT(late, 2);
+    EXPECT_LT(late, 12);
+
+    BodyPhysics physics;
+    physics.mass.mass = 1200.0 * 33.51032163829e-6;
+    physics.mass.center_of_mass = Vector3d(0.0, 0.0, 0.004);
+    physics.loads = Loads::table;
+    physics.turbulence = Turbulence::none;
+    const json& start = found["start"];
+    const auto place = [](const json& rows) {
+        return Vector3d(rows[0][3].get<double>(), rows[1][3].get<double>(), rows[2][3].get<double>());
+    };
+    Flight flight;
+    flight.add({test::rubber(), ""}, physics,
+               {.position = place(start),
+                .orientation = Quaterniond(0.8, 0.0, 0.6, 0.0),
+                .start = 0.2,
+                .smallest_size = 2.0,
+                .largest_size = 2.0});
+    flight.advance_to(1.0);
+    const Vector3d origin = shape_origin(flight.pose(0), flight.center_of_mass(0));
+    EXPECT_LT((place(found["twice"]) - origin).norm(), 1e-4) << "its mass is of single precision";
+    EXPECT_GT((origin - place(start)).norm(), 0.05);
 }
 
 TEST(BlenderLive, ReadsFlightsFromTheDiskAndFliesThoseAnewThatAreDamaged) {

@@ -166,7 +166,8 @@ TEST(CHost, TakesWhatBodiesMetIntoObjectsOfTheHost) {
     };
     std::array<Object, 2> objects{};
     objects[0].own = objects[1].own = 7.0;
-    ASSERT_EQ(CALL(samara_take_contacts, simulation.get(), 0, 2, &objects[0].contact, sizeof(Object)), SAMARA_OK)
+    ASSERT_EQ(CALL(samara_take_contacts, simulation.get(), 0, 2, &objects[0].contact, sizeof(Object)),
+              SAMARA_OK)
         << fault.text();
     for (const Object& object : objects) {
         EXPECT_GT(object.contact.strongest, 0.0);

@@ -131,7 +131,8 @@ TEST(HostForce, OnOneOfManyMovesItAsItMovesOneAloneAndTheOthersNotAtAll) {
     Flight pair({.gravity = no_gravity});
     pair.add(ellipsoid(), stirred(), {.count = 2});
     for (int frame = 1; frame <= 20; ++frame) {
-        const Wrench wrench{.force = Vector3d(0.02, -0.03, 0.05 * frame), .moment = Vector3d(1e-4, 0.0, 2e-4)};
+        const Wrench wrench{.force = Vector3d(0.02, -0.03, 0.05 * frame),
+                            .moment = Vector3d(1e-4, 0.0, 2e-4)};
         crowd.add_wrench(17, wrench);
         alone.add_wrench(0, wrench);
         pair.add_wrench(0, wrench);
@@ -156,15 +157,17 @@ TEST(HostForce, WakesWhatRestsAndLetsItRestAgain) {
     Flight flight({.ground = 0.0});
     BodyPhysics physics = stirred();
     physics.turbulence = Turbulence::none;
-    flight.add(ellipsoid(), physics, {.position = Vector3d(0.0, 0.0, 0.011),
-                                     .orientation = Quaterniond(std::sqrt(0.5), 0.0, std::sqrt(0.5), 0.0)});
+    flight.add(ellipsoid(), physics,
+               {.position = Vector3d(0.0, 0.0, 0.011),
+                .orientation = Quaterniond(std::sqrt(0.5), 0.0, std::sqrt(0.5), 0.0)});
     flight.advance_to(5.0);
     ASSERT_TRUE(flight.is_at_rest(0));
     const Pose there = flight.pose(0);
     const double weight = 9.81 * (flight.mass(0) - 998.2 * flight.kinds()[0]->body().volume);
     flight.add_wrench(0, {.force = Vector3d(0.0, 0.01 * weight, 0.0)});
     flight.advance_to(5.5);
-    EXPECT_TRUE(flight.is_at_rest(0)) << "what stops a ball that rolls holds it against a hundredth of its weight";
+    EXPECT_TRUE(flight.is_at_rest(0))
+        << "what stops a ball that rolls holds it against a hundredth of its weight";
     EXPECT_EQ(flight.pose(0).position, there.position);
     flight.add_wrench(0, {.force = Vector3d(0.0, 0.0, 2.0 * weight)});
     flight.advance_to(6.0);
@@ -307,7 +310,8 @@ Flight in_moving_fluid(double step) {
     settings.step = step;
     settings.fluid.current = Vector3d(0.1, 0.2, 0.0);
     settings.fluid.gust = {.amplitude = Vector3d(0.3, 0.0, 0.1), .period = 0.9};
-    settings.wind.vortices = {{.position = Vector3d(0.3, 0.0, 0.0), .axis = Vector3d::UnitZ(), .circulation = 1.0}};
+    settings.wind.vortices = {
+        {.position = Vector3d(0.3, 0.0, 0.0), .axis = Vector3d::UnitZ(), .circulation = 1.0}};
     Flight flight(settings);
     BodyPhysics physics;
     physics.mass.mass = 0.05;
@@ -367,8 +371,9 @@ double distance_of_host(double step) {
         BodyPhysics physics;
         physics.mass.density = 1200.0;
         physics.turbulence = Turbulence::none;
-        flight.add({test::lopsided_shape(), "lopsided"}, physics,
-                   {.orientation = Quaterniond(Eigen::AngleAxisd(0.4, Vector3d(1.0, 2.0, 0.5).normalized()))});
+        flight.add(
+            {test::lopsided_shape(), "lopsided"}, physics,
+            {.orientation = Quaterniond(Eigen::AngleAxisd(0.4, Vector3d(1.0, 2.0, 0.5).normalized()))});
         return flight;
     };
     Flight flown = made();
@@ -385,7 +390,8 @@ double distance_of_host(double step) {
         pose.velocity += change.tail<3>();
         pose.position += step * pose.velocity;
         const double angle = step * pose.angular_velocity.norm();
-        pose.orientation = Quaterniond(Eigen::AngleAxisd(angle, pose.angular_velocity.normalized())) * pose.orientation;
+        pose.orientation =
+            Quaterniond(Eigen::AngleAxisd(angle, pose.angular_velocity.normalized())) * pose.orientation;
         asked.advance_to((i + 1) * step);
         asked.set_pose(0, pose);
     }
