@@ -111,6 +111,7 @@ nlohmann::json run(const Request& request, const Arguments& arguments) {
     const std::size_t body = body_of(scene, request.body);
     const std::vector<LoadedBody> loaded = load_scene_bodies(scene, request.bodies);
     (void)choose_models(scene, loaded, request.threads, [](double, double) {});
+    (void)choose_step(scene, loaded, request.threads);
     for (std::size_t i = 0; i < loaded.size(); ++i) {
         require_sizes_in_tables(scene, scene.bodies[i], loaded[i]);
     }

@@ -185,16 +185,28 @@ nlohmann::json body_result(const MotionReader& file, std::size_t index, const Bo
     return result;
 }
 
+nlohmann::json step_as_json(const StepAdvice& advice) {
+    return {{"error", advice.error},
+            {"tolerance", advice.tolerance},
+            {"within", advice.is_met},
+            {"limit", advice.limit}};
+}
+
 nlohmann::json run(const Request& request, const Arguments& arguments) {
     require_motion_file_name(request.output);
     Scene scene = read_scene_file(request.scene);
     if (arguments.given("--seed")) scene.seed = request.seed;
-    if (arguments.given("--step")) scene.step = request.step;
+    if (arguments.given("--step")) {
+        scene.step = request.step;
+        scene.step_auto = false;
+    }
 
     const RunNeeds needs = judged_needs(scene, request);
 
     const std::vector<LoadedBody> loaded = load_scene_bodies(scene, request.bodies);
     const std::optional<ModelAdvice> advice = choose_with_progress(scene, loaded, request.threads);
+    const std::optional<StepAdvice> step = choose_step(scene, loaded, request.threads);
+    if (step && !arguments.json()) print_result("step = \"auto\": {}\n", as_text(*step));
     if (advice && !arguments.json()) print_result("models = \"auto\" chose:\n{}", as_text(*advice));
 
     for (std::size_t i = 0; i < loaded.size(); ++i) {
@@ -228,17 +240,19 @@ nlohmann::json run(const Request& request, const Arguments& arguments) {
         print_result("{} steps in {:.3g} s, {:.0f} ns each -> {}\n", report.steps, report.seconds,
                      nanoseconds, request.output);
     }
-    return {{"bodies", bodies},
-            {"models", advice ? as_json(*advice) : nlohmann::json(nullptr)},
-            {"needs", {{"memory", needs.memory}, {"disk", needs.disk}}},
-            {"frames", report.frames},
-            {"steps", report.steps},
-            {"implicit_steps", report.implicit_steps},
-            {"most_substeps", report.most_substeps},
-            {"steps_at_limit", report.steps_at_limit},
-            {"seconds", report.seconds},
-            {"nanoseconds_per_step", nanoseconds},
-            {"output", request.output}};
+    return {
+        {"bodies", bodies},
+        {"models", advice ? as_json(*advice) : nlohmann::json(nullptr)},
+        {"step", {{"seconds", scene.step}, {"auto", step ? step_as_json(*step) : nlohmann::json(nullptr)}}},
+        {"needs", {{"memory", needs.memory}, {"disk", needs.disk}}},
+        {"frames", report.frames},
+        {"steps", report.steps},
+        {"implicit_steps", report.implicit_steps},
+        {"most_substeps", report.most_substeps},
+        {"steps_at_limit", report.steps_at_limit},
+        {"seconds", report.seconds},
+        {"nanoseconds_per_step", nanoseconds},
+        {"output", request.output}};
 }
 
 }  // namespace

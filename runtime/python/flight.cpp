@@ -42,6 +42,7 @@ class LiveFlight {
             loaded = load_scene_bodies(scene, bodies.string());
         }
         choose_models(scene, loaded, threads, [](double, double) {});
+        choose_step(scene, loaded, threads);
         step_ = scene.step;
         flight_.emplace(flight_settings(scene, runs, threads));
         for (std::size_t i = 0; i < loaded.size(); ++i) {

@@ -50,7 +50,10 @@ FlownMotion fly(Scene scene, int runs, std::optional<std::uint64_t> seed, std::o
     if (threads < 0 || threads > 4096) throw Error("threads: give 0 for all cores, or up to 4096");
     if (step && !(*step >= 1e-9 && *step <= 1e3)) throw Error("step: give seconds, from 1e-9 to 1000");
     if (seed) scene.seed = *seed;
-    if (step) scene.step = *step;
+    if (step) {
+        scene.step = *step;
+        scene.step_auto = false;
+    }
     LongWork work(std::move(progress));
     return work([&]() -> FlownMotion {
         std::vector<LoadedBody> loaded;
@@ -60,6 +63,7 @@ FlownMotion fly(Scene scene, int runs, std::optional<std::uint64_t> seed, std::o
         }
         // Judging models flies as well, and is ended by tell() as soon as the flight itself begins.
         choose_models(scene, loaded, threads, [&](double, double) {});
+        choose_step(scene, loaded, threads);
         SimulationResult result = simulate(
             scene, loaded, runs, [&](double done, double total) { return work.tell(done, total); }, threads);
         return {std::make_shared<const Motion>(std::move(result.motion)),

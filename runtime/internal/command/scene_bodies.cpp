@@ -94,4 +94,12 @@ std::optional<ModelAdvice> choose_models(Scene& scene, const std::vector<LoadedB
     return advice;
 }
 
+std::optional<StepAdvice> choose_step(Scene& scene, const std::vector<LoadedBody>& loaded, int threads) {
+    if (!scene.step_auto) return std::nullopt;
+    const StepAdvice advice = advise_step(scene, loaded, threads);
+    scene.step = advice.step;
+    scene.step_auto = false;
+    return advice;
+}
+
 }  // namespace samara

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "internal/advice/model_advice.hpp"
+#include "internal/advice/step_advice.hpp"
 #include "samara/flight/loaded_body.hpp"
 #include "samara/scene/scene.hpp"
 
@@ -20,5 +21,9 @@ std::vector<LoadedBody> load_scene_bodies(const Scene& scene, const std::string&
 /// `threads`: 0 for all cores. Throws Error where a body lacks the tables for it.
 std::optional<ModelAdvice> choose_models(Scene& scene, const std::vector<LoadedBody>& loaded, int threads,
                                          const AdviceProgress& progress);
+
+/// Sets the step of a scene that leaves it to the advice, once its models are chosen; nothing where it does
+/// not. `threads`: 0 for all cores.
+std::optional<StepAdvice> choose_step(Scene& scene, const std::vector<LoadedBody>& loaded, int threads);
 
 }  // namespace samara

@@ -25,8 +25,10 @@ struct SceneBody : BodyPhysics, Release {
 
 /// A scene file, checked: every number is finite and in its range.
 struct Scene {
-    double duration = 0.0;                         ///< s
-    double step = 0.002;                           ///< s
+    double duration = 0.0;   ///< s
+    double step = 0.002;     ///< s
+    bool step_auto = false;  ///< whether the step is chosen by what the bodies ask for (docs/theory.md)
+    double step_tolerance = 0.005;                 ///< of the way: by how much it may be off
     double frame_rate = 60.0;                      ///< frames per second
     std::uint64_t seed = 1;                        ///< of the noise and the spread of starts
     Vector3d gravity = Vector3d(0.0, 0.0, -9.81);  ///< m/s^2

@@ -258,11 +258,27 @@ SceneBody read_body(TomlTable& table, const std::filesystem::path& folder) {
     return body;
 }
 
+void read_step(TomlTable& table, Scene& scene) {
+    const toml::node* step = table.node("step");
+    scene.step_auto = step != nullptr && step->is_string();
+    if (!scene.step_auto) {
+        assign(scene.step, table.number("step", positive_number));
+    } else if (*table.text("step") != "auto") {
+        throw table.fault("step", "must be a number of seconds, or \"auto\"");
+    }
+    const auto tolerance =
+        table.number("step_tolerance", {1e-6, 0.1, "must lie between 1e-6 and 0.1: a share of the way"});
+    if (tolerance && !scene.step_auto) {
+        throw table.fault("step_tolerance", "is for step = \"auto\"; remove it, or set step so");
+    }
+    assign(scene.step_tolerance, tolerance);
+}
+
 void read_settings(TomlTable& table, Scene& scene) {
     const auto duration = table.number("duration", positive_number);
     if (!duration) throw table.fault("duration", "is missing; give the seconds to simulate");
     scene.duration = *duration;
-    assign(scene.step, table.number("step", positive_number));
+    read_step(table, scene);
     assign(scene.frame_rate, table.number("frame_rate", positive_number));
     if (const auto seed = table.integer("seed", 0, std::numeric_limits<std::int64_t>::max())) {
         scene.seed = static_cast<std::uint64_t>(*seed);

@@ -178,6 +178,24 @@ TEST_F(SceneFile, AMisspeltKeyIsNamedBeforeTheKeyThatItLeavesMissing) {
                 HasSubstr("shape in [[body]] is missing"));
 }
 
+TEST_F(SceneFile, TheStepIsANumberOrLeftToTheAdviceWithATolerance) {
+    const auto with_step = [](const std::string& keys) {
+        return "[scene]\nduration = 1\n" + keys +
+               "\n[[body]]\nname = \"ball\"\nshape = \"ball.stl\"\ndensity = 2\n";
+    };
+    EXPECT_FALSE(read(with_step("step = 0.01")).step_auto);
+    const Scene scene = read(with_step("step = \"auto\""));
+    EXPECT_TRUE(scene.step_auto);
+    EXPECT_EQ(scene.step_tolerance, 0.005);
+    EXPECT_EQ(read(with_step("step = \"auto\"\nstep_tolerance = 1e-3")).step_tolerance, 1e-3);
+    EXPECT_THAT(refusal(with_step("step = \"fast\"")),
+                HasSubstr("scene.toml:3: step: must be a number of seconds, or \"auto\""));
+    EXPECT_THAT(refusal(with_step("step_tolerance = 1e-3")),
+                HasSubstr("scene.toml:3: step_tolerance: is for step = \"auto\""));
+    EXPECT_THAT(refusal(with_step("step = \"auto\"\nstep_tolerance = 1")),
+                HasSubstr("scene.toml:4: step_tolerance: must lie between"));
+}
+
 TEST_F(SceneFile, AValueOutOfRangeIsRefusedWithItsLine) {
     EXPECT_THAT(refusal(with_body("density = -1")), HasSubstr("scene.toml:6: density"));
     EXPECT_THAT(refusal(with_body("density = nan")), HasSubstr("scene.toml:6: density"));

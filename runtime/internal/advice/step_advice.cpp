@@ -1,0 +1,289 @@
+#include "internal/advice/step_advice.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <exception>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "internal/base/parallel_for.hpp"
+#include "internal/dynamics/body_size.hpp"
+#include "internal/dynamics/langevin.hpp"
+#include "internal/flight/flight_kind.hpp"
+#include "internal/flight/terminal_speed.hpp"
+#include "internal/flight/world_pose.hpp"
+
+namespace samara {
+namespace {
+
+constexpr double longest_step = 0.04;  // s; the others are this over powers of two, whatever the frames
+constexpr int most_copies = 4;
+constexpr int most_windows = 48;
+constexpr double lengths_in_window = 4.0;
+constexpr double finest_of_length = 0.01;  // of the way L that a body comes in the finest step
+constexpr int fewest_halvings = 4;         // of the longest step, down to the finest
+constexpr int most_halvings = 14;
+constexpr int truth_halvings = 2;  // by which the finest flight is finer than the finest step that is judged
+constexpr double turbulence_rate = 0.75 * 2.1;  // times epsilon/k: docs/theory.md#langevin
+
+/// The flights of one body.
+class JudgedBody {
+  public:
+    JudgedBody(const Scene& scene, const SceneBody& scene_body, const LoadedBody& loaded)
+        : scene_(scene), loaded_(loaded), name_(scene_body.name), physics_(scene_body), release_(scene_body) {
+        turbulent_ = physics_.turbulence != Turbulence::none;
+        quiet_ = physics_;
+        quiet_.turbulence = Turbulence::none;
+        release_.count = std::min(release_.count, most_copies);
+        set_scales();
+    }
+
+    /// The longest steps that motion and turbulence allow.
+    BodyStep judge() {
+        fly_finest();
+        BodyStep result{
+            .name = name_, .motion = longest_step, .turbulence = std::numeric_limits<double>::infinity()};
+        errors_.clear();
+        int longest = -1;
+        for (int j = 0; j <= halvings_ - truth_halvings; ++j) {
+            errors_.push_back(error_at(j));
+            if (errors_.back() > scene_.step_tolerance) {
+                longest = -1;
+            } else if (longest < 0) {
+                longest = j;
+            }
+        }
+        is_met_ = longest >= 0;
+        result.motion = step_of(is_met_ ? longest : halvings_ - truth_halvings);
+        if (turbulent_ && samples_ > 0 && squared_rates_ > 0.0) {
+            const double rate = std::sqrt(squared_rates_ / static_cast<double>(samples_));
+            result.turbulence = std::sqrt(12.0 * scene_.step_tolerance) / rate;
+        }
+        return result;
+    }
+
+    /// Of the motion, at the longest step over a power of two.
+    [[nodiscard]] double error_of(double step) const {
+        const auto j = static_cast<std::size_t>(std::max(0L, std::lround(std::log2(longest_step / step))));
+        return errors_[std::min(j, errors_.size() - 1)];
+    }
+    [[nodiscard]] bool is_met() const { return is_met_; }
+
+  private:
+    /// What a window ended with, and poses within steps.
+    struct WindowEnd {
+        std::vector<Pose> end;
+        std::vector<std::vector<Pose>> middle;  // half a step before, for each step that is judged
+    };
+
+    static double step_of(int halvings) { return longest_step / std::exp2(halvings); }
+
+    void set_scales() {
+        Flight flight(settings_at(longest_step));
+        add_to(flight);
+        const ImmersedBody& body = flight.kinds()[0]->body();
+        double smallest = 1.0;
+        for (std::size_t i = 0; i < flight.size(); ++i) {
+            smallest = i == 0 ? flight.size_of(i) : std::min(smallest, flight.size_of(i));
+        }
+        const double largest = largest_copy(flight);
+        half_length_ = 0.5 * largest * body.length;
+        double speed = std::sqrt(largest) *
+                       terminal_speed(*loaded_.body, scene_.fluid, body.mass, scene_.gravity.norm());
+        for (std::size_t i = 0; i < flight.size(); ++i) {
+            const Pose start = flight.kinds()[0]->pose_in_wind(i, flight.kinds()[0]->start(i));
+            speed = std::max(speed, start.velocity.norm() + half_length_ * start.angular_velocity.norm());
+        }
+        const double length = smallest * body.length;
+        const double wanted =
+            speed > 0.0 ? std::log2(longest_step * speed / (finest_of_length * length)) : 0.0;
+        halvings_ =
+            static_cast<int>(std::clamp(std::ceil(wanted), double{fewest_halvings}, double{most_halvings}));
+        const double window = speed > 0.0 ? lengths_in_window * largest * body.length / speed : 0.0;
+        steps_in_window_ = static_cast<int>(std::clamp(std::ceil(window / longest_step), 1.0, 1e4));
+        const double steps = std::max(0.0, (scene_.duration - release_.start) / longest_step);
+        windows_ =
+            static_cast<int>(std::clamp(std::floor(steps / steps_in_window_), 1.0, double{most_windows}));
+    }
+    static double largest_copy(const Flight& flight) {
+        double largest = 0.0;
+        for (std::size_t i = 0; i < flight.size(); ++i) largest = std::max(largest, flight.size_of(i));
+        return largest;
+    }
+
+    [[nodiscard]] FlightSettings settings_at(double step) const {
+        FlightSettings settings = flight_settings(scene_, 1, 1);
+        settings.ground.reset();
+        settings.obstacles.clear();
+        settings.step = step;
+        return settings;
+    }
+    void add_to(Flight& flight) const { flight.add(loaded_, quiet_, release_, name_); }
+
+    /// The end of window number w (s).
+    [[nodiscard]] double end_of(int w) const {
+        return release_.start + static_cast<double>(w * steps_in_window_) * longest_step;
+    }
+
+    void fly_finest() {
+        Flight flight(settings_at(step_of(halvings_)));
+        add_to(flight);
+        const FlightKind& kind = *flight.kinds()[0];
+        finest_.assign(1, {poses_of(flight), {}});
+        way_ = 0.0;
+        std::vector<Pose> before = finest_.front().end;
+        const auto go_on_to = [&](double time) {
+            flight.advance_to(time);
+            std::vector<Pose> now = poses_of(flight);
+            for (std::size_t i = 0; i < now.size(); ++i) way_ += distance(before[i], now[i]);
+            before = now;
+            if (turbulent_) sample_rates(kind, time);
+            return now;
+        };
+        for (int w = 0; w < windows_; ++w) {
+            for (int step = 1; step < steps_in_window_; ++step) go_on_to(end_of(w) + step * longest_step);
+            WindowEnd reached;
+            for (int j = 0; j <= halvings_ - truth_halvings; ++j) {
+                reached.middle.push_back(go_on_to(end_of(w + 1) - 0.5 * step_of(j)));
+            }
+            reached.end = go_on_to(end_of(w + 1));
+            finest_.push_back(std::move(reached));
+        }
+    }
+
+    void sample_rates(const FlightKind& kind, double time) {
+        if (!rated_) rated_ = std::make_unique<const ImmersedBody>(made());
+        for (std::size_t i = 0; i < kind.size(); ++i) {
+            if (time < kind.start(i)) continue;
+            const double size = kind.size_of(i);
+            const Pose pose = in_own_units(kind.pose_in_wind(i, time), size);
+            const TurbulenceLevel level = turbulence_level(*rated_, centroid_velocity(pose, *rated_));
+            if (!(level.turbulent_kinetic_energy > 0.0)) continue;
+            const double per_size = physics_.turbulence == Turbulence::table ? 1.0 / (size * size)
+                                                                             : 1.0;  // else it is the world's
+            const double rate =
+                turbulence_rate * level.dissipation_rate / level.turbulent_kinetic_energy * per_size;
+            squared_rates_ += rate * rate;
+            ++samples_;
+        }
+    }
+    [[nodiscard]] ImmersedBody made() const {
+        return make_immersed_body(*loaded_.body, physics_, scene_.fluid, name_);
+    }
+
+    /// Infinite where the motion leaves the range of numbers.
+    double error_at(int j) {
+        try {
+            return error_of_flight(j);
+        } catch (const FlightError&) {
+            return std::numeric_limits<double>::infinity();
+        }
+    }
+
+    double error_of_flight(int j) {
+        Flight flight(settings_at(step_of(j)));
+        add_to(flight);
+        double squares = 0.0;
+        const auto compare_at = [&](double time, const std::vector<Pose>& finest) {
+            flight.advance_to(time);
+            const std::vector<Pose> now = poses_of(flight);
+            for (std::size_t i = 0; i < now.size(); ++i) {
+                const double off = distance(finest[i], now[i]);
+                squares += off * off;
+            }
+        };
+        for (int w = 0; w < windows_; ++w) {
+            for (std::size_t i = 0; w > 0 && i < flight.size(); ++i) {
+                if (end_of(w) > flight.kinds()[0]->start(i)) flight.set_pose(i, finest_[as_place(w)].end[i]);
+            }
+            const WindowEnd& finest = finest_[as_place(w + 1)];
+            compare_at(end_of(w + 1) - 0.5 * step_of(j), finest.middle[as_place(j)]);
+            compare_at(end_of(w + 1), finest.end);
+        }
+        const double pieces = static_cast<double>(windows_) * static_cast<double>(flight.size());
+        return way_ > 0.0 ? std::sqrt(0.5 * squares / pieces) / (way_ / pieces) : 0.0;
+    }
+
+    static std::size_t as_place(int w) { return static_cast<std::size_t>(w); }
+    static std::vector<Pose> poses_of(const Flight& flight) {
+        std::vector<Pose> poses(flight.size());
+        flight.poses(0, poses.size(), poses.data());
+        return poses;
+    }
+    /// Of place and tip.
+    [[nodiscard]] double distance(const Pose& a, const Pose& b) const {
+        return std::hypot((a.position - b.position).norm(),
+                          half_length_ * a.orientation.angularDistance(b.orientation));
+    }
+
+    const Scene& scene_;
+    const LoadedBody& loaded_;
+    std::string name_;
+    BodyPhysics physics_, quiet_;
+    Release release_;
+    double half_length_ = 0.0;
+    bool turbulent_ = false;
+    int halvings_ = 0;
+    int steps_in_window_ = 1;
+    int windows_ = 1;
+    std::vector<WindowEnd> finest_;  // of the windows, behind where they began
+    double way_ = 0.0;
+    std::unique_ptr<const ImmersedBody> rated_;
+    double squared_rates_ = 0.0;
+    std::size_t samples_ = 0;
+    std::vector<double> errors_;
+    bool is_met_ = true;
+};
+
+}  // namespace
+
+StepAdvice advise_step(const Scene& scene, const std::vector<LoadedBody>& loaded, int threads) {
+    std::vector<JudgedBody> judged;
+    for (std::size_t i = 0; i < loaded.size(); ++i) judged.emplace_back(scene, scene.bodies[i], loaded[i]);
+    StepAdvice advice{.step = longest_step, .tolerance = scene.step_tolerance};
+    advice.bodies.resize(judged.size());
+    std::vector<std::exception_ptr> faults(judged.size());
+    parallel_for(judged.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            try {
+                advice.bodies[i] = judged[i].judge();
+            } catch (...) {
+                faults[i] = std::current_exception();
+            }
+        }
+    });
+    for (const std::exception_ptr& fault : faults) {
+        if (fault != nullptr) std::rethrow_exception(fault);
+    }
+    for (const BodyStep& body : advice.bodies) {
+        const auto limit_to = [&](double step, const char* what) {
+            if (step >= advice.step) return;
+            advice.step = step;
+            advice.limit = fmt::format("the {} of '{}'", what, body.name);
+        };
+        limit_to(body.motion, "motion");
+        limit_to(body.turbulence, "turbulence");
+    }
+    advice.step = longest_step / std::exp2(std::ceil(std::log2(longest_step / advice.step) - 1e-9));
+    for (std::size_t i = 0; i < judged.size(); ++i) {
+        advice.bodies[i].error = judged[i].error_of(advice.step);
+        advice.error = std::max(advice.error, advice.bodies[i].error);
+        advice.is_met = advice.is_met && judged[i].is_met();
+    }
+    return advice;
+}
+
+std::string as_text(const StepAdvice& advice) {
+    const std::string missed =
+        advice.is_met ? "" : fmt::format(", not within {:.2g} %", 100.0 * advice.tolerance);
+    const std::string limit =
+        advice.limit.empty() ? "the longest there is" : fmt::format("{} allows no longer one", advice.limit);
+    return fmt::format("{:.4g} ms, off by {:.2g} % of the way{}; {}", 1e3 * advice.step, 100.0 * advice.error,
+                       missed, limit);
+}
+
+}  // namespace samara
