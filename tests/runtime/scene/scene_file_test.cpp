@@ -189,11 +189,11 @@ TEST_F(SceneFile, TheStepIsANumberOrLeftToTheAdviceWithATolerance) {
     EXPECT_EQ(scene.step_tolerance, 0.005);
     EXPECT_EQ(read(with_step("step = \"auto\"\nstep_tolerance = 1e-3")).step_tolerance, 1e-3);
     EXPECT_THAT(refusal(with_step("step = \"fast\"")),
-                HasSubstr("scene.toml:3: step: must be a number of seconds, or \"auto\""));
+                HasSubstr("scene.toml:3: step in [scene] must be a number of seconds, or \"auto\""));
     EXPECT_THAT(refusal(with_step("step_tolerance = 1e-3")),
-                HasSubstr("scene.toml:3: step_tolerance: is for step = \"auto\""));
+                HasSubstr("scene.toml:3: step_tolerance in [scene] is for step = \"auto\""));
     EXPECT_THAT(refusal(with_step("step = \"auto\"\nstep_tolerance = 1")),
-                HasSubstr("scene.toml:4: step_tolerance: must lie between"));
+                HasSubstr("scene.toml:4: step_tolerance in [scene] must lie between"));
 }
 
 TEST_F(SceneFile, AValueOutOfRangeIsRefusedWithItsLine) {
