@@ -2,12 +2,14 @@
 
 #include "samara/flight/flight.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
 #include <pybind11/eigen.h>
+#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
@@ -29,6 +31,8 @@ struct Poses {
 /// A flight of a scene. Its calls wait for one another where several threads make them.
 class LiveFlight {
   public:
+    using Three = std::array<double, 3>;
+
     LiveFlight(Scene scene, int runs, std::optional<std::uint64_t> seed, int threads,
                const std::filesystem::path& bodies)
         : runs_(runs) {
@@ -61,11 +65,75 @@ class LiveFlight {
             for (double now = begin; work.tell(now - begin, time - begin);) {
                 if (now >= time && now > begin) break;
                 now = std::min(time, now + pieces_of_ * step_);
+                for (const auto& [index, wrench] : pushes_) flight_->add_wrench(index, wrench);
                 flight_->advance_to(now);
                 if (now >= time) break;
             }
+            if (time > begin) pushes_.clear();
             return true;
         });
+    }
+
+    void add_force(const std::string& name, const Three& force, const std::optional<Three>& point,
+                   const std::optional<Three>& moment, int run, int copy) {
+        const std::size_t index = index_of(name, run, copy);
+        with_flight([&] { pushes_.emplace_back(index, wrench_of(index, force, "force", point, moment)); });
+    }
+
+    void add_impulse(const std::string& name, const Three& impulse, const std::optional<Three>& point,
+                     const std::optional<Three>& angular_impulse, int run, int copy) {
+        const std::size_t index = index_of(name, run, copy);
+        with_flight([&] {
+            flight_->add_impulse(index, wrench_of(index, impulse, "impulse", point, angular_impulse));
+        });
+    }
+
+    void remove(const std::string& name, int run, int copy) {
+        const std::size_t index = index_of(name, run, copy);
+        with_flight([&] { flight_->remove(index); });
+    }
+
+    void watch_contacts(bool watch) {
+        with_flight([&] { flight_->watch_contacts(watch); });
+    }
+
+    [[nodiscard]] py::dict take_contacts(const std::string& name) {
+        const Kind& kind = kind_named(name);
+        const std::size_t count = static_cast<std::size_t>(runs_) * static_cast<std::size_t>(kind.copies);
+        std::vector<ContactRecord> met(count);
+        std::vector<bool> rests(count);
+        with_flight([&] {
+            for (std::size_t i = 0; i < count; ++i) {
+                met[i] = flight_->take_contacts(kind.first + i);
+                rests[i] = flight_->is_at_rest(kind.first + i);
+            }
+        });
+        const std::array<py::ssize_t, 2> shape = {runs_, kind.copies};
+        py::array_t<double> impulse({shape[0], shape[1], py::ssize_t{3}});
+        py::array_t<double> point({shape[0], shape[1], py::ssize_t{3}});
+        py::array_t<double> normal({shape[0], shape[1], py::ssize_t{3}});
+        py::array_t<double> strongest(shape);
+        py::array_t<double> time(shape);
+        py::array_t<int> obstacle(shape);
+        py::array_t<bool> at_rest(shape);
+        for (std::size_t i = 0; i < count; ++i) {
+            std::copy_n(met[i].impulse.data(), 3, impulse.mutable_data() + 3 * i);
+            std::copy_n(met[i].point.data(), 3, point.mutable_data() + 3 * i);
+            std::copy_n(met[i].normal.data(), 3, normal.mutable_data() + 3 * i);
+            strongest.mutable_data()[i] = met[i].strongest;
+            time.mutable_data()[i] = met[i].time;
+            obstacle.mutable_data()[i] = met[i].obstacle;
+            at_rest.mutable_data()[i] = rests[i];
+        }
+        py::dict result;
+        result["impulse"] = impulse;
+        result["strongest"] = strongest;
+        result["point"] = point;
+        result["normal"] = normal;
+        result["time"] = time;
+        result["obstacle"] = obstacle;
+        result["at_rest"] = at_rest;
+        return result;
     }
 
     [[nodiscard]] Poses poses(const std::string& name) {
@@ -81,14 +149,7 @@ class LiveFlight {
                   const std::optional<std::array<double, 4>>& orientation,
                   const std::optional<std::array<double, 3>>& velocity,
                   const std::optional<std::array<double, 3>>& angular_velocity) {
-        const Kind& kind = kind_named(name);
-        if (run < 0 || run >= runs_) {
-            throw py::index_error(fmt::format("run {}: there are {}, counted from 0", run, runs_));
-        }
-        if (copy < 0 || copy >= kind.copies) {
-            throw py::index_error(fmt::format("copy {}: there are {}, counted from 0", copy, kind.copies));
-        }
-        const std::size_t index = kind.first + static_cast<std::size_t>(run * kind.copies + copy);
+        const std::size_t index = index_of(name, run, copy);
         Pose pose;
         with_flight([&] { pose = flight_->pose(index); });
         const auto assign = [](Vector3d& target, const auto& given, const char* what) {
@@ -141,6 +202,34 @@ class LiveFlight {
     };
     static constexpr double pieces_of_ = 256.0;  // steps
 
+    [[nodiscard]] std::size_t index_of(const std::string& name, int run, int copy) const {
+        const Kind& kind = kind_named(name);
+        if (run < 0 || run >= runs_) {
+            throw py::index_error(fmt::format("run {}: there are {}, counted from 0", run, runs_));
+        }
+        if (copy < 0 || copy >= kind.copies) {
+            throw py::index_error(fmt::format("copy {}: there are {}, counted from 0", copy, kind.copies));
+        }
+        return kind.first + static_cast<std::size_t>(run * kind.copies + copy);
+    }
+
+    /// A force, or impulse, at a point, with a moment besides.
+    [[nodiscard]] Wrench wrench_of(std::size_t index, const Three& force, const char* name,
+                                   const std::optional<Three>& point,
+                                   const std::optional<Three>& moment) const {
+        if (flight_->is_removed(index)) throw Error("the body is removed; put it back by set_pose");
+        Wrench wrench{Vector3d(force.data()), Vector3d::Zero()};
+        if (moment) wrench.moment = Vector3d(moment->data());
+        if (point) {
+            const Vector3d arm = Vector3d(point->data()) - flight_->pose(index).position;
+            wrench.moment += arm.cross(wrench.force);
+        }
+        const bool sound = wrench.force.allFinite() && wrench.moment.allFinite() &&
+                           std::max(wrench.force.norm(), wrench.moment.norm()) <= 1e30;
+        if (!sound) throw Error(fmt::format("{}: give finite numbers, 1e30 at most", name));
+        return wrench;
+    }
+
     [[nodiscard]] const Kind& kind_named(const std::string& name) const {
         for (const Kind& kind : kinds_) {
             if (kind.name == name) return kind;
@@ -159,6 +248,7 @@ class LiveFlight {
     double step_ = 0.0;
     std::optional<Flight> flight_;
     std::vector<Kind> kinds_;
+    std::vector<std::pair<std::size_t, Wrench>> pushes_;  ///< over the next advance()
     std::mutex mutex_;
 };
 
@@ -201,6 +291,24 @@ void bind_flight(py::module_& module) {
              py::arg("copy") = 0, py::arg("position") = py::none(), py::arg("orientation") = py::none(),
              py::arg("velocity") = py::none(), py::arg("angular_velocity") = py::none(),
              "Puts one body elsewhere; what is not given stays.")
+        .def(
+            "add_force", &LiveFlight::add_force, py::arg("name"), py::arg("force"), py::kw_only(),
+            py::arg("point") = py::none(), py::arg("moment") = py::none(), py::arg("run") = 0,
+            py::arg("copy") = 0,
+            "Pushes a body over the next advance(): N, world axes, at a point (m, world; None: the centre of "
+            "mass), and with a moment (N m). Several add up.")
+        .def("add_impulse", &LiveFlight::add_impulse, py::arg("name"), py::arg("impulse"), py::kw_only(),
+             py::arg("point") = py::none(), py::arg("angular_impulse") = py::none(), py::arg("run") = 0,
+             py::arg("copy") = 0,
+             "Gives a body an impulse now (N s, world axes; N m s): body and fluid take it together.")
+        .def("remove", &LiveFlight::remove, py::arg("name"), py::kw_only(), py::arg("run") = 0,
+             py::arg("copy") = 0, "Takes a body out where it is; set_pose() puts it back.")
+        .def("watch_contacts", &LiveFlight::watch_contacts, py::arg("watch"),
+             "Notes from now on what bodies meet of ground and obstacles, or no longer.")
+        .def("take_contacts", &LiveFlight::take_contacts, py::arg("name"),
+             "What a body's copies met since they were last asked, arrays (runs, copies, ...): impulse (N s, "
+             "world axes, the sum), strongest (N s, of one point in one step; 0: nothing was met) with its "
+             "point (m), normal, time (s) and obstacle (its number; -1: level ground), and at_rest.")
         .def("state", &LiveFlight::state, "All that the rest of the flight depends on, as bytes.")
         .def("set_state", &LiveFlight::set_state, py::arg("state"),
              "Goes on from such a state, of a flight of the same scene, runs and seed.");

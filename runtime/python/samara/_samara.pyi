@@ -158,6 +158,29 @@ class Flight:
         velocity: Optional[_Numbers] = ...,
         angular_velocity: Optional[_Numbers] = ...,
     ) -> None: ...
+    def add_force(
+        self,
+        name: str,
+        force: _Numbers,
+        *,
+        point: Optional[_Numbers] = ...,
+        moment: Optional[_Numbers] = ...,
+        run: int = ...,
+        copy: int = ...,
+    ) -> None: ...
+    def add_impulse(
+        self,
+        name: str,
+        impulse: _Numbers,
+        *,
+        point: Optional[_Numbers] = ...,
+        angular_impulse: Optional[_Numbers] = ...,
+        run: int = ...,
+        copy: int = ...,
+    ) -> None: ...
+    def remove(self, name: str, *, run: int = ..., copy: int = ...) -> None: ...
+    def watch_contacts(self, watch: bool) -> None: ...
+    def take_contacts(self, name: str) -> dict[str, Any]: ...
     def state(self) -> bytes: ...
     def set_state(self, state: bytes) -> None: ...
 

@@ -244,6 +244,14 @@ class LiveFlights(unittest.TestCase):
         self.scene = samara.Scene(leaves())
         self.flight = samara.Flight(self.scene, runs=2)
 
+    def test_the_step_may_be_left_to_the_advice(self):
+        scene = leaves()
+        scene["scene"]["step"] = "auto"
+        motion = samara.simulate(samara.Scene(scene))
+        flight = samara.Flight(samara.Scene(scene))
+        flight.advance(motion.times[-1])
+        numpy.testing.assert_array_equal(flight.poses("leaf").position, motion["leaf"].position[:, -1])
+
     def test_its_poses_are_the_frames_of_a_motion(self):
         motion = samara.simulate(self.scene, runs=2)
         for frame in (0, 10, 25):
@@ -276,6 +284,68 @@ class LiveFlights(unittest.TestCase):
         numpy.testing.assert_allclose(after.position[1, 2], [1, 2, 3], rtol=1e-12)
         numpy.testing.assert_allclose(after.orientation[1, 2], before.orientation[1, 2], atol=1e-12)
         numpy.testing.assert_array_equal(after.position[0], before.position[0])
+
+    def test_a_force_acts_over_the_whole_advance_however_long(self):
+        at_once, in_parts, plain = (samara.Flight(self.scene) for _ in range(3))
+        at_once.add_force("leaf", (0.01, 0.0, 0.0), copy=1)
+        at_once.advance(2.0)
+        for i in range(1, 9):
+            in_parts.add_force("leaf", (0.01, 0.0, 0.0), copy=1)
+            in_parts.advance(0.25 * i)
+        plain.advance(2.0)
+        pushed, unpushed = at_once.poses("leaf").position[0], plain.poses("leaf").position[0]
+        numpy.testing.assert_array_equal(pushed, in_parts.poses("leaf").position[0])
+        self.assertGreater(pushed[1, 0], unpushed[1, 0] + 0.1)
+        numpy.testing.assert_array_equal(pushed[0], unpushed[0])
+
+    def test_an_impulse_changes_the_velocity_and_a_point_makes_it_spin(self):
+        self.flight.advance(0.1)
+        before = self.flight.poses("leaf")
+        self.flight.add_impulse("leaf", (0.0, 1e-4, 0.0), point=before.position[0, 1] + [0.01, 0.0, 0.0], copy=1)
+        after = self.flight.poses("leaf")
+        self.assertGreater(after.velocity[0, 1, 1], before.velocity[0, 1, 1] + 0.01)
+        self.assertGreater(numpy.linalg.norm(after.angular_velocity[0, 1] - before.angular_velocity[0, 1]), 0.1)
+        numpy.testing.assert_array_equal(after.velocity[0, 0], before.velocity[0, 0])
+
+    def test_a_removed_body_stays_until_it_is_put_back(self):
+        self.flight.advance(0.1)
+        self.flight.remove("leaf", copy=2)
+        there = self.flight.poses("leaf").position[0, 2]
+        self.flight.advance(0.3)
+        numpy.testing.assert_array_equal(self.flight.poses("leaf").position[0, 2], there)
+        with self.assertRaisesRegex(samara.Error, "removed"):
+            self.flight.add_force("leaf", (1, 0, 0), copy=2)
+        self.flight.set_pose("leaf", copy=2, position=(0, 0, 0))
+        self.flight.advance(0.5)
+        self.assertLess(self.flight.poses("leaf").position[0, 2, 2], 0.0)
+
+    def test_contacts_are_arrays_of_runs_and_copies(self):
+        scene = leaves()
+        scene["scene"]["ground"] = -0.2
+        flight = samara.Flight(samara.Scene(scene), runs=2)
+        flight.watch_contacts(True)
+        flight.advance(3.0)
+        met = flight.take_contacts("leaf")
+        copies = flight.poses("leaf").position.shape[1]
+        self.assertEqual(met["impulse"].shape, (2, copies, 3))
+        self.assertEqual(met["at_rest"].shape, (2, copies))
+        self.assertTrue((met["strongest"] > 0).all())
+        self.assertTrue((met["impulse"][..., 2] > 0).all())
+        self.assertTrue((met["obstacle"] == -1).all())
+        numpy.testing.assert_allclose(met["point"][..., 2], -0.2, atol=2e-3)
+        self.assertTrue((met["time"] > 0).all())
+
+    def test_wrong_forces_are_refused(self):
+        with self.assertRaises(TypeError):
+            self.flight.add_force("leaf", (1, 2))
+        with self.assertRaisesRegex(samara.Error, "force: give finite"):
+            self.flight.add_force("leaf", (math.nan, 0, 0))
+        with self.assertRaisesRegex(samara.Error, "impulse: give finite"):
+            self.flight.add_impulse("leaf", (1e31, 0, 0))
+        with self.assertRaises(IndexError):
+            self.flight.add_force("leaf", (1, 0, 0), copy=99)
+        with self.assertRaises(KeyError):
+            self.flight.remove("stone")
 
     def test_wrong_arrays_are_refused(self):
         for wrong in ({"position": (1, 2)}, {"position": "here"}, {"orientation": numpy.zeros((2, 2))}):
