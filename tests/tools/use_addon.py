@@ -322,6 +322,32 @@ def sizes(file):
     return found
 
 
+def led(file):
+    """A body that keys move and turn evenly until its release."""
+    empty_scene()
+    (o,) = add_bodies(file, 1, density=1200.0)
+    scene.frame_start, scene.frame_end = 11, 41
+    body = o.samara
+    body.noise = False
+    scene.unit_settings.scale_length = 0.1
+    body.release = 10.0
+    o.rotation_mode = "XYZ"
+    for frame, place, turn in ((11, (0.0, 0.0, 0.0), 0.0), (31, (2.0, 0.0, 1.0), 1.0)):
+        o.location, o.rotation_euler = place, (0.0, turn, 0.0)
+        o.keyframe_insert("location", frame=frame)
+        o.keyframe_insert("rotation_euler", frame=frame)
+    for curve in o.animation_data.action.fcurves:
+        for point in curve.keyframe_points:
+            point.interpolation = "LINEAR"
+    led_way = matrices([o], range(11, 21))[o.name]
+    found = {"led": led_way, "seconds_per_frame": scene.render.fps_base / scene.render.fps}
+    found["fault"] = run(bpy.ops.samara.simulate)
+    found["flown"] = matrices([o], range(11, 42))[o.name]
+    found["again"] = run(bpy.ops.samara.simulate)
+    found["flown_again"] = matrices([o], range(11, 42))[o.name]
+    return found
+
+
 def cache(file, folder):
     """Live from the disk: in a saved file that is opened again, and with a flight that is damaged."""
     from samara import flight, live
@@ -702,7 +728,7 @@ def go_on(steps):
     return None
 
 
-tasks = (keys, live, roof, lift, masses, sizes, cache, scrub, errors, bake, render, crowd, simulate_in_window, live_in_window, bake_in_window, glb, version)
+tasks = (keys, live, roof, lift, masses, sizes, led, cache, scrub, errors, bake, render, crowd, simulate_in_window, live_in_window, bake_in_window, glb, version)
 found = {f.__name__: f for f in tasks}[task](*arguments)
 if inspect.isgenerator(found):
     bpy.context.preferences.view.show_splash = False

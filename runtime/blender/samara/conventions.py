@@ -46,6 +46,14 @@ def noise_name(name):
     return plain[:40] + "_" + hashlib.sha256(name.encode()).hexdigest()[:20]
 
 
+def continuous(rotations):
+    """Quaternions (n, 4) on end, each of the sign that is nearer to the one before."""
+    for i in range(1, len(rotations)):
+        if rotations[i] @ rotations[i - 1] < 0.0:
+            rotations[i] = -rotations[i]
+    return rotations
+
+
 def size_of(name, scale, body_scale):
     """How large an object is, over the size of its body file. Refuses one of another shape."""
     ratios = [a / b if b else 0.0 for a, b in zip(scale, body_scale)]

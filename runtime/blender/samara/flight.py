@@ -94,7 +94,8 @@ class Request:
     mass: str  # FILE: as the file says, by the density where it says nothing; DENSITY, MASS
     mass_given: tuple  # kg, centre of mass or None, inertia (9 numbers) or None; with MASS; at the object's size
     size: float  # over the body file's
-    start: float  # s: held until then
+    start: float  # s: held until then, or led by keys
+    led: bool  # whether the velocities are the keys', of the shape's origin
     loads: str  # AUTO: from tables where the file has them, TABLE, COEFFICIENTS
     drag_coefficient: float
     lift_coefficient: float
@@ -201,7 +202,10 @@ class Fleet:
         for request in requests:
             try:
                 body = samara_library.body_of_file(request.body_file)
-                self._simulation.add(body, request.kind(body))
+                index = self._simulation.add(body, request.kind(body))
+                if request.led:
+                    pose = request.position + request.orientation + request.velocity + request.angular_velocity
+                    self._simulation.lead(index, pose)
                 accepted.append(request)
             except SamaraError as fault:
                 refused(request, SamaraError(f"{request.name}: {fault}"))

@@ -116,8 +116,9 @@ def _mass_of(body, unit):
     return body.mass, center, (xx, xy, xz, xy, yy, yz, xz, yz, zz)
 
 
-def request_of(o, surroundings):
-    """The object's flight over the scene's frame range."""
+def request_of(o, surroundings, let_go=None):
+    """The object's flight over the scene's frame range. let_go: where keys lead it until then, so many frames after the first,
+    and the velocities of its origin (Blender units a second) and its turn (rad/s) with which they let it go where it is now."""
     body, unit = o.samara, surroundings.metres_per_unit
     if body.is_obstacle:
         raise SamaraError(f"{o.name}: is an obstacle, and does not fly; untick Obstacle, or leave it out")
@@ -132,14 +133,15 @@ def request_of(o, surroundings):
         mass=body.mass_source,
         mass_given=_mass_of(body, unit),
         size=size,
-        start=body.release * surroundings.frame_seconds,
+        start=(let_go[0] if let_go else body.release) * surroundings.frame_seconds,
         loads=body.loads,
         drag_coefficient=body.drag_coefficient,
         lift_coefficient=body.lift_coefficient,
         noise=body.noise,
         position=tuple(unit * x for x in location),
         orientation=rotation,
-        velocity=tuple(unit * x for x in body.velocity),
-        angular_velocity=tuple(body.angular_velocity),
+        led=let_go is not None,
+        velocity=tuple(unit * x for x in (let_go[1] if let_go else body.velocity)),
+        angular_velocity=tuple(let_go[2] if let_go else body.angular_velocity),
         surroundings=surroundings,
     )

@@ -74,7 +74,7 @@ class SamaraBody(bpy.types.PropertyGroup):
         name="Angular Velocity", description="At the first frame: rad/s about the world's axes", size=3
     )
     release: FloatProperty(
-        name="Release", description="So many frames after the first one; held in place until then", default=0.0, min=0.0, precision=1
+        name="Release", description="So many frames after the first one; until then it is held in place, or follows its keys, and flies on with their velocity", default=0.0, min=0.0, precision=1
     )
     is_obstacle: BoolProperty(
         name="Obstacle",

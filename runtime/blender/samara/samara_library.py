@@ -135,6 +135,8 @@ _FALLIBLE = {
     "samara_set_wind": [c_void_p, c_char_p],
     "samara_advance_to": [c_void_p, c_double],
     "samara_get_poses": [c_void_p, c_size_t, c_size_t, c_void_p, c_size_t],
+    "samara_set_poses": [c_void_p, c_size_t, c_size_t, c_void_p, c_size_t],
+    "samara_get_mass_properties": [c_void_p, c_size_t, c_void_p],
 }
 
 
@@ -264,7 +266,20 @@ class Simulation:
         _call("samara_set_wind", self.handle, text.encode())
 
     def add(self, body, kind):
-        _call("samara_simulation_add", self.handle, body.handle, byref(kind), None)
+        """Returns the number of the first of its bodies."""
+        first = c_size_t()
+        _call("samara_simulation_add", self.handle, body.handle, byref(kind), byref(first))
+        return first.value
+
+    def lead(self, index, pose):
+        """Starts a body at a pose of POSE_SIZE doubles whose velocity is that of the shape's origin."""
+        own = numpy.empty(13)  # samara_mass_properties: mass, centre of mass, inertia
+        _call("samara_get_mass_properties", self.handle, index, own.ctypes.data)
+        pose = numpy.array(pose, numpy.float64)
+        (w, axis), center = (pose[3], pose[4:7]), own[1:4]
+        turned = center + 2.0 * numpy.cross(axis, numpy.cross(axis, center) + w * center)
+        pose[7:10] += numpy.cross(pose[10:13], turned)
+        _call("samara_set_poses", self.handle, index, 1, pose.ctypes.data, 0)
 
     def advance_to(self, time):
         """To a time (s) not before the one of the last call."""

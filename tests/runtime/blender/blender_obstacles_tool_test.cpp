@@ -189,6 +189,46 @@ TEST(BlenderAddon, FliesObjectsAtTheirScaleAndReleasesThemOneByOne) {
     EXPECT_GT((origin - place(start)).norm(), 0.05);
 }
 
+TEST(BlenderAddon, LetsGoOfAnObjectWhereItsKeysHaveItWithTheirVelocity) {
+    const TemporaryFolder folder;
+    const json found = use_addon({"led", rubber_file(folder)});
+    EXPECT_EQ(found["fault"], "");
+    const double frame = found["seconds_per_frame"].get<double>();
+    for (std::size_t i = 0; i < found["led"].size(); ++i) {
+        expect_same_poses(json::array({found["flown"][i]}), json::array({found["led"][i]}));
+    }
+    BodyPhysics physics;
+    physics.mass.density = 1200.0;
+    physics.loads = Loads::table;
+    physics.turbulence = Turbulence::none;
+    // Two units of 0.1 m and half as many upwards, and a radian, in 20 frames; let go after 10.
+    const double share = 0.5;
+    Release release{.position = share * Vector3d(0.2, 0.0, 0.1),
+                    .orientation = Quaterniond(Eigen::AngleAxisd(share, Vector3d::UnitY())),
+                    .angular_velocity = Vector3d(0.0, 1.0, 0.0) / (20.0 * frame),
+                    .start = 10.0 * frame};
+    const Vector3d of_origin = Vector3d(0.2, 0.0, 0.1) / (20.0 * frame);
+    Flight asked;
+    asked.add({test::rubber(), ""}, physics, release);
+    release.velocity =
+        of_origin + release.angular_velocity.cross(release.orientation * asked.center_of_mass(0));
+    Flight flight;
+    flight.add({test::rubber(), ""}, physics, release);
+    for (int i = 10; i <= 30; ++i) {
+        flight.advance_to(i * frame);
+        const Pose pose = flight.pose(0);
+        const ShapePose keyed = pose_of(found["flown"][static_cast<std::size_t>(i)]);
+        EXPECT_LT((keyed.position - shape_origin(pose, flight.center_of_mass(0))).norm(), 2e-5) << i;
+        EXPECT_LT(keyed.orientation.angularDistance(pose.orientation), 1e-3) << i;
+    }
+    EXPECT_EQ(found["again"], "") << "keys that samara made lead as well";
+    for (std::size_t i = 0; i < 31; ++i) {
+        const ShapePose once = pose_of(found["flown"][i]);
+        const ShapePose again = pose_of(found["flown_again"][i]);
+        EXPECT_LT(distance(once, again), 1e-4) << i;
+    }
+}
+
 TEST(BlenderLive, ReadsFlightsFromTheDiskAndFliesThoseAnewThatAreDamaged) {
     const TemporaryFolder folder;
     const json found = use_addon({"cache", rubber_file(folder), folder.path().string()});
