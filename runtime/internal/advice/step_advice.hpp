@@ -22,7 +22,7 @@ struct StepAdvice {
     double error = 0.0;      ///< the largest of the bodies'
     double tolerance = 0.0;  ///< what it was to stay within
     bool is_met = true;      ///< false: even the shortest step that was tried is off by more
-    std::string limit = {};       ///< what allows no longer one: "the motion of 'leaf'"; empty: nothing does
+    std::string limit = {};  ///< what allows no longer one: "the motion of 'leaf'"; empty: nothing does
     std::vector<BodyStep> bodies = {};  ///< in the scene's order
 };
 
