@@ -70,7 +70,9 @@ TEST(BlenderObstacles, AreMetInTheWindAsInSamaraSimulate) {
     const auto run = run_program_in(folder, {"samara", "simulate", "scene.toml", "-o", "motion.h5"});
     ASSERT_EQ(run.status, 0) << run.fault;
     const Motion motion = read_motion_file(folder / "motion.h5");
-    for (const auto& [name, start] : found["starts"].items()) {
+    for (const auto& item : found["starts"].items()) {
+        const std::string& name = item.key();
+        const json& start = item.value();
         const auto body =
             std::find_if(motion.bodies.begin(), motion.bodies.end(),
                          [&](const BodyMotion& one) { return one.name == start["noise_name"]; });
