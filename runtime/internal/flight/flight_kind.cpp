@@ -205,6 +205,7 @@ std::uint64_t FlightKind::steps_until(double time) const {
 
 void FlightKind::advance_to(double time, double duration) {
     const std::uint64_t needed = steps_until(time);
+    if (time <= release_.start) wrenches_.clear();  // what waits feels none
     take_up_wrenches(duration, needed > steps_);
     if (needed <= steps_) return;
     step_to(needed - 1);

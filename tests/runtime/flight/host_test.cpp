@@ -121,6 +121,18 @@ TEST(HostForce, GivesTheSameMomentumAtAnyFrameRate) {
     }
 }
 
+TEST(HostForce, IsNotFeltBeforeTheStart) {
+    Flight flight({.gravity = no_gravity});
+    flight.add(ellipsoid(), ideal(), {.start = 0.1});
+    flight.add_wrench(0, {.force = Vector3d(1.0, 0.0, 0.0)});
+    flight.advance_to(0.05);
+    flight.advance_to(0.2);
+    EXPECT_EQ(flight.pose(0).velocity.x(), 0.0);
+    flight.add_wrench(0, {.force = Vector3d(1.0, 0.0, 0.0)});
+    flight.advance_to(0.3);
+    EXPECT_GT(flight.pose(0).velocity.x(), 0.1);
+}
+
 TEST(HostForce, OnOneOfManyMovesItAsItMovesOneAloneAndTheOthersNotAtAll) {
     Flight crowd({.gravity = no_gravity});
     crowd.add(ellipsoid(), stirred(), {.count = 20, .spread_angle = 1.0});
