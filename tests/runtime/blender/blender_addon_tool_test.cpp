@@ -35,7 +35,6 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::MatchesRegex;
-using testing::Not;
 
 /// The scene of `samara simulate` that is the one in Blender: water, seed 5, 24 over 1.001 frames a second.
 std::string scene_of(const json& starts, const std::string& body_file) {

@@ -82,13 +82,13 @@ TEST(CHost, RemovedBodiesStandStillUntilTheyArePutBack) {
     const BodyOnDisk body;
     const SimulationPointer simulation = simulation_of(body, rubber_kind(3));
     Text fault;
-    std::vector<samara_pose> poses = poses_at(simulation, 0.5);
+    const std::vector<samara_pose> poses = poses_at(simulation, 0.5);
     ASSERT_EQ(CALL(samara_remove, simulation.get(), 1, 2), SAMARA_OK) << fault.text();
     EXPECT_EQ(samara_is_removed(simulation.get(), 0), 0);
     EXPECT_EQ(samara_is_removed(simulation.get(), 2), 1);
     EXPECT_EQ(samara_is_removed(simulation.get(), 3), 0) << "there is none such";
     const std::vector<samara_pose> later = poses_at(simulation, 1.0);
-    EXPECT_EQ(std::memcmp(&later[1], &poses[1], 2 * sizeof(samara_pose)), 0);
+    EXPECT_TRUE(same_bytes({later.begin() + 1, later.end()}, {poses.begin() + 1, poses.end()}));
     EXPECT_LT(later[0].position[2], poses[0].position[2]);
     const double force[3] = {1.0, 0.0, 0.0};
     EXPECT_EQ(CALL(samara_add_force, simulation.get(), 2, force, nullptr), SAMARA_INVALID_ARGUMENT);
