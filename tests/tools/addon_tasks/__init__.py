@@ -1,0 +1,1 @@
+"""What tests/tools/use_addon.py does in Blender, a module for each subject."""
