@@ -32,7 +32,7 @@ def matrices(objects, frames):
     """By object: its matrix in the world at every frame, as rows."""
     found = {o.name: [] for o in objects}
     for frame in frames:
-        scene.frame_set(int(frame), subframe=frame % 1.0)
+        bpy.context.scene.frame_set(int(frame), subframe=frame % 1.0)  # of the file that is open now
         for o in objects:
             found[o.name].append([list(row) for row in o.matrix_world])
     return found
