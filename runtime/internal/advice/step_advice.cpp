@@ -16,6 +16,7 @@
 #include "internal/flight/flight_kind.hpp"
 #include "internal/flight/terminal_speed.hpp"
 #include "internal/flight/world_pose.hpp"
+#include "internal/kernel/kolmogorov_constant.hpp"
 
 namespace samara {
 namespace {
@@ -28,7 +29,7 @@ constexpr double finest_of_length = 0.01;  // of the way L that a body comes in 
 constexpr int fewest_halvings = 4;         // of the longest step, down to the finest
 constexpr int most_halvings = 14;
 constexpr int truth_halvings = 2;  // by which the finest flight is finer than the finest step that is judged
-constexpr double turbulence_rate = 0.75 * 2.1;  // times epsilon/k: docs/theory.md#langevin
+constexpr double turbulence_rate = 0.75 * kolmogorov_constant;  // times epsilon/k: docs/theory.md#langevin
 
 /// The flights of one body.
 class JudgedBody {
@@ -86,11 +87,12 @@ class JudgedBody {
         Flight flight(settings_at(longest_step));
         add_to(flight);
         const ImmersedBody& body = flight.kinds()[0]->body();
-        double smallest = 1.0;
-        for (std::size_t i = 0; i < flight.size(); ++i) {
-            smallest = i == 0 ? flight.size_of(i) : std::min(smallest, flight.size_of(i));
+        double smallest = flight.size_of(0);
+        double largest = smallest;
+        for (std::size_t i = 1; i < flight.size(); ++i) {
+            smallest = std::min(smallest, flight.size_of(i));
+            largest = std::max(largest, flight.size_of(i));
         }
-        const double largest = largest_copy(flight);
         half_length_ = 0.5 * largest * body.length;
         double speed = std::sqrt(largest) *
                        terminal_speed(*loaded_.body, scene_.fluid, body.mass, scene_.gravity.norm());
@@ -109,12 +111,6 @@ class JudgedBody {
         windows_ =
             static_cast<int>(std::clamp(std::floor(steps / steps_in_window_), 1.0, double{most_windows}));
     }
-    static double largest_copy(const Flight& flight) {
-        double largest = 0.0;
-        for (std::size_t i = 0; i < flight.size(); ++i) largest = std::max(largest, flight.size_of(i));
-        return largest;
-    }
-
     [[nodiscard]] FlightSettings settings_at(double step) const {
         FlightSettings settings = flight_settings(scene_, 1, 1);
         settings.ground.reset();

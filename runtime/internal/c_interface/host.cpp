@@ -12,6 +12,7 @@
 
 namespace {
 
+using samara::copy;
 using samara::Flight;
 using samara::guarded;
 using samara::Matrix6d;
@@ -53,10 +54,6 @@ Wrench wrench_at(const Flight& flight, std::size_t body, const double* force, co
     if (point == nullptr) return wrench;
     wrench.moment = (three(point, "point") - flight.pose(body).position).cross(wrench.force);
     return wrench;
-}
-
-void copy(const Vector3d& from, double (&to)[3]) {
-    std::copy_n(from.data(), 3, to);
 }
 
 void copy(const Matrix6d& from, double (&to)[36]) {

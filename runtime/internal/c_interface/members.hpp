@@ -29,6 +29,11 @@ double positive(double value, const char* member);
 /// Three finite numbers.
 Vector3d vector(const double (&values)[3], const char* member);
 
+/// Copies three numbers into a caller's struct.
+inline void copy(const Vector3d& from, double (&to)[3]) {
+    std::memcpy(to, from.data(), sizeof to);
+}
+
 /// A turn given as (w, x, y, z), made one of length one.
 Quaterniond orientation(const double (&values)[4], const char* member);
 

@@ -15,6 +15,7 @@
 
 namespace {
 
+using samara::copy;
 using samara::Fault;
 using samara::fill;
 using samara::guarded;
@@ -28,10 +29,6 @@ std::size_t checked_stride(const samara_simulation* simulation, std::size_t firs
                            const samara_pose* poses, std::size_t stride) {
     return samara::checked_stride(simulation, first, count, poses, "poses", stride, sizeof(samara_pose),
                                   alignof(samara_pose));
-}
-
-void copy(const Vector3d& from, double (&to)[3]) {
-    std::copy_n(from.data(), 3, to);
 }
 
 samara_pose c_pose(const Pose& pose, const Vector3d& center_of_mass) {

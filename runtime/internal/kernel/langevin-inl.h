@@ -7,13 +7,12 @@
 #define SAMARA_LANGEVIN_INL_H
 #endif
 
+#include "internal/kernel/kolmogorov_constant.hpp"
 #include "internal/kernel/random-inl.h"
 #include "internal/kernel/step-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace samara::HWY_NAMESPACE {
-
-inline constexpr double kolmogorov_constant = 2.1;  // C_k of the paper's eq. 7; Pope, Phys. Fluids 26 (1983)
 
 /// k (m^2/s^2), epsilon (m^2/s^3).
 template <class V>
