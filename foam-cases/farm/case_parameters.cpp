@@ -17,8 +17,9 @@ namespace {
 using Entries = std::vector<std::pair<std::string, std::string>>;
 
 constexpr const char* mesh_entries[] = {
-    "boxHalfWidth",     "backgroundCells", "surfaceLevel", "layers",       "layerThickness",  "layerRatio",
-    "leastDeterminant", "leastTetQuality", "leastTwist",   "pointInFluid", "refinementShells"};
+    "boxHalfWidth",     "backgroundCells",  "surfaceLevel",    "layers",     "layerThickness",
+    "layerRatio",       "leastDeterminant", "leastTetQuality", "leastTwist", "pointInFluid",
+    "refinementShells", "wakeLevel",        "wakeEnd",         "wakeRadius"};
 
 // C_mu of the k-epsilon model (Launder & Spalding 1974).
 constexpr double c_mu = 0.09;
