@@ -140,7 +140,11 @@ enum {
     SAMARA_TURBULENCE_TABLE = 2,
     SAMARA_TURBULENCE_AS_LOADS = 3 /* from the table where the loads are, else none */
 };
-enum { SAMARA_LANGEVIN_SEEN_FLUID = 0, SAMARA_LANGEVIN_BODY_VELOCITY = 1 };
+enum {
+    SAMARA_LANGEVIN_SEEN_FLUID = 0,
+    SAMARA_LANGEVIN_BODY_VELOCITY = 1,
+    SAMARA_LANGEVIN_WAKE = 2 /* the body's own wake; with CONSTANT turbulence as SEEN_FLUID */
+};
 /* Whose coefficients give the loads of a body in motion beyond those of a steady tow. */
 enum {
     SAMARA_DYNAMIC_OF_BODY = 0, /* the body file's, or the defaults where it has none */
@@ -178,7 +182,7 @@ typedef struct samara_kind {
     int32_t turbulence;              /* SAMARA_TURBULENCE_...; default: AS_LOADS */
     double turbulent_kinetic_energy; /* m^2/s^2, with CONSTANT */
     double dissipation_rate;         /* m^2/s^3, with CONSTANT */
-    int32_t langevin;                /* SAMARA_LANGEVIN_...; default: SEEN_FLUID */
+    int32_t langevin;                /* SAMARA_LANGEVIN_...; default: WAKE */
 
     /* since SAMARA_API_VERSION 2 */
     double table_reynolds_number; /* read the tables at this one alone; default (0): at the body's own */

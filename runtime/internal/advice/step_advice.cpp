@@ -17,6 +17,7 @@
 #include "internal/flight/terminal_speed.hpp"
 #include "internal/flight/world_pose.hpp"
 #include "internal/kernel/kolmogorov_constant.hpp"
+#include "internal/kernel/wake_noise.hpp"
 
 namespace samara {
 namespace {
@@ -162,7 +163,9 @@ class JudgedBody {
             const double per_size = physics_.turbulence == Turbulence::table ? 1.0 / (size * size)
                                                                              : 1.0;  // else it is the world's
             const double rate =
-                turbulence_rate * level.dissipation_rate / level.turbulent_kinetic_energy * per_size;
+                rated_->constants.langevin == Langevin::wake
+                    ? centroid_velocity(pose, *rated_).norm() / (wake_persistence * rated_->length) * per_size
+                    : turbulence_rate * level.dissipation_rate / level.turbulent_kinetic_energy * per_size;
             squared_rates_ += rate * rate;
             ++samples_;
         }

@@ -76,7 +76,7 @@ void read_turbulence(const samara_kind& kind, GivenKind& body) {
         (kind.turbulent_kinetic_energy > 0.0) != (kind.dissipation_rate > 0.0)) {
         refuse("dissipation_rate", "and turbulent_kinetic_energy must be both zero or both above zero");
     }
-    body.langevin = choice<Langevin>(kind.langevin, SAMARA_LANGEVIN_BODY_VELOCITY, "langevin");
+    body.langevin = choice<Langevin>(kind.langevin, SAMARA_LANGEVIN_WAKE, "langevin");
 }
 
 /// What the equations hold, beside loads, coefficients and turbulence, which are read before.
@@ -169,7 +169,7 @@ samara_kind default_kind() {
     kind.drag_coefficient = body.coefficients.drag_coefficient;
     kind.lift_coefficient = body.coefficients.lift_coefficient;
     kind.turbulence = SAMARA_TURBULENCE_AS_LOADS;
-    kind.langevin = SAMARA_LANGEVIN_SEEN_FLUID;
+    kind.langevin = SAMARA_LANGEVIN_WAKE;
     kind.added_mass = 1;
     kind.patches = 1;
     kind.smallest_size = 1.0;

@@ -191,7 +191,9 @@ FlightConstants<Real> flight_constants(const ImmersedBody& body) {
     set_inertia(body, c);
     if (body.loads != Loads::none) set_loads(body, c);
     c.turbulence = body.turbulence;
-    c.langevin = body.langevin;
+    c.langevin = body.langevin == Langevin::wake && body.turbulence != Turbulence::table
+                     ? Langevin::seen_fluid
+                     : body.langevin;
     c.turbulent_kinetic_energy = static_cast<Real>(body.turbulent_kinetic_energy);
     c.dissipation_rate = static_cast<Real>(body.dissipation_rate);
     if (body.turbulence == Turbulence::table) {

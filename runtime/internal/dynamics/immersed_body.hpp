@@ -51,7 +51,7 @@ struct ImmersedBody {
     Turbulence turbulence = Turbulence::none;
     double turbulent_kinetic_energy = 0.0;
     double dissipation_rate = 0.0;
-    Langevin langevin = Langevin::seen_fluid;
+    Langevin langevin = Langevin::wake;
 
     // Of all the above, by prepare().
     Matrix6d inverse_inertia = Matrix6d::Identity();  ///< K^-1

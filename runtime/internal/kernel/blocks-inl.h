@@ -146,7 +146,9 @@ HWY_INLINE void meet_turbulence(const FlightConstants<Real>& c, V h, const Draw&
                  (size_square * size_square) * level.dissipation_rate};
     }
     const SixNormals<V> normals = draw();
-    if (c.langevin == Langevin::seen_fluid) {
+    if (c.langevin == Langevin::wake) {
+        advance_wake(c, level, h, normals, flight);
+    } else if (c.langevin == Langevin::seen_fluid) {
         advance_seen_fluid(c, level, h, normals, flight);
     } else {
         advance_body_velocity(c, level, h, normals, flight);
@@ -168,6 +170,16 @@ HWY_INLINE Triple<V> halfway(const FlightConstants<Real>& c, V h, const Flight<V
     return flight.position + to_world * (broadcast<V>(c.center_of_buoyancy) + way);
 }
 
+/// What a body sees between two steps: a stream that changes evenly; or a slip of its loads alone, which
+/// stands for the step and does not push by its change.
+template <class V, class Real>
+HWY_INLINE Stream<V> seen_stream(const FlightConstants<Real>& c, const Triple<V>& before,
+                                 const Flight<V>& flight) {
+    if (c.langevin != Langevin::wake) return {before, flight.seen_velocity, flight.seen_rotation};
+    const Triple<V> middle = V(0.5) * (before + flight.seen_velocity);
+    return {middle, middle, flight.seen_rotation};
+}
+
 /// The Langevin update of one step in a wind, or without (then `wind` is none), and the stream that the body
 /// is in. What turbulence a body meets is a matter of its velocity in the wind.
 template <class V, class Real, class Draw>
@@ -176,7 +188,7 @@ HWY_INLINE Stream<V> meet_fluid(const FlightConstants<Real>& c, V h, bool windy,
     const Triple<V> seen_before = flight.seen_velocity;
     if (!windy) {
         meet_turbulence(c, h, draw, size_square, flight);
-        return {seen_before, flight.seen_velocity, flight.seen_rotation};
+        return seen_stream(c, seen_before, flight);
     }
     const Triple<V> velocity = flight.velocity;
     const Triple<V> of_wind = transposed_times(rotation_matrix(flight.orientation), wind.begin);
@@ -185,7 +197,8 @@ HWY_INLINE Stream<V> meet_fluid(const FlightConstants<Real>& c, V h, bool windy,
     const bool driven = c.turbulence != Turbulence::none && c.langevin == Langevin::body_velocity;
     flight.velocity = driven ? flight.velocity + of_wind : velocity;
     if (!sees_turbulence(c)) return wind;
-    return {seen_before + wind.begin, flight.seen_velocity + wind.end, flight.seen_rotation + wind.rotation};
+    const Stream<V> seen = seen_stream(c, seen_before, flight);
+    return {seen.begin + wind.begin, seen.end + wind.end, seen.rotation + wind.rotation};
 }
 
 /// The wind that the bodies of the lanes meet in a step.

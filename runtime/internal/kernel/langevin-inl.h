@@ -10,6 +10,7 @@
 #include "internal/kernel/kolmogorov_constant.hpp"
 #include "internal/kernel/random-inl.h"
 #include "internal/kernel/step-inl.h"
+#include "internal/kernel/wake_noise.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace samara::HWY_NAMESPACE {
@@ -42,20 +43,49 @@ HWY_INLINE V turbulence_rate(const Level<V>& level) {
                   level.dissipation_rate / larger(least, level.turbulent_kinetic_energy), V(0.0));
 }
 
+/// What a step keeps of a process that forgets at a rate, and the share of its stationary deviation that it
+/// adds: exact whatever the step.
+template <class V>
+struct Renewal {
+    V kept, added;
+};
+template <class V>
+HWY_INLINE Renewal<V> renewal(V rate, V h) {
+    const V zero(0.0);
+    const V decay = -(rate * h);
+    const V lost = exponential_less_one(decay);
+    const auto alive = decay < zero;
+    // Without a rate there is no turbulence: what was seen is gone.
+    return {select(alive, V(1.0) + lost, zero),
+            select(alive, root(larger(zero, -lost * (V(2.0) + lost))), zero)};
+}
+
 template <class V, class Real>
 HWY_INLINE void advance_seen_fluid(const FlightConstants<Real>& c, const Level<V>& level, V h,
                                    const SixNormals<V>& normals, Flight<V>& flight) {
-    const V zero(0.0);
-    const V decay = V(-0.75 * kolmogorov_constant) * turbulence_rate(level) * h;
-    const V lost = exponential_less_one(decay);
-    const auto alive = decay < zero;
-    // Without turbulence there is no time scale: what was seen is gone.
-    const V kept = select(alive, V(1.0) + lost, zero);
-    const V variance = V(2.0 / 3.0) * level.turbulent_kinetic_energy * (-lost * (V(2.0) + lost));
-    const V deviation = select(alive, root(larger(zero, variance)), zero);
-    flight.seen_velocity = kept * flight.seen_velocity + deviation * normals.velocity;
+    const Renewal<V> now = renewal(V(0.75 * kolmogorov_constant) * turbulence_rate(level), h);
+    const V deviation = now.added * root(V(2.0 / 3.0) * level.turbulent_kinetic_energy);
+    flight.seen_velocity = now.kept * flight.seen_velocity + deviation * normals.velocity;
     flight.seen_rotation =
-        kept * flight.seen_rotation + (deviation * V(c.inverse_eddy_length)) * normals.rotation;
+        now.kept * flight.seen_rotation + (deviation * V(c.inverse_eddy_length)) * normals.rotation;
+}
+
+/// The slip of the wake: another along the path than across it, as lasting as the body takes to come so many
+/// of its lengths (docs/noise.md).
+template <class V, class Real>
+HWY_INLINE void advance_wake(const FlightConstants<Real>& c, const Level<V>& level, V h,
+                             const SixNormals<V>& normals, Flight<V>& flight) {
+    const V zero(0.0);
+    const Heading<V> heading = heading_of(centroid_velocity(c, flight));
+    const V speed = V(c.length) * heading.speed;
+    const Renewal<V> now = renewal(V(c.inverse_eddy_length / wake_persistence) * speed, h);
+    const V across = V(wake_across) * speed;
+    const V along = V(wake_along) * root(V(2.0 / 3.0) * level.turbulent_kinetic_energy);
+    const Triple<V> path = rotation_matrix(flight.orientation) * heading.direction;
+    const Triple<V> drawn =
+        across * normals.velocity + ((along - across) * dot(path, normals.velocity)) * path;
+    flight.seen_velocity = now.kept * flight.seen_velocity + now.added * drawn;
+    flight.seen_rotation = {zero, zero, zero};
 }
 
 template <class V, class Real>

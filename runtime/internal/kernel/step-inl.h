@@ -252,7 +252,7 @@ HWY_INLINE Push<V> push_at_centroid(const FlightConstants<Real>& c, const Square
 /// Whether a body that meets turbulence sees it as a moving fluid.
 template <class Real>
 HWY_INLINE bool sees_turbulence(const FlightConstants<Real>& c) {
-    return c.turbulence != Turbulence::none && c.langevin == Langevin::seen_fluid;
+    return c.turbulence != Turbulence::none && c.langevin != Langevin::body_velocity;
 }
 
 /// One implicit step over h under a gravity (world axes). The middle of the step is guessed by the

@@ -30,11 +30,11 @@ std::vector<double> frame_times(const Scene& scene) {
 std::string models_of(const SceneBody& scene_body, const ImmersedBody& body) {
     constexpr const char* loads[] = {"none", "coefficients", "table"};
     constexpr const char* turbulence[] = {"none", "constant", "table"};
-    constexpr const char* langevin[] = {"seen-fluid", "body-velocity"};
+    constexpr const char* langevin[] = {"seen-fluid", "body-velocity", "wake"};
     std::string text = fmt::format("loads {}; turbulence {}", loads[static_cast<int>(scene_body.loads)],
                                    turbulence[static_cast<int>(scene_body.turbulence)]);
     if (scene_body.turbulence != Turbulence::none) {
-        text += fmt::format(" ({})", langevin[static_cast<int>(scene_body.langevin)]);
+        text += fmt::format(" ({})", langevin[static_cast<int>(body.constants.langevin)]);
     }
     if (scene_body.table_reynolds_number && body.tables) {
         text +=

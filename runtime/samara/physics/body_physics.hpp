@@ -11,8 +11,10 @@ namespace samara {
 enum class Loads { none, coefficients, table };
 /// Where the turbulence around a body comes from: nowhere, constants, the body's tables.
 enum class Turbulence { none, constant, table };
-/// What the Langevin equation moves: the fluid that the body sees, or (the paper's eq. 8) the body itself.
-enum class Langevin { seen_fluid, body_velocity };
+/// What the Langevin equation moves: the fluid that the body sees as one stream; (the paper's eq. 8) the body
+/// itself; the slip by which the body's own wake makes its loads fluctuate (docs/noise.md), which only tables
+/// know: constant turbulence, of the fluid around, is a stream then.
+enum class Langevin { seen_fluid, body_velocity, wake };
 /// Whose coefficients give the loads of a body in motion beyond those of a steady tow: the body file's, or
 /// the defaults where it has none; the defaults; none.
 enum class Dynamic { of_body, by_default, none };
@@ -43,7 +45,7 @@ struct BodyPhysics {
     Turbulence turbulence = Turbulence::table;  ///< default: table where the loads are, else none
     double turbulent_kinetic_energy = 0.0;      ///< m^2/s^2, where turbulence is constant
     double dissipation_rate = 0.0;              ///< m^2/s^3, where turbulence is constant
-    Langevin langevin = Langevin::seen_fluid;   ///< what the noise drives
+    Langevin langevin = Langevin::wake;         ///< what the noise drives
 
     /// Member by member.
     bool operator==(const BodyPhysics&) const = default;

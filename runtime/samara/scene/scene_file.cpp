@@ -158,9 +158,11 @@ void read_turbulence(TomlTable& table, SceneBody& body) {
         table, "turbulence",
         {{"none", Turbulence::none}, {"constant", Turbulence::constant}, {"table", Turbulence::table}},
         body.turbulence);
-    body.langevin = choice<Langevin>(
-        table, "langevin", {{"seen-fluid", Langevin::seen_fluid}, {"body-velocity", Langevin::body_velocity}},
-        body.langevin);
+    body.langevin = choice<Langevin>(table, "langevin",
+                                     {{"wake", Langevin::wake},
+                                      {"seen-fluid", Langevin::seen_fluid},
+                                      {"body-velocity", Langevin::body_velocity}},
+                                     body.langevin);
     const auto energy = table.number("turbulent_kinetic_energy", non_negative_number);
     const auto dissipation = table.number("dissipation_rate", non_negative_number);
     const bool constant = body.turbulence == Turbulence::constant;

@@ -241,7 +241,7 @@ TEST(CInterface, KindsOutOfRangeAreRefusedByName) {
              k.turbulence = SAMARA_TURBULENCE_CONSTANT;
              k.turbulent_kinetic_energy = 1.0;
          }},
-        {"langevin", [](samara_kind& k) { k.langevin = 2; }},
+        {"langevin", [](samara_kind& k) { k.langevin = 3; }},
         {"table_reynolds_number", [](samara_kind& k) { k.table_reynolds_number = -1.0; }},
         {"table_reynolds_number", [](samara_kind& k) { k.table_reynolds_number = not_a_number; }},
         {"dynamic_coefficients", [](samara_kind& k) { k.dynamic_coefficients = 3; }},

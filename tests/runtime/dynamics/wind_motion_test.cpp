@@ -135,8 +135,9 @@ TEST(WindMotion, IsTheSameSeenFromAFrameThatMoves) {
     standing.gusts = WindGusts{.rms = 0.2, .length = 0.5};
     Wind drifting = standing;
     drifting.vortices[0].velocity = current;
-    for (const ImmersedBody& body : {noisy_ellipsoid(Turbulence::table),
-                                     noisy_ellipsoid(Turbulence::constant, Langevin::body_velocity)}) {
+    for (const ImmersedBody& body :
+         {noisy_ellipsoid(Turbulence::table), noisy_ellipsoid(Turbulence::table, Langevin::wake),
+          noisy_ellipsoid(Turbulence::constant, Langevin::body_velocity)}) {
         BodyState start = test::tumbling_state(0.1, 2.0);
         start.position = Vector3d(0.2, 0.1, 0.0);
         const BodyState at_home = flown(body, in(standing), start, 200);
@@ -212,6 +213,7 @@ TEST(WindMotion, IsOfSecondOrderInTheStep) {
 TEST(WindMotion, SideBySideIsToTheLastBitThatOfEachAlone) {
     const Surroundings surroundings = in(storm(), Vector3d(0.0, 0.0, -9.81), Vector3d(0.1, 0.0, 0.0));
     for (const ImmersedBody& body : {noisy_ellipsoid(Turbulence::table), noisy_ellipsoid(Turbulence::none),
+                                     noisy_ellipsoid(Turbulence::table, Langevin::wake),
                                      noisy_ellipsoid(Turbulence::constant, Langevin::body_velocity)}) {
         constexpr std::size_t count = 37;
         const auto start_of = [](std::size_t i) {

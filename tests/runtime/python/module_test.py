@@ -332,7 +332,10 @@ class LiveFlights(unittest.TestCase):
         self.assertTrue((met["strongest"] > 0).all())
         self.assertTrue((met["impulse"][..., 2] > 0).all())
         self.assertTrue((met["obstacle"] == -1).all())
-        numpy.testing.assert_allclose(met["point"][..., 2], -0.2, atol=2e-3)
+        # Where the point was when the step began that brought it to the ground, at some 2 m/s in 2 ms.
+        height = met["point"][..., 2] + 0.2
+        self.assertGreaterEqual(height.min(), -1e-6)
+        self.assertLess(height.max(), 4e-3)
         self.assertTrue((met["time"] > 0).all())
 
     def test_wrong_forces_are_refused(self):

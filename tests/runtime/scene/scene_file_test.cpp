@@ -58,7 +58,7 @@ TEST_F(SceneFile, ValuesNotGivenHaveTheirDocumentedDefaults) {
     EXPECT_TRUE(scene.fluid.gust.amplitude.isZero(0.0));
     EXPECT_EQ(scene.bodies.at(0).loads, Loads::table);
     EXPECT_EQ(scene.bodies.at(0).turbulence, Turbulence::table);
-    EXPECT_EQ(scene.bodies.at(0).langevin, Langevin::seen_fluid);
+    EXPECT_EQ(scene.bodies.at(0).langevin, Langevin::wake);
     EXPECT_TRUE(scene.bodies.at(0).added_mass);
     EXPECT_EQ(scene.bodies.at(0).dynamic, Dynamic::of_body);
     EXPECT_FALSE(scene.bodies.at(0).table_reynolds_number.has_value());
