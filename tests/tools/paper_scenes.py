@@ -217,11 +217,11 @@ def airplane_panel(number, title, all_flights, interval, edges):
 def airplane_picture(flights_of, picture):
     commands = f'set terminal pngcairo size 2000, 1050 font "DejaVu Sans,16" linewidth 1.6\nset output "{picture}"\n' + STYLE
     commands += "set multiplot\nset size ratio -1\n"
-    titles = {"seen-fluid": "seen fluid (default)", "body-velocity": "equation 8"}
-    places = {"seen-fluid": (0.0, 0.4), "body-velocity": (0.42, 0.58)}
+    titles = {"wake": "the wake's slip (default)", "body-velocity": "equation 8"}
+    places = {"wake": (0.0, 0.4), "body-velocity": (0.42, 0.58)}
     for number, (form, all_flights) in enumerate(flights_of.items()):
         left, right = places[form]
-        middle = 0.1 if form == "seen-fluid" else 0.0
+        middle = 0.1 if form == "wake" else 0.0
         half = 2.35 * (right - left) * 2000 / (0.86 * 1050) / 2
         commands += airplane_panel(number, titles[form], all_flights, (0.1, 0.3)[number],
                                    (left, right, 0.06, 0.92, middle - half, middle + half))
@@ -231,7 +231,7 @@ def airplane_picture(flights_of, picture):
     commands += 'set key at screen 0.82, 0.04 center bottom maxrows 1 samplen 1 width -2\nset xlabel "x"\nset ylabel "y"\n'
     for number, (form, all_flights) in enumerate(flights_of.items()):
         commands += block(f"ends{number}", [[poses[-1].position[:2] for poses in all_flights]])
-    commands += ('plot $ends0 with points pt 7 ps 1.6 lc rgb "#2a6f97" title "seen fluid", '
+    commands += ('plot $ends0 with points pt 7 ps 1.6 lc rgb "#2a6f97" title "the wake", '
                  '$ends1 with points pt 6 ps 1.6 lc rgb "#c0392b" title "equation 8", '
                  '"+" using (0):(0) every ::0::0 with points pt 1 ps 2 lc rgb "#1a1a1a" title "start"\n')
     draw(commands + "unset multiplot\n")
@@ -256,7 +256,7 @@ def airplane(programs, folder, work, docs):
     lines = ["| form | runs | in the air | descent | landing: mean, rms distance from it | turns front | turns aside | regimes |",
              "|---|---|---|---|---|---|---|---|"]
     flights_of, body = {}, ""
-    for form, scene, title in (("seen-fluid", "paper-airplane", "seen fluid (default)"),
+    for form, scene, title in (("wake", "paper-airplane", "the wake's slip (default)"),
                                ("body-velocity", "paper-airplane-equation-8", "equation 8, body velocity"),
                                (None, "paper-airplane-still", "no turbulence")):
         motion, told = flown(programs, folder, scene, work, RUNS if form else 1)
