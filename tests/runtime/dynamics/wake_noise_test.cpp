@@ -37,23 +37,24 @@ struct WakeStatistics {
     double kept = 0.0;                 // correlation from step to step
 };
 WakeStatistics statistics_of(const ImmersedBody& body, const Vector3d& velocity, double h) {
-    constexpr int steps = 400'000;
+    constexpr std::uint64_t settling = 200;
+    constexpr std::uint64_t steps = 400'000;
     const Noise noise(11, "wake", 0, 0);
     BodyState state = moving_at(velocity);
     WakeStatistics found;
     double product = 0.0;
-    for (int step = -200; step < steps; ++step) {
+    for (std::uint64_t step = 0; step < settling + steps; ++step) {
         const Vector3d before = state.seen_fluid.velocity;
-        state = advance(body, weightless, 0.0, h, state, noise, static_cast<std::uint64_t>(step + 200)).state;
+        state = advance(body, weightless, 0.0, h, state, noise, step).state;
         state.velocity = moving_at(velocity).velocity;
         state.orientation = Quaterniond::Identity();
         EXPECT_EQ(state.seen_fluid.angular_velocity, Vector3d::Zero());
-        if (step < 0) continue;
+        if (step < settling) continue;
         const Vector3d& slip = state.seen_fluid.velocity;
         product += slip.dot(before);
-        found.slip += slip * slip.transpose() / steps;
+        found.slip += slip * slip.transpose() / double{steps};
     }
-    found.kept = product / steps / found.slip.trace();
+    found.kept = product / double{steps} / found.slip.trace();
     return found;
 }
 
