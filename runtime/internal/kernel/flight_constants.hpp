@@ -81,7 +81,7 @@ struct FlightConstants {
     Real creeping_drag = 0;                  ///< 3 pi mu L / m* (1/s)
 
     Turbulence turbulence = Turbulence::none;
-    Langevin langevin = Langevin::seen_fluid;      // wake: of tables alone
+    Langevin langevin = Langevin::seen_fluid;      ///< wake: of tables alone
     DirectionTable<Real> turbulence_by_direction;  ///< k, epsilon l/L, 0, 0
     Real turbulent_kinetic_energy = 0;             ///< m^2/s^2, where constant
     Real dissipation_rate = 0;                     ///< m^2/s^3, where constant

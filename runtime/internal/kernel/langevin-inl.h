@@ -79,7 +79,7 @@ HWY_INLINE void advance_wake(const FlightConstants<Real>& c, const Level<V>& lev
     const Heading<V> heading = heading_of(centroid_velocity(c, flight));
     const V speed = V(c.length) * heading.speed;
     const Renewal<V> now = renewal(V(c.inverse_eddy_length / wake_persistence) * speed, h);
-    const V across = V(wake_across) * speed;
+    const V across = select(zero < level.turbulent_kinetic_energy, V(wake_across) * speed, zero);
     const V along = V(wake_along) * root(V(2.0 / 3.0) * level.turbulent_kinetic_energy);
     const Triple<V> path = rotation_matrix(flight.orientation) * heading.direction;
     const Triple<V> drawn =

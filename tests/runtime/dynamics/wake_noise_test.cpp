@@ -126,6 +126,20 @@ TEST(WakeNoise, IsNoneAroundABodyAtRest) {
     EXPECT_EQ(state.seen_fluid.angular_velocity, Vector3d::Zero());
 }
 
+TEST(WakeNoise, IsNoneInLaminarFlow) {
+    ImmersedBody body = ellipsoid_with_a_wake(1200.0);
+    for (LoadEntry& entry : body.tables->entries) {
+        entry.turbulent_kinetic_energy = 0.0;
+        entry.dissipation_rate = 0.0;
+    }
+    prepare(body);
+    BodyState state = moving_at({0.2, 0.0, 0.1});
+    for (std::uint64_t step = 0; step < 20; ++step) {
+        state = advance(body, weightless, 0.0, 0.01, state, Noise(16, "wake", 0, 0), step).state;
+        EXPECT_EQ(state.seen_fluid.velocity, Vector3d::Zero());
+    }
+}
+
 TEST(WakeNoise, OfTheFluidAroundIsItsStream) {
     // Constant turbulence is no wake's.
     ImmersedBody body = ellipsoid_with_a_wake(1200.0);
