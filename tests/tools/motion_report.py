@@ -27,7 +27,7 @@ MODELS = (
     ("standard tables with default coefficients", {"dynamic_coefficients": "default"}, "standard", 1, 1),
     ("standard tables with identified coefficients", {}, "standard", 1, 1),
     ("the same with five times the step", {}, "standard", 5, 1),
-    ("the same with noise, 20 runs", {"turbulence": "table"}, "standard", 1, 20),
+    ("the same with noise (20 runs)", {"turbulence": "table"}, "standard", 1, 20),
 )
 CFD = "full CFD"
 
