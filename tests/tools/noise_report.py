@@ -331,7 +331,7 @@ def times(value, truth):
 
 
 def table_of_loads(rows, fitted):
-    lines = ["| case | load | rms, full CFD | lasts, L/U | rms of the stream, over CFD's | lasts | rms of the wake, over CFD's | lasts |", "|---" * 8 + "|"]
+    lines = ["| case | load | rms, full CFD | lasts, L/U | the stream: rms over CFD's | lasts, over CFD's | the wake: rms over CFD's | lasts, over CFD's |", "|---" * 8 + "|"]
     for row in judged(rows):
         if (row.case in FITTED) != fitted:
             continue
