@@ -29,12 +29,14 @@ struct BakeOptions {
     std::string output;
     std::string fluid = "water";
     double density = 1200.0;
+    double other_density = 0.0;
     double scale = 1.0;
     int jobs = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 1024);
     int ranks = 1;
     std::string cluster;
     std::string quality = "preview";
     std::string loads = "kEpsilon";
+    std::string falls;  ///< empty: by the closure of the loads
     std::string inflow = "still";
     int probes = 0;
     bool whole_grid = false;
@@ -45,11 +47,25 @@ struct BakeOptions {
 };
 
 BakeQuality quality_of(const BakeOptions& options) {
-    return with_loads_by(closure_of(options.loads), bake_quality(options.quality));
+    BakeQuality quality = with_loads_by(closure_of(options.loads), bake_quality(options.quality));
+    return options.falls.empty() ? quality : with_falls_by(closure_of(options.falls), std::move(quality));
 }
 
 Inflow inflow_of(const BakeOptions& options) {
     return options.inflow == "paper" ? paper_inflow() : Inflow();
+}
+
+void require_falls_at(const BakeOptions& options, bool density_is_given) {
+    if (!density_is_given) {
+        throw Error(
+            fmt::format("{}: --density-to is the other end of a range; give --density too", options.input));
+    }
+    if (quality_of(options).falls == 0) {
+        throw Error(
+            fmt::format("{}: --density-to is of the falls that coefficients are identified from, and quality "
+                        "{} solves none; bake at standard or high",
+                        options.input, options.quality));
+    }
 }
 
 BakeRequest request_for_shape(const BakeOptions& options, bool density_is_given) {
@@ -69,6 +85,7 @@ BakeRequest request_for_shape(const BakeOptions& options, bool density_is_given)
     if (density_is_given || !is_body_file_name(options.input) || !read_body_file(options.input).mass) {
         request.mass.density = options.density;
     }
+    request.other_density = options.other_density;
     request.quality = quality_of(options);
     request.inflow = inflow_of(options);
     request.probes = options.probes;
@@ -87,9 +104,10 @@ std::vector<BakeRequest> requests_for(const BakeOptions& options, const Argument
                                         options.input, option));
             }
         }
+        if (arguments.given("--density-to")) require_falls_at(options, arguments.given("--density"));
         return {request_for_shape(options, arguments.given("--density"))};
     }
-    for (const char* option : {"--fluid", "--density", "--scale"}) {
+    for (const char* option : {"--fluid", "--density", "--density-to", "--scale"}) {
         if (arguments.given(option)) {
             throw Error(
                 fmt::format("{}: the scene says which fluid, density and scale its bodies have; drop {}",
@@ -154,6 +172,11 @@ int run(int argc, const char* const* argv) {
     arguments.choice("--fluid", options.fluid, {"water", "air"}, "that the shape falls in, at 20 C");
     arguments.option("--density", options.density,
                      "of the body (kg/m^3); of a body file that has a mass: that", 1e-3, 1e6);
+    arguments.option(
+        "--density-to", options.other_density,
+        "solves the falls at --density and at this density in turn, and the tables for the faster "
+        "of the two: one body file for all densities between",
+        1e-3, 1e6);
     arguments.option("--scale", options.scale, "metres for one unit of the shape file", 1e-12, 1e12);
     arguments.option("--jobs", options.jobs, "cases solved at once", 1, 4096);
     arguments.option("--ranks", options.ranks,
@@ -172,6 +195,8 @@ int run(int argc, const char* const* argv) {
         "--loads", options.loads, {"kEpsilon", "kOmegaSST", "kOmegaSSTLM"},
         "closure that forces and moments are solved by; k and epsilon are kEpsilon's, beside the others in "
         "cases of their own, on meshes of their own");
+    arguments.choice("--falls", options.falls, {"kEpsilon", "kOmegaSST", "kOmegaSSTLM"},
+                     "closure that the falls are solved by, on a mesh of their own; else that of the loads");
     arguments.choice("--inflow", options.inflow, {"still", "paper"},
                      "turbulence of the fluid around: still: 1 % intensity; paper: its eq. 13, 100 %");
     arguments.option("--probes", options.probes,

@@ -11,6 +11,7 @@
 #include "foam-cases/scene/scene_plan_picture.hpp"
 #include "foam-cases/scene/scene_plan_report.hpp"
 #include "foam-cases/scene/scene_requests.hpp"
+#include "internal/advice/density_doubt.hpp"
 #include "internal/advice/model_advice.hpp"
 #include "internal/base/vector_json.hpp"
 #include "internal/command/arguments.hpp"
@@ -139,6 +140,9 @@ nlohmann::json run(const PlanOptions& options, const Arguments& arguments) {
         note_doubts(notes, request, preparation);
         result["bodies"].push_back(plan_body(request, preparation, options, arguments.json()));
         loaded.push_back(as_baked(request, preparation, !options.bodies.empty()));
+        const SceneBody& body = scene.bodies[loaded.size() - 1];
+        const DensityDoubt density = density_doubt(body, *loaded.back().body, scene.fluid);
+        notes.add("density", body.name, density.ratio, density.text);
     }
     notes.print();
     const ModelAdvice advice = advised(scene, loaded, options.tolerance);

@@ -292,6 +292,13 @@ FlownFall flown_fall(const Body& body, const ReadyFall& fall, const DynamicCoeff
     return {fall.record.fall.name, fall.measures, fly_whole(body, fall, flying), balance_of(fall.record)};
 }
 
+IdentifiedDensities densities_of(const std::vector<FallRecord>& falls) {
+    std::vector<double> densities;
+    for (const FallRecord& record : falls) densities.push_back(record.fall.mass / record.fall.volume);
+    const auto [lowest, highest] = std::ranges::minmax(densities);
+    return {lowest, highest};
+}
+
 std::string origin_of(const std::vector<FallRecord>& falls, double error) {
     std::string names;
     for (const FallRecord& record : falls) {
@@ -338,6 +345,7 @@ Identification identify_motion(const Body& body, const std::vector<FallRecord>& 
     result.coefficients.standard_errors = parameters.standard_errors(
         standard_errors_of(body, falls, segments, parameters, solution.x, progress));
     result.coefficients.values.origin = origin_of(records, result.prediction_error);
+    result.coefficients.densities = densities_of(records);
     for (const ReadyFall& fall : falls) {
         result.falls.push_back(flown_fall(body, fall, result.coefficients.values));
     }

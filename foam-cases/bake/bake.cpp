@@ -55,12 +55,23 @@ bool plans_falls(const BakeRequest& request) {
     return request.tables && request.probes == 0 && request.quality.falls > 0;
 }
 
+/// That of the tables and falls, and that which every other fall has besides.
+std::vector<MassSpecification> masses_of(const BakeRequest& request) {
+    std::vector<MassSpecification> masses = {request.mass};
+    if (request.other_density > 0.0) masses.emplace_back().density = request.other_density;
+    return masses;
+}
+
 BakePreparation plan_of(const BakeRequest& request, const Body& body) {
     BakePreparation preparation;
     preparation.body = body;
     if (!request.tables) return preparation;
-    preparation.terminal_speed =
-        bake_speed(body, request.fluid, mass_of(request.mass, body), request.gravity);
+    const std::vector<MassSpecification> masses = masses_of(request);
+    for (const MassSpecification& mass : masses) {
+        preparation.terminal_speed =
+            std::max(preparation.terminal_speed,
+                     bake_speed(body, request.fluid, mass_of(mass, body), request.gravity));
+    }
     const double reynolds_number =
         rounded_reynolds_number(preparation.terminal_speed * reference_length(body.moments.surface_area) /
                                 request.fluid.kinematic_viscosity());
@@ -76,8 +87,7 @@ BakePreparation plan_of(const BakeRequest& request, const Body& body) {
     }
     preparation.plan->ranks = request.ranks;
     if (plans_falls(request)) {
-        add_falls(body, request.fluid, request.mass, request.gravity, preparation.terminal_speed,
-                  *preparation.plan);
+        add_falls(body, request.fluid, masses, request.gravity, *preparation.plan);
     }
     if (preparation.scene_plan) preparation.scene_plan->cases = *preparation.plan;
     return preparation;

@@ -22,7 +22,10 @@ struct BakeRequest {
     std::filesystem::path output;
     Fluid fluid;
     MassSpecification mass;  ///< its density or its mass is given
-    double gravity = 9.81;   ///< m/s^2
+    /// Above 0: the falls are solved at the density and at this one (kg/m^3) in turn, the tables for the
+    /// faster.
+    double other_density = 0.0;
+    double gravity = 9.81;  ///< m/s^2
     BakeQuality quality;
     bool tables = true;  ///< false: mesh and Kirchhoff tensor alone
     Inflow inflow;

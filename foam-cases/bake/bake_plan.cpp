@@ -220,6 +220,7 @@ std::vector<double> BakePlan::reynolds_numbers() const {
 std::vector<FlowMesh> BakePlan::all_meshes() const {
     std::vector<FlowMesh> meshes = quality.meshes;
     meshes.insert(meshes.end(), quality.turbulence_meshes.begin(), quality.turbulence_meshes.end());
+    meshes.insert(meshes.end(), quality.fall_meshes.begin(), quality.fall_meshes.end());
     return meshes;
 }
 

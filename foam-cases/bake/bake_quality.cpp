@@ -96,19 +96,30 @@ FlowMesh mesh_of_loads(const FlowMesh& mesh) {
     return mesh;
 }
 
+void require_closure_of(Closure closure, const char* what) {
+    if (closure == Closure::k_epsilon || closure == Closure::k_omega_sst ||
+        closure == Closure::k_omega_sst_lm)
+        return;
+    throw Error(fmt::format("the {} cannot be solved by {}; choose kEpsilon, kOmegaSST or kOmegaSSTLM", what,
+                            name_of(closure)));
+}
+
 }  // namespace
 
 int FlowMesh::background_cells() const {
     return static_cast<int>(std::lround(2.0 * box_half_width / background_cell));
 }
 
+BakeQuality with_falls_by(Closure closure, BakeQuality quality) {
+    require_closure_of(closure, "falls");
+    quality.fall_closure = closure;
+    return quality;
+}
+
 BakeQuality with_loads_by(Closure closure, BakeQuality quality) {
     if (closure == Closure::k_epsilon) return quality;
-    if (closure != Closure::k_omega_sst && closure != Closure::k_omega_sst_lm) {
-        throw Error(fmt::format("the loads cannot be solved by {}; choose kEpsilon, kOmegaSST or kOmegaSSTLM",
-                                name_of(closure)));
-    }
-    quality.loads_closure = closure;
+    require_closure_of(closure, "loads");
+    quality.loads_closure = quality.fall_closure = closure;
     for (FlowMesh& mesh : quality.meshes) {
         quality.turbulence_meshes.push_back(mesh);
         quality.turbulence_meshes.back().name += "_turbulence";

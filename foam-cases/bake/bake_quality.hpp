@@ -38,7 +38,9 @@ struct BakeQuality {
     std::vector<FlowMesh> meshes;  ///< of the loads, for a compact body; a long one gets a wider box
     /// Of k and epsilon, as many; none where they are of the loads' cases.
     std::vector<FlowMesh> turbulence_meshes;
+    std::vector<FlowMesh> fall_meshes;           ///< one, where falls have one of their own (add_falls)
     Closure loads_closure = Closure::k_epsilon;  ///< where the flow is not laminar
+    Closure fall_closure = Closure::k_epsilon;   ///< of the falls, likewise
     int least_subdivisions = 2;  ///< of the map of directions that are solved, whatever the cost
     int most_subdivisions = 8;
     int most_directions = 16;    ///< multiples of the least subdivisions are taken up to so many directions
@@ -55,9 +57,12 @@ struct BakeQuality {
 };
 
 /// The same with the loads by another closure, on meshes whose layers resolve the boundary layer; k and
-/// epsilon stay those of k-epsilon, on the meshes as they were. Throws Error for a closure that solves for no
-/// omega, unless it is k_epsilon, which changes nothing.
+/// epsilon stay those of k-epsilon, on the meshes as they were. The falls are by the closure of the loads.
+/// Throws Error for a closure that solves for no omega, unless it is k_epsilon, which changes nothing.
 BakeQuality with_loads_by(Closure closure, BakeQuality quality);
+
+/// The same with the falls by another closure than the loads. Throws Error as with_loads_by does.
+BakeQuality with_falls_by(Closure closure, BakeQuality quality);
 
 /// Meshes for falls whose layers resolve the boundary layer at the Reynolds number U L/nu, coarsest first:
 /// one mesh in ever smaller cells, alike on all sides of a body that may turn any of them to its wake.

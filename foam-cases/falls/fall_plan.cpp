@@ -112,6 +112,22 @@ Vector6d velocity_before_fluid_moves(const ImmersedBody& body, const Vector6d& v
 // Where gravity points at the start, along the principal axes from the shortest extent to the longest.
 constexpr double start_directions[][3] = {{-0.86, 0.27, 0.433}, {-0.64, 0.5, 0.58}, {-0.35, 0.8, -0.48}};
 
+constexpr const char* own_mesh = "mesh_falls";
+
+/// A plan of nothing but the mesh for falls, of about so many cells.
+BakePlan plan_of_mesh_of_falls(const Body& body, double cells, double reynolds_number,
+                               const FallModel& model) {
+    BakeQuality quality = bake_quality("high");
+    if (model.resolved) quality.meshes = meshes_of_falls(reynolds_number);
+    BakePlan plan = plan_of_meshes(body, quality);
+    const auto distance = [&](double count) { return std::abs(std::log(count / cells)); };
+    const auto nearest = std::ranges::min_element(plan.cells, {}, distance) - plan.cells.begin();
+    const FlowMesh mesh = plan.quality.meshes[static_cast<std::size_t>(nearest)];
+    plan.quality.meshes = {mesh};
+    plan.cells = {plan.cells[static_cast<std::size_t>(nearest)]};
+    return plan;
+}
+
 }  // namespace
 
 double largest_inertia_ratio(const ImmersedBody& body) {
@@ -217,36 +233,42 @@ BodyState identification_start(const Body& body, int index) {
     return start;
 }
 
-void add_falls(const Body& body, const Fluid& fluid, const MassSpecification& mass, double gravity,
-               double speed, BakePlan& plan) {
-    BodyPhysics physics;
-    physics.mass = mass;
-    physics.loads = Loads::none;
-    physics.turbulence = Turbulence::none;
-    const ImmersedBody immersed = make_immersed_body(body, physics, fluid, body.name);
-    const double duration = identification_fall_duration * plan.reference_length / speed;
-    const FallModel model = fall_model_of(plan.quality.loads_closure);
+void add_falls(const Body& body, const Fluid& fluid, const std::vector<MassSpecification>& masses,
+               double gravity, BakePlan& plan) {
+    if (plan.quality.falls == 0) return;
+    const FallModel model = fall_model_of(plan.quality.fall_closure);
+    const std::string mesh_of_loads = plan.quality.meshes.at(plan.quality.fall_mesh).name;
+    const bool has_own_mesh = plan.quality.fall_closure != plan.quality.loads_closure;
+    double reynolds_number = 0.0;
     for (int i = 0; i < plan.quality.falls; ++i) {
+        BodyPhysics physics;
+        physics.mass = masses.at(static_cast<std::size_t>(i) % masses.size());
+        physics.loads = Loads::none;
+        physics.turbulence = Turbulence::none;
+        const ImmersedBody immersed = make_immersed_body(body, physics, fluid, body.name);
+        const double speed = bake_speed(body, fluid, immersed.mass, gravity);
+        const double duration = identification_fall_duration * plan.reference_length / speed;
         FreeFall fall = plan_fall(body, immersed, identification_start(body, i), gravity * -Vector3d::UnitZ(),
                                   speed, duration, model);
         fall.name = fmt::format("fall_{:02}", i);
-        fall.mesh = plan.quality.meshes.at(plan.quality.fall_mesh).name;
+        fall.mesh = has_own_mesh ? own_mesh : mesh_of_loads;
+        reynolds_number = std::max(reynolds_number, fall.reynolds_number);
         plan.falls.push_back(fall);
+    }
+    if (has_own_mesh) {
+        const BakePlan of_falls =
+            plan_of_mesh_of_falls(body, cells_of(plan, mesh_of_loads), reynolds_number, model);
+        plan.quality.fall_meshes = of_falls.quality.meshes;
+        plan.quality.fall_meshes.front().name = own_mesh;
+        plan.cells.push_back(of_falls.cells.front());
     }
     estimate_cost(plan);
 }
 
 BakePlan plan_single_fall(const Body& body, double cells, FreeFall fall, const FallModel& model) {
-    BakeQuality quality = bake_quality("high");
-    if (model.resolved) quality.meshes = meshes_of_falls(fall.reynolds_number);
-    BakePlan plan = plan_of_meshes(body, quality);
-    const auto distance = [&](double count) { return std::abs(std::log(count / cells)); };
-    const auto nearest = std::ranges::min_element(plan.cells, {}, distance) - plan.cells.begin();
-    const FlowMesh mesh = plan.quality.meshes[static_cast<std::size_t>(nearest)];
+    BakePlan plan = plan_of_mesh_of_falls(body, cells, fall.reynolds_number, model);
     plan.kind = CaseKind::fall;
-    plan.quality.meshes = {mesh};
-    plan.cells = {plan.cells[static_cast<std::size_t>(nearest)]};
-    fall.mesh = mesh.name;
+    fall.mesh = plan.quality.meshes.front().name;
     plan.falls = {fall};
     estimate_cost(plan);
     return plan;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "converter/falls/free_fall.hpp"
 #include "foam-cases/bake/bake_plan.hpp"
@@ -47,11 +48,10 @@ inline constexpr double identification_fall_duration = 30.0;
 /// axes, so that none of its motions is left out. `index`: of the fall.
 BodyState identification_start(const Body& body, int index);
 
-/// Adds the quality's falls to a plan and its estimated cost: of the body with that mass in the fluid, under
-/// a gravity of that size (m/s^2), `speed` (m/s) being about that at which it falls. The body must have its
-/// Kirchhoff tensor.
-void add_falls(const Body& body, const Fluid& fluid, const MassSpecification& mass, double gravity,
-               double speed, BakePlan& plan);
+/// Adds the quality's falls to a plan and its estimated cost: of the body in the fluid, under a gravity of
+/// that size (m/s^2), with each of the masses in turn. The body must have its Kirchhoff tensor.
+void add_falls(const Body& body, const Fluid& fluid, const std::vector<MassSpecification>& masses,
+               double gravity, BakePlan& plan);
 
 /// A free fall of the body from a state, over `duration` (s), under a gravity (m/s^2, world axes). `speed`
 /// (m/s): of the case's units, about that at which it falls. The body's added mass must be there.

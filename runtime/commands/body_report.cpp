@@ -10,6 +10,7 @@
 
 #include "commands/provenance_summary.hpp"
 #include "commands/table_errors_report.hpp"
+#include "internal/advice/density_doubt.hpp"
 #include "internal/base/symmetric_matrix.hpp"
 #include "internal/base/vector_json.hpp"
 #include "internal/body/principal_extents.hpp"
@@ -132,7 +133,7 @@ void print_tensor(const char* name, const char* unit, const Matrix3d& tensor, co
 }
 
 void print_dynamic(const IdentifiedCoefficients& dynamic) {
-    const auto& [values, errors] = dynamic;
+    const auto& [values, errors, densities] = dynamic;
     print_result("Dynamic coefficients, +- standard errors (body axes, about the centroid)\n");
     print_row("origin", "{}", values.origin);
     for (const NumberOfMotion& number : numbers_of_motion) {
@@ -142,6 +143,7 @@ void print_dynamic(const IdentifiedCoefficients& dynamic) {
         print_tensor(tensor.title, tensor.unit, values.*tensor.member, errors.*tensor.member);
     }
     print_row("half-length", "{:.6g} m", values.half_length);
+    print_row("density of falls", "{} (over the fluid's)", in_words(densities));
 }
 
 nlohmann::json numbers_as_json(const DynamicCoefficients& numbers) {
@@ -157,6 +159,8 @@ nlohmann::json dynamic_as_json(const IdentifiedCoefficients& dynamic) {
     result["half_length"] = dynamic.values.half_length;
     result["origin"] = dynamic.values.origin;
     result["standard_errors"] = numbers_as_json(dynamic.standard_errors);
+    const auto& [lowest, highest] = dynamic.densities;
+    result["densities"] = lowest > 0.0 ? nlohmann::json{lowest, highest} : nlohmann::json();
     return result;
 }
 

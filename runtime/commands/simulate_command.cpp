@@ -13,6 +13,7 @@
 
 #include "commands/commands.hpp"
 #include "commands/table_errors_report.hpp"
+#include "internal/advice/density_doubt.hpp"
 #include "internal/advice/model_advice.hpp"
 #include "internal/advice/unit_doubts.hpp"
 #include "internal/base/vector_json.hpp"
@@ -90,6 +91,8 @@ void note_doubtful_bodies(const Scene& scene, const std::vector<LoadedBody>& loa
         const std::string units = unit_doubts(*loaded[i].body, body.mass, scene.fluid, scene.gravity.norm(),
                                               scale_remedy_in_scene(body.shape));
         notes.add(units, body.name, 0.0, units);
+        const DensityDoubt density = density_doubt(body, *loaded[i].body, scene.fluid);
+        notes.add("density", body.name, density.ratio, density.text);
         const double error = body.added_mass ? loaded[i].body->kirchhoff->error_estimate : 0.0;
         if (error <= doubtful) continue;
         notes.add("added mass", body.name, error,

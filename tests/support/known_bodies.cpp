@@ -113,7 +113,7 @@ Body lopsided_shape() {
     dynamic.rotational_drag_in_spin << 0.9, 0.2, -0.1, 0.2, 0.4, 0.1, -0.1, 0.1, 0.6;
     dynamic.rotational_drag_in_spin *= 1e-6;
     dynamic.half_length = 0.04;
-    body.dynamic = {.values = dynamic, .standard_errors = {}};
+    body.dynamic = {.values = dynamic, .standard_errors = {}, .densities = {}};
     return body;
 }
 

@@ -248,7 +248,7 @@ Body full_body() {
     errors.unsteady_factor = 0.05;
     errors.drag_in_spin = Matrix3d::Constant(0.009);
     errors.rotational_drag_in_spin = Matrix3d::Constant(0.0003);
-    body.dynamic = {.values = dynamic, .standard_errors = errors};
+    body.dynamic = {.values = dynamic, .standard_errors = errors, .densities = {1.3, 9.5}};
     return body;
 }
 

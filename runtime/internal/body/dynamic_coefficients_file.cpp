@@ -11,6 +11,8 @@ namespace samara {
 namespace {
 
 constexpr const char* group = "/dynamic_coefficients";
+constexpr const char* lowest_density = "lowest_density";
+constexpr const char* highest_density = "highest_density";
 
 std::string place(const char* name, const char* name_end = "") {
     return fmt::format("{}/{}{}", group, name, name_end);
@@ -49,6 +51,17 @@ void write_numbers(Hdf5Writer& file, const DynamicCoefficients& numbers, const c
     }
 }
 
+/// Absent in files from before.
+IdentifiedDensities read_densities(const Hdf5Reader& file) {
+    if (!file.has_attribute(group, lowest_density) && !file.has_attribute(group, highest_density)) return {};
+    return {file.number_attribute(group, lowest_density), file.number_attribute(group, highest_density)};
+}
+
+bool are_sound(const IdentifiedDensities& densities) {
+    const auto& [lowest, highest] = densities;
+    return (lowest == 0.0 && highest == 0.0) || (lowest > 0.0 && lowest <= highest && std::isfinite(highest));
+}
+
 /// A standard error that is none; empty where all are.
 std::string fault_of_errors(const DynamicCoefficients& errors) {
     for (const NumberOfMotion& number : numbers_of_motion) {
@@ -67,6 +80,10 @@ void write_dynamic_coefficients(Hdf5Writer& file, const IdentifiedCoefficients& 
     write_numbers(file, coefficients.values, "");
     write_numbers(file, coefficients.standard_errors, "_error");
     file.attribute(group, "half_length", coefficients.values.half_length);
+    if (coefficients.densities.lowest > 0.0) {
+        file.attribute(group, lowest_density, coefficients.densities.lowest);
+        file.attribute(group, highest_density, coefficients.densities.highest);
+    }
     file.attribute(group, "origin", std::string_view(coefficients.values.origin));
 }
 
@@ -78,7 +95,8 @@ IdentifiedCoefficients read_dynamic_coefficients(const Hdf5Reader& file) {
                         file.path().string(), group));
     }
     IdentifiedCoefficients coefficients{.values = read_numbers(file, ""),
-                                        .standard_errors = read_numbers(file, "_error")};
+                                        .standard_errors = read_numbers(file, "_error"),
+                                        .densities = read_densities(file)};
     coefficients.values.half_length = file.number_attribute(group, "half_length");
     coefficients.values.origin = file.text_attribute(group, "origin");
     const auto refuse = [&](const std::string& what) {
@@ -88,6 +106,9 @@ IdentifiedCoefficients read_dynamic_coefficients(const Hdf5Reader& file) {
     if (const std::string fault = fault_of(coefficients.values); !fault.empty()) refuse(fault);
     if (const std::string name = fault_of_errors(coefficients.standard_errors); !name.empty()) {
         refuse(name + " is not a standard error: negative or not finite");
+    }
+    if (!are_sound(coefficients.densities)) {
+        refuse("lowest_density and highest_density are not two positive numbers in ascending order");
     }
     return coefficients;
 }

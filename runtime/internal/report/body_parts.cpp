@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "internal/advice/density_doubt.hpp"
 #include "internal/base/content_hash.hpp"
 #include "internal/body/case_records.hpp"
 #include "internal/body/principal_extents.hpp"
@@ -111,7 +112,7 @@ ReportPart part_of_turning(const Body& body) {
                                                    "bodies have in common (docs/falls.md). Quality "
                                                    "standard solves falls and identifies its own.")};
     }
-    const auto& [values, errors] = *body.dynamic;
+    const auto& [values, errors, densities] = *body.dynamic;
     Rows rows;
     for (const NumberOfMotion& number : numbers_of_motion) {
         rows.push_back({number.title, fmt::format("{:.3g}", values.*number.member),
@@ -121,6 +122,7 @@ ReportPart part_of_turning(const Body& body) {
         rows.push_back({tensor.title, tensor_in_words(values.*tensor.member, tensor.unit),
                         tensor_in_words(errors.*tensor.member, tensor.unit)});
     }
+    rows.push_back({"density of the falling body, over the fluid's", in_words(densities), "-"});
     return {"The turning body",
             html_paragraph("From: " + values.origin) +
                 html_table({"coefficient (tensors: xx, yy, zz)", "value", "standard error"}, rows)};

@@ -1,5 +1,6 @@
 #include "samara/body/dynamic_coefficients.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "internal/base/symmetric_matrix.hpp"
@@ -36,6 +37,11 @@ std::string fault_of(const DynamicCoefficients& coefficients) {
         if (!fault.empty()) return fault;
     }
     return {};
+}
+
+double beyond(const IdentifiedDensities& densities, double density) {
+    if (densities.lowest <= 0.0 || density <= 0.0) return 1.0;
+    return std::max({1.0, densities.lowest / density, density / densities.highest});
 }
 
 }  // namespace samara

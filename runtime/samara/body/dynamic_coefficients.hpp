@@ -90,11 +90,22 @@ inline constexpr NumberOfMotion numbers_of_motion[] = {
     {&DynamicCoefficients::unsteady_factor, "unsteady_factor", "unsteady factor", true, true},
 };
 
+/// Of which densities the falls were that coefficients come from, over the fluid's; zero: not known.
+struct IdentifiedDensities {
+    double lowest = 0.0;
+    double highest = 0.0;
+};
+
 /// Coefficients with the standard error of each.
 struct IdentifiedCoefficients {
     DynamicCoefficients values;           ///< as the falls say
     DynamicCoefficients standard_errors;  ///< without half-length and origin
+    IdentifiedDensities densities;        ///< not known of files from before
 };
+
+/// How far a density (over the fluid's) lies outside those of the falls, as a ratio; 1 within them or where
+/// they are not known.
+double beyond(const IdentifiedDensities& densities, double density);
 
 /// What is wrong with the coefficients, such as "drag_in_motion is not symmetric": a number that is not
 /// finite, a tensor that is not symmetric, a drag that is not positive semidefinite, a half-length or factor

@@ -128,6 +128,9 @@ TEST_F(FallIdentification, PredictsTheFallItIsFrom) {
     ASSERT_EQ(found_.falls.size(), 1u);
     const auto& [name, solved, flown, balance] = found_.falls.front();
     EXPECT_EQ(name, "fall_00");
+    const double density = record_.fall.mass / record_.fall.volume;
+    EXPECT_DOUBLE_EQ(found_.coefficients.densities.lowest, density);
+    EXPECT_DOUBLE_EQ(found_.coefficients.densities.highest, density);
     EXPECT_NEAR(flown.descent_speed, solved.descent_speed, 0.02 * solved.descent_speed);
     EXPECT_NEAR(flown.mean_inclination, solved.mean_inclination, 0.02 * solved.mean_inclination);
     EXPECT_NEAR(flown.inclination_amplitude, solved.inclination_amplitude,
@@ -206,7 +209,7 @@ TEST_F(FallIdentification, FliesAFallFromTheSpeedItHasAfterTheFirstInstant) {
     fall.velocity = {1.0, -3.0, 2.0};
     fall.angular_velocity = {0.5, 4.0, -2.0};
     Body body = body_;
-    body.dynamic = {.values = true_, .standard_errors = {}};
+    body.dynamic = {.values = true_, .standard_errors = {}, .densities = {}};
     const auto& [name, solved, flown, balance] = fly_fall(body, test::flown_record(body, fall, true_));
     EXPECT_LT((flown.mean_velocity - solved.mean_velocity).norm(), 0.01 * solved.mean_velocity.norm());
     EXPECT_NEAR(flown.rms_angular_speed, solved.rms_angular_speed, 0.01 * solved.rms_angular_speed);

@@ -237,6 +237,19 @@ TEST_F(Bake, RefusesABodyAsDenseAsTheFluid) {
     EXPECT_FALSE(fs::exists(cases_));
 }
 
+TEST_F(Bake, OfARangeOfDensitiesNeedsItsOtherEndAndFalls) {
+    const std::string shape = write_body(test::sphere(0.01)).string();
+    const test::ProgramRun one_end =
+        bake(fmt::format("{} -o out.body.h5 --quality standard --density-to 8000", shape));
+    EXPECT_EQ(one_end.status, 1);
+    EXPECT_THAT(one_end.fault, HasSubstr("give --density too"));
+    const test::ProgramRun no_falls =
+        bake(fmt::format("{} -o out.body.h5 --quality smoke --density 1200 --density-to 8000", shape));
+    EXPECT_EQ(no_falls.status, 1);
+    EXPECT_THAT(no_falls.fault, HasSubstr("quality smoke solves none"));
+    EXPECT_FALSE(fs::exists(cases_));
+}
+
 TEST_F(Bake, OfASceneSolvesInRoundsWhatItVisitsAndEndsTheSameAfterAnInterruption) {
     write_body(test::ellipsoid({0.01, 0.02, 0.04}));
     std::ofstream(folder_ / "scene.toml") << R"([scene]

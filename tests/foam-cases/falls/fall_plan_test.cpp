@@ -307,7 +307,7 @@ BakePlan bake_with_falls(const Body& body, const BakeQuality& quality) {
     MassSpecification mass;
     mass.density = 1200.0;
     BakePlan plan = plan_bake(body, quality, 1e4);
-    add_falls(body, water, mass, 9.81, speed, plan);
+    add_falls(body, water, {mass}, 9.81, plan);
     return plan;
 }
 
@@ -338,6 +338,38 @@ TEST(IdentificationFalls, AreTwoAtStandardOnTheMediumMeshAndAtHighOnTheFine) {
     EXPECT_GT((high.falls[0].gravity - high.falls[1].gravity).norm(), 0.3 * high.falls[0].gravity.norm());
 }
 
+TEST(IdentificationFalls, OfTwoDensitiesHaveThemInTurnEachInItsOwnTime) {
+    const Body body = test::ellipsoid({0.01, 0.02, 0.04});
+    std::vector<MassSpecification> masses(2);
+    masses[0].density = 1200.0;
+    masses[1].density = 4800.0;
+    BakePlan plan = plan_bake(body, bake_quality("standard"), 1e4);
+    add_falls(body, water, masses, 9.81, plan);
+    ASSERT_EQ(plan.falls.size(), 2u);
+    const auto& [light, heavy] = std::tie(plan.falls[0], plan.falls[1]);
+    EXPECT_NEAR(light.mass / light.volume, 1200.0 / water.density, 1e-9);
+    EXPECT_NEAR(heavy.mass / heavy.volume, 4800.0 / water.density, 1e-9);
+    EXPECT_DOUBLE_EQ(light.duration, heavy.duration);
+    // But for the drag's dependence on the Reynolds number.
+    const double faster = std::sqrt((4800.0 - water.density) / (1200.0 - water.density));
+    EXPECT_NEAR(heavy.speed / light.speed, faster, 0.3 * faster);
+}
+
+TEST(IdentificationFalls, ByAnotherClosureHaveAMeshOfTheirOwnOfAsManyCells) {
+    const Body body = test::ellipsoid({0.01, 0.02, 0.04});
+    const BakePlan plan =
+        bake_with_falls(body, with_falls_by(Closure::k_omega_sst_lm, bake_quality("standard")));
+    EXPECT_EQ(plan.falls[0].closure, Closure::k_omega_sst_lm);
+    EXPECT_EQ(plan.cases.front().closure, Closure::k_epsilon);
+    ASSERT_EQ(plan.quality.fall_meshes.size(), 1u);
+    EXPECT_TRUE(plan.quality.fall_meshes.front().resolves_boundary_layer);
+    for (const FreeFall& fall : plan.falls) EXPECT_EQ(fall.mesh, plan.quality.fall_meshes.front().name);
+    const double medium = cells_of(plan, "mesh_medium");
+    EXPECT_NEAR(cells_of(plan, plan.falls[0].mesh), medium, 0.2 * medium);
+    EXPECT_EQ(plan_json(plan)["meshes"].size(), 4u);
+    EXPECT_THROW(static_cast<void>(with_falls_by(Closure::laminar, bake_quality("standard"))), Error);
+}
+
 TEST(IdentificationFalls, AreByTheClosureOfTheLoads) {
     const Body body = test::ellipsoid({0.01, 0.02, 0.04});
     const BakePlan plan =
@@ -348,13 +380,14 @@ TEST(IdentificationFalls, AreByTheClosureOfTheLoads) {
 }
 
 TEST(IdentificationFalls, StartFromRestWithTheBodysMassAndLastThirtyUnits) {
-    const BakePlan plan = bake_with_falls(test::ellipsoid({0.01, 0.02, 0.04}), bake_quality("standard"));
+    const Body body = test::ellipsoid({0.01, 0.02, 0.04});
+    const BakePlan plan = bake_with_falls(body, bake_quality("standard"));
     const FreeFall& fall = plan.falls[0];
     EXPECT_EQ(fall.velocity, Vector3d::Zero());
     EXPECT_EQ(fall.angular_velocity, Vector3d::Zero());
     EXPECT_NEAR(fall.mass, 1.2 * fall.volume, 1e-12);
     EXPECT_NEAR(fall.duration, 30.0, 1e-12);
-    EXPECT_EQ(fall.speed, speed);
+    EXPECT_EQ(fall.speed, bake_speed(body, water, 1200.0 * body.moments.volume, 9.81));
 }
 
 TEST(IdentificationFalls, CountInTheCostOfTheBake) {

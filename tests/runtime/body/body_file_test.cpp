@@ -77,6 +77,8 @@ void expect_equal(const Body& a, const Body& b) {
     if (a.dynamic) {
         expect_equal(a.dynamic->values, b.dynamic->values);
         expect_equal(a.dynamic->standard_errors, b.dynamic->standard_errors);
+        EXPECT_EQ(a.dynamic->densities.lowest, b.dynamic->densities.lowest);
+        EXPECT_EQ(a.dynamic->densities.highest, b.dynamic->densities.highest);
     }
     EXPECT_EQ(a.mass, b.mass);
     ASSERT_EQ(a.tables.has_value(), b.tables.has_value());
@@ -299,6 +301,10 @@ TEST(BodyFile, DynamicCoefficientsThatAreNoneAreNamed) {
             "drag_in_motion is not positive semidefinite");
     refused([&](Identified& c) { c.values.rotational_drag(0, 2) = c.values.rotational_drag(2, 0) = 0.01; },
             "rotational_drag is not positive semidefinite");
+    for (const IdentifiedDensities none :
+         {IdentifiedDensities{2.0, 1.0}, IdentifiedDensities{2.0, infinity}}) {
+        refused([&](Identified& c) { c.densities = none; }, "lowest_density");
+    }
     for (const TensorOfMotion& tensor : tensors_of_motion) {
         const std::string name = tensor.name;
         refused([&](Identified& c) { (c.values.*tensor.member)(1, 1) = infinity; }, name);
@@ -343,6 +349,19 @@ TEST(BodyFile, DynamicCoefficientsFromBeforeThereWasEntrainedInertiaAndUnsteadyF
     body.dynamic->standard_errors.entrained_inertia.setZero();
     body.dynamic->values.unsteady_factor = 1.0;
     body.dynamic->standard_errors.unsteady_factor = 0.0;
+    expect_equal(read_body_file(folder / "a.body.h5"), body);
+}
+
+TEST(BodyFile, DynamicCoefficientsFromBeforeTheDensitiesOfTheirFallsWereKeptKnowNone) {
+    const test::TemporaryFolder folder;
+    Body body = test::full_body();
+    write_body_file(folder / "a.body.h5", body);
+    {
+        H5::H5File file((folder / "a.body.h5").string(), H5F_ACC_RDWR);
+        H5::Group group = file.openGroup("/dynamic_coefficients");
+        for (const char* name : {"lowest_density", "highest_density"}) group.removeAttr(name);
+    }
+    body.dynamic->densities = {};
     expect_equal(read_body_file(folder / "a.body.h5"), body);
 }
 
