@@ -29,7 +29,7 @@ extern "C" {
 #endif
 
 /* The version of this header: it grows with every addition, and what was there stays as it was. */
-#define SAMARA_API_VERSION 7
+#define SAMARA_API_VERSION 8
 
 /* The SAMARA_API_VERSION of the library that is linked: at least that of the header, or functions may lack.
  */
@@ -133,7 +133,7 @@ SAMARA_API samara_status samara_default_settings(samara_settings* settings, size
                                                  size_t error_size);
 
 /* docs/theory.md says what each model is. */
-enum { SAMARA_LOADS_NONE = 0, SAMARA_LOADS_COEFFICIENTS = 1, SAMARA_LOADS_TABLE = 2 };
+enum { SAMARA_LOADS_NONE = 0, SAMARA_LOADS_COEFFICIENTS = 1, SAMARA_LOADS_TABLE = 2, SAMARA_LOADS_SURFACE = 3 /* since version 8 */ };
 enum {
     SAMARA_TURBULENCE_NONE = 0,
     SAMARA_TURBULENCE_CONSTANT = 1,

@@ -60,11 +60,13 @@ Body prepare_body(const fs::path& shape, double scale, const fs::path& folder) {
 }
 
 void add_kirchhoff_tensor(Body& body, const fs::path& earlier, const fs::path& folder) {
-    if (body.kirchhoff) return;
+    if (body.kirchhoff && body.surface_loads) return;
     if (fs::exists(earlier)) {
         const Body known = read_body_file(earlier);
-        if (known.kirchhoff && surface_hash(known.surface) == surface_hash(body.surface)) {
+        if (known.kirchhoff && known.surface_loads &&
+            surface_hash(known.surface) == surface_hash(body.surface)) {
             body.kirchhoff = known.kirchhoff;
+            body.surface_loads = known.surface_loads;
             return;
         }
     }
@@ -72,7 +74,9 @@ void add_kirchhoff_tensor(Body& body, const fs::path& earlier, const fs::path& f
     write_body_file(file, body);
     run_stage({require_program("samara").string(), "kirchhoff", file.string(), "-o", file.string()},
               folder / "log.kirchhoff", "samara kirchhoff");
-    body.kirchhoff = read_body_file(file).kirchhoff;
+    const Body solved = read_body_file(file);
+    body.kirchhoff = solved.kirchhoff;
+    body.surface_loads = solved.surface_loads;
     if (!body.kirchhoff) throw Error(fmt::format("{}: has no Kirchhoff tensor", body.name));
 }
 

@@ -87,6 +87,23 @@ void print_kirchhoff(const KirchhoffTensor& kirchhoff) {
     print_row("method", "{}, {} triangles", kirchhoff.method, kirchhoff.triangles);
 }
 
+/// The largest force and moment of a tow by pressure (rho U^2 A / 2, and times L).
+PressureLoads largest_of(const SurfaceLoads& loads) {
+    PressureLoads largest;
+    for (const PressureLoads& load : loads.pressure) {
+        if (load.force.norm() > largest.force.norm()) largest.force = load.force;
+        if (load.moment.norm() > largest.moment.norm()) largest.moment = load.moment;
+    }
+    return largest;
+}
+
+void print_surface_loads(const SurfaceLoads& loads) {
+    const auto [force, moment] = largest_of(loads);
+    print_result("Loads of the surface, by its potential flow (docs/surface-loads.md)\n");
+    print_row("force", "up to {:.3g} (rho U^2 A / 2)", force.norm());
+    print_row("moment", "up to {:.3g} (rho U^2 A L / 2)", moment.norm());
+}
+
 void print_table_errors(const LoadTables& tables) {
     if (tables.error_sources.empty()) {
         print_row("standard errors hold", "{}", error_sources_in_words(tables));
@@ -233,6 +250,7 @@ void print_body(const Body& body) {
     } else {
         print_result("No Kirchhoff tensor: 'samara kirchhoff' adds it\n");
     }
+    if (body.surface_loads) print_surface_loads(*body.surface_loads);
     if (body.tables) {
         print_tables(*body.tables);
     } else {
@@ -260,6 +278,7 @@ nlohmann::json body_as_json(const Body& body) {
         {"symmetry", {{"kind", name_of(body.symmetry.kind)}, {"elements", body.symmetry.elements.size()}}},
         {"mass", nullptr},
         {"kirchhoff", nullptr},
+        {"surface_loads", nullptr},
         {"tables", nullptr},
         {"dynamic_coefficients", nullptr},
     };
@@ -271,6 +290,10 @@ nlohmann::json body_as_json(const Body& body) {
                                {"asymmetry", body.kirchhoff->asymmetry},
                                {"triangles", body.kirchhoff->triangles},
                                {"method", body.kirchhoff->method}};
+    }
+    if (body.surface_loads) {
+        const auto [force, moment] = largest_of(*body.surface_loads);
+        result["surface_loads"] = {{"largest_force", force.norm()}, {"largest_moment", moment.norm()}};
     }
     if (body.tables) result["tables"] = tables_as_json(*body.tables);
     if (body.dynamic) result["dynamic_coefficients"] = dynamic_as_json(*body.dynamic);

@@ -20,6 +20,7 @@
 #include "samara/base/error.hpp"
 #include "samara/body/body_file.hpp"
 #include "samara/kirchhoff/kirchhoff_solver.hpp"
+#include "samara/kirchhoff/surface_flow.hpp"
 
 namespace samara {
 namespace {
@@ -79,6 +80,8 @@ Body solved_body(const Request& request) {
     const auto solved = [&](int triangles) {
         Body body = load_body(request.file, 1.0, triangles);
         body.kirchhoff = solve(body, request);
+        body.surface_loads = labelled(
+            request.file, [&] { return surface_loads(body.surface, body.moments, request.threads); });
         return body;
     };
     Body body = solved(request.triangles);

@@ -91,6 +91,11 @@ void note_doubtful_bodies(const Scene& scene, const std::vector<LoadedBody>& loa
         const std::string units = unit_doubts(*loaded[i].body, body.mass, scene.fluid, scene.gravity.norm(),
                                               scale_remedy_in_scene(body.shape));
         notes.add(units, body.name, 0.0, units);
+        if (body.loads == Loads::surface && body.loads_by_default) {
+            notes.add("surface", body.name, 0.0,
+                      "has no tables, and flies by the pressure that potential flow tells of its surface "
+                      "(docs/surface-loads.md); 'samara bake' makes tables");
+        }
         const DensityDoubt density = density_doubt(body, *loaded[i].body, scene.fluid);
         notes.add("density", body.name, density.ratio, density.text);
         const double error = body.added_mass ? loaded[i].body->kirchhoff->error_estimate : 0.0;
@@ -220,7 +225,9 @@ nlohmann::json run(const Request& request, const Arguments& arguments) {
     BodyNotes notes(program);
     for (std::size_t i = 0; i < loaded.size(); ++i) {
         note_reynolds_numbers(notes, scene.bodies[i], *loaded[i].body, report.bodies[i]);
-        note_table_errors(notes, scene.bodies[i].name, report.bodies[i].table_errors);
+        if (scene.bodies[i].loads != Loads::surface) {  // whose errors are not of a bake
+            note_table_errors(notes, scene.bodies[i].name, report.bodies[i].table_errors);
+        }
     }
     notes.print();
     warn_of_substeps(report);

@@ -220,6 +220,13 @@ Body full_body() {
     kirchhoff.triangles = 320;
     kirchhoff.method = "boundary elements";
     body.kirchhoff = kirchhoff;
+    SurfaceLoads surface_loads;
+    for (int node = 0; node < 9; ++node) {
+        surface_loads.pressure.push_back({Vector3d(-0.5, 0.01 * node, 0.02), Vector3d(0.003, -0.04, 0.1)});
+    }
+    surface_loads.friction_force << -2.0, 0.1, 0.0, 0.1, -3.0, 0.2, 0.0, 0.2, -1.0;
+    surface_loads.friction_moment << 0.0, 0.5, -0.1, -0.5, 0.0, 0.3, 0.1, -0.3, 0.0;
+    body.surface_loads = surface_loads;
     body.tables = smooth_tables(2);
     body.tables->error_sources = {{ErrorSource::tail, 0.01, 0.02, 0.03, 0.04},
                                   {ErrorSource::interpolation, 0.05, 0.06, 0.07, 0.08}};

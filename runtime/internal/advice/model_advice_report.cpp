@@ -13,7 +13,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array loads_words = {"none", "coefficients", "table"};
+constexpr std::array loads_words = {"none", "coefficients", "table", "surface"};
 constexpr std::array turbulence_words = {"none", "constant", "table"};
 constexpr std::array dynamic_words = {"body", "default", "none"};
 

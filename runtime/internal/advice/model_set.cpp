@@ -22,6 +22,8 @@ std::string loads_in_words(const ModelSet& models) {
             return "no loads";
         case Loads::coefficients:
             return fmt::format("drag coefficient {:.3g}", models.drag_coefficient);
+        case Loads::surface:
+            return "loads of the surface";
         default:
             return "table loads";
     }
@@ -30,6 +32,7 @@ std::string loads_in_words(const ModelSet& models) {
 std::string dynamic_in_words(const ModelSet& models, const Body& body) {
     if (models.dynamic == Dynamic::none) return "no dynamic coefficients";
     if (models.loads == Loads::coefficients) return "rotational drag";
+    if (models.loads == Loads::surface) return "dynamic coefficients that all bodies share";
     return uses_identified(models, body) ? "identified dynamic coefficients" : "default dynamic coefficients";
 }
 
@@ -77,7 +80,8 @@ ModelCost cost_of(const ModelSet& models, const Body& body) {
     cost.reynolds_numbers = cost.tables && several && !models.table_reynolds_number;
     cost.kirchhoff = models.added_mass;
     constexpr int turbulence[] = {0, 4, 5};
-    cost.step = turbulence[static_cast<int>(models.turbulence)] + (models.loads == Loads::table ? 2 : 0) +
+    cost.step = turbulence[static_cast<int>(models.turbulence)] +
+                (models.loads == Loads::table || models.loads == Loads::surface ? 2 : 0) +
                 (models.loads != Loads::none && models.dynamic != Dynamic::none ? 1 : 0);
     return cost;
 }

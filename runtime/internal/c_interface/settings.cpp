@@ -184,7 +184,7 @@ GivenKind read_kind(const samara_kind& given) {
     if (kind.name != nullptr) body.name = plain_name(kind.name, "name");
     body.mass = read_mass(kind);
     read_start(kind, body);
-    body.loads = choice<Loads>(kind.loads, SAMARA_LOADS_TABLE, "loads");
+    body.loads = choice<Loads>(kind.loads, SAMARA_LOADS_SURFACE, "loads");
     body.coefficients = read_coefficients(kind);
     read_turbulence(kind, body);
     read_models(kind, body);
@@ -201,6 +201,15 @@ void require_data(const Body& body, const GivenKind& kind) {
                     fmt::format("body '{}' holds no added mass; add it with 'samara kirchhoff', or set "
                                 "added_mass to 0",
                                 name));
+    }
+    if (kind.loads == Loads::surface && !body.surface_loads) {
+        throw Fault(SAMARA_MISSING_DATA,
+                    fmt::format("body '{}' holds no surface loads; add them with 'samara kirchhoff FILE -o "
+                                "FILE', or set loads otherwise",
+                                name));
+    }
+    if (kind.loads == Loads::surface && kind.turbulence == Turbulence::table) {
+        refuse("turbulence", "is from the table, and the loads are not; set it otherwise");
     }
     const bool loads = kind.loads == Loads::table;
     if ((loads || kind.turbulence == Turbulence::table) && !body.tables) {

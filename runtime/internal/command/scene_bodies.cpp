@@ -15,6 +15,7 @@
 #include "samara/base/error.hpp"
 #include "samara/body/body_file.hpp"
 #include "samara/kirchhoff/kirchhoff_solver.hpp"
+#include "samara/kirchhoff/surface_flow.hpp"
 
 namespace samara {
 namespace {
@@ -47,32 +48,54 @@ class LoadedBodies {
         const std::filesystem::path file = file_of(scene_body, folder_);
         // A baked body is in metres already: the scene's scale went into it.
         const double scale = folder_.empty() ? scene_body.scale : 1.0;
-        const auto [place, is_new] = known_.try_emplace({file, scale, scene_body.added_mass});
-        if (is_new) place->second = load(file, scale, scene_body.added_mass);
+        const bool asked = scene_body.loads == Loads::surface;
+        const bool surface_loads = asked || scene_body.loads_by_default;
+        const auto [place, is_new] = known_.try_emplace({file, scale, scene_body.added_mass, surface_loads});
+        if (is_new) place->second = load(file, scale, scene_body.added_mass, surface_loads);
         if (!folder_.empty()) require_same_shape(file, *place->second->body, scene_body);
         return *place->second;
     }
 
   private:
-    static LoadedBody load(const std::filesystem::path& file, double scale, bool added_mass) {
+    static LoadedBody load(const std::filesystem::path& file, double scale, bool added_mass,
+                           bool surface_loads) {
         Body body = load_body(file, scale);
         if (added_mass && !body.kirchhoff) {
             body.kirchhoff =
                 labelled(file.string(), [&] { return kirchhoff_tensor(body.surface, body.moments); });
         }
+        if (surface_loads && !body.surface_loads) {
+            body.surface_loads =
+                labelled(file.string(), [&] { return samara::surface_loads(body.surface, body.moments); });
+        }
         return {std::move(body), file_content_hash(file)};
     }
 
     std::string folder_;
-    std::map<std::tuple<std::filesystem::path, double, bool>, std::optional<LoadedBody>> known_;
+    std::map<std::tuple<std::filesystem::path, double, bool, bool>, std::optional<LoadedBody>> known_;
 };
+
+/// Whether a body that the scene leaves to what its file holds is without the tables for it.
+bool flies_by_surface(const SceneBody& scene_body, const Body& body) {
+    if (body.tables || !scene_body.loads_by_default || scene_body.models_auto) return false;
+    const bool asks_for_tables =
+        scene_body.table_reynolds_number ||
+        (!scene_body.turbulence_by_default && scene_body.turbulence == Turbulence::table);
+    return !asks_for_tables;
+}
 
 }  // namespace
 
-std::vector<LoadedBody> load_scene_bodies(const Scene& scene, const std::string& folder) {
+std::vector<LoadedBody> load_scene_bodies(Scene& scene, const std::string& folder) {
     std::vector<LoadedBody> loaded;
     LoadedBodies load(folder);
-    for (const SceneBody& body : scene.bodies) loaded.push_back(load(body));
+    for (SceneBody& body : scene.bodies) {
+        loaded.push_back(load(body));
+        if (flies_by_surface(body, *loaded.back().body)) {
+            body.loads = Loads::surface;
+            if (body.turbulence_by_default) body.turbulence = Turbulence::none;
+        }
+    }
     return loaded;
 }
 

@@ -76,4 +76,23 @@ DynamicCoefficients default_dynamic_coefficients(const Body& body) {
     return coefficients;
 }
 
+DynamicCoefficients surface_dynamic_coefficients(const Body& body, const SurfaceMotion& motion) {
+    DynamicCoefficients coefficients;
+    coefficients.half_length = half_length_of(body);
+    const auto [areas, unevenness] = shadow_of(body);
+    if (body.kirchhoff) {
+        const Matrix3d added_mass = body.kirchhoff->matrix.bottomRightCorner<3, 3>();
+        coefficients.transport = motion.transport * added_mass +
+                                 motion.spin_lift * added_mass.trace() / 3.0 * Matrix3d::Identity();
+    }
+    coefficients.rotational_transport = usual_rotational_transport;
+    coefficients.drag_in_motion = motion.drag_in_motion * unevenness * areas;
+    coefficients.drag_in_spin = motion.drag_in_spin * unevenness * areas;
+    const Matrix3d turning = rotational_drag_tensor(body.surface, body.moments.centroid);
+    coefficients.rotational_drag = motion.rotational_drag * turning;
+    coefficients.rotational_drag_in_spin = motion.rotational_drag_in_spin * turning;
+    coefficients.origin = "dynamic coefficients that all bodies share";
+    return coefficients;
+}
+
 }  // namespace samara

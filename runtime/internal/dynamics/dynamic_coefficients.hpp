@@ -13,10 +13,25 @@ inline constexpr double usual_drag_in_spin = 0.3;
 inline constexpr double usual_rotational_drag = 0.7;
 inline constexpr double usual_rotational_drag_in_spin = 0.7;
 
+/// The same beside loads of the surface, which all bodies share; chosen on the reference falls together with
+/// the pressure's numbers (docs/surface-loads.md).
+struct SurfaceMotion {
+    double transport = 0.87;        ///< T over the added mass
+    double spin_lift = 1.49;        ///< and besides, alike in all axes, over a third of the added mass' trace
+    double drag_in_motion = 1.67;   ///< C_m
+    double drag_in_spin = 0.36;     ///< C_s
+    double rotational_drag = 0.07;  ///< C_w
+    double rotational_drag_in_spin = 1.53;  ///< C_r
+};
+
 /// The defaults for a body whose file holds none: guided by free falls of spheroids and a 1:2:4 ellipsoid in
 /// OpenFOAM (docs/theory gives the figures and what they miss). Scaled by the body's own projected areas and
 /// its rotational drag tensor.
 DynamicCoefficients default_dynamic_coefficients(const Body& body);
+
+/// The numbers that all bodies share beside loads of the surface, scaled by the body's own added mass,
+/// projected areas and rotational drag tensor. Without a Kirchhoff tensor nothing is transported.
+DynamicCoefficients surface_dynamic_coefficients(const Body& body, const SurfaceMotion& motion = {});
 
 /// Rotational drag alone, for loads by drag and lift coefficients: the same C_w D, and no other term.
 DynamicCoefficients rotational_drag_alone(const Body& body);

@@ -165,7 +165,7 @@ void set_loads(const ImmersedBody& body, FlightConstants<Real>& c) {
     const double ratio = body.length / length;
     c.creeping_turn = static_cast<Real>(creeping * ratio * ratio);
     c.creeping_drag = static_cast<Real>(3.0 * creeping);
-    if (body.loads == Loads::table) {
+    if (body.loads != Loads::coefficients) {
         c.potential_transport =
             square<Real>(directed(body.added_mass - body.fluid_density * dynamic.transport) / (mass * tow));
         c.lowest_reynolds_inverse = static_cast<Real>(1.0 / body.tables->reynolds_numbers.front());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -41,6 +42,30 @@ void require_tables(const Body& body, const BodyPhysics& physics, const std::str
                     name, physics.loads == Loads::table ? "loads" : "turbulence"));
 }
 
+void require_surface_loads(const Body& body, const BodyPhysics& physics, const std::string& name) {
+    if (physics.loads != Loads::surface) return;
+    if (!body.surface_loads) {
+        throw Error(
+            fmt::format("body '{}': loads = \"surface\", but its file holds no surface loads; add them "
+                        "with 'samara kirchhoff FILE -o FILE', or set loads otherwise",
+                        name));
+    }
+    if (physics.turbulence != Turbulence::table) return;
+    throw Error(
+        fmt::format("body '{}': turbulence = \"table\" goes with loads = \"table\"; loads of the "
+                    "surface know no turbulence",
+                    name));
+}
+
+/// The tables that the steps read: of the body's bake, or made of its surface's loads.
+std::optional<LoadTables> tables_of(const Body& body, const BodyPhysics& physics, double length) {
+    std::optional<LoadTables> tables;
+    if (physics.loads == Loads::surface) tables = as_tables(*body.surface_loads, length);
+    if (physics.loads == Loads::table || physics.turbulence == Turbulence::table) tables = body.tables;
+    if (!tables || !physics.table_reynolds_number) return tables;
+    return at_reynolds_number(*tables, *physics.table_reynolds_number);
+}
+
 /// projected_area() in all directions of the map, with each triangle's area vector worked out once.
 std::vector<double> projected_areas(const Surface& surface) {
     constexpr int side = 2 * shadow_subdivisions + 1;
@@ -59,20 +84,24 @@ std::vector<double> projected_areas(const Surface& surface) {
     return areas;
 }
 
+/// What separated flow lacks of the fluid's momentum goes with that momentum, where the scene leaves it out.
+DynamicCoefficients without_momentum(DynamicCoefficients coefficients, const BodyPhysics& physics) {
+    if (physics.added_mass) return coefficients;
+    coefficients.transport.setZero();
+    coefficients.rotational_transport = 0.0;
+    coefficients.entrained_inertia.setZero();
+    return coefficients;
+}
+
 DynamicCoefficients dynamic_coefficients_of(const Body& body, const BodyPhysics& physics) {
     if (physics.loads == Loads::none) return {};
     if (physics.dynamic == Dynamic::none) return no_dynamic_coefficients(body);
     if (physics.loads == Loads::coefficients) return rotational_drag_alone(body);
+    if (physics.loads == Loads::surface) return without_momentum(surface_dynamic_coefficients(body), physics);
     const bool own = physics.dynamic == Dynamic::of_body && body.dynamic;
     DynamicCoefficients coefficients = own ? body.dynamic->values : default_dynamic_coefficients(body);
     if (!own && body.dynamic) coefficients.origin = "dynamic coefficients by default";
-    if (!physics.added_mass) {
-        // What separated flow lacks of the fluid's momentum goes with that momentum.
-        coefficients.transport.setZero();
-        coefficients.rotational_transport = 0.0;
-        coefficients.entrained_inertia.setZero();
-    }
-    return coefficients;
+    return without_momentum(std::move(coefficients), physics);
 }
 
 /// rho_f K_fluid; zero where the scene leaves it out.
@@ -99,6 +128,7 @@ ImmersedBody make_immersed_body(const Body& body, const BodyPhysics& physics, co
                                 const std::string& name) {
     const Matrix6d fluid_inertia = fluid_inertia_of(body, physics, fluid, name);
     require_tables(body, physics, name);
+    require_surface_loads(body, physics, name);
     require_sound(body, physics, fluid, name);
     const MassProperties mass = mass_properties(body, mass_asked_or_own(physics.mass, body));
 
@@ -139,11 +169,7 @@ ImmersedBody make_immersed_body(const Body& body, const BodyPhysics& physics, co
     result.turbulent_kinetic_energy = physics.turbulent_kinetic_energy;
     result.dissipation_rate = physics.dissipation_rate;
     result.langevin = physics.langevin;
-    if (result.loads == Loads::table || result.turbulence == Turbulence::table) {
-        result.tables = physics.table_reynolds_number
-                            ? at_reynolds_number(*body.tables, *physics.table_reynolds_number)
-                            : *body.tables;
-    }
+    result.tables = tables_of(body, physics, result.length);
     prepare(result);
     return result;
 }

@@ -9,6 +9,7 @@
 #include "samara/body/load_tables.hpp"
 #include "samara/body/mass_specification.hpp"
 #include "samara/body/surface.hpp"
+#include "samara/body/surface_loads.hpp"
 
 namespace samara {
 
@@ -67,7 +68,8 @@ Matrix6d about_point(const Matrix6d& tensor, const Vector3d& old_point, const Ve
 /// The same tensor in axes turned by `rotation`: a vector a of the old axes is rotation * a in the new ones.
 Matrix6d in_rotated_axes(const Matrix6d& tensor, const Matrix3d& rotation);
 
-/// All that a body file holds. Each stage adds a part: mesh the first five, kirchhoff and convert one each.
+/// All that a body file holds. Each stage adds a part: mesh the first five, kirchhoff two, and
+/// convert one.
 struct Body {
     std::string name;    ///< of the file it came from, or of the scene
     std::string source;  ///< how the surface was made, one line: the shape file's name and hash, the options
@@ -75,6 +77,7 @@ struct Body {
     VolumeMoments moments;                          ///< of the volume within the surface
     Symmetry symmetry;                              ///< of the surface
     std::optional<KirchhoffTensor> kirchhoff;       ///< none before `samara kirchhoff`
+    std::optional<SurfaceLoads> surface_loads;      ///< none before `samara kirchhoff`
     std::optional<LoadTables> tables;               ///< none before `samara bake`
     std::optional<IdentifiedCoefficients> dynamic;  ///< of a body in rotation; without them, defaults
     std::optional<MassSpecification> mass;          ///< what it weighs where nobody says otherwise

@@ -11,6 +11,7 @@
 #include "internal/body/mass_file.hpp"
 #include "internal/body/planned_region_file.hpp"
 #include "internal/body/surface_file.hpp"
+#include "internal/body/surface_loads_file.hpp"
 #include "internal/body/table_errors_file.hpp"
 #include "internal/files/hdf5_reader.hpp"
 #include "internal/files/hdf5_writer.hpp"
@@ -224,6 +225,7 @@ Body read_body_file(const std::filesystem::path& path) {
         from_row_major<Matrix3d>(file.finite_doubles("/moments/second_moments", {3, 3}));
     body.symmetry = read_symmetry(file);
     if (file.has("/kirchhoff")) body.kirchhoff = read_kirchhoff(file);
+    if (file.has("/surface_loads")) body.surface_loads = read_surface_loads(file);
     if (file.has("/tables")) body.tables = read_tables(file);
     if (file.has("/dynamic_coefficients")) body.dynamic = read_dynamic_coefficients(file);
     if (file.has("/mass")) body.mass = read_mass(file);
@@ -253,6 +255,7 @@ void write_body_file(const std::filesystem::path& path, const Body& body) {
                    "integral of x x^T over the volume about the centroid, shape axes");
         write_symmetry(file, body.symmetry);
         if (body.kirchhoff) write_kirchhoff(file, *body.kirchhoff);
+        if (body.surface_loads) write_surface_loads(file, *body.surface_loads);
         if (body.tables) write_tables(file, *body.tables);
         if (body.dynamic) write_dynamic_coefficients(file, *body.dynamic);
         if (body.mass) write_mass(file, *body.mass);

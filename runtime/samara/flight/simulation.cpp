@@ -28,7 +28,7 @@ std::vector<double> frame_times(const Scene& scene) {
 }
 
 std::string models_of(const SceneBody& scene_body, const ImmersedBody& body) {
-    constexpr const char* loads[] = {"none", "coefficients", "table"};
+    constexpr const char* loads[] = {"none", "coefficients", "table", "surface"};
     constexpr const char* turbulence[] = {"none", "constant", "table"};
     constexpr const char* langevin[] = {"seen-fluid", "body-velocity", "wake"};
     std::string text = fmt::format("loads {}; turbulence {}", loads[static_cast<int>(scene_body.loads)],

@@ -7,8 +7,9 @@
 
 namespace samara {
 
-/// Where the loads of a steady tow come from: nowhere, drag and lift coefficients, the body's tables.
-enum class Loads { none, coefficients, table };
+/// Where the loads of a steady tow come from: nowhere, drag and lift coefficients, the body's tables, the
+/// pressure of the potential flow over its surface (docs/surface-loads.md).
+enum class Loads { none, coefficients, table, surface };
 /// Where the turbulence around a body comes from: nowhere, constants, the body's tables.
 enum class Turbulence { none, constant, table };
 /// What the Langevin equation moves: the fluid that the body sees as one stream; (the paper's eq. 8) the body

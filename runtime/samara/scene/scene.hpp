@@ -21,6 +21,10 @@ struct SceneBody : BodyPhysics, Release {
     std::filesystem::path shape;  ///< a shape file or a .body.h5, as found from the scene file's folder
     double scale = 1.0;           ///< metres for one unit of the shape file
     bool models_auto = false;     ///< what the model advice says is to be flown (docs/plan.md)
+    /// Whether the scene leaves the loads, or the turbulence, to what the body's file holds: tables, or else
+    /// the loads of its surface, in still fluid.
+    bool loads_by_default = false;
+    bool turbulence_by_default = false;
 };
 
 /// A scene file, checked: every number is finite and in its range.

@@ -109,9 +109,13 @@ MassSpecification read_mass(TomlTable& table) {
 
 /// What the equations hold, beside turbulence and coefficients.
 void read_models(TomlTable& table, SceneBody& body) {
-    body.loads = choice<Loads>(
-        table, "loads",
-        {{"none", Loads::none}, {"coefficients", Loads::coefficients}, {"table", Loads::table}}, body.loads);
+    body.loads = choice<Loads>(table, "loads",
+                               {{"none", Loads::none},
+                                {"coefficients", Loads::coefficients},
+                                {"table", Loads::table},
+                                {"surface", Loads::surface}},
+                               body.loads);
+    body.loads_by_default = table.node("loads") == nullptr;
     assign(body.added_mass, table.boolean("added_mass"));
     body.dynamic = choice<Dynamic>(
         table, "dynamic_coefficients",
@@ -163,6 +167,11 @@ void read_turbulence(TomlTable& table, SceneBody& body) {
                                       {"seen-fluid", Langevin::seen_fluid},
                                       {"body-velocity", Langevin::body_velocity}},
                                      body.langevin);
+    body.turbulence_by_default = table.node("turbulence") == nullptr;
+    if (body.loads == Loads::surface && body.turbulence == Turbulence::table) {
+        throw table.fault("turbulence", R"(is of tables, and the loads are not; set loads = "table", or )"
+                                        R"(turbulence to "none" or "constant")");
+    }
     const auto energy = table.number("turbulent_kinetic_energy", non_negative_number);
     const auto dissipation = table.number("dissipation_rate", non_negative_number);
     const bool constant = body.turbulence == Turbulence::constant;

@@ -81,6 +81,17 @@ void expect_equal(const Body& a, const Body& b) {
         EXPECT_EQ(a.dynamic->densities.highest, b.dynamic->densities.highest);
     }
     EXPECT_EQ(a.mass, b.mass);
+    ASSERT_EQ(a.surface_loads.has_value(), b.surface_loads.has_value());
+    if (a.surface_loads) {
+        EXPECT_EQ(a.surface_loads->subdivisions, b.surface_loads->subdivisions);
+        EXPECT_EQ(a.surface_loads->friction_force, b.surface_loads->friction_force);
+        EXPECT_EQ(a.surface_loads->friction_moment, b.surface_loads->friction_moment);
+        ASSERT_EQ(a.surface_loads->pressure.size(), b.surface_loads->pressure.size());
+        for (std::size_t i = 0; i < a.surface_loads->pressure.size(); ++i) {
+            EXPECT_EQ(a.surface_loads->pressure[i].force, b.surface_loads->pressure[i].force);
+            EXPECT_EQ(a.surface_loads->pressure[i].moment, b.surface_loads->pressure[i].moment);
+        }
+    }
     ASSERT_EQ(a.tables.has_value(), b.tables.has_value());
     if (!a.tables) return;
     EXPECT_EQ(a.tables->reference_length, b.tables->reference_length);
@@ -121,6 +132,7 @@ TEST(BodyFile, GivesBackABodyWithoutTensorTablesAndCoefficients) {
     const test::TemporaryFolder folder;
     Body body = test::full_body();
     body.kirchhoff.reset();
+    body.surface_loads.reset();
     body.tables.reset();
     body.dynamic.reset();
     body.surface.edge_nodes.clear();
@@ -274,6 +286,22 @@ TEST(BodyFile, ValuesThatAreNotFiniteAreNamed) {
     body.tables->entries[4].force.x() = std::nan("");
     write_body_file(folder / "a.body.h5", body);
     EXPECT_THAT(fault_of(folder / "a.body.h5"), HasSubstr("/tables/force"));
+}
+
+TEST(BodyFile, SurfaceLoadsThatAreNoneAreNamedWithTheirRemedy) {
+    const test::TemporaryFolder folder;
+    Body body = test::full_body();
+    body.surface_loads->pressure[3].moment.y() = 5e3;
+    write_body_file(folder / "a.body.h5", body);
+    EXPECT_THAT(fault_of(folder / "a.body.h5"), AllOf(HasSubstr("/surface_loads holds a coefficient of 5000"),
+                                                      HasSubstr("samara kirchhoff")));
+    body = test::full_body();
+    body.surface_loads->friction_force(1, 1) = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THAT(error_of([&] {
+                    write_body_file(folder / "b.body.h5", body);
+                    read_body_file(folder / "b.body.h5");
+                }),
+                HasSubstr("/surface_loads/friction_force"));
 }
 
 TEST(BodyFile, DynamicCoefficientsThatAreNoneAreNamed) {

@@ -1,3 +1,4 @@
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ namespace samara {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 test::ProgramRun samara(const test::TemporaryFolder& folder, std::vector<std::string> words) {
@@ -73,6 +75,32 @@ TEST(KirchhoffCommand, WritesTheTensorIntoTheBodyFileAndInfoShowsIt) {
     EXPECT_EQ(result["kirchhoff"]["added_mass"][5][5].get<double>(), body.kirchhoff->matrix(5, 5));
     EXPECT_NEAR(result["principal_extents"][2].get<double>(), 8.0, 0.1);
     EXPECT_TRUE(result["tables"].is_null());
+}
+
+TEST(KirchhoffCommand, WritesTheLoadsOfTheSurfaceByWhichABodyWithoutTablesFalls) {
+    const test::TemporaryFolder folder;
+    const std::string file = write_ellipsoid(folder);
+    ASSERT_EQ(samara(folder, {"kirchhoff", file, "-o", file}).status, 0);
+    ASSERT_TRUE(read_body_file(file).surface_loads.has_value());
+    const auto flown = [&](const std::string& keys) {
+        std::ofstream(folder / "fall.toml")
+            << "[scene]\nduration = 20\nstep = 0.02\n[[body]]\nname = \"egg\"\nshape = \"egg.body.h5\"\n"
+               "density = 1200\norientation = [0.95, 0, 0.31, 0]\n"
+            << keys;
+        return samara(folder, {"simulate", "fall.toml", "-o", "fall.h5", "--json"});
+    };
+    const test::ProgramRun by_default = flown("");
+    ASSERT_EQ(by_default.status, 0) << by_default.fault;
+    EXPECT_THAT(by_default.fault, HasSubstr("has no tables, and flies by the pressure"));
+    EXPECT_THAT(by_default.json()["bodies"][0]["models"].get<std::string>(),
+                StartsWith("loads surface; turbulence none"));
+    const test::ProgramRun asked = flown("loads = \"surface\"\n");
+    ASSERT_EQ(asked.status, 0) << asked.fault;
+    EXPECT_THAT(asked.fault, Not(HasSubstr("has no tables")));
+    EXPECT_EQ(asked.json()["bodies"][0]["final_position"], by_default.json()["bodies"][0]["final_position"]);
+    const test::ProgramRun of_tables = flown("loads = \"table\"\n");
+    EXPECT_EQ(of_tables.status, 1);
+    EXPECT_THAT(of_tables.fault, HasSubstr("holds no tables; make them with 'samara bake"));
 }
 
 TEST(KirchhoffCommand, ToleranceIsMetOrSaidToBeOutOfReach) {

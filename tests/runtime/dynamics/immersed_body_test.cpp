@@ -213,6 +213,36 @@ TEST(ImmersedBody, RefusesCoefficientsThatAreNone) {
     });
 }
 
+TEST(ImmersedBody, RefusesLoadsOfASurfaceThatItsBodyDoesNotHold) {
+    Given given;
+    given.scene_body.loads = Loads::surface;
+    given.scene_body.turbulence = Turbulence::none;
+    EXPECT_THAT(test::error_of([&] { (void)given.made(); }),
+                AllOf(StartsWith("body 'ball': loads = \"surface\""), HasSubstr("samara kirchhoff")));
+    given.body.surface_loads.emplace().pressure.resize(9);
+    EXPECT_NO_THROW((void)given.made());
+    given.scene_body.turbulence = Turbulence::table;
+    EXPECT_THAT(test::error_of([&] { (void)given.made(); }),
+                HasSubstr("loads of the surface know no turbulence"));
+}
+
+TEST(ImmersedBody, OfSurfaceLoadsSharesItsCoefficientsWithAllBodies) {
+    Given given;
+    given.scene_body.loads = Loads::surface;
+    given.scene_body.turbulence = Turbulence::none;
+    given.body.surface_loads.emplace().pressure.resize(9);
+    given.body.dynamic = IdentifiedCoefficients{};  // of the tables' falls: not meant
+    const ImmersedBody made = given.made();
+    const Matrix3d added_mass = given.body.kirchhoff->matrix.bottomRightCorner<3, 3>();
+    EXPECT_LT(
+        (made.dynamic.transport - 0.87 * added_mass - 1.49 * added_mass.trace() / 3.0 * Matrix3d::Identity())
+            .norm(),
+        1e-12 * added_mass.norm());
+    EXPECT_EQ(made.tables->reynolds_numbers.front(), 100.0);
+    given.scene_body.added_mass = false;
+    EXPECT_TRUE(given.made().dynamic.transport.isZero(0.0));
+}
+
 TEST(ImmersedBody, RefusesTurbulenceThatIsNone) {
     const auto constant = [](double energy, double rate) {
         return [energy, rate](Given& g) {

@@ -139,6 +139,20 @@ TEST_F(SceneFile, ModelsAreSwitchedBodyByBody) {
     EXPECT_TRUE(body("models = \"auto\"\nlangevin = \"seen-fluid\"").models_auto);
 }
 
+TEST_F(SceneFile, LoadsOfTheSurfaceAreAskedForOrLeftToWhatTheBodyHolds) {
+    const auto body = [&](const std::string& keys) {
+        return read(with_body("density = 1\n" + keys)).bodies.at(0);
+    };
+    EXPECT_EQ(body("loads = \"surface\"").loads, Loads::surface);
+    EXPECT_EQ(body("loads = \"surface\"").turbulence, Turbulence::none);
+    EXPECT_FALSE(body("loads = \"surface\"").loads_by_default);
+    EXPECT_TRUE(body("").loads_by_default);
+    EXPECT_TRUE(body("").turbulence_by_default);
+    EXPECT_FALSE(body("turbulence = \"none\"").turbulence_by_default);
+    EXPECT_THAT(refusal(with_body("density = 1\nloads = \"surface\"\nturbulence = \"table\"")),
+                AllOf(HasSubstr("scene.toml:8: turbulence"), HasSubstr("loads = \"table\"")));
+}
+
 TEST_F(SceneFile, ModelsThatAreChosenAreNotGivenToo) {
     for (const std::string key : {"loads = \"table\"", "added_mass = true", "dynamic_coefficients = \"body\"",
                                   "table_reynolds_number = 1e4", "turbulence = \"none\""}) {

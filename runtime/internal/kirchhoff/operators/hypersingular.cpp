@@ -93,23 +93,46 @@ SixColumns all_loads(const LinearElements& elements, const RotationLoads& rotati
     return loads;
 }
 
-BoundaryElementResult solve_dense(const LinearElements& elements, const BoundaryElementOptions& options) {
+/// W's matrix, regularised, and the right-hand sides for which it is solved.
+struct DenseEquations {
+    RowMatrix hypersingular;
+    SixColumns loads;
+    RotationLoads rotations;
+    Matrix3d translation_energies;
+    std::size_t memory = 0;
+};
+
+DenseEquations dense_equations(const LinearElements& elements, const BoundaryElementOptions& options) {
     const SingleLayerEntries entries(elements.triangles);
     const RowMatrix single_layer =
         dense_single_layer(entries, options.threads, part_of(options.progress, 0.0, 0.5));
-    RowMatrix hypersingular = dense_hypersingular(elements, single_layer, options.threads);
-    const RotationLoads rotations =
-        rotation_loads(elements, options.threads, part_of(options.progress, 0.6, 0.9));
-    const SixColumns loads = all_loads(elements, rotations, hypersingular * coordinates_of(elements));
+    DenseEquations equations;
+    equations.hypersingular = dense_hypersingular(elements, single_layer, options.threads);
+    equations.rotations = rotation_loads(elements, options.threads, part_of(options.progress, 0.6, 0.9));
+    equations.loads =
+        all_loads(elements, equations.rotations, equations.hypersingular * coordinates_of(elements));
     const auto normals = normals_of(elements);
-    BoundaryElementResult result;
-    result.tensor = single_layer_energies(rotations, normals.transpose() * (single_layer * normals));
-    result.memory = sizeof(double) * static_cast<std::size_t>(single_layer.size() + hypersingular.size());
-    regularise(elements, hypersingular);
-    const Eigen::LLT<Eigen::Ref<RowMatrix>> factors(hypersingular);
+    equations.translation_energies = normals.transpose() * (single_layer * normals);
+    equations.memory =
+        sizeof(double) * static_cast<std::size_t>(single_layer.size() + equations.hypersingular.size());
+    regularise(elements, equations.hypersingular);
+    return equations;
+}
+
+/// W^-1 of the right-hand sides; the equations' matrix is used up.
+SixColumns solved(DenseEquations& equations) {
+    const Eigen::LLT<Eigen::Ref<RowMatrix>> factors(equations.hypersingular);
     if (factors.info() != Eigen::Success) throw Error(unsolvable);
-    result.tensor += loads.transpose() * factors.solve(loads);
-    result.closure_fault = rotations.closure_fault;
+    return factors.solve(equations.loads);
+}
+
+BoundaryElementResult solve_dense(const LinearElements& elements, const BoundaryElementOptions& options) {
+    DenseEquations equations = dense_equations(elements, options);
+    BoundaryElementResult result;
+    result.tensor = single_layer_energies(equations.rotations, equations.translation_energies) +
+                    equations.loads.transpose() * solved(equations);
+    result.memory = equations.memory;
+    result.closure_fault = equations.rotations.closure_fault;
     result.unknowns = elements.node_count();
     return result;
 }
@@ -166,6 +189,20 @@ BoundaryElementResult solve_hypersingular(const Surface& surface, const Boundary
     const LinearElements elements = linear_elements(surface, leaf_size);
     return elements.node_count() <= how.most_dense_nodes ? solve_dense(elements, options)
                                                          : solve_compressed(elements, options, how);
+}
+
+SixColumns unit_potentials(const Surface& surface, int threads) {
+    const LinearElements elements = linear_elements(surface, leaf_size);
+    DenseEquations equations = dense_equations(elements, {threads, {}});
+    const SixColumns of_nodes = solved(equations);
+    SixColumns potentials = SixColumns::Zero(at(surface.vertices.size()), 6);
+    for (std::size_t t = 0; t < elements.triangle_count(); ++t) {
+        const auto& corners = surface.corners[elements.tree.order[t]];
+        for (std::size_t k = 0; k < 3; ++k) {
+            potentials.row(corners[k]) = -of_nodes.row(at(elements.node(t, k)));
+        }
+    }
+    return potentials;
 }
 
 }  // namespace samara

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "internal/kirchhoff/operators/boundary_elements.hpp"
+#include "internal/kirchhoff/panels/linear_elements.hpp"
 #include "samara/body/surface.hpp"
 
 namespace samara {
@@ -25,5 +26,10 @@ struct HypersingularOptions {
 /// solved, which happens on surfaces that are not closed or cross themselves.
 BoundaryElementResult solve_hypersingular(const Surface& surface, const BoundaryElementOptions& options,
                                           const HypersingularOptions& how = {});
+
+/// The potential of the fluid's velocity, grad phi, at each vertex of the surface, a row each, for the six
+/// unit motions of the body, order omega then v: the same elements, whose matrix is factorised whatever the
+/// count of nodes. Of each component of the surface up to a constant. Units and errors as above.
+SixColumns unit_potentials(const Surface& surface, int threads);
 
 }  // namespace samara
