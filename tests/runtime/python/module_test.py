@@ -6,6 +6,7 @@ import json
 import math
 import os
 import pathlib
+import shutil
 import signal
 import subprocess
 import sys
@@ -65,6 +66,18 @@ class Scenes(unittest.TestCase):
             self.assertNotIn("\n", str(caught.exception))
         with self.assertRaisesRegex(samara.Error, "nowhere.toml"):
             samara.simulate("nowhere.toml")
+
+
+class ReadyBodies(unittest.TestCase):
+    def test_a_wheel_brings_its_own(self):
+        with tempfile.TemporaryDirectory() as folder:
+            package = pathlib.Path(shutil.copytree(pathlib.Path(samara.__file__).parent, pathlib.Path(folder) / "samara"))
+            (package / "bodies").mkdir()
+            shutil.copy(ROOT / "runtime/bodies/sphere.body.h5", package / "bodies")
+            told = subprocess.run([sys.executable, "-c", "import samara; print(*samara.ready_bodies())"], check=True, text=True,
+                                  capture_output=True, env=os.environ | {"PYTHONPATH": folder})
+        self.assertEqual(told.stdout.split(), ["sphere"])
+        self.assertGreater(len(samara.ready_bodies()), 1)
 
 
 class Motions(unittest.TestCase):
