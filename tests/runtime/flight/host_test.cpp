@@ -471,8 +471,9 @@ TEST(FluidLoads, AreThoseOfAWholeStep) {
 void expect_near(const Matrix6d& a, const Matrix6d& b) {
     for (const Eigen::Index row : {0, 3}) {
         for (const Eigen::Index column : {0, 3}) {
-            const Matrix3d difference = a.block<3, 3>(row, column) - b.block<3, 3>(row, column);
-            EXPECT_LT(difference.norm(), 1e-9 * b.block<3, 3>(row, column).norm() + 1e-15);
+            const Matrix3d wanted = b.block<3, 3>(row, column);
+            const Matrix3d difference = a.block<3, 3>(row, column) - wanted;
+            EXPECT_LT(difference.norm(), 1e-9 * wanted.norm() + 1e-15);
         }
     }
 }
