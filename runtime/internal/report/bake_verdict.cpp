@@ -18,8 +18,9 @@
 namespace samara {
 namespace {
 
-constexpr double well_known = 0.1;       // an error that needs no mention
-constexpr double well_solved = 0.01;     // of the Kirchhoff tensor
+constexpr double well_known = 0.1;    // an error that needs no mention
+constexpr double well_solved = 0.01;  // of the Kirchhoff tensor
+constexpr const char* tested_openfoam = "1912";
 constexpr double mostly_planned = 0.99;  // of the nodes that a bake was planned for
 
 Grade grade_of(double error) {
@@ -126,6 +127,16 @@ void judge_cases(std::vector<Finding>& findings, const LoadTables& tables,
     } else if (std::ranges::any_of(records, [](const CaseRecord& one) { return one.cells > 0.0; })) {
         findings.push_back({Grade::good, "meshes", "checkMesh finds no fault"});
     }
+}
+
+void judge_solver(std::vector<Finding>& findings, const std::vector<CaseRecord>& records) {
+    const auto other = std::ranges::find_if(records, [](const CaseRecord& one) {
+        return !one.openfoam.empty() && one.openfoam.find(tested_openfoam) == std::string::npos;
+    });
+    if (other == records.end()) return;
+    findings.push_back({Grade::limited, "solver",
+                        fmt::format("by OpenFOAM '{}'; the cases are tested with v{} alone", other->openfoam,
+                                    tested_openfoam)});
 }
 
 double planned_share(const PlannedRegion& plan) {
@@ -256,7 +267,9 @@ BakeVerdict judge_bake(const Body& body, const std::vector<Finding>& further) {
     judge_motion(findings, body);
     judge_reynolds_numbers(findings, tables);
     judge_region(findings, tables);
-    judge_cases(findings, tables, case_records(tables));
+    const std::vector<CaseRecord> records = case_records(tables);
+    judge_cases(findings, tables, records);
+    judge_solver(findings, records);
     judge_kirchhoff(findings, body);
     findings.insert(findings.end(), further.begin(), further.end());
 

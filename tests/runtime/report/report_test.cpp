@@ -105,6 +105,18 @@ TEST(BakeVerdict, HeedsWhatTheCasesTell) {
     EXPECT_EQ(verdict.findings.back().what, "falls");
 }
 
+TEST(BakeVerdict, NamesAnOpenFoamThatTheCasesAreNotTestedWith) {
+    Body body = well_baked(0.08);
+    const auto solved_by = [&](const std::string& version) {
+        body.tables->provenance = R"([{"name": "a", "direction": [1, 0, 0], "reynolds_number": 1e4,
+            "drag_coefficient": 1, "openfoam": ")" +
+                                  version + "\"}]";
+        return of_grade(judge_bake(body), Grade::limited);
+    };
+    EXPECT_THAT(solved_by("OPENFOAM=1912 patch=200626"), Not(Contains("solver")));
+    EXPECT_THAT(solved_by("10-c4cf895ad8fa"), Contains("solver"));
+}
+
 TEST(BakeVerdict, SaysForWhichSceneAPartialBakeWasMade) {
     Body body = well_baked(0.08);
     body.tables->plan.subdivisions = 1;
