@@ -9,6 +9,7 @@
 #include "internal/report/bake_verdict.hpp"
 #include "internal/report/html.hpp"
 #include "internal/report/report_program.hpp"
+#include "internal/report/words.hpp"
 #include "paths.hpp"
 #include "samara/body/body_file.hpp"
 #include "support/known_bodies.hpp"
@@ -125,6 +126,14 @@ TEST(BakeVerdict, SaysForWhichSceneAPartialBakeWasMade) {
     EXPECT_THAT(verdict.not_for, ElementsAre("scenes other than the one it was baked for"));
     EXPECT_THAT(verdict.findings,
                 Contains(Field(&Finding::text, HasSubstr("11 % of all directions were planned"))));
+}
+
+TEST(PerCent, IsShortAndWithoutExponents) {
+    EXPECT_EQ(per_cent(0.0012), "0.12 %");
+    EXPECT_EQ(per_cent(0.17), "17 %");
+    EXPECT_EQ(per_cent(0.9949), "99 %");
+    EXPECT_EQ(per_cent(0.9999), "100 %");
+    EXPECT_EQ(per_cent(1.24), "124 %");
 }
 
 TEST(Base64, IsThatOfTheStandardsExamples) {
