@@ -19,6 +19,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include "samara/base/error.hpp"
 #include "samara/flight/simulation.hpp"
 #include "samara/motion/motion.hpp"
 #include "samara/scene/scene.hpp"
@@ -77,6 +78,20 @@ std::array<double, count> numbers_of(const py::handle& given, const char* name) 
 
 /// A dict as TOML. `place`: what it is called where a value is none of TOML's, which throws Error.
 std::string toml_text(const py::dict& values, const std::string& place);
+
+/// Reads such a text by read(); its faults do not name the lines, which nobody wrote.
+template <typename Read>
+auto read_dict(const std::string& place, const Read& read) {
+    try {
+        return read();
+    } catch (const Error& fault) {
+        std::string text = fault.what();
+        const std::size_t end = text.find_first_not_of("0123456789", place.size() + 1);
+        if (text.starts_with(place + ":") && end > place.size() + 1)
+            text.erase(place.size(), end - place.size());
+        throw Error(text);
+    }
+}
 
 /// A JSON value as Python's own: dict, list, float, int, str, bool, None.
 py::object as_python(const nlohmann::json& value);

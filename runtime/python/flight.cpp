@@ -133,7 +133,8 @@ class LiveFlight {
             TomlTable table(document, "wind", "the wind");
             const std::lock_guard lock(hdf5_mutex());  // of a wind file, which need not last
             constexpr double no_end = -std::numeric_limits<double>::infinity();
-            flight_->set_wind(read_wind(table, ".", flight_->ground().value_or(0.0), no_end));
+            flight_->set_wind(read_dict(
+                "wind", [&] { return read_wind(table, ".", flight_->ground().value_or(0.0), no_end); }));
         });
     }
 

@@ -75,7 +75,8 @@ toml::table as_toml_table(const py::dict& values, const std::string& place) {
 }
 
 Scene scene_of_dict(const py::dict& values, const std::filesystem::path& folder) {
-    return read_scene_text(toml_text(values, "scene"), "scene", folder);
+    const std::string text = toml_text(values, "scene");
+    return read_dict("scene", [&] { return read_scene_text(text, "scene", folder); });
 }
 
 std::vector<std::string> names_of(const Scene& scene) {

@@ -53,7 +53,7 @@ class Scenes(unittest.TestCase):
 
     def test_faults_name_the_place_and_the_remedy(self):
         for fault, scene in {
-            "did you mean 'density'": leaves(densty=600),
+            "scene: unknown key 'densty' in [[body]]; did you mean 'density'": leaves(densty=600),
             "scene['body'][0]['position'] is of the type set": leaves(position={1, 2}),
             "a list of 3 numbers": leaves(position=[0, 0]),
             "finite": leaves(position=[0, 0, math.nan]),
@@ -398,6 +398,8 @@ class LiveFlights(unittest.TestCase):
         for wrong in ({"velocty": [3, 0, 0]}, {"velocity": [3, 0]}, {"velocity": {1, 2}}, {"file": "nowhere.h5"}):
             with self.subTest(wrong), self.assertRaises(samara.Error):
                 self.flight.set_wind(wrong)
+        with self.assertRaisesRegex(samara.Error, "^wind: unknown key 'velocty'"):
+            self.flight.set_wind({"velocty": [3, 0, 0]})
         with self.assertRaisesRegex(samara.Error, "finite"):
             self.flight.set_ground(math.inf)
 
