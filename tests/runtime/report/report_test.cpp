@@ -118,6 +118,19 @@ TEST(BakeVerdict, NamesAnOpenFoamThatTheCasesAreNotTestedWith) {
     EXPECT_THAT(solved_by("10-c4cf895ad8fa"), Contains("solver"));
 }
 
+TEST(BakeVerdict, IsNotForSwingsThatSolvedFallsDoNotHave) {
+    const BakeVerdict verdict =
+        judge_bake(well_baked(0.08), {{Grade::bad, swings_of_falls, "differ by half"}});
+    EXPECT_EQ(verdict.headline, "Good for pictures and for speeds of descent, not for how it swings.");
+    EXPECT_THAT(verdict.not_for, ElementsAre(HasSubstr("frequencies and amplitudes of swings")));
+}
+
+TEST(BakeVerdict, IsNotForSpeedsThatSolvedFallsDoNotHave) {
+    const BakeVerdict verdict = judge_bake(well_baked(0.08), {{Grade::bad, "falls", "differ by half"}});
+    EXPECT_EQ(verdict.headline, "Good for pictures, not for figures.");
+    EXPECT_THAT(verdict.not_for, ElementsAre(HasSubstr("speeds of descent")));
+}
+
 TEST(BakeVerdict, SaysForWhichSceneAPartialBakeWasMade) {
     Body body = well_baked(0.08);
     body.tables->plan.subdivisions = 1;
@@ -134,6 +147,8 @@ TEST(PerCent, IsShortAndWithoutExponents) {
     EXPECT_EQ(per_cent(0.9949), "99 %");
     EXPECT_EQ(per_cent(0.9999), "100 %");
     EXPECT_EQ(per_cent(1.24), "124 %");
+    EXPECT_EQ(in_plain_digits(13147.2), "13147");
+    EXPECT_EQ(in_plain_digits(0.2345678), "0.2346");
 }
 
 TEST(Base64, IsThatOfTheStandardsExamples) {
