@@ -90,7 +90,7 @@ std::string fault_of(const fs::path& folder, const std::string& name, bool on_cl
         return fmt::format("{}: its cluster job ended early: {}; see {}", (folder / name).string(), of_job,
                            (folder / name / job_log).string());
     }
-    if (on_cluster && !fs::exists(folder / name / check_log) && !fs::exists(folder / name / job_log)) {
+    if (on_cluster && line.empty() && !fs::exists(folder / name / job_log)) {
         return fmt::format("{}: its cluster job left nothing there; is that a folder that the nodes share?",
                            (folder / name).string());
     }

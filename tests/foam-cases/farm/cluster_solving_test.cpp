@@ -129,7 +129,6 @@ TEST_F(Cluster, SaysThatANodeCouldNotWriteIntoTheFolder) {
     const std::string submit = "sbatch --time=10 --output=" + (folder_ / "nowhere/log").string();
     const test::ProgramRun run = bake_there(write_body(test::sphere(0.01)), submit);
     EXPECT_EQ(run.status, 1);
-    EXPECT_TRUE(test::is_one_line(run.fault)) << run.fault;
     EXPECT_THAT(run.fault,
                 HasSubstr("mesh_coarse: its cluster job left nothing there; is that a folder that"));
 }
