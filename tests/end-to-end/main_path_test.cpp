@@ -173,9 +173,8 @@ TEST(BadInput, InAnotherUnitGetsANoteThatNamesTheRemedy) {
     };
     const std::string cube = shapes + "cube.geo";  // of 2 cm
     EXPECT_EQ(note({"samara", "mesh", cube, "-o", "cube.body.h5"}), "");
-    EXPECT_EQ(
-        note({"samara", "mesh", cube, "-o", "large.body.h5", "--scale", "1000"}),
-        "samara mesh: note: 'cube': 20 m long: is its shape in millimetres? then give --scale 0.001\n");
+    EXPECT_EQ(note({"samara", "mesh", cube, "-o", "large.body.h5", "--scale", "1000"}),
+              "samara mesh: note: 'cube': 20 m long: is its shape in millimetres? then give --scale 0.001\n");
     const std::vector<std::string> bake = {"samara", "bake",      cube,        "-o",  "b.body.h5",
                                            "--json", "--dry-run", "--density", "2.7", "--scale"};
     const auto with_scale = [&](std::string scale) {
