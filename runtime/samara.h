@@ -416,8 +416,8 @@ typedef struct samara_fluid_load {
 } samara_fluid_load;
 
 /* Each step: samara_set_poses with what the host came to, samara_get_fluid_load, samara_advance_to by one
- * `step`, by which turbulence and wind go on. At a time within a step of the body, or for a body of another
- * size than its shape's: SAMARA_INVALID_ARGUMENT. */
+ * `step`, by which turbulence and wind go on. At a time within a step of the body:
+ * SAMARA_INVALID_ARGUMENT. */
 SAMARA_API samara_status samara_get_fluid_load(const samara_simulation* simulation, size_t body,
                                                samara_fluid_load* load, char* error, size_t error_size);
 

@@ -36,6 +36,9 @@ constexpr double beyond = 1.3;         // pieces that cross the panel reach out 
 constexpr double off_symmetry = 0.01;  // L: meshes have faces in planes of symmetry
 constexpr double good_fall = 0.1;      // difference of descent speeds
 constexpr double poor_fall = 0.3;
+// How far swings may be apart, as 'samara compare' judges them.
+constexpr double same_frequency = 0.2;
+constexpr double same_amplitude = 0.3;
 
 /// A mesh that cases of the plan were solved on.
 struct CaseMesh {
@@ -247,9 +250,38 @@ std::string figures_of(const Measures& measures) {
                        name_of(measures.regime));
 }
 
+/// How far the runtime's swings are from those of the solved falls, at most.
+struct SwingsApart {
+    double frequency = 0.0;  // relative
+    double amplitude = 0.0;  // relative, beyond one degree
+    std::string regimes;     // of the first fall that is of another one
+
+    void add(const FlownFall& fall) {
+        const Measures& solved = fall.solved;
+        const Measures& flown = fall.flown;
+        if (solved.frequency && flown.frequency) {
+            frequency = std::max(frequency, std::abs(*flown.frequency / *solved.frequency - 1.0));
+        }
+        const double more = std::abs(flown.inclination_amplitude - solved.inclination_amplitude);
+        if (more > 1.0 / degrees) amplitude = std::max(amplitude, more / solved.inclination_amplitude);
+        if (regimes.empty() && flown.regime != solved.regime) {
+            regimes = fmt::format("; {} is {} where it was solved as {}", fall.name, name_of(flown.regime),
+                                  name_of(solved.regime));
+        }
+    }
+
+    [[nodiscard]] Finding finding() const {
+        const bool alike = frequency <= same_frequency && amplitude <= same_amplitude && regimes.empty();
+        return {alike ? Grade::good : Grade::bad, swings_of_falls,
+                fmt::format("of the same falls, frequencies differ by up to {}, amplitudes by {}{}",
+                            per_cent(frequency), per_cent(amplitude), regimes)};
+    }
+};
+
 void Folder::tell_falls(const Told& told) {
     Rows rows;
     double farthest = 0.0;
+    SwingsApart swings;
     FallBalance worst;
     for (std::size_t i = 0; i < plan_.falls.size(); ++i) {
         const PlannedFall& planned = plan_.falls[i];
@@ -263,12 +295,13 @@ void Folder::tell_falls(const Told& told) {
             const FlownFall flown = fly_fall(body_, record);
             const double difference = std::abs(flown.flown.descent_speed / flown.solved.descent_speed - 1.0);
             farthest = std::max(farthest, std::isfinite(difference) ? difference : 1.0);
+            swings.add(flown);
             worst = {std::max(worst.force, flown.balance.force),
                      std::max(worst.moment, flown.balance.moment)};
             rows.push_back(
                 {planned.name, figures_of(flown.solved), figures_of(flown.flown), per_cent(difference),
                  fmt::format("{}, {}", per_cent(flown.balance.force), per_cent(flown.balance.moment)),
-                 fmt::format("{:.3g}", record.fall.mass / record.fall.volume * record.fall.fluid_density)});
+                 in_plain_digits(record.fall.mass / record.fall.volume * record.fall.fluid_density)});
         });
     }
     told(1.0);
@@ -290,6 +323,7 @@ void Folder::tell_falls(const Told& told) {
              "falls",
              fmt::format("flown from the starts of the solved falls, descent speeds differ by up to {}",
                          per_cent(farthest))});
+        report_.findings.push_back(swings.finding());
         const bool balances =
             worst.force <= doubtful_balance.force && worst.moment <= doubtful_balance.moment;
         report_.findings.push_back(

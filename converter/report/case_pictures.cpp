@@ -20,10 +20,10 @@ constexpr double settling_start = 0.1;    // share of a history that may leave t
 /// The panel of one of so many meshes.
 Box mesh_box(std::size_t number, std::size_t count) {
     const auto column = static_cast<int>(number % 2);
-    if (count > 2) return quarter(column, static_cast<int>(number / 2));
-    Box box = quarter(column, 0);
+    if (count > 2) return quarter(column, static_cast<int>(number / 2), true);
+    Box box = quarter(column, 0, true);
     box.bottom = canvas::bottom;
-    if (count == 1) box.right = quarter(1, 0).right;
+    if (count == 1) box.right = quarter(1, 0, true).right;
     return box;
 }
 
@@ -97,7 +97,7 @@ std::string series_data(const std::vector<CaseHistory>& cases, const Series& ser
 
 PanelText series_panel(const std::vector<CaseHistory>& cases, std::size_t number) {
     const Series& series = all_series[number];
-    const Box box = quarter(static_cast<int>(number % 2), static_cast<int>(number / 2));
+    const Box box = quarter(static_cast<int>(number % 2), static_cast<int>(number / 2), true);
     double first = 0.0;
     double last = 0.0;
     for (const CaseHistory& one : cases) {
@@ -115,9 +115,8 @@ PanelText series_panel(const std::vector<CaseHistory>& cases, std::size_t number
     const Range range = settled_range(cases, series);
     PanelText text;
     text.data = series_data(cases, series, number, range);
-    text.plots =
-        begin_panel(box, {{std::min(first, 0.97 * first), last}, number >= 2 ? "iteration" : "", 0.0},
-                    {range, series.title, series.logarithmic ? 1.0 : 0.0});
+    text.plots = begin_panel(box, {{std::min(first, 0.97 * first), last}, "iteration", 0.0},
+                             {range, series.title, series.logarithmic ? 1.0 : 0.0});
     if (series.logarithmic) text.plots += "set format y '10^{%g}'\n";
     text.plots +=
         fmt::format("plot $series{} using 1:2 with lines lw 1.2 lc rgb '#400072b2' notitle\n", number);

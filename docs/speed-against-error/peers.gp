@@ -36,7 +36,7 @@ do for [p = 1:3] {
     do for [i = 1:words(falls)] { set xtics add (title(i) i) }
     set key at screen 0.5, 0.035 center bottom maxrows 1 Left reverse samplen 1 width -4
   } else {
-    set xtics ("" 1)
+    unset xtics
   }
   plot for [m = 1:5] rows using \
     (strcol(2) eq word(models, m) && strcol(4 + p) ne "" && (p == 1 || strcol(1) ne "sphere") ? place(strcol(1)) + 0.15 * (m - 3) : NaN): \

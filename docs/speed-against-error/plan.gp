@@ -17,7 +17,7 @@ do for [b = 1:6] {
   set title word(bodies, b)
   set xlabel (b > 3 ? "CPU seconds of the bake" : "")
   set ylabel (b % 3 == 1 ? "worst measure off by, %" : "")
-  if (b == 5) { set key at screen 0.5, 0.01 center bottom maxrows 1 width -2 samplen 3 } else { set key off }
+  if (b == 5) { set key at screen 0.5, 0.01 center bottom maxrows 1 Left reverse width -2 samplen 3 } else { set key off }
   plot rows using (strcol(1) eq word(bodies, b) && strcol(2) ne "plan" ? $6 : NaN):(floored(column("worst"))) \
          with linespoints lc rgb "#2a7f8e" pt 7 ps 1.4 title "uniform grid, after symmetry", \
        rows using (strcol(1) eq word(bodies, b) && strcol(2) ne "plan" ? $6 * $4 / $3 : NaN):(floored(column("worst"))) \

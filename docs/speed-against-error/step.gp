@@ -25,7 +25,7 @@ do for [r = 1:2] {
     if (b == 1) { set ylabel "position error / path" } else { unset ylabel }
     if (r == 1) { set xlabel "step, s" } else { set xlabel "CPU ms for a simulated second" }
     if (r == 1) { set xrange [7e-6:0.06] } else { set xrange [5e-3:1500] }
-    if (r == 2 && b == 3) { set key at screen 0.5, 0.018 center bottom maxrows 1 width 1 samplen 2 } else { set key off }
+    if (r == 2 && b == 3) { set key at screen 0.5, 0.018 center bottom maxrows 1 Left reverse width 1 samplen 2 } else { set key off }
     set arrow 1 from 1.0/24, graph 0 to 1.0/24, graph 1 nohead lc rgb "#d8b26a" lw 1 dt 2
     if (r == 2) { unset arrow 1 }
     plot for [m = 1:4] rows using (strcol(1) eq body && strcol(2) eq word(methods, m) && strcol(5) ne 'inf' ? column(r == 1 ? 3 : 4) : NaN):5 \

@@ -151,7 +151,7 @@ void print_preparation(const BakeRequest& request, const BakePreparation& prepar
     }
     const double at_once = std::min<double>(jobs, static_cast<double>(plan.cases.size()));
     print_result(
-        "meshes of about {:.0f} cells, {:.0f} CPU seconds in all, {:.0f} s with {} jobs, {:.2g} MB on the "
+        "meshes of about {:.0f} cells, {:.0f} CPU seconds in all, {:.0f} s with {} jobs, {:.0f} MB on the "
         "disk\n",
         fmt::join(plan.cells, ", "), plan.cpu_seconds, plan.cpu_seconds / at_once, jobs,
         1e-6 * bytes_to_solve(case_folder_of(request.output), plan));

@@ -80,7 +80,7 @@ std::string with_paths_from_here(std::string line, const fs::path& folder, const
 }
 
 // What went wrong with the mesh or case: the line that its script left, or that its cluster's job left.
-std::string fault_of(const fs::path& folder, const std::string& name) {
+std::string fault_of(const fs::path& folder, const std::string& name, bool on_cluster) {
     const std::string line = last_line(folder / name / check_log);
     if (line.starts_with(name + ": ")) {
         return fmt::format("{}/{}", folder.string(), with_paths_from_here(line, folder, name));
@@ -89,6 +89,10 @@ std::string fault_of(const fs::path& folder, const std::string& name) {
     if (!of_job.empty()) {
         return fmt::format("{}: its cluster job ended early: {}; see {}", (folder / name).string(), of_job,
                            (folder / name / job_log).string());
+    }
+    if (on_cluster && line.empty() && !fs::exists(folder / name / job_log)) {
+        return fmt::format("{}: its cluster job left nothing there; is that a folder that the nodes share?",
+                           (folder / name).string());
     }
     std::error_code unknown;
     if (fs::space(folder, unknown).available < room_of_a_log && !unknown) {
@@ -128,7 +132,7 @@ bool is_settled(const fs::path& folder, const Job& entry) {
 
 // Reports that cases are neither solved nor left out, or that all are left out: by the fault of the first
 // case, those before the others that nothing is known against but that they did not run to their end.
-[[noreturn]] void report_failure(const fs::path& folder, const BakePlan& plan) {
+[[noreturn]] void report_failure(const fs::path& folder, const BakePlan& plan, bool on_cluster) {
     const std::vector<Job> jobs = jobs_of(plan);
     std::vector<const Job*> failed;
     for (const Job& entry : jobs) {
@@ -141,10 +145,10 @@ bool is_settled(const fs::path& folder, const Job& entry) {
         return std::pair(is_settled(folder, *entry), !fs::exists(folder / entry->name / check_log));
     };
     const Job& first = **std::ranges::min_element(failed, std::less<>(), rank);
-    if (!fs::exists(folder / first.mesh / mesh_record)) throw Error(fault_of(folder, first.mesh));
-    if (plan.kind == CaseKind::fall) throw Error(fault_of(folder, first.name));
+    if (!fs::exists(folder / first.mesh / mesh_record)) throw Error(fault_of(folder, first.mesh, on_cluster));
+    if (plan.kind == CaseKind::fall) throw Error(fault_of(folder, first.name, on_cluster));
     throw Error(fmt::format("{} ({} of {} cases failed; the solved ones are kept for the next run)",
-                            fault_of(folder, first.name), failed.size(), jobs.size()));
+                            fault_of(folder, first.name, on_cluster), failed.size(), jobs.size()));
 }
 
 // The iteration or time at which the last line of the last round's history of forces stands; 0 where there is
@@ -339,7 +343,9 @@ std::vector<LeftOutCase> solve_cases(const fs::path& folder, const BakePlan& pla
     }
     std::vector<LeftOutCase> left_out = left_out_cases(folder, plan);
     const std::size_t solved = count_solved(folder, plan);
-    if (solved == 0 || solved + left_out.size() < jobs_of(plan).size()) report_failure(folder, plan);
+    if (solved == 0 || solved + left_out.size() < jobs_of(plan).size()) {
+        report_failure(folder, plan, !options.cluster.empty());
+    }
     return left_out;
 }
 

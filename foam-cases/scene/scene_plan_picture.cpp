@@ -58,7 +58,7 @@ void draw_plan(const std::filesystem::path& file, const std::string& name,
                     quoted(shortened(name, 22.0, most_name) + ": directions of motion in the body's axes"));
     commands += "set size ratio -1\nunset xtics\nunset ytics\nunset border\nunset grid\n";
     commands += "set xrange [-1.15:1.15]\nset yrange [-1.15:1.15]\nset parametric\nset trange [0:2*pi]\n";
-    commands += "set key at screen 0.5,0.05 center horizontal font ',18'\n";
+    commands += "set key at screen 0.5,0.05 center horizontal Left reverse samplen 1 font ',18'\n";
     for (const bool upper : {true, false}) {
         if (!upper) commands += "unset key\n";  // one serves both
         commands += block("visited", visited, upper) + block("cases", cases, upper);

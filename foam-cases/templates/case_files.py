@@ -9,6 +9,7 @@ import re
 
 NUMBER = re.compile(r"[-+]?(?:\d[\d.]*(?:[eE][-+]?\d+)?|nan|inf)")
 TIME = re.compile(r"\d+(?:\.\d+)?(?:e[-+]?\d+)?")
+TESTED_VERSION = "1912"  # of OpenFOAM
 MESH_FILES = ("points", "faces", "owner", "neighbour", "boundary")
 
 
@@ -124,6 +125,14 @@ def last_run(log):
     return re.split(r"^Build\s*:", read(log), flags=re.MULTILINE)[-1]
 
 
+def other_version(log):
+    """In words for a fault, by which OpenFOAM the log's last run was, where the cases are not tested with it."""
+    builds = re.findall(r"^Build\s*:\s*(.*?)\s*$", read(log), re.MULTILINE)
+    if not builds or TESTED_VERSION in builds[-1]:
+        return ""
+    return f" (this OpenFOAM says '{builds[-1]}'; the cases are tested with v{TESTED_VERSION})"
+
+
 def could_not_read_state(log):
     """Whether the solver's last run could not read what it was to go on from, as where the disk had been full."""
     run = last_run(log)
@@ -143,7 +152,7 @@ def breakdown(log, program, unit=None):
         of_case = "IO" not in fatal.group(1) and (times or not unit)
         # Of a folder whose name OpenFOAM does not take, Allrun tells it this one.
         said = fatal.group(2).strip().rstrip(".").replace("/proc/self/cwd", os.path.dirname(log) or ".")
-        return (Failure if of_case else Fault)(f"{program} failed{where}: {said}{see}")
+        return (Failure if of_case else Fault)(f"{program} failed{where}: {said}{other_version(log)}{see}")
     # The signal's handler, in the stack that OpenFOAM prints; its banner speaks of floating point exceptions too.
     if "sigFpe::sigHandler" in text:
         return Failure(f"{program} diverged (floating point exception){where}{see}")

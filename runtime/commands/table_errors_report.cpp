@@ -7,6 +7,8 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "internal/report/words.hpp"
+
 namespace samara {
 namespace {
 
@@ -33,10 +35,10 @@ std::string error_sources_in_words(const LoadTables& tables) {
 std::string table_errors_as_text(const std::optional<LoadTables>& tables, const TableErrorsMet& met) {
     if (!used_tables(tables, met)) return {};
     std::string text = "  the tables' standard error along the flight:";
-    if (met.forces > 0) text += fmt::format(" {:.2g} % of the force", 100.0 * met.mean_force());
+    if (met.forces > 0) text += fmt::format(" {} of the force", per_cent(met.mean_force()));
     if (met.forces > 0 && met.turbulent_kinetic_energies > 0) text += ",";
     if (met.turbulent_kinetic_energies > 0) {
-        text += fmt::format(" {:.2g} % of k", 100.0 * met.mean_turbulent_kinetic_energy());
+        text += fmt::format(" {} of k", per_cent(met.mean_turbulent_kinetic_energy()));
     }
     text += fmt::format("\n  it holds: {}\n", error_sources_in_words(*tables));
     if (!tables->left_out.empty()) {

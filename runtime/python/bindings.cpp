@@ -73,8 +73,8 @@ py::object as_python(const nlohmann::json& value) {
     }
 }
 
-std::mutex& hdf5_mutex() {
-    static std::mutex mutex;
+std::recursive_mutex& hdf5_mutex() {
+    static std::recursive_mutex mutex;
     return mutex;
 }
 

@@ -2,12 +2,16 @@
 
 // What the parts of the Python module `samara` share: one file a part, each with its bind_ function.
 
+#include <array>
 #include <atomic>
 #include <chrono>
+#include <cstddef>
+#include <cstring>
 #include <exception>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -15,6 +19,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include "samara/base/error.hpp"
 #include "samara/flight/simulation.hpp"
 #include "samara/motion/motion.hpp"
 #include "samara/scene/scene.hpp"
@@ -53,12 +58,47 @@ py::array view(const Number* numbers, const std::vector<py::ssize_t>& shape, con
     return array;
 }
 
+/// So many real numbers out of whatever numpy makes an array of them from, of any memory order. Throws
+/// TypeError, which names them, for another shape and for what are no real numbers.
+template <std::size_t count>
+std::array<double, count> numbers_of(const py::handle& given, const char* name) {
+    const py::array array = py::array::ensure(given);
+    const bool fits = array && array.ndim() == 1 && array.shape(0) == static_cast<py::ssize_t>(count) &&
+                      std::strchr("iufb", array.dtype().kind()) != nullptr;
+    if (!fits) {
+        PyErr_Clear();
+        throw py::type_error(std::string(name) + ": give " + std::to_string(count) +
+                             " real numbers, shape (" + std::to_string(count) + ",)");
+    }
+    const auto numbers = py::array_t<double, py::array::forcecast>::ensure(array);
+    std::array<double, count> result{};
+    for (std::size_t i = 0; i < count; ++i) result[i] = numbers.at(static_cast<py::ssize_t>(i));
+    return result;
+}
+
+/// A dict as TOML. `place`: what it is called where a value is none of TOML's, which throws Error.
+std::string toml_text(const py::dict& values, const std::string& place);
+
+/// Reads such a text by read(); its faults do not name the lines, which nobody wrote.
+template <typename Read>
+auto read_dict(const std::string& place, const Read& read) {
+    try {
+        return read();
+    } catch (const Error& fault) {
+        std::string text = fault.what();
+        const std::size_t end = text.find_first_not_of("0123456789", place.size() + 1);
+        if (text.starts_with(place + ":") && end > place.size() + 1)
+            text.erase(place.size(), end - place.size());
+        throw Error(text);
+    }
+}
+
 /// A JSON value as Python's own: dict, list, float, int, str, bool, None.
 py::object as_python(const nlohmann::json& value);
 
 /// Holds libhdf5, which is not made for several threads, while a file is read or written without the
-/// interpreter.
-std::mutex& hdf5_mutex();
+/// interpreter. A progress function that reads a file has it twice.
+std::recursive_mutex& hdf5_mutex();
 
 /// Runs a long piece of work without the interpreter's lock, so that other threads of Python go on, and calls
 /// back for progress and interrupts. An exception that Python raises on the way, Ctrl-C among them, ends the

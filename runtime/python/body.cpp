@@ -142,7 +142,8 @@ void bind_body(py::module_& module) {
             "epsilon L / U^3, as turbulent_kinetic_energy_table.")
         .def(
             "loads",
-            [](const Body& body, const Vector3d& direction, double reynolds_number) {
+            [](const Body& body, const py::object& given, double reynolds_number) {
+                const Vector3d direction(numbers_of<3>(given, "direction").data());
                 if (!body.tables)
                     throw Error(fmt::format("{}: has no tables; make them with 'samara bake'", body.name));
                 if (!(direction.norm() > 0.0) || !direction.allFinite()) {

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <limits>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <pybind11/eigen.h>
@@ -16,6 +18,8 @@
 #include "bindings.hpp"
 #include "internal/command/scene_bodies.hpp"
 #include "internal/flight/flight_kind.hpp"
+#include "internal/scene/toml_table.hpp"
+#include "internal/scene/wind_table.hpp"
 #include "samara/base/error.hpp"
 
 namespace samara::python {
@@ -28,11 +32,10 @@ struct Poses {
     int copies = 1;
 };
 
-/// A flight of a scene. Its calls wait for one another where several threads make them.
+/// A flight of a scene. Its calls wait for one another where several threads make them; a progress function
+/// may look at it, and change nothing.
 class LiveFlight {
   public:
-    using Three = std::array<double, 3>;
-
     LiveFlight(Scene scene, int runs, std::optional<std::uint64_t> seed, int threads,
                const std::filesystem::path& bodies)
         : runs_(runs) {
@@ -60,41 +63,83 @@ class LiveFlight {
         LongWork work(std::move(progress));
         work([&] {
             const std::lock_guard lock(mutex_);
+            require_no_advance();
+            const Advancing in_progress(advancing_);
             // In pieces, so that Ctrl-C and progress come through; the motion does not depend on them.
             const double begin = flight_->time();
             for (double now = begin; work.tell(now - begin, time - begin);) {
-                if (now >= time && now > begin) break;
                 now = std::min(time, now + pieces_of_ * step_);
                 for (const auto& [index, wrench] : pushes_) flight_->add_wrench(index, wrench);
                 flight_->advance_to(now);
-                if (now >= time) break;
+                if (now < time) continue;
+                work.tell(time - begin, time - begin);
+                break;
             }
             if (time > begin) pushes_.clear();
             return true;
         });
     }
 
-    void add_force(const std::string& name, const Three& force, const std::optional<Three>& point,
-                   const std::optional<Three>& moment, int run, int copy) {
+    void add_force(const std::string& name, const py::object& force, const py::object& point,
+                   const py::object& moment, int run, int copy) {
         const std::size_t index = index_of(name, run, copy);
-        with_flight([&] { pushes_.emplace_back(index, wrench_of(index, force, "force", point, moment)); });
+        const GivenPush given = {"force", Vector3d(numbers_of<3>(force, "force").data()),
+                                 vector_of(point, "point"), vector_of(moment, "moment")};
+        change_flight([&] { pushes_.emplace_back(index, wrench_of(index, given)); });
     }
 
-    void add_impulse(const std::string& name, const Three& impulse, const std::optional<Three>& point,
-                     const std::optional<Three>& angular_impulse, int run, int copy) {
+    void add_impulse(const std::string& name, const py::object& impulse, const py::object& point,
+                     const py::object& angular_impulse, int run, int copy) {
         const std::size_t index = index_of(name, run, copy);
-        with_flight([&] {
-            flight_->add_impulse(index, wrench_of(index, impulse, "impulse", point, angular_impulse));
-        });
+        const GivenPush given = {"impulse", Vector3d(numbers_of<3>(impulse, "impulse").data()),
+                                 vector_of(point, "point"), vector_of(angular_impulse, "angular_impulse")};
+        change_flight([&] { flight_->add_impulse(index, wrench_of(index, given)); });
     }
 
     void remove(const std::string& name, int run, int copy) {
         const std::size_t index = index_of(name, run, copy);
-        with_flight([&] { flight_->remove(index); });
+        change_flight([&] { flight_->remove(index); });
+    }
+
+    [[nodiscard]] std::tuple<Vector6d, Matrix6d, Matrix6d> fluid_load(const std::string& name, int run,
+                                                                      int copy) {
+        const std::size_t index = index_of(name, run, copy);
+        FluidLoad load;
+        with_flight([&] {
+            require_there(index);
+            load = flight_->fluid_load(index);
+        });
+        return {load.wrench, load.added_inertia, load.damping};
+    }
+
+    [[nodiscard]] std::tuple<double, Vector3d, Matrix3d> mass_properties(const std::string& name, int run,
+                                                                         int copy) {
+        const std::size_t index = index_of(name, run, copy);
+        std::tuple<double, Vector3d, Matrix3d> own;
+        with_flight([&] {
+            own = {flight_->mass(index), flight_->center_of_mass(index), flight_->inertia(index)};
+        });
+        return own;
+    }
+
+    void set_ground(std::optional<double> height) {
+        if (height && !std::isfinite(*height)) throw Error("height: give a finite number of metres, or None");
+        change_flight([&] { flight_->set_ground(height); });
+    }
+
+    void set_wind(const py::dict& keys) {
+        const toml::table document = parse_toml(toml_text(keys, "wind"), "wind");
+        change_flight([&] {
+            TomlTable table(document, "wind", "the wind");
+            const std::lock_guard lock(hdf5_mutex());  // of a wind file, which need not last
+            constexpr double no_end = -std::numeric_limits<double>::infinity();
+            flight_->set_wind(read_dict(
+                "wind", [&] { return read_wind(table, ".", flight_->ground().value_or(0.0), no_end); }));
+        });
     }
 
     void watch_contacts(bool watch) {
-        with_flight([&] { flight_->watch_contacts(watch); });
+        change_flight([&] { flight_->watch_contacts(watch); });
     }
 
     [[nodiscard]] py::dict take_contacts(const std::string& name) {
@@ -102,7 +147,7 @@ class LiveFlight {
         const std::size_t count = static_cast<std::size_t>(runs_) * static_cast<std::size_t>(kind.copies);
         std::vector<ContactRecord> met(count);
         std::vector<bool> rests(count);
-        with_flight([&] {
+        change_flight([&] {
             for (std::size_t i = 0; i < count; ++i) {
                 met[i] = flight_->take_contacts(kind.first + i);
                 rests[i] = flight_->is_at_rest(kind.first + i);
@@ -144,30 +189,27 @@ class LiveFlight {
         return result;
     }
 
-    void set_pose(const std::string& name, int run, int copy,
-                  const std::optional<std::array<double, 3>>& position,
-                  const std::optional<std::array<double, 4>>& orientation,
-                  const std::optional<std::array<double, 3>>& velocity,
-                  const std::optional<std::array<double, 3>>& angular_velocity) {
+    void set_pose(const std::string& name, int run, int copy, const py::object& position,
+                  const py::object& orientation, const py::object& velocity,
+                  const py::object& angular_velocity) {
         const std::size_t index = index_of(name, run, copy);
         Pose pose;
         with_flight([&] { pose = flight_->pose(index); });
-        const auto assign = [](Vector3d& target, const auto& given, const char* what) {
-            if (!given) return;
-            target = Vector3d(given->data());
+        const auto assign = [](Vector3d& target, const py::object& given, const char* what) {
+            target = vector_of(given, what).value_or(target);
             if (!target.allFinite()) throw Error(fmt::format("{}: give three finite numbers", what));
         };
         assign(pose.position, position, "position");
         assign(pose.velocity, velocity, "velocity");
         assign(pose.angular_velocity, angular_velocity, "angular_velocity");
-        if (orientation) {
-            pose.orientation = Quaterniond(orientation->data());
+        if (!orientation.is_none()) {
+            pose.orientation = Quaterniond(numbers_of<4>(orientation, "orientation").data());
             if (!(std::abs(pose.orientation.norm() - 1.0) < 1e-6)) {
                 throw Error("orientation: give a quaternion x, y, z, w of length one");
             }
             pose.orientation.normalize();
         }
-        with_flight([&] { flight_->set_pose(index, pose); });
+        change_flight([&] { flight_->set_pose(index, pose); });
     }
 
     [[nodiscard]] py::bytes state() {
@@ -176,7 +218,7 @@ class LiveFlight {
         return bytes;
     }
     void set_state(const std::string& bytes) {
-        with_flight([&] { flight_->set_state(bytes); });
+        change_flight([&] { flight_->set_state(bytes); });
     }
     [[nodiscard]] double time() {
         double time = 0.0;
@@ -213,20 +255,29 @@ class LiveFlight {
         return kind.first + static_cast<std::size_t>(run * kind.copies + copy);
     }
 
-    /// A force, or impulse, at a point, with a moment besides.
-    [[nodiscard]] Wrench wrench_of(std::size_t index, const Three& force, const char* name,
-                                   const std::optional<Three>& point,
-                                   const std::optional<Three>& moment) const {
+    void require_there(std::size_t index) const {
         if (flight_->is_removed(index)) throw Error("the body is removed; put it back by set_pose");
-        Wrench wrench{Vector3d(force.data()), Vector3d::Zero()};
-        if (moment) wrench.moment = Vector3d(moment->data());
-        if (point) {
-            const Vector3d arm = Vector3d(point->data()) - flight_->pose(index).position;
-            wrench.moment += arm.cross(wrench.force);
-        }
+    }
+
+    /// A force, or impulse, as it is given.
+    struct GivenPush {
+        const char* name;
+        Vector3d force;
+        std::optional<Vector3d> point, moment;
+    };
+
+    static std::optional<Vector3d> vector_of(const py::object& given, const char* name) {
+        if (given.is_none()) return {};
+        return Vector3d(numbers_of<3>(given, name).data());
+    }
+
+    [[nodiscard]] Wrench wrench_of(std::size_t index, const GivenPush& given) const {
+        require_there(index);
+        Wrench wrench{given.force, given.moment.value_or(Vector3d::Zero())};
+        if (given.point) wrench.moment += (*given.point - flight_->pose(index).position).cross(wrench.force);
         const bool sound = wrench.force.allFinite() && wrench.moment.allFinite() &&
                            std::max(wrench.force.norm(), wrench.moment.norm()) <= 1e30;
-        if (!sound) throw Error(fmt::format("{}: give finite numbers, 1e30 at most", name));
+        if (!sound) throw Error(fmt::format("{}: give finite numbers, 1e30 at most", given.name));
         return wrench;
     }
 
@@ -244,12 +295,38 @@ class LiveFlight {
         work();
     }
 
+    /// The same for what changes it, which a progress function of advance() may not.
+    template <typename Work>
+    void change_flight(const Work& work) {
+        with_flight([&] {
+            require_no_advance();
+            work();
+        });
+    }
+
+    void require_no_advance() const {
+        if (!advancing_) return;
+        throw Error("the flight advances: a progress function may look at it, but not change it");
+    }
+
+    /// For as long as it lives, the flight is in advance().
+    struct Advancing {
+        explicit Advancing(bool& flag) : flag_(flag) { flag_ = true; }
+        ~Advancing() { flag_ = false; }
+        Advancing(const Advancing&) = delete;
+        Advancing& operator=(const Advancing&) = delete;
+
+      private:
+        bool& flag_;
+    };
+
     int runs_;
     double step_ = 0.0;
     std::optional<Flight> flight_;
     std::vector<Kind> kinds_;
     std::vector<std::pair<std::size_t, Wrench>> pushes_;  ///< over the next advance()
-    std::mutex mutex_;
+    std::recursive_mutex mutex_;
+    bool advancing_ = false;
 };
 
 template <PoseMember member>
@@ -303,6 +380,24 @@ void bind_flight(py::module_& module) {
              "Gives a body an impulse now (N s, world axes; N m s): body and fluid take it together.")
         .def("remove", &LiveFlight::remove, py::arg("name"), py::kw_only(), py::arg("run") = 0,
              py::arg("copy") = 0, "Takes a body out where it is; set_pose() puts it back.")
+        .def("fluid_load", &LiveFlight::fluid_load, py::arg("name"), py::kw_only(), py::arg("run") = 0,
+             py::arg("copy") = 0,
+             "What the fluid does to a body in its next step, for a host that integrates it: wrench W (6,), "
+             "added "
+             "inertia A and damping D (6, 6), SI units, world axes at the centre of mass, angular then "
+             "linear. "
+             "With its own inertia M, own wrench g and the step h: (M + A + h D) a = g + W. Then set_pose() "
+             "and "
+             "advance() by a step.")
+        .def("mass_properties", &LiveFlight::mass_properties, py::arg("name"), py::kw_only(),
+             py::arg("run") = 0, py::arg("copy") = 0,
+             "Of the body alone: its mass (kg), its centre (m from the shape's origin, shape axes, (3,)) and "
+             "its "
+             "inertia about that (kg m^2, shape axes, (3, 3)).")
+        .def("set_ground", &LiveFlight::set_ground, py::arg("height"),
+             "Level ground at another height (m), or None: what is below it is lifted onto it.")
+        .def("set_wind", &LiveFlight::set_wind, py::arg("wind"),
+             "Another wind from now on: a dict with the keys of [wind] of a scene; {} is none.")
         .def("watch_contacts", &LiveFlight::watch_contacts, py::arg("watch"),
              "Notes from now on what bodies meet of ground and obstacles, or no longer.")
         .def("take_contacts", &LiveFlight::take_contacts, py::arg("name"),

@@ -75,9 +75,8 @@ toml::table as_toml_table(const py::dict& values, const std::string& place) {
 }
 
 Scene scene_of_dict(const py::dict& values, const std::filesystem::path& folder) {
-    std::ostringstream text;
-    text << as_toml_table(values, "scene") << '\n';
-    return read_scene_text(text.str(), "scene", folder);
+    const std::string text = toml_text(values, "scene");
+    return read_dict("scene", [&] { return read_scene_text(text, "scene", folder); });
 }
 
 std::vector<std::string> names_of(const Scene& scene) {
@@ -87,6 +86,12 @@ std::vector<std::string> names_of(const Scene& scene) {
 }
 
 }  // namespace
+
+std::string toml_text(const py::dict& values, const std::string& place) {
+    std::ostringstream text;
+    text << as_toml_table(values, place) << '\n';
+    return text.str();
+}
 
 void bind_scene(py::module_& module) {
     py::class_<Scene, std::shared_ptr<Scene>>(

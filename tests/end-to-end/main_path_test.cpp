@@ -173,9 +173,8 @@ TEST(BadInput, InAnotherUnitGetsANoteThatNamesTheRemedy) {
     };
     const std::string cube = shapes + "cube.geo";  // of 2 cm
     EXPECT_EQ(note({"samara", "mesh", cube, "-o", "cube.body.h5"}), "");
-    EXPECT_EQ(
-        note({"samara", "mesh", cube, "-o", "large.body.h5", "--scale", "1000"}),
-        "samara mesh: note: 'cube': is 20 m long: is its shape in millimetres? then give --scale 0.001\n");
+    EXPECT_EQ(note({"samara", "mesh", cube, "-o", "large.body.h5", "--scale", "1000"}),
+              "samara mesh: note: 'cube': 20 m long: is its shape in millimetres? then give --scale 0.001\n");
     const std::vector<std::string> bake = {"samara", "bake",      cube,        "-o",  "b.body.h5",
                                            "--json", "--dry-run", "--density", "2.7", "--scale"};
     const auto with_scale = [&](std::string scale) {
@@ -189,7 +188,7 @@ TEST(BadInput, InAnotherUnitGetsANoteThatNamesTheRemedy) {
     for (const std::string command : {"plan", "simulate"}) {
         std::vector<std::string> words = {"samara", command, "scene.toml"};
         if (command == "simulate") words.insert(words.end(), {"-o", "fall.h5"});
-        EXPECT_THAT(note(words), HasSubstr("samara " + command + ": note: 'rubber': is 20 m long"));
+        EXPECT_THAT(note(words), HasSubstr("samara " + command + ": note: 'rubber': 20 m long"));
         EXPECT_THAT(note(words), HasSubstr("write scale = 0.001 beside its shape"));
     }
 }

@@ -121,6 +121,21 @@ ImmersedBody lopsided_body(const Vector3d& offset) {
     return immersed_off_center(lopsided_shape(), offset);
 }
 
+Body scaled(Body body, double size) {
+    const double volume = size * size * size;
+    for (Vector3d& vertex : body.surface.vertices) vertex *= size;
+    body.moments.volume *= volume;
+    body.moments.centroid *= size;
+    body.moments.second_moments *= size * size * volume;
+    body.moments.surface_area *= size * size;
+    Matrix6d& tensor = body.kirchhoff->matrix;
+    tensor.topLeftCorner<3, 3>() *= size * size * volume;
+    tensor.topRightCorner<3, 3>() *= size * volume;
+    tensor.bottomLeftCorner<3, 3>() *= size * volume;
+    tensor.bottomRightCorner<3, 3>() *= volume;
+    return body;
+}
+
 ImmersedBody ideal_ellipsoid() {
     SceneBody given = scene_body(1200.0);
     given.loads = Loads::none;

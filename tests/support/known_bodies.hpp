@@ -29,6 +29,10 @@ ImmersedBody blunt_ellipsoid(const Vector3d& offset = Vector3d::Zero());
 /// tensors as dynamic coefficients of all kinds: no term of the loads vanishes or is aligned with another.
 Body lopsided_shape();
 
+/// A body with all its lengths times `size`, as a file of that size would have it. For bodies without
+/// coefficients of their own.
+Body scaled(Body body, double size);
+
 /// The lopsided shape in water at density 1200, centre of mass moved by `offset` (m).
 ImmersedBody lopsided_body(const Vector3d& offset = Vector3d::Zero());
 

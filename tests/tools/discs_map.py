@@ -177,7 +177,7 @@ set xlabel "Reynolds number of the fall"
         commands += f"set lmargin at screen {left}\nset rmargin at screen {left + 660 / width}\nset title '{model}'\n"
         commands += "set ylabel 'I* = (π/64) ρ_{disc} t / (ρ_{fluid} d)' offset 0.5\n" if number == 0 else "unset ylabel\n"
         if number == 0:
-            commands += "set key at screen 0.5, 0.02 center bottom maxrows 2 samplen 1.5 width -6\n"
+            commands += "set key at screen 0.5, 0.02 center bottom maxrows 2 Left reverse samplen 1.5 width -6\n"
         else:
             commands += "set key off\n"
         plots = []

@@ -255,7 +255,7 @@ def draw_spectra():
             blocks_of.append(block(label, [points]))
             plots.append(f"${label} using 1:2 with lines lw 2 lc rgb '{color}' title '{title}'")
         what, axis = component.split("_")
-        side = "set key bottom left" if i == 0 else "unset key"
+        side = "set key bottom left Left reverse" if i == 0 else "unset key"
         commands += [*blocks_of, side, f"set title '{name}: {what} along {axis}'", "set xlabel 'frequency, U/L'", "set ylabel 'power, L/U'",
                      "plot " + ", ".join(plots)]
     draw("\n".join([*commands, "unset multiplot", ""]))

@@ -87,8 +87,12 @@ def rubber_picture(motions, picture):
             commands += (f'plot $outlines{number}{side} with filledcurves closed fc rgb "{COLOURS[name]}" fs transparent solid 0.25 '
                          f'noborder, "" with lines lc rgb "{COLOURS[name]}" lw 1, $path{number}{side} with lines lc rgb "#1a1a1a" lw 0.8\n')
             left = right + (14 if side == 0 else 34)
-    commands += "unset label 1\nunset label 2\nset border 3\nset tics nomirror\nset grid lc rgb '#e4e4e4' lt 1 lw 0.8\n"
-    left = (left + 70) / width
+    commands += "unset label 1\nunset label 2\n"
+    place, bar = left / width, 0.1 * scale / height
+    commands += (f'set arrow 1 from screen {place}, screen 0.03 to screen {place}, screen {0.03 + bar} heads size screen 0.003, 90 '
+                 f'lc rgb "#1a1a1a" lw 1.2\nset label 1 "0.1 m, in all" at screen {place + 0.008}, screen {0.03 + bar / 2} center rotate\n')
+    commands += "set border 3\nset tics nomirror\nset grid lc rgb '#e4e4e4' lt 1 lw 0.8\n"
+    left = (left + 90) / width
     for number, (name, (title, poses, _)) in enumerate(motions.items()):
         top = 0.93 - number * 0.31
         commands += block(f"inclination{number}", [[(pose.time, inclination(pose)) for pose in poses if pose.time <= 4.0]])
@@ -97,6 +101,7 @@ def rubber_picture(motions, picture):
         commands += f'set title "{title.split(":")[0]}: inclination, degrees" offset 0, -0.6\n'
         commands += 'set xlabel "time, s" offset 0, 0.5\n' if number == 2 else "unset xlabel\n"
         commands += f'plot $inclination{number} with lines lc rgb "{COLOURS[name]}" lw 2\n'
+        commands += "unset arrow 1\nunset label 1\n"
     draw(commands + "unset multiplot\n")
 
 
@@ -193,6 +198,14 @@ def scale_bar(left, height, length=0.5):
             f'set label "{length:g} m, in both" at {left + 0.5 * length}, {height + 0.07} center tc rgb "#1a1a1a"\n')
 
 
+def edges_of(all_flights):
+    """Between which places across the view the flights lie, with room for the airplane and for a title."""
+    across = [seen(pose.position)[0] for poses in all_flights for pose in poses]
+    middle, half = (min(across) + max(across)) / 2, (max(across) - min(across)) / 2
+    half = max(half + 0.1, 0.3)
+    return middle - half, middle + half
+
+
 def airplane_panel(number, title, all_flights, interval, edges):
     left, right, bottom, top, low, high = edges
     shown = all_flights[0]
@@ -209,7 +222,7 @@ def airplane_panel(number, title, all_flights, interval, edges):
     for place, (_, shade, corners) in enumerate(sorted(faces), 1):
         text = " to ".join(f"{x:.5f}, {y:.5f}" for x, y in corners + corners[:1])
         commands += f'set object {place} polygon from {text} fc rgb "{shade}" fs solid 0.85 border lc rgb "#16384d" lw 0.4 front\n'
-    commands += scale_bar(high - 0.7, -2.0) if number == 0 else ""
+    commands += scale_bar(high - 0.55, -2.0) if number == 0 else ""
     commands += f'plot $others{number} with lines lc rgb "#c9c9c9" lw 0.8, $path{number} with lines lc rgb "#1a1a1a" lw 1\n'
     return commands + "unset arrow\nunset label\n" + "".join(f"unset object {place}\n" for place in range(1, len(faces) + 1))
 
@@ -218,17 +231,18 @@ def airplane_picture(flights_of, picture):
     commands = f'set terminal pngcairo size 2000, 1050 font "DejaVu Sans,16" linewidth 1.6\nset output "{picture}"\n' + STYLE
     commands += "set multiplot\nset size ratio -1\n"
     titles = {"wake": "the wake's slip (default)", "body-velocity": "equation 8"}
-    places = {"wake": (0.0, 0.4), "body-velocity": (0.42, 0.58)}
+    edges = {form: edges_of(all_flights) for form, all_flights in flights_of.items()}
+    scale = min(0.6 / sum(high - low for low, high in edges.values()), 0.86 * 1050 / 2000 / 2.35)  # screens a metre
+    left = 0.005
     for number, (form, all_flights) in enumerate(flights_of.items()):
-        left, right = places[form]
-        middle = 0.1 if form == "wake" else 0.0
-        half = 2.35 * (right - left) * 2000 / (0.86 * 1050) / 2
-        commands += airplane_panel(number, titles[form], all_flights, (0.1, 0.3)[number],
-                                   (left, right, 0.06, 0.92, middle - half, middle + half))
+        low, high = edges[form]
+        right = left + scale * (high - low)
+        commands += airplane_panel(number, titles[form], all_flights, (0.1, 0.3)[number], (left, right, 0.06, 0.92, low, high))
+        left = right + 0.02
     commands += "set border 3\nset tics nomirror\nset grid lc rgb '#e4e4e4' lt 1 lw 0.8\n"
     commands += "set lmargin at screen 0.66\nset rmargin at screen 0.985\nset bmargin at screen 0.2\nset tmargin at screen 0.9\n"
     commands += 'set title "where they land, m from the start (it flies to the left)"\nset xrange [-1.6:0.8]\nset yrange [-1.2:1.2]\nset xtics 0.5\nset ytics 0.5\n'
-    commands += 'set key at screen 0.82, 0.04 center bottom maxrows 1 samplen 1 width -2\nset xlabel "x"\nset ylabel "y"\n'
+    commands += 'set key at screen 0.82, 0.04 center bottom maxrows 1 Left reverse samplen 1 width 1\nset xlabel "x"\nset ylabel "y"\n'
     for number, (form, all_flights) in enumerate(flights_of.items()):
         commands += block(f"ends{number}", [[poses[-1].position[:2] for poses in all_flights]])
     commands += ('plot $ends0 with points pt 7 ps 1.6 lc rgb "#2a6f97" title "the wake", '

@@ -27,8 +27,8 @@ DensityDoubt density_doubt(const SceneBody& scene_body, const Body& body, const 
     const double ratio = beyond(body.dynamic->densities, density);
     if (ratio <= negligible) return {};
     return {ratio,
-            fmt::format("is {:.3g} times as dense as the fluid, and its coefficients are identified at "
-                        "{} times: it may swing wrongly; 'samara bake --density A --density-to B' spans "
+            fmt::format("{:.3g} times as dense as the fluid, with coefficients identified at {} times: "
+                        "swings may be wrong; 'samara bake --density A --density-to B' spans "
                         "a range",
                         density, in_words(body.dynamic->densities))};
 }

@@ -39,13 +39,13 @@ const char* in_words(ScaleRemedy remedy) {
 
 std::string length_doubt(double length, const std::optional<double>& reynolds_number, ScaleRemedy remedy) {
     if (length < shortest) {
-        return fmt::format(
-            "is {:.2g} m long: was its shape scaled twice, or is it in another unit than metres?", length);
+        return fmt::format("{:.2g} m long: was its shape scaled twice, or is it in another unit than metres?",
+                           length);
     }
     const bool fast = reynolds_number && *reynolds_number > most_reynolds;
     if (length <= longest && !fast) return {};
     return fmt::format(
-        "is {:.3g} m long{}: is its shape in millimetres? then {}", length,
+        "{:.3g} m long{}: is its shape in millimetres? then {}", length,
         fast ? fmt::format(" and falls at a Reynolds number of about {:.1g}", *reynolds_number) : "",
         in_words(remedy));
 }
@@ -53,12 +53,12 @@ std::string length_doubt(double length, const std::optional<double>& reynolds_nu
 std::string density_doubt(double density) {
     if (density > largest_density) {
         return fmt::format(
-            "has a density of {:.3g} kg/m^3, above that of any metal: is its mass in grams, or its shape in "
+            "a density of {:.3g} kg/m^3, above that of any metal: is its mass in grams, or its shape in "
             "another unit than metres?",
             density);
     }
     if (density >= least_density) return {};
-    return fmt::format("has a density of {:.3g} kg/m^3: is that in g/cm^3? then it is {:.4g} kg/m^3", density,
+    return fmt::format("a density of {:.3g} kg/m^3: is that in g/cm^3? then it is {:.4g} kg/m^3", density,
                        density * gram_in_cubic_centimetre);
 }
 
@@ -85,7 +85,7 @@ std::string unit_doubts(const Body& body, const MassSpecification& asked, const 
          {length_doubt(length_of(body), reynolds_number, remedy), density_doubt(density)}) {
         if (!doubt.empty()) doubts.push_back(std::move(doubt));
     }
-    return fmt::format("{}", fmt::join(doubts, "; it "));
+    return fmt::format("{}", fmt::join(doubts, "; and "));
 }
 
 }  // namespace samara

@@ -14,7 +14,8 @@ struct ShareFolder {
 };
 
 /// Where such files are: in the folder that the environment's variable names, or ../share/samara/NAME beside
-/// the running program's folder, or in this source tree. Throws Error where the variable names no such
+/// the running program's folder, or NAME beside the library that holds samara (a Python wheel), or in this
+/// source tree. Throws Error where the variable names no such
 /// folder, and where none of the others is one.
 std::filesystem::path find_share_folder(const ShareFolder& share);
 

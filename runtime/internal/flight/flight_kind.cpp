@@ -302,12 +302,8 @@ FluidLoad FlightKind::fluid_load(std::size_t index, double time) const {
                                       "advance by multiples of the step, {:g} s",
                                       time, step_));
     }
-    if (size_of(index) != 1.0) {
-        throw FlightError(FlightError::Kind::invalid_argument,
-                          "fluid loads are there for bodies of their shape's own size alone");
-    }
-    return fluid_load_of(*body_, surroundings_, release_.start, step_, batch_.state(index),
-                         noise_of(seed_, first_run_, index), steps_);
+    return fluid_load_of(*body_, size_of(index), surroundings_, release_.start, step_,
+                         batch_.own_state(index), noise_of(seed_, first_run_, index), steps_);
 }
 
 void FlightKind::step_to(std::uint64_t steps) {

@@ -1,5 +1,7 @@
 #include "internal/motion/description.hpp"
 
+#include <cmath>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -144,10 +146,11 @@ json as_json(const BodyMeasures& all) {
 std::string as_text(const BodyMeasures& all) {
     const bool many = all.samples > 1;
     const Estimate& descent = *all.figures[Figure::descent_speed];
-    std::string text = fmt::format("  {}, descends at {:.4g}{} m/s, inclination up to {:.1f} degrees",
-                                   name_of(all.regimes.commonest()), descent.value,
-                                   many ? fmt::format(" +- {:.2g}", *descent.error) : "",
-                                   degrees * all.value(Figure::inclination_amplitude));
+    std::string text =
+        fmt::format("  {}, {} at {:.4g}{} m/s, inclination up to {:.1f} degrees",
+                    name_of(all.regimes.commonest()), descent.value < 0.0 ? "rises" : "descends",
+                    std::abs(descent.value), many ? fmt::format(" +- {:.2g}", *descent.error) : "",
+                    degrees * all.value(Figure::inclination_amplitude));
     if (const auto& frequency = all.figures[Figure::frequency])
         text += fmt::format(", {:.4g} Hz", frequency->value);
     text += fmt::format(", rms angular speed {:.4g} rad/s\n", all.value(Figure::rms_angular_speed));

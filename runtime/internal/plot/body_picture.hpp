@@ -6,8 +6,13 @@
 
 namespace samara {
 
-/// The places of a body's four panels: `column` 0 or 1 from the left, `row` 0 or 1 from the top.
-Box quarter(int column, int row);
+/// The places of a body's four panels: `column` 0 or 1 from the left, `row` 0 or 1 from the top; whether the
+/// upper ones have axes of their own.
+Box quarter(int column, int row, bool own_axes);
+
+/// What gnuplot plots for bars of standard errors in a block of x, y and error. Bars of its own would leave
+/// out their middles.
+std::string error_bars(const std::string& block, unsigned color);
 
 /// A key: bold words in their colours in one line, set from the right.
 class ColorKey {

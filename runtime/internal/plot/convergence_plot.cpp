@@ -181,11 +181,10 @@ PanelText reynolds_panel(const Body& body, const Box& box) {
             shown.insert(shown.end(), {drag - error, drag + error});
         }
         text.data += "EOD\n";
-        plot += fmt::format(
-            "{0}$axis{1} using 1:2:3 with yerrorbars pt 7 ps dot_size lw 2 lc rgb '#{2:06x}' notitle, "
-            "$axis{1} "
-            "using 1:2 with lines lw 2 lc rgb '#{2:06x}' notitle",
-            plot.empty() ? "plot " : ", ", axis, color);
+        const std::string block = fmt::format("$axis{}", axis);
+        plot += (plot.empty() ? "plot " : ", ") + error_bars(block, color);
+        plot += fmt::format(", {} using 1:2 with linespoints pt 7 ps dot_size lw 2 lc rgb '#{:06x}' notitle",
+                            block, color);
         constexpr const char* names[] = {"short", "middle", "long"};
         const std::string name = all_alike ? "any direction" : names[axis];
         words += key.add(name, color);
@@ -215,12 +214,12 @@ ConvergencePlot plot_convergence(const std::filesystem::path& file, const Body& 
     shown.sources = static_cast<int>(tables.error_sources.size());
 
     const PanelText panels[] = {
-        ladder_panel(ladders, quarter(0, 0), "drag", "Drag coefficient",
+        ladder_panel(ladders, quarter(0, 0, true), "drag", "Drag coefficient",
                      [](const CaseRecord& record) { return std::optional(record.drag); }),
-        reynolds_panel(body, quarter(1, 0)),
-        ladder_panel(ladders, quarter(0, 1), "k", "Turbulent kinetic energy k/U²",
+        reynolds_panel(body, quarter(1, 0, true)),
+        ladder_panel(ladders, quarter(0, 1, true), "k", "Turbulent kinetic energy k/U²",
                      [](const CaseRecord& record) { return record.k; }),
-        error_panel(tables, quarter(1, 1)),
+        error_panel(tables, quarter(1, 1, true)),
     };
     std::string data;
     std::string plots;

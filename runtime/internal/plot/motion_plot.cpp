@@ -1,5 +1,6 @@
 #include "internal/plot/motion_plot.hpp"
 
+#include <cmath>
 #include <string>
 
 #include <fmt/format.h>
@@ -15,9 +16,10 @@ namespace samara {
 std::string picture_title(const Motion& motion, const BodyMotion& body, int run, int copy,
                           const Measures& measures) {
     const bool rests = measures.rms_angular_speed == 0.0 && measures.mean_velocity.isZero(0.0);
-    const std::string title =
-        rests ? ": at rest"
-              : fmt::format(": {}, descends at {:.3g} m/s", name_of(measures.regime), measures.descent_speed);
+    const std::string title = rests ? ": at rest"
+                                    : fmt::format(": {}, {} at {:.3g} m/s", name_of(measures.regime),
+                                                  measures.descent_speed < 0.0 ? "rises" : "descends",
+                                                  std::abs(measures.descent_speed));
     std::string below;
     if (motion.runs > 1) below += fmt::format("run {} of {}  ·  ", run, motion.runs);
     if (body.copies > 1) below += fmt::format("copy {} of {}  ·  ", copy, body.copies);

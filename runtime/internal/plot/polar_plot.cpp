@@ -113,7 +113,7 @@ PanelText quantity_panel(const Polars& polars, std::size_t quantity) {
     for (std::size_t arc = 0; arc < polars.arcs.size(); ++arc) {
         text.data += curve_data(polars, quantity, arc, shown);
     }
-    const Box box = quarter(static_cast<int>(quantity % 2), static_cast<int>(quantity / 2));
+    const Box box = quarter(static_cast<int>(quantity % 2), static_cast<int>(quantity / 2), false);
     const bool lowest = quantity >= 2;
     text.plots =
         begin_panel(box, {{0.0, polars.most}, lowest ? "direction of motion (°)" : "", polars.most / 6},
@@ -122,8 +122,7 @@ PanelText quantity_panel(const Polars& polars, std::size_t quantity) {
     const auto add = [&](const std::string& curve) { plot += (plot.empty() ? "plot " : ", ") + curve; };
     for (std::size_t arc = 0; arc < polars.arcs.size(); ++arc) {
         const unsigned color = body_colors[arc];
-        add(fmt::format("{} using 1:2:3 with yerrorbars pt 7 ps 0.01 lw 1.5 lc rgb '#{:06x}' notitle",
-                        block_name("bars", quantity, arc), color));
+        add(error_bars(block_name("bars", quantity, arc), color));
         add(fmt::format("{} using 1:2 with lines lw 3 lc rgb '#{:06x}' notitle",
                         block_name("curve", quantity, arc), color));
         if (!has_cases(polars, quantity, arc)) continue;

@@ -23,7 +23,7 @@ constexpr double half_width = 2.0 * std::numbers::sqrt2;  // of the projected sp
 constexpr double half_height = std::numbers::sqrt2;
 constexpr int columns = 240;
 constexpr int rows = 120;
-constexpr double map_width = 740.0;  // pixels
+constexpr double map_width = 750.0;  // pixels
 constexpr double bar_width = 22.0;
 constexpr int bar_steps = 64;
 constexpr double text_lift = 14.0;
@@ -212,7 +212,7 @@ int add_cases(const Sphere& sphere, std::string& data) {
 }
 
 Box map_box(std::size_t layer) {
-    Box box = quarter(static_cast<int>(layer % 2), static_cast<int>(layer / 2));
+    Box box = quarter(static_cast<int>(layer % 2), static_cast<int>(layer / 2), false);
     box.left -= 60.0;
     box.right = box.left + map_width;
     box.bottom = box.top - map_width / 2.0;
@@ -288,7 +288,10 @@ SpherePlot plot_sphere(const std::filesystem::path& file, const Body& body) {
     }
     std::string below =
         "over all directions of motion  ·  middle: along the long axis, poles: along the short";
-    if (shown.cases > 0) below += "  ·  dots: solved";
+    const Symmetry& symmetry = body.symmetry;
+    const bool has_images = symmetry.elements.size() > 1 || symmetry.kind != Symmetry::Kind::finite;
+    if (shown.cases > 0)
+        below += has_images ? "  ·  dots: solved, their images by symmetry" : "  ·  dots: solved";
     if (shown.planned < 1.0) below += "  ·  pale: extrapolated";
     draw_picture(file, data + "set multiplot\n" +
                            heading({body.name,

@@ -18,8 +18,9 @@
 namespace samara {
 namespace {
 
-constexpr double well_known = 0.1;       // an error that needs no mention
-constexpr double well_solved = 0.01;     // of the Kirchhoff tensor
+constexpr double well_known = 0.1;    // an error that needs no mention
+constexpr double well_solved = 0.01;  // of the Kirchhoff tensor
+constexpr const char* tested_openfoam = "1912";
 constexpr double mostly_planned = 0.99;  // of the nodes that a bake was planned for
 
 Grade grade_of(double error) {
@@ -128,6 +129,16 @@ void judge_cases(std::vector<Finding>& findings, const LoadTables& tables,
     }
 }
 
+void judge_solver(std::vector<Finding>& findings, const std::vector<CaseRecord>& records) {
+    const auto other = std::ranges::find_if(records, [](const CaseRecord& one) {
+        return !one.openfoam.empty() && one.openfoam.find(tested_openfoam) == std::string::npos;
+    });
+    if (other == records.end()) return;
+    findings.push_back({Grade::limited, "solver",
+                        fmt::format("by OpenFOAM '{}'; the cases are tested with v{} alone", other->openfoam,
+                                    tested_openfoam)});
+}
+
 double planned_share(const PlannedRegion& plan) {
     if (plan.planned.empty()) return 1.0;
     return static_cast<double>(std::ranges::count(plan.planned, 1)) /
@@ -203,35 +214,41 @@ std::string error_in_words(const LoadTables& tables, double ErrorShare::*quantit
     return fmt::format("by {}", per_cent(factor * total_error(tables.error_sources, quantity)));
 }
 
-void sort_uses(BakeVerdict& verdict, const Body& body, bool can_be_used) {
+bool is_bad(const std::vector<Finding>& findings, const std::set<std::string>& names) {
+    return std::ranges::any_of(findings, [&](const Finding& finding) {
+        return finding.grade == Grade::bad && names.contains(finding.what);
+    });
+}
+
+/// What a bake may be good for.
+struct Uses {
+    bool pictures, speeds, swings;
+};
+
+void sort_uses(BakeVerdict& verdict, const Body& body, const Uses& uses) {
     const LoadTables& tables = *body.tables;
     const auto put = [&](bool good, const std::string& use) {
         (good ? verdict.good_for : verdict.not_for).push_back(use);
     };
-    put(can_be_used, "pictures and animations: falls of the right kind");
-    put(can_be_used && is_good(tables, &ErrorShare::force),
-        fmt::format("speeds of descent, which the tables leave uncertain {}",
-                    error_in_words(tables, &ErrorShare::force, 0.5)));
-    put(can_be_used && body.dynamic.has_value() && is_good(tables, &ErrorShare::moment),
-        body.dynamic ? fmt::format("frequencies and amplitudes of swings; the moment is uncertain {}",
-                                   error_in_words(tables, &ErrorShare::moment, 1.0))
-                     : "frequencies and amplitudes of swings: nothing of this body's turning was solved");
+    put(uses.pictures, "pictures and animations: falls of the right kind");
+    put(uses.speeds, fmt::format("speeds of descent, which the tables leave uncertain {}",
+                                 error_in_words(tables, &ErrorShare::force, 0.5)));
+    put(uses.swings, "frequencies and amplitudes of swings" +
+                         (!body.dynamic ? ": nothing of this body's turning was solved"
+                          : is_bad(verdict.findings, {swings_of_falls})
+                              ? ": those of the solved falls are missed"
+                              : fmt::format("; the moment is uncertain {}",
+                                            error_in_words(tables, &ErrorShare::moment, 1.0))));
     if (tables.reynolds_numbers.back() < laminar_reynolds_number) {
         put(false, "scatter by the wake's turbulence: the flow is laminar here, and has none");
     } else {
-        put(can_be_used && is_good(tables, &ErrorShare::turbulent_kinetic_energy),
+        put(uses.pictures && is_good(tables, &ErrorShare::turbulent_kinetic_energy),
             fmt::format("scatter by the wake's turbulence, whose energy k is uncertain {}",
                         error_in_words(tables, &ErrorShare::turbulent_kinetic_energy, 1.0)));
     }
     if (planned_share(tables.plan) <= mostly_planned) {
         put(false, "scenes other than the one it was baked for");
     }
-}
-
-bool is_bad(const std::vector<Finding>& findings, const std::set<std::string>& names) {
-    return std::ranges::any_of(findings, [&](const Finding& finding) {
-        return finding.grade == Grade::bad && names.contains(finding.what);
-    });
 }
 
 }  // namespace
@@ -256,16 +273,20 @@ BakeVerdict judge_bake(const Body& body, const std::vector<Finding>& further) {
     judge_motion(findings, body);
     judge_reynolds_numbers(findings, tables);
     judge_region(findings, tables);
-    judge_cases(findings, tables, case_records(tables));
+    const std::vector<CaseRecord> records = case_records(tables);
+    judge_cases(findings, tables, records);
+    judge_solver(findings, records);
     judge_kirchhoff(findings, body);
     findings.insert(findings.end(), further.begin(), further.end());
 
     const bool can_be_used = !is_bad(findings, {"soundness", "quality", "added mass", "left out"});
-    sort_uses(verdict, body, can_be_used);
-    const bool further_bad =
-        std::ranges::any_of(further, [](const Finding& finding) { return finding.grade == Grade::bad; });
+    const bool further_bad = std::ranges::any_of(further, [](const Finding& finding) {
+        return finding.grade == Grade::bad && finding.what != swings_of_falls;
+    });
     const bool speeds = can_be_used && is_good(tables, &ErrorShare::force) && !further_bad;
-    const bool swings = body.dynamic.has_value() && is_good(tables, &ErrorShare::moment);
+    const bool swings = can_be_used && body.dynamic.has_value() && is_good(tables, &ErrorShare::moment) &&
+                        !is_bad(further, {swings_of_falls});
+    sort_uses(verdict, body, {can_be_used, speeds, swings});
     if (!can_be_used) {
         verdict.grade = Grade::bad;
         verdict.headline = is_bad(findings, {"soundness"}) ? "Not to be used: the file is unsound."

@@ -39,8 +39,12 @@ struct BakeVerdict {
 /// force 30 %, which are 15 % of a descent speed; of moment and k the same.
 inline constexpr double good_error = 0.3;
 
+/// What the finding about the swings of solved falls is called.
+inline constexpr const char* swings_of_falls = "swings";
+
 /// Judges a body by what its file holds. The body must have tables. `further`: what else was found out, of
-/// the folder of its cases; a bad one keeps the bake from being good for figures.
+/// the folder of its cases; a bad one keeps the bake from being good for figures, one about the swings of its
+/// falls from being good for swings.
 BakeVerdict judge_bake(const Body& body, const std::vector<Finding>& further = {});
 
 /// headline, grade, good_for, not_for and findings (grade, what, text).

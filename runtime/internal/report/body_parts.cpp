@@ -44,8 +44,8 @@ std::string density_in(const Body& body, const char* name, double reynolds_numbe
     const double area = 0.25 * std::numbers::pi * tables.reference_length * tables.reference_length;
     const double drag = std::abs(look_up(tables, broadside, reynolds_number).force.dot(broadside));
     const double excess = 0.5 * drag * fluid.density * speed * speed * area / (9.81 * body.moments.volume);
-    return fmt::format("{:.3g} m/s in {}, as with a density of {:.4g} kg/m³", speed, name,
-                       fluid.density + excess);
+    return fmt::format("{:.3g} m/s in {}, as with a density of {} kg/m³", speed, name,
+                       in_plain_digits(fluid.density + excess));
 }
 
 ReportPart part_of_body(const Body& body) {
@@ -74,7 +74,7 @@ ReportPart part_of_body(const Body& body) {
                                                      mass.mass / body.moments.volume)});
     }
     std::vector<std::string> numbers;
-    for (const double number : tables.reynolds_numbers) numbers.push_back(fmt::format("{:.4g}", number));
+    for (const double number : tables.reynolds_numbers) numbers.push_back(in_plain_digits(number));
     rows.push_back({"Reynolds numbers U L/ν", fmt::format("{}", fmt::join(numbers, ", "))});
     const double main = main_reynolds_number(tables, case_records(tables));
     for (const char* fluid : {"water", "air"}) {
@@ -142,11 +142,10 @@ ReportPart part_of_cases(const LoadTables& tables) {
     }
     Rows rows;
     for (const CaseRecord& one : records) {
-        rows.push_back({one.name, one.purpose, in_words(one.direction),
-                        fmt::format("{:.4g}", one.reynolds_number), one.closure, or_dash(one.cells, "{:.0f}"),
-                        fmt::format("{:.3f}", one.drag), one.k ? fmt::format("{:.3g}", *one.k) : "-",
-                        one.verdict, or_dash(one.final_residual, "{:.1g}"),
-                        fmt::format("{:.1f}", one.cpu_seconds)});
+        rows.push_back({one.name, one.purpose, in_words(one.direction), in_plain_digits(one.reynolds_number),
+                        one.closure, or_dash(one.cells, "{:.0f}"), fmt::format("{:.3f}", one.drag),
+                        one.k ? fmt::format("{:.3g}", *one.k) : "-", one.verdict,
+                        or_dash(one.final_residual, "{:.1g}"), fmt::format("{:.1f}", one.cpu_seconds)});
     }
     if (rows.empty())
         return {"The cases", html + html_paragraph("The file does not say how its cases were solved.")};

@@ -6,6 +6,7 @@ import re
 import shutil
 import signal
 import subprocess
+import tempfile
 from collections.abc import Iterable
 from typing import Any, Callable, Optional, Union
 
@@ -22,24 +23,27 @@ def _run(command: str, arguments: Iterable[_Path], progress: _Progress) -> dict[
     if program is None:
         raise Error("samara: the program is not found; install the package samara-baking, or put its folder into PATH")
     words = [program, command, *(os.fspath(argument) for argument in arguments), "--json"]
-    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+    with tempfile.TemporaryFile("w+") as told, subprocess.Popen(
+        words, stdout=told, stderr=subprocess.PIPE, text=True
+    ) as process:
         last = ""
         try:
-            assert process.stderr and process.stdout
+            assert process.stderr
             for line in process.stderr:
                 last = line.strip() or last
                 count = _COUNT.search(line)
                 if progress and count:
                     progress(float(count[1]), float(count[2]))
-            result = process.stdout.read()
+            process.wait()
         except BaseException:
             process.send_signal(signal.SIGINT)  # which keeps what is solved
             process.communicate()
             raise
-    if process.returncode != 0:
-        raise Error(last.removeprefix(f"samara {command}: ") or f"samara {command} ended with the status {process.returncode}")
-    told: dict[str, Any] = json.loads(result)
-    return told
+        if process.returncode != 0:
+            raise Error(last.removeprefix(f"samara {command}: ") or f"samara {command} ended with the status {process.returncode}")
+        told.seek(0)
+        result: dict[str, Any] = json.load(told)
+    return result
 
 
 def _options(options: dict[str, Any]) -> list[str]:
@@ -54,7 +58,7 @@ def _options(options: dict[str, Any]) -> list[str]:
 
 
 def plan(scene: _Path, *, progress: _Progress = None, **options: Any) -> dict[str, Any]:
-    """What a scene needs, as a dict: the models that matter and the bake for it. `scene`: a scene file or a shape. The options are
+    """What a scene needs, as a dict: the models that matter and the bake for it. `scene`: a scene file. The options are
     those of 'samara plan', with underscores: plan("scene.toml", tolerance=0.1)."""
     return _run("plan", [scene, *_options(options)], progress)
 

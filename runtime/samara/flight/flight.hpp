@@ -136,7 +136,7 @@ class Flight {
     ContactRecord take_contacts(std::size_t index);
     /// What the fluid does to a body in its next step, for a host that integrates it itself: it puts the body
     /// where it has come to by set_pose(), asks, and advances by a step. Throws FlightError where time() lies
-    /// within a step of the body, or its size is not the shape's.
+    /// within a step of the body.
     [[nodiscard]] FluidLoad fluid_load(std::size_t index) const;
     /// Over the shape's lengths. Needs index < size().
     [[nodiscard]] double size_of(std::size_t index) const;

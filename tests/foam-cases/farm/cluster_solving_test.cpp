@@ -39,10 +39,11 @@ class Cluster : public test::BakeFolder {
         EXPECT_EQ(run_subprocess({"squeue", "--noheader", "--format=%i %j %T"}, list), 0);
         return read_bytes(list);
     }
-    [[nodiscard]] test::ProgramRun bake_there(const fs::path& body) const {
+    [[nodiscard]] test::ProgramRun bake_there(const fs::path& body,
+                                              const std::string& submit = "sbatch --time=10") const {
         return test::run_program_in(
             temporary_, {"samara-bake", body.string(), "-o", output_.string(), "--quality", "smoke", "--jobs",
-                         "2", "--cluster", "sbatch --time=10", "--json"});
+                         "2", "--cluster", submit, "--json"});
     }
     // A bake that is at work in a solver on the cluster.
     [[nodiscard]] pid_t start_there(const fs::path& body) const {
@@ -121,6 +122,15 @@ TEST_F(Cluster, SaysThatNoSlurmAnswers) {
     EXPECT_EQ(run.status, 1);
     EXPECT_TRUE(test::is_one_line(run.fault)) << run.fault;
     EXPECT_THAT(run.fault, HasSubstr("Slurm does not answer (squeue failed"));
+}
+
+TEST_F(Cluster, SaysThatANodeCouldNotWriteIntoTheFolder) {
+    // As where the node does not see it: Slurm cannot open the job's log there.
+    const std::string submit = "sbatch --time=10 --output=" + (folder_ / "nowhere/log").string();
+    const test::ProgramRun run = bake_there(write_body(test::sphere(0.01)), submit);
+    EXPECT_EQ(run.status, 1);
+    EXPECT_THAT(run.fault,
+                HasSubstr("mesh_coarse: its cluster job left nothing there; is that a folder that"));
 }
 
 TEST_F(Cluster, TakesNoOtherSchedulerThanSlurm) {

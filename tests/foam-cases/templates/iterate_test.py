@@ -14,7 +14,7 @@ sys.dont_write_bytecode = True
 from faked_solver import TEMPLATES, FakedSolverTest  # noqa: E402
 
 # Settles at once. FAKE: what happens in the round that ends there: "nothing", "kill" (at its end), "disk" (its files are
-# cut short, and all seems well).
+# cut short, and all seems well), "refuse" (it does not know what the case asks for).
 SOLVER = '''#!/usr/bin/env python3
 import os, re, sys
 at, what = os.environ["FAKE"].split()
@@ -23,6 +23,8 @@ start = max(int(name) for name in os.listdir(".") if re.fullmatch(r"[0-9]+", nam
 if os.path.getsize(f"{start}/U") == 0:
     sys.exit("--> FOAM FATAL IO ERROR: \\nthe file is cut short\\n\\nFOAM exiting")
 end = int(re.search(r"endTime (\\d+);", open("round").read()).group(1))
+if what == "refuse":
+    sys.exit("--> FOAM FATAL ERROR: \\nUnknown function type shell\\n\\nFOAM exiting")
 full = what == "disk" and int(at) == end
 for name, values in (("forces/{}/force.dat", "(0.4 0 0)"), ("forces/{}/moment.dat", "(0 0 0)"),
                      ("shell/{}/volFieldValue.dat", "0.01 0.02")):
@@ -95,6 +97,12 @@ class IterateTest(IteratedCase):
         self.assertIn("simpleFoam was stopped at iteration 200, before its end", said)
         self.assertIsNone(self.rounds()["verdict"])
         self.expect_solved_as_if_never_stopped()
+
+    def test_a_version_that_the_cases_are_not_tested_with_is_named_beside_its_fault(self):
+        status, said = self.run_case("100 refuse")
+        self.assertEqual(status, 1)
+        self.assertIn("simpleFoam failed: Unknown function type shell (this OpenFOAM says '1'; the cases are tested with v1912)",
+                      said)
 
     def test_a_history_that_ends_early_is_a_full_disk_and_not_the_cases_fault(self):
         status, said = self.run_case("100 disk")

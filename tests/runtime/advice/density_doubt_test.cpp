@@ -45,7 +45,7 @@ TEST(DensityDoubt, NamesBothDensitiesAndTheRemedyOnEitherSide) {
     Asked asked;
     const DensityDoubt above = asked.doubt(16.0);
     EXPECT_NEAR(above.ratio, 2.0, 1e-12);
-    EXPECT_THAT(above.text, AllOf(HasSubstr("is 16 times as dense as the fluid"),
+    EXPECT_THAT(above.text, AllOf(HasSubstr("16 times as dense as the fluid"),
                                   HasSubstr("identified at 2 to 8 times"), HasSubstr("--density-to")));
     EXPECT_NEAR(asked.doubt(1.25).ratio, 1.6, 1e-12);
     asked.body.dynamic->densities = {2.0, 2.0};

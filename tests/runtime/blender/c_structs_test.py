@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The structs of samara.h as Python writes them down for ctypes, in the add-on and in docs/examples/fall.py: field by field as
-the header has them, and of its version."""
+"""What Python writes down of samara.h for ctypes, in the add-on and in docs/examples/fall.py: structs field by field, functions
+argument by argument, and constants as the header has them, and of its version."""
 
 import ctypes
 import importlib.util
@@ -37,6 +37,25 @@ def fields_of(struct):
     return fields
 
 
+def functions():
+    """{name: (result, [argument])} of the header, each as a word of C without the argument's name."""
+    found = {}
+    for result, name, arguments in re.findall(r"SAMARA_API ([^;(]*?)\s*(samara_\w+)\(([^;]*?)\);", header()):
+        words = [re.sub(r"\s+", " ", argument).strip() for argument in arguments.split(",")]
+        kinds = [re.sub(r"\b\w+(\[\d+\])?$", lambda name: "*" if name[1] else "", word).strip() for word in words if word != "void"]
+        found[name] = (result.strip(), kinds)
+    return found
+
+
+def fits(written, kind):
+    """Whether a type of ctypes is one of C, given in words: numbers exactly, any pointer for a pointer."""
+    if "*" not in kind:
+        return written is (ctypes.c_int if kind == "samara_status" else None if kind == "void" else TYPES[kind])
+    if kind.replace(" ", "") in ("constchar*", "char*"):
+        return written is ctypes.c_char_p
+    return written is ctypes.c_void_p or issubclass(written, ctypes._Pointer)
+
+
 def module(*path):
     spec = importlib.util.spec_from_file_location("of_" + path[-1][:-3], os.path.join(ROOT, *path))
     loaded = importlib.util.module_from_spec(spec)
@@ -57,6 +76,34 @@ class CStructsTest(unittest.TestCase):
         self.check(library.Obstacle, "samara_obstacle")
         self.assertEqual(library.ObstacleKey._fields_, fields_of("samara_obstacle_key"))
         self.assertEqual(library.POSE_SIZE, ctypes.sizeof(type("Pose", (ctypes.Structure,), {"_fields_": fields_of("samara_pose")})) // 8)
+
+    def test_the_add_on_has_the_functions_of_the_header(self):
+        library = module("runtime", "blender", "samara", "samara_library.py")
+        declared = functions()
+        self.assertGreater(len(declared), 40)
+        written = {name: (result, list(arguments)) for name, (result, arguments) in library._PLAIN.items()}
+        for name, arguments in library._FALLIBLE.items():
+            written[name] = (ctypes.c_int, arguments + [ctypes.c_char_p, ctypes.c_size_t])
+        for name, (result, arguments) in written.items():
+            with self.subTest(name):
+                wanted_result, wanted = declared[name]
+                self.assertTrue(fits(result, wanted_result), wanted_result)
+                self.assertEqual(len(arguments), len(wanted))
+                for argument, kind in zip(arguments, wanted):
+                    self.assertTrue(fits(argument, kind), f"{argument} for {kind}")
+
+    def test_the_add_on_has_the_constants_of_the_header(self):
+        library = module("runtime", "blender", "samara", "samara_library.py")
+        declared = dict(re.findall(r"SAMARA_((?:LOADS|TURBULENCE)_\w+) = (\d+)", header()))
+        written = {name: value for name, value in vars(library).items() if re.match("LOADS_|TURBULENCE_", name)}
+        self.assertGreaterEqual(len(written), 5)
+        for name, value in written.items():
+            self.assertEqual(value, int(declared[name]), name)
+
+    def test_the_add_on_has_what_a_body_weighs_as_numbers_without_gaps(self):
+        kinds = [kind for _, kind in fields_of("samara_mass_properties")]
+        self.assertEqual(sum(getattr(kind, "_length_", 1) for kind in kinds), 13)
+        self.assertEqual([name for name, _ in fields_of("samara_mass_properties")], ["mass", "center_of_mass", "inertia"])
 
     def test_the_add_on_is_of_the_version_of_the_header(self):
         library = module("runtime", "blender", "samara", "samara_library.py")

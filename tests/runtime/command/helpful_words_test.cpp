@@ -93,8 +93,8 @@ TEST_F(HelpfulWords, OfUnitsAreOneLineForThoseThatSayTheSame) {
     const test::ProgramRun done = run({"simulate", "light.toml", "-o", "x.h5"});
     ASSERT_EQ(done.status, 0);
     EXPECT_THAT(done.fault,
-                testing::StartsWith("samara simulate: note: 'a' and 'b': has a density of 2.7 kg/m^3"));
-    EXPECT_THAT(done.fault, HasSubstr("samara simulate: note: 'c': has a density of 0.6 kg/m^3"));
+                testing::StartsWith("samara simulate: note: 'a' and 'b': a density of 2.7 kg/m^3"));
+    EXPECT_THAT(done.fault, HasSubstr("samara simulate: note: 'c': a density of 0.6 kg/m^3"));
 }
 
 TEST_F(HelpfulWords, AreJsonWithJsonWhateverIsWrong) {

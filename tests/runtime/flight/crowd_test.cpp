@@ -30,20 +30,6 @@ Body rubber() {
     return body;
 }
 
-/// The body with all its lengths doubled, as a file of that size would have it.
-Body doubled(Body body) {
-    for (Vector3d& vertex : body.surface.vertices) vertex *= 2.0;
-    body.moments.volume *= 8.0;
-    body.moments.centroid *= 2.0;
-    body.moments.second_moments *= 32.0;
-    body.moments.surface_area *= 4.0;
-    body.kirchhoff->matrix.topLeftCorner<3, 3>() *= 32.0;
-    body.kirchhoff->matrix.topRightCorner<3, 3>() *= 16.0;
-    body.kirchhoff->matrix.bottomLeftCorner<3, 3>() *= 16.0;
-    body.kirchhoff->matrix.bottomRightCorner<3, 3>() *= 8.0;
-    return body;
-}
-
 Scene crowd(int count) {
     Scene scene;
     scene.duration = 1.0;
@@ -66,7 +52,7 @@ const Pose& last_pose(const Motion& motion, int copy) {
 void expect_moves_like_a_file_of_twice_the_size(Scene scene, double tolerance) {
     scene.bodies[0].smallest_size = 1.0;
     scene.bodies[0].largest_size = 1.0;
-    const Motion of_file = flown(scene, doubled(rubber()));
+    const Motion of_file = flown(scene, test::scaled(rubber(), 2.0));
     scene.bodies[0].smallest_size = 2.0;
     scene.bodies[0].largest_size = 2.0;
     const Motion of_size = flown(scene, rubber());
@@ -95,7 +81,7 @@ TEST(Crowd, SoItDoesWithACentreOfMassBesideTheCentroid) {
     scene.bodies[0].mass.mass = 8.0 * *scene.bodies[0].mass.mass;
     scene.bodies[0].mass.center_of_mass = Vector3d(0.002, 0.004, 0.006);
     scene.bodies[0].smallest_size = scene.bodies[0].largest_size = 1.0;
-    const Motion of_file = flown(scene, doubled(body));
+    const Motion of_file = flown(scene, test::scaled(body, 2.0));
     EXPECT_LT((last_pose(of_size, 1).position - last_pose(of_file, 1).position).norm(), 1e-9);
 }
 

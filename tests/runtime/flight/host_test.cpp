@@ -316,20 +316,29 @@ TEST(Contacts, TellWhichObstacleWasMetAndChangeNothing) {
     EXPECT_EQ(plain.take_contacts(0).strongest, 0.0);
 }
 
-/// A lopsided body in all that moves: turbulence, wind, gust and current.
-Flight in_moving_fluid(double step) {
+/// Current, gust and a vortex.
+FlightSettings in_moving_fluid() {
     FlightSettings settings;
-    settings.step = step;
     settings.fluid.current = Vector3d(0.1, 0.2, 0.0);
     settings.fluid.gust = {.amplitude = Vector3d(0.3, 0.0, 0.1), .period = 0.9};
     settings.wind.vortices = {
         {.position = Vector3d(0.3, 0.0, 0.0), .axis = Vector3d::UnitZ(), .circulation = 1.0}};
+    return settings;
+}
+
+/// A lopsided body in all that moves: turbulence, wind, gust and current.
+Flight lopsided_in_moving_fluid(double step, double size = 1.0) {
+    FlightSettings settings = in_moving_fluid();
+    settings.step = step;
     Flight flight(settings);
     BodyPhysics physics;
     physics.mass.mass = 0.05;
     physics.mass.center_of_mass = Vector3d(0.002, -0.003, 0.004);
     flight.add({test::lopsided_shape(), "lopsided"}, physics,
-               {.velocity = Vector3d(0.2, -0.3, 0.4), .angular_velocity = Vector3d(2.0, 3.0, -4.0)});
+               {.velocity = Vector3d(0.2, -0.3, 0.4),
+                .angular_velocity = Vector3d(2.0, 3.0, -4.0),
+                .smallest_size = size,
+                .largest_size = size});
     return flight;
 }
 
@@ -348,26 +357,35 @@ std::pair<Matrix6d, Vector6d> own(const Flight& flight, std::size_t index, const
 
 const Vector3d earth(0.0, 0.0, -9.81);
 
+void expect_the_acceleration_of_the_next_step(double size, int before) {
+    constexpr double step = 1e-5;
+    Flight flight = lopsided_in_moving_fluid(step, size);
+    flight.advance_to(before * step);
+    const auto [mass, weight] = own(flight, 0, earth);
+    const FluidLoad load = flight.fluid_load(0);
+    const Vector6d acceleration = (mass + load.added_inertia).inverse() * (weight + load.wrench);
+    const Pose now = flight.pose(0);
+    flight.advance_to((before + 1) * step);
+    const Pose next = flight.pose(0);
+    Vector6d flown;
+    flown << (next.angular_velocity - now.angular_velocity) / step, (next.velocity - now.velocity) / step;
+    const Vector6d off = acceleration - flown;
+    EXPECT_LT(off.head<3>().norm(), 2e-3 * flown.head<3>().norm()) << size << ' ' << before;
+    EXPECT_LT(off.tail<3>().norm(), 2e-3 * flown.tail<3>().norm()) << size << ' ' << before;
+}
+
 TEST(FluidLoads, GiveTheAccelerationOfTheBodysOwnNextStep) {
-    for (const int before : {0, 40}) {
-        constexpr double step = 1e-5;
-        Flight flight = in_moving_fluid(step);
-        flight.advance_to(before * step);
-        const auto [mass, weight] = own(flight, 0, earth);
-        const FluidLoad load = flight.fluid_load(0);
-        const Vector6d acceleration = (mass + load.added_inertia).inverse() * (weight + load.wrench);
-        const Pose now = flight.pose(0);
-        flight.advance_to((before + 1) * step);
-        const Pose next = flight.pose(0);
-        Vector6d flown;
-        flown << (next.angular_velocity - now.angular_velocity) / step, (next.velocity - now.velocity) / step;
-        EXPECT_NEAR((acceleration - flown).head<3>().norm(), 0.0, 2e-3 * flown.head<3>().norm()) << before;
-        EXPECT_NEAR((acceleration - flown).tail<3>().norm(), 0.0, 2e-3 * flown.tail<3>().norm()) << before;
+    for (const int before : {0, 40}) expect_the_acceleration_of_the_next_step(1.0, before);
+}
+
+TEST(FluidLoads, GiveItForBodiesOfAnotherSize) {
+    for (const double size : {0.5, 3.0}) {
+        for (const int before : {0, 40}) expect_the_acceleration_of_the_next_step(size, before);
     }
 }
 
 TEST(FluidLoads, HaveASymmetricInertiaAndADampingThatTakesEnergy) {
-    const Flight flight = in_moving_fluid(0.002);
+    const Flight flight = lopsided_in_moving_fluid(0.002);
     const FluidLoad load = flight.fluid_load(0);
     EXPECT_LT((load.added_inertia - load.added_inertia.transpose()).norm(), 1e-15);
     const Eigen::SelfAdjointEigenSolver<Matrix6d> inertia(load.added_inertia);
@@ -443,13 +461,47 @@ TEST(FluidLoads, PushedWithTheAccelerationBeforeALightBodyDiverges) {
     EXPECT_GT(fastest_with_lag(400.0), 1e6) << "more";
 }
 
-TEST(FluidLoads, AreThoseOfAWholeStepAndOfTheShapesOwnSize) {
+TEST(FluidLoads, AreThoseOfAWholeStep) {
     Flight flight = floating(ideal());
     flight.advance_to(0.003);
     EXPECT_THAT(test::error_of([&] { return flight.fluid_load(0); }), HasSubstr("lies within one"));
-    Flight small({.gravity = no_gravity});
-    small.add(ellipsoid(), ideal(), {.smallest_size = 0.5, .largest_size = 0.5});
-    EXPECT_THAT(test::error_of([&] { return small.fluid_load(0); }), HasSubstr("own size alone"));
+}
+
+/// Whether each block of angular and linear parts is the same.
+void expect_near(const Matrix6d& a, const Matrix6d& b) {
+    for (const Eigen::Index row : {0, 3}) {
+        for (const Eigen::Index column : {0, 3}) {
+            const Matrix3d wanted = b.block<3, 3>(row, column);
+            const Matrix3d difference = a.block<3, 3>(row, column) - wanted;
+            EXPECT_LT(difference.norm(), 1e-9 * wanted.norm() + 1e-15);
+        }
+    }
+}
+
+TEST(FluidLoads, OfABodyOfAnotherSizeAreThoseOfABodyFileOfThatSize) {
+    Body body = test::rubber_ellipsoid();
+    body.tables = test::blunt_tables(body, 4);
+    BodyPhysics of_tables = ideal();
+    of_tables.loads = Loads::table;
+    of_tables.turbulence = Turbulence::table;
+    for (const BodyPhysics& physics : {of_tables, stirred()}) {
+        for (const double size : {0.3, 2.0}) {
+            Flight sized(in_moving_fluid());
+            Flight scaled(in_moving_fluid());
+            Release release{.velocity = Vector3d(0.2, -0.3, 0.4),
+                            .angular_velocity = Vector3d(2.0, 3.0, -4.0)};
+            scaled.add({test::scaled(body, size), "body"}, physics, release);
+            release.smallest_size = release.largest_size = size;
+            sized.add({body, "body"}, physics, release);
+            for (Flight* flight : {&sized, &scaled}) flight->advance_to(0.02);
+            const FluidLoad one = sized.fluid_load(0);
+            const FluidLoad other = scaled.fluid_load(0);
+            EXPECT_LT((one.wrench - other.wrench).head<3>().norm(), 1e-9 * other.wrench.head<3>().norm());
+            EXPECT_LT((one.wrench - other.wrench).tail<3>().norm(), 1e-9 * other.wrench.tail<3>().norm());
+            expect_near(one.added_inertia, other.added_inertia);
+            expect_near(one.damping, other.damping);
+        }
+    }
 }
 
 }  // namespace

@@ -6,6 +6,7 @@ import json
 import math
 import os
 import pathlib
+import shutil
 import signal
 import subprocess
 import sys
@@ -52,7 +53,7 @@ class Scenes(unittest.TestCase):
 
     def test_faults_name_the_place_and_the_remedy(self):
         for fault, scene in {
-            "did you mean 'density'": leaves(densty=600),
+            "scene: unknown key 'densty' in [[body]]; did you mean 'density'": leaves(densty=600),
             "scene['body'][0]['position'] is of the type set": leaves(position={1, 2}),
             "a list of 3 numbers": leaves(position=[0, 0]),
             "finite": leaves(position=[0, 0, math.nan]),
@@ -65,6 +66,18 @@ class Scenes(unittest.TestCase):
             self.assertNotIn("\n", str(caught.exception))
         with self.assertRaisesRegex(samara.Error, "nowhere.toml"):
             samara.simulate("nowhere.toml")
+
+
+class ReadyBodies(unittest.TestCase):
+    def test_a_wheel_brings_its_own(self):
+        with tempfile.TemporaryDirectory() as folder:
+            package = pathlib.Path(shutil.copytree(pathlib.Path(samara.__file__).parent, pathlib.Path(folder) / "samara"))
+            (package / "bodies").mkdir()
+            shutil.copy(ROOT / "runtime/bodies/sphere.body.h5", package / "bodies")
+            told = subprocess.run([sys.executable, "-c", "import samara; print(*samara.ready_bodies())"], check=True, text=True,
+                                  capture_output=True, env=os.environ | {"PYTHONPATH": folder})
+        self.assertEqual(told.stdout.split(), ["sphere"])
+        self.assertGreater(len(samara.ready_bodies()), 1)
 
 
 class Motions(unittest.TestCase):
@@ -150,6 +163,24 @@ class Motions(unittest.TestCase):
             self.assertFalse(samara.compare(self.motion, file)["agrees"])
         with self.assertRaisesRegex(samara.Error, "holds the bodies leaf"):
             samara.compare(self.motion, sphere, body="seed")
+        for window in ((0.4, 0.1), (math.nan, 0.5), (5, 6)):
+            with self.subTest(window), self.assertRaises(samara.Error):
+                samara.compare(self.motion, self.motion, window=window)
+            with self.subTest(window), self.assertRaises(samara.Error):
+                self.leaf.measure(window=window)
+
+    def test_a_progress_function_may_read_files_and_fly(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "motion.h5")
+            self.motion.write(file)
+            read = []
+
+            def look(done, total):
+                read.append(samara.Motion.read(file).runs + samara.simulate(leaves())["leaf"].copies)
+
+            samara.compare(self.motion, file, progress=look)
+            samara.simulate(leaves(), progress=look)
+        self.assertEqual(set(read), {5})
 
     def test_what_is_not_there_is_named(self):
         with self.assertRaisesRegex(KeyError, "the bodies are leaf"):
@@ -319,6 +350,59 @@ class LiveFlights(unittest.TestCase):
         self.flight.advance(0.5)
         self.assertLess(self.flight.poses("leaf").position[0, 2, 2], 0.0)
 
+    def test_a_host_finds_the_acceleration_of_the_flight_itself(self):
+        scene = leaves(spread={"angle": 0.5, "size": [0.5, 2]})
+        scene["scene"]["step"] = 2.0**-16
+        flight = samara.Flight(samara.Scene(scene))
+        flight.advance(2.0**-3)
+        for copy in range(3):
+            now = flight.poses("leaf")
+            wrench, added, damping = flight.fluid_load("leaf", copy=copy)
+            mass, center, inertia = flight.mass_properties("leaf", copy=copy)
+            self.assertEqual((wrench.shape, added.shape, damping.shape, center.shape), ((6,), (6, 6), (6, 6), (3,)))
+            x, y, z, w = now.orientation[0, copy]
+            turn = numpy.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                                [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                                [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
+            inertia = turn @ inertia @ turn.T
+            omega = now.angular_velocity[0, copy]
+            own = numpy.concatenate([-numpy.cross(omega, inertia @ omega), [0, 0, -9.81 * mass]])
+            body = numpy.block([[inertia, numpy.zeros((3, 3))], [numpy.zeros((3, 3)), mass * numpy.eye(3)]])
+            found = numpy.linalg.solve(body + added, own + wrench)
+            later = samara.Flight(samara.Scene(scene))
+            later.set_state(flight.state())
+            later.advance(2.0**-3 + 2.0**-16)
+            then = later.poses("leaf")
+            flown = numpy.concatenate([then.angular_velocity[0, copy] - omega, then.velocity[0, copy] - now.velocity[0, copy]]) * 2**16
+            numpy.testing.assert_allclose(found[3:], flown[3:], atol=5e-3 * numpy.linalg.norm(flown[3:]))
+            numpy.testing.assert_allclose(found[:3], flown[:3], atol=5e-3 * numpy.linalg.norm(flown[:3]))
+        self.flight.remove("leaf", copy=2)
+        with self.assertRaisesRegex(samara.Error, "removed"):
+            self.flight.fluid_load("leaf", copy=2)
+        flight.advance(2.0**-3 + 2.0**-17)
+        with self.assertRaisesRegex(samara.Error, "lies within one"):
+            flight.fluid_load("leaf")
+
+    def test_wind_and_ground_change_in_flight(self):
+        plain = samara.Flight(self.scene, runs=2)
+        self.flight.set_wind({"velocity": [3, 0, 0], "vortex": [{"position": [0, 0, 1], "circulation": 1.0, "core": 0.1}]})
+        for flight in (self.flight, plain):
+            flight.advance(0.3)
+        drift = self.flight.poses("leaf").position - plain.poses("leaf").position
+        self.assertTrue((drift[..., 0] > 0.1).all())
+        self.flight.set_wind({})
+        self.flight.set_ground(1.9)
+        self.flight.advance(3.0)
+        self.assertGreater(self.flight.poses("leaf").position[..., 2].min(), 1.9)
+        self.flight.set_ground(None)
+        for wrong in ({"velocty": [3, 0, 0]}, {"velocity": [3, 0]}, {"velocity": {1, 2}}, {"file": "nowhere.h5"}):
+            with self.subTest(wrong), self.assertRaises(samara.Error):
+                self.flight.set_wind(wrong)
+        with self.assertRaisesRegex(samara.Error, "^wind: unknown key 'velocty'"):
+            self.flight.set_wind({"velocty": [3, 0, 0]})
+        with self.assertRaisesRegex(samara.Error, "finite"):
+            self.flight.set_ground(math.inf)
+
     def test_contacts_are_arrays_of_runs_and_copies(self):
         scene = leaves()
         scene["scene"]["ground"] = -0.2
@@ -339,8 +423,10 @@ class LiveFlights(unittest.TestCase):
         self.assertTrue((met["time"] > 0).all())
 
     def test_wrong_forces_are_refused(self):
-        with self.assertRaises(TypeError):
-            self.flight.add_force("leaf", (1, 2))
+        for name, wrong in (("force", {"force": (1, 2)}), ("point", {"force": (1, 0, 0), "point": numpy.zeros((3, 1))}),
+                            ("moment", {"force": (1, 0, 0), "moment": "up"}), ("force", {"force": None})):
+            with self.subTest(wrong), self.assertRaisesRegex(TypeError, name + ": give 3 real numbers"):
+                self.flight.add_force("leaf", **wrong)
         with self.assertRaisesRegex(samara.Error, "force: give finite"):
             self.flight.add_force("leaf", (math.nan, 0, 0))
         with self.assertRaisesRegex(samara.Error, "impulse: give finite"):
@@ -369,6 +455,69 @@ class LiveFlights(unittest.TestCase):
         gc.collect()
         self.assertTrue(numpy.isfinite(position).all())
 
+    def test_a_progress_function_may_look_but_not_change(self):
+        seen = []
+
+        def look(done, total):
+            seen.append((self.flight.time, self.flight.poses("leaf").position.shape, self.flight.state()))
+            for change in (lambda: self.flight.advance(9), lambda: self.flight.set_pose("leaf", position=(0, 0, 0)),
+                           lambda: self.flight.add_force("leaf", (1, 0, 0)), lambda: self.flight.remove("leaf"),
+                           lambda: self.flight.set_state(seen[0][2])):
+                with self.assertRaisesRegex(samara.Error, "look at it, but not change it"):
+                    change()
+
+        self.flight.advance(0.5, progress=look)
+        self.assertEqual(seen[-1][:2], (0.5, (2, 3, 3)), "it is told of the end")
+        plain = samara.Flight(self.scene, runs=2)
+        plain.advance(0.5)
+        numpy.testing.assert_array_equal(self.flight.poses("leaf").position, plain.poses("leaf").position)
+
+    def test_a_progress_function_that_throws_leaves_a_flight_that_goes_on(self):
+        def stop(done, total):
+            raise ZeroDivisionError("enough")
+
+        scene = samara.Scene(LongFlights.long)
+        flight, plain = samara.Flight(scene), samara.Flight(scene)
+        with self.assertRaisesRegex(ZeroDivisionError, "enough"):
+            flight.advance(60.0, progress=stop)
+        self.assertLess(flight.time, 60.0)
+        flight.advance(flight.time + 0.1)
+        plain.advance(flight.time)
+        numpy.testing.assert_array_equal(flight.poses("leaf").position, plain.poses("leaf").position)
+
+    def test_an_interpreter_may_exit_in_the_middle_of_an_advance(self):
+        program = textwrap.dedent(f"""
+            import threading, samara
+            flight = samara.Flight(samara.Scene({LongFlights.long!r}))
+            begun = threading.Event()
+            thread = threading.Thread(target=flight.advance, args=(60.0,), daemon=True,
+                                      kwargs=dict(progress=lambda done, total: begun.set()))
+            thread.start()
+            begun.wait()
+        """)
+        ended = subprocess.run([sys.executable, "-c", program], capture_output=True, timeout=100, check=False)
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+
+    def test_arrays_of_any_memory_order_are_read_as_what_they_show(self):
+        place = numpy.array([1.0, 2.0, 3.0])
+        table = numpy.asfortranarray(numpy.tile(place, (4, 1)))
+        spread = numpy.repeat(place, 2)[::2]
+        for given in (table[2], spread, place[::-1][::-1], place.astype(numpy.float32), place.astype(">f8"), [1, 2, 3]):
+            self.flight.set_pose("leaf", position=given)
+            numpy.testing.assert_allclose(self.flight.poses("leaf").position[0, 0], place, rtol=1e-12)
+        for wrong in (place + 1j, numpy.array(["1", "2", "3"]), numpy.array([None, 2, 3]), table, place[:2], numpy.float64(1)):
+            with self.subTest(wrong), self.assertRaises(TypeError):
+                self.flight.set_pose("leaf", position=wrong)
+
+    def test_objects_outlive_what_they_came_from(self):
+        body = samara.simulate(leaves())["leaf"]
+        poses = samara.Flight(self.scene).poses("leaf")
+        table = samara.Body.read(ROOT / "runtime/bodies/leaf.body.h5").force_table
+        gc.collect()
+        self.assertGreater(body.ensemble()["descent_speed"], 0.0)
+        self.assertTrue(numpy.isfinite(poses.velocity).all())
+        self.assertTrue(numpy.isfinite(table).all())
+
     def test_calls_of_several_threads_wait_for_one_another(self):
         times = numpy.linspace(0.0, 0.5, 51)
         seen = []
@@ -395,8 +544,12 @@ class Bodies(unittest.TestCase):
         # A node of the map lies in the direction z: what is looked up there stands in the table.
         force, _ = body.loads([0, 0, 1], body.reynolds_numbers[-1])
         self.assertLess(numpy.abs(body.force_table[-1].reshape(-1, 3) - force).max(axis=1).min(), 1e-9)
-        with self.assertRaises(samara.Error):
-            body.loads([0, 0, 0], 1000)
+        for direction, reynolds_number in (([0, 0, 0], 1000), ([0, 0, math.nan], 1000), ([0, 0, 1], math.nan), ([0, 0, 1], -1)):
+            with self.subTest(direction), self.assertRaises(samara.Error):
+                body.loads(direction, reynolds_number)
+        for direction in ([0, 1], [[0, 1], [2, 3]], "up", numpy.zeros(4)):
+            with self.subTest(direction), self.assertRaises(TypeError):
+                body.loads(direction, 1000)
         with self.assertRaises(samara.Error):
             samara.Body.read(ROOT / "README.md")
 

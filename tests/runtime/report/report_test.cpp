@@ -9,6 +9,7 @@
 #include "internal/report/bake_verdict.hpp"
 #include "internal/report/html.hpp"
 #include "internal/report/report_program.hpp"
+#include "internal/report/words.hpp"
 #include "paths.hpp"
 #include "samara/body/body_file.hpp"
 #include "support/known_bodies.hpp"
@@ -105,6 +106,31 @@ TEST(BakeVerdict, HeedsWhatTheCasesTell) {
     EXPECT_EQ(verdict.findings.back().what, "falls");
 }
 
+TEST(BakeVerdict, NamesAnOpenFoamThatTheCasesAreNotTestedWith) {
+    Body body = well_baked(0.08);
+    const auto solved_by = [&](const std::string& version) {
+        body.tables->provenance = R"([{"name": "a", "direction": [1, 0, 0], "reynolds_number": 1e4,
+            "drag_coefficient": 1, "openfoam": ")" +
+                                  version + "\"}]";
+        return of_grade(judge_bake(body), Grade::limited);
+    };
+    EXPECT_THAT(solved_by("OPENFOAM=1912 patch=200626"), Not(Contains("solver")));
+    EXPECT_THAT(solved_by("10-c4cf895ad8fa"), Contains("solver"));
+}
+
+TEST(BakeVerdict, IsNotForSwingsThatSolvedFallsDoNotHave) {
+    const BakeVerdict verdict =
+        judge_bake(well_baked(0.08), {{Grade::bad, swings_of_falls, "differ by half"}});
+    EXPECT_EQ(verdict.headline, "Good for pictures and for speeds of descent, not for how it swings.");
+    EXPECT_THAT(verdict.not_for, ElementsAre(HasSubstr("frequencies and amplitudes of swings")));
+}
+
+TEST(BakeVerdict, IsNotForSpeedsThatSolvedFallsDoNotHave) {
+    const BakeVerdict verdict = judge_bake(well_baked(0.08), {{Grade::bad, "falls", "differ by half"}});
+    EXPECT_EQ(verdict.headline, "Good for pictures, not for figures.");
+    EXPECT_THAT(verdict.not_for, ElementsAre(HasSubstr("speeds of descent")));
+}
+
 TEST(BakeVerdict, SaysForWhichSceneAPartialBakeWasMade) {
     Body body = well_baked(0.08);
     body.tables->plan.subdivisions = 1;
@@ -113,6 +139,16 @@ TEST(BakeVerdict, SaysForWhichSceneAPartialBakeWasMade) {
     EXPECT_THAT(verdict.not_for, ElementsAre("scenes other than the one it was baked for"));
     EXPECT_THAT(verdict.findings,
                 Contains(Field(&Finding::text, HasSubstr("11 % of all directions were planned"))));
+}
+
+TEST(PerCent, IsShortAndWithoutExponents) {
+    EXPECT_EQ(per_cent(0.0012), "0.12 %");
+    EXPECT_EQ(per_cent(0.17), "17 %");
+    EXPECT_EQ(per_cent(0.9949), "99 %");
+    EXPECT_EQ(per_cent(0.9999), "100 %");
+    EXPECT_EQ(per_cent(1.24), "124 %");
+    EXPECT_EQ(in_plain_digits(13147.2), "13147");
+    EXPECT_EQ(in_plain_digits(0.2345678), "0.2346");
 }
 
 TEST(Base64, IsThatOfTheStandardsExamples) {
