@@ -16,12 +16,12 @@ inline constexpr double usual_rotational_drag_in_spin = 0.7;
 /// The same beside loads of the surface, which all bodies share; chosen on the reference falls together with
 /// the pressure's numbers (docs/surface-loads.md).
 struct SurfaceMotion {
-    double transport = 0.87;        ///< T over the added mass
-    double spin_lift = 1.49;        ///< and besides, alike in all axes, over a third of the added mass' trace
-    double drag_in_motion = 1.67;   ///< C_m
-    double drag_in_spin = 0.36;     ///< C_s
-    double rotational_drag = 0.07;  ///< C_w
-    double rotational_drag_in_spin = 1.53;  ///< C_r
+    double transport = 0.72;        ///< T over the added mass
+    double spin_lift = 1.67;        ///< and besides, alike in all axes, over a third of the added mass' trace
+    double drag_in_motion = 1.86;   ///< C_m
+    double drag_in_spin = 0.57;     ///< C_s
+    double rotational_drag = 0.02;  ///< C_w
+    double rotational_drag_in_spin = 1.66;  ///< C_r
 };
 
 /// The defaults for a body whose file holds none: guided by free falls of spheroids and a 1:2:4 ellipsoid in

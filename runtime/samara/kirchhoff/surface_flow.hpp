@@ -9,9 +9,9 @@ namespace samara {
 /// The two numbers of the pressure that all bodies share, chosen on the reference falls
 /// (docs/surface-loads.md).
 struct SurfacePressure {
-    double base = -0.59;  ///< over rho U^2 / 2, behind the body, and the least anywhere: a flow that
+    double base = -0.54;  ///< over rho U^2 / 2, behind the body, and the least anywhere: a flow that
                           ///< would have to go below leaves the surface
-    double separation_sine = 0.28;  ///< of the angle between flow and face at which the face is wholly in the
+    double separation_sine = 0.38;  ///< of the angle between flow and face at which the face is wholly in the
                                     ///< wake
 };
 
