@@ -287,6 +287,7 @@ void read_settings(TomlTable& table, Scene& scene) {
     }
     assign(scene.gravity, table.vector("gravity"));
     scene.ground = table.number("ground", any_number);
+    assign(scene.bodies_meet, table.boolean("bodies_meet"));
     if (scene.duration * scene.frame_rate > 1e8 || scene.duration / scene.step > 1e10) {
         throw table.fault("duration", "makes more than 1e8 frames or 1e10 steps; is a unit wrong?");
     }
