@@ -123,6 +123,7 @@ class SAMARA_PT_surroundings(bpy.types.Panel):
         layout.prop(surroundings, "use_ground")
         if surroundings.use_ground:
             layout.prop(surroundings, "ground")
+        layout.prop(surroundings, "bodies_meet")
 
 
 CLASSES = (SAMARA_PT_body, SAMARA_PT_surroundings)

@@ -43,6 +43,7 @@ class Settings(ctypes.Structure):
         ("ground", c_double),
         ("wind", c_void_p),
         ("wind_context", c_void_p),
+        ("bodies_meet", c_int32),
     ]
 
 

@@ -6,7 +6,7 @@ import math
 
 from . import keyframes, live
 from .conventions import continuous
-from .flight import FlightJob
+from .flight import FlightJob, together
 from .job_operator import JobOperator
 from .objects import flown_objects, has_keys, request_of, surroundings_of
 from .samara_library import SamaraError
@@ -62,7 +62,7 @@ def requests_of(context, objects):
                 if i < led_frames(o):
                     location, rotation, _ = o.matrix_basis.decompose()
                     ways[o.name].append((tuple(location), tuple(rotation)))
-        return [requests[o.name] for o in objects], ways
+        return together([requests[o.name] for o in objects]), ways
     finally:
         if scene.frame_current_final != now:
             _set_frame(scene, now)

@@ -9,20 +9,16 @@
 namespace samara {
 namespace {
 
-// Chosen by trial: what they must give is what the tests BodyContact and BodyContactStability hold them to.
-constexpr double most_turn = 0.25;  // rad, in a part
-constexpr double most_way = 0.5;    // past another, over the smaller radius, in a part
+// Chosen by trial: what they must give is what the tests Encounters and EncountersStability hold them to.
+constexpr double most_turn = 0.25;   // rad, in a part
+constexpr double most_way = 0.5;     // past another, over the smaller radius, in a part
+constexpr double most_fall = 0.005;  // from a standstill, over the radius, in a part
 constexpr int most_parts = 64;
-constexpr int most_attempts = 6;       // to find where bodies meet within a part
-constexpr double finest_piece = 1e-3;  // of a way, to which the place is found where two meet
-constexpr double held_back = 0.25;     // of its kinetic energy, that one which stays keeps
-constexpr int most_rounds = 20;        // in which bodies are moved apart
-constexpr double too_close = 0.1;      // over the skin: nearer than this they are moved apart
-constexpr double parted = 0.2;         // the same, to where they are
-constexpr double closest = 0.05;       // the same, that must be left
-constexpr double most_parting = 0.5;   // over the skin, by which those that overlap are moved in a part
-constexpr double parting_speed = 1.0;  // radii a second at which bodies that overlapped are moved apart
-constexpr double resting_way = 1e-3;   // in a step, over the radius, that counts as none
+constexpr int most_attempts = 6;      // to find where bodies meet within a part
+constexpr double held_back = 0.25;    // of its kinetic energy, that one which stays keeps
+constexpr int most_rounds = 20;       // in which bodies are moved apart
+constexpr double resting_way = 2e-4;  // in a step, over the radius, that counts as none
+constexpr double no_way = 2e-5;       // the same, which what rests is taken back by
 constexpr double still = 1e-2;  // speed that counts as none, over what the step would give without contact
 constexpr double ground_touching = 1e-5;  // gap to the ground that counts as none, over the radius
 constexpr std::size_t most_ground_points = 12;
@@ -43,10 +39,6 @@ BodyPlace carried(const BodyPlace& place, const Vector6d& velocity, double time)
         result.orientation.normalize();
     }
     return result;
-}
-
-double speed_of_points(const Vector6d& velocity, double radius) {
-    return velocity.tail<3>().norm() + radius * velocity.head<3>().norm();
 }
 
 /// Of points that are near the ground or obstacles those with the smallest gap, and with the greatest
@@ -97,6 +89,9 @@ int CompanyStep::parts_of(std::span<const Pair> pairs, double time_step) const {
     for (std::size_t i = 0; i < companions_.size(); ++i) {
         const double turn = at_both(i, [](const Vector6d& u) { return u.head<3>().norm(); });
         parts = std::max(parts, time_step * turn / most_turn);
+        const Vector6d change = companions_[i].end_velocity - companions_[i].begin_velocity;
+        const double radius = companions_[i].body->contact_points.bounding_radius;
+        parts = std::max(parts, std::sqrt(0.5 * time_step * change.tail<3>().norm() / (most_fall * radius)));
     }
     for (const auto& [a, b] : pairs) {
         const Companion& first = companions_[a];
@@ -114,8 +109,10 @@ void CompanyStep::start(double time_step, int parts) {
     movers_.resize(companions_.size());
     bodies_.resize(companions_.size());
     for (std::size_t i = 0; i < companions_.size(); ++i) {
-        const Companion& companion = companions_[i];
+        Companion& companion = companions_[i];
         Mover& mover = movers_[i];
+        companion.touched = false;
+        mover.met = {};
         mover.place = companion.begin;
         mover.velocity = companion.begin_velocity;
         const Vector6d change = companion.end_velocity - companion.begin_velocity;
@@ -152,131 +149,6 @@ void CompanyStep::begin_part(double time_step) {
         mover.energy_before = energy_of(i, mover.place, mover.velocity);
         mover.alone = carried(mover.place, bodies_[i].velocity, time_step);
     }
-}
-
-void CompanyStep::find_pairs(std::span<const Pair> pairs, double time_step) {
-    near_.clear();
-    for (const auto& [a, b] : pairs) {
-        const double first_radius = bodies_[a].radius;
-        const double second_radius = bodies_[b].radius;
-        const double apart = skin * std::min(first_radius, second_radius);
-        const auto fastest = [&](std::size_t i) {
-            return std::max(speed_of_points(movers_[i].velocity, bodies_[i].radius),
-                            speed_of_points(bodies_[i].velocity, bodies_[i].radius));
-        };
-        // Impulses may stop either, or turn it twice as fast.
-        const double reach = 2.0 * time_step * (fastest(a) + fastest(b)) + 2.0 * apart;
-        const double distance = (movers_[a].place.position - movers_[b].place.position).norm();
-        if (distance - first_radius - second_radius > reach) continue;
-        const Meeting met = meeting(hull(a, movers_[a].place), hull(b, movers_[b].place), reach);
-        if (met.gap > reach) continue;
-        near_.push_back({a, b, met.normal, met.gap, apart});
-        if (!passes_by(near_.back())) add_points(near_.back(), met, 0.0, time_step);
-    }
-}
-
-BodyPlace CompanyStep::on_the_way(std::size_t i, double share) const {
-    const Mover& mover = movers_[i];
-    if (share == 0.0) return mover.before;
-    return {mover.before.position + share * (mover.place.position - mover.before.position),
-            mover.before.orientation.slerp(share, mover.place.orientation)};
-}
-
-/// Of two that meet at a share of their ways. Where they do not as the part begins, what turning adds to the
-/// way that velocities make is taken from the gap.
-void CompanyStep::add_points(const Near& near, const Meeting& met, double share, double time_step) {
-    const auto arm = [&](std::size_t i, const Vector3d& point) {
-        const BodyPlace there = on_the_way(i, share);
-        const Vector3d of_centre = point + companions_.front().begin.position - there.position;
-        if (share == 0.0) return of_centre;
-        return Vector3d(movers_[i].before.orientation * (there.orientation.conjugate() * of_centre));
-    };
-    const auto beyond_velocity = [&](std::size_t i, const Vector3d& of_centre) {
-        const Mover& mover = movers_[i];
-        const Vector3d own = mover.before.orientation.conjugate() * of_centre;
-        const Vector3d way = mover.place.orientation * own - of_centre;
-        return Vector3d(way - time_step * mover.velocity.head<3>().cross(of_centre));
-    };
-    for (std::size_t k = 0; k < met.count; ++k) {
-        const Vector3d first_arm = arm(near.first, met.points[k].on_first);
-        const Vector3d second_arm = arm(near.second, met.points[k].on_second);
-        double gap = met.normal.dot(movers_[near.first].before.position + first_arm -
-                                    movers_[near.second].before.position - second_arm);
-        if (share > 0.0) {
-            const double turned_by = met.normal.dot(beyond_velocity(near.first, first_arm) -
-                                                    beyond_velocity(near.second, second_arm));
-            gap += std::min(0.0, turned_by);
-        }
-        points_.push_back({.first = near.first,
-                           .second = near.second,
-                           .first_arm = first_arm,
-                           .second_arm = second_arm,
-                           .normal = met.normal,
-                           .allowed_speed = std::max(0.0, gap - near.apart) / time_step,
-                           .friction = ground_friction});
-    }
-}
-
-/// Whether two that would be beyond their plane after the part, left alone, are then parted by another that
-/// parts them before as well.
-bool CompanyStep::passes_by(const Near& near) const {
-    if (near.gap <= near.apart) return false;
-    const MeetingHull first = hull(near.first, movers_[near.first].alone);
-    const MeetingHull second = hull(near.second, movers_[near.second].alone);
-    if (gap_along(first.hull, second.hull, near.normal) >= 0.0) return false;  // it may come to, otherwise
-    const Parting later = parting(first, second, near.apart);
-    return !later.overlap && parted_before(near, later.normal, near.apart) && later.gap >= near.apart;
-}
-
-/// Whether a plane parted two by a gap when the part began.
-bool CompanyStep::parted_before(const Near& near, const Vector3d& normal, double gap) const {
-    return gap_along(hull(near.first, movers_[near.first].before).hull,
-                     hull(near.second, movers_[near.second].before).hull, normal) >= gap;
-}
-
-/// How much of their ways, up to 1, two surely come by without passing through each other: at both ends of
-/// each piece of it one plane leaves them a gap.
-double CompanyStep::free_share(const Near& near, double least) const {
-    const auto hulls = [&](double share) {
-        return std::pair(hull(near.first, on_the_way(near.first, share)),
-                         hull(near.second, on_the_way(near.second, share)));
-    };
-    auto [first, second] = hulls(0.0);
-    Vector3d normal = near.normal;
-    double share = 0.0;
-    double piece = 1.0;
-    while (share < 1.0 && piece >= finest_piece) {
-        const double next_share = std::min(1.0, share + piece);
-        const auto [next_first, next_second] = hulls(next_share);
-        if (gap_along(next_first.hull, next_second.hull, normal) < least) {
-            const Parting there = parting(next_first, next_second, near.apart);
-            const bool is_free = !there.overlap && there.gap >= least &&
-                                 gap_along(first.hull, second.hull, there.normal) >= 0.0;
-            if (!is_free) {
-                piece *= 0.5;
-                continue;
-            }
-            normal = there.normal;
-        }
-        share = next_share;
-        first = next_first;
-        second = next_second;
-    }
-    return share;
-}
-
-bool CompanyStep::find_passages(double time_step) {
-    bool found = false;
-    for (const Near& near : near_) {
-        if (near.gap < closest * near.apart) continue;
-        const double share = free_share(near, closest * near.apart);
-        if (share >= 1.0) continue;
-        const Meeting met = meeting(hull(near.first, on_the_way(near.first, share)),
-                                    hull(near.second, on_the_way(near.second, share)), 4.0 * near.apart);
-        add_points(near, met, share, time_step);
-        found = true;
-    }
-    return found;
 }
 
 void CompanyStep::find_ground(const CompanyGround& ground, double time, double time_step) {
@@ -344,47 +216,11 @@ void CompanyStep::move(double time_step) {
         mover.velocity = bodies_[i].velocity;
         mover.energy = energy_of(i, mover.before, mover.velocity);
         mover.shift.setZero();
-        mover.stays = false;
+        mover.held = 0;
         // Nothing met: halfway between the velocities, as the step of a body alone has it.
         const Vector6d way =
             mover.pressed ? mover.velocity : Vector6d(0.5 * (mover.velocity_before + mover.velocity));
         mover.place = carried(mover.before, way, time_step);
-    }
-}
-
-void CompanyStep::part_pairs(double time_step, int round, bool& moved) {
-    for (const Near& near : near_) {
-        Mover& a = movers_[near.first];
-        Mover& b = movers_[near.second];
-        const MeetingHull first = hull(near.first, a.place);
-        const MeetingHull second = hull(near.second, b.place);
-        Vector3d normal = near.normal;
-        double gap = gap_along(first.hull, second.hull, normal);
-        if (gap >= too_close * near.apart) continue;
-        const Parting later = parting(first, second, near.apart);
-        const bool began_parted = near.gap > 0.0;
-        const bool is_plane = !later.overlap && parted_before(near, later.normal, 0.0);
-        if (is_plane || !began_parted) {
-            if (later.gap >= too_close * near.apart) continue;
-            normal = later.normal;
-            gap = later.gap;
-        }
-        double way = parted * near.apart - gap;
-        const double radius = std::min(bodies_[near.first].radius, bodies_[near.second].radius);
-        if (!began_parted) {
-            if (round > 0) continue;
-            way = std::min({way, most_parting * near.apart, time_step * parting_speed * radius});
-        }
-        const auto yields = [&](std::size_t i) {
-            return normal.dot(bodies_[i].inverse_inertia.bottomRightCorner<3, 3>() * normal);
-        };
-        const double share = yields(near.first) / (yields(near.first) + yields(near.second));
-        a.shift += share * way * normal;
-        a.place.position += share * way * normal;
-        b.shift -= (1.0 - share) * way * normal;
-        b.place.position -= (1.0 - share) * way * normal;
-        a.pressed = b.pressed = true;
-        moved = true;
     }
 }
 
@@ -410,25 +246,6 @@ void CompanyStep::part_from_ground(const CompanyGround& ground, double time, dou
     }
 }
 
-void CompanyStep::hold_back() {
-    bool again = true;
-    while (again) {
-        again = false;
-        for (const Near& near : near_) {
-            Mover& a = movers_[near.first];
-            Mover& b = movers_[near.second];
-            const double least = closest * near.apart;
-            if (near.gap < least || (a.stays && b.stays)) continue;  // what overlapped is to come out
-            if (free_share(near, least) >= 1.0) continue;
-            for (Mover* mover : {&a, &b}) {
-                mover->place = mover->before;
-                mover->stays = mover->pressed = true;
-            }
-            again = true;
-        }
-    }
-}
-
 void CompanyStep::pay() {
     double owed = 0.0;
     double left = 0.0;
@@ -437,9 +254,12 @@ void CompanyStep::pay() {
         if (!mover.pressed) continue;
         companions_[i].touched = true;
         double most = mover.energy;
-        if (mover.stays) {
+        if (mover.held > 0) {
+            // No more than its weight did on the way.
+            const double work = mover.load.dot(mover.place.position - mover.before.position);
+            most = std::min(most, std::max(0.0, mover.energy_before + work));
             // Slower they find a way: else the same would happen in the next part.
-            most = held_back * std::min(most, mover.energy_before);
+            if (mover.held == 2) most *= held_back;
         } else {
             most -= std::max(0.0, -mover.load.dot(mover.shift));
         }
@@ -462,14 +282,13 @@ void CompanyStep::note(double time) {
     for (const JointPoint& point : points_) {
         if (point.impulse.isZero(0.0)) continue;
         const auto add = [&](std::size_t i, std::size_t other, double sign, const Vector3d& arm) {
-            if (companions_[i].met == nullptr) return;
-            companions_[i].met->add({.impulse = sign * point.impulse,
-                                     .strongest = point.impulse.norm(),
-                                     .point = movers_[i].place.position + arm,
-                                     .normal = sign * point.normal,
-                                     .time = time,
-                                     .obstacle = point.obstacle,
-                                     .body = other == JointPoint::none ? -1 : companions_[other].number});
+            movers_[i].met.add({.impulse = sign * point.impulse,
+                                .strongest = point.impulse.norm(),
+                                .point = movers_[i].place.position + arm,
+                                .normal = sign * point.normal,
+                                .time = time,
+                                .obstacle = point.obstacle,
+                                .body = other == JointPoint::none ? -1 : companions_[other].number});
         };
         add(point.first, point.second, 1.0, point.first_arm);
         if (point.second == JointPoint::none) continue;
@@ -488,15 +307,24 @@ void CompanyStep::settle(double time_step) {
         companion.rests = begun < resting_energy * movers_[i].load.norm() * radius &&
                           left < still * still * energy_of(i, companion.begin, change) &&
                           time_step * speed_of_points(movers_[i].velocity, radius) < resting_way * radius;
-        companion.end = companion.rests ? companion.begin : movers_[i].place;
+        if (companion.met != nullptr && movers_[i].met.strongest > 0.0) companion.met->add(movers_[i].met);
+        const double way = (movers_[i].place.position - companion.begin.position).norm() +
+                           radius * movers_[i].place.orientation.angularDistance(companion.begin.orientation);
+        companion.end = companion.rests && way <= no_way * radius ? companion.begin : movers_[i].place;
         companion.end_velocity = companion.rests ? Vector6d::Zero() : movers_[i].velocity;
     }
 }
 
-void CompanyStep::take(std::span<Companion> companions, std::span<const Pair> pairs,
-                       const CompanyGround& ground, double time_step) {
-    companions_ = companions;
-    const int parts = parts_of(pairs, time_step);
+/// Whether impulses turned a body by so much in a part that its ends say little of what is between.
+bool CompanyStep::turned_far(double time_step) const {
+    return std::any_of(movers_.begin(), movers_.end(), [&](const Mover& mover) {
+        return mover.pressed && time_step * mover.velocity.head<3>().norm() > 2.0 * most_turn;
+    });
+}
+
+/// Takes the step in so many parts; false where they should be more.
+bool CompanyStep::take_parts(std::span<const Pair> pairs, const CompanyGround& ground, double time_step,
+                             int parts) {
     const double part = time_step / parts;
     start(time_step, parts);
     for (int k = 0; k < parts; ++k) {
@@ -512,6 +340,7 @@ void CompanyStep::take(std::span<Companion> companions, std::span<const Pair> pa
             move(part);
             if (!find_passages(part)) break;
         }
+        if (2 * parts <= most_parts && turned_far(part)) return false;
         note(time + part);
         bool moved = true;
         for (int round = 0; round < most_rounds && moved; ++round) {
@@ -522,6 +351,13 @@ void CompanyStep::take(std::span<Companion> companions, std::span<const Pair> pa
         hold_back();
         pay();
     }
+    return true;
+}
+
+void CompanyStep::take(std::span<Companion> companions, std::span<const Pair> pairs,
+                       const CompanyGround& ground, double time_step) {
+    companions_ = companions;
+    for (int parts = parts_of(pairs, time_step); !take_parts(pairs, ground, time_step, parts);) parts *= 2;
     settle(time_step);
 }
 

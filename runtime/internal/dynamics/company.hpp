@@ -26,7 +26,7 @@ struct Companion {
     BodyPlace end;                 ///< after it; at first as if nothing were in its way
     Vector6d end_velocity;         ///< the same
     bool touched = false;          ///< whether anything was, so that the end is another than it was at first
-    bool rests = false;            ///< whether it lies still, where it was before the step
+    bool rests = false;            ///< whether it lies still at the end
     ContactRecord* met = nullptr;  ///< gets what it met; null: not asked for
 };
 
@@ -40,17 +40,25 @@ struct CompanyGround {
 /// How far (m) two bodies that touch stay apart, over the smaller bounding radius: what keeps the plane
 /// between them well defined. Chosen, far below what a picture shows.
 inline constexpr double skin = 1e-3;
+/// What must be left of it at the least.
+inline constexpr double closest = 0.05;
+
+/// No point of a body within a radius (m) of its centre of mass is faster (m/s). `velocity`: (omega, v).
+inline double speed_of_points(const Vector6d& velocity, double radius) {
+    return velocity.tail<3>().norm() + radius * velocity.head<3>().norm();
+}
 
 /// Steps bodies that may touch each other. Keeps its memory from step to step.
 ///
-/// The step is cut into parts, in which no body turns by more than a quarter of a radian or passes another by
-/// more than half its radius. In each the bodies get their share of what the step does to them alone, and
-/// joint impulses (joint_impulses.hpp), at the points where they may meet within the part, allow each gap to
-/// close and no more; with the velocities that these leave the bodies move. So much is Moreau's stepping:
-/// whatever the step, contact takes energy and gives none. Where two come through each other at other points,
-/// those where they first touch on their way are added, and the impulses found anew. What turning still
-/// brings too close is moved apart, and where that does not keep two from passing through each other both
-/// stay where the part began; either is paid for in kinetic energy.
+/// The step is cut into parts, in which no body turns by more than a quarter of a radian, passes another by
+/// more than half its radius or would fall from a standstill by more than a two-hundredth of it. In each the
+/// bodies get their share of what the step does to them alone, and joint impulses (joint_impulses.hpp), at
+/// the points where they may meet within the part, allow each gap to close and no more; with the velocities
+/// that these leave the bodies move. So much is Moreau's stepping: whatever the step, contact takes energy
+/// and gives none. Where two come through each other at other points, those where they first touch on their
+/// way are added, and the impulses found anew. What turning still brings too close is moved apart, and where
+/// that does not keep two from passing through each other both stop on their way; either is paid for in
+/// kinetic energy.
 class CompanyStep {
   public:
     using Pair = std::pair<std::size_t, std::size_t>;
@@ -67,9 +75,10 @@ class CompanyStep {
         Vector6d gain;  ///< of velocity, in a part: of omega in body axes, so that spin keeps its energy
         Vector3d load;  ///< N: what pulls it
         double energy_before, energy;  ///< J: when the part began, and after the impulses
+        ContactRecord met;             ///< in the step
         Vector3d shift;                ///< m: by which it was moved apart
         bool pressed;                  ///< whether anything pushed it, in this part or before
-        bool stays;                    ///< whether it stayed where the part began
+        int held;  ///< 1: it stopped on its way, 2: it stayed where the part began; 0: neither
     };
     /// Two that may meet in a part.
     struct Near {
@@ -77,9 +86,17 @@ class CompanyStep {
         Vector3d normal;
         double gap;
         double apart;  ///< m: the gap that they keep
+
+        /// Whether there was a gap when the part began; what overlapped is to come out, and may not go
+        /// deeper.
+        [[nodiscard]] bool began_parted() const { return gap > 0.0; }
+        /// The gap (m) that must be left.
+        [[nodiscard]] double least() const;
     };
 
     [[nodiscard]] int parts_of(std::span<const Pair> pairs, double time_step) const;
+    bool take_parts(std::span<const Pair> pairs, const CompanyGround& ground, double time_step, int parts);
+    [[nodiscard]] bool turned_far(double time_step) const;
     void start(double time_step, int parts);
     void begin_part(double time_step);
     void find_pairs(std::span<const Pair> pairs, double time_step);
@@ -97,7 +114,8 @@ class CompanyStep {
     [[nodiscard]] MeetingHull hull(std::size_t i, const BodyPlace& place) const;
     [[nodiscard]] bool passes_by(const Near& near) const;
     [[nodiscard]] bool parted_before(const Near& near, const Vector3d& normal, double gap) const;
-    [[nodiscard]] double free_share(const Near& near, double least) const;
+    [[nodiscard]] double free_share(const Near& near) const;
+    [[nodiscard]] bool went_deeper(const Near& near) const;
     [[nodiscard]] BodyPlace on_the_way(std::size_t i, double share) const;
     void add_points(const Near& near, const Meeting& met, double share, double time_step);
     [[nodiscard]] double energy_of(std::size_t i, const BodyPlace& place, const Vector6d& velocity) const;

@@ -10,7 +10,7 @@
 namespace samara {
 namespace {
 
-// Chosen by trial: what they must give, rest and no energy, is what the tests BodyContact hold them to.
+// Chosen by trial: what they must give, rest and no energy, is what the tests Encounters hold them to.
 constexpr int most_sweeps = 60;     // forwards and backwards
 constexpr double converged = 1e-5;  // change of an impulse in a sweep, over the largest
 

@@ -49,7 +49,9 @@ void Encounters::take_step(const std::vector<std::unique_ptr<FlightKind>>& all,
     for_each_run([&](std::size_t run) { gather(runs_[run], run, kinds, ground); });
     std::vector<BatchReport> reports(kinds.size());
     for (int guess = 0; guess < most_guesses; ++guess) {
-        for_each_run([&](std::size_t run) { find_companies(runs_[run]); });
+        for_each_run([&](std::size_t run) {
+            if (!runs_[run].is_guessed) find_companies(runs_[run]);
+        });
         for (Run& run : runs_) {
             for (const Member& member : run.members) {
                 const bool in_company = member.company != JointPoint::none;
@@ -63,7 +65,10 @@ void Encounters::take_step(const std::vector<std::unique_ptr<FlightKind>>& all,
         }
         for (std::size_t i = 0; i < kinds.size(); ++i) reports[i] = kinds[i]->take_steps(1);
         bool again = false;
-        for (Run& run : runs_) again = went_farther(run, ground) || again;
+        for (Run& run : runs_) {
+            run.is_guessed = !went_farther(run, ground);
+            again = again || !run.is_guessed;
+        }
         if (!again) break;
     }
     for_each_run([&](std::size_t run) { meet(runs_[run], surroundings, ground); });
@@ -73,6 +78,7 @@ void Encounters::take_step(const std::vector<std::unique_ptr<FlightKind>>& all,
 void Encounters::gather(Run& run, std::size_t number, const std::vector<FlightKind*>& kinds,
                         const Ground& ground) const {
     run.members.clear();
+    run.is_guessed = false;
     run.gaps.clear();
     for (FlightKind* kind : kinds) {
         Batch& batch = kind->batch();
@@ -247,7 +253,8 @@ void Encounters::meet_company(Run& run, const Surroundings& surroundings, const 
         const Member& member = run.members[run.numbers[k]];
         Batch& batch = member.kind->batch();
         BodyState state = batch.state(member.index);
-        if (companion.rests) {
+        const bool has_stayed = companion.rests && companion.end.position == member.place.position;
+        if (has_stayed) {
             state.position = member.before.position;
             state.orientation = member.before.orientation;
             stay_on(ground, state);
@@ -257,10 +264,10 @@ void Encounters::meet_company(Run& run, const Surroundings& surroundings, const 
             state.orientation = companion.end.orientation;
             state.velocity << to_body * companion.end_velocity.head<3>(),
                 to_body * (companion.end_velocity.tail<3>() + ground.velocity);
-            state.at_rest = false;
+            state.at_rest = companion.rests;
         }
         batch.set_state(member.index, state);
-        if (companion.rests && state.position == member.before.position) {
+        if (has_stayed && state.position == member.before.position) {
             // Units of another size would round the place.
             BodyState own = batch.own_state(member.index);
             own.position = member.own.position;

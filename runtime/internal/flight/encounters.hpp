@@ -52,6 +52,7 @@ class Encounters {
         std::vector<Companion> companions;
         std::vector<std::size_t> numbers;
         CompanyStep step;
+        bool is_guessed = false;  ///< whether the companies of this step have held so far
     };
 
     void gather(Run& run, std::size_t number, const std::vector<FlightKind*>& kinds,

@@ -72,6 +72,7 @@ class FlightKind {
     }
     [[nodiscard]] std::size_t copies() const noexcept { return static_cast<std::size_t>(release_.count); }
     [[nodiscard]] Batch& batch() noexcept { return batch_; }
+    [[nodiscard]] const Batch& batch() const noexcept { return batch_; }
     [[nodiscard]] const Surroundings& surroundings() const noexcept { return surroundings_; }
     /// Of the bodies' hull, where they meet others.
     [[nodiscard]] const std::vector<HullFace>& faces() const noexcept { return faces_; }

@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "samara/base/linear_algebra.hpp"
+#include "samara/body/look_mesh.hpp"
 #include "samara/physics/body_physics.hpp"
 #include "samara/physics/fluid.hpp"
 #include "samara/physics/obstacle.hpp"
@@ -20,7 +22,8 @@ struct SceneBody : BodyPhysics, Release {
     std::string name;             ///< unique in the scene
     std::filesystem::path shape;  ///< a shape file or a .body.h5, as found from the scene file's folder
     double scale = 1.0;           ///< metres for one unit of the shape file
-    bool models_auto = false;     ///< what the model advice says is to be flown (docs/plan.md)
+    std::shared_ptr<const LookMesh> look;  ///< in metres and shape axes: what exports show; null: its surface
+    bool models_auto = false;              ///< what the model advice says is to be flown (docs/plan.md)
 };
 
 /// A scene file, checked: every number is finite and in its range.
