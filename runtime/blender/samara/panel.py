@@ -44,6 +44,9 @@ class SAMARA_PT_body(bpy.types.Panel):
         layout.prop(body, "velocity")
         layout.prop(body, "angular_velocity")
         layout.prop(body, "release")
+        layout.prop(body, "returns")
+        if body.returns > 0:
+            layout.prop(body, "return_blend")
 
         column = layout.column()
         column.operator("samara.copy_settings", icon="COPYDOWN")

@@ -167,7 +167,7 @@ Parting parting(const MeetingHull& first, const MeetingHull& second, double enou
     Simplex simplex;
     const auto of_first = [&](const Vector3d& direction) { return first.hull.farthest(direction); };
     const auto of_second = [&](const Vector3d& direction) { return second.hull.farthest(direction); };
-    if (!nearest_way(of_first, of_second, simplex, way)) return overlapping(first, second);
+    if (!nearest_way(of_first, of_second, simplex, way, enough)) return overlapping(first, second);
     const Vector3d normal = way.normalized();
     const double gap = gap_along(first.hull, second.hull, normal);
     if (!(gap > 0.0)) return overlapping(first, second);
