@@ -14,6 +14,7 @@ from .objects import flown_objects, has_keys, request_of, surroundings_of
 from .samara_library import SamaraError
 
 
+MOST_KEYED_SPEED = 100.0  # m/s: what is faster is a jump, as of emitters
 _BEFORE = 0.25  # frames before the release, or after the return, from which the keys' velocities are taken
 
 
@@ -34,11 +35,17 @@ def _let_go(scene, o, surroundings):
     _set_frame(scene, scene.frame_start + frames)
     location, rotation, _ = o.matrix_basis.decompose()
     seconds = _BEFORE * surroundings.frame_seconds
+    velocity = (location - before_location) / seconds
+    if surroundings.metres_per_unit * velocity.length > MOST_KEYED_SPEED:
+        raise SamaraError(
+            f"{o.name}: its keys jump just before its release, at {surroundings.metres_per_unit * velocity.length:.3g} m/s, "
+            f"and {MOST_KEYED_SPEED:g} is the most; smooth them there, or set Release elsewhere"
+        )
     w, *axis = rotation @ before_rotation.conjugated()
     length = math.hypot(*axis)
     angle = 2.0 * math.atan2(math.copysign(length, w), abs(w))
     turning = [x / length * angle / seconds if length > 0.0 else 0.0 for x in axis]
-    return request_of(o, surroundings, (frames, [x / seconds for x in location - before_location], turning))
+    return request_of(o, surroundings, (frames, list(velocity), turning))
 
 
 class _KeyedWay:

@@ -115,7 +115,6 @@ class CompanyStep {
     [[nodiscard]] bool passes_by(const Near& near) const;
     [[nodiscard]] bool parted_before(const Near& near, const Vector3d& normal, double gap) const;
     [[nodiscard]] double free_share(const Near& near) const;
-    [[nodiscard]] bool went_deeper(const Near& near) const;
     [[nodiscard]] BodyPlace on_the_way(std::size_t i, double share) const;
     void add_points(const Near& near, const Meeting& met, double share, double time_step);
     [[nodiscard]] double energy_of(std::size_t i, const BodyPlace& place, const Vector6d& velocity) const;

@@ -140,13 +140,6 @@ double CompanyStep::Near::least() const {
     return std::min(closest * apart, 0.5 * gap);
 }
 
-/// Of two that overlapped.
-bool CompanyStep::went_deeper(const Near& near) const {
-    const Parting now = parting(hull(near.first, movers_[near.first].place),
-                                hull(near.second, movers_[near.second].place), near.apart);
-    return now.gap < near.gap - 1e-3 * near.apart;
-}
-
 bool CompanyStep::find_passages(double time_step) {
     bool found = false;
     for (const Near& near : near_) {
@@ -198,8 +191,8 @@ void CompanyStep::hold_back() {
         for (const Near& near : near_) {
             Mover& a = movers_[near.first];
             Mover& b = movers_[near.second];
-            if (a.held == 2 && b.held == 2) continue;
-            const double share = near.began_parted() ? free_share(near) : went_deeper(near) ? 0.0 : 1.0;
+            if (!near.began_parted() || (a.held == 2 && b.held == 2)) continue;
+            const double share = free_share(near);
             if (share >= 1.0) continue;
             const BodyPlace places[] = {on_the_way(near.first, share), on_the_way(near.second, share)};
             // As far as they come freely; where that is in another's way, not at all.

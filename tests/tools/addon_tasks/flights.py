@@ -173,7 +173,12 @@ def returned(file):
     found["returned"] = matrices([o], frames)[o.name]
     found["fault"] += run(bpy.ops.samara.simulate)
     found["again"] = matrices([o], frames)[o.name]
-    body.release = 24.0
+    o.keyframe_insert("location", frame=20)
+    o.location.x += 600.0
+    o.keyframe_insert("location", frame=21)
+    body.release, body.returns = 10.0, 0
+    found["jump"] = run(bpy.ops.samara.simulate)
+    body.release, body.returns = 24.0, 24
     found["too_early"] = run(bpy.ops.samara.simulate)
     body.release = 0.0
     clear_keys([o])
@@ -325,4 +330,4 @@ def scrub(file, count, frames, folder):
     return found
 
 
-TASKS = (keys, live, masses, sizes, led, cache, errors, scrub)
+TASKS = (keys, live, masses, sizes, led, returned, meeting, cache, errors, scrub)
