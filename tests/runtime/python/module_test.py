@@ -319,6 +319,17 @@ class LiveFlights(unittest.TestCase):
         self.flight.advance(0.5)
         self.assertLess(self.flight.poses("leaf").position[0, 2, 2], 0.0)
 
+    def test_bodies_meet_where_the_scene_says_so(self):
+        scene = leaves()
+        scene["scene"]["bodies_meet"] = True
+        scene["scene"]["ground"] = -0.05
+        flight = samara.Flight(samara.Scene(scene), runs=1)
+        flight.watch_contacts(True)
+        flight.advance(2.0)
+        met = flight.take_contacts("leaf")
+        self.assertTrue(((met["body"] >= -1) & (met["body"] < met["body"].size)).all())
+        self.assertTrue((met["obstacle"] == -1).all())
+
     def test_contacts_are_arrays_of_runs_and_copies(self):
         scene = leaves()
         scene["scene"]["ground"] = -0.2
