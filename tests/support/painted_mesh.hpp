@@ -2,8 +2,8 @@
 
 namespace samara::test {
 
-/// A sheet of two quads in the plane z = 0, each with a material of its own and UVs that meet in a seam, as an
-/// .obj file; the second counts its corners back from the last.
+/// A sheet of two quads in the plane z = 0, each with a material of its own and UVs that meet in a seam, as
+/// an .obj file; the second counts its corners back from the last.
 inline constexpr const char* painted_obj =
     "mtllib leaf.mtl\n"
     "v -0.04 -0.01 0\nv 0 -0.01 0\nv 0.04 -0.01 0\nv -0.04 0.01 0\nv 0 0.01 0\nv 0.04 0.01 0\n"

@@ -87,8 +87,7 @@ class CompanyStep {
         double gap;
         double apart;  ///< m: the gap that they keep
 
-        /// Whether there was a gap when the part began; what overlapped is to come out, and may not go
-        /// deeper.
+        /// Whether there was a gap when the part began: what overlapped, since it started so, is to come out.
         [[nodiscard]] bool began_parted() const { return gap > 0.0; }
         /// The gap (m) that must be left.
         [[nodiscard]] double least() const;

@@ -187,8 +187,7 @@ Meeting meeting(const MeetingHull& first, const MeetingHull& second, double reac
     const bool second_carries = second_cosine >= first_cosine;
     const bool faces_meet = first_face != nullptr && second_face != nullptr &&
                             std::max(first_cosine, second_cosine) > 1.0 - of_face &&
-                            ends_in_corners(first, -apart.normal) &&
-                            ends_in_corners(second, apart.normal);
+                            ends_in_corners(first, -apart.normal) && ends_in_corners(second, apart.normal);
     if (faces_meet && second_carries) {
         const Vector3d normal = second.hull.orientation * second_face->normal;
         add_shared(second, *second_face, first, *first_face, normal, reach, false, result);

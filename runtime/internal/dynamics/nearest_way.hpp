@@ -8,8 +8,8 @@ namespace samara {
 
 /// The way from the nearest point of one convex body to that of another: Gilbert, Johnson and Keerthi, IEEE
 /// Journal of Robotics and Automation 4(2), 1988. `first` and `second` give the point (m) of each body that
-/// is farthest along a unit vector. `way` (m): from the second to the first, at first any guess; where a plane
-/// across it leaves a gap above `enough` (m) it is not the nearest. False where the two overlap. Never
+/// is farthest along a unit vector. `way` (m): from the second to the first, at first any guess; where a
+/// plane across it leaves a gap above `enough` (m) it is not the nearest. False where the two overlap. Never
 /// allocates.
 template <typename First, typename Second>
 bool nearest_way(const First& first, const Second& second, Simplex& simplex, Vector3d& way,

@@ -109,8 +109,8 @@ TEST(LookFile, IsReadByScenesInTheShapesScaleOrItsOwn) {
     EXPECT_NEAR(scene("look = \"leaf.obj\"\nlook_scale = 2\n").bodies[0].look->positions[0].x(), -0.08,
                 1e-12);
     const auto fault = [&](const std::string& keys) { return error_of([&] { (void)scene(keys); }); };
-    EXPECT_THAT(fault("look = \"none.obj\"\n"), HasSubstr("look cannot be had"));
-    EXPECT_THAT(fault("look_scale = 2\n"), HasSubstr("look_scale is of a look"));
+    EXPECT_THAT(fault("look = \"none.obj\"\n"), HasSubstr("look in [[body]] cannot be had"));
+    EXPECT_THAT(fault("look_scale = 2\n"), HasSubstr("look_scale in [[body]] is of a look"));
     (void)folder.file("leaf.stl", "solid\nendsolid\n");
     EXPECT_THAT(fault("look = \"leaf.stl\"\n"), HasSubstr("a look is a mesh, .obj or .glb"));
     (void)folder.file("empty.obj", "v 0 0 0\n");
