@@ -127,6 +127,10 @@ typedef struct samara_settings {
     /* since SAMARA_API_VERSION 5 */
     samara_wind_function wind; /* default (null): none */
     void* wind_context;        /* handed to `wind`; must live as long as the simulation */
+
+    /* since SAMARA_API_VERSION 8 */
+    int32_t bodies_meet; /* whether bodies touch each other as they touch the ground; default: 0. A kind then
+                          * starts at the next step of the simulation's grid */
 } samara_settings;
 
 SAMARA_API samara_status samara_default_settings(samara_settings* settings, size_t size, char* error,
@@ -156,7 +160,7 @@ enum {
 typedef struct samara_kind {
     size_t size;      /* sizeof(samara_kind): which members are there */
     const char* name; /* keys the noise: letters, digits, - and _; default (null): the body file's name */
-    uint32_t count;   /* how many, which do not feel each other; default: 1 */
+    uint32_t count;   /* how many; default: 1 */
 
     double density;             /* kg/m^3, uniform; 0: not given */
     double mass;                /* kg, in place of a density. Neither: what the body file says */
@@ -377,7 +381,7 @@ SAMARA_API samara_status samara_remove(samara_simulation* simulation, size_t fir
                                        size_t error_size);
 SAMARA_API int samara_is_removed(const samara_simulation* simulation, size_t body); /* 0 for none such */
 
-/* What a body met of ground and obstacles while it was watched, over all steps and points: 96 bytes without
+/* What a body met of ground, obstacles and other bodies while it was watched, over all steps and points: 96 bytes without
  * gaps. A body at rest takes no steps, and meets nothing more. */
 typedef struct samara_contact {
     double impulse[3]; /* N s, world axes: the sum of all that the body was given */
@@ -385,7 +389,7 @@ typedef struct samara_contact {
     double point[3];   /* m, world: where that was */
     double normal[3];  /* world axes: out of what was met there */
     double time;       /* s: when the step ended */
-    int32_t obstacle;  /* number of what was met there; -1: level ground */
+    int32_t obstacle;  /* number of what was met there; -1: level ground; -2 - i: body number i */
     int32_t at_rest;   /* whether the body lies still now */
 } samara_contact;
 

@@ -14,7 +14,8 @@ class Settings(ctypes.Structure):  # samara_settings of samara.h
                 ("current", c_double * 3), ("gust_amplitude", c_double * 3), ("gust_period", c_double),
                 ("gravity", c_double * 3), ("step", c_double), ("seed", c_uint64), ("run", c_uint32),
                 ("threads", c_int32), ("has_ground", c_int32), ("ground", c_double),
-                ("wind", ctypes.c_void_p), ("wind_context", ctypes.c_void_p)]
+                ("wind", ctypes.c_void_p), ("wind_context", ctypes.c_void_p),
+                ("bodies_meet", ctypes.c_int32)]
 
 
 class Kind(ctypes.Structure):  # samara_kind

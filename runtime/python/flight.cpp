@@ -160,6 +160,7 @@ class LiveFlight {
         py::array_t<double> strongest(shape);
         py::array_t<double> time(shape);
         py::array_t<int> obstacle(shape);
+        py::array_t<int> body(shape);
         py::array_t<bool> at_rest(shape);
         for (std::size_t i = 0; i < count; ++i) {
             std::copy_n(met[i].impulse.data(), 3, impulse.mutable_data() + 3 * i);
@@ -168,6 +169,7 @@ class LiveFlight {
             strongest.mutable_data()[i] = met[i].strongest;
             time.mutable_data()[i] = met[i].time;
             obstacle.mutable_data()[i] = met[i].obstacle;
+            body.mutable_data()[i] = met[i].body;
             at_rest.mutable_data()[i] = rests[i];
         }
         py::dict result;
@@ -177,6 +179,7 @@ class LiveFlight {
         result["normal"] = normal;
         result["time"] = time;
         result["obstacle"] = obstacle;
+        result["body"] = body;
         result["at_rest"] = at_rest;
         return result;
     }
@@ -399,11 +402,14 @@ void bind_flight(py::module_& module) {
         .def("set_wind", &LiveFlight::set_wind, py::arg("wind"),
              "Another wind from now on: a dict with the keys of [wind] of a scene; {} is none.")
         .def("watch_contacts", &LiveFlight::watch_contacts, py::arg("watch"),
-             "Notes from now on what bodies meet of ground and obstacles, or no longer.")
+             "Notes from now on what bodies meet of ground, obstacles and each other, or no longer.")
         .def("take_contacts", &LiveFlight::take_contacts, py::arg("name"),
              "What a body's copies met since they were last asked, arrays (runs, copies, ...): impulse (N s, "
              "world axes, the sum), strongest (N s, of one point in one step; 0: nothing was met) with its "
-             "point (m), normal, time (s) and obstacle (its number; -1: level ground), and at_rest.")
+             "point (m), normal, time (s), obstacle (its number; -1: level ground, or a body) and body (the "
+             "number of the one that was met, counted over the scene's bodies, run by run and copy by copy; "
+             "-1: "
+             "none), and at_rest.")
         .def("state", &LiveFlight::state, "All that the rest of the flight depends on, as bytes.")
         .def("set_state", &LiveFlight::set_state, py::arg("state"),
              "Goes on from such a state, of a flight of the same scene, runs and seed.");

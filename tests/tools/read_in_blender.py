@@ -3,7 +3,7 @@
   blender -b --factory-startup --python read_in_blender.py -- FRAME_RATE LAST_FRAME motion.glb [a.chan ...]
 
 For every object of the .glb, and for an empty with each .chan: its matrix in the world at every frame; for the objects also
-the vertices of their mesh and its name. Channels are read with y up turned to z up and Nuke's rotation order.
+the vertices of their mesh and its name, its materials and UVs. Channels are read with y up turned to z up and Nuke's rotation order.
 """
 
 import json
@@ -38,6 +38,9 @@ for name, o in objects.items():
     if o.type == "MESH":
         found[name]["mesh"] = o.data.name
         found[name]["vertices"] = [list(v.co) for v in o.data.vertices]
+        found[name]["materials"] = [slot.name for slot in o.material_slots]
+        found[name]["slots"] = [polygon.material_index for polygon in o.data.polygons]
+        found[name]["uvs"] = [list(place.uv) for layer in o.data.uv_layers for place in layer.data]
 for frame in range(int(last_frame) + 1):
     scene.frame_set(frame)
     for name, o in objects.items():

@@ -52,6 +52,7 @@ class Surroundings:
     gravity: tuple
     ground: Optional[float]
     obstacles: tuple
+    bodies_meet: bool
     step: float
     seed: int
     frames: int
@@ -73,6 +74,7 @@ class Surroundings:
         settings.gravity[:] = self.gravity
         settings.step = self.step
         settings.seed = self.seed
+        settings.bodies_meet = int(self.bodies_meet)
         if self.ground is not None:
             settings.has_ground, settings.ground = 1, self.ground
         simulation = samara_library.Simulation(settings)
@@ -105,6 +107,7 @@ class Request:
     velocity: tuple  # of the centre of mass, world axes
     angular_velocity: tuple  # world axes
     surroundings: Surroundings
+    company: str = ""  # where bodies meet: the digest of all that fly together
 
     def kind(self, body):
         kind = samara_library.default_kind()
@@ -140,6 +143,15 @@ class Request:
         """In hexadecimal digits: of all that the motion depends on, the library's version included."""
         plain = dataclasses.replace(self, surroundings=None)
         return hashlib.sha256(f"{samara_library.version()} {self.surroundings.digest} {plain!r}".encode()).hexdigest()
+
+
+def together(requests):
+    """The same requests; where bodies meet, each knows all of them, since each one's motion depends on them all."""
+    if not requests or not requests[0].surroundings.bodies_meet:
+        return requests
+    alone = sorted(dataclasses.replace(request, company="").digest() for request in requests)
+    company = hashlib.sha256(" ".join(alone).encode()).hexdigest()
+    return [dataclasses.replace(request, company=company) for request in requests]
 
 
 class Flight:
@@ -239,14 +251,16 @@ class Fleet:
 
 
 def fleets_of(requests, refused, count=1):
-    """Fleets for requests, `count` for each surroundings at most. `refused`: takes (request, SamaraError)."""
+    """Fleets for requests, `count` for each surroundings at most, but one where bodies meet. `refused`: takes (request,
+    SamaraError)."""
     by_surroundings = {}
     for request in requests:
         by_surroundings.setdefault(request.surroundings, []).append(request)
     fleets = []
     for surroundings, group in by_surroundings.items():
-        for i in range(min(count, len(group))):
-            share = group[i::count]
+        shares = 1 if surroundings.bodies_meet else min(count, len(group))
+        for i in range(shares):
+            share = group[i::shares]
             try:
                 fleets.append(Fleet(surroundings, share, refused))
             except SamaraError as fault:  # of an obstacle or the wind

@@ -8,7 +8,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from . import pose_cache
-from .flight import fleets_of
+from .flight import fleets_of, together
 from .objects import has_keys, request_of, surroundings_of
 from .obstacles import ObstaclesOfScene
 from .samara_library import SamaraError
@@ -72,6 +72,11 @@ def _fly(requests, scene, refused):
             missing.append(request)
         else:
             _flights[key] = flight
+    if missing and missing[0].company:  # those that meet fly together or not at all
+        missing = requests
+        for request in requests:
+            flight = _flights.pop((scene.name, request.name), None)
+            left.add(flight.fleet if flight else None)
     for fleet in left - {None} - {flight.fleet for flight in _flights.values()}:
         fleet.cancelled.set()
     for fleet in fleets_of(missing, refused, os.cpu_count() or 1):
@@ -146,7 +151,7 @@ def show(scene):
             requests.append(request_of(o, surroundings))
         except SamaraError as fault:
             give_up(o.name, fault)
-    _fly(requests, scene, lambda request, fault: give_up(request.name, fault))
+    _fly(together(requests), scene, lambda request, fault: give_up(request.name, fault))
     deadline = None if _may_wait() else time.monotonic() + PATIENCE
     behind = False
     for o in list(objects.values()):
@@ -178,8 +183,9 @@ def go_live(objects, context):
     def refuse(_, fault):
         raise fault
 
+    others = [request_of(o, surroundings) for o in live_objects(scene)] if surroundings.bodies_meet else []
     requests = [request_of(o, surroundings) for o in objects]
-    _fly(requests, scene, refuse)
+    _fly(together(others + requests), scene, refuse)
     for o, request in zip(objects, requests):
         body = o.samara
         body.start_location = [x / surroundings.metres_per_unit for x in request.position]

@@ -44,6 +44,9 @@ class SAMARA_PT_body(bpy.types.Panel):
         layout.prop(body, "velocity")
         layout.prop(body, "angular_velocity")
         layout.prop(body, "release")
+        layout.prop(body, "returns")
+        if body.returns > 0:
+            layout.prop(body, "return_blend")
 
         column = layout.column()
         column.operator("samara.copy_settings", icon="COPYDOWN")
@@ -123,6 +126,7 @@ class SAMARA_PT_surroundings(bpy.types.Panel):
         layout.prop(surroundings, "use_ground")
         if surroundings.use_ground:
             layout.prop(surroundings, "ground")
+        layout.prop(surroundings, "bodies_meet")
 
 
 CLASSES = (SAMARA_PT_body, SAMARA_PT_surroundings)

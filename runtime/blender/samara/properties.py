@@ -76,6 +76,15 @@ class SamaraBody(bpy.types.PropertyGroup):
     release: FloatProperty(
         name="Release", description="So many frames after the first one; until then it is held in place, or follows its keys, and flies on with their velocity", default=0.0, min=0.0, precision=1
     )
+    returns: IntProperty(
+        name="Return",
+        description="So many frames after the first one the object's keys have it again; 0: never",
+        default=0,
+        min=0,
+    )
+    return_blend: IntProperty(
+        name="Blend", description="Frames before its return over which it goes over to its keys", default=12, min=1
+    )
     is_obstacle: BoolProperty(
         name="Obstacle",
         description="Bodies land on this object's mesh, with modifiers, slide on it and fall off; it does not feel them",
@@ -137,6 +146,10 @@ class SamaraSurroundings(bpy.types.PropertyGroup):
     gust_seed: IntProperty(name="Gust Seed", description="Another one gives other gusts of the same strength", default=1, min=0)
     use_ground: BoolProperty(name="Ground", description="Level ground, on which bodies come to rest")
     ground: FloatProperty(name="Height", description="Of the ground", subtype="DISTANCE")
+    bodies_meet: BoolProperty(
+        name="Bodies Meet",
+        description="Bodies that fly at the same time, live or by one Simulate to Keyframes, touch each other",
+    )
     seed: IntProperty(
         name="Seed", description="Of the noise; objects differ in it by their names", default=1, min=0
     )

@@ -11,7 +11,7 @@ from ctypes import POINTER, byref, c_char_p, c_double, c_int, c_int32, c_size_t,
 import numpy
 
 LIBRARY = os.path.join(os.path.dirname(os.path.abspath(__file__)), "libsamara.so")
-API_VERSION = 7
+API_VERSION = 8
 
 LOADS_NONE, LOADS_COEFFICIENTS, LOADS_TABLE = 0, 1, 2
 TURBULENCE_NONE, TURBULENCE_AS_LOADS = 0, 3
@@ -43,6 +43,7 @@ class Settings(ctypes.Structure):
         ("ground", c_double),
         ("wind", c_void_p),
         ("wind_context", c_void_p),
+        ("bodies_meet", c_int32),
     ]
 
 

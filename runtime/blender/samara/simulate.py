@@ -1,18 +1,21 @@
 """Operators: simulate to keyframes, live, copy the settings."""
 
-import bpy
-
 import math
+
+import bpy
+import numpy
+from mathutils import Quaternion
 
 from . import keyframes, live
 from .conventions import continuous
-from .flight import FlightJob
+from .flight import FlightJob, together
 from .job_operator import JobOperator
 from .objects import flown_objects, has_keys, request_of, surroundings_of
 from .samara_library import SamaraError
 
 
-_BEFORE = 0.25  # frames before the release, from which the keys' velocities are taken
+MOST_KEYED_SPEED = 100.0  # m/s: what is faster is a jump, as of emitters
+_BEFORE = 0.25  # frames before the release, or after the return, from which the keys' velocities are taken
 
 
 def led_frames(o):
@@ -32,16 +35,106 @@ def _let_go(scene, o, surroundings):
     _set_frame(scene, scene.frame_start + frames)
     location, rotation, _ = o.matrix_basis.decompose()
     seconds = _BEFORE * surroundings.frame_seconds
+    velocity = (location - before_location) / seconds
+    if surroundings.metres_per_unit * velocity.length > MOST_KEYED_SPEED:
+        raise SamaraError(
+            f"{o.name}: its keys jump just before its release, at {surroundings.metres_per_unit * velocity.length:.3g} m/s, "
+            f"and {MOST_KEYED_SPEED:g} is the most; smooth them there, or set Release elsewhere"
+        )
     w, *axis = rotation @ before_rotation.conjugated()
     length = math.hypot(*axis)
     angle = 2.0 * math.atan2(math.copysign(length, w), abs(w))
     turning = [x / length * angle / seconds if length > 0.0 else 0.0 for x in axis]
-    return request_of(o, surroundings, (frames, [x / seconds for x in location - before_location], turning))
+    return request_of(o, surroundings, (frames, list(velocity), turning))
+
+
+class _KeyedWay:
+    """Where keys have an object: until its release, and again from its return on."""
+
+    def __init__(self):
+        self.before = []  # poses (location, quaternion) at the frames before the release
+        self.returns = None  # frame, counted from 0, from which on they have it again
+        self.after = []  # poses from there on
+        self.blend = 0  # frames over which it goes over to them
+        self.moving = None  # with which they take it up: Blender units and a rotation vector a frame
+
+    def taken_up(self, frames_before):
+        """The pose that leads evenly to that of the return."""
+        location, rotation = self.after[0]
+        moving, turning = self.moving
+        turn = Quaternion(turning.normalized(), -frames_before * turning.length)
+        return location - frames_before * moving, turn @ rotation
+
+    def put_into(self, locations, rotations):
+        """Into the poses (n, 3) and (n, 4) of a flight."""
+        for i, (location, rotation) in enumerate(self.before):
+            locations[i], rotations[i] = location, rotation
+        if self.returns is None:
+            return
+        for i in range(max(0, self.returns - self.blend + 1), min(self.returns, len(locations))):
+            share = 1.0 - (self.returns - i) / self.blend
+            share *= share * (3.0 - 2.0 * share)  # both ends with the velocity of their own
+            location, rotation = self.taken_up(self.returns - i)
+            locations[i] += share * (numpy.array(location) - locations[i])
+            rotations[i] = Quaternion(rotations[i]).slerp(rotation, share)
+        for i, (location, rotation) in enumerate(self.after, self.returns):
+            locations[i], rotations[i] = location, rotation
+
+
+def _return_frame(o, surroundings):
+    """The frame, counted from 0, from which on keys have the object again; None: never."""
+    body = o.samara
+    if body.returns == 0:
+        return None
+    if not has_keys(o):
+        raise SamaraError(f"{o.name}: is to return to its keys, but has none; key it, or set Return to 0")
+    if body.returns <= body.release:
+        raise SamaraError(f"{o.name}: returns to its keys before its release; set Return later, or Release earlier")
+    return body.returns if body.returns < surroundings.frames else None
+
+
+def _keyed_ways(scene, objects, surroundings):
+    """By name, of those that keys lead or have again. Leaves the scene at another frame."""
+    ways = {}
+    for o in objects:
+        returns = _return_frame(o, surroundings)
+        if led_frames(o) == 0 and returns is None:
+            continue
+        way = ways[o.name] = _KeyedWay()
+        if returns is not None:
+            way.returns = returns
+            way.blend = min(o.samara.return_blend, returns - led_frames(o))
+    keyed = [o for o in objects if o.name in ways]
+    for i in range(surroundings.frames if keyed else 0):
+        here = [
+            o
+            for o in keyed
+            if i < led_frames(o) or (ways[o.name].returns is not None and i >= ways[o.name].returns)
+        ]
+        if not here:
+            continue
+        scene.frame_set(scene.frame_start + i)
+        for o in here:
+            location, rotation, _ = o.matrix_basis.decompose()
+            way = ways[o.name]
+            (way.before if i < led_frames(o) else way.after).append((location.copy(), rotation.copy()))
+    for o in keyed:
+        way = ways[o.name]
+        if way.returns is None:
+            continue
+        _set_frame(scene, scene.frame_start + way.returns + _BEFORE)
+        location, rotation, _ = o.matrix_basis.decompose()
+        turn = rotation @ way.after[0][1].conjugated()
+        if turn.w < 0.0:
+            turn.negate()
+        axis, angle = turn.to_axis_angle()
+        way.moving = (location - way.after[0][0]) / _BEFORE, axis * (angle / _BEFORE)
+    return ways
 
 
 def requests_of(context, objects):
     """The objects' flights, from their poses at the scene's first frame where keys move them, or at their release, else of
-    now; and the poses (location, quaternion) at the frames before their release of those that keys lead, by name."""
+    now; and the ways of those that keys lead until then or have again later, by name."""
     scene = context.scene
     now = scene.frame_current_final
     obstacles = live.look_at_obstacles(context)
@@ -49,34 +142,27 @@ def requests_of(context, objects):
         scene.frame_set(scene.frame_start)
     context.view_layer.update()
     led = [o for o in objects if led_frames(o)]
-    ways = {o.name: [] for o in led}
     try:
         surroundings = surroundings_of(scene, obstacles)
         requests = {o.name: request_of(o, surroundings) for o in objects if o not in led}
         for o in led:
             requests[o.name] = _let_go(scene, o, surroundings)
-        last = max((led_frames(o) for o in led), default=0)
-        for i in range(min(last, surroundings.frames)):
-            scene.frame_set(scene.frame_start + i)
-            for o in led:
-                if i < led_frames(o):
-                    location, rotation, _ = o.matrix_basis.decompose()
-                    ways[o.name].append((tuple(location), tuple(rotation)))
-        return [requests[o.name] for o in objects], ways
+        ways = _keyed_ways(scene, objects, surroundings)
+        return together([requests[o.name] for o in objects]), ways
     finally:
         if scene.frame_current_final != now:
             _set_frame(scene, now)
 
 
 def insert_flights(context, objects, flights, ways):
-    """Keys at every frame of the scene's range: those that led an object stay, one a frame."""
+    """Keys at every frame of the scene's range: those that led an object, or have it again, stay, one a frame."""
     scene = context.scene
     for o, flight in zip(objects, flights):
         if o.samara.live:
             live.go_off(o)
         locations, rotations = flight.locations().copy(), flight.rotations().copy()
-        for i, (location, rotation) in enumerate(ways.get(o.name, ())):
-            locations[i], rotations[i] = location, rotation
+        if o.name in ways:
+            ways[o.name].put_into(locations, rotations)
         keyframes.insert_poses(o, scene.frame_start, locations, continuous(rotations))
     scene.frame_set(scene.frame_current, subframe=scene.frame_subframe)
 
@@ -151,6 +237,8 @@ class SAMARA_OT_copy_settings(bpy.types.Operator):
         "velocity",
         "angular_velocity",
         "release",
+        "returns",
+        "return_blend",
     )
 
     @classmethod

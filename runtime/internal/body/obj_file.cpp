@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <unordered_map>
 #include <vector>
 
 #include <fmt/format.h>
@@ -17,6 +18,8 @@
 
 namespace samara {
 namespace {
+
+constexpr std::size_t most_materials = 4096;
 
 // The words of one line, from the left.
 class Words {
@@ -36,20 +39,43 @@ class Words {
     std::string_view rest_;
 };
 
+/// A number; false where the word is none.
+bool read_number(std::string_view word, double& number) {
+    if (word.starts_with('+')) word.remove_prefix(1);
+    const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), number);
+    return failure == std::errc{} && end == word.data() + word.size() && std::isfinite(number);
+}
+
+/// Lines end as on Unix, on Windows, or as on Macs of old.
+template <typename Visit>
+void visit_lines(std::string_view text, const Visit& visit) {
+    while (!text.empty()) {
+        const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
+        visit(text.substr(0, end));
+        text.remove_prefix(end);
+        text.remove_prefix(text.starts_with("\r\n") ? 2 : std::min<std::size_t>(1, text.size()));
+    }
+}
+
 class ObjReader {
   public:
-    explicit ObjReader(std::string label) : label_(std::move(label)) {}
+    explicit ObjReader(std::string label, bool with_look = false)
+        : label_(std::move(label)), with_look_(with_look) {}
 
     Surface read(std::string_view text) {
-        // Lines end as on Unix, on Windows, or as on Macs of old.
-        while (!text.empty()) {
-            const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
+        visit_lines(text, [&](std::string_view line) {
             ++line_;
-            read_line(text.substr(0, end));
-            text.remove_prefix(end);
-            text.remove_prefix(text.starts_with("\r\n") ? 2 : std::min<std::size_t>(1, text.size()));
-        }
+            read_line(line);
+        });
         return surface_;
+    }
+
+    /// What was read besides the surface.
+    LookMesh look(const std::filesystem::path& folder) {
+        for (const std::string& library : libraries_) read_colors(folder / library);
+        if (!all_have_normals_) look_.normals.clear();
+        if (texture_.empty()) look_.texture.clear();
+        return std::move(look_);
     }
 
   private:
@@ -58,27 +84,114 @@ class ObjReader {
         const std::string_view keyword = words.next();
         if (keyword == "v") add_vertex(words);
         if (keyword == "f") add_face(words);
+        if (!with_look_) return;
+        if (keyword == "vt") texture_.push_back(numbers<2>("vt", "two", words));
+        if (keyword == "vn") normals_.push_back(numbers<3>("vn", "three", words));
+        if (keyword == "usemtl") slot_ = slot_named(std::string(words.next()));
+        if (keyword == "mtllib") libraries_.emplace_back(words.next());
+    }
+
+    template <int N>
+    Eigen::Matrix<double, N, 1> numbers(const char* keyword, const char* how_many, Words& words) {
+        Eigen::Matrix<double, N, 1> vector;
+        for (double& coordinate : vector) {
+            const std::string_view word = words.next();
+            if (!read_number(word, coordinate)) {
+                fail(fmt::format("'{}' needs {} numbers, not '{}'", keyword, how_many, word));
+            }
+        }
+        return vector;
     }
 
     void add_vertex(Words& words) {
         if (surface_.vertices.size() == std::numeric_limits<std::int32_t>::max()) fail("too many vertices");
-        Vector3d& vertex = surface_.vertices.emplace_back();
-        for (double& coordinate : vertex) {
-            std::string_view word = words.next();
-            const std::string_view whole = word;
-            if (word.starts_with('+')) word.remove_prefix(1);
-            const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), coordinate);
-            const bool is_read = failure == std::errc{} && end == word.data() + word.size();
-            if (!is_read || !std::isfinite(coordinate)) {
-                fail(fmt::format("'v' needs three numbers, not '{}'", whole));
+        surface_.vertices.push_back(numbers<3>("v", "three", words));
+    }
+
+    std::int32_t slot_named(const std::string& name) {
+        for (std::size_t i = 0; i < look_.materials.size(); ++i) {
+            if (look_.materials[i].name == name) return static_cast<std::int32_t>(i);
+        }
+        if (look_.materials.size() == most_materials) fail("too many materials");
+        look_.materials.push_back({name, LookMaterial().color});
+        return static_cast<std::int32_t>(look_.materials.size()) - 1;
+    }
+
+    /// Of a file of materials, where it can be read.
+    void read_colors(const std::filesystem::path& file) {
+        std::error_code missing;
+        if (!std::filesystem::is_regular_file(file, missing)) return;
+        LookMaterial* material = nullptr;
+        visit_lines(read_bytes(file), [&](std::string_view line) {
+            Words words(line);
+            const std::string_view keyword = words.next();
+            if (keyword == "newmtl") {
+                const std::string_view name = words.next();
+                const auto found = std::find_if(look_.materials.begin(), look_.materials.end(),
+                                                [&](const LookMaterial& m) { return m.name == name; });
+                material = found == look_.materials.end() ? nullptr : &*found;
             }
+            if (material == nullptr) return;
+            double number = 0.0;
+            for (std::size_t i = 0; keyword == "Kd" && i < 3; ++i) {
+                if (read_number(words.next(), number)) material->color[i] = std::clamp(number, 0.0, 1.0);
+            }
+            if (keyword == "d" && read_number(words.next(), number)) {
+                material->color[3] = std::clamp(number, 0.0, 1.0);
+            }
+        });
+    }
+
+    /// The vertex of the look that a face's word names: the same words are one.
+    std::int32_t look_vertex(const std::string& word, std::int32_t vertex) {
+        const auto [known, is_new] = known_.try_emplace(word, look_.positions.size());
+        if (!is_new) return static_cast<std::int32_t>(known->second);
+        look_.positions.push_back(surface_.vertices[static_cast<std::size_t>(vertex)]);
+        const auto part = [&](int index) {
+            std::string_view rest = word;
+            for (int i = 0; i < index; ++i) {
+                const std::size_t slash = rest.find('/');
+                rest.remove_prefix(slash == std::string_view::npos ? rest.size() : slash + 1);
+            }
+            return rest.substr(0, rest.find('/'));
+        };
+        const std::string_view texture = part(1);
+        look_.texture.push_back(texture.empty() ? Eigen::Vector2d(0.0, 0.0)
+                                                : texture_[index_of(texture, texture_.size(), "texture")]);
+        const std::string_view normal = part(2);
+        all_have_normals_ = all_have_normals_ && !normal.empty();
+        Vector3d direction = Vector3d::UnitZ();
+        if (!normal.empty()) {
+            const Vector3d& given = normals_[index_of(normal, normals_.size(), "normal")];
+            if (given.norm() > 0.0) direction = given.normalized();
+        }
+        look_.normals.push_back(direction);
+        return static_cast<std::int32_t>(look_.positions.size()) - 1;
+    }
+
+    void add_to_look(const std::vector<std::array<std::int32_t, 3>>& triangles) {
+        if (slot_ < 0) slot_ = slot_named("body");
+        std::vector<std::int32_t> vertices;
+        for (std::size_t i = 0; i < corners_.size(); ++i)
+            vertices.push_back(look_vertex(words_[i], corners_[i]));
+        for (const auto& triangle : triangles) {
+            std::array<std::int32_t, 3> corners{};
+            for (std::size_t k = 0; k < 3; ++k) {
+                const auto place =
+                    std::find(corners_.begin(), corners_.end(), triangle[k]) - corners_.begin();
+                corners[k] = vertices[static_cast<std::size_t>(place)];
+            }
+            look_.corners.push_back(corners);
+            look_.slots.push_back(slot_);
         }
     }
 
     void add_face(Words& words) {
         corners_.clear();
+        words_.clear();
         for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
-            corners_.push_back(vertex_of(word));
+            corners_.push_back(static_cast<std::int32_t>(index_of(word, surface_.vertices.size(), "vertex")));
+            if (with_look_) words_.emplace_back(absolute(word));
         }
         if (corners_.size() < 3)
             fail(fmt::format("a face has three or more corners, not {}", corners_.size()));
@@ -90,20 +203,38 @@ class ObjReader {
         }
         const auto triangles = polygon_triangles(surface_.vertices, corners_);
         surface_.corners.insert(surface_.corners.end(), triangles.begin(), triangles.end());
+        if (with_look_) add_to_look(triangles);
     }
 
-    // Of VERTEX, VERTEX/TEXTURE, VERTEX//NORMAL or VERTEX/TEXTURE/NORMAL; counted from 1, or back from the
-    // last.
-    [[nodiscard]] std::int32_t vertex_of(std::string_view word) const {
+    /// A face's word with numbers that count from 1: those that count back mean others on another line.
+    [[nodiscard]] std::string absolute(std::string_view word) const {
+        if (word.find('-') == std::string_view::npos) return std::string(word);
+        const std::size_t counts[] = {surface_.vertices.size(), texture_.size(), normals_.size()};
+        const char* names[] = {"vertex", "texture", "normal"};
+        std::string result;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::size_t slash = word.find('/');
+            const std::string_view part = word.substr(0, slash);
+            if (!part.empty()) result += fmt::format("{}", index_of(part, counts[i], names[i]) + 1);
+            if (slash == std::string_view::npos) break;
+            result += '/';
+            word.remove_prefix(slash + 1);
+        }
+        return result;
+    }
+
+    // Of VERTEX, VERTEX/TEXTURE, VERTEX//NORMAL or VERTEX/TEXTURE/NORMAL the first, of `all`; counted from 1,
+    // or back from the last.
+    [[nodiscard]] std::size_t index_of(std::string_view word, std::size_t all, const char* what) const {
         const std::string_view digits = word.substr(0, word.find('/'));
-        const auto count = static_cast<std::int64_t>(surface_.vertices.size());
+        const auto count = static_cast<std::int64_t>(all);
         std::int64_t number = 0;
         const auto [end, failure] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
         const bool is_read = failure == std::errc{} && end == digits.data() + digits.size();
         if (!is_read || number == 0 || number > count || number < -count) {
-            fail(fmt::format("a face names vertex '{}' of {}", word, count));
+            fail(fmt::format("a face names {} '{}' of {}", what, word, count));
         }
-        return static_cast<std::int32_t>(number > 0 ? number - 1 : count + number);
+        return static_cast<std::size_t>(number > 0 ? number - 1 : count + number);
     }
 
     [[noreturn]] void fail(const std::string& what) const {
@@ -113,13 +244,29 @@ class ObjReader {
     std::string label_;
     int line_ = 0;
     Surface surface_;
-    std::vector<std::int32_t> corners_;
+    std::vector<std::int32_t> corners_;  // of a face
+    std::vector<std::string> words_;     // the same
+
+    bool with_look_;
+    LookMesh look_;
+    std::int32_t slot_ = -1;
+    bool all_have_normals_ = true;
+    std::vector<Eigen::Vector2d> texture_;
+    std::vector<Vector3d> normals_;
+    std::vector<std::string> libraries_;
+    std::unordered_map<std::string, std::size_t> known_;
 };
 
 }  // namespace
 
 Surface read_obj_file(const std::filesystem::path& file) {
     return ObjReader(file.string()).read(read_bytes(file));
+}
+
+LookMesh read_obj_look(const std::filesystem::path& file) {
+    ObjReader reader(file.string(), true);
+    reader.read(read_bytes(file));
+    return reader.look(file.parent_path());
 }
 
 }  // namespace samara

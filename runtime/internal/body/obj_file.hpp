@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 
+#include "samara/body/look_mesh.hpp"
 #include "samara/body/surface.hpp"
 
 namespace samara {
@@ -13,5 +14,10 @@ inline constexpr std::size_t most_obj_corners = 10'000;
 /// The triangles of a Wavefront OBJ file: its vertices and faces, all else is left out; polygons are cut into
 /// triangles (polygon_triangles). Throws Error, which names the line, where a vertex or face is none.
 Surface read_obj_file(const std::filesystem::path& file);
+
+/// The same with texture coordinates, normals (where all corners have one) and the materials that its faces
+/// use, in the order of their use; their colours are those of the .mtl files that it names, where these lie
+/// there. Throws Error besides where a texture coordinate or a normal is none.
+LookMesh read_obj_look(const std::filesystem::path& file);
 
 }  // namespace samara

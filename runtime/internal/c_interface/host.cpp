@@ -154,7 +154,7 @@ samara_status samara_take_contacts(samara_simulation* simulation, size_t first, 
             copy(met.point, contact.point);
             copy(met.normal, contact.normal);
             contact.time = met.time;
-            contact.obstacle = met.obstacle;
+            contact.obstacle = met.body < 0 ? met.obstacle : -2 - met.body;
             contact.at_rest = simulation->flight.is_at_rest(i) ? 1 : 0;
             std::memcpy(place, &contact, sizeof contact);
         }

@@ -22,6 +22,7 @@ constexpr std::size_t first_kind_size = offsetof(samara_kind, langevin) + sizeof
 // The first member of a version lies where the struct of the one before ended, and not in its padding, which
 // callers do not fill.
 static_assert(offsetof(samara_settings, wind) % alignof(samara_settings) == 0);
+static_assert(offsetof(samara_settings, bodies_meet) % alignof(samara_settings) == 0);
 static_assert(offsetof(samara_kind, table_reynolds_number) % alignof(samara_kind) == 0);
 static_assert(offsetof(samara_kind, patches) % alignof(samara_kind) == 0);
 static_assert(offsetof(samara_kind, spread_start) % alignof(samara_kind) == 0);
@@ -149,6 +150,7 @@ FlightSettings read_settings(const samara_settings& settings) {
     if (given.has_ground != 0) result.ground = finite(given.ground, "ground");
     result.wind.function = given.wind;
     result.wind.function_context = given.wind_context;
+    result.bodies_meet = given.bodies_meet != 0;
     result.step = positive(given.step, "step");
     result.seed = given.seed;
     result.first_run = given.run;

@@ -30,6 +30,7 @@ struct BatchGround {
     static void resolve(const void* context, std::size_t index, double time, double substep,
                         const BodyState& before, BodyState& state) noexcept {
         const auto& ground = *static_cast<const BatchGround*>(context);
+        if (ground.batch.is_contact_left(index)) return;
         const Ground met = ground_in_flow(ground.surroundings, time - substep, time);
         const double size = ground.batch.size_of(index);
         ContactRecord* record = ground.met == nullptr ? nullptr : ground.met + index;
@@ -215,7 +216,9 @@ BatchReport BasicBatch<Real>::advance(const Surroundings& surroundings, double s
                                   .wind = wind.source(),
                                   .external = external_.empty() ? nullptr : external_.data()};
     if constexpr (std::is_same_v<Real, double>) {
-        if (size_ == 1 && !sized) return advance_alone(*body_, surroundings, task, met, blocks_.front());
+        if (size_ == 1 && !sized && !is_contact_left(0)) {
+            return advance_alone(*body_, surroundings, task, met, blocks_.front());
+        }
     }
     BatchReport report;
     std::mutex mutex;

@@ -56,6 +56,19 @@ class BasicBatch {
     void watch_contacts(bool watch) { met_.assign(watch ? size_ : 0, {}); }
     /// Whether it is.
     [[nodiscard]] bool watches_contacts() const noexcept { return !met_.empty(); }
+    /// Where what a body meets is noted; null: nowhere.
+    [[nodiscard]] ContactRecord* record(std::size_t index) noexcept {
+        return met_.empty() ? nullptr : &met_[index];
+    }
+    /// Leaves it to the caller what a body touches, or not.
+    void leave_contact(std::size_t index, bool leave) {
+        if (left_.empty() && !leave) return;
+        left_.resize(size_);
+        left_[index] = leave ? 1 : 0;
+    }
+    [[nodiscard]] bool is_contact_left(std::size_t index) const noexcept {
+        return !left_.empty() && left_[index] != 0;
+    }
     /// What a body met since it was last asked. Needs watches_contacts().
     ContactRecord take_contacts(std::size_t index) noexcept { return std::exchange(met_[index], {}); }
 
@@ -73,6 +86,7 @@ class BasicBatch {
     std::vector<ImmersedBody> touching_;           ///< of each size, where there is something to touch
     std::vector<kernel::ExternalLoads> external_;  ///< of each block; none where nothing is pushed
     std::vector<ContactRecord> met_;               ///< of each body; none where it is not noted
+    std::vector<std::uint8_t> left_;  ///< of each body 1 or 0; none where all touch by themselves
 };
 
 extern template class BasicBatch<float>;

@@ -1,11 +1,9 @@
 #include "internal/dynamics/hull_separation.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <initializer_list>
-#include <limits>
-#include <utility>
+
+#include "internal/dynamics/nearest_way.hpp"
 
 namespace samara {
 namespace {
@@ -13,127 +11,7 @@ namespace {
 // Of the hull, towards its middle. The more, the more askew is the plane beside an edge; the less, the less
 // they may overlap.
 constexpr double drawn_in = 0.03;
-constexpr int most_rounds = 32;      // five are common, round bodies need some more
-constexpr double converged = 1e-13;  // of the squared distance
-constexpr double flat = 1e-9;        // sine of the angle between a face and a corner that lies in its plane
-constexpr double better = 1e-6;      // over the radius: gap from which another plane than the face's is taken
-
-/// A point of the difference of hull and triangle, and the triangle's part in it.
-struct Difference {
-    Vector3d point;
-    Vector3d on_triangle;
-    double share = 0.0;
-};
-
-/// Up to four of them, and the point nearest to the origin.
-struct Simplex {
-    std::array<Difference, 4> corners;
-    int size = 0;
-
-    [[nodiscard]] Vector3d nearest() const {
-        Vector3d sum = Vector3d::Zero();
-        for (int i = 0; i < size; ++i) sum += at(i).share * at(i).point;
-        return sum;
-    }
-    [[nodiscard]] Vector3d on_triangle() const {
-        Vector3d sum = Vector3d::Zero();
-        for (int i = 0; i < size; ++i) sum += at(i).share * at(i).on_triangle;
-        return sum;
-    }
-    [[nodiscard]] const Difference& at(int i) const { return corners[static_cast<std::size_t>(i)]; }
-    [[nodiscard]] const Vector3d& point(int i) const { return at(i).point; }
-    void keep(std::initializer_list<std::pair<int, double>> kept) {
-        const std::array<Difference, 4> before = corners;
-        size = 0;
-        for (const auto& [i, share] : kept) {
-            corners[static_cast<std::size_t>(size)] = before[static_cast<std::size_t>(i)];
-            corners[static_cast<std::size_t>(size++)].share = share;
-        }
-    }
-
-    /// Keeps the corners that the nearest point lies between. False where the origin lies within.
-    bool reduce() {
-        if (size == 1) {
-            corners[0].share = 1.0;
-        } else if (size == 2) {
-            reduce_segment();
-        } else if (size == 3) {
-            reduce_triangle();
-        } else {
-            return reduce_tetrahedron();
-        }
-        return true;
-    }
-
-  private:
-    void reduce_segment() {
-        const Vector3d way = point(1) - point(0);
-        const double square = way.squaredNorm();
-        const double share = square > 0.0 ? -point(0).dot(way) / square : 0.0;
-        if (share <= 0.0) return keep({{0, 1.0}});
-        if (share >= 1.0) return keep({{1, 1.0}});
-        keep({{0, 1.0 - share}, {1, share}});
-    }
-
-    void reduce_triangle() {
-        const Vector3d& a = point(0);
-        const Vector3d& b = point(1);
-        const Vector3d& c = point(2);
-        const Vector3d ab = b - a;
-        const Vector3d ac = c - a;
-        const double d1 = -ab.dot(a);
-        const double d2 = -ac.dot(a);
-        if (d1 <= 0.0 && d2 <= 0.0) return keep({{0, 1.0}});
-        const double d3 = -ab.dot(b);
-        const double d4 = -ac.dot(b);
-        if (d3 >= 0.0 && d4 <= d3) return keep({{1, 1.0}});
-        const double d5 = -ab.dot(c);
-        const double d6 = -ac.dot(c);
-        if (d6 >= 0.0 && d5 <= d6) return keep({{2, 1.0}});
-        const double vc = d1 * d4 - d3 * d2;
-        if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) {
-            const double share = d1 / (d1 - d3);
-            return keep({{0, 1.0 - share}, {1, share}});
-        }
-        const double vb = d5 * d2 - d1 * d6;
-        if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) {
-            const double share = d2 / (d2 - d6);
-            return keep({{0, 1.0 - share}, {2, share}});
-        }
-        const double va = d3 * d6 - d5 * d4;
-        if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) {
-            const double share = (d4 - d3) / ((d4 - d3) + (d5 - d6));
-            return keep({{1, 1.0 - share}, {2, share}});
-        }
-        const double all = va + vb + vc;
-        if (!(all > 0.0)) return reduce_segment();
-        keep({{0, va / all}, {1, vb / all}, {2, vc / all}});
-    }
-
-    bool reduce_tetrahedron() {
-        constexpr int faces[4][4] = {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {1, 3, 2, 0}};
-        const Simplex whole = *this;
-        double nearest_yet = std::numeric_limits<double>::infinity();
-        for (const auto& face : faces) {
-            const Vector3d& a = whole.point(face[0]);
-            const Vector3d normal = (whole.point(face[1]) - a).cross(whole.point(face[2]) - a);
-            const double origin_side = -normal.dot(a);
-            const Vector3d height = whole.point(face[3]) - a;
-            const double other_side = normal.dot(height);
-            // Of a tetrahedron without volume every face may be the nearest.
-            const bool is_flat = std::abs(other_side) <= flat * normal.norm() * height.norm();
-            if (!is_flat && origin_side * other_side > 0.0) continue;
-            Simplex part = whole;
-            part.keep({{face[0], 0.0}, {face[1], 0.0}, {face[2], 0.0}});
-            part.reduce_triangle();
-            const double square = part.nearest().squaredNorm();
-            if (square >= nearest_yet) continue;
-            nearest_yet = square;
-            *this = part;
-        }
-        return std::isfinite(nearest_yet);
-    }
-};
+constexpr double better = 1e-6;  // over the radius: gap from which another plane than the face's is taken
 
 const Vector3d& farthest_corner(const ObstacleTriangle& triangle, const Vector3d& direction) {
     const auto& [a, b, c] = triangle.corners;
@@ -145,34 +23,16 @@ const Vector3d& farthest_corner(const ObstacleTriangle& triangle, const Vector3d
 }
 
 /// From the nearest point of the triangle to that of the hull drawn in. False where the two overlap.
-bool nearest_way(const PlacedHull& hull, const ObstacleTriangle& triangle, Simplex& simplex, Vector3d& way) {
+bool nearest_to_triangle(const PlacedHull& hull, const ObstacleTriangle& triangle, Simplex& simplex,
+                         Vector3d& way) {
     const Vector3d middle = hull.position + hull.orientation * hull.points->middle;
+    const auto of_hull = [&](const Vector3d& direction) {
+        const Vector3d point = hull.farthest(direction);
+        return Vector3d(point + drawn_in * (middle - point));
+    };
+    const auto of_triangle = [&](const Vector3d& direction) { return farthest_corner(triangle, direction); };
     way = middle - triangle.corners[0];
-    double square = way.squaredNorm();
-    if (square == 0.0) return false;
-    square = std::numeric_limits<double>::infinity();
-    for (int round = 0; round < most_rounds; ++round) {
-        const Vector3d direction = way.normalized();
-        const Vector3d of_hull = hull.farthest(-direction);
-        const Vector3d& of_triangle = farthest_corner(triangle, direction);
-        const Vector3d point = of_hull + drawn_in * (middle - of_hull) - of_triangle;
-        const double parted = way.dot(point);
-        if (round > 0 && way.squaredNorm() - parted <= converged * square) return true;
-        const Simplex before = simplex;
-        simplex.corners[static_cast<std::size_t>(simplex.size++)] = {point, of_triangle, 1.0};
-        const bool is_outside = simplex.reduce();
-        const Vector3d next = is_outside ? simplex.nearest() : Vector3d::Zero();
-        const double next_square = next.squaredNorm();
-        if (!(next_square > 0.0) && parted <= 0.0) return false;
-        // Where a plane parts the two already, nothing but rounding finds the origin within.
-        if (!(next_square > 0.0) || !(next_square < square)) {
-            simplex = before;
-            return true;
-        }
-        way = next;
-        square = next_square;
-    }
-    return true;
+    return nearest_way(of_hull, of_triangle, simplex, way);
 }
 
 }  // namespace
@@ -186,8 +46,8 @@ Separation separation(const PlacedHull& hull, const ObstacleTriangle& triangle, 
     if (best.gap > enough) return best;
     Simplex simplex;
     Vector3d way;
-    if (!nearest_way(hull, triangle, simplex, way)) return best;
-    best.on_triangle = simplex.on_triangle();
+    if (!nearest_to_triangle(hull, triangle, simplex, way)) return best;
+    best.on_triangle = simplex.on_second();
     const Vector3d normal = way.normalized();
     const double gap = gap_along(hull, triangle, normal);
     if (gap <= best.gap + better * hull.radius()) return best;

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "internal/export/prim_names.hpp"
 #include "internal/export/shaded_mesh.hpp"
 
 namespace samara {
@@ -36,6 +37,21 @@ std::vector<std::size_t> welded(const std::vector<Vector3d>& positions, std::vec
         indices.push_back(place->second);
     }
     return indices;
+}
+
+template <typename Values, typename InWords>
+std::string list_of(const Values& values, const std::string& indent, const InWords& in_words) {
+    std::vector<std::string> items;
+    items.reserve(values.size());
+    for (const auto& value : values) items.push_back(in_words(value));
+    return usd_list(items, indent);
+}
+
+/// Faces by material, for all that are in use: its number and theirs.
+std::map<std::int32_t, std::vector<std::size_t>> faces_by_slot(const LookMesh& look) {
+    std::map<std::int32_t, std::vector<std::size_t>> faces;
+    for (std::size_t i = 0; i < look.slots.size(); ++i) faces[look.slots[i]].push_back(i);
+    return faces;
 }
 
 }  // namespace
@@ -85,6 +101,69 @@ std::string usd_mesh(const Surface& surface, std::size_t indent, double grey, bo
     fmt::format_to(line, "{0}color3f[] primvars:displayColor = [({1}, {1}, {1})]\n", inner, grey);
     if (double_sided) fmt::format_to(line, "{}uniform bool doubleSided = true\n", inner);
     fmt::format_to(line, "{}uniform token subdivisionScheme = \"none\"\n{}}}\n", inner, outer);
+    return fmt::to_string(text);
+}
+
+std::string usd_look(const LookMesh& look, std::size_t indent) {
+    const std::string outer(indent, ' ');
+    const std::string inner = outer + "    ";
+    const std::string innermost = inner + "    ";
+    const auto faces = faces_by_slot(look);
+    PrimNames prim_name;
+    prim_name("mesh");
+    std::map<std::int32_t, std::string> names;
+    for (const auto& [slot, of_slot] : faces) {
+        names[slot] = prim_name(look.materials[static_cast<std::size_t>(slot)].name);
+    }
+    std::vector<std::int32_t> indices;
+    for (const auto& triangle : look.corners) indices.insert(indices.end(), triangle.begin(), triangle.end());
+    Eigen::AlignedBox3d box;
+    for (const Vector3d& position : look.positions) box.extend(position);
+    const auto number = [](auto value) { return fmt::format("{}", value); };
+
+    fmt::memory_buffer text;
+    const auto line = std::back_inserter(text);
+    fmt::format_to(line, "{}def Mesh \"mesh\"\n{}{{\n", outer, outer);
+    fmt::format_to(line, "{}float3[] extent = [{}, {}]\n", inner, usd_float3(box.min()),
+                   usd_float3(box.max()));
+    fmt::format_to(line, "{}int[] faceVertexCounts = {}\n", inner,
+                   list_of(look.corners, inner, [](const auto&) { return std::string("3"); }));
+    fmt::format_to(line, "{}int[] faceVertexIndices = {}\n", inner, list_of(indices, inner, number));
+    if (!look.normals.empty()) {
+        fmt::format_to(line, "{}normal3f[] normals = {} (\n{}    interpolation = \"vertex\"\n{})\n", inner,
+                       list_of(look.normals, inner, usd_float3), inner, inner);
+    }
+    fmt::format_to(line, "{}point3f[] points = {}\n", inner, list_of(look.positions, inner, usd_float3));
+    if (!look.texture.empty()) {
+        const auto place = [](const Eigen::Vector2d& uv) {
+            return fmt::format("({}, {})", usd_float(uv.x()), usd_float(uv.y()));
+        };
+        fmt::format_to(line, "{}texCoord2f[] primvars:st = {} (\n{}    interpolation = \"vertex\"\n{})\n",
+                       inner, list_of(look.texture, inner, place), inner, inner);
+    }
+    fmt::format_to(
+        line, "{0}uniform bool doubleSided = true\n{0}uniform token subdivisionScheme = \"none\"\n", inner);
+    fmt::format_to(line, "{}uniform token subsetFamily:materialBind:familyType = \"partition\"\n", inner);
+    for (const auto& [slot, of_slot] : faces) {
+        fmt::format_to(
+            line,
+            "\n{0}def GeomSubset \"{2}\" (\n{1}prepend apiSchemas = [\"MaterialBindingAPI\"]\n{0})\n{0}{{\n"
+            "{1}uniform token elementType = \"face\"\n{1}uniform token familyName = \"materialBind\"\n"
+            "{1}int[] indices = {3}\n{1}rel material:binding = <../../{2}>\n{0}}}\n",
+            inner, innermost, names[slot], list_of(of_slot, innermost, number));
+    }
+    fmt::format_to(line, "{}}}\n", outer);
+    for (const auto& [slot, name] : names) {
+        const std::array<double, 4>& color = look.materials[static_cast<std::size_t>(slot)].color;
+        fmt::format_to(line,
+                       "\n{0}def Material \"{3}\"\n{0}{{\n{1}token outputs:surface.connect = "
+                       "<preview.outputs:surface>\n\n"
+                       "{1}def Shader \"preview\"\n{1}{{\n{2}uniform token info:id = \"UsdPreviewSurface\"\n"
+                       "{2}color3f inputs:diffuseColor = ({4}, {5}, {6})\n{2}float inputs:opacity = {7}\n"
+                       "{2}float inputs:roughness = 0.6\n{2}token outputs:surface\n{1}}}\n{0}}}\n",
+                       outer, inner, innermost, name, usd_float(color[0]), usd_float(color[1]),
+                       usd_float(color[2]), usd_float(color[3]));
+    }
     return fmt::to_string(text);
 }
 

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "samara/body/look_mesh.hpp"
 #include "samara/body/surface.hpp"
 
 namespace samara {
@@ -17,5 +18,9 @@ std::string usd_float3(const Vector3d& vector);
 /// subdivision. `grey`: its colour, from 0 to 1; `double_sided`: seen from behind, too.
 std::string usd_mesh(const Surface& surface, std::size_t indent, double grey = 0.8,
                      bool double_sided = false);
+
+/// The Mesh prim "mesh" of a look with its texture coordinates (primvars:st), a subset of faces for each of
+/// its materials in use, and these beside it.
+std::string usd_look(const LookMesh& look, std::size_t indent);
 
 }  // namespace samara

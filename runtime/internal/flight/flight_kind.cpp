@@ -118,6 +118,7 @@ FlightSettings flight_settings(const Scene& scene, int runs, int threads) {
             .ground = scene.ground,
             .obstacles = scene.obstacles,
             .wind = scene.wind,
+            .bodies_meet = scene.bodies_meet,
             .step = scene.step,
             .seed = scene.seed,
             .runs = runs,
@@ -139,6 +140,7 @@ FlightKind::FlightKind(const FlightSettings& settings, const Surroundings& surro
       hash_(body.hash),
       step_(settings.step),
       threads_(settings.threads),
+      meets_(settings.bodies_meet),
       body_(body.prepared->get(*body.body, physics, settings.fluid, name_)),
       batch_(*body_, static_cast<std::size_t>(settings.runs) * static_cast<std::size_t>(release.count)),
       before_(batch_.size()),
@@ -147,6 +149,11 @@ FlightKind::FlightKind(const FlightSettings& settings, const Surroundings& surro
         throw FlightError(FlightError::Kind::invalid_argument,
                           fmt::format("start {} s is more than {:.0e} steps off; is a unit wrong?",
                                       release.start, most_steps_off));
+    }
+    if (meets_) {
+        grid_start_ = steps_reaching(release_.start, step_);
+        release_.start = time_of(grid_start_);
+        faces_ = hull_faces(body_->contact_points);
     }
     set_seed(settings.seed, settings.first_run);
     draw_starts(settings);
@@ -196,19 +203,35 @@ void FlightKind::set_seed(std::uint64_t seed, std::uint32_t first_run) {
     for (std::size_t i = 0; i < batch_.size(); ++i) batch_.set_noise(i, noise_of(seed, first_run, i));
 }
 
-std::uint64_t FlightKind::steps_until(double time) const {
-    const double reached = (time - release_.start) * (1.0 - 1e-12);
-    auto steps = static_cast<std::uint64_t>(std::max(0.0, std::floor(reached / step_)));
-    while (time_of(steps) < reached) ++steps;
+std::uint64_t steps_reaching(double time, double step) {
+    const double reached = time * (1.0 - 1e-12);
+    auto steps = static_cast<std::uint64_t>(std::max(0.0, std::floor(reached / step)));
+    while (static_cast<double>(steps) * step < reached) ++steps;
     return steps;
+}
+
+std::uint64_t FlightKind::steps_until(double time) const {
+    if (!meets_) return steps_reaching(time - release_.start, step_);
+    const std::uint64_t steps = steps_reaching(time, step_);
+    return steps - std::min(steps, grid_start_);
+}
+
+void FlightKind::begin_call(double time, double duration) {
+    if (time <= release_.start) wrenches_.clear();  // what waits feels none
+    take_up_wrenches(duration, steps_until(time) > steps_);
 }
 
 void FlightKind::advance_to(double time, double duration) {
     const std::uint64_t needed = steps_until(time);
-    if (time <= release_.start) wrenches_.clear();  // what waits feels none
-    take_up_wrenches(duration, needed > steps_);
+    begin_call(time, duration);
     if (needed <= steps_) return;
     step_to(needed - 1);
+    note_poses();
+    step_to(needed);
+    require_finite();
+}
+
+void FlightKind::note_poses() {
     parallel_for(batch_.size(), poses_a_piece, threads_, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             if (is_removed(i)) continue;
@@ -216,8 +239,6 @@ void FlightKind::advance_to(double time, double duration) {
             before_time_[i] = time_of(steps_);
         }
     });
-    step_to(needed);
-    require_finite();
 }
 
 void FlightKind::wake(std::size_t index) noexcept {
@@ -310,25 +331,30 @@ void FlightKind::step_to(std::uint64_t steps) {
     while (steps_ < steps) {
         const std::uint64_t next_sample = (steps_ / steps_between_samples + 1) * steps_between_samples;
         const std::uint64_t end = std::min(steps, next_sample);
-        const BatchReport done =
-            batch_.advance(surroundings_, release_.start, step_, steps_, end - steps_, threads_);
-        report_.add({.steps = steps_between(steps_, end),
-                     .implicit_steps = done.implicit_steps,
-                     .most_substeps = done.most_substeps,
-                     .steps_at_limit = done.steps_at_limit});
-        steps_ = end;
-        if (!done.wind_is_sound) {
-            throw FlightError(
-                FlightError::Kind::out_of_range,
-                fmt::format("the wind function gave '{}' a velocity that is not finite, or beyond "
-                            "1e30 m/s, by {:.6g} s",
-                            name_, release_.start + time_of(steps_)));
-        }
-        if (end == next_sample) {
-            require_finite();
-            report_.add(sampled());
-        }
+        const BatchReport done = take_steps(end - steps_);
+        keep_steps(done, end - steps_);
     }
+}
+
+BatchReport FlightKind::take_steps(std::uint64_t count) {
+    return batch_.advance(surroundings_, release_.start, step_, steps_, count, threads_);
+}
+
+void FlightKind::keep_steps(const BatchReport& done, std::uint64_t count) {
+    report_.add({.steps = steps_between(steps_, steps_ + count),
+                 .implicit_steps = done.implicit_steps,
+                 .most_substeps = done.most_substeps,
+                 .steps_at_limit = done.steps_at_limit});
+    steps_ += count;
+    if (!done.wind_is_sound) {
+        throw FlightError(FlightError::Kind::out_of_range,
+                          fmt::format("the wind function gave '{}' a velocity that is not finite, or beyond "
+                                      "1e30 m/s, by {:.6g} s",
+                                      name_, release_.start + time_of(steps_)));
+    }
+    if (steps_ % steps_between_samples != 0) return;
+    require_finite();
+    report_.add(sampled());
 }
 
 std::uint64_t FlightKind::steps_between(std::uint64_t begin, std::uint64_t end) const {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "internal/dynamics/batch.hpp"
+#include "internal/dynamics/hull_faces.hpp"
 #include "internal/dynamics/immersed_body.hpp"
 #include "internal/dynamics/surroundings.hpp"
 #include "internal/flight/state_bytes.hpp"
@@ -21,6 +22,8 @@ inline constexpr double most_steps_off = 1e10;
 /// How many poses a thread takes at a time.
 inline constexpr std::size_t poses_a_piece = 256;
 
+/// How many steps from time 0 on reach a time (s), to rounding.
+std::uint64_t steps_reaching(double time, double step);
 /// What surrounds the bodies of a flight.
 Surroundings surroundings_of(const FlightSettings& settings);
 /// What surrounds the bodies of a scene.
@@ -54,6 +57,27 @@ class FlightKind {
     /// were added act in its steps, and are gone; `duration` (s): of the call. Throws FlightError where a
     /// body's motion leaves the range of numbers.
     void advance_to(double time, double duration);
+    /// The same in parts, for bodies that meet: what comes before the steps; the poses before the last of
+    /// them; one step, which may be taken back by the bodies' states; and what comes after it.
+    void begin_call(double time, double duration);
+    void note_poses();
+    [[nodiscard]] BatchReport take_steps(std::uint64_t count);
+    void keep_steps(const BatchReport& done, std::uint64_t count);
+    void require_finite() const;
+    /// How many steps of the flight lie before the first of this kind. Of bodies that meet alone.
+    [[nodiscard]] std::uint64_t grid_start() const noexcept { return grid_start_; }
+    /// Whether a body is there in the next step: it has started, and was not removed.
+    [[nodiscard]] bool is_there(std::size_t index) const noexcept {
+        return !is_removed(index) && steps_ >= first_step(index);
+    }
+    [[nodiscard]] std::size_t copies() const noexcept { return static_cast<std::size_t>(release_.count); }
+    [[nodiscard]] Batch& batch() noexcept { return batch_; }
+    [[nodiscard]] const Batch& batch() const noexcept { return batch_; }
+    [[nodiscard]] const Surroundings& surroundings() const noexcept { return surroundings_; }
+    /// Of the bodies' hull, where they meet others.
+    [[nodiscard]] const std::vector<HullFace>& faces() const noexcept { return faces_; }
+    /// Lets a body that lies still be judged anew.
+    void wake(std::size_t index) noexcept;
     /// How many steps reach a time, to rounding.
     [[nodiscard]] std::uint64_t steps_until(double time) const;
 
@@ -106,7 +130,6 @@ class FlightKind {
     [[nodiscard]] std::uint64_t first_step(std::size_t index) const noexcept {
         return first_steps_.empty() ? 0 : first_steps_[index];
     }
-    void wake(std::size_t index) noexcept;
     /// Hands what pushes the bodies in a call of that `duration` (s) to the batch, or keeps it for the next
     /// where it takes no step.
     void take_up_wrenches(double duration, bool has_steps);
@@ -115,7 +138,6 @@ class FlightKind {
     /// How many steps the bodies take, all together, between two of the grid.
     [[nodiscard]] std::uint64_t steps_between(std::uint64_t begin, std::uint64_t end) const;
     void step_to(std::uint64_t steps);
-    void require_finite() const;
     [[nodiscard]] FlightReport sampled() const;
 
     std::string name_;
@@ -126,6 +148,9 @@ class FlightKind {
     std::string hash_;
     double step_;
     int threads_;
+    bool meets_;  ///< whether bodies touch each other
+    std::uint64_t grid_start_ = 0;
+    std::vector<HullFace> faces_;
     std::shared_ptr<const ImmersedBody> body_;
     Batch batch_;
     std::vector<std::uint64_t> first_steps_;  ///< of each body; none where all begin with the grid

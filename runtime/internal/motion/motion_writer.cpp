@@ -6,6 +6,7 @@
 
 #include "internal/body/surface_file.hpp"
 #include "internal/files/row_major.hpp"
+#include "internal/motion/look_group.hpp"
 #include "internal/motion/motion_rules.hpp"
 #include "internal/motion/obstacle_file.hpp"
 #include "samara/base/error.hpp"
@@ -85,6 +86,7 @@ void write_body(Hdf5Writer& file, const Motion& motion, std::size_t index) {
     file.write(group + "/shortest_axis", row_major(body.shortest_axis), {3}, "1",
                "principal axis of the shortest extent, shape axes: the axis of the inclination");
     write_surface(file, group + "/surface", body.surface);
+    if (body.look != nullptr) write_look(file, group + "/look", *body.look);
     if (!body.sizes.empty()) {
         file.write(group + "/size", body.sizes,
                    {static_cast<hsize_t>(motion.runs), static_cast<hsize_t>(body.copies)}, "1",
@@ -114,6 +116,7 @@ std::uintmax_t expected_size(const Motion& motion) {
                                      rounded_up(static_cast<std::uintmax_t>(body.copies), chunk[2]);
         bytes += poses * pose_bytes + poses * pose_bytes / 1000;  // and the list of chunks
         bytes += body.surface.vertices.size() * 24 + body.surface.corners.size() * 24;
+        if (body.look != nullptr) bytes += body.look->positions.size() * 64 + body.look->corners.size() * 16;
     }
     for (const Obstacle& obstacle : motion.obstacles) {
         bytes += small_parts + obstacle.surface.vertices.size() * 24 + obstacle.surface.corners.size() * 24 +

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "internal/body/look_file.hpp"
 #include "internal/body/obj_file.hpp"
 #include "internal/body/stl_file.hpp"
 #include "internal/body/surface_check.hpp"
@@ -24,16 +25,17 @@ std::string extension_of(const std::filesystem::path& file) {
 
 Surface read_mesh(const TomlTable& table, const std::filesystem::path& file) {
     const std::string extension = extension_of(file);
-    if (extension != ".stl" && extension != ".obj") {
-        throw table.fault("shape",
-                          fmt::format("must be a mesh, .stl or .obj, not '{}'", file.filename().string()));
+    if (extension != ".stl" && extension != ".obj" && extension != ".glb") {
+        throw table.fault(
+            "shape", fmt::format("must be a mesh, .stl, .obj or .glb, not '{}'", file.filename().string()));
     }
     if (const std::string fault = reading_fault(file); !fault.empty()) {
         throw table.fault("shape", fmt::format("cannot be had: {}: {}", file.string(), fault));
     }
-    const Surface read = extension == ".stl" ? read_stl_file(file) : read_obj_file(file);
     try {
-        Surface surface = welded(read);
+        Surface surface = welded(extension == ".stl"   ? read_stl_file(file)
+                                 : extension == ".obj" ? read_obj_file(file)
+                                                       : surface_of(read_look_file(file)));
         require_solid_surface(surface);
         return surface;
     } catch (const Error& fault) {
@@ -64,7 +66,7 @@ std::vector<ObstacleKey> read_keys(TomlTable& table, const ObstaclePlace& place)
 /// Shape, scale, place and keys.
 void read_solid(TomlTable& table, const std::filesystem::path& folder, Obstacle& obstacle) {
     const auto shape = table.text("shape");
-    if (!shape) throw table.fault("shape", "is missing; give a mesh, .stl or .obj");
+    if (!shape) throw table.fault("shape", "is missing; give a mesh, .stl, .obj or .glb");
     obstacle.surface = read_mesh(table, folder / *shape);
     const double scale = table.number("scale", positive_number).value_or(1.0);
     for (Vector3d& vertex : obstacle.surface.vertices) vertex *= scale;

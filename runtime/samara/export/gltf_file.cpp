@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <ostream>
 
 #include <fmt/format.h>
@@ -129,6 +130,61 @@ int add_mesh(Builder& builder, const std::string& name, const Surface& surface, 
     return static_cast<int>(builder.model().meshes.size()) - 1;
 }
 
+tinygltf::Material matte_material(const char* name, double grey) {
+    tinygltf::Material material;
+    material.name = name;
+    material.pbrMetallicRoughness.baseColorFactor = {grey, grey, grey, 1.0};
+    material.pbrMetallicRoughness.metallicFactor = 0.0;
+    material.pbrMetallicRoughness.roughnessFactor = 0.6;
+    return material;
+}
+
+/// A mesh of as many parts as the look has materials in use; adds these to the model.
+int add_look(Builder& builder, const std::string& name, const LookMesh& look) {
+    tinygltf::Mesh mesh;
+    mesh.name = printable(name);
+    const auto first_material = static_cast<int>(builder.model().materials.size());
+    std::map<std::string, int> attributes;
+    builder.begin_view(TINYGLTF_TARGET_ARRAY_BUFFER);
+    attributes["POSITION"] = builder.add_floats(y_up_floats(look.positions), 3, TINYGLTF_TYPE_VEC3);
+    if (!look.normals.empty()) {
+        builder.begin_view(TINYGLTF_TARGET_ARRAY_BUFFER);
+        attributes["NORMAL"] = builder.add_floats(y_up_floats(look.normals), 3, TINYGLTF_TYPE_VEC3);
+    }
+    if (!look.texture.empty()) {
+        std::vector<float> values;
+        for (const Eigen::Vector2d& place : look.texture)
+            append(values, Eigen::Vector2d(place.x(), 1.0 - place.y()));
+        builder.begin_view(TINYGLTF_TARGET_ARRAY_BUFFER);
+        attributes["TEXCOORD_0"] = builder.add_floats(values, 2, TINYGLTF_TYPE_VEC2);
+    }
+    for (std::size_t slot = 0; slot < look.materials.size(); ++slot) {
+        const LookMaterial& material = look.materials[slot];
+        builder.model().materials.push_back(matte_material(printable(material.name).c_str(), 1.0));
+        tinygltf::Material& added = builder.model().materials.back();
+        added.pbrMetallicRoughness.baseColorFactor.assign(material.color.begin(), material.color.end());
+        added.doubleSided = true;  // a look may be a sheet
+        if (material.color[3] < 1.0) added.alphaMode = "BLEND";
+        std::vector<std::array<std::uint32_t, 3>> triangles;
+        for (std::size_t i = 0; i < look.corners.size(); ++i) {
+            if (look.slots[i] != static_cast<std::int32_t>(slot)) continue;
+            const auto& [a, b, c] = look.corners[i];
+            triangles.push_back({static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b),
+                                 static_cast<std::uint32_t>(c)});
+        }
+        if (triangles.empty()) continue;
+        tinygltf::Primitive primitive;
+        primitive.mode = TINYGLTF_MODE_TRIANGLES;
+        primitive.material = first_material + static_cast<int>(slot);
+        primitive.attributes = attributes;
+        builder.begin_view(TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
+        primitive.indices = builder.add_indices(triangles);
+        mesh.primitives.push_back(primitive);
+    }
+    builder.model().meshes.push_back(mesh);
+    return static_cast<int>(builder.model().meshes.size()) - 1;
+}
+
 /// Returns the node's index.
 int add_node(tinygltf::Model& model, const std::string& name, int mesh, const ShapePose& start) {
     tinygltf::Node node;
@@ -233,15 +289,6 @@ class Keys {
     int all_times_ = -1;
 };
 
-tinygltf::Material matte_material(const char* name, double grey) {
-    tinygltf::Material material;
-    material.name = name;
-    material.pbrMetallicRoughness.baseColorFactor = {grey, grey, grey, 1.0};
-    material.pbrMetallicRoughness.metallicFactor = 0.0;
-    material.pbrMetallicRoughness.roughnessFactor = 0.6;
-    return material;
-}
-
 }  // namespace
 
 std::size_t write_glb(const std::filesystem::path& file, const Motion& motion, int run,
@@ -258,7 +305,8 @@ std::size_t write_glb(const std::filesystem::path& file, const Motion& motion, i
     Keys keys(builder, motion, times, animation);
     std::size_t count = 0;
     for (const BodyMotion& body : motion.bodies) {
-        const int mesh = add_mesh(builder, body.name, body.surface, 0, file);
+        const int mesh = body.look != nullptr ? add_look(builder, body.name, *body.look)
+                                              : add_mesh(builder, body.name, body.surface, 0, file);
         const KeyTolerance body_tolerance = key_tolerance(body, tolerance);
         if (moves) builder.begin_view(0);
         for (int copy = 0; copy < body.copies; ++copy) {
@@ -270,12 +318,13 @@ std::size_t write_glb(const std::filesystem::path& file, const Motion& motion, i
             if (moves) count += keys.add(node, poses, body_tolerance);
         }
     }
+    const auto obstacle_material = static_cast<int>(model.materials.size());
     if (!motion.obstacles.empty()) {
         model.materials.push_back(matte_material("obstacle", 0.5));
         model.materials.back().doubleSided = true;
     }
     for (const Obstacle& obstacle : motion.obstacles) {
-        const int mesh = add_mesh(builder, obstacle.name, obstacle.surface, 1, file);
+        const int mesh = add_mesh(builder, obstacle.name, obstacle.surface, obstacle_material, file);
         const std::vector<ShapePose> places = shape_poses(motion, obstacle);
         const int node = add_node(model, obstacle.name, mesh, places.front());
         if (!moves || !obstacle.moves()) continue;

@@ -1,16 +1,15 @@
 #include "samara/export/usd_file.hpp"
 
-#include <cctype>
 #include <cmath>
 #include <iterator>
 #include <numbers>
 #include <ostream>
-#include <set>
 
 #include <fmt/format.h>
 
 #include "internal/base/as_index.hpp"
 #include "internal/export/key_reduction.hpp"
+#include "internal/export/prim_names.hpp"
 #include "internal/export/shape_pose.hpp"
 #include "internal/export/usd_mesh.hpp"
 #include "internal/files/replace_file.hpp"
@@ -29,24 +28,6 @@ std::vector<double> time_codes(const Motion& motion) {
     }
     return codes;
 }
-
-/// Names of prims: letters, digits and underscores, each name once.
-class PrimNames {
-  public:
-    std::string operator()(const std::string& name) {
-        std::string prim = name;
-        for (char& letter : prim) {
-            if (std::isalnum(static_cast<unsigned char>(letter)) == 0) letter = '_';
-        }
-        if (prim.empty() || std::isdigit(static_cast<unsigned char>(prim.front())) != 0) prim = "_" + prim;
-        std::string unused = prim;
-        for (int i = 1; !used_.insert(unused).second; ++i) unused = fmt::format("{}_{}", prim, i);
-        return unused;
-    }
-
-  private:
-    std::set<std::string> used_;
-};
 
 /// Writes the stage of one run.
 class Stage {
@@ -82,6 +63,10 @@ class Stage {
         stream_.write(text_.data(), static_cast<std::streamsize>(text_.size()));
     }
 
+    static std::string shape_of(const BodyMotion& body, std::size_t indent) {
+        return body.look != nullptr ? usd_look(*body.look, indent) : usd_mesh(body.surface, indent);
+    }
+
     void write_transforms(const BodyMotion& body, const KeyTolerance& tolerance) {
         std::string first;
         for (int copy = 0; copy < body.copies; ++copy) {
@@ -90,8 +75,7 @@ class Stage {
             write_samples(shape_poses(motion_, body, run_, copy), tolerance, body.size(run_, copy));
             if (copy == 0) {
                 first = name;
-                print("\n        def Xform \"shape\"\n        {{\n{}        }}\n",
-                      usd_mesh(body.surface, 12));
+                print("\n        def Xform \"shape\"\n        {{\n{}        }}\n", shape_of(body, 12));
             } else {
                 print(
                     "\n        def Xform \"shape\" (\n            instanceable = true\n"
@@ -196,13 +180,14 @@ class Stage {
         print(
             "\n        def Scope \"prototypes\"\n        {{\n            def Xform \"shape\"\n"
             "            {{\n{}            }}\n        }}\n    }}\n",
-            usd_mesh(body.surface, 16));
+            shape_of(body, 16));
     }
 
     /// The farthest that a point of any copy is from the shape's origin (m).
     [[nodiscard]] double reach_of(const BodyMotion& body) const {
         double reach = 0.0;
-        for (const Vector3d& vertex : body.surface.vertices) reach = std::max(reach, vertex.norm());
+        const auto& shown = body.look != nullptr ? body.look->positions : body.surface.vertices;
+        for (const Vector3d& vertex : shown) reach = std::max(reach, vertex.norm());
         double largest = body.size(run_, 0);
         for (int copy = 1; copy < body.copies; ++copy) largest = std::max(largest, body.size(run_, copy));
         return largest * reach;

@@ -10,6 +10,7 @@
 #include "internal/base/as_index.hpp"
 #include "internal/base/content_hash.hpp"
 #include "internal/base/parallel_for.hpp"
+#include "internal/flight/encounters.hpp"
 #include "internal/flight/flight_kind.hpp"
 
 namespace samara {
@@ -71,7 +72,8 @@ struct Flight::Parts {
     double time = 0.0;
     bool has_begun = false;
     bool watches_contacts = false;
-    std::string stopped;  ///< why; empty: it has not
+    Encounters encounters;  ///< where bodies meet
+    std::string stopped;    ///< why; empty: it has not
 };
 
 void FlightReport::add(const FlightReport& other) {
@@ -93,6 +95,7 @@ Flight::Flight(const FlightSettings& settings) : parts_(std::make_unique<Parts>(
         refuse(FlightError::Kind::invalid_argument, "a flight needs a step above zero and one run at least");
     }
     parts_->settings = settings;
+    parts_->encounters = Encounters(settings.step, settings.runs, settings.threads);
     parts_->wind_seed = settings.seed;
     parts_->settings.wind = settings.wind.seeded(parts_->wind_seed);
     if (!settings.obstacles.empty()) parts_->obstacles = std::make_shared<ObstacleSet>(settings.obstacles);
@@ -235,12 +238,39 @@ void Flight::advance_to(double time) {
     if (time == parts_->time && parts_->has_begun) return;
     parts_->has_begun = true;
     try {
-        for (const auto& kind : parts_->kinds) kind->advance_to(time, time - parts_->time);
+        if (parts_->settings.bodies_meet) {
+            fly_together(time);
+        } else {
+            for (const auto& kind : parts_->kinds) kind->advance_to(time, time - parts_->time);
+        }
     } catch (const FlightError& lost) {
         parts_->stopped = lost.what();
         throw;
     }
     parts_->time = time;
+}
+
+void Flight::fly_together(double time) {
+    auto& kinds = parts_->kinds;
+    const double step = parts_->settings.step;
+    for (const auto& kind : kinds) kind->begin_call(time, time - parts_->time);
+    const std::uint64_t needed = steps_reaching(time, step);
+    for (std::uint64_t now = steps_reaching(parts_->time, step); now < needed; ++now) {
+        if (now + 1 == needed) {
+            for (const auto& kind : kinds) {
+                if (kind->grid_start() <= now) kind->note_poses();
+            }
+        }
+        parts_->encounters.take_step(kinds, parts_->surroundings, now);
+    }
+    for (const auto& kind : kinds) kind->require_finite();
+}
+
+void Flight::wake_all() {
+    if (!parts_->settings.bodies_meet) return;
+    for (const auto& kind : parts_->kinds) {
+        for (std::size_t i = 0; i < kind->size(); ++i) kind->wake(i);
+    }
 }
 
 FlightKind& Flight::kind_of(std::size_t index) const {
@@ -263,6 +293,7 @@ void Flight::poses(std::size_t first, std::size_t count, Pose* poses) const {
 void Flight::set_pose(std::size_t index, const Pose& pose) {
     FlightKind& kind = kind_of(index);
     kind.set_pose(index - kind.first(), pose, parts_->time);
+    wake_all();
 }
 
 void Flight::add_wrench(std::size_t index, const Wrench& wrench) {
@@ -273,11 +304,13 @@ void Flight::add_wrench(std::size_t index, const Wrench& wrench) {
 void Flight::add_impulse(std::size_t index, const Wrench& impulse) {
     FlightKind& kind = kind_of(index);
     kind.add_impulse(index - kind.first(), impulse, parts_->time);
+    wake_all();
 }
 
 void Flight::remove(std::size_t index) {
     FlightKind& kind = kind_of(index);
     kind.remove(index - kind.first(), parts_->time);
+    wake_all();
 }
 
 bool Flight::is_removed(std::size_t index) const {
@@ -342,6 +375,7 @@ std::string Flight::fingerprint() const {
         text += description_of(parts_->obstacles->obstacles()[i].obstacle());
     }
     text += description_of(all.wind);
+    if (all.bodies_meet) text += "bodies meet\n";
     for (const auto& kind : parts_->kinds) text += kind->description();
     return text;
 }

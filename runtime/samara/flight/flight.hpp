@@ -28,9 +28,12 @@ struct FlightSettings {
     std::optional<double> ground = {};             ///< m: the height (world z) of level ground
     std::vector<Obstacle> obstacles = {};          ///< what bodies touch besides
     Wind wind = {};                                ///< beside current and gust
-    double step = 0.002;                           ///< s
-    std::uint64_t seed = 1;                        ///< of all random numbers
-    std::uint32_t first_run = 0;                   ///< of the noise: runs differ by it
+    /// Whether the bodies of a run touch each other as they touch the ground. All then fly on one grid of
+    /// steps: kinds start at the next of its steps.
+    bool bodies_meet = false;
+    double step = 0.002;          ///< s
+    std::uint64_t seed = 1;       ///< of all random numbers
+    std::uint32_t first_run = 0;  ///< of the noise: runs differ by it
     int runs = 1;     ///< how many runs fly side by side, that differ by their random numbers alone
     int threads = 1;  ///< 0: all cores; the poses are the same for any number
 };
@@ -189,6 +192,8 @@ class Flight {
     [[nodiscard]] std::string fingerprint() const;
     [[nodiscard]] std::size_t fixed_state_size() const;
     void renew_surroundings();
+    void fly_together(double time);
+    void wake_all();
     bool read_state(std::string_view payload, bool keep);
 
     std::unique_ptr<Parts> parts_;

@@ -55,6 +55,7 @@ BodyMotion empty_motion(const SceneBody& scene_body, const ImmersedBody& immerse
     motion.body_hash = loaded.hash;
     motion.models = models_of(scene_body, immersed);
     motion.surface = loaded.body->surface;
+    motion.look = scene_body.look;
     motion.copies = scene_body.count;
     return motion;
 }

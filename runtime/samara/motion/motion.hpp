@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "samara/base/linear_algebra.hpp"
 #include "samara/body/contact_points.hpp"
+#include "samara/body/look_mesh.hpp"
 #include "samara/body/surface.hpp"
 #include "samara/motion/pose.hpp"
 #include "samara/physics/obstacle.hpp"
@@ -29,12 +31,13 @@ struct BodyMotion {
     Vector3d center_of_mass =
         Vector3d::Zero();  ///< m, shape axes: subtract R times this to place the shape's origin
     Vector3d shortest_axis =
-        Vector3d::UnitZ();         ///< principal axis of the shortest extent, shape axes: of the inclination
-    std::string body_hash;         ///< content hash of the body file that was flown
-    std::string models;            ///< in words: the loads, turbulence and defaults that were used
-    Surface surface;               ///< shape axes, so that a motion file can be shown by itself
-    ContactPoints contact_points;  ///< of the surface, where the motion has a ground
-    int copies = 1;                ///< of the body, each with poses of its own
+        Vector3d::UnitZ();  ///< principal axis of the shortest extent, shape axes: of the inclination
+    std::string body_hash;  ///< content hash of the body file that was flown
+    std::string models;     ///< in words: the loads, turbulence and defaults that were used
+    Surface surface;        ///< shape axes, so that a motion file can be shown by itself
+    std::shared_ptr<const LookMesh> look;  ///< what exports show in its place; null: nothing
+    ContactPoints contact_points;          ///< of the surface, where the motion has a ground
+    int copies = 1;                        ///< of the body, each with poses of its own
     /// Of each copy over the surface's, index run * copies + copy; none where all have the surface's own.
     std::vector<double> sizes;
     std::vector<FigureUncertainty> uncertainties;  ///< sorted by cause and figure; none where none are known

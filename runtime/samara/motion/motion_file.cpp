@@ -9,6 +9,7 @@
 #include "internal/body/surface_file.hpp"
 #include "internal/files/hdf5_reader.hpp"
 #include "internal/files/row_major.hpp"
+#include "internal/motion/look_group.hpp"
 #include "internal/motion/motion_rules.hpp"
 #include "internal/motion/motion_writer.hpp"
 #include "internal/motion/obstacle_file.hpp"
@@ -63,6 +64,7 @@ BodyMotion read_body_but_poses(const Hdf5Reader& file, const std::string& name, 
     body.center_of_mass = from_row_major<Vector3d>(file.finite_doubles(group + "/center_of_mass", {3}));
     body.shortest_axis = from_row_major<Vector3d>(file.finite_doubles(group + "/shortest_axis", {3}));
     body.surface = read_surface(file, group + "/surface");
+    body.look = read_look(file, group + "/look");
     body.body_hash = file.text_attribute(group, "body_hash");
     body.models = file.text_attribute(group, "models");
     body.uncertainties = read_uncertainties(file, name);

@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "samara/base/linear_algebra.hpp"
+#include "samara/body/look_mesh.hpp"
 #include "samara/physics/body_physics.hpp"
 #include "samara/physics/fluid.hpp"
 #include "samara/physics/obstacle.hpp"
@@ -20,7 +22,8 @@ struct SceneBody : BodyPhysics, Release {
     std::string name;             ///< unique in the scene
     std::filesystem::path shape;  ///< a shape file or a .body.h5, as found from the scene file's folder
     double scale = 1.0;           ///< metres for one unit of the shape file
-    bool models_auto = false;     ///< what the model advice says is to be flown (docs/plan.md)
+    std::shared_ptr<const LookMesh> look;  ///< in metres and shape axes: what exports show; null: its surface
+    bool models_auto = false;              ///< what the model advice says is to be flown (docs/plan.md)
     /// Whether the scene leaves the loads, or the turbulence, to what the body's file holds: tables, or else
     /// the loads of its surface, in still fluid.
     bool loads_by_default = false;
@@ -37,6 +40,7 @@ struct Scene {
     std::uint64_t seed = 1;                        ///< of the noise and the spread of starts
     Vector3d gravity = Vector3d(0.0, 0.0, -9.81);  ///< m/s^2
     std::optional<double> ground;                  ///< m: the height of level ground
+    bool bodies_meet = false;                      ///< whether the bodies of a run touch each other
     Fluid fluid;                                   ///< what the bodies are in
     Wind wind;                                     ///< beside current and gust
     std::vector<Obstacle> obstacles;               ///< in the file's order, with unlike names

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "internal/body/look_file.hpp"
 #include "internal/body/surface_patches.hpp"
 #include "internal/files/input_file.hpp"
 #include "internal/scene/choice.hpp"
@@ -239,6 +240,28 @@ std::filesystem::path shape_file(const TomlTable& table, const std::string& shap
     return file;
 }
 
+/// What exports show of a body; null where the scene says nothing.
+std::shared_ptr<const LookMesh> read_look(TomlTable& table, const std::filesystem::path& folder,
+                                          double shape_scale) {
+    const auto name = table.text("look");
+    const auto scale = table.number("look_scale", positive_number);
+    if (!name) {
+        if (scale) throw table.fault("look_scale", "is of a look; give one, or remove it");
+        return nullptr;
+    }
+    const std::filesystem::path file = folder / *name;
+    if (const std::string fault = reading_fault(file); !fault.empty()) {
+        throw table.fault("look", fmt::format("cannot be had: {}: {}", file.string(), fault));
+    }
+    try {
+        LookMesh look = read_look_file(file);
+        for (Vector3d& place : look.positions) place *= scale.value_or(shape_scale);
+        return std::make_shared<const LookMesh>(std::move(look));
+    } catch (const Error& fault) {
+        throw table.fault("look", fmt::format("cannot be had: {}", fault.what()));
+    }
+}
+
 SceneBody read_body(TomlTable& table, const std::filesystem::path& folder) {
     SceneBody body;
     const auto name = table.text("name");
@@ -252,6 +275,7 @@ SceneBody read_body(TomlTable& table, const std::filesystem::path& folder) {
             "shape", "is missing; give a shape file, a .body.h5 or a ready-baked body, as \"samara:leaf\"");
     body.shape = shape_file(table, *shape, folder);
     assign(body.scale, table.number("scale", positive_number));
+    body.look = read_look(table, folder, body.scale);
     body.mass = read_mass(table);
     if (!body.mass.is_given() && !is_body_file_name(body.shape)) {
         throw table.fault("density", "is missing; give it, or mass");
@@ -296,6 +320,7 @@ void read_settings(TomlTable& table, Scene& scene) {
     }
     assign(scene.gravity, table.vector("gravity"));
     scene.ground = table.number("ground", any_number);
+    assign(scene.bodies_meet, table.boolean("bodies_meet"));
     if (scene.duration * scene.frame_rate > 1e8 || scene.duration / scene.step > 1e10) {
         throw table.fault("duration", "makes more than 1e8 frames or 1e10 steps; is a unit wrong?");
     }

@@ -17,6 +17,7 @@ namespace samara {
 namespace {
 
 using nlohmann::json;
+using test::angle;
 using test::distance;
 using test::expect_same_poses;
 using test::pose_of;
@@ -228,6 +229,52 @@ TEST(BlenderAddon, LetsGoOfAnObjectWhereItsKeysHaveItWithTheirVelocity) {
         const ShapePose once = pose_of(found["flown"][i]);
         const ShapePose again = pose_of(found["flown_again"][i]);
         EXPECT_LT(distance(once, again), 1e-4) << i;
+    }
+}
+
+TEST(BlenderAddon, GivesAnObjectBackToItsKeysEvenly) {
+    const TemporaryFolder folder;
+    const json found = use_addon({"returned", rubber_file(folder)});
+    EXPECT_EQ(found["fault"], "");
+    const auto pose = [&](const char* name, std::size_t frame) { return pose_of(found[name][frame]); };
+    // Counted from 0: released at 4, back at 24, over 10 frames.
+    for (std::size_t i = 0; i <= 14; ++i)
+        EXPECT_LT(distance(pose("returned", i), pose("flown", i)), 1e-5) << i;
+    for (std::size_t i = 24; i <= 40; ++i) {
+        EXPECT_LT(distance(pose("returned", i), pose("keyed", i)), 1e-5) << i;
+        EXPECT_LT(angle(pose("returned", i), pose("keyed", i)), 2e-3) << i;
+    }
+    EXPECT_GT(distance(pose("flown", 24), pose("keyed", 24)), 0.1);
+    // The blend takes no longer way from frame to frame than it must, and begins and ends with either's own.
+    const auto way = [&](const char* name, std::size_t frame) {
+        return Vector3d(pose(name, frame + 1).position - pose(name, frame).position);
+    };
+    const double apart = distance(pose("flown", 19), pose("keyed", 19));
+    for (std::size_t i = 14; i < 24; ++i) EXPECT_LT(way("returned", i).norm(), 0.05 + 0.4 * apart) << i;
+    EXPECT_LT((way("returned", 14) - way("flown", 14)).norm(), 0.06 * apart);
+    EXPECT_LT((way("returned", 23) - way("keyed", 24)).norm(), 0.06 * apart);
+    for (std::size_t i = 0; i <= 40; ++i) {
+        EXPECT_LT(distance(pose("again", i), pose("returned", i)), 1e-4) << i;
+    }
+    EXPECT_THAT(found["jump"].get<std::string>(), HasSubstr("its keys jump just before its release"));
+    EXPECT_THAT(found["too_early"].get<std::string>(), HasSubstr("returns to its keys before its release"));
+    EXPECT_THAT(found["no_keys"].get<std::string>(), HasSubstr("is to return to its keys, but has none"));
+}
+
+TEST(BlenderAddon, LetsBodiesMeetWhereTheSceneSaysSo) {
+    const TemporaryFolder folder;
+    const json found = use_addon({"meeting", rubber_file(folder)});
+    const auto height = [&](const char* name, std::size_t body) {
+        return pose_of(found[name][body][2]).position.z();
+    };
+    // On the same spot of the ground, or one beside or on the other.
+    EXPECT_LT(distance(pose_of(found["alone"][0][2]), pose_of(found["alone"][1][2])), 1e-3);
+    EXPECT_GT(distance(pose_of(found["met"][0][2]), pose_of(found["met"][1][2])), 0.018);
+    EXPECT_NEAR(height("alone", 0), height("met", 0), 0.01);
+    for (const char* name : {"alone", "met"}) {
+        for (std::size_t body = 0; body < 2; ++body) {
+            expect_same_poses(found[name][body], found[std::string(name) + "_live"][body]);
+        }
     }
 }
 

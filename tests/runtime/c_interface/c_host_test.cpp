@@ -200,6 +200,30 @@ TEST(CHost, GivesTheFluidLoadOfTheFlight) {
     EXPECT_GT(load.wrench[5], 0.0) << "buoyancy and drag, upwards";
 }
 
+TEST(CHost, LetsBodiesMeetAndSaysWhichWasMet) {
+    const BodyOnDisk body;
+    samara_settings settings = default_settings();
+    settings.bodies_meet = 1;
+    settings.gravity[2] = 0.0;
+    const SimulationPointer simulation = simulation_of(body, ideal_kind(), settings);
+    samara_kind striking = ideal_kind();
+    striking.name = "striking";
+    striking.position[2] = 0.1;
+    striking.velocity[2] = -0.5;
+    Text fault;
+    ASSERT_EQ(CALL(samara_simulation_add, simulation.get(), body.get(), &striking, nullptr), SAMARA_OK)
+        << fault.text();
+    ASSERT_EQ(CALL(samara_watch_contacts, simulation.get(), 1), SAMARA_OK) << fault.text();
+    poses_at(simulation, 1.0);
+    std::array<samara_contact, 2> contacts{};
+    ASSERT_EQ(CALL(samara_take_contacts, simulation.get(), 0, 2, contacts.data(), 0), SAMARA_OK)
+        << fault.text();
+    EXPECT_EQ(contacts[0].obstacle, -2 - 1);
+    EXPECT_EQ(contacts[1].obstacle, -2 - 0);
+    EXPECT_LT(contacts[0].impulse[2], 0.0);
+    EXPECT_NEAR(contacts[0].impulse[2], -contacts[1].impulse[2], 1e-12);
+}
+
 TEST(CHost, RefusesWhatIsNoForceBodyOrPlace) {
     const BodyOnDisk body;
     const SimulationPointer simulation = simulation_of(body, rubber_kind());

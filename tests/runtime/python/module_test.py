@@ -403,6 +403,17 @@ class LiveFlights(unittest.TestCase):
         with self.assertRaisesRegex(samara.Error, "finite"):
             self.flight.set_ground(math.inf)
 
+    def test_bodies_meet_where_the_scene_says_so(self):
+        scene = leaves()
+        scene["scene"]["bodies_meet"] = True
+        scene["scene"]["ground"] = -0.05
+        flight = samara.Flight(samara.Scene(scene), runs=1)
+        flight.watch_contacts(True)
+        flight.advance(2.0)
+        met = flight.take_contacts("leaf")
+        self.assertTrue(((met["body"] >= -1) & (met["body"] < met["body"].size)).all())
+        self.assertTrue((met["obstacle"] == -1).all())
+
     def test_contacts_are_arrays_of_runs_and_copies(self):
         scene = leaves()
         scene["scene"]["ground"] = -0.2

@@ -82,8 +82,8 @@ TEST(Obstacle, MovesEvenlyBetweenItsKeysAndByTheShortestTurn) {
 
 TEST(Obstacle, OfBadInputIsRefusedInOneLineThatSaysWhereAndWhatToDo) {
     expect_refused("shape = \"none.obj\"\n", "shape in [[obstacle]] cannot be had");
-    expect_refused("", "shape in [[obstacle]] is missing; give a mesh, .stl or .obj");
-    expect_refused("shape = \"mesh.glb\"\n", "must be a mesh, .stl or .obj, not 'mesh.glb'");
+    expect_refused("", "shape in [[obstacle]] is missing; give a mesh, .stl, .obj or .glb");
+    expect_refused("shape = \"mesh.ply\"\n", "must be a mesh, .stl, .obj or .glb, not 'mesh.ply'");
     expect_refused("shape = \"mesh.obj\"\nfriction = -1\n",
                    "friction in [[obstacle]] must be 0, or a finite number");
     expect_refused("shape = \"mesh.obj\"\nscale = 0\n",

@@ -144,6 +144,78 @@ def led(file):
     return found
 
 
+def returned(file):
+    """A body that keys hold, let go, and have again, moving, from frame 35 on."""
+    empty_scene()
+    (o,) = add_bodies(file, 1, density=1200.0)
+    scene.frame_start, scene.frame_end = 11, 51
+    scene.unit_settings.scale_length = 0.1
+    body = o.samara
+    body.noise = False
+    o.rotation_mode = "XYZ"
+    for frame, place, turn in ((11, (0.0, 0.0, 0.0), 0.0), (21, (0.0, 0.0, 0.0), 0.0), (51, (3.0, 0.0, 6.0), 1.5)):
+        o.location, o.rotation_euler = place, (0.0, turn, 0.0)
+        o.keyframe_insert("location", frame=frame)
+        o.keyframe_insert("rotation_euler", frame=frame)
+    for curve in o.animation_data.action.fcurves:
+        for point in curve.keyframe_points:
+            point.interpolation = "LINEAR"
+    frames = range(11, 52)
+    found = {"keyed": matrices([o], frames)[o.name]}
+    action = o.animation_data.action.copy()
+    body.release = 4.0
+    found["fault"] = run(bpy.ops.samara.simulate)
+    found["flown"] = matrices([o], frames)[o.name]
+    o.animation_data.action = action
+    o.rotation_mode = "XYZ"
+    body.returns, body.return_blend = 24, 10
+    found["fault"] += run(bpy.ops.samara.simulate)
+    found["returned"] = matrices([o], frames)[o.name]
+    found["fault"] += run(bpy.ops.samara.simulate)
+    found["again"] = matrices([o], frames)[o.name]
+    o.keyframe_insert("location", frame=20)
+    o.location.x += 600.0
+    o.keyframe_insert("location", frame=21)
+    body.release, body.returns = 10.0, 0
+    found["jump"] = run(bpy.ops.samara.simulate)
+    body.release, body.returns = 24.0, 24
+    found["too_early"] = run(bpy.ops.samara.simulate)
+    body.release = 0.0
+    clear_keys([o])
+    found["no_keys"] = run(bpy.ops.samara.simulate)
+    return found
+
+
+def meeting(file):
+    """Two bodies, one above the other, that fall onto the ground: alone, and where they meet; by keys and live."""
+    empty_scene()
+    objects = add_bodies(file, 2, density=1600.0)
+    scene.frame_start, scene.frame_end = 1, 49
+    scene.unit_settings.scale_length = 0.1
+    scene.samara.use_ground, scene.samara.ground = True, 0.0
+    for o, height in zip(objects, (0.6, 2.0)):
+        o.samara.noise = False
+        o.location = (0.0, 0.0, height)
+        o.rotation_mode = "QUATERNION"
+        o.rotation_quaternion = (1.0, 0.0, 0.0, 0.0)
+    select(objects)
+    found = {}
+    for name, meet in (("alone", False), ("met", True)):
+        scene.samara.bodies_meet = meet
+        assert run(bpy.ops.samara.live) == ""
+        places = matrices(objects, (1, 25, 49))
+        found[name + "_live"] = [places[o.name] for o in objects]
+        assert run(bpy.ops.samara.live) == ""
+        assert run(bpy.ops.samara.simulate) == ""
+        places = matrices(objects, (1, 25, 49))
+        found[name] = [places[o.name] for o in objects]
+        clear_keys(objects)
+        for o, height in zip(objects, (0.6, 2.0)):
+            o.location = (0.0, 0.0, height)
+            o.rotation_quaternion = (1.0, 0.0, 0.0, 0.0)
+    return found
+
+
 def cache(file, folder):
     """Live from the disk: in a saved file that is opened again, and with a flight that is damaged."""
     from samara import flight, live
@@ -258,4 +330,4 @@ def scrub(file, count, frames, folder):
     return found
 
 
-TASKS = (keys, live, masses, sizes, led, cache, errors, scrub)
+TASKS = (keys, live, masses, sizes, led, returned, meeting, cache, errors, scrub)

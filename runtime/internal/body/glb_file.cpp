@@ -1,0 +1,266 @@
+#include "internal/body/glb_file.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+#include <tiny_gltf.h>
+
+#include "internal/base/content_hash.hpp"
+#include "samara/base/error.hpp"
+
+namespace samara {
+namespace {
+
+constexpr std::size_t most_nodes_deep = 64;
+constexpr std::size_t most_triangles = 20'000'000;
+
+/// Of glTF's axes (y up) in those where z is up.
+Vector3d z_up(const Vector3d& vector) {
+    return {vector.x(), -vector.z(), vector.y()};
+}
+
+bool no_image(tinygltf::Image* /*image*/, int /*index*/, std::string* /*error*/, std::string* /*warning*/,
+              int /*width*/, int /*height*/, const unsigned char* /*bytes*/, int /*size*/, void* /*data*/) {
+    return true;
+}
+
+/// Files beside the .glb are not looked for.
+tinygltf::FsCallbacks no_files() {
+    tinygltf::FsCallbacks callbacks{};
+    callbacks.FileExists = [](const std::string&, void*) { return false; };
+    callbacks.ExpandFilePath = [](const std::string& path, void*) { return path; };
+    callbacks.ReadWholeFile = [](std::vector<unsigned char>*, std::string*, const std::string&, void*) {
+        return false;
+    };
+    callbacks.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&,
+                                  void*) { return false; };
+    return callbacks;
+}
+
+class GlbReader {
+  public:
+    explicit GlbReader(const std::filesystem::path& file) : label_(file.string()) {
+        const std::string bytes = read_bytes(file);
+        if (bytes.size() > std::numeric_limits<unsigned int>::max()) fail("is larger than 4 GB");
+        tinygltf::TinyGLTF loader;
+        loader.SetImageLoader(no_image, nullptr);
+        loader.SetFsCallbacks(no_files());
+        std::string error;
+        std::string warning;
+        const auto* first = reinterpret_cast<const unsigned char*>(bytes.data());
+        if (!loader.LoadBinaryFromMemory(&model_, &error, &warning, first,
+                                         static_cast<unsigned int>(bytes.size()))) {
+            while (!error.empty() && std::isspace(static_cast<unsigned char>(error.back())) != 0)
+                error.pop_back();
+            std::replace(error.begin(), error.end(), '\n', ' ');
+            fail(error.empty() ? "is no .glb file" : "is no sound .glb file: " + error);
+        }
+    }
+
+    LookMesh read() {
+        for (const std::string& extension : model_.extensionsRequired) {
+            if (extension.starts_with("KHR_draco") || extension.starts_with("EXT_meshopt") ||
+                extension == "KHR_mesh_quantization") {
+                fail(fmt::format("its meshes are compressed ({}); export it without", extension));
+            }
+        }
+        for (const tinygltf::Material& material : model_.materials) {
+            LookMaterial& slot = look_.materials.emplace_back();
+            slot.name = material.name;
+            const std::vector<double>& color = material.pbrMetallicRoughness.baseColorFactor;
+            for (std::size_t i = 0; i < std::min<std::size_t>(4, color.size()); ++i) {
+                slot.color[i] = std::isfinite(color[i]) ? std::clamp(color[i], 0.0, 1.0) : 1.0;
+            }
+        }
+        if (model_.scenes.empty()) fail("shows no scene");
+        const std::size_t shown = model_.defaultScene < 0 ? 0 : static_cast<std::size_t>(model_.defaultScene);
+        if (shown >= model_.scenes.size()) fail("shows a scene that is not there");
+        for (const int node : model_.scenes[shown].nodes) add_node(node, Eigen::Affine3d::Identity(), 0);
+        if (!has_normals_) look_.normals.clear();
+        if (!has_texture_) look_.texture.clear();
+        return std::move(look_);
+    }
+
+  private:
+    [[noreturn]] void fail(const std::string& what) const {
+        throw Error(fmt::format("{}: {}", label_, what));
+    }
+
+    template <typename Part>
+    const Part& at(const std::vector<Part>& parts, int index, const char* what) const {
+        if (index < 0 || static_cast<std::size_t>(index) >= parts.size()) {
+            fail(fmt::format("names a {} that is not there", what));
+        }
+        return parts[static_cast<std::size_t>(index)];
+    }
+
+    void add_node(int index, const Eigen::Affine3d& parent, std::size_t depth) {
+        if (depth > most_nodes_deep) fail("its nodes stand too deep in each other, or in a circle");
+        const tinygltf::Node& node = at(model_.nodes, index, "node");
+        Eigen::Affine3d place = Eigen::Affine3d::Identity();
+        if (node.matrix.size() == 16) {
+            place.matrix() = Eigen::Map<const Eigen::Matrix4d>(node.matrix.data());
+        } else {
+            if (node.translation.size() == 3) place.translate(Vector3d(node.translation.data()));
+            if (node.rotation.size() == 4) {
+                const std::vector<double>& q = node.rotation;
+                place.rotate(Quaterniond(q[3], q[0], q[1], q[2]).normalized());
+            }
+            if (node.scale.size() == 3) place.scale(Vector3d(node.scale.data()));
+        }
+        const Eigen::Affine3d here = parent * place;
+        if (!here.matrix().allFinite()) fail("places a node by what are no numbers");
+        if (node.mesh >= 0) {
+            for (const tinygltf::Primitive& part : at(model_.meshes, node.mesh, "mesh").primitives) {
+                add_part(part, here);
+            }
+        }
+        for (const int child : node.children) add_node(child, here, depth + 1);
+    }
+
+    /// Calls `take` with a pointer to each element of an accessor.
+    template <typename Take>
+    void visit(const tinygltf::Accessor& accessor, int type, int component, const Take& take) const {
+        if (accessor.type != type || accessor.componentType != component || accessor.sparse.isSparse) {
+            fail("holds a mesh in numbers that are not read; export it anew");
+        }
+        const tinygltf::BufferView& view = at(model_.bufferViews, accessor.bufferView, "view of its bytes");
+        const std::vector<unsigned char>& bytes = at(model_.buffers, view.buffer, "buffer").data;
+        const auto size =
+            static_cast<std::size_t>(
+                tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(component))) *
+            static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type)));
+        const std::size_t stride = view.byteStride == 0 ? size : view.byteStride;
+        const std::size_t first = view.byteOffset + accessor.byteOffset;
+        if (accessor.count == 0) return;
+        if (stride > 4096 || first > bytes.size() || accessor.count > bytes.size() ||
+            first + (accessor.count - 1) * stride + size > bytes.size()) {
+            fail("is cut short");
+        }
+        for (std::size_t i = 0; i < accessor.count; ++i) take(&bytes[first + i * stride]);
+    }
+
+    std::vector<float> floats(const tinygltf::Accessor& accessor, int type, std::size_t components) const {
+        std::vector<float> values;
+        visit(accessor, type, TINYGLTF_COMPONENT_TYPE_FLOAT, [&](const unsigned char* bytes) {
+            const std::size_t old = values.size();
+            values.resize(old + components);
+            std::memcpy(&values[old], bytes, components * sizeof(float));
+        });
+        for (const float value : values) {
+            if (!std::isfinite(value)) fail("holds what is no number");
+        }
+        return values;
+    }
+
+    std::vector<std::uint32_t> indices(const tinygltf::Accessor& accessor) const {
+        std::vector<std::uint32_t> values;
+        const auto take_as = [&](auto number) {
+            visit(accessor, TINYGLTF_TYPE_SCALAR, accessor.componentType, [&](const unsigned char* bytes) {
+                std::memcpy(&number, bytes, sizeof number);
+                values.push_back(number);
+            });
+        };
+        if (accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE) {
+            take_as(std::uint8_t{});
+        } else if (accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT) {
+            take_as(std::uint16_t{});
+        } else {
+            if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
+                fail("counts by what is no number");
+            take_as(std::uint32_t{});
+        }
+        return values;
+    }
+
+    void add_part(const tinygltf::Primitive& part, const Eigen::Affine3d& place) {
+        if (part.mode != TINYGLTF_MODE_TRIANGLES && part.mode != -1) return;  // points and lines
+        const auto attribute = [&](const char* name) -> const tinygltf::Accessor* {
+            const auto found = part.attributes.find(name);
+            return found == part.attributes.end() ? nullptr : &at(model_.accessors, found->second, "list");
+        };
+        const tinygltf::Accessor* positions = attribute("POSITION");
+        if (positions == nullptr) return;
+        const std::size_t first = look_.positions.size();
+        const std::vector<float> places = floats(*positions, TINYGLTF_TYPE_VEC3, 3);
+        for (std::size_t i = 0; i < places.size(); i += 3) {
+            look_.positions.push_back(z_up(place * Vector3d(places[i], places[i + 1], places[i + 2])));
+        }
+        const std::size_t end = look_.positions.size();
+        if (end > most_triangles) fail("has too many vertices");
+        const Matrix3d turn = place.linear().inverse().transpose();
+        if (const tinygltf::Accessor* normals = attribute("NORMAL"); normals != nullptr && turn.allFinite()) {
+            const std::vector<float> values = floats(*normals, TINYGLTF_TYPE_VEC3, 3);
+            for (std::size_t i = 0; i < values.size(); i += 3) {
+                const Vector3d normal = turn * Vector3d(values[i], values[i + 1], values[i + 2]);
+                look_.normals.push_back(normal.norm() > 0.0 ? z_up(normal.normalized()) : Vector3d::UnitZ());
+            }
+        } else {
+            has_normals_ = false;
+        }
+        if (const tinygltf::Accessor* texture = attribute("TEXCOORD_0");
+            texture != nullptr && texture->componentType == TINYGLTF_COMPONENT_TYPE_FLOAT) {
+            has_texture_ = true;
+            const std::vector<float> values = floats(*texture, TINYGLTF_TYPE_VEC2, 2);
+            for (std::size_t i = 0; i < values.size(); i += 2) {
+                look_.texture.emplace_back(values[i], 1.0 - static_cast<double>(values[i + 1]));
+            }
+        }
+        look_.normals.resize(end, Vector3d::UnitZ());
+        look_.texture.resize(end, Eigen::Vector2d::Zero());
+        add_triangles(part, first, end, place.linear().determinant() < 0.0);
+    }
+
+    void add_triangles(const tinygltf::Primitive& part, std::size_t first, std::size_t end, bool mirrored) {
+        std::vector<std::uint32_t> corners;
+        if (part.indices >= 0) {
+            corners = indices(at(model_.accessors, part.indices, "list"));
+        } else {
+            for (std::size_t i = first; i < end; ++i)
+                corners.push_back(static_cast<std::uint32_t>(i - first));
+        }
+        if (corners.size() % 3 != 0) fail("has a triangle without three corners");
+        const std::int32_t slot = slot_of(part.material);
+        for (std::size_t i = 0; i < corners.size(); i += 3) {
+            std::array<std::int32_t, 3> triangle{};
+            for (std::size_t k = 0; k < 3; ++k) {
+                if (first + corners[i + k] >= end) fail("has a triangle with a corner that is not there");
+                triangle[k] = static_cast<std::int32_t>(first + corners[i + k]);
+            }
+            if (mirrored) std::swap(triangle[1], triangle[2]);
+            look_.corners.push_back(triangle);
+            look_.slots.push_back(slot);
+        }
+    }
+
+    std::int32_t slot_of(int material) {
+        if (material >= 0) {
+            at(model_.materials, material, "material");
+            return material;
+        }
+        if (plain_slot_ < 0) {
+            plain_slot_ = static_cast<std::int32_t>(look_.materials.size());
+            look_.materials.push_back({"body", {0.8, 0.8, 0.8, 1.0}});
+        }
+        return plain_slot_;
+    }
+
+    std::string label_;
+    tinygltf::Model model_;
+    LookMesh look_;
+    std::int32_t plain_slot_ = -1;
+    bool has_normals_ = true;
+    bool has_texture_ = false;
+};
+
+}  // namespace
+
+LookMesh read_glb_file(const std::filesystem::path& file) {
+    return GlbReader(file).read();
+}
+
+}  // namespace samara

@@ -1,0 +1,364 @@
+#include "internal/dynamics/company.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "internal/dynamics/contact_set.hpp"
+#include "internal/dynamics/ground_contact.hpp"
+
+namespace samara {
+namespace {
+
+// Chosen by trial: what they must give is what the tests Encounters and EncountersStability hold them to.
+constexpr double most_turn = 0.25;   // rad, in a part
+constexpr double most_way = 0.5;     // past another, over the smaller radius, in a part
+constexpr double most_fall = 0.005;  // from a standstill, over the radius, in a part
+constexpr int most_parts = 64;
+constexpr int most_attempts = 6;      // to find where bodies meet within a part
+constexpr double held_back = 0.25;    // of its kinetic energy, that one which stays keeps
+constexpr int most_rounds = 20;       // in which bodies are moved apart
+constexpr double resting_way = 2e-4;  // in a step, over the radius, that counts as none
+constexpr double no_way = 2e-5;       // the same, which what rests is taken back by
+constexpr double still = 1e-2;  // speed that counts as none, over what the step would give without contact
+constexpr double ground_touching = 1e-5;  // gap to the ground that counts as none, over the radius
+constexpr std::size_t most_ground_points = 12;
+
+Vector6d turned(const Quaterniond& rotation, const Vector6d& velocity) {
+    Vector6d result;
+    result << rotation * velocity.head<3>(), rotation * velocity.tail<3>();
+    return result;
+}
+
+/// Where steady motion leads in a time.
+BodyPlace carried(const BodyPlace& place, const Vector6d& velocity, double time) {
+    BodyPlace result = place;
+    result.position += time * velocity.tail<3>();
+    const double angle = time * velocity.head<3>().norm();
+    if (angle > 0.0) {
+        result.orientation = (Eigen::AngleAxisd(angle, velocity.head<3>().normalized()) * place.orientation);
+        result.orientation.normalize();
+    }
+    return result;
+}
+
+/// Of points that are near the ground or obstacles those with the smallest gap, and with the greatest
+/// distance from those before.
+template <typename Visit>
+void visit_spread(const ContactSet& near, double radius, const Visit& visit) {
+    std::array<double, most_near_points> distance;
+    const auto count = static_cast<std::size_t>(near.end() - near.begin());
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        distance[i] = 1e300;
+        if (near.begin()[i].gap < near.begin()[next].gap) next = i;
+    }
+    for (std::size_t taken = 0; taken < std::min(count, most_ground_points); ++taken) {
+        const NearPoint& chosen = near.begin()[next];
+        visit(chosen);
+        for (std::size_t i = 0; i < count; ++i) {
+            const NearPoint& other = near.begin()[i];
+            distance[i] =
+                std::min(distance[i], (other.point - chosen.point).squaredNorm() +
+                                          radius * radius * (other.normal - chosen.normal).squaredNorm());
+        }
+        next = static_cast<std::size_t>(std::max_element(distance.begin(), distance.begin() + count) -
+                                        distance.begin());
+    }
+}
+
+}  // namespace
+
+MeetingHull CompanyStep::hull(std::size_t i, const BodyPlace& place) const {
+    const Companion& companion = companions_[i];
+    // About the first of all, so that little is lost to rounding far from the origin.
+    return {{&companion.body->contact_points, place.orientation.toRotationMatrix(),
+             place.position - companions_.front().begin.position},
+            companion.faces};
+}
+
+double CompanyStep::energy_of(std::size_t i, const BodyPlace& place, const Vector6d& velocity) const {
+    const Vector6d own = turned(place.orientation.conjugate(), velocity);
+    return 0.5 * own.dot(companions_[i].body->inertia * own);
+}
+
+int CompanyStep::parts_of(std::span<const Pair> pairs, double time_step) const {
+    double parts = 1.0;
+    const auto at_both = [&](std::size_t i, const auto& function) {
+        return std::max(function(companions_[i].begin_velocity), function(companions_[i].end_velocity));
+    };
+    for (std::size_t i = 0; i < companions_.size(); ++i) {
+        const double turn = at_both(i, [](const Vector6d& u) { return u.head<3>().norm(); });
+        parts = std::max(parts, time_step * turn / most_turn);
+        const Vector6d change = companions_[i].end_velocity - companions_[i].begin_velocity;
+        const double radius = companions_[i].body->contact_points.bounding_radius;
+        parts = std::max(parts, std::sqrt(0.5 * time_step * change.tail<3>().norm() / (most_fall * radius)));
+    }
+    for (const auto& [a, b] : pairs) {
+        const Companion& first = companions_[a];
+        const Companion& second = companions_[b];
+        const double past = std::max((first.begin_velocity - second.begin_velocity).tail<3>().norm(),
+                                     (first.end_velocity - second.end_velocity).tail<3>().norm());
+        const double radius =
+            std::min(first.body->contact_points.bounding_radius, second.body->contact_points.bounding_radius);
+        parts = std::max(parts, time_step * past / (most_way * radius));
+    }
+    return static_cast<int>(std::ceil(std::min(parts, static_cast<double>(most_parts))));
+}
+
+void CompanyStep::start(double time_step, int parts) {
+    movers_.resize(companions_.size());
+    bodies_.resize(companions_.size());
+    for (std::size_t i = 0; i < companions_.size(); ++i) {
+        Companion& companion = companions_[i];
+        Mover& mover = movers_[i];
+        companion.touched = false;
+        mover.met = {};
+        mover.place = companion.begin;
+        mover.velocity = companion.begin_velocity;
+        const Vector6d change = companion.end_velocity - companion.begin_velocity;
+        const Quaterniond& to_world = companion.begin.orientation;
+        mover.gain << (companion.end.orientation.conjugate() * companion.end_velocity.head<3>() -
+                       to_world.conjugate() * companion.begin_velocity.head<3>()) /
+                          parts,
+            change.tail<3>() / parts;
+        const Vector6d momentum = companion.body->inertia * turned(to_world.conjugate(), change);
+        mover.load = to_world * momentum.tail<3>() / time_step;
+    }
+}
+
+/// The velocity with the part's share of what the step gives.
+Vector6d CompanyStep::fed(const Mover& mover) const {
+    Vector6d velocity = mover.velocity_before;
+    velocity.head<3>() += mover.before.orientation * mover.gain.head<3>();
+    velocity.tail<3>() += mover.gain.tail<3>();
+    return velocity;
+}
+
+void CompanyStep::begin_part(double time_step) {
+    for (std::size_t i = 0; i < companions_.size(); ++i) {
+        Mover& mover = movers_[i];
+        const ImmersedBody& body = *companions_[i].body;
+        Matrix6d to_world = Matrix6d::Zero();
+        to_world.topLeftCorner<3, 3>() = mover.place.orientation.toRotationMatrix();
+        to_world.bottomRightCorner<3, 3>() = to_world.topLeftCorner<3, 3>();
+        mover.velocity_before = mover.velocity;
+        mover.before = mover.place;
+        bodies_[i] = {.velocity = fed(mover),
+                      .inverse_inertia = to_world * body.inverse_inertia * to_world.transpose(),
+                      .radius = body.contact_points.bounding_radius};
+        mover.energy_before = energy_of(i, mover.place, mover.velocity);
+        mover.alone = carried(mover.place, bodies_[i].velocity, time_step);
+    }
+}
+
+void CompanyStep::find_ground(const CompanyGround& ground, double time, double time_step) {
+    for (std::size_t i = 0; i < companions_.size(); ++i) {
+        const ContactPoints& points = companions_[i].body->contact_points;
+        const double radius = points.bounding_radius;
+        const BodyPlace& place = movers_[i].place;
+        const double margin = 2.0 * time_step *
+                                  std::max(speed_of_points(movers_[i].velocity, radius),
+                                           speed_of_points(bodies_[i].velocity, radius)) +
+                              ground_touching * radius;
+        const Matrix3d to_world = place.orientation.toRotationMatrix();
+        ContactSet near(to_world);
+        if (ground.height && place.position.z() - *ground.height - radius <= margin) {
+            near.add_ground(points, place.position.z() - *ground.height, margin);
+        }
+        if (ground.obstacles != nullptr && passes_near(*ground.obstacles, points, place, place, margin)) {
+            add_obstacles(*ground.obstacles, points, place,
+                          turned(place.orientation.conjugate(), bodies_[i].velocity), time, time_step, margin,
+                          near);
+        }
+        if (near.empty()) continue;
+        visit_spread(near, radius, [&](const NearPoint& point) {
+            points_.push_back(
+                {.first = i,
+                 .first_arm = to_world * point.point,
+                 .normal = to_world * point.normal,
+                 .allowed_speed = std::max(0.0, point.gap - ground_touching * radius) / time_step,
+                 .friction = point.friction,
+                 .surface_velocity = to_world * point.surface_velocity,
+                 .surface_turning = to_world * point.surface_turning,
+                 .obstacle = point.obstacle});
+        });
+    }
+}
+
+void CompanyStep::push(double time_step, std::size_t known) {
+    for (std::size_t i = 0; i < companions_.size(); ++i) {
+        bodies_[i].velocity = fed(movers_[i]);
+        movers_[i].pressed = companions_[i].touched;
+    }
+    impulses_.solve(bodies_, points_, known);
+    for (const JointPoint& point : points_) {
+        if (point.impulse.isZero(0.0)) continue;
+        movers_[point.first].pressed = true;
+        if (point.second != JointPoint::none) movers_[point.second].pressed = true;
+    }
+    // What is pushed moves with the velocity after the part, what is not halfway between: those that touch
+    // must move alike.
+    for (bool spreads = true; spreads;) {
+        spreads = false;
+        for (const Near& near : near_) {
+            Mover& a = movers_[near.first];
+            Mover& b = movers_[near.second];
+            const double off = time_step * std::max(a.gain.tail<3>().norm(), b.gain.tail<3>().norm());
+            if (a.pressed == b.pressed || near.gap > 2.0 * near.apart + off) continue;
+            a.pressed = b.pressed = spreads = true;
+        }
+    }
+}
+
+void CompanyStep::move(double time_step) {
+    for (std::size_t i = 0; i < companions_.size(); ++i) {
+        Mover& mover = movers_[i];
+        mover.velocity = bodies_[i].velocity;
+        mover.energy = energy_of(i, mover.before, mover.velocity);
+        mover.shift.setZero();
+        mover.held = 0;
+        // Nothing met: halfway between the velocities, as the step of a body alone has it.
+        const Vector6d way =
+            mover.pressed ? mover.velocity : Vector6d(0.5 * (mover.velocity_before + mover.velocity));
+        mover.place = carried(mover.before, way, time_step);
+    }
+}
+
+void CompanyStep::part_from_ground(const CompanyGround& ground, double time, double time_step, bool& moved) {
+    for (std::size_t i = 0; i < companions_.size(); ++i) {
+        Mover& mover = movers_[i];
+        const ContactPoints& points = companions_[i].body->contact_points;
+        const BodyPlace reached = mover.place;
+        if (ground.obstacles != nullptr &&
+            passes_near(*ground.obstacles, points, mover.before, mover.place, 0.0)) {
+            keep_out(*ground.obstacles, points, time, time + time_step, mover.before, mover.place);
+        }
+        if (ground.height) {
+            const Vector3d down = mover.place.orientation.conjugate() * -Vector3d::UnitZ();
+            const double lift = reach(points, down) - (mover.place.position.z() - *ground.height);
+            if (lift > 0.0) mover.place.position.z() += lift;
+        }
+        const Vector3d shift = mover.place.position - reached.position;
+        if (shift.isZero(0.0) && mover.place.orientation.coeffs() == reached.orientation.coeffs()) continue;
+        mover.shift += shift;
+        mover.pressed = true;
+        moved = moved || shift.norm() > closest * skin * bodies_[i].radius;
+    }
+}
+
+void CompanyStep::pay() {
+    double owed = 0.0;
+    double left = 0.0;
+    for (std::size_t i = 0; i < companions_.size(); ++i) {
+        Mover& mover = movers_[i];
+        if (!mover.pressed) continue;
+        companions_[i].touched = true;
+        double most = mover.energy;
+        if (mover.held > 0) {
+            // No more than its weight did on the way.
+            const double work = mover.load.dot(mover.place.position - mover.before.position);
+            most = std::min(most, std::max(0.0, mover.energy_before + work));
+            // Slower they find a way: else the same would happen in the next part.
+            if (mover.held == 2) most *= held_back;
+        } else {
+            most -= std::max(0.0, -mover.load.dot(mover.shift));
+        }
+        owed += std::max(0.0, -most);
+        most = std::max(0.0, most);
+        // The inertia turns with the body, and that gives nothing either.
+        const double energy = energy_of(i, mover.place, mover.velocity);
+        if (energy > most) mover.velocity *= std::sqrt(most / energy);
+        left += std::min(energy, most);
+    }
+    // What some cannot pay the others do.
+    if (owed == 0.0) return;
+    const double share = std::sqrt(std::max(0.0, 1.0 - owed / std::max(left, owed)));
+    for (Mover& mover : movers_) {
+        if (mover.pressed) mover.velocity *= share;
+    }
+}
+
+void CompanyStep::note(double time) {
+    for (const JointPoint& point : points_) {
+        if (point.impulse.isZero(0.0)) continue;
+        const auto add = [&](std::size_t i, std::size_t other, double sign, const Vector3d& arm) {
+            movers_[i].met.add({.impulse = sign * point.impulse,
+                                .strongest = point.impulse.norm(),
+                                .point = movers_[i].place.position + arm,
+                                .normal = sign * point.normal,
+                                .time = time,
+                                .obstacle = point.obstacle,
+                                .body = other == JointPoint::none ? -1 : companions_[other].number});
+        };
+        add(point.first, point.second, 1.0, point.first_arm);
+        if (point.second == JointPoint::none) continue;
+        add(point.second, point.first, -1.0, point.second_arm);
+    }
+}
+
+void CompanyStep::settle(double time_step) {
+    for (std::size_t i = 0; i < companions_.size(); ++i) {
+        Companion& companion = companions_[i];
+        if (!companion.touched) continue;
+        const Vector6d change = companion.end_velocity - companion.begin_velocity;
+        const double radius = companion.body->contact_points.bounding_radius;
+        const double begun = energy_of(i, companion.begin, companion.begin_velocity);
+        const double left = energy_of(i, companion.begin, movers_[i].velocity);
+        companion.rests = begun < resting_energy * movers_[i].load.norm() * radius &&
+                          left < still * still * energy_of(i, companion.begin, change) &&
+                          time_step * speed_of_points(movers_[i].velocity, radius) < resting_way * radius;
+        if (companion.met != nullptr && movers_[i].met.strongest > 0.0) companion.met->add(movers_[i].met);
+        const double way = (movers_[i].place.position - companion.begin.position).norm() +
+                           radius * movers_[i].place.orientation.angularDistance(companion.begin.orientation);
+        companion.end = companion.rests && way <= no_way * radius ? companion.begin : movers_[i].place;
+        companion.end_velocity = companion.rests ? Vector6d::Zero() : movers_[i].velocity;
+    }
+}
+
+/// Whether impulses turned a body by so much in a part that its ends say little of what is between.
+bool CompanyStep::turned_far(double time_step) const {
+    return std::any_of(movers_.begin(), movers_.end(), [&](const Mover& mover) {
+        return mover.pressed && time_step * mover.velocity.head<3>().norm() > 2.0 * most_turn;
+    });
+}
+
+/// Takes the step in so many parts; false where they should be more.
+bool CompanyStep::take_parts(std::span<const Pair> pairs, const CompanyGround& ground, double time_step,
+                             int parts) {
+    const double part = time_step / parts;
+    start(time_step, parts);
+    for (int k = 0; k < parts; ++k) {
+        const double time = ground.time + k * part;
+        begin_part(part);
+        points_.clear();
+        find_pairs(pairs, part);
+        find_ground(ground, time, part);
+        std::size_t known = 0;
+        for (int attempt = 0; attempt < most_attempts; ++attempt) {
+            push(part, known);
+            known = points_.size();
+            move(part);
+            if (!find_passages(part)) break;
+        }
+        if (2 * parts <= most_parts && turned_far(part)) return false;
+        note(time + part);
+        bool moved = true;
+        for (int round = 0; round < most_rounds && moved; ++round) {
+            moved = false;
+            part_pairs(part, round, moved);
+            part_from_ground(ground, time, part, moved);
+        }
+        hold_back();
+        pay();
+    }
+    return true;
+}
+
+void CompanyStep::take(std::span<Companion> companions, std::span<const Pair> pairs,
+                       const CompanyGround& ground, double time_step) {
+    companions_ = companions;
+    for (int parts = parts_of(pairs, time_step); !take_parts(pairs, ground, time_step, parts);) parts *= 2;
+    settle(time_step);
+}
+
+}  // namespace samara

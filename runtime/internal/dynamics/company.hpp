@@ -1,0 +1,129 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "internal/dynamics/hull_pair.hpp"
+#include "internal/dynamics/immersed_body.hpp"
+#include "internal/dynamics/joint_impulses.hpp"
+#include "internal/dynamics/obstacle_contact.hpp"
+#include "samara/physics/contact_record.hpp"
+
+namespace samara {
+
+/// A body among others that it may touch. Velocities are (omega, v) of the centre of mass, in world axes and
+/// relative to the ground.
+struct Companion {
+    const ImmersedBody* body;  ///< what it touches with, at its size
+    const std::vector<HullFace>* faces;
+    int number;                    ///< of the flight: what records of contacts call it
+    BodyPlace begin;               ///< before the step
+    Vector6d begin_velocity;       ///< the same
+    BodyPlace end;                 ///< after it; at first as if nothing were in its way
+    Vector6d end_velocity;         ///< the same
+    bool touched = false;          ///< whether anything was, so that the end is another than it was at first
+    bool rests = false;            ///< whether it lies still at the end
+    ContactRecord* met = nullptr;  ///< gets what it met; null: not asked for
+};
+
+/// What companions may touch besides each other.
+struct CompanyGround {
+    std::optional<double> height;            ///< m: of level ground
+    const ObstacleSet* obstacles = nullptr;  ///< null: none
+    double time = 0.0;                       ///< s: when the step begins
+};
+
+/// How far (m) two bodies that touch stay apart, over the smaller bounding radius: what keeps the plane
+/// between them well defined. Chosen, far below what a picture shows.
+inline constexpr double skin = 1e-3;
+/// What must be left of it at the least.
+inline constexpr double closest = 0.05;
+
+/// No point of a body within a radius (m) of its centre of mass is faster (m/s). `velocity`: (omega, v).
+inline double speed_of_points(const Vector6d& velocity, double radius) {
+    return velocity.tail<3>().norm() + radius * velocity.head<3>().norm();
+}
+
+/// Steps bodies that may touch each other. Keeps its memory from step to step.
+///
+/// The step is cut into parts, in which no body turns by more than a quarter of a radian, passes another by
+/// more than half its radius or would fall from a standstill by more than a two-hundredth of it. In each the
+/// bodies get their share of what the step does to them alone, and joint impulses (joint_impulses.hpp), at
+/// the points where they may meet within the part, allow each gap to close and no more; with the velocities
+/// that these leave the bodies move. So much is Moreau's stepping: whatever the step, contact takes energy
+/// and gives none. Where two come through each other at other points, those where they first touch on their
+/// way are added, and the impulses found anew. What turning still brings too close is moved apart, and where
+/// that does not keep two from passing through each other both stop on their way; either is paid for in
+/// kinetic energy.
+class CompanyStep {
+  public:
+    using Pair = std::pair<std::size_t, std::size_t>;
+
+    /// `pairs`: of companions that may touch within the step of `time_step` (s), the lower number first.
+    void take(std::span<Companion> companions, std::span<const Pair> pairs, const CompanyGround& ground,
+              double time_step);
+
+  private:
+    struct Mover {
+        BodyPlace before, place;             ///< when the part began, and now
+        BodyPlace alone;                     ///< where it would be after the part if nothing were in its way
+        Vector6d velocity_before, velocity;  ///< when the part began, and now
+        Vector6d gain;  ///< of velocity, in a part: of omega in body axes, so that spin keeps its energy
+        Vector3d load;  ///< N: what pulls it
+        double energy_before, energy;  ///< J: when the part began, and after the impulses
+        ContactRecord met;             ///< in the step
+        Vector3d shift;                ///< m: by which it was moved apart
+        bool pressed;                  ///< whether anything pushed it, in this part or before
+        int held;  ///< 1: it stopped on its way, 2: it stayed where the part began; 0: neither
+    };
+    /// Two that may meet in a part.
+    struct Near {
+        std::size_t first, second;
+        Vector3d normal;
+        double gap;
+        double apart;  ///< m: the gap that they keep
+
+        /// Whether there was a gap when the part began: what overlapped, since it started so, is to come out.
+        [[nodiscard]] bool began_parted() const { return gap > 0.0; }
+        /// The gap (m) that must be left.
+        [[nodiscard]] double least() const;
+    };
+
+    [[nodiscard]] int parts_of(std::span<const Pair> pairs, double time_step) const;
+    bool take_parts(std::span<const Pair> pairs, const CompanyGround& ground, double time_step, int parts);
+    [[nodiscard]] bool turned_far(double time_step) const;
+    void start(double time_step, int parts);
+    void begin_part(double time_step);
+    void find_pairs(std::span<const Pair> pairs, double time_step);
+    void find_ground(const CompanyGround& ground, double time, double time_step);
+    void push(double time_step, std::size_t known);
+    void move(double time_step);
+    bool find_passages(double time_step);
+    void part_pairs(double time_step, int round, bool& moved);
+    void part_from_ground(const CompanyGround& ground, double time, double time_step, bool& moved);
+    void hold_back();
+    void pay();
+    void note(double time);
+    void settle(double time_step);
+    [[nodiscard]] Vector6d fed(const Mover& mover) const;
+    [[nodiscard]] MeetingHull hull(std::size_t i, const BodyPlace& place) const;
+    [[nodiscard]] bool passes_by(const Near& near) const;
+    [[nodiscard]] bool parted_before(const Near& near, const Vector3d& normal, double gap) const;
+    [[nodiscard]] double free_share(const Near& near) const;
+    [[nodiscard]] BodyPlace on_the_way(std::size_t i, double share) const;
+    void add_points(const Near& near, const Meeting& met, double share, double time_step);
+    [[nodiscard]] double energy_of(std::size_t i, const BodyPlace& place, const Vector6d& velocity) const;
+
+    std::span<Companion> companions_;
+    std::vector<Mover> movers_;
+    std::vector<JointBody> bodies_;
+    std::vector<JointPoint> points_;
+    std::vector<Near> near_;
+    JointImpulses impulses_;
+};
+
+}  // namespace samara

@@ -1,0 +1,146 @@
+// Meshes that exports show: their UVs, normals and material slots, in .obj and .glb.
+#include "internal/body/look_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "samara/export/gltf_file.hpp"
+#include "samara/motion/motion_file.hpp"
+#include "samara/scene/scene_file.hpp"
+#include "support/expect_error.hpp"
+#include "support/painted_mesh.hpp"
+#include "support/temporary_folder.hpp"
+#include "synthetic_motion.hpp"
+
+namespace samara {
+namespace {
+
+using test::error_of;
+using test::TemporaryFolder;
+using testing::HasSubstr;
+
+LookMesh painted(const TemporaryFolder& folder) {
+    (void)folder.file("leaf.mtl", test::painted_mtl);
+    return read_look_file(folder.file("leaf.obj", test::painted_obj));
+}
+
+/// The texture coordinates of a triangle's corner.
+Eigen::Vector2d texture_at(const LookMesh& look, std::size_t triangle, std::size_t corner) {
+    return look.texture[static_cast<std::size_t>(look.corners[triangle][corner])];
+}
+
+void expect_same(const LookMesh& one, const LookMesh& other, double tolerance) {
+    ASSERT_EQ(one.corners.size(), other.corners.size());
+    ASSERT_EQ(one.materials.size(), other.materials.size());
+    for (std::size_t i = 0; i < one.corners.size(); ++i) {
+        EXPECT_EQ(one.materials[static_cast<std::size_t>(one.slots[i])].name,
+                  other.materials[static_cast<std::size_t>(other.slots[i])].name);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto a = static_cast<std::size_t>(one.corners[i][k]);
+            const auto b = static_cast<std::size_t>(other.corners[i][k]);
+            EXPECT_LT((one.positions[a] - other.positions[b]).norm(), tolerance);
+            EXPECT_LT((one.texture[a] - other.texture[b]).norm(), tolerance);
+            EXPECT_LT((one.normals[a] - other.normals[b]).norm(), tolerance);
+        }
+    }
+    for (std::size_t i = 0; i < one.materials.size(); ++i) {
+        for (std::size_t k = 0; k < 4; ++k) {
+            EXPECT_NEAR(one.materials[i].color[k], other.materials[i].color[k], tolerance);
+        }
+    }
+}
+
+TEST(LookFile, KeepsTextureCoordinatesNormalsAndMaterialsOfAnObj) {
+    const TemporaryFolder folder;
+    const LookMesh look = painted(folder);
+    ASSERT_EQ(look.corners.size(), 4U);
+    ASSERT_EQ(look.materials.size(), 2U) << "those that are used";
+    EXPECT_EQ(look.materials[0].name, "leaf_front");
+    EXPECT_EQ(look.materials[1].name, "stalk");
+    EXPECT_EQ(look.materials[1].color, (std::array<double, 4>{0.4, 0.2, 0.1, 0.5}));
+    EXPECT_EQ(look.slots, (std::vector<std::int32_t>{0, 0, 1, 1}));
+    EXPECT_EQ(look.positions.size(), 8U) << "vertices of the seam are two";
+    for (std::size_t i = 0; i < 4; ++i) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double right = look.positions[static_cast<std::size_t>(look.corners[i][k])].x();
+            const double u = texture_at(look, i, k).x();
+            EXPECT_NEAR(u, i < 2 ? 0.5 + right / 0.08 : 0.75 + right / 0.16, 1e-12);
+        }
+    }
+    for (const Vector3d& normal : look.normals) EXPECT_EQ(normal, Vector3d::UnitZ());
+}
+
+TEST(LookFile, ReadsWhatWasWrittenAsGlbTheSame) {
+    const TemporaryFolder folder;
+    Motion motion = test::motion_of(test::wander, 0.0);
+    motion.bodies[0].look = std::make_shared<const LookMesh>(painted(folder));
+    motion.bodies[0].poses.resize(1);
+    motion.bodies[0].poses[0] = Pose();
+    motion.bodies[0].center_of_mass.setZero();
+    motion.times.resize(1);
+    write_glb(folder / "leaf.glb", motion, 0, 0.0);
+    LookMesh read = read_look_file(folder / "leaf.glb");
+    // The first material is that of bodies without a look.
+    read.materials.erase(read.materials.begin());
+    for (std::int32_t& slot : read.slots) --slot;
+    expect_same(read, *motion.bodies[0].look, 1e-6);
+}
+
+TEST(LookFile, LiesInTheMotionFile) {
+    const TemporaryFolder folder;
+    Motion motion = test::motion_of(test::wander, 0.1);
+    motion.bodies[0].look = std::make_shared<const LookMesh>(painted(folder));
+    write_motion_file(folder / "motion.h5", motion);
+    const Motion read = read_motion_file(folder / "motion.h5");
+    ASSERT_NE(read.bodies[0].look, nullptr);
+    expect_same(*read.bodies[0].look, *motion.bodies[0].look, 0.0 + 1e-300);
+}
+
+TEST(LookFile, IsReadByScenesInTheShapesScaleOrItsOwn) {
+    const TemporaryFolder folder;
+    (void)painted(folder);
+    const auto scene = [&](const std::string& keys) {
+        return read_scene_file(folder.file(
+            "scene.toml",
+            "[scene]\nduration = 1\n[[body]]\nname = \"leaf\"\nshape = \"samara:leaf\"\n" + keys));
+    };
+    EXPECT_EQ(scene("").bodies[0].look, nullptr);
+    EXPECT_NEAR(scene("look = \"leaf.obj\"\n").bodies[0].look->positions[0].x(), -0.04, 1e-12);
+    EXPECT_NEAR(scene("look = \"leaf.obj\"\nlook_scale = 2\n").bodies[0].look->positions[0].x(), -0.08,
+                1e-12);
+    const auto fault = [&](const std::string& keys) { return error_of([&] { (void)scene(keys); }); };
+    EXPECT_THAT(fault("look = \"none.obj\"\n"), HasSubstr("look in [[body]] cannot be had"));
+    EXPECT_THAT(fault("look_scale = 2\n"), HasSubstr("look_scale in [[body]] is of a look"));
+    (void)folder.file("leaf.stl", "solid\nendsolid\n");
+    EXPECT_THAT(fault("look = \"leaf.stl\"\n"), HasSubstr("a look is a mesh, .obj or .glb"));
+    (void)folder.file("empty.obj", "v 0 0 0\n");
+    EXPECT_THAT(fault("look = \"empty.obj\"\n"), HasSubstr("holds no triangles"));
+    (void)folder.file("bad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/2 3/1\n");
+    EXPECT_THAT(fault("look = \"bad.obj\"\n"), HasSubstr("line 5: a face names texture '2' of 1"));
+    (void)folder.file("bad.glb", "glTF\2\0\0\0 and no more");
+    EXPECT_THAT(fault("look = \"bad.glb\"\n"), HasSubstr("is no sound .glb file"));
+}
+
+TEST(LookFile, AnObstacleMayBeAGlb) {
+    const TemporaryFolder folder;
+    Motion motion = test::motion_of(test::wander, 0.0);
+    motion.bodies[0].surface = test::cube_surface();
+    motion.bodies[0].center_of_mass.setZero();
+    motion.times.resize(1);
+    motion.bodies[0].poses.assign(1, Pose());
+    motion.bodies[0].poses[0].position = Vector3d(0.0, 0.0, 3.0);
+    write_glb(folder / "box.glb", motion, 0, 0.0);
+    const Scene scene = read_scene_file(
+        folder.file("scene.toml",
+                    "[scene]\nduration = 1\n[[body]]\nname = \"leaf\"\nshape = \"samara:leaf\"\n"
+                    "[[obstacle]]\nname = \"box\"\nshape = \"box.glb\"\n"));
+    Eigen::AlignedBox3d box;
+    for (const Vector3d& vertex : scene.obstacles[0].surface.vertices) box.extend(vertex);
+    EXPECT_LT((box.min() - Vector3d(-1, -1, 2)).norm(), 1e-6)
+        << "y up is turned to z up, and the node's place counts";
+    EXPECT_LT((box.max() - Vector3d(1, 1, 4)).norm(), 1e-6);
+    EXPECT_EQ(scene.obstacles[0].surface.vertices.size(), 8U);
+}
+
+}  // namespace
+}  // namespace samara
