@@ -24,7 +24,7 @@ FluidLoad fluid_load_of(const ImmersedBody& body, const Surroundings& surroundin
     BodyState stirred = state;
     kernel::SeenStream stream =
         kernel::begin_step(body.constants, time_step, wind.source(), noise, step, stirred).stream;
-    if (!stream.moves) stream = {Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()};
+    if (!stream.moves) stream = {Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero(), false, false};
     const Matrix3d to_world = state.orientation.toRotationMatrix();
     const Matrix3d to_body = to_world.transpose();
     const Vector3d gravity = apparent_gravity(surroundings, step_time(start, time_step, step),
