@@ -229,7 +229,11 @@ BatchReport BasicBatch<Real>::advance(const Surroundings& surroundings, double s
                                   .wind = wind.source(),
                                   .external = external_.empty() ? nullptr : external_.data()};
     if constexpr (std::is_same_v<Real, double>) {
-        if (size_ == 1 && !sized) return advance_alone(*body_, surroundings, task, met, blocks_.front());
+        if (size_ == 1 && !sized) {
+            BatchReport alone = advance_alone(*body_, surroundings, task, met, blocks_.front());
+            alone.wind_is_sound = alone.wind_is_sound && wind.is_sound();
+            return alone;
+        }
     }
     BatchReport report;
     std::mutex mutex;

@@ -100,7 +100,7 @@ struct StepMiddle {
 /// What a step may be off by, over the body's speed, where its middle is found in one pass; and how stiff its
 /// drag may be there (at 1 the one pass would hardly settle at the terminal speed, with h D / K above it
 /// not).
-inline constexpr double one_pass_tolerance = 1e-4;
+inline constexpr double one_pass_tolerance = 3e-5;
 inline constexpr double one_pass_stiffness = 0.5;
 
 /// How stiff the drag is: h max(D_ii / K_ii) of the turning and of the moving.
