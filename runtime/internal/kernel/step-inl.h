@@ -121,17 +121,17 @@ HWY_INLINE Stiffness<V> stiffness(const FlightConstants<Real>& c, const LoadBloc
 template <class V>
 struct StepMatrix {
     Square<V> turning, coupling, back, moving;
-    Square<V> inverse_moving, moving_by_turning, inverse_turning;
+    Square<V> moving_factors, moving_by_turning, turning_factors;
 
     /// Eliminates the velocity, and then what is left for the turning.
     HWY_INLINE void factorise() {
-        inverse_moving = inverse(moving);
-        moving_by_turning = inverse_moving * back;
-        inverse_turning = inverse(turning - coupling * moving_by_turning);
+        moving_factors = factorised(moving);
+        moving_by_turning = solved(moving_factors, back);
+        turning_factors = factorised(turning - coupling * moving_by_turning);
     }
     [[nodiscard]] HWY_INLINE Velocities<V> solved_for(const Triple<V>& moment, const Triple<V>& force) const {
-        const Triple<V> rest = inverse_moving * force;
-        const Triple<V> omega = inverse_turning * (moment - coupling * rest);
+        const Triple<V> rest = solved(moving_factors, force);
+        const Triple<V> omega = solved(turning_factors, moment - coupling * rest);
         return {omega, rest - moving_by_turning * omega};
     }
 };
