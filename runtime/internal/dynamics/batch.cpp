@@ -101,10 +101,21 @@ BatchReport advance_alone(const ImmersedBody& body, const Surroundings& surround
     BodyState state = state_of(block, 0);
     Wrench external;
     if (task.external != nullptr) external = wrench_of(*task.external, 0);
+    const Wrench* pushed = task.external == nullptr ? nullptr : &external;
+    if (task.contact.resolve == nullptr) {
+        kernel::BlockSteps rest = task;
+        const std::uint64_t end = task.first_step + task.steps;
+        rest.first_step = std::min(end, std::max(task.first_step, block.first_step[0]));
+        rest.gravities += rest.first_step - task.first_step;
+        rest.steps = end - rest.first_step;
+        report = kernel::advance_one(body.constants, rest, noise, pushed, state);
+        keep_state(state, block, 0);
+        return report;
+    }
     for (std::uint64_t step = std::max(task.first_step, block.first_step[0]);
          step < task.first_step + task.steps; ++step) {
-        const StepResult result = advance(body, surroundings, task.start, task.time_step, state, noise, step,
-                                          task.external == nullptr ? nullptr : &external, met);
+        const StepResult result =
+            advance(body, surroundings, task.start, task.time_step, state, noise, step, pushed, met);
         state = result.state;
         report.count(result.substeps);
         report.wind_is_sound = report.wind_is_sound && result.wind_is_sound;
@@ -129,6 +140,7 @@ BasicBatch<Real>::BasicBatch(const ImmersedBody& body, std::size_t count)
             blocks_[i].first_step[lane] = 0;
         }
         blocks_[i].first_body = i * FlightBlock<Real>::size;
+        blocks_[i].last_start = 0;
     }
     for (std::size_t i = 0; i < count; ++i) set_noise(i, Noise(0, "", 0, 0));
 }
@@ -159,7 +171,9 @@ void BasicBatch<Real>::set_external(const std::vector<Wrench>& external) {
 
 template <class Real>
 void BasicBatch<Real>::set_first_step(std::size_t index, std::uint64_t step) noexcept {
-    blocks_[index / FlightBlock<Real>::size].first_step[index % FlightBlock<Real>::size] = step;
+    FlightBlock<Real>& block = blocks_[index / FlightBlock<Real>::size];
+    block.first_step[index % FlightBlock<Real>::size] = step;
+    block.last_start = *std::max_element(block.first_step, block.first_step + FlightBlock<Real>::size);
 }
 
 template <class Real>
@@ -217,7 +231,9 @@ BatchReport BasicBatch<Real>::advance(const Surroundings& surroundings, double s
                                   .external = external_.empty() ? nullptr : external_.data()};
     if constexpr (std::is_same_v<Real, double>) {
         if (size_ == 1 && !sized && !is_contact_left(0)) {
-            return advance_alone(*body_, surroundings, task, met, blocks_.front());
+            BatchReport alone = advance_alone(*body_, surroundings, task, met, blocks_.front());
+            alone.wind_is_sound = alone.wind_is_sound && wind.is_sound();
+            return alone;
         }
     }
     BatchReport report;

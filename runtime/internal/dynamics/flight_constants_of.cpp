@@ -17,10 +17,18 @@ Square<Real> square(const Matrix3d& m) {
     return {triple<Real>(m.row(0)), triple<Real>(m.row(1)), triple<Real>(m.row(2))};
 }
 
+/// Of a matrix that is symmetric but for rounding.
+template <class Real>
+Square<Real> symmetric(const Matrix3d& m) {
+    return square<Real>(0.5 * (m + m.transpose()));
+}
+
 template <class Real>
 void set_planes(const std::vector<double>& reynolds_numbers, DirectionTable<Real>& table) {
-    for (const double number : reynolds_numbers)
+    for (const double number : reynolds_numbers) {
+        table.reynolds_numbers.push_back(static_cast<Real>(number));
         table.logarithms.push_back(static_cast<Real>(std::log(number)));
+    }
     for (std::size_t i = 1; i < reynolds_numbers.size(); ++i) {
         table.inverse_differences.push_back(
             static_cast<Real>(1.0 / std::log(reynolds_numbers[i] / reynolds_numbers[i - 1])));
@@ -38,7 +46,10 @@ DirectionTable<Real> direction_table(const LoadTables& tables, const Row& row) {
     set_planes(tables.reynolds_numbers, result);
     for (const LoadEntry& entry : tables.entries) {
         const std::array<double, width> numbers = row(entry);
-        for (const double number : numbers) result.rows.push_back(static_cast<Real>(number));
+        for (std::size_t i = 0; i < width; i += 4) {
+            result.rows.push_back({static_cast<Real>(numbers[i]), static_cast<Real>(numbers[i + 1]),
+                                   static_cast<Real>(numbers[i + 2]), static_cast<Real>(numbers[i + 3])});
+        }
     }
     return result;
 }
@@ -74,13 +85,14 @@ DirectionTable<Real> area_table(const ImmersedBody& body) {
     table.width = 8;
     table.side = body.coefficients.reference_area ? 3 : 2 * shadow_subdivisions + 1;
     table.to_map_axes = square<Real>(Matrix3d::Identity());
+    table.reynolds_numbers = {Real{1}};
     table.logarithms = {Real{0}};
     const auto nodes = static_cast<std::size_t>(table.side) * static_cast<std::size_t>(table.side);
     for (std::size_t node = 0; node < nodes; ++node) {
         const double area =
             body.coefficients.reference_area ? *body.coefficients.reference_area : body.projected_areas[node];
-        table.rows.insert(table.rows.end(),
-                          {static_cast<Real>(area / body.reference_area), 0, 0, 0, 0, 0, 0, 0});
+        table.rows.push_back({static_cast<Real>(area / body.reference_area), 0, 0, 0});
+        table.rows.push_back({});
     }
     return table;
 }
@@ -94,15 +106,16 @@ void set_inertia(const ImmersedBody& body, FlightConstants<Real>& c) {
     const Matrix3d turning = inertia.topLeftCorner<3, 3>() / (mass * length * length);
     const Matrix3d moving = inertia.bottomRightCorner<3, 3>() / mass;
     c.mass_scale = static_cast<Real>(mass);
-    c.inertia_turning = square<Real>(turning);
+    c.inertia_turning = symmetric<Real>(turning);
     c.off_center = !body.center_of_buoyancy.isZero(0.0);
     c.coupled = !inertia.topRightCorner<3, 3>().isZero(0.0);
     c.inertia_coupling = square<Real>(inertia.topRightCorner<3, 3>() / (mass * length));
-    c.directed_inertia = square<Real>(moving - Matrix3d::Identity());
+    c.directed_inertia = symmetric<Real>(moving - Matrix3d::Identity());
     c.inverse_turning = triple<Real>(turning.diagonal().cwiseInverse());
     c.inverse_moving = triple<Real>(moving.diagonal().cwiseInverse());
     c.weight = static_cast<Real>((body.mass - body.fluid_density * body.volume) / (mass * length));
     c.weight_moment = triple<Real>(-body.mass / (mass * length * length) * body.center_of_buoyancy);
+    c.tip_square = static_cast<Real>(0.25 * body.length * body.length / (length * length));
     c.munk_rate = static_cast<Real>(body.turning_scale * length);
 }
 
@@ -120,12 +133,12 @@ template <class Real>
 void set_transport(const ImmersedBody& body, double mass, double length, FlightConstants<Real>& c) {
     const Matrix3d transport = body.fluid_density / mass * body.dynamic.transport;
     c.isotropic_transport = static_cast<Real>(transport.trace() / 3.0);
-    c.directed_transport = square<Real>(directed(transport));
+    c.directed_transport = symmetric<Real>(directed(transport));
     const double share = body.dynamic.rotational_transport / mass;
     const Matrix3d& entrained = body.dynamic.entrained_inertia;
     c.transports_turning = share != 0.0 || !entrained.isZero(0.0);
-    c.turning_transport = square<Real>((share * body.added_inertia + body.fluid_density / mass * entrained) /
-                                       (length * length));
+    c.turning_transport = symmetric<Real>(
+        (share * body.added_inertia + body.fluid_density / mass * entrained) / (length * length));
     c.coupling_transport = square<Real>(share / length * body.added_coupling);
 }
 
@@ -135,8 +148,8 @@ void set_wake(const ImmersedBody& body, double mass, double length, FlightConsta
     const double reach = dynamic.half_length / length;
     const double wake = body.fluid_density / (mass * length);
     c.has_wake = !dynamic.wake_by_velocity.isZero(0.0) || !dynamic.wake_by_turning.isZero(0.0);
-    c.wake_by_velocity = square<Real>(wake * dynamic.wake_by_velocity);
-    c.wake_by_turning = square<Real>(wake * reach * reach * dynamic.wake_by_turning);
+    c.wake_by_velocity = symmetric<Real>(wake * dynamic.wake_by_velocity);
+    c.wake_by_turning = symmetric<Real>(wake * reach * reach * dynamic.wake_by_turning);
 }
 
 template <class Real>
@@ -150,12 +163,12 @@ void set_loads(const ImmersedBody& body, FlightConstants<Real>& c) {
     c.tow_factor = static_cast<Real>(tow);
     c.reynolds_factor = reynolds_factor<Real>(body);
     c.half_length = static_cast<Real>(dynamic.half_length / length);
-    c.drag_in_motion = square<Real>(half_density * length / mass * dynamic.drag_in_motion);
+    c.drag_in_motion = symmetric<Real>(half_density * length / mass * dynamic.drag_in_motion);
     c.has_spin = !dynamic.drag_in_spin.isZero(0.0) || !dynamic.rotational_drag_in_spin.isZero(0.0);
-    c.drag_in_spin = square<Real>(half_density * length / mass * dynamic.drag_in_spin);
-    c.rotational_drag = square<Real>(half_density / (mass * length) * dynamic.rotational_drag);
+    c.drag_in_spin = symmetric<Real>(half_density * length / mass * dynamic.drag_in_spin);
+    c.rotational_drag = symmetric<Real>(half_density / (mass * length) * dynamic.rotational_drag);
     c.rotational_drag_in_spin =
-        square<Real>(half_density / (mass * length) * dynamic.rotational_drag_in_spin);
+        symmetric<Real>(half_density / (mass * length) * dynamic.rotational_drag_in_spin);
     set_transport(body, mass, length, c);
     set_wake(body, mass, length, c);
     for (const SurfacePatch& patch : body.patches) {
@@ -166,8 +179,8 @@ void set_loads(const ImmersedBody& body, FlightConstants<Real>& c) {
     c.creeping_turn = static_cast<Real>(creeping * ratio * ratio);
     c.creeping_drag = static_cast<Real>(3.0 * creeping);
     if (body.loads != Loads::coefficients) {
-        c.potential_transport =
-            square<Real>(directed(body.added_mass - body.fluid_density * dynamic.transport) / (mass * tow));
+        c.potential_transport = symmetric<Real>(
+            directed(body.added_mass - body.fluid_density * dynamic.transport) / (mass * tow));
         c.lowest_reynolds_inverse = static_cast<Real>(1.0 / body.tables->reynolds_numbers.front());
         c.loads_by_direction = load_table<Real>(body);
     } else {

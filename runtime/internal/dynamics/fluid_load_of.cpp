@@ -72,7 +72,7 @@ FluidLoad fluid_load_of(const ImmersedBody& body, double size, const Surrounding
     const SizedWind wind{meeting.source(), size};
     BodyState stirred = state;
     kernel::SeenStream stream = seen_stream(body, size, own_step, wind.source(), noise, step, stirred);
-    if (!stream.moves) stream = {Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()};
+    if (!stream.moves) stream = {Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero(), false, false};
     const Matrix3d to_world = state.orientation.toRotationMatrix();
     const Matrix3d to_body = to_world.transpose();
     const Vector3d gravity = size * size_square * surroundings.gravity;

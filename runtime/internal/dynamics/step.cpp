@@ -18,8 +18,8 @@ BodyState implicit_step(const ImmersedBody& body, const Vector3d& gravity, doubl
                        !seen_fluid.angular_velocity.isZero(0.0);
     kernel::implicit_step(
         body.constants, gravity, time_step,
-        {state.seen_fluid.velocity, seen_fluid.velocity, seen_fluid.angular_velocity, moves}, 0, 1, nullptr,
-        result);
+        {state.seen_fluid.velocity, seen_fluid.velocity, seen_fluid.angular_velocity, moves, false}, 0, 1,
+        nullptr, result);
     return result;
 }
 
@@ -36,17 +36,28 @@ StepResult advance(const ImmersedBody& body, const Surroundings& surroundings, d
         return result;
     }
     const WindMeeting wind(body, surroundings, start, time_step);
+    const Vector3d gravity = apparent_gravity(surroundings, time, end);
+    if (!has_ground(surroundings)) {
+        const kernel::BlockSteps whole{.gravities = &gravity,
+                                       .start = start,
+                                       .time_step = time_step,
+                                       .first_step = step,
+                                       .steps = 1,
+                                       .wind = wind.source()};
+        result.substeps =
+            kernel::advance_one(body.constants, whole, noise, external, result.state).most_substeps;
+        result.wind_is_sound = wind.is_sound();
+        return result;
+    }
     const auto [parts, stream] =
         kernel::begin_step(body.constants, time_step, wind.source(), noise, step, result.state);
     result.substeps = parts;
     result.wind_is_sound = wind.is_sound();
-    const Vector3d gravity = apparent_gravity(surroundings, time, end);
     const double substep = time_step / result.substeps;
     BodyState before = state;
     for (int i = 0; i < result.substeps; ++i) {
         kernel::implicit_step(body.constants, gravity, substep, stream, i, result.substeps, external,
                               result.state);
-        if (!has_ground(surroundings)) continue;
         const double now = time + (i + 1) * substep;
         touch_ground(body, ground_in_flow(surroundings, now - substep, now), substep, before, result.state,
                      met);

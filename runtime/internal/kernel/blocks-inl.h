@@ -64,26 +64,34 @@ HWY_INLINE Flight<Lanes<Tag>> select_flight(hn::Mask<Tag> condition, const Fligh
             select(condition, a.acceleration, b.acceleration)};
 }
 
-/// The numbers that Noise::normals would give each lane.
+/// What random numbers Noise::normals would give each lane.
 template <class Tag>
-HWY_INLINE SixNormals<Lanes<Tag>> normals_of(Tag tag, const BlockOf<Tag>& block, std::size_t first,
-                                             std::uint64_t step) {
-    const hn::Rebind<std::uint32_t, Tag> words;
-    const auto low = hn::Set(words, static_cast<std::uint32_t>(step));
-    const auto high = [&](NoiseStream stream) HWY_ATTR {
-        return hn::Set(words,
-                       static_cast<std::uint32_t>(step >> 32U) | (static_cast<std::uint32_t>(stream) << 16U));
-    };
-    const auto key0 = hn::Load(words, block.noise[0] + first);
-    const auto key1 = hn::Load(words, block.noise[1] + first);
-    const auto copy = hn::Load(words, block.noise[2] + first);
-    const auto run = hn::Load(words, block.noise[3] + first);
-    const auto a = philox(words, {low, high(NoiseStream::seen_fluid), copy, run}, key0, key1);
-    const auto b = philox(words, {low, high(NoiseStream::seen_rotation), copy, run}, key0, key1);
-    return six_normals<Lanes<Tag>>({unit_interval(tag, a[0]), unit_interval(tag, a[1]),
-                                    unit_interval(tag, a[2]), unit_interval(tag, a[3])},
-                                   unit_interval(tag, b[0]), unit_interval(tag, b[1]));
-}
+struct LaneDraw {
+    const BlockOf<Tag>& block;
+    std::size_t first;
+    std::uint64_t step;
+
+    [[nodiscard]] HWY_INLINE Triple<Lanes<Tag>> three() const {
+        return three_normals(uniforms(NoiseStream::seen_fluid));
+    }
+    [[nodiscard]] HWY_INLINE SixNormals<Lanes<Tag>> six() const {
+        const std::array<Lanes<Tag>, 4> rest = uniforms(NoiseStream::seen_rotation);
+        return six_normals(uniforms(NoiseStream::seen_fluid), rest[0], rest[1]);
+    }
+
+  private:
+    [[nodiscard]] HWY_INLINE std::array<Lanes<Tag>, 4> uniforms(NoiseStream stream) const {
+        const Tag tag;
+        const hn::Rebind<std::uint32_t, Tag> words;
+        const auto low = hn::Set(words, static_cast<std::uint32_t>(step));
+        const auto high = hn::Set(
+            words, static_cast<std::uint32_t>(step >> 32U) | (static_cast<std::uint32_t>(stream) << 16U));
+        const auto word = [&](int i) HWY_ATTR { return hn::Load(words, block.noise[i] + first); };
+        const auto bits = philox(words, {low, high, word(2), word(3)}, word(0), word(1));
+        return {unit_interval(tag, bits[0]), unit_interval(tag, bits[1]), unit_interval(tag, bits[2]),
+                unit_interval(tag, bits[3])};
+    }
+};
 
 /// The bodies that may have touched the ground or an obstacle since before the substep, or may by the end of
 /// the next: no fewer than touch_ground() would find.
@@ -135,9 +143,8 @@ template <class V, class Real, class Draw>
 HWY_INLINE void meet_turbulence(const FlightConstants<Real>& c, V h, const Draw& draw, V size_square,
                                 Flight<V>& flight) {
     if (c.turbulence == Turbulence::none) {
-        const V zero(0.0);
-        flight.seen_velocity = {zero, zero, zero};
-        flight.seen_rotation = {zero, zero, zero};
+        flight.seen_velocity = no_vector<V>();
+        flight.seen_rotation = no_vector<V>();
         return;
     }
     Level<V> level = turbulence_level(c, centroid_velocity(c, flight));
@@ -145,21 +152,19 @@ HWY_INLINE void meet_turbulence(const FlightConstants<Real>& c, V h, const Draw&
         level = {size_square * level.turbulent_kinetic_energy,
                  (size_square * size_square) * level.dissipation_rate};
     }
-    const SixNormals<V> normals = draw();
     if (c.langevin == Langevin::wake) {
-        advance_wake(c, level, h, normals, flight);
+        advance_wake(c, level, h, draw.three(), flight);
     } else if (c.langevin == Langevin::seen_fluid) {
-        advance_seen_fluid(c, level, h, normals, flight);
+        advance_seen_fluid(c, level, h, draw.six(), flight);
     } else {
-        advance_body_velocity(c, level, h, normals, flight);
+        advance_body_velocity(c, level, h, draw.six(), flight);
     }
 }
 
 /// Fluid at rest.
 template <class V>
 HWY_INLINE Stream<V> no_stream() {
-    const Triple<V> none = broadcast<V>(Triple<double>{0.0, 0.0, 0.0});
-    return {none, none, none};
+    return {no_vector<V>(), no_vector<V>(), no_vector<V>(), false};
 }
 
 /// Where the centroid is halfway through a step, as far as its velocity says (m, in the flow's frame).
@@ -175,9 +180,9 @@ HWY_INLINE Triple<V> halfway(const FlightConstants<Real>& c, V h, const Flight<V
 template <class V, class Real>
 HWY_INLINE Stream<V> seen_stream(const FlightConstants<Real>& c, const Triple<V>& before,
                                  const Flight<V>& flight) {
-    if (c.langevin != Langevin::wake) return {before, flight.seen_velocity, flight.seen_rotation};
+    if (c.langevin != Langevin::wake) return {before, flight.seen_velocity, flight.seen_rotation, false};
     const Triple<V> middle = V(0.5) * (before + flight.seen_velocity);
-    return {middle, middle, flight.seen_rotation};
+    return {middle, middle, flight.seen_rotation, true};
 }
 
 /// The Langevin update of one step in a wind, or without (then `wind` is none), and the stream that the body
@@ -198,7 +203,7 @@ HWY_INLINE Stream<V> meet_fluid(const FlightConstants<Real>& c, V h, bool windy,
     flight.velocity = driven ? flight.velocity + of_wind : velocity;
     if (!sees_turbulence(c)) return wind;
     const Stream<V> seen = seen_stream(c, seen_before, flight);
-    return {seen.begin + wind.begin, seen.end + wind.end, seen.rotation + wind.rotation};
+    return {seen.begin + wind.begin, seen.end + wind.end, seen.rotation + wind.rotation, false};
 }
 
 /// The wind that the bodies of the lanes meet in a step.
@@ -227,7 +232,7 @@ HWY_INLINE Stream<Lanes<Tag>> met_wind(Tag tag, const FlightConstants<Real>& c,
     const auto three = [&](const double(&rows)[3][kernel::MetWind::size]) HWY_ATTR {
         return Triple<V>{take(rows[0]), take(rows[1]), take(rows[2])};
     };
-    return {size * three(met.begin), size * three(met.end), (size * size) * three(met.rotation)};
+    return {size * three(met.begin), size * three(met.end), (size * size) * three(met.rotation), false};
 }
 
 /// What pushes the bodies of the lanes, in the units of a body of the shape's size that moves alike
@@ -253,6 +258,11 @@ template <class Real>
 struct MovingLanes {
     MovingLanes(const kernel::Contact& contact, const FlightBlock<Real>& block, std::uint64_t step,
                 std::size_t first, std::size_t lanes) {
+        if (contact.stay == nullptr && first + lanes <= block.bodies && step >= block.last_start) {
+            std::fill_n(moves, lanes, Real{1});
+            any_moves = true;
+            return;
+        }
         for (std::size_t lane = 0; lane < lanes; ++lane) {
             const bool used = first + lane < block.bodies;
             const bool waits = used && step < block.first_step[first + lane];
@@ -305,15 +315,18 @@ HWY_INLINE void advance_lanes(Tag tag, const FlightConstants<Real>& c, const ker
     const V size_square = size * size;
     const V h = V(task.time_step) / size_square;
     const V moves(hn::Load(tag, lively.moves));
-    Flight<V> previous = flight;
+    const bool meets = task.contact.resolve != nullptr;
+    // Of long copies those alone that are needed.
+    FlightBlock<Real> before;
+    if (meets || lively.any_waits) store_flight(tag, flight, before, first);
     const std::size_t used_lanes = std::min<std::size_t>(lanes, block.bodies - first);
     const bool windy = task.wind.meet != nullptr;
     const Stream<V> wind = met_wind(tag, c, task.wind, task.first_step + number, used_lanes, h, size, flight);
-    const Stream<V> met = meet_fluid(
-        c, h, windy, wind, [&]() HWY_ATTR { return normals_of(tag, block, first, task.first_step + number); },
-        size_square, flight);
+    const Stream<V> met = meet_fluid(c, h, windy, wind, LaneDraw<Tag>{block, first, task.first_step + number},
+                                     size_square, flight);
     if (lively.any_rests || lively.any_waits) {
         const auto stirred = V(0.5) < moves;
+        const Flight<V> previous = load_flight(tag, before, first);
         flight = select_flight<Tag>(stirred, flight, previous);
         flight.seen_velocity = select(stirred, flight.seen_velocity, previous.seen_velocity);
         flight.seen_rotation = select(stirred, flight.seen_rotation, previous.seen_rotation);
@@ -323,11 +336,17 @@ HWY_INLINE void advance_lanes(Tag tag, const FlightConstants<Real>& c, const ker
     const bool sees_fluid = windy || sees_turbulence(c);
     const V substeps = moves * substeps_of(c, h, sees_fluid, met.begin, flight);
     hn::Store(substeps.raw, tag, parts);
-    int most = 0;
-    for (std::size_t lane = 0; lane < used_lanes; ++lane) {
-        const int taken = static_cast<int>(parts[lane]);
-        report.count(taken);
-        most = std::max(most, taken);
+    const bool all_whole = used_lanes == lanes && hn::AllTrue(tag, hn::Eq(substeps.raw, V(1.0).raw));
+    int most = 1;
+    if (all_whole) {
+        report.implicit_steps += lanes;
+    } else {
+        most = 0;
+        for (std::size_t lane = 0; lane < used_lanes; ++lane) {
+            const int taken = static_cast<int>(parts[lane]);
+            report.count(taken);
+            most = std::max(most, taken);
+        }
     }
 
     const V divisor = larger(V(1.0), substeps);
@@ -338,21 +357,21 @@ HWY_INLINE void advance_lanes(Tag tag, const FlightConstants<Real>& c, const ker
     const bool pushed = task.external != nullptr;
     if (pushed) push = push_of(tag, task.external[block.first_body / block.size], first, size);
     for (int i = 0; i < most; ++i) {
-        Flight<V> next = flight;
-        implicit_step(c, gravity, substep, sees_fluid, part_of(met, i, divisor), pushed ? &push : nullptr,
-                      next);
-        flight = select_flight<Tag>(V(i) < substeps, next, flight);
-        if (task.contact.resolve == nullptr) continue;
+        FlightBlock<Real> kept;
+        if (!all_whole) store_flight(tag, flight, kept, first);
+        implicit_step(c, gravity, substep, sees_fluid, all_whole ? met : part_of(met, i, divisor),
+                      pushed ? &push : nullptr, flight);
+        if (!all_whole) flight = select_flight<Tag>(V(i) < substeps, flight, load_flight(tag, kept, first));
+        if (!meets) continue;
+        const Flight<V> previous = load_flight(tag, before, first);
         if (!hn::AllFalse(tag, near_ground(task.contact, previous, flight, substep, size))) {
-            FlightBlock<Real> before;
             std::copy_n(block.at_rest + first, lanes, before.at_rest + first);
-            store_flight(tag, previous, before, first);
             store_flight(tag, flight, block, first);
             const double begin = step_time(task.start, task.time_step, task.first_step + number);
             meet_ground(task.contact, before, block, first, lanes, i, parts, begin, task.time_step);
             flight = load_flight(tag, block, first);
         }
-        previous = flight;
+        store_flight(tag, flight, before, first);
     }
     let_others_stay();
 }

@@ -46,6 +46,7 @@ struct alignas(64) FlightBlock {
     std::uint64_t bodies;            ///< lanes in use
     std::uint64_t first_body;        ///< number in the batch of lane 0
     std::uint64_t first_step[size];  ///< before it the body waits where it is
+    std::uint64_t last_start;        ///< the largest of them
 };
 
 template <class Real>

@@ -8,6 +8,12 @@
 
 namespace samara {
 
+/// What one load brings, of one cache line.
+template <class Real>
+struct alignas(4 * sizeof(Real)) FourNumbers {
+    Real numbers[4];
+};
+
 /// Rows of numbers over the octahedral map of directions and the logarithm of the Reynolds number
 /// (load_tables.hpp), as the step reads them: each node's numbers side by side.
 template <class Real>
@@ -16,11 +22,13 @@ struct DirectionTable {
     int side = 3;                           ///< nodes a side of the map
     bool turned = false;                    ///< whether the map's axes are not the body's
     Square<Real> to_map_axes{};             ///< body axes -> map axes
-    std::vector<Real> logarithms;           ///< of the Reynolds numbers, ascending
-    std::vector<Real> inverse_differences;  ///< between neighbours of them
-    std::vector<Real> rows;                 ///< ((plane * side + row) * side + column) * width
+    std::vector<Real> reynolds_numbers;     ///< ascending
+    std::vector<Real> logarithms;           ///< of them
+    std::vector<Real> inverse_differences;  ///< between neighbours of these
+    std::vector<FourNumbers<Real>> rows;    ///< ((plane * side + row) * side + column) * width / 4
 
     [[nodiscard]] int planes() const { return static_cast<int>(logarithms.size()); }
+    [[nodiscard]] const Real* numbers() const { return reinterpret_cast<const Real*>(rows.data()); }
 };
 
 /// A part of the surface, which feels its share of a tow's force at its own velocity.
@@ -49,6 +57,7 @@ struct FlightConstants {
     Triple<Real> inverse_moving{};
     Real weight = 0;               ///< (m - rho_f V) / (m* l): times gravity the force
     Triple<Real> weight_moment{};  ///< m r / (m* l^2), r from the centroid to the centre of mass
+    Real tip_square = 0;           ///< (L / (2 l))^2
     Real munk_rate = 0;            ///< times the speed: the rate at which the Munk moment turns the body
 
     Loads loads = Loads::none;

@@ -81,7 +81,8 @@ BatchReport advance_blocks(const FlightConstants<float>& constants, const BlockS
 /// while its rotation (rad/s) is held.
 struct SeenStream {
     Vector3d begin, end, rotation;
-    bool moves = false;  ///< false: the seen fluid is taken to be at rest, and not to turn
+    bool moves = false;    ///< false: the seen fluid is taken to be at rest, and not to turn
+    bool is_slip = false;  ///< of the loads alone: it neither changes nor turns
 };
 
 /// implicit_step() of step.hpp over h, which is the part `part` of `parts` equal ones of a whole step.
@@ -99,6 +100,11 @@ struct BegunStep {
 /// Meets the wind and does the Langevin update over the whole step.
 BegunStep begin_step(const FlightConstants<double>& constants, double h, const WindSource& wind,
                      const Noise& noise, std::uint64_t step, BodyState& state) noexcept;
+
+/// Whole steps of one body that nothing meets between their parts: `steps` without contact. Its external
+/// loads are `external`, null where there are none.
+BatchReport advance_one(const FlightConstants<double>& constants, const BlockSteps& steps, const Noise& noise,
+                        const Wrench* external, BodyState& state) noexcept;
 
 /// load_matrices() of loads.hpp.
 LoadMatrices load_matrices(const FlightConstants<double>& constants, const Vector6d& velocity,

@@ -10,124 +10,239 @@
 HWY_BEFORE_NAMESPACE();
 namespace samara::HWY_NAMESPACE {
 
-HWY_INLINE Triple<double> triple_of(const Vector3d& v) {
-    return {v.x(), v.y(), v.z()};
+/// Three neighbours of a vector in memory.
+HWY_INLINE void load(const double* numbers, Triple<double>& triple) {
+    triple = {numbers[0], numbers[1], numbers[2]};
 }
-HWY_INLINE Vector3d vector_of(const Triple<double>& t) {
-    return {t.x, t.y, t.z};
+HWY_INLINE void keep(const Triple<double>& triple, double* numbers) {
+    numbers[0] = triple.x;
+    numbers[1] = triple.y;
+    numbers[2] = triple.z;
+}
+HWY_INLINE double lane(double number) {
+    return number;
+}
+HWY_INLINE Matrix3d matrix_of(const Square<double>& a) {
+    return (Matrix3d() << a.x.x, a.x.y, a.x.z, a.y.x, a.y.y, a.y.z, a.z.x, a.z.y, a.z.z).finished();
 }
 
-HWY_INLINE Flight<double> flight_of(const BodyState& state) {
+#if SAMARA_PACKS_ONE_BODY
+using One = Spread;
+
+HWY_INLINE void load(const double* numbers, Packed& triple) {
+    triple = hn::MaskedLoad(hn::FirstN(FourTag(), 3), FourTag(), numbers);
+}
+HWY_INLINE void keep(const Packed& triple, double* numbers) {
+    hn::BlendedStore(triple.raw, hn::FirstN(FourTag(), 3), FourTag(), numbers);
+}
+HWY_INLINE double lane(Spread number) {
+    return hn::GetLane(number.raw);
+}
+HWY_INLINE Matrix3d matrix_of(const PackedSquare& a) {
+    Matrix3d matrix;
+    keep(a.x, matrix.data());
+    keep(a.y, matrix.data() + 3);
+    keep(a.z, matrix.data() + 6);
+    return matrix;
+}
+#else
+using One = double;
+#endif
+
+HWY_INLINE Triple<One> triple_of(const double* numbers) {
+    Triple<One> triple;
+    load(numbers, triple);
+    return triple;
+}
+HWY_INLINE Triple<One> triple_of(const Vector3d& v) {
+    return triple_of(v.data());
+}
+HWY_INLINE Vector3d vector_of(const Triple<One>& triple) {
+    Vector3d v;
+    keep(triple, v.data());
+    return v;
+}
+
+HWY_INLINE Flight<One> flight_of(const BodyState& state) {
     const Quaterniond& q = state.orientation;
     return {triple_of(state.position),
-            {q.w(), {q.x(), q.y(), q.z()}},
-            triple_of(state.velocity.head<3>()),
-            triple_of(state.velocity.tail<3>()),
+            {One(q.w()), triple_of(q.coeffs().data())},
+            triple_of(state.velocity.data()),
+            triple_of(state.velocity.data() + 3),
             triple_of(state.seen_fluid.velocity),
             triple_of(state.seen_fluid.angular_velocity),
-            triple_of(state.acceleration.head<3>()),
-            triple_of(state.acceleration.tail<3>())};
+            triple_of(state.acceleration.data()),
+            triple_of(state.acceleration.data() + 3)};
 }
-HWY_INLINE void keep(const Flight<double>& flight, BodyState& state) {
-    const Turn<double>& q = flight.orientation;
-    state.position = vector_of(flight.position);
-    state.orientation = Quaterniond(q.w, q.v.x, q.v.y, q.v.z);
-    state.velocity << vector_of(flight.angular_velocity), vector_of(flight.velocity);
-    state.seen_fluid = {vector_of(flight.seen_velocity), vector_of(flight.seen_rotation)};
-    state.acceleration << vector_of(flight.angular_acceleration), vector_of(flight.acceleration);
+HWY_INLINE void keep(const Flight<One>& flight, BodyState& state) {
+    keep(flight.position, state.position.data());
+    keep(flight.orientation.v, state.orientation.coeffs().data());
+    state.orientation.w() = lane(flight.orientation.w);
+    keep(flight.angular_velocity, state.velocity.data());
+    keep(flight.velocity, state.velocity.data() + 3);
+    keep(flight.seen_velocity, state.seen_fluid.velocity.data());
+    keep(flight.seen_rotation, state.seen_fluid.angular_velocity.data());
+    keep(flight.angular_acceleration, state.acceleration.data());
+    keep(flight.acceleration, state.acceleration.data() + 3);
 }
 
-HWY_INLINE SixNormals<double> normals_at(const Noise& noise, std::uint64_t step) {
-    const std::array<double, 4> a = noise.uniforms(step, NoiseStream::seen_fluid);
-    const std::array<double, 4> b = noise.uniforms(step, NoiseStream::seen_rotation);
-    return six_normals<double>(a, b[0], b[1]);
-}
+/// The random numbers of one body.
+struct OneDraw {
+    const Noise& noise;
+    std::uint64_t step;
+
+#if SAMARA_PACKS_ONE_BODY
+    [[nodiscard]] HWY_INLINE Packed three() const {
+        const auto u = noise.uniforms(step, NoiseStream::seen_fluid);
+        return packed_normals(u, u[0], u[1]).velocity;
+    }
+    [[nodiscard]] HWY_INLINE SixNormals<Spread> six() const {
+        const auto u = noise.uniforms(step, NoiseStream::seen_fluid);
+        const auto rest = noise.uniforms(step, NoiseStream::seen_rotation);
+        return packed_normals(u, rest[0], rest[1]);
+    }
+
+  private:
+    /// six_normals(), the pairs side by side.
+    static HWY_INLINE SixNormals<Spread> packed_normals(const std::array<double, 4>& first, double fifth,
+                                                        double sixth) {
+        using Pairs = Lanes<FourTag>;
+        Pairs a;
+        Pairs b;
+        normal_pair(Pairs(FourLanes{_mm256_setr_pd(first[0], first[2], fifth, fifth)}),
+                    Pairs(FourLanes{_mm256_setr_pd(first[1], first[3], sixth, sixth)}), a, b);
+        const FourLanes low{_mm256_unpacklo_pd(a.raw.raw, b.raw.raw)};   // a0, b0, a2, b2
+        const FourLanes high{_mm256_unpackhi_pd(a.raw.raw, b.raw.raw)};  // a1, b1
+        return {Packed(blended<0b1100>(low, permuted<0b00'00'00'00>(high))),
+                Packed(blended<0b0001>(permuted<0b00'11'10'00>(low), permuted<0b01'01'01'01>(high)))};
+    }
+#else
+    [[nodiscard]] Triple<double> three() const {
+        return three_normals(noise.uniforms(step, NoiseStream::seen_fluid));
+    }
+    [[nodiscard]] SixNormals<double> six() const {
+        const std::array<double, 4> rest = noise.uniforms(step, NoiseStream::seen_rotation);
+        return six_normals(noise.uniforms(step, NoiseStream::seen_fluid), rest[0], rest[1]);
+    }
+#endif
+};
 
 BatchReport advance_double_blocks(const FlightConstants<double>& constants, const kernel::BlockSteps& steps,
                                   FlightBlock<double>* blocks, std::size_t count) {
     return advance_all(constants, steps, blocks, count);
 }
 
+/// A host's push, or none.
+HWY_INLINE Push<One> push_of_one(const Wrench* external) {
+    if (external == nullptr) return {no_vector<One>(), no_vector<One>()};
+    return {triple_of(external->moment), triple_of(external->force)};
+}
+
 void step_one(const FlightConstants<double>& c, const Vector3d& gravity, double h,
               const kernel::SeenStream& stream, int part, int parts, const Wrench* external,
               BodyState& state) {
-    Flight<double> flight = flight_of(state);
-    Push<double> push{};
-    if (external != nullptr) push = {triple_of(external->moment), triple_of(external->force)};
-    const Stream<double> whole{triple_of(stream.begin), triple_of(stream.end), triple_of(stream.rotation)};
-    implicit_step(c, triple_of(gravity), h, stream.moves, part_of(whole, part, static_cast<double>(parts)),
+    Flight<One> flight = flight_of(state);
+    const Push<One> push = push_of_one(external);
+    const Stream<One> whole{triple_of(stream.begin), triple_of(stream.end), triple_of(stream.rotation),
+                            stream.is_slip};
+    implicit_step(c, triple_of(gravity), One(h), stream.moves, part_of(whole, part, One(parts)),
                   external == nullptr ? nullptr : &push, flight);
     keep(flight, state);
 }
 
-void begin_one(const FlightConstants<double>& c, double h, const kernel::WindSource& source,
-               const Noise& noise, std::uint64_t step, BodyState& state, kernel::BegunStep& begun) {
-    Flight<double> flight = flight_of(state);
-    Stream<double> wind = no_stream<double>();
-    if (source.meet != nullptr) {
-        kernel::MetWind met;
-        const Triple<double> place = halfway(c, h, flight);
-        met.place[0][0] = place.x;
-        met.place[1][0] = place.y;
-        met.place[2][0] = place.z;
-        source.meet(source.context, step, 1, met);
-        const auto first = [](const double(&rows)[3][kernel::MetWind::size]) {
-            return Triple<double>{rows[0][0], rows[1][0], rows[2][0]};
-        };
-        wind = {first(met.begin), first(met.end), first(met.rotation)};
-    }
+/// BegunStep in the step's numbers.
+struct Beginning {
+    int parts;
+    bool sees_fluid;
+    Stream<One> stream;
+};
+HWY_INLINE Beginning beginning(const FlightConstants<double>& c, double h, const kernel::WindSource& source,
+                               const Noise& noise, std::uint64_t step, Flight<One>& flight) {
+    Stream<One> wind = no_stream<One>();
     const bool windy = source.meet != nullptr;
-    const Stream<double> stream = meet_fluid(
-        c, h, windy, wind, [&] { return normals_at(noise, step); }, 1.0, flight);
-    keep(flight, state);
+    if (windy) {
+        kernel::MetWind met;
+        const Vector3d place = vector_of(halfway(c, One(h), flight));
+        for (Eigen::Index axis = 0; axis < 3; ++axis) met.place[axis][0] = place[axis];
+        source.meet(source.context, step, 1, met);
+        const auto first = [](const double(&rows)[3][kernel::MetWind::size])
+                               HWY_ATTR { return triple_of(Vector3d(rows[0][0], rows[1][0], rows[2][0])); };
+        wind = {first(met.begin), first(met.end), first(met.rotation), false};
+    }
+    const Stream<One> stream = meet_fluid(c, One(h), windy, wind, OneDraw{noise, step}, One(1.0), flight);
     const bool sees_fluid = windy || sees_turbulence(c);
-    begun = {static_cast<int>(substeps_of(c, h, sees_fluid, stream.begin, flight)),
-             {vector_of(stream.begin), vector_of(stream.end), vector_of(stream.rotation), sees_fluid}};
+    return {static_cast<int>(lane(substeps_of(c, One(h), sees_fluid, stream.begin, flight))), sees_fluid,
+            stream};
 }
 
-HWY_INLINE void keep_blocks(const FlightConstants<double>& c, const LoadBlocks<double>& blocks,
+void begin_one(const FlightConstants<double>& c, double h, const kernel::WindSource& source,
+               const Noise& noise, std::uint64_t step, BodyState& state, kernel::BegunStep& begun) {
+    Flight<One> flight = flight_of(state);
+    const Beginning b = beginning(c, h, source, noise, step, flight);
+    keep(flight, state);
+    begun = {b.parts,
+             {vector_of(b.stream.begin), vector_of(b.stream.end), vector_of(b.stream.rotation), b.sees_fluid,
+              b.stream.is_slip}};
+}
+
+void lone_steps(const FlightConstants<double>& c, const kernel::BlockSteps& task, const Noise& noise,
+                const Wrench* external, BodyState& state, BatchReport& report) {
+    Flight<One> flight = flight_of(state);
+    const Push<One> push = push_of_one(external);
+    for (std::uint64_t number = 0; number < task.steps; ++number) {
+        const Beginning begun =
+            beginning(c, task.time_step, task.wind, noise, task.first_step + number, flight);
+        const Triple<One> gravity = triple_of(task.gravities[number]);
+        report.count(begun.parts);
+        // Most steps are whole: what follows need not wait for the division that says so.
+        const bool is_whole = begun.parts == 1;
+        const One h(is_whole ? task.time_step : task.time_step / begun.parts);
+        for (int i = 0; i < begun.parts; ++i) {
+            implicit_step(c, gravity, h, begun.sees_fluid,
+                          is_whole ? begun.stream : part_of(begun.stream, i, One(begun.parts)),
+                          external == nullptr ? nullptr : &push, flight);
+        }
+    }
+    keep(flight, state);
+}
+
+HWY_INLINE void keep_blocks(const FlightConstants<double>& c, const LoadBlocks<One>& blocks,
                             Matrix6d& matrix) {
-    const auto keep_block = [&](const Square<double>& block, Eigen::Index row, Eigen::Index column,
-                                double scale) {
-        matrix.block<3, 3>(row, column) << block.x.x, block.x.y, block.x.z, block.y.x, block.y.y, block.y.z,
-            block.z.x, block.z.y, block.z.z;
-        matrix.block<3, 3>(row, column) *= scale;
-    };
     const double moment = c.mass_scale * c.length;
-    keep_block(blocks.moment_by_turning, 0, 0, moment * c.length);
-    keep_block(blocks.moment_by_velocity, 0, 3, moment);
-    keep_block(blocks.force_by_turning, 3, 0, moment);
-    keep_block(blocks.force_by_velocity, 3, 3, c.mass_scale);
+    matrix.topLeftCorner<3, 3>() = moment * c.length * matrix_of(blocks.moment_by_turning);
+    matrix.topRightCorner<3, 3>() = moment * matrix_of(blocks.moment_by_velocity);
+    matrix.bottomLeftCorner<3, 3>() = moment * matrix_of(blocks.force_by_turning);
+    matrix.bottomRightCorner<3, 3>() = c.mass_scale * matrix_of(blocks.force_by_velocity);
 }
 
 void loads_of_one(const FlightConstants<double>& c, const Vector6d& velocity, const Vector3d& seen_rotation,
                   LoadMatrices& loads) {
-    const Triple<double> turning = triple_of(velocity.head<3>());
-    const Triple<double> moving = c.inverse_length * triple_of(velocity.tail<3>());
-    LoadBlocks<double> blocks = relative_load_blocks(c, turning - triple_of(seen_rotation), moving, turning);
+    const Triple<One> turning = triple_of(velocity.data());
+    const Triple<One> moving = One(c.inverse_length) * triple_of(velocity.data() + 3);
+    LoadBlocks<One> blocks = relative_load_blocks(c, turning - triple_of(seen_rotation), moving, turning);
     keep_blocks(c, blocks, loads.relative);
     add_transports(c, turning, moving, blocks);
     keep_blocks(c, blocks, loads.whole);
 }
 
 void turbulence_of_one(const FlightConstants<double>& c, const Vector3d& velocity, TurbulenceLevel& result) {
-    const Level<double> level = turbulence_level(c, c.inverse_length * triple_of(velocity));
-    result = {level.turbulent_kinetic_energy, level.dissipation_rate};
+    const Level<One> level = turbulence_level(c, One(c.inverse_length) * triple_of(velocity));
+    result = {lane(level.turbulent_kinetic_energy), lane(level.dissipation_rate)};
 }
 
 void seen_fluid_of_one(const FlightConstants<double>& c, const TurbulenceLevel& level, double h,
                        const Noise& noise, std::uint64_t step, BodyState& state) {
-    Flight<double> flight = flight_of(state);
-    advance_seen_fluid(c, Level<double>{level.turbulent_kinetic_energy, level.dissipation_rate}, h,
-                       normals_at(noise, step), flight);
+    Flight<One> flight = flight_of(state);
+    advance_seen_fluid(c, Level<One>{One(level.turbulent_kinetic_energy), One(level.dissipation_rate)},
+                       One(h), OneDraw{noise, step}.six(), flight);
     keep(flight, state);
 }
 
 void body_velocity_of_one(const FlightConstants<double>& c, const TurbulenceLevel& level, double h,
                           const Noise& noise, std::uint64_t step, BodyState& state) {
-    Flight<double> flight = flight_of(state);
-    advance_body_velocity(c, Level<double>{level.turbulent_kinetic_energy, level.dissipation_rate}, h,
-                          normals_at(noise, step), flight);
+    Flight<One> flight = flight_of(state);
+    advance_body_velocity(c, Level<One>{One(level.turbulent_kinetic_energy), One(level.dissipation_rate)},
+                          One(h), OneDraw{noise, step}.six(), flight);
     keep(flight, state);
 }
 
@@ -144,6 +259,7 @@ namespace samara {
 HWY_EXPORT(advance_double_blocks);
 HWY_EXPORT(step_one);
 HWY_EXPORT(begin_one);
+HWY_EXPORT(lone_steps);
 HWY_EXPORT(loads_of_one);
 HWY_EXPORT(turbulence_of_one);
 HWY_EXPORT(seen_fluid_of_one);
@@ -168,6 +284,13 @@ BegunStep begin_step(const FlightConstants<double>& constants, double h, const W
     BegunStep begun;
     HWY_DYNAMIC_DISPATCH(begin_one)(constants, h, wind, noise, step, state, begun);
     return begun;
+}
+
+BatchReport advance_one(const FlightConstants<double>& constants, const BlockSteps& steps, const Noise& noise,
+                        const Wrench* external, BodyState& state) noexcept {
+    BatchReport report;
+    HWY_DYNAMIC_DISPATCH(lone_steps)(constants, steps, noise, external, state, report);
+    return report;
 }
 
 LoadMatrices load_matrices(const FlightConstants<double>& constants, const Vector6d& velocity,

@@ -28,11 +28,11 @@ HWY_INLINE Level<V> turbulence_level(const FlightConstants<Real>& c, const Tripl
     }
     const Heading<V> heading = heading_of(velocity);
     Place<V> place;
-    find_place(c.turbulence_by_direction, heading.direction, V(c.reynolds_factor) * heading.speed, place);
+    find_place(c.turbulence_by_direction, velocity, V(c.reynolds_factor) * heading.speed, place);
     Quad<V> row;
     look_up<1>(c.turbulence_by_direction, place, &row);
     const V square = (V(c.length) * heading.speed) * (V(c.length) * heading.speed);
-    return {row.a * square, row.b * square * heading.speed};
+    return {first_of(row) * square, second_of(row) * square * heading.speed};
 }
 
 /// epsilon / k, zero where there is no turbulence.
@@ -74,7 +74,7 @@ HWY_INLINE void advance_seen_fluid(const FlightConstants<Real>& c, const Level<V
 /// of its lengths (docs/noise.md).
 template <class V, class Real>
 HWY_INLINE void advance_wake(const FlightConstants<Real>& c, const Level<V>& level, V h,
-                             const SixNormals<V>& normals, Flight<V>& flight) {
+                             const Triple<V>& normals, Flight<V>& flight) {
     const V zero(0.0);
     const Heading<V> heading = heading_of(centroid_velocity(c, flight));
     const V speed = V(c.length) * heading.speed;
@@ -82,10 +82,9 @@ HWY_INLINE void advance_wake(const FlightConstants<Real>& c, const Level<V>& lev
     const V across = select(zero < level.turbulent_kinetic_energy, V(wake_across) * speed, zero);
     const V along = V(wake_along) * root(V(2.0 / 3.0) * level.turbulent_kinetic_energy);
     const Triple<V> path = rotation_matrix(flight.orientation) * heading.direction;
-    const Triple<V> drawn =
-        across * normals.velocity + ((along - across) * dot(path, normals.velocity)) * path;
+    const Triple<V> drawn = across * normals + ((along - across) * dot(path, normals)) * path;
     flight.seen_velocity = now.kept * flight.seen_velocity + now.added * drawn;
-    flight.seen_rotation = {zero, zero, zero};
+    flight.seen_rotation = no_vector<V>();
 }
 
 template <class V, class Real>

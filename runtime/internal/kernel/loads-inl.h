@@ -47,19 +47,19 @@ struct TowCoefficients {
 };
 
 template <bool with_moment, class V, class Real>
-HWY_INLINE TowCoefficients<V> tow_coefficients(const FlightConstants<Real>& c, const Heading<V>& heading) {
-    const V zero(0.0);
+HWY_INLINE TowCoefficients<V> tow_coefficients(const FlightConstants<Real>& c, const Triple<V>& velocity,
+                                               const Heading<V>& heading) {
     Place<V> place;
-    find_place(c.loads_by_direction, heading.direction, V(c.reynolds_factor) * heading.speed, place);
+    find_place(c.loads_by_direction, velocity, V(c.reynolds_factor) * heading.speed, place);
     Quad<V> numbers[2];
     look_up<with_moment ? 2 : 1>(c.loads_by_direction, place, numbers);
-    const Triple<V> force{numbers[0].a, numbers[0].b, numbers[0].c};
+    const Triple<V> force = first_three(numbers[0]);
     if (c.loads == Loads::coefficients) {
-        const Triple<V> of_area = coefficient_force(c, heading.direction, force.x);
+        const Triple<V> of_area = coefficient_force(c, heading.direction, first_of(numbers[0]));
         return {of_area, cross(broadcast<V>(c.center_of_pressure), of_area)};
     }
-    if constexpr (with_moment) return {force, {numbers[1].a, numbers[1].b, numbers[1].c}};
-    return {force, {zero, zero, zero}};
+    if constexpr (with_moment) return {force, first_three(numbers[1])};
+    return {force, no_vector<V>()};
 }
 
 /// Where the tow's force acts, and the part of its moment that no arm can give (over the speed squared).
@@ -68,12 +68,12 @@ struct PressurePoint {
     Triple<V> arm, moment_along_force;
 };
 template <class V, class Real>
-HWY_INLINE PressurePoint<V> pressure_point(const FlightConstants<Real>& c, const Heading<V>& heading,
-                                           V share) {
-    const TowCoefficients<V> tow = tow_coefficients<true>(c, heading);
+HWY_INLINE PressurePoint<V> pressure_point(const FlightConstants<Real>& c, const Triple<V>& velocity,
+                                           const Heading<V>& heading, V share) {
+    const TowCoefficients<V> tow = tow_coefficients<true>(c, velocity, heading);
     // What transport leaves, in a steady tow, of the Kirchhoff moment on the equations' left side.
     const Triple<V> kirchhoff =
-        cross(broadcast<V>(c.potential_transport) * heading.direction, heading.direction);
+        cross(broadcast_symmetric<V>(c.potential_transport) * heading.direction, heading.direction);
     const Triple<V> moment = tow.moment - kirchhoff;
     const V square = dot(tow.force, tow.force);
     const V scale = share / larger(V(tiny<V>), square);
@@ -89,7 +89,7 @@ struct TowMatrix {
 template <class V, class Real>
 HWY_INLINE TowMatrix<V> tow_matrix(const FlightConstants<Real>& c, const Triple<V>& velocity) {
     const Heading<V> heading = heading_of(velocity);
-    const Triple<V> force = tow_coefficients<false>(c, heading).force;
+    const Triple<V> force = tow_coefficients<false>(c, velocity, heading).force;
     const V scale = V(c.tow_factor) * heading.speed;
     return {scale * larger(V(0.0), -dot(force, heading.direction)), scale * cross(force, heading.direction)};
 }
@@ -133,9 +133,8 @@ HWY_INLINE LoadBlocks<V> tow_blocks(const FlightConstants<Real>& c, const Triple
 template <class V>
 HWY_INLINE void add_windmill(const Triple<V>& moment_along_force, const Triple<V>& velocity,
                              LoadBlocks<V>& blocks) {
-    const Square<V> windmill = outer(moment_along_force, velocity);
-    blocks.moment_by_velocity = blocks.moment_by_velocity - windmill;
-    blocks.force_by_turning = blocks.force_by_turning + transposed(windmill);
+    blocks.moment_by_velocity = blocks.moment_by_velocity - outer(moment_along_force, velocity);
+    blocks.force_by_turning = blocks.force_by_turning + outer(velocity, moment_along_force);
 }
 
 /// Adds force omega x p and moment v x p + omega x l of the momenta (l, p) that separated flow lacks:
@@ -146,11 +145,12 @@ HWY_INLINE void add_transport(const FlightConstants<Real>& c, const Triple<V>& o
     // The isotropic part of T acts as a force alone: its moment v x v is none, and must not be made where D
     // acts on another v than the one it was made with.
     blocks.force_by_velocity = plus_cross(blocks.force_by_velocity, -V(c.isotropic_transport) * omega);
-    Triple<V> momentum = broadcast<V>(c.directed_transport) * velocity;
+    Triple<V> momentum = broadcast_symmetric<V>(c.directed_transport) * velocity;
     if (c.transports_turning) {
         const Square<V> coupling = broadcast<V>(c.coupling_transport);
         momentum = momentum + transposed_times(coupling, omega);
-        const Triple<V> angular_momentum = broadcast<V>(c.turning_transport) * omega + coupling * velocity;
+        const Triple<V> angular_momentum =
+            broadcast_symmetric<V>(c.turning_transport) * omega + coupling * velocity;
         blocks.moment_by_turning = plus_cross(blocks.moment_by_turning, angular_momentum);
     }
     blocks.moment_by_velocity = plus_cross(blocks.moment_by_velocity, momentum);
@@ -161,8 +161,8 @@ HWY_INLINE void add_transport(const FlightConstants<Real>& c, const Triple<V>& o
 template <class V, class Real>
 HWY_INLINE void add_wake(const FlightConstants<Real>& c, const Triple<V>& omega, const Triple<V>& velocity,
                          V combined, LoadBlocks<V>& blocks) {
-    const Triple<V> by_velocity = cross(velocity, broadcast<V>(c.wake_by_velocity) * velocity);
-    const Triple<V> by_turning = cross(omega, broadcast<V>(c.wake_by_turning) * omega);
+    const Triple<V> by_velocity = cross(velocity, broadcast_symmetric<V>(c.wake_by_velocity) * velocity);
+    const Triple<V> by_turning = cross(omega, broadcast_symmetric<V>(c.wake_by_turning) * omega);
     const V inverse = V(1.0) / larger(V(tiny<V>), combined);
     blocks.moment_by_turning = plus_cross(blocks.moment_by_turning, inverse * (by_velocity + by_turning));
 }
@@ -195,7 +195,7 @@ HWY_INLINE LoadBlocks<V> relative_load_blocks(const FlightConstants<Real>& c, co
 
     // The tow's moment stays until the body does little but turn: a steady tow keeps it whole.
     const PressurePoint<V> point =
-        pressure_point(c, heading, share_of(speed_square, V(motion_onset) * tip_square));
+        pressure_point(c, velocity, heading, share_of(speed_square, V(motion_onset) * tip_square));
     LoadBlocks<V> blocks = tow_blocks(c, omega, velocity, point.arm);
     add_windmill(point.moment_along_force, velocity, blocks);
 
@@ -204,14 +204,15 @@ HWY_INLINE LoadBlocks<V> relative_load_blocks(const FlightConstants<Real>& c, co
         larger(zero, V(1.0) - V(c.reynolds_factor) * heading.speed * V(c.lowest_reynolds_inverse));
     const V creeping_drag = select(zero < V(c.lowest_reynolds_inverse), V(c.creeping_drag) * below, zero);
     blocks.moment_by_turning = plus_diagonal(
-        blocks.moment_by_turning + combined * broadcast<V>(c.rotational_drag), V(c.creeping_turn));
-    blocks.force_by_velocity =
-        plus_diagonal(blocks.force_by_velocity + in_motion * broadcast<V>(c.drag_in_motion), creeping_drag);
+        blocks.moment_by_turning + combined * broadcast_symmetric<V>(c.rotational_drag), V(c.creeping_turn));
+    blocks.force_by_velocity = plus_diagonal(
+        blocks.force_by_velocity + in_motion * broadcast_symmetric<V>(c.drag_in_motion), creeping_drag);
     if (c.has_spin) {
         const V in_spin = combined * share_of(tip_square, speed_square);
         blocks.moment_by_turning =
-            blocks.moment_by_turning + in_spin * broadcast<V>(c.rotational_drag_in_spin);
-        blocks.force_by_velocity = blocks.force_by_velocity + in_spin * broadcast<V>(c.drag_in_spin);
+            blocks.moment_by_turning + in_spin * broadcast_symmetric<V>(c.rotational_drag_in_spin);
+        blocks.force_by_velocity =
+            blocks.force_by_velocity + in_spin * broadcast_symmetric<V>(c.drag_in_spin);
     }
     return blocks;
 }

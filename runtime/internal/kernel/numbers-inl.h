@@ -19,8 +19,11 @@ namespace samara::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// A vector of numbers of one body each.
-template <class Tag>
+inline constexpr bool max_is_of_x86 =
+    HWY_TARGET == HWY_SSE4 || HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3;
+
+/// A vector of numbers: each of a body of its own, or all the same one of one body (packed-inl.h).
+template <class Tag, bool of_one_body = false>
 struct Lanes {
     hn::Vec<Tag> raw;
 
@@ -37,8 +40,15 @@ struct Lanes {
     friend HWY_INLINE Lanes root(Lanes a) { return hn::Sqrt(a.raw); }
     friend HWY_INLINE Lanes magnitude(Lanes a) { return hn::Abs(a.raw); }
     friend HWY_INLINE Lanes whole_part(Lanes a) { return hn::Floor(a.raw); }
-    friend HWY_INLINE Lanes larger(Lanes a, Lanes b) { return select(a < b, b, a); }
-    friend HWY_INLINE Lanes smaller(Lanes a, Lanes b) { return select(b < a, b, a); }
+    // Of NaN and a number that which stands first, as x86's own maximum has it the other way round.
+    friend HWY_INLINE Lanes larger(Lanes a, Lanes b) {
+        if constexpr (max_is_of_x86) return hn::Max(b.raw, a.raw);
+        return select(a < b, b, a);
+    }
+    friend HWY_INLINE Lanes smaller(Lanes a, Lanes b) {
+        if constexpr (max_is_of_x86) return hn::Min(b.raw, a.raw);
+        return select(b < a, b, a);
+    }
     friend HWY_INLINE Lanes select(hn::Mask<Tag> condition, Lanes a, Lanes b) {
         return hn::IfThenElse(condition, a.raw, b.raw);
     }
@@ -63,6 +73,15 @@ HWY_INLINE double select(bool condition, double a, double b) {
     return condition ? a : b;
 }
 
+/// Whether one of two conditions holds.
+HWY_INLINE bool either(bool a, bool b) {
+    return a || b;
+}
+template <class Mask>
+HWY_INLINE Mask either(Mask a, Mask b) {
+    return hn::Or(a, b);
+}
+
 template <class V>
 struct NumberTraits;
 template <>
@@ -82,8 +101,9 @@ struct NumberTraits<double> {
         return std::bit_cast<double>((std::bit_cast<std::int64_t>(x) & bits) | (std::int64_t{1023} << 52));
     }
 };
-template <class Tag>
-struct NumberTraits<Lanes<Tag>> {
+template <class Tag, bool of_one_body>
+struct NumberTraits<Lanes<Tag, of_one_body>> {
+    using Number = Lanes<Tag, of_one_body>;
     using Real = hn::TFromD<Tag>;
     using Mask = hn::Mask<Tag>;
     using Integers = hn::RebindToSigned<Tag>;
@@ -91,18 +111,18 @@ struct NumberTraits<Lanes<Tag>> {
     static constexpr int bias = std::numeric_limits<Real>::max_exponent - 1;
 
     static HWY_INLINE bool any_of(Mask condition) { return !hn::AllFalse(Tag(), condition); }
-    static HWY_INLINE Lanes<Tag> power_of_two(Lanes<Tag> n) {
+    static HWY_INLINE Number power_of_two(Number n) {
         const Integers integers;
         // The sum's last bits are n: its exponent field keeps them in place.
         const auto whole = to_integers(n);
         return hn::BitCast(Tag(), hn::ShiftLeft<fraction_bits>(hn::Add(whole, hn::Set(integers, bias))));
     }
-    static HWY_INLINE Lanes<Tag> exponent(Lanes<Tag> x) {
+    static HWY_INLINE Number exponent(Number x) {
         const Integers integers;
         const auto field = hn::ShiftRight<fraction_bits>(hn::BitCast(integers, x.raw));
         return to_numbers(hn::Sub(field, hn::Set(integers, bias)));
     }
-    static HWY_INLINE Lanes<Tag> mantissa(Lanes<Tag> x) {
+    static HWY_INLINE Number mantissa(Number x) {
         const Integers integers;
         constexpr auto bits =
             static_cast<hn::TFromD<Integers>>((static_cast<hn::TFromD<Integers>>(1) << fraction_bits) - 1);
@@ -113,15 +133,15 @@ struct NumberTraits<Lanes<Tag>> {
   private:
     // Integers of small size by way of a large number's last bits: exact, and on every instruction set.
     static constexpr double large = 1.5 * static_cast<double>(std::int64_t{1} << fraction_bits);
-    static HWY_INLINE hn::Vec<Integers> to_integers(Lanes<Tag> n) {
+    static HWY_INLINE hn::Vec<Integers> to_integers(Number n) {
         const Integers integers;
-        const auto base = hn::BitCast(integers, Lanes<Tag>(large).raw);
-        return hn::Sub(hn::BitCast(integers, (n + Lanes<Tag>(large)).raw), base);
+        const auto base = hn::BitCast(integers, Number(large).raw);
+        return hn::Sub(hn::BitCast(integers, (n + Number(large)).raw), base);
     }
-    static HWY_INLINE Lanes<Tag> to_numbers(hn::Vec<Integers> n) {
+    static HWY_INLINE Number to_numbers(hn::Vec<Integers> n) {
         const Integers integers;
-        const auto base = hn::BitCast(integers, Lanes<Tag>(large).raw);
-        return Lanes<Tag>(hn::BitCast(Tag(), hn::Add(n, base))) - Lanes<Tag>(large);
+        const auto base = hn::BitCast(integers, Number(large).raw);
+        return Number(hn::BitCast(Tag(), hn::Add(n, base))) - Number(large);
     }
 };
 
@@ -153,9 +173,10 @@ HWY_INLINE V polynomial(const double (&c)[N], V x) {
     return polynomial_from<0, 1>(c, x);
 }
 
-/// The natural logarithm of a positive normal number, to its last bits: twice the series of artanh.
-template <class V>
-HWY_INLINE V logarithm(V x) {
+/// The natural logarithm of a positive normal number: twice the series of artanh of s, |s| < 0.172, whose
+/// coefficients `c` gives.
+template <int N, class V>
+HWY_INLINE V logarithm_by(const double (&c)[N], V x) {
     using Traits = NumberTraits<V>;
     constexpr double ln2 = 0.693147180559945309417;
     const V m = Traits::mantissa(x);
@@ -163,17 +184,27 @@ HWY_INLINE V logarithm(V x) {
     const V mantissa = select(above, m * V(0.5), m);
     const V exponent = Traits::exponent(x) + select(above, V(1.0), V(0.0));
     const V s = (mantissa - V(1.0)) / (mantissa + V(1.0));
-    const V square = s * s;
-    V series;
+    return exponent * V(ln2) + s * polynomial(c, s * s);
+}
+/// To its last bits.
+template <class V>
+HWY_INLINE V logarithm(V x) {
     if constexpr (in_single_precision<V>) {
-        constexpr double c[] = {2.0, 2.0 / 3, 2.0 / 5, 2.0 / 7, 2.0 / 9};
-        series = polynomial(c, square);
+        return logarithm_by({2.0, 2.0 / 3, 2.0 / 5, 2.0 / 7, 2.0 / 9}, x);
     } else {
-        constexpr double c[] = {2.0,      2.0 / 3,  2.0 / 5,  2.0 / 7,  2.0 / 9, 2.0 / 11,
-                                2.0 / 13, 2.0 / 15, 2.0 / 17, 2.0 / 19, 2.0 / 21};
-        series = polynomial(c, square);
+        return logarithm_by({2.0, 2.0 / 3, 2.0 / 5, 2.0 / 7, 2.0 / 9, 2.0 / 11, 2.0 / 13, 2.0 / 15, 2.0 / 17,
+                             2.0 / 19, 2.0 / 21},
+                            x);
     }
-    return exponent * V(ln2) + s * series;
+}
+/// To 1e-14, and in a shorter chain.
+template <class V>
+HWY_INLINE V short_logarithm(V x) {
+    if constexpr (in_single_precision<V>) {
+        return logarithm_by({2.0, 2.0 / 3, 2.0 / 5, 2.0 / 7}, x);
+    } else {
+        return logarithm_by({2.0, 2.0 / 3, 2.0 / 5, 2.0 / 7, 2.0 / 9, 2.0 / 11, 2.0 / 13, 2.0 / 15}, x);
+    }
 }
 
 /// exp(x) - 1 for x <= 0, accurate near zero: Taylor's series about the nearest multiple of ln 2.

@@ -31,14 +31,22 @@ HWY_INLINE void normal_pair(V first, V second, V& a, V& b) {
     b = radius * sine;
 }
 
-/// Four words of one draw make the velocity's numbers and the first of the rotation's, two of another the
-/// rest.
+/// Four numbers of one draw make the velocity's and the first of the rotation's, two of another the rest.
 template <class V>
 HWY_INLINE SixNormals<V> six_normals(const std::array<V, 4>& first, V fifth, V sixth) {
     SixNormals<V> n;
     normal_pair(first[0], first[1], n.velocity.x, n.velocity.y);
     normal_pair(first[2], first[3], n.velocity.z, n.rotation.x);
     normal_pair(fifth, sixth, n.rotation.y, n.rotation.z);
+    return n;
+}
+/// The velocity's alone, the same.
+template <class V>
+HWY_INLINE Triple<V> three_normals(const std::array<V, 4>& first) {
+    Triple<V> n;
+    V of_rotation;
+    normal_pair(first[0], first[1], n.x, n.y);
+    normal_pair(first[2], first[3], n.z, of_rotation);
     return n;
 }
 

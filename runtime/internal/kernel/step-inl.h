@@ -45,24 +45,26 @@ HWY_INLINE Triple<V> centroid_velocity(const FlightConstants<Real>& c, const Fli
 }
 
 template <class V>
-struct VelocityChange {
+struct Velocities {
     Triple<V> omega, velocity;
 };
 
 /// The seen fluid's velocity (m/s, world axes) when a step begins and when it ends: between them it changes
-/// evenly. Its rotation (rad/s) is held.
+/// evenly. Its rotation (rad/s) is held. Where it is a slip of the loads alone it does neither.
 template <class V>
 struct Stream {
     Triple<V> begin, end, rotation;
+    bool is_slip = false;
 };
 
 /// The stream of the part `i` of a step that is cut into `parts`, from that of the whole step.
 template <class V>
 HWY_INLINE Stream<V> part_of(const Stream<V>& whole, int i, V parts) {
+    if (whole.is_slip) return whole;
     const Triple<V> difference = whole.end - whole.begin;
     const Triple<V> begin = i == 0 ? whole.begin : whole.begin + (V(i) / parts) * difference;
     const Triple<V> end = whole.begin + (V(i + 1) / parts) * difference;
-    return {begin, select(V(i + 1) < parts, end, whole.end), whole.rotation};
+    return {begin, select(V(i + 1) < parts, end, whole.end), whole.rotation, false};
 }
 
 /// A host's push: moment about the centre of mass and force (world axes, in the shape's own units).
@@ -77,7 +79,7 @@ struct StepStart {
     V h;
     Triple<V> omega, velocity;
     Triple<V> gravity, seen_rotation;  // body axes
-    bool sees_fluid;
+    bool fluid_turns;
     bool is_pushed;
     Push<V> push;  // body axes, about the centroid
     /// Whether the body turns by more than a radian: its system is then solved once more for what rounding
@@ -89,11 +91,17 @@ struct StepStart {
 template <class V>
 struct StepMiddle {
     Triple<V> omega, velocity;
-    VelocityChange<V> change;
+    Velocities<V> change;
     Triple<V> half_turn;
     V theta;
     V stiffness;  // of the moving
 };
+
+/// What a step may be off by, over the body's speed, where its middle is found in one pass; and how stiff its
+/// drag may be there (at 1 the one pass would hardly settle at the terminal speed, with h D / K above it
+/// not).
+inline constexpr double one_pass_tolerance = 3e-5;
+inline constexpr double one_pass_stiffness = 0.5;
 
 /// How stiff the drag is: h max(D_ii / K_ii) of the turning and of the moving.
 template <class V>
@@ -102,35 +110,29 @@ struct Stiffness {
 };
 template <class V, class Real>
 HWY_INLINE Stiffness<V> stiffness(const FlightConstants<Real>& c, const LoadBlocks<V>& loads, V h) {
-    const Triple<V> w = broadcast<V>(c.inverse_turning);
-    const Triple<V> v = broadcast<V>(c.inverse_moving);
-    const Square<V>& a = loads.moment_by_turning;
-    const Square<V>& b = loads.force_by_velocity;
-    return {h * larger(larger(a.x.x * w.x, a.y.y * w.y), a.z.z * w.z),
-            h * larger(larger(b.x.x * v.x, b.y.y * v.y), b.z.z * v.z)};
+    const auto of_block = [h](const Square<V>& block, const Triple<Real>& inverse_inertia) HWY_ATTR {
+        return h * largest_of(product_of_each(diagonal_of(block), broadcast<V>(inverse_inertia)));
+    };
+    return {of_block(loads.moment_by_turning, c.inverse_turning),
+            of_block(loads.force_by_velocity, c.inverse_moving)};
 }
 
 /// The step's matrix by its blocks, ready to solve with.
 template <class V>
 struct StepMatrix {
     Square<V> turning, coupling, back, moving;
-    Square<V> moving_factors, solutions, turning_factors;
+    Square<V> moving_factors, moving_by_turning, turning_factors;
 
-    /// Eliminates the velocity, whose block is factorised, and then what is left for the turning.
+    /// Eliminates the velocity, and then what is left for the turning.
     HWY_INLINE void factorise() {
         moving_factors = factorised(moving);
-        const Square<V> columns = transposed(back);
-        solutions = {solved(moving_factors, columns.x), solved(moving_factors, columns.y),
-                     solved(moving_factors, columns.z)};
-        turning_factors =
-            factorised(Square<V>{turning.x - solutions * coupling.x, turning.y - solutions * coupling.y,
-                                 turning.z - solutions * coupling.z});
+        moving_by_turning = solved(moving_factors, back);
+        turning_factors = factorised(turning - coupling * moving_by_turning);
     }
-    [[nodiscard]] HWY_INLINE VelocityChange<V> solved_for(const Triple<V>& moment,
-                                                          const Triple<V>& force) const {
+    [[nodiscard]] HWY_INLINE Velocities<V> solved_for(const Triple<V>& moment, const Triple<V>& force) const {
         const Triple<V> rest = solved(moving_factors, force);
         const Triple<V> omega = solved(turning_factors, moment - coupling * rest);
-        return {omega, rest - transposed_times(solutions, omega)};
+        return {omega, rest - moving_by_turning * omega};
     }
 };
 
@@ -152,18 +154,21 @@ HWY_INLINE void improve(const FlightConstants<Real>& c, const StepStart<V>& star
     // Of the linear momentum the part along the velocity (m* v, of which the unit is m*) acts as a force
     // alone: as p x v its moment would vanish only where the v inside p and the one it acts on are parallel,
     // and else spin even a sphere.
-    Triple<V> angular_momentum = broadcast<V>(c.inertia_turning) * middle.omega;
-    Triple<V> momentum = broadcast<V>(c.directed_inertia) * middle.velocity;
-    if (c.coupled) {
-        const Square<V> coupling = broadcast<V>(c.inertia_coupling);
-        angular_momentum = angular_momentum + coupling * middle.velocity;
-        momentum = momentum + transposed_times(coupling, middle.omega);
-    }
     StepMatrix<V> matrix;
-    matrix.turning = broadcast<V>(c.inertia_turning);
-    matrix.coupling = broadcast<V>(c.inertia_coupling);
-    matrix.back = transposed(matrix.coupling);
-    matrix.moving = plus_diagonal(broadcast<V>(c.directed_inertia), V(1.0));
+    matrix.turning = broadcast_symmetric<V>(c.inertia_turning);
+    const Square<V> directed_inertia = broadcast_symmetric<V>(c.directed_inertia);
+    matrix.moving = plus_diagonal(directed_inertia, V(1.0));
+    Triple<V> angular_momentum = matrix.turning * middle.omega;
+    Triple<V> momentum = directed_inertia * middle.velocity;
+    if (c.coupled) {
+        matrix.coupling = broadcast<V>(c.inertia_coupling);
+        matrix.back = transposed(matrix.coupling);
+        angular_momentum = angular_momentum + matrix.coupling * middle.velocity;
+        momentum = momentum + matrix.back * middle.omega;
+    } else {
+        matrix.coupling = no_matrix<V>();
+        matrix.back = matrix.coupling;
+    }
     Triple<V> moment = cross(angular_momentum, start.omega) + cross(momentum, start.velocity);
     Triple<V> force =
         V(c.weight) * gravity + cross(momentum, start.omega) - cross(middle.omega, start.velocity);
@@ -176,7 +181,7 @@ HWY_INLINE void improve(const FlightConstants<Real>& c, const StepStart<V>& star
     middle.theta = V(0.5);
     if (c.loads != Loads::none) {
         LoadBlocks<V> loads;
-        if (start.sees_fluid) {
+        if (start.fluid_turns) {
             const Triple<V> fluid_turning = under_body(start.seen_rotation);
             loads = relative_load_blocks(c, middle.omega - fluid_turning, middle.velocity, middle.omega);
             moment = moment + loads.moment_by_turning * fluid_turning;
@@ -205,9 +210,9 @@ HWY_INLINE void improve(const FlightConstants<Real>& c, const StepStart<V>& star
 
     const Triple<V> right_moment = step * moment;
     const Triple<V> right_force = step * force;
-    VelocityChange<V> change = matrix.solved_for(right_moment, right_force);
+    Velocities<V> change = matrix.solved_for(right_moment, right_force);
     if (NumberTraits<V>::any_of(start.wild)) {
-        const VelocityChange<V> more = matrix.solved_for(
+        const Velocities<V> more = matrix.solved_for(
             right_moment - matrix.turning * change.omega - matrix.coupling * change.velocity,
             right_force - matrix.back * change.omega - matrix.moving * change.velocity);
         change.omega = select(start.wild, change.omega + more.omega, change.omega);
@@ -218,11 +223,77 @@ HWY_INLINE void improve(const FlightConstants<Real>& c, const StepStart<V>& star
     middle.velocity = start.velocity + change.velocity;
 }
 
+template <class Condition, class V>
+HWY_INLINE StepMiddle<V> select(Condition condition, const StepMiddle<V>& a, const StepMiddle<V>& b) {
+    return {select(condition, a.omega, b.omega),
+            select(condition, a.velocity, b.velocity),
+            {select(condition, a.change.omega, b.change.omega),
+             select(condition, a.change.velocity, b.change.velocity)},
+            select(condition, a.half_turn, b.half_turn),
+            select(condition, a.theta, b.theta),
+            select(condition, a.stiffness, b.stiffness)};
+}
+
+/// Whether a guessed middle is to be improved twice: always where a body meets no noise. Noise alone, which
+/// is not smooth, is off by more in a step than what the second pass would mend. Loads and transport go with
+/// the square of the velocity: to the first order, one made from a guess that was off by d is off by 2 d / u
+/// of the velocity's change. One pass is of second order too, where drag is not stiff.
+template <class V, class Real>
+HWY_INLINE typename NumberTraits<V>::Mask is_unsure(const FlightConstants<Real>& c, const StepStart<V>& start,
+                                                    const Velocities<V>& guess, const StepMiddle<V>& found) {
+    const V tip_square(c.tip_square);
+    const auto square = [&](const Triple<V>& omega, const Triple<V>& velocity)
+                            HWY_ATTR { return dot(velocity, velocity) + tip_square * dot(omega, omega); };
+    const V off = square(found.omega - guess.omega, found.velocity - guess.velocity);
+    const V change = square(found.change.omega, found.change.velocity);
+    const V speed = square(found.omega, found.velocity);
+    const bool is_noisy = c.turbulence != Turbulence::none;
+    const V allowed(is_noisy ? one_pass_tolerance * one_pass_tolerance / 16.0 : -1.0);
+    const auto far_off = allowed * (speed * speed) < off * change;
+    return either(either(far_off, V(one_pass_stiffness) < found.stiffness), start.wild);
+}
+
+/// The middle that a second pass finds, for those where it matters. Not inlined: most steps need none.
+template <class V, class Real>
+HWY_NOINLINE void find_again(const FlightConstants<Real>& c, const StepStart<V>& start,
+                             const Velocities<V>& guess, typename NumberTraits<V>::Mask unsure,
+                             StepMiddle<V>& middle) {
+    StepMiddle<V> found = middle;
+    // Where drag is stiff, one made from the speed alone would swing about the terminal speed: halfway to the
+    // guess lies Newton's root. Where it is not, the middle stays, of second order.
+    const V square = middle.stiffness * middle.stiffness;
+    const V back = V(0.5) * square / (V(36.0) + square);
+    found.velocity = middle.velocity + back * (guess.velocity - middle.velocity);
+    improve(c, start, found);
+    middle = select(unsure, found, middle);
+}
+
+/// The middle of the step from velocities guessed there: by one pass, or where that says it matters by two.
+template <class V, class Real>
+HWY_INLINE StepMiddle<V> found_middle(const FlightConstants<Real>& c, const StepStart<V>& start,
+                                      const Velocities<V>& guess) {
+    StepMiddle<V> found;
+    found.omega = guess.omega;
+    found.velocity = guess.velocity;
+    found.stiffness = V(0.0);
+    improve(c, start, found);
+    const auto unsure = is_unsure(c, start, guess, found);
+    if (NumberTraits<V>::any_of(unsure)) {
+        // Copies, so that the others may stay in registers.
+        const StepStart<V> same_start = start;
+        const Velocities<V> same_guess = guess;
+        StepMiddle<V> better = found;
+        find_again(c, same_start, same_guess, unsure, better);
+        return better;
+    }
+    return found;
+}
+
 /// What a step starts from. `gravity`: world axes; `velocity`: of the centre of mass, relative to the seen
 /// fluid.
 template <class V, class Real>
 HWY_INLINE StepStart<V> step_start(const FlightConstants<Real>& c, const Square<V>& to_world,
-                                   const Triple<V>& gravity, V h, bool sees_fluid,
+                                   const Triple<V>& gravity, V h, bool fluid_turns,
                                    const Triple<V>& seen_rotation, const Triple<V>& velocity,
                                    const Flight<V>& flight) {
     StepStart<V> start;
@@ -230,8 +301,8 @@ HWY_INLINE StepStart<V> step_start(const FlightConstants<Real>& c, const Square<
     start.omega = flight.angular_velocity;
     start.velocity = to_centroid(c, flight.angular_velocity, velocity);
     start.gravity = transposed_times(to_world, gravity);
-    start.sees_fluid = sees_fluid;
-    if (sees_fluid) start.seen_rotation = transposed_times(to_world, seen_rotation);
+    start.fluid_turns = fluid_turns;
+    start.seen_rotation = fluid_turns ? transposed_times(to_world, seen_rotation) : no_vector<V>();
     const V munk_rate(c.munk_rate);
     start.wild = V(1.0) < (h * h) * (dot(start.omega, start.omega) +
                                      (munk_rate * munk_rate) * dot(start.velocity, start.velocity));
@@ -256,7 +327,8 @@ HWY_INLINE bool sees_turbulence(const FlightConstants<Real>& c) {
 }
 
 /// One implicit step over h under a gravity (world axes). The middle of the step is guessed by the
-/// acceleration of the step before; two passes make it good to second order and more.
+/// acceleration of the step before; two passes make it good to second order and more, of which with noise the
+/// second is taken where the first says that it matters.
 ///
 /// Where the body sees fluid, the step is taken in the frame of that uniform stream, as in that of a current:
 /// velocities are relative to it, and its acceleration is taken off gravity, for body and displaced fluid
@@ -270,47 +342,44 @@ HWY_INLINE void implicit_step(const FlightConstants<Real>& c, const Triple<V>& g
     Triple<V> relative_velocity = flight.velocity;
     Triple<V> apparent_gravity = gravity;
     Triple<V> guess_acceleration = flight.acceleration;
-    Triple<V> pushed = broadcast<V>(Triple<double>{0.0, 0.0, 0.0});  // by the stream's acceleration, about
+    Triple<V> pushed = no_vector<V>();  // by the stream's acceleration, about
     if (sees_fluid) {
-        const Triple<V> acceleration = rate * (stream.end - stream.begin);
         relative_velocity = relative_velocity - transposed_times(to_world, stream.begin);
+    }
+    const bool fluid_changes = sees_fluid && !stream.is_slip;
+    if (fluid_changes) {
+        const Triple<V> acceleration = rate * (stream.end - stream.begin);
         apparent_gravity = apparent_gravity - acceleration;
         pushed = V(-c.weight * c.length) * transposed_times(to_world, acceleration);
         guess_acceleration = guess_acceleration + pushed;
     }
-    StepStart<V> start =
-        step_start(c, to_world, apparent_gravity, h, sees_fluid, stream.rotation, relative_velocity, flight);
+    StepStart<V> start = step_start(c, to_world, apparent_gravity, h, fluid_changes, stream.rotation,
+                                    relative_velocity, flight);
     start.is_pushed = push != nullptr;
-    if (start.is_pushed) start.push = push_at_centroid(c, to_world, *push);
-    StepMiddle<V> middle;
-    middle.stiffness = V(0.0);
-    middle.omega = start.omega + half * flight.angular_acceleration;
-    middle.velocity = start.velocity + half * to_centroid(c, flight.angular_acceleration, guess_acceleration);
-    const Triple<V> guess = middle.velocity;
-    improve(c, start, middle);
-    // Where drag is stiff, one made from the speed alone would swing about the terminal speed: halfway to the
-    // guess lies Newton's root. Where it is not, the middle stays, of second order.
-    const V square = middle.stiffness * middle.stiffness;
-    const V back = V(0.5) * square / (V(36.0) + square);
-    middle.velocity = middle.velocity + back * (guess - middle.velocity);
-    improve(c, start, middle);
+    start.push =
+        start.is_pushed ? push_at_centroid(c, to_world, *push) : Push<V>{no_vector<V>(), no_vector<V>()};
+    const StepMiddle<V> found = found_middle(
+        c, start,
+        {start.omega + half * flight.angular_acceleration,
+         start.velocity + half * to_centroid(c, flight.angular_acceleration, guess_acceleration)});
 
     // The same turn that carried gravity: what gravity works is then what the height gives.
-    const Triple<V> middle_velocity = from_centroid(c, middle.omega, middle.velocity);
-    flight.position = flight.position + h * (to_world * turned_back(-middle.half_turn, middle_velocity));
-    flight.orientation = turned_by(flight.orientation, middle.half_turn);
-    const V whole = V(1.0) / middle.theta;
-    const Triple<V> turning_change = whole * middle.change.omega;
-    const Triple<V> velocity_change = from_centroid(c, turning_change, whole * middle.change.velocity);
+    const Triple<V> middle_velocity = from_centroid(c, found.omega, found.velocity);
+    flight.position = flight.position + h * (to_world * turned_back(-found.half_turn, middle_velocity));
+    flight.orientation = turned_by(flight.orientation, found.half_turn);
+    const V whole = V(1.0) / found.theta;
+    const Triple<V> turning_change = whole * found.change.omega;
+    const Triple<V> velocity_change = from_centroid(c, turning_change, whole * found.change.velocity);
     flight.angular_acceleration = rate * turning_change;
     flight.acceleration = rate * velocity_change;
     flight.angular_velocity = flight.angular_velocity + turning_change;
     flight.velocity = relative_velocity + velocity_change;
     if (sees_fluid) {
-        flight.position = flight.position + half * (stream.begin + stream.end);
+        flight.position =
+            flight.position + (stream.is_slip ? h * stream.begin : half * (stream.begin + stream.end));
         flight.velocity = flight.velocity + transposed_times(rotation_matrix(flight.orientation), stream.end);
-        flight.acceleration = flight.acceleration - pushed;
     }
+    if (fluid_changes) flight.acceleration = flight.acceleration - pushed;
 }
 
 /// The rate (1/s) at which the body turns, or would turn by its Munk moment in a seen fluid (m/s, world

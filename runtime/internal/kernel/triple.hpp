@@ -8,6 +8,13 @@ struct Triple {
     Number x, y, z;
 };
 
+/// Beside a zero, so that one load brings them all.
+template <>
+struct alignas(32) Triple<double> {
+    double x, y, z;
+    double none = 0.0;
+};
+
 /// A 3x3 matrix by its rows.
 template <class Number>
 struct Square {

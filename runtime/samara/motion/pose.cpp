@@ -45,11 +45,15 @@ Vector3d angular_velocity_of(const Vector3d& c, const Vector3d& rate) {
 Pose interpolated(const Pose& before, const Pose& after, double fraction, double duration) {
     const double s = fraction;
     const double r = 1.0 - s;
-    return {.position = r * r * (1.0 + 2.0 * s) * before.position + s * s * (3.0 - 2.0 * s) * after.position +
-                        s * r * r * duration * before.velocity - s * s * r * duration * after.velocity,
-            .orientation = before.orientation.slerp(s, after.orientation),
-            .velocity = r * before.velocity + s * after.velocity,
-            .angular_velocity = r * before.angular_velocity + s * after.angular_velocity};
+    // From the nearer end: what lies still keeps its place to the last bit, and the ends are met.
+    const Vector3d way = after.position - before.position;
+    const Vector3d place = s < 0.5 ? Vector3d(before.position + s * s * (3.0 - 2.0 * s) * way)
+                                   : Vector3d(after.position - r * r * (3.0 - 2.0 * r) * way);
+    return {
+        .position = place + s * r * r * duration * before.velocity - s * s * r * duration * after.velocity,
+        .orientation = before.orientation.slerp(s, after.orientation),
+        .velocity = r * before.velocity + s * after.velocity,
+        .angular_velocity = r * before.angular_velocity + s * after.angular_velocity};
 }
 
 Pose smoothly_interpolated(const Pose& before, const Pose& after, double fraction, double duration) {

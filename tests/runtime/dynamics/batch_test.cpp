@@ -193,6 +193,9 @@ TEST(Batch, GivesTheSameBytesOnEveryInstructionSet) {
         batch.advance(windy(), 0.0, h, 0, 50);
         ends.emplace_back();
         for (std::size_t i = 0; i < batch.size(); ++i) ends.back().push_back(batch.state(i));
+        Batch alone = started<double>(body, {7});
+        alone.advance(windy(), 0.0, h, 0, 50);
+        EXPECT_TRUE(same_bits(alone.state(0), ends.back()[7]));
     }
     hwy::SetSupportedTargetsForTest(0);
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
