@@ -79,6 +79,7 @@ SAMARA_API double samara_body_mass(const samara_body* body); /* kg: what its fil
                                                                 says nothing. Since version 6 */
 SAMARA_API int samara_body_has_added_mass(const samara_body* body); /* which a kind needs by default */
 SAMARA_API int samara_body_has_tables(const samara_body* body);     /* of loads and turbulence */
+SAMARA_API int samara_body_has_surface_loads(const samara_body* body); /* without CFD. Since version 8 */
 
 /* The surface as flat triangles, to show the body. Curved triangles are cut into four. */
 SAMARA_API size_t samara_body_vertex_count(const samara_body* body);

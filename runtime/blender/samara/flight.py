@@ -98,7 +98,7 @@ class Request:
     size: float  # over the body file's
     start: float  # s: held until then, or led by keys
     led: bool  # whether the velocities are the keys', of the shape's origin
-    loads: str  # AUTO: from tables where the file has them, TABLE, COEFFICIENTS
+    loads: str  # AUTO: what the file holds, TABLE, SURFACE, COEFFICIENTS
     drag_coefficient: float
     lift_coefficient: float
     noise: bool
@@ -119,8 +119,7 @@ class Request:
         kind.orientation[:] = self.orientation
         kind.velocity[:] = self.velocity
         kind.angular_velocity[:] = self.angular_velocity
-        has_tables = self.loads == "TABLE" or (self.loads == "AUTO" and body.has_tables)
-        kind.loads = samara_library.LOADS_TABLE if has_tables else samara_library.LOADS_COEFFICIENTS
+        kind.loads = getattr(samara_library, f"LOADS_{body.loads_in_use(self.loads)}")
         kind.drag_coefficient = self.drag_coefficient
         kind.lift_coefficient = self.lift_coefficient
         kind.turbulence = samara_library.TURBULENCE_AS_LOADS if self.noise else samara_library.TURBULENCE_NONE

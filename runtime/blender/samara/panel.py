@@ -31,15 +31,16 @@ class SAMARA_PT_body(bpy.types.Panel):
         layout.prop(body, "body_file")
         row = layout.row()
         row.operator_menu_enum("samara.bake", "quality", text="Bake from Mesh", icon="MESH_DATA")
-        has_tables, has_mass = _draw_file(layout, context.object)
+        file = _draw_file(layout, context.object)
 
-        _draw_mass(layout, body, has_mass)
+        _draw_mass(layout, body, file is not None and file.mass > 0.0)
         layout.prop(body, "loads")
-        if body.loads == "COEFFICIENTS" or (body.loads == "AUTO" and not has_tables):
+        loads = file.loads_in_use(body.loads) if file else body.loads
+        if loads == "COEFFICIENTS":
             column = layout.column(align=True)
             column.prop(body, "drag_coefficient")
             column.prop(body, "lift_coefficient")
-        else:
+        elif loads != "SURFACE":
             layout.prop(body, "noise")
         layout.prop(body, "velocity")
         layout.prop(body, "angular_velocity")
@@ -57,17 +58,18 @@ class SAMARA_PT_body(bpy.types.Panel):
 
 
 def _draw_file(layout, o):
-    """What the file holds, or why it cannot be read. Returns whether it has tables and a mass."""
+    """What the file holds, or why it cannot be read. Returns its body; None where there is none."""
     if not o.samara.body_file:
-        return False, False
+        return None
     try:
         body = body_of_file(body_file_of(o))
     except SamaraError as fault:
         layout.label(text=str(fault), icon="ERROR")
-        return False, False
+        return None
     weighs = f", {1000.0 * body.mass:.4g} g" if body.mass > 0.0 else ""
-    layout.label(text=f"{body.name}: added mass{' and tables' if body.has_tables else ''}{weighs}", icon="INFO")
-    return body.has_tables, body.mass > 0.0
+    loads = {"TABLE": " and tables", "SURFACE": " and its surface's loads", "COEFFICIENTS": ""}[body.loads_in_use("AUTO")]
+    layout.label(text=f"{body.name}: added mass{loads}{weighs}", icon="INFO")
+    return body
 
 
 def _draw_mass(layout, body, has_mass):

@@ -57,8 +57,9 @@ class SamaraBody(bpy.types.PropertyGroup):
         name="Loads",
         description="Where drag, lift and moments come from",
         items=[
-            ("AUTO", "Automatic", "Tables where the body file has them, else coefficients"),
+            ("AUTO", "Automatic", "What the body file holds: tables, else its surface's loads, else coefficients"),
             ("TABLE", "Tables", "The body file's tables, baked with OpenFOAM"),
+            ("SURFACE", "Surface", "The pressure that potential flow tells of the surface, without CFD"),
             ("COEFFICIENTS", "Coefficients", "Drag and lift coefficients"),
         ],
     )

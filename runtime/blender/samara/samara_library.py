@@ -13,7 +13,7 @@ import numpy
 LIBRARY = os.path.join(os.path.dirname(os.path.abspath(__file__)), "libsamara.so")
 API_VERSION = 8
 
-LOADS_NONE, LOADS_COEFFICIENTS, LOADS_TABLE = 0, 1, 2
+LOADS_NONE, LOADS_COEFFICIENTS, LOADS_TABLE, LOADS_SURFACE = 0, 1, 2, 3
 TURBULENCE_NONE, TURBULENCE_AS_LOADS = 0, 3
 
 # Numbers of a pose: position 3, orientation 4 (w, x, y, z), velocity 3, angular velocity 3.
@@ -119,6 +119,7 @@ _PLAIN = {
     "samara_body_mass": (c_double, [c_void_p]),
     "samara_body_has_added_mass": (c_int, [c_void_p]),
     "samara_body_has_tables": (c_int, [c_void_p]),
+    "samara_body_has_surface_loads": (c_int, [c_void_p]),
     "samara_body_vertex_count": (c_size_t, [c_void_p]),
     "samara_body_triangle_count": (c_size_t, [c_void_p]),
     "samara_simulation_free": (None, [c_void_p]),
@@ -200,6 +201,16 @@ class Body:
     @property
     def has_tables(self):
         return bool(library().samara_body_has_tables(self.handle))
+
+    @property
+    def has_surface_loads(self):
+        return bool(library().samara_body_has_surface_loads(self.handle))
+
+    def loads_in_use(self, choice):
+        """TABLE, SURFACE or COEFFICIENTS: the choice, or, of AUTO, the best that the file holds."""
+        if choice != "AUTO":
+            return choice
+        return "TABLE" if self.has_tables else "SURFACE" if self.has_surface_loads else "COEFFICIENTS"
 
     def surface(self):
         """Vertices (n, 3), metres in the shape's axes, and triangles (m, 3), counter-clockwise from outside."""

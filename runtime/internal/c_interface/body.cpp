@@ -88,6 +88,10 @@ int samara_body_has_tables(const samara_body* body) {
     return body != nullptr && body->loaded.body->tables.has_value() ? 1 : 0;
 }
 
+int samara_body_has_surface_loads(const samara_body* body) {
+    return body != nullptr && body->loaded.body->surface_loads.has_value() ? 1 : 0;
+}
+
 size_t samara_body_vertex_count(const samara_body* body) {
     return body == nullptr ? 0 : body->flat.vertices.size();
 }

@@ -10,8 +10,8 @@ namespace {
 
 constexpr double blasius_friction = 1.33;  // of a plate: times Re^-1/2, over both of its sides' area
 // Rms over the directions of three bodies beside tables by CFD (docs/surface-loads.md).
-constexpr double error_of_force = 0.25;
-constexpr double error_of_moment = 0.35;
+constexpr double error_of_force = 0.3;
+constexpr double error_of_moment = 0.3;
 
 double rms(const std::vector<PressureLoads>& loads, Vector3d PressureLoads::*part) {
     double sum = 0.0;

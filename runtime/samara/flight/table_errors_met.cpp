@@ -46,7 +46,8 @@ TableErrorsMet table_errors_met(const ImmersedBody& body, const Pose& in_flow) n
     const double reynolds = reynolds_number(body, speed);
     const LoadEntry entry = look_up(*body.tables, direction, reynolds);
     const LoadEntryError error = look_up_error(*body.tables, direction, reynolds);
-    if (body.loads != Loads::coefficients && entry.force.norm() > 0.0) {
+    const bool of_tables = body.loads == Loads::table || body.loads == Loads::surface;
+    if (of_tables && entry.force.norm() > 0.0) {
         met.force = error.force.norm() / entry.force.norm();
         met.forces = 1;
     }

@@ -34,6 +34,7 @@ TEST(CBody, TellsWhatItsFileHolds) {
     EXPECT_EQ(samara_body_mass(body.get()), 0.0) << "it says nothing";
     EXPECT_EQ(samara_body_has_added_mass(body.get()), 1);
     EXPECT_EQ(samara_body_has_tables(body.get()), 1);
+    EXPECT_EQ(samara_body_has_surface_loads(body.get()), exact.surface_loads ? 1 : 0);
     std::vector<double> coordinates(3 * samara_body_vertex_count(body.get()));
     std::vector<std::int32_t> corners(3 * samara_body_triangle_count(body.get()));
     ASSERT_EQ(coordinates.size(), 3 * exact.surface.vertices.size());
@@ -135,7 +136,9 @@ TEST(CInterface, NullPointersAreRefused) {
     EXPECT_STREQ(samara_body_name(nullptr), "");
     EXPECT_STREQ(samara_body_source(nullptr), "");
     EXPECT_EQ(samara_body_volume(nullptr), 0.0);
-    EXPECT_EQ(samara_body_has_added_mass(nullptr) + samara_body_has_tables(nullptr), 0);
+    EXPECT_EQ(samara_body_has_added_mass(nullptr) + samara_body_has_tables(nullptr) +
+                  samara_body_has_surface_loads(nullptr),
+              0);
     EXPECT_EQ(samara_body_vertex_count(nullptr) + samara_body_triangle_count(nullptr), 0U);
     EXPECT_EQ(samara_simulation_count(nullptr) + samara_state_size(nullptr), 0U);
     EXPECT_EQ(samara_simulation_time(nullptr), 0.0);
@@ -229,7 +232,7 @@ TEST(CInterface, KindsOutOfRangeAreRefusedByName) {
         {"start", [](samara_kind& k) { k.start = -1.0; }},
         {"spread_position", [](samara_kind& k) { k.spread_position[0] = not_a_number; }},
         {"spread_angle", [](samara_kind& k) { k.spread_angle = 4.0; }},
-        {"loads", [](samara_kind& k) { k.loads = 3; }},
+        {"loads", [](samara_kind& k) { k.loads = 4; }},
         {"drag_coefficient", [](samara_kind& k) { k.drag_coefficient = -1.0; }},
         {"lift_coefficient", [](samara_kind& k) { k.lift_coefficient = not_a_number; }},
         {"reference_area", [](samara_kind& k) { k.reference_area = -1.0; }},
@@ -274,6 +277,10 @@ TEST(CInterface, ABodyThatLacksWhatIsAskedOfItIsRefused) {
     EXPECT_EQ(CALL(samara_simulation_add, simulation.get(), without_tables.get(), &kind, nullptr),
               SAMARA_MISSING_DATA);
     EXPECT_THAT(fault.text(), HasSubstr("samara bake"));
+    kind.loads = SAMARA_LOADS_SURFACE;
+    EXPECT_EQ(CALL(samara_simulation_add, simulation.get(), without_tables.get(), &kind, nullptr),
+              SAMARA_MISSING_DATA);
+    EXPECT_THAT(fault.text(), HasSubstr("holds no surface loads"));
     kind.loads = SAMARA_LOADS_NONE;
     EXPECT_EQ(CALL(samara_simulation_add, simulation.get(), without_added_mass.get(), &kind, nullptr),
               SAMARA_MISSING_DATA);
