@@ -4,11 +4,13 @@
     falls_report.py BIN BODIES    bakes what is missing in BODIES, flies every scene and compares; then identifies
                                   anew without each term, and holds the falls again
     falls_report.py BIN BODIES FALL...
-                                  bakes, flies and compares these falls alone; the rows of others stay as they are
+                                  bakes, flies and compares these falls alone; the rows of others stay as they are. As FALL,
+                                  `range` is all those with bodies that are baked for a range of densities, `fewer` all with
+                                  bodies that are identified from fewer falls
     falls_report.py               writes the tables again from the rows of the last run
 
-Writes docs/falls/falls.csv and terms.csv, and the tables of docs/falls.md. BIN: the folder of the programs; BODIES: a
-folder for baked bodies. Run from the project's folder.
+Writes docs/falls/falls.csv, range.csv, terms.csv and fewer.csv, and the tables of docs/falls.md. BIN: the folder of the
+programs; BODIES: a folder for baked bodies. Run from the project's folder.
 """
 
 import csv
@@ -31,14 +33,22 @@ BODIES = {
     "disc-heavy": (f"{FALLS}/disc.geo", ["--density", "11340"]),
     "plate": (f"{FALLS}/plate.geo", ["--density", "2700"]),
     "sheet": ("meshes/shapes/sheet.geo", ["--fluid", "air", "--density", "800"]),
+    "disc-range": (f"{FALLS}/disc.geo", ["--density", "1497.3", "--density-to", "11340"]),
+    "ellipsoid-range": ("meshes/shapes/ellipsoid.geo", ["--density", "1200", "--density-to", "4800"]),
 }
 SCENES = {
     "sphere": "sphere", "ellipsoid-tilted": "ellipsoid", "ellipsoid-compound": "ellipsoid",
     "ellipsoid-edgewise": "ellipsoid", "ellipsoid-heavy": "ellipsoid", "spheroid": "spheroid",
     "disc-light": "disc-light", "disc-heavy": "disc-heavy", "plate": "plate", "sheet": "sheet",
 }
+# Falls within the densities of one body file.
+OF_A_RANGE = {"disc-light": "disc-range", "disc-heavy": "disc-range", "ellipsoid-tilted": "ellipsoid-range",
+              "ellipsoid-compound": "ellipsoid-range", "ellipsoid-edgewise": "ellipsoid-range",
+              "ellipsoid-heavy": "ellipsoid-range"}
 TERMS = ("transport", "turning transport", "drag in motion", "drag in spin", "rotational drag",
          "rotational drag in spin", "wake by velocity", "wake by turning", "entrained inertia", "unsteady factor")
+# What bodies are identified from.
+FEWER = {"the gentle fall": ["fall_00"], "the oblique fall": ["fall_01"], "both": None}
 # As users fly them, with noise; and without.
 RUNS = {"on": 20, "off": 1}
 # Narrower limits than those of `samara compare`: of descent, frequency, amplitude and rms angular speed.
@@ -56,9 +66,11 @@ def baked_file(folder, body):
 
 
 def baked(programs, folder, body):
-    """The baked body's file and its falls, separated by commas."""
+    """The baked body's file and its falls, separated by commas: none of those files that are kept in docs/falls."""
     shape, options = BODIES[body]
-    file = baked_file(folder, body)
+    file, kept = baked_file(folder, body), baked_file(FALLS, body)
+    if not os.path.exists(file) and os.path.exists(kept):
+        return kept, ""
     if not os.path.exists(file):
         run([f"{programs}/samara", "bake", shape, "-o", file, "--quality", "standard", "--json"] + options)
     cases = os.path.join(folder, f"{body}.cases")
@@ -66,9 +78,10 @@ def baked(programs, folder, body):
     return file, ",".join(os.path.join(cases, name) for name in falls)
 
 
-def scene_with(scene, keys, folder, steps=1):
-    """Writes a reference's scene with other keys of its body, and with so many steps made one, into the folder; its path."""
-    with open(f"{FALLS}/{scene}.toml") as opened:
+def scene_with(scene, keys, folder, steps=1, falls=FALLS):
+    """Writes the scene of a fall (of the folder `falls`) with other keys of its body, and with so many steps made one, into
+    the folder; its path."""
+    with open(f"{falls}/{scene}.toml") as opened:
         text = opened.read()
     for key, value in keys.items():
         text = re.sub(rf"(?m)^{key} = .*\n?", "", text).rstrip() + f'\n{key} = "{value}"\n'
@@ -79,12 +92,13 @@ def scene_with(scene, keys, folder, steps=1):
     return path
 
 
-def compared(programs, body_file, scene, folder, noise="off"):
-    """The comparison of a scene flown with a body with its reference fall."""
+def compared(programs, body_file, scene, folder, noise="off", falls=FALLS):
+    """The comparison of a scene flown with a body with its fall in full CFD, both of the folder `falls`."""
     keys = {"shape": os.path.abspath(body_file)} | ({"turbulence": "table"} if noise == "on" else {})
     motion = os.path.join(folder, f"{scene}.h5")
-    run([f"{programs}/samara", "simulate", scene_with(scene, keys, folder), "-o", motion, "--runs", str(RUNS[noise]), "--json"])
-    return run([f"{programs}/samara", "compare", motion, f"{FALLS}/{scene}.h5", "--json"])
+    run([f"{programs}/samara", "simulate", scene_with(scene, keys, folder, falls=falls), "-o", motion, "--runs", str(RUNS[noise]),
+         "--json"])
+    return run([f"{programs}/samara", "compare", motion, f"{falls}/{scene}.h5", "--json"])
 
 
 def row_of(scene, noise, comparison):
@@ -125,7 +139,7 @@ def differences_of(row):
     """Of the figures of a row of falls.csv, over the reference's; None where there is nothing to compare. A sphere, which
     has no frequency, has no axis either whose inclination could be measured."""
     differences = [float(row[f"{figure}_difference"]) if row[f"{figure}_difference"] else None for figure in FIGURES]
-    if differences[FIGURES.index("frequency")] is None and row["fall"] == "sphere":
+    if differences[FIGURES.index("frequency")] is None and row["fall"].startswith("sphere"):
         differences[FIGURES.index("inclination_amplitude")] = None
     return differences
 
@@ -169,8 +183,8 @@ def written(target, rows):
     print(f"Written: {target}")
 
 
-def falls_table(programs, folder, scenes):
-    """Flies the scenes and writes their rows into falls.csv; the tables of docs/falls.md, with noise and without."""
+def fly(programs, folder, scenes):
+    """Flies the scenes, with noise and without, and writes their rows into falls.csv."""
     with open(f"{FALLS}/falls.csv", newline="") as file:
         rows = {(row[0], row[1]): row for row in csv.reader(file)}
     with tempfile.TemporaryDirectory() as work:
@@ -181,7 +195,14 @@ def falls_table(programs, folder, scenes):
                 print(*rows[scene, noise])
     written(f"{FALLS}/falls.csv", [heading()] + [rows[scene, noise] for noise in RUNS for scene in SCENES
                                                  if (scene, noise) in rows])
-    return tables_of_falls()
+
+
+def fly_ranges(programs, folder):
+    """Writes range.csv: the falls with bodies that are baked for a range of densities, without noise."""
+    with tempfile.TemporaryDirectory() as work:
+        rows = [row_of(scene, "off", compared(programs, baked(programs, folder, body)[0], scene, work))
+                for scene, body in OF_A_RANGE.items()]
+    written(f"{FALLS}/range.csv", [heading()] + rows)
 
 
 def rows_of_falls(noise, table=f"{FALLS}/falls.csv"):
@@ -190,7 +211,8 @@ def rows_of_falls(noise, table=f"{FALLS}/falls.csv"):
 
 
 def tables_of_falls():
-    return [table_of_falls(rows_of_falls(noise)) for noise in RUNS]
+    return [table_of_falls(rows_of_falls(noise)) for noise in RUNS] + [
+        table_of_falls(rows_of_falls("off", f"{FALLS}/range.csv"))]
 
 
 def table_of_falls(rows, who="runtime"):
@@ -214,30 +236,65 @@ def table_of_falls(rows, who="runtime"):
     return "\n".join(lines) + "\n"
 
 
-def terms_table(programs, folder):
-    """Writes terms.csv; the table of docs/falls.md. Every body but the sphere identified anew without each term: how well
-    it predicts its own fall, and which references agree."""
+def fly_anew(programs, folder, words=(), falls=None):
+    """Every body but the sphere identified anew, with other options or from some of its falls alone: how well they predict
+    those, what the bodies' falls cost in CPU seconds, and the comparisons of their scenes, both in the mean over the bodies."""
     scenes = {scene: body for scene, body in SCENES.items() if body != "sphere"}
-    rows = [["without", "prediction_error"] + list(scenes) + ["agree"]]
+    files, errors, costs = {}, [], []
     with tempfile.TemporaryDirectory() as work:
-        for term in ("",) + TERMS:
-            errors, verdicts = [], []
-            files = {}
-            for body in sorted(set(scenes.values())):
-                file, fall = baked(programs, folder, body)
-                files[body] = os.path.join(work, f"{body}.body.h5")
-                words = [f"{programs}/samara", "identify", file, fall, "-o", files[body], "--json"]
-                identified = run(words + (["--without", term] if term else []))
-                errors.append(identified["prediction_error"])
-            for scene, body in scenes.items():
-                comparison = compared(programs, files[body], scene, work)
-                descent = comparison["measures"]["descent_speed"]["relative_difference"]
-                verdicts.append(f"{'yes' if comparison['agrees'] else 'no'} {100 * descent:+.0f} %")
-            agree = sum(verdict.startswith("yes") for verdict in verdicts)
-            rows.append([term or "nothing", sum(errors) / len(errors)] + verdicts + [agree])
-            print(rows[-1][0], f"{rows[-1][1]:.3f}", agree)
-    written(f"{FALLS}/terms.csv", rows)
-    return table_of_terms()
+        for body in sorted(set(scenes.values())):
+            file, solved = baked(programs, folder, body)
+            chosen = [fall for fall in solved.split(",") if falls is None or os.path.basename(fall) in falls]
+            files[body] = os.path.join(work, f"{body}.body.h5")
+            command = [f"{programs}/samara", "identify", file, ",".join(chosen), "-o", files[body], "--json"]
+            errors.append(run(command + list(words))["prediction_error"])
+            costs.append(sum(cpu_seconds_of(fall) for fall in chosen))
+        comparisons = {scene: compared(programs, files[body], scene, work) for scene, body in scenes.items()}
+    return sum(errors) / len(errors), sum(costs) / len(costs), comparisons
+
+
+def cpu_seconds_of(fall):
+    with open(os.path.join(fall, "attempts.json"), encoding="utf-8") as attempts:
+        return json.load(attempts)["cpu_seconds"]
+
+
+def fly_without_terms(programs, folder):
+    """Writes terms.csv: how well bodies that are identified without a term predict their own falls, and which references
+    agree."""
+    rows = []
+    for term in ("",) + TERMS:
+        error, _, comparisons = fly_anew(programs, folder, ["--without", term] if term else [])
+        verdicts = [f"{'yes' if comparison['agrees'] else 'no'} "
+                    f"{100 * comparison['measures']['descent_speed']['relative_difference']:+.0f} %"
+                    for comparison in comparisons.values()]
+        rows.append([term or "nothing", error] + verdicts + [sum(verdict.startswith("yes") for verdict in verdicts)])
+        print(rows[-1][0], f"{rows[-1][1]:.3f}", rows[-1][-1])
+    written(f"{FALLS}/terms.csv", [["without", "prediction_error", *comparisons, "agree"]] + rows)
+
+
+def fly_fewer(programs, folder):
+    """Writes fewer.csv: what bodies that are identified from fewer falls miss of the references."""
+    rows = [["falls", "cpu_seconds", "prediction_error", "mean_worst_figure", "regimes", "agree", "references"]]
+    for what, falls in FEWER.items():
+        error, cost, comparisons = fly_anew(programs, folder, falls=falls)
+        worst = [worst_figure(comparison) for comparison in comparisons.values()]
+        rows.append([what, cost, error, sum(worst) / len(worst),
+                     sum(comparison["regimes_agree"] for comparison in comparisons.values()),
+                     sum(comparison["agrees"] for comparison in comparisons.values()), len(worst)])
+        print(*rows[-1])
+    written(f"{FALLS}/fewer.csv", rows)
+
+
+def table_of_fewer():
+    """The table of docs/falls.md, of fewer.csv."""
+    with open(f"{FALLS}/fewer.csv", newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    lines = ["| identified from | CPU s a body | misses of its own | worst figure, mean | regime | within 10, 20, 30 % |",
+             "|---" * 6 + "|"]
+    lines += [f"| {row['falls']} | {float(row['cpu_seconds']):.0f} | {100 * float(row['prediction_error']):.1f} % "
+              f"| {100 * float(row['mean_worst_figure']):.0f} % | {row['regimes']} of {row['references']} "
+              f"| {row['agree']} of {row['references']} |" for row in rows]
+    return "\n".join(lines) + "\n"
 
 
 def table_of_terms():
@@ -252,16 +309,21 @@ def table_of_terms():
 
 
 def main(words):
-    if len(words) == 2 or not set(words[3:]) <= set(SCENES):
+    names = words[3:]
+    if len(words) == 2 or not set(names) <= {*SCENES, "range", "fewer"}:
         sys.stderr.write(__doc__)
         return 2
     if len(words) >= 3:
-        os.makedirs(words[2], exist_ok=True)
-        tables = [*falls_table(words[1], words[2], words[3:] or SCENES),
-                  table_of_terms() if words[3:] else terms_table(words[1], words[2])]
-    else:
-        tables = [*tables_of_falls(), table_of_terms()]
-    write_tables("docs/falls.md", tables, mark("falls"))
+        programs, folder = words[1:3]
+        os.makedirs(folder, exist_ok=True)
+        fly(programs, folder, [name for name in names if name in SCENES] if names else SCENES)
+        if not names or "range" in names:
+            fly_ranges(programs, folder)
+        if not names:
+            fly_without_terms(programs, folder)
+        if not names or "fewer" in names:
+            fly_fewer(programs, folder)
+    write_tables("docs/falls.md", [*tables_of_falls(), table_of_terms(), table_of_fewer()], mark("falls"))
     return 0
 
 

@@ -27,12 +27,12 @@ NAMES = list(SCENES) + ["cube", "airplane", "samara"]
 ROWS, OLD_CLOSURE_ROWS = f"{FALLS}/references.csv", f"{FALLS}/k-epsilon/falls.csv"
 
 
-def solved(programs, work, name, cells, closure, others=()):
-    """The motion file of a fall, and what `samara validate` says of it."""
+def solved(programs, work, name, cells, closure, others=(), falls=FALLS):
+    """The motion file of a fall of the folder `falls`, and what `samara validate` says of it."""
     folder = os.path.join(work, f"{name}-{cells}-{closure}")
     os.makedirs(folder, exist_ok=True)
     file = os.path.join(folder, f"{name}.h5")
-    words = [f"{programs}/samara", "validate", f"{FALLS}/{name}.toml", "-o", file, "--cells", str(cells), "--closure", closure]
+    words = [f"{programs}/samara", "validate", f"{falls}/{name}.toml", "-o", file, "--cells", str(cells), "--closure", closure]
     return file, run(words + ["--json", *others])
 
 
