@@ -4,7 +4,7 @@
     discs_map.py BIN BODIES FOLDER
 
 BIN: the folder of the programs; BODIES: that of the baked disc-light.body.h5 and disc-heavy.body.h5 (a model whose body is
-not there is left out); FOLDER: of discs.csv and discs.png and, in the folder above it, discs.md, which it writes. Run from
+not there keeps its rows of the last run); FOLDER: of discs.csv and discs.png and, in the folder above it, discs.md, which it writes. Run from
 the project's folder.
 """
 
@@ -23,6 +23,8 @@ DIAMETER, THICKNESS, FLUID_DENSITY, GRAVITY = 0.04, 0.004, 998.2, 9.81
 INERTIAS = [0.0055, 0.007, 0.01, 0.014, 0.02, 0.03, 0.045, 0.07, 0.1, 0.15]
 REYNOLDS_NUMBERS = [30, 100, 300, 1000, 3000, 10000]  # aimed at; those of the fall are measured
 STARTS = 12
+COLUMNS = ("inertia", "reynolds", "regime", "share", "field", "frequency", "steady", "fluttering", "chaotic", "tumbling",
+           "autorotating")
 REGIMES = ("steady", "fluttering", "chaotic", "tumbling", "autorotating")
 
 
@@ -71,25 +73,39 @@ def flown(programs, work, inertia, reynolds, shape, loads):
     return row | {name: body["regimes"][name] for name in REGIMES}
 
 
-def mapped(programs, bodies):
-    """{model: rows of its map}."""
+def earlier(file):
+    """{model: rows of its map} of the last run."""
     maps = {}
+    if os.path.exists(file):
+        with open(file, newline="", encoding="utf-8") as opened:
+            for row in csv.DictReader(opened):
+                numbers = {key: float(row[key]) for key in ("inertia", "reynolds", "share")}
+                counts = {name: int(row.get(name) or 0) for name in REGIMES}
+                known = {key: row[key] for key in ("regime", "field", "frequency")}
+                maps.setdefault(row["model"], []).append({key: (numbers | known | counts)[key] for key in COLUMNS})
+    return maps
+
+
+def mapped(programs, bodies, maps):
+    """{model: rows of its map}; of models that cannot be flown those given."""
     with tempfile.TemporaryDirectory() as work:
         plain = os.path.join(work, "plain.body.h5")
         run([f"{programs}/samara", "kirchhoff", DISC, "-o", plain, "--json"])
-        models = {"coefficients": (plain, 'loads = "coefficients"\ndrag_coefficient = 1.1\nlift_coefficient = 1.0')}
+        models = {"coefficients": (plain, 'loads = "coefficients"\ndrag_coefficient = 1.1\nlift_coefficient = 1.0'),
+                  "surface": (plain, 'loads = "surface"')}
         for name in ("disc-light", "disc-heavy"):
             file = os.path.join(bodies, f"{name}.body.h5")
             if os.path.exists(file):
                 models[f"tables, {name}"] = (file, 'loads = "table"')
             else:
-                print(f"no {file}, left out")
+                print(f"no {file}: its rows stay as they are")
         for model, (shape, loads) in models.items():
             maps[model] = [flown(programs, work, inertia, reynolds, shape, loads)
                            for inertia in INERTIAS for reynolds in REYNOLDS_NUMBERS]
             print(model, "agrees with Field's map at", sum(row["regime"] == row["field"] for row in maps[model]), "of",
                   len(maps[model]), "points")
-    return maps
+    order = list(models) + [model for model in maps if model not in models]
+    return {model: maps[model] for model in order}
 
 
 def table(maps):
@@ -125,8 +141,7 @@ def thin_disc(programs, work, diameter, reynolds):
     with open(scene, "w", encoding="utf-8") as file:
         file.write(f'[scene]\nduration = {600 * time}\nstep = {0.02 * time}\nframe_rate = {10 / time}\n[fluid]\npreset = "air"\n'
                    f'[[body]]\nname = "thin"\nshape = "{shape}"\ndensity = {density}\ncount = {THIN_STARTS}\n'
-                   f'spread = {{ position = [0, 0, 0], angle = {math.pi} }}\nturbulence = "none"\nloads = "coefficients"\n'
-                   'drag_coefficient = 1.1\nlift_coefficient = 1.0\n')
+                   f'spread = {{ position = [0, 0, 0], angle = {math.pi} }}\nturbulence = "none"\nloads = "surface"\n')
     body = run([f"{programs}/samara", "simulate", scene, "-o", motion, "--threads", "1", "--json"])["bodies"][0]
     drifts = []
     for poses in flights(programs, motion).values():
@@ -197,11 +212,10 @@ def main(words):
         sys.stderr.write(__doc__)
         return 2
     programs, bodies, folder = words[1:4]
-    maps = mapped(programs, bodies)
+    maps = mapped(programs, bodies, earlier(os.path.join(folder, "discs.csv")))
     with open(os.path.join(folder, "discs.csv"), "w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
-        columns = list(next(iter(maps.values()))[0])
-        writer.writerow(["model"] + columns)
+        writer.writerow(["model", *COLUMNS])
         for model, rows in maps.items():
             writer.writerows([model] + [f"{cell:.4g}" if isinstance(cell, float) else cell for cell in row.values()]
                              for row in rows)
