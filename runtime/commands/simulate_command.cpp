@@ -179,6 +179,11 @@ SimulationReport fly(const Scene& scene, const std::vector<LoadedBody>& loaded, 
     return report;
 }
 
+/// The tables whose errors are those of the flight; none where it was by others than its bake's.
+std::optional<LoadTables> baked_tables(const SceneBody& scene_body, const Body& body) {
+    return scene_body.loads == Loads::surface ? std::nullopt : body.tables;
+}
+
 nlohmann::json body_result(const MotionReader& file, std::size_t index, const BodyMeasures& measures,
                            const BodyReport& report, const std::optional<LoadTables>& tables) {
     const BodyMotion& body = file.motion().bodies[index];
@@ -238,11 +243,13 @@ nlohmann::json run(const Request& request, const Arguments& arguments) {
         measure_file(file, request.threads, [&](double done, double total) { progress.update(done, total); });
     nlohmann::json bodies = nlohmann::json::array();
     for (std::size_t i = 0; i < measures.size(); ++i) {
-        bodies.push_back(body_result(file, i, measures[i], report.bodies[i], loaded[i].body->tables));
+        bodies.push_back(body_result(file, i, measures[i], report.bodies[i],
+                                     baked_tables(scene.bodies[i], *loaded[i].body)));
         if (arguments.json()) continue;
         const BodyMotion& body = file.motion().bodies[i];
         print_result("{}\n{}  {}\n{}", body.name, as_text(measures[i]), body.models,
-                     table_errors_as_text(loaded[i].body->tables, report.bodies[i].table_errors));
+                     table_errors_as_text(baked_tables(scene.bodies[i], *loaded[i].body),
+                                          report.bodies[i].table_errors));
     }
     const auto steps = static_cast<double>(report.steps);
     const double nanoseconds = steps > 0.0 ? 1e9 * report.seconds / steps : 0.0;

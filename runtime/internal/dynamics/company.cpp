@@ -16,7 +16,7 @@ constexpr double most_fall = 0.005;  // from a standstill, over the radius, in a
 constexpr int most_parts = 64;
 constexpr int most_attempts = 6;      // to find where bodies meet within a part
 constexpr double held_back = 0.25;    // of its kinetic energy, that one which stays keeps
-constexpr int most_rounds = 20;       // in which bodies are moved apart
+constexpr int most_rounds = 60;       // in which bodies are moved apart
 constexpr double resting_way = 2e-4;  // in a step, over the radius, that counts as none
 constexpr double no_way = 2e-5;       // the same, which what rests is taken back by
 constexpr double still = 1e-2;  // speed that counts as none, over what the step would give without contact
@@ -297,6 +297,7 @@ void CompanyStep::note(double time) {
 }
 
 void CompanyStep::settle(double time_step) {
+    find_overlaps();
     for (std::size_t i = 0; i < companions_.size(); ++i) {
         Companion& companion = companions_[i];
         if (!companion.touched) continue;
@@ -304,7 +305,7 @@ void CompanyStep::settle(double time_step) {
         const double radius = companion.body->contact_points.bounding_radius;
         const double begun = energy_of(i, companion.begin, companion.begin_velocity);
         const double left = energy_of(i, companion.begin, movers_[i].velocity);
-        companion.rests = begun < resting_energy * movers_[i].load.norm() * radius &&
+        companion.rests = !movers_[i].overlaps && begun < resting_energy * movers_[i].load.norm() * radius &&
                           left < still * still * energy_of(i, companion.begin, change) &&
                           time_step * speed_of_points(movers_[i].velocity, radius) < resting_way * radius;
         if (companion.met != nullptr && movers_[i].met.strongest > 0.0) companion.met->add(movers_[i].met);

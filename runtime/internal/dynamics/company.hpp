@@ -78,6 +78,7 @@ class CompanyStep {
         ContactRecord met;             ///< in the step
         Vector3d shift;                ///< m: by which it was moved apart
         bool pressed;                  ///< whether anything pushed it, in this part or before
+        bool overlaps;                 ///< another, when the step ended: it is still to come out
         int held;  ///< 1: it stopped on its way, 2: it stayed where the part began; 0: neither
     };
     /// Two that may meet in a part.
@@ -93,6 +94,7 @@ class CompanyStep {
         [[nodiscard]] double least() const;
     };
 
+    void find_overlaps();
     [[nodiscard]] int parts_of(std::span<const Pair> pairs, double time_step) const;
     bool take_parts(std::span<const Pair> pairs, const CompanyGround& ground, double time_step, int parts);
     [[nodiscard]] bool turned_far(double time_step) const;

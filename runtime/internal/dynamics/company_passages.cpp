@@ -184,6 +184,17 @@ void CompanyStep::part_pairs(double time_step, int round, bool& moved) {
     }
 }
 
+void CompanyStep::find_overlaps() {
+    for (Mover& mover : movers_) mover.overlaps = false;
+    for (const Near& near : near_) {
+        const MeetingHull first = hull(near.first, movers_[near.first].place);
+        const MeetingHull second = hull(near.second, movers_[near.second].place);
+        if (gap_along(first.hull, second.hull, near.normal) > 0.0) continue;
+        if (!parting(first, second, 0.0).overlap) continue;
+        movers_[near.first].overlaps = movers_[near.second].overlaps = true;
+    }
+}
+
 void CompanyStep::hold_back() {
     bool again = true;
     while (again) {
