@@ -158,7 +158,7 @@ TEST(BadInput, OfASceneIsNamedInOneLine) {
 
 TEST(BadInput, ASceneWithTableLoadsAndNoTablesNamesTheBake) {
     const test::TemporaryFolder folder;
-    write_scene(folder, shapes + "cube.geo");
+    write_scene(folder, shapes + "cube.geo", "loads = \"table\"");
     expect_refusal(folder, {"samara", "simulate", "scene.toml", "-o", "out.h5"}, "samara bake");
     expect_refusal(folder, {"samara", "simulate", "scene.toml", "--bodies", "none", "-o", "out.h5"},
                    "samara bake");

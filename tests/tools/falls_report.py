@@ -66,9 +66,9 @@ def baked_file(folder, body):
 
 
 def baked(programs, folder, body):
-    """The baked body's file and its falls, separated by commas: none of those files that are kept in docs/falls."""
+    """The baked body's file and its falls, separated by commas: none of those files that are kept in docs/falls/bodies."""
     shape, options = BODIES[body]
-    file, kept = baked_file(folder, body), baked_file(FALLS, body)
+    file, kept = baked_file(folder, body), baked_file(f"{FALLS}/bodies", body)
     if not os.path.exists(file) and os.path.exists(kept):
         return kept, ""
     if not os.path.exists(file):

@@ -11,7 +11,8 @@ import unittest
 ROOT = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", ".."))
 # Which write their tables again from the rows of the last run.
 REWRITING = {"falls_report.py": "docs/falls.md", "references_report.py": "docs/falls.md",
-             "step_auto.py": "docs/speed-against-error/step.md", "noise_report.py": "docs/noise.md"}
+             "step_auto.py": "docs/speed-against-error/step.md", "noise_report.py": "docs/noise.md", "surface_report.py": "docs/surface-loads.md",
+             "test_falls_report.py": "docs/test-falls.md"}
 
 
 class Reports(unittest.TestCase):
