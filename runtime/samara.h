@@ -77,8 +77,8 @@ SAMARA_API const char* samara_body_source(const samara_body* body); /* one line:
 SAMARA_API double samara_body_volume(const samara_body* body);      /* m^3 */
 SAMARA_API double samara_body_mass(const samara_body* body); /* kg: what its file says it weighs; 0 where it
                                                                 says nothing. Since version 6 */
-SAMARA_API int samara_body_has_added_mass(const samara_body* body); /* which a kind needs by default */
-SAMARA_API int samara_body_has_tables(const samara_body* body);     /* of loads and turbulence */
+SAMARA_API int samara_body_has_added_mass(const samara_body* body);    /* which a kind needs by default */
+SAMARA_API int samara_body_has_tables(const samara_body* body);        /* of loads and turbulence */
 SAMARA_API int samara_body_has_surface_loads(const samara_body* body); /* without CFD. Since version 8 */
 
 /* The surface as flat triangles, to show the body. Curved triangles are cut into four. */
@@ -138,7 +138,12 @@ SAMARA_API samara_status samara_default_settings(samara_settings* settings, size
                                                  size_t error_size);
 
 /* docs/theory.md says what each model is. */
-enum { SAMARA_LOADS_NONE = 0, SAMARA_LOADS_COEFFICIENTS = 1, SAMARA_LOADS_TABLE = 2, SAMARA_LOADS_SURFACE = 3 /* since version 8 */ };
+enum {
+    SAMARA_LOADS_NONE = 0,
+    SAMARA_LOADS_COEFFICIENTS = 1,
+    SAMARA_LOADS_TABLE = 2,
+    SAMARA_LOADS_SURFACE = 3 /* since version 8 */
+};
 enum {
     SAMARA_TURBULENCE_NONE = 0,
     SAMARA_TURBULENCE_CONSTANT = 1,
@@ -382,8 +387,8 @@ SAMARA_API samara_status samara_remove(samara_simulation* simulation, size_t fir
                                        size_t error_size);
 SAMARA_API int samara_is_removed(const samara_simulation* simulation, size_t body); /* 0 for none such */
 
-/* What a body met of ground, obstacles and other bodies while it was watched, over all steps and points: 96 bytes without
- * gaps. A body at rest takes no steps, and meets nothing more. */
+/* What a body met of ground, obstacles and other bodies while it was watched, over all steps and points: 96
+ * bytes without gaps. A body at rest takes no steps, and meets nothing more. */
 typedef struct samara_contact {
     double impulse[3]; /* N s, world axes: the sum of all that the body was given */
     double strongest;  /* N s: of one point in one step; 0: nothing was met, and the next four are 0 */
