@@ -8,8 +8,8 @@
 namespace samara {
 namespace {
 
-constexpr double blasius_friction = 1.33;  // of a plate: times Re^-1/2, over both of its sides' area
-// Rms over the directions of three bodies beside tables by CFD (docs/surface-loads.md).
+constexpr double blasius_friction = 1.33;  // of a plate, over the area of each side: times Re^-1/2
+// About the rms over the directions of three bodies beside tables by CFD (docs/surface-loads.md).
 constexpr double error_of_force = 0.3;
 constexpr double error_of_moment = 0.3;
 
