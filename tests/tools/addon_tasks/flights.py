@@ -8,6 +8,18 @@ import bpy
 from .steps import add_bodies, clear_keys, empty_scene, matrices, run, scene, select, starts, three_bodies
 
 
+def key(o, keys):
+    """Straight keys of the object: (frame, place, turn about y)."""
+    o.rotation_mode = "XYZ"
+    for frame, place, turn in keys:
+        o.location, o.rotation_euler = place, (0.0, turn, 0.0)
+        o.keyframe_insert("location", frame=frame)
+        o.keyframe_insert("rotation_euler", frame=frame)
+    for curve in o.animation_data.action.fcurves:
+        for point in curve.keyframe_points:
+            point.interpolation = "LINEAR"
+
+
 def keys(file):
     objects = three_bodies(file)
     found = {"starts": starts(objects)}
@@ -127,14 +139,7 @@ def led(file):
     body.noise = False
     scene.unit_settings.scale_length = 0.1
     body.release = 10.0
-    o.rotation_mode = "XYZ"
-    for frame, place, turn in ((11, (0.0, 0.0, 0.0), 0.0), (31, (2.0, 0.0, 1.0), 1.0)):
-        o.location, o.rotation_euler = place, (0.0, turn, 0.0)
-        o.keyframe_insert("location", frame=frame)
-        o.keyframe_insert("rotation_euler", frame=frame)
-    for curve in o.animation_data.action.fcurves:
-        for point in curve.keyframe_points:
-            point.interpolation = "LINEAR"
+    key(o, ((11, (0.0, 0.0, 0.0), 0.0), (31, (2.0, 0.0, 1.0), 1.0)))
     led_way = matrices([o], range(11, 21))[o.name]
     found = {"led": led_way, "seconds_per_frame": scene.render.fps_base / scene.render.fps}
     found["fault"] = run(bpy.ops.samara.simulate)
@@ -152,14 +157,7 @@ def returned(file):
     scene.unit_settings.scale_length = 0.1
     body = o.samara
     body.noise = False
-    o.rotation_mode = "XYZ"
-    for frame, place, turn in ((11, (0.0, 0.0, 0.0), 0.0), (21, (0.0, 0.0, 0.0), 0.0), (51, (3.0, 0.0, 6.0), 1.5)):
-        o.location, o.rotation_euler = place, (0.0, turn, 0.0)
-        o.keyframe_insert("location", frame=frame)
-        o.keyframe_insert("rotation_euler", frame=frame)
-    for curve in o.animation_data.action.fcurves:
-        for point in curve.keyframe_points:
-            point.interpolation = "LINEAR"
+    key(o, ((11, (0.0, 0.0, 0.0), 0.0), (21, (0.0, 0.0, 0.0), 0.0), (51, (3.0, 0.0, 6.0), 1.5)))
     frames = range(11, 52)
     found = {"keyed": matrices([o], frames)[o.name]}
     action = o.animation_data.action.copy()
