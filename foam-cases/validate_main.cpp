@@ -28,6 +28,7 @@ struct ValidateOptions {
     double step = 1.0;
     std::string closure = std::string(name_of(ValidationRequest().closure));
     double fields = 0.0;
+    int jobs = 1;
     std::string other_mesh;
     std::string other_closure;
     std::string cluster;
@@ -35,8 +36,9 @@ struct ValidateOptions {
 };
 
 nlohmann::json as_json(const BakePlan& plan) {
-    const FreeFall& fall = plan.only_fall();
+    const FreeFall& fall = plan.falls.front();
     return {{"mesh", fall.mesh},
+            {"falls", plan.falls.size()},
             {"estimated_cells", cells_of(plan, fall.mesh)},
             {"reynolds_number", fall.reynolds_number},
             {"closure", name_of(fall.closure)},
@@ -47,11 +49,12 @@ nlohmann::json as_json(const BakePlan& plan) {
 }
 
 void print_plan(const BakePlan& plan) {
-    const FreeFall& fall = plan.only_fall();
-    print_result("{} cells, {:.0f} steps of {:.3g} ms, Reynolds number {:.3g}, {}: about {:.0f} CPU s\n",
+    const FreeFall& fall = plan.falls.front();
+    print_result("{}{} cells, {:.0f} steps of {:.3g} ms, Reynolds number {:.3g}, {}: about {:.0f} CPU s{}\n",
+                 plan.falls.size() == 1 ? "" : fmt::format("{} falls, each: ", plan.falls.size()),
                  fmt::format("{:.0f}", cells_of(plan, fall.mesh)), fall.duration / fall.time_step,
                  1e3 * fall.time_step * fall.time_unit(), fall.reynolds_number, name_of(fall.closure),
-                 plan.cpu_seconds);
+                 plan.cpu_seconds, plan.falls.size() == 1 ? "" : " in all");
 }
 
 /// The one or two motion files of an option, which are refused before hours are spent.
@@ -66,22 +69,25 @@ std::vector<std::filesystem::path> motions_of(const char* option, const std::str
 
 void warn_of_doubts(const ValidationResult& result) {
     const auto note = [](const std::string& text) { print_note("samara validate: note: {}\n", text); };
-    const FallBalance& balance = result.balance;
-    const FallSolution& solution = result.solution;
+    const FallBalance balance = result.worst_balance();
     if (balance.force > doubtful_balance.force || balance.moment > doubtful_balance.moment) {
         note(fmt::format(
             "the momenta do not balance the loads (force {:.0f} %, moment {:.0f} %): the fall is doubtful; "
             "halve its step with --step",
             100.0 * balance.force, 100.0 * balance.moment));
     }
-    if (solution.largest_courant_number > doubtful_courant_number) {
+    if (result.largest_courant_number() > doubtful_courant_number) {
         note(fmt::format(
             "the fluid passes up to {:.1f} cells in a step: the fall may be smeared; halve its step with "
             "--step",
-            solution.largest_courant_number));
+            result.largest_courant_number()));
     }
-    if (solution.attempts.size() > 1) {
-        note(fmt::format("the fall blew up as planned and was solved with {}", solution.attempts.back()));
+    for (std::size_t copy = 0; copy < result.solutions.size(); ++copy) {
+        const std::vector<std::string>& attempts = result.solutions[copy].attempts;
+        if (attempts.size() < 2) continue;
+        note(fmt::format("the fall{} blew up as planned and was solved with {}",
+                         result.solutions.size() == 1 ? "" : fmt::format(" of copy {}", copy),
+                         attempts.back()));
     }
 }
 
@@ -104,27 +110,30 @@ nlohmann::json run_validation(const ValidateOptions& options, bool quiet) {
     }
     if (request.output.has_parent_path()) std::filesystem::create_directories(request.output.parent_path());
     const ValidationResult result =
-        validate_scene(request, {1, options.cluster, "solving"}, [](const BakePlan&) {});
+        validate_scene(request, {options.jobs, options.cluster, "solving"}, [](const BakePlan&) {});
     warn_of_doubts(result);
     const BodyMeasures measures = measure_all(result.motion, result.motion.bodies.front());
     nlohmann::json json = as_json(result.plan);
     json["output"] = options.output;
     json["reused"] = result.reused;
     json["cpu_seconds"] = result.cpu_seconds;
-    json["time_step"] = result.solution.time_step * result.plan.only_fall().time_unit();
-    json["cells"] = result.solution.cells;
-    json["attempts"] = result.solution.attempts;
-    json["largest_courant_number"] = result.solution.largest_courant_number;
-    json["balance"] = {{"force", result.balance.force}, {"moment", result.balance.moment}};
+    const FallSolution& first = result.solutions.front();
+    const FallBalance balance = result.worst_balance();
+    json["time_step"] = first.time_step * result.plan.falls.front().time_unit();
+    json["cells"] = first.cells;
+    json["attempts"] = nlohmann::json::array();
+    for (const FallSolution& solution : result.solutions) json["attempts"].push_back(solution.attempts);
+    json["largest_courant_number"] = result.largest_courant_number();
+    json["balance"] = {{"force", balance.force}, {"moment", balance.moment}};
     json["body"] = as_json(measures);
     if (!quiet) {
         print_result(
             "{}\n{}  momenta balance to {:.1f} % (force) and {:.1f} % (moment), largest Courant number "
             "{:.2g}\n"
             "{:.0f} CPU s{} -> {}\n",
-            result.motion.bodies.front().name, as_text(measures), 100.0 * result.balance.force,
-            100.0 * result.balance.moment, result.solution.largest_courant_number, result.cpu_seconds,
-            result.reused ? " earlier" : "", options.output);
+            result.motion.bodies.front().name, as_text(measures), 100.0 * balance.force,
+            100.0 * balance.moment, result.largest_courant_number(), result.cpu_seconds,
+            result.reused == result.solutions.size() ? " earlier" : "", options.output);
     }
     return json;
 }
@@ -132,19 +141,22 @@ nlohmann::json run_validation(const ValidateOptions& options, bool quiet) {
 int run(int argc, const char* const* argv) {
     ValidateOptions options;
     Arguments arguments("samara validate", "Solves a scene by full CFD: the yardstick for samara simulate");
-    arguments.positional("SCENE", options.scene, "scene file (.toml) of one body");
+    arguments.positional("SCENE", options.scene,
+                         "scene file (.toml) of one body; each of its copies is a fall");
     arguments.required_option("-o,--output", options.output, "motion file to write (.h5)");
     arguments.option("--cells", options.cells,
                      "of the mesh, about; with kEpsilon that of 6,000, 20,000, 60,000 or 200,000 that is "
                      "nearest",
                      1e3, 1e7);
     arguments.option("--closure", options.closure,
-                     "above Reynolds number 300: kOmegaSSTLM, kOmegaSST, laminar (none) or kEpsilon");
+                     "above Reynolds number 300: kOmegaSSTLM, kOmegaSST, kOmegaSSTDDES (eddies resolved), "
+                     "laminar (none) or kEpsilon");
     arguments.option("--step", options.step, "over the step that the fall gets of itself", 0.05, 4.0);
     arguments.option("--fields", options.fields,
                      "keeps the flow so many times a second, for a movie: velocity and pressure in "
                      "NAME.cases/fall_00/postProcessing/fields, which ParaView opens; 0: not",
                      0.0, 1e4);
+    arguments.option("--jobs", options.jobs, "falls solved at once, where the body has copies", 1, 4096);
     arguments.option("--other-mesh", options.other_mesh,
                      "motion file of the same scene on another mesh: what it differs by is written as the "
                      "motion's uncertainty by its mesh, which samara compare reads");
@@ -155,8 +167,8 @@ int run(int argc, const char* const* argv) {
                      "a command of Slurm that submits a job: solves the fall as a job there");
     arguments.flag("--dry-run", options.dry_run, "only say what would be solved and how long it would take");
     arguments.footer(
-        "The fall is solved by OpenFOAM (pimpleFoam, six degrees of freedom) in the folder "
-        "NAME.cases\n"
+        "The fall, or one for each copy of the body, is solved by OpenFOAM (pimpleFoam, six degrees of "
+        "freedom)\nin the folder NAME.cases\n"
         "beside the output: a plain case that can be looked at. An interrupted fall goes on when the command "
         "is\n"
         "run again. The scene's loads and turbulence are not used, for they are what is solved.\n"

@@ -16,6 +16,7 @@ constexpr std::pair<Closure, std::string_view> closures[] = {
     {Closure::k_omega, "kOmega"},
     {Closure::k_omega_sst, "kOmegaSST"},
     {Closure::k_omega_sst_lm, "kOmegaSSTLM"},
+    {Closure::k_omega_sst_ddes, "kOmegaSSTDDES"},
     {Closure::spalart_allmaras, "SpalartAllmaras"},
     {Closure::other, "other"}};
 

@@ -15,6 +15,7 @@ enum class Closure {
     k_omega,
     k_omega_sst,
     k_omega_sst_lm,
+    k_omega_sst_ddes,
     spalart_allmaras,
     other
 };

@@ -224,11 +224,6 @@ std::vector<FlowMesh> BakePlan::all_meshes() const {
     return meshes;
 }
 
-const FreeFall& BakePlan::only_fall() const {
-    if (kind != CaseKind::fall || falls.size() != 1) throw std::logic_error("the plan is not of one fall");
-    return falls.front();
-}
-
 void add_ladder(const char* kind, std::size_t index, const Vector3d& direction, double reynolds_number,
                 BakePlan& plan) {
     const std::vector<FlowMesh>& meshes = plan.quality.meshes;

@@ -61,9 +61,6 @@ struct BakePlan {
 
     /// The meshes of the loads, then those of the turbulence.
     [[nodiscard]] std::vector<FlowMesh> all_meshes() const;
-
-    /// The fall of a plan of the kind fall. Throws std::logic_error for any other plan.
-    [[nodiscard]] const FreeFall& only_fall() const;
 };
 
 /// The closure at the Reynolds number: `turbulent`, or laminar below laminar_reynolds_number.

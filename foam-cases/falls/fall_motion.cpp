@@ -31,19 +31,17 @@ std::vector<TimedPose> flow_poses(const FallRecord& record, const BodyState& sta
     return poses;
 }
 
-}  // namespace
-
-void take_fall(const FallRecord& record, const BodyState& start, double start_time,
-               const Surroundings& surroundings, Motion& motion) {
-    const std::vector<TimedPose> steps = flow_poses(record, start);
-    const double half_step = 0.5 * record.fall.time_step * record.fall.time_unit();
-    BodyMotion& body = motion.bodies.front();
-    std::size_t frame = 0;
+// At the motion's times, until the fall's last step or half a step after it.
+std::vector<Pose> poses_at(const std::vector<double>& times, const SolvedFall& fall,
+                           const Surroundings& surroundings) {
+    const std::vector<TimedPose> steps = flow_poses(fall.record, fall.start);
+    const double half_step = 0.5 * fall.record.fall.time_step * fall.record.fall.time_unit();
+    std::vector<Pose> poses;
     std::size_t after = 1;
-    for (; frame < motion.times.size(); ++frame) {
-        const double time = motion.times[frame] - start_time;
+    for (const double frame_time : times) {
+        const double time = frame_time - fall.start_time;
         if (time < 0.0) {
-            body.poses.push_back(held(flow_pose(start), surroundings, start_time));
+            poses.push_back(held(flow_pose(fall.start), surroundings, fall.start_time));
             continue;
         }
         if (time > steps.back().time + half_step) break;
@@ -51,10 +49,25 @@ void take_fall(const FallRecord& record, const BodyState& start, double start_ti
         const TimedPose& from = steps[after - 1];
         const TimedPose& to = steps[after];
         const Pose pose = pose_between(from.pose, to.pose, from.time, to.time - from.time, time);
-        body.poses.push_back(in_world(pose, surroundings, motion.times[frame]));
+        poses.push_back(in_world(pose, surroundings, frame_time));
     }
-    if (frame < 2) throw Error(fmt::format("{}: the fall ends before its second frame", record.fall.name));
-    motion.times.resize(frame);
+    if (poses.size() < 2) {
+        throw Error(fmt::format("{}: the fall ends before its second frame", fall.record.fall.name));
+    }
+    return poses;
+}
+
+}  // namespace
+
+void take_falls(const std::vector<SolvedFall>& falls, const Surroundings& surroundings, Motion& motion) {
+    std::vector<std::vector<Pose>> copies;
+    for (const SolvedFall& fall : falls) {
+        copies.push_back(poses_at(motion.times, fall, surroundings));
+        motion.times.resize(copies.back().size());
+    }
+    for (std::size_t frame = 0; frame < motion.times.size(); ++frame) {
+        for (const std::vector<Pose>& copy : copies) motion.bodies.front().poses.push_back(copy[frame]);
+    }
 }
 
 }  // namespace samara

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
@@ -114,6 +115,10 @@ constexpr double start_directions[][3] = {{-0.86, 0.27, 0.433}, {-0.64, 0.5, 0.5
 
 constexpr const char* own_mesh = "mesh_falls";
 
+std::string name_of_fall(std::size_t index) {
+    return fmt::format("fall_{:02}", index);
+}
+
 /// A plan of nothing but the mesh for falls, of about so many cells.
 BakePlan plan_of_mesh_of_falls(const Body& body, double cells, double reynolds_number,
                                const FallModel& model) {
@@ -178,12 +183,13 @@ double FallModel::time_step(double inertia_ratio) const {
 }
 
 Closure closure_of_falls(const std::string& name) {
-    for (const Closure closure :
-         {Closure::k_omega_sst_lm, Closure::k_omega_sst, Closure::laminar, Closure::k_epsilon}) {
+    for (const Closure closure : {Closure::k_omega_sst_lm, Closure::k_omega_sst, Closure::k_omega_sst_ddes,
+                                  Closure::laminar, Closure::k_epsilon}) {
         if (name_of(closure) == name) return closure;
     }
     throw Error(fmt::format(
-        "falls are not solved by '{}'; choose kOmegaSSTLM, kOmegaSST, laminar or kEpsilon", name));
+        "falls are not solved by '{}'; choose kOmegaSSTLM, kOmegaSST, kOmegaSSTDDES, laminar or kEpsilon",
+        name));
 }
 
 FallModel fall_model_of(Closure closure) {
@@ -250,7 +256,7 @@ void add_falls(const Body& body, const Fluid& fluid, const std::vector<MassSpeci
         const double duration = identification_fall_duration * plan.reference_length / speed;
         FreeFall fall = plan_fall(body, immersed, identification_start(body, i), gravity * -Vector3d::UnitZ(),
                                   speed, duration, model);
-        fall.name = fmt::format("fall_{:02}", i);
+        fall.name = name_of_fall(static_cast<std::size_t>(i));
         fall.mesh = has_own_mesh ? own_mesh : mesh_of_loads;
         reynolds_number = std::max(reynolds_number, fall.reynolds_number);
         plan.falls.push_back(fall);
@@ -265,11 +271,14 @@ void add_falls(const Body& body, const Fluid& fluid, const std::vector<MassSpeci
     estimate_cost(plan);
 }
 
-BakePlan plan_single_fall(const Body& body, double cells, FreeFall fall, const FallModel& model) {
-    BakePlan plan = plan_of_mesh_of_falls(body, cells, fall.reynolds_number, model);
+BakePlan plan_falls(const Body& body, double cells, std::vector<FreeFall> falls, const FallModel& model) {
+    BakePlan plan = plan_of_mesh_of_falls(body, cells, falls.at(0).reynolds_number, model);
     plan.kind = CaseKind::fall;
-    fall.mesh = plan.quality.meshes.front().name;
-    plan.falls = {fall};
+    plan.falls = std::move(falls);
+    for (std::size_t i = 0; i < plan.falls.size(); ++i) {
+        plan.falls[i].name = name_of_fall(i);
+        plan.falls[i].mesh = plan.quality.meshes.front().name;
+    }
     estimate_cost(plan);
     return plan;
 }

@@ -58,10 +58,10 @@ void add_falls(const Body& body, const Fluid& fluid, const std::vector<MassSpeci
 FreeFall plan_fall(const Body& body, const ImmersedBody& immersed, const BodyState& start,
                    const Vector3d& gravity, double speed, double duration, const FallModel& model);
 
-/// A plan of the kind fall: with no case but the fall, on the mesh whose number of cells around the body is
-/// nearest to `cells`, as a ratio: of meshes_of_falls(), or of those of all qualities where the model is not
-/// resolved.
-BakePlan plan_single_fall(const Body& body, double cells, FreeFall fall, const FallModel& model);
+/// A plan of the kind fall: with no cases but these falls of one body, all on the mesh whose number of cells
+/// around the body is nearest to `cells`, as a ratio: of meshes_of_falls(), or of those of all qualities
+/// where the model is not resolved. They are called fall_00, fall_01, ...
+BakePlan plan_falls(const Body& body, double cells, std::vector<FreeFall> falls, const FallModel& model);
 
 /// CPU seconds of a fall on a mesh of so many cells, an estimate.
 double estimated_fall_seconds(const FreeFall& fall, double cells);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -32,12 +34,17 @@ struct Falling {
     Scene scene;
     Body body;
     ImmersedBody immersed;
-    BodyState start;
+    std::vector<BodyState> starts;    // of the copies
+    std::vector<double> start_times;  // s
 };
 
+// One for all copies, so that their cases differ in the start alone.
 double speed_unit(const Falling& falling) {
-    const double speed = fall_speed(falling.body, falling.immersed, falling.start, falling.scene.fluid,
-                                    falling.scene.gravity.norm());
+    double speed = 0.0;
+    for (const BodyState& start : falling.starts) {
+        speed = std::max(speed, fall_speed(falling.body, falling.immersed, start, falling.scene.fluid,
+                                           falling.scene.gravity.norm()));
+    }
     if (speed > 0.0) return speed;
     throw Error(fmt::format(
         "{}: the body '{}' is as dense as the fluid and does not move at the start, so that there "
@@ -59,20 +66,30 @@ Falling make_falling(const Scene& scene, const fs::path& earlier, const fs::path
     falling.body.dynamic.reset();
     add_kirchhoff_tensor(falling.body, earlier, temporary);
     falling.immersed = make_immersed_body(falling.body, scene_body, scene.fluid, scene_body.name);
-    const Noise unused(scene.seed, scene_body.name, 0, 0);
-    falling.start =
-        initial_state(scene_body, falling.immersed.center_of_mass, surroundings_of(falling.scene), unused);
+    const double step = scene.step;
+    for (int copy = 0; copy < scene_body.count; ++copy) {
+        const Noise noise(scene.seed, scene_body.name, 0, static_cast<std::uint32_t>(copy));
+        const CopyStart start = start_of_copy(scene_body, step, noise);
+        falling.start_times.push_back(scene_body.start + static_cast<double>(start.first_step) * step);
+        falling.starts.push_back(initial_state(start, falling.immersed.center_of_mass,
+                                               surroundings_of(falling.scene), falling.start_times.back()));
+    }
     return falling;
 }
 
 BakePlan plan_of(const ValidationRequest& request, const Falling& falling) {
-    const SceneBody& scene_body = falling.scene.bodies.front();
     const FallModel model = fall_model_of(request.closure);
-    FreeFall fall = plan_fall(falling.body, falling.immersed, falling.start, falling.scene.gravity,
-                              speed_unit(falling), falling.scene.duration - scene_body.start, model);
-    fall.time_step *= request.step;
-    if (request.fields > 0.0) fall.field_interval = 1.0 / (request.fields * fall.time_unit());
-    return plan_single_fall(falling.body, request.cells, fall, model);
+    const double speed = speed_unit(falling);
+    std::vector<FreeFall> falls;
+    for (std::size_t copy = 0; copy < falling.starts.size(); ++copy) {
+        const double duration = falling.scene.duration - falling.start_times[copy];
+        FreeFall fall = plan_fall(falling.body, falling.immersed, falling.starts[copy], falling.scene.gravity,
+                                  speed, duration, model);
+        fall.time_step *= request.step;
+        if (request.fields > 0.0) fall.field_interval = 1.0 / (request.fields * fall.time_unit());
+        falls.push_back(fall);
+    }
+    return plan_falls(falling.body, request.cells, std::move(falls), model);
 }
 
 FallSolution read_solution(const fs::path& fall_folder) {
@@ -91,20 +108,32 @@ FallSolution read_solution(const fs::path& fall_folder) {
     }
 }
 
-Motion motion_of(const Falling& falling, const FallRecord& record, const fs::path& body_file) {
+Motion motion_of(const Falling& falling, const std::vector<SolvedFall>& falls, const fs::path& body_file) {
     Simulation simulation(falling.scene, {LoadedBody{falling.body, file_content_hash(body_file)}}, 1, 1);
     Motion motion = simulation.motion();
     motion.bodies.front().models =
         fmt::format("full CFD: OpenFOAM pimpleFoam with six degrees of freedom, {}, mesh {}",
-                    name_of(record.fall.closure), record.fall.mesh);
-    take_fall(record, falling.start, falling.scene.bodies.front().start, surroundings_of(falling.scene),
-              motion);
+                    name_of(falls.front().record.fall.closure), falls.front().record.fall.mesh);
+    take_falls(falls, surroundings_of(falling.scene), motion);
     return motion;
 }
 
 }  // namespace
 
-void require_one_fall(const Scene& scene) {
+FallBalance ValidationResult::worst_balance() const {
+    FallBalance worst = balances.front();
+    for (const FallBalance& balance : balances) {
+        worst.force = std::max(worst.force, balance.force);
+        worst.moment = std::max(worst.moment, balance.moment);
+    }
+    return worst;
+}
+
+double ValidationResult::largest_courant_number() const {
+    return std::ranges::max(solutions, {}, &FallSolution::largest_courant_number).largest_courant_number;
+}
+
+void require_falls_of_one_body(const Scene& scene) {
     const auto refuse = [&](const char* what) {
         return Error(fmt::format("{}: {}", scene.file.string(), what));
     };
@@ -112,18 +141,20 @@ void require_one_fall(const Scene& scene) {
         throw refuse("full CFD solves one body at a time; make a scene for each body");
     }
     const SceneBody& body = scene.bodies.front();
-    if (body.count != 1) throw refuse("full CFD solves one copy of a body; drop 'count'");
+    if (body.spreads_size())
+        throw refuse("full CFD solves copies of the shape's own size; drop 'size' from 'spread'");
     if (scene.ground)
         throw refuse("full CFD knows no ground; drop 'ground' and let the scene end before the landing");
     if (!scene.obstacles.empty()) throw refuse("full CFD knows no obstacles; drop [[obstacle]]");
     if (!scene.wind.is_calm())
         throw refuse("full CFD knows no wind; drop [wind], or give a uniform one as 'current'");
     if (scene.fluid.gust.amplitude.norm() > 0.0) throw refuse("full CFD knows no gust; drop 'gust'");
-    if (!(scene.duration > body.start)) throw refuse("the scene ends before its body starts");
+    if (!(scene.duration > body.start + body.spread_start))
+        throw refuse("the scene ends before its body starts");
 }
 
 BakePlan prepare_validation(const ValidationRequest& request) {
-    require_one_fall(request.scene);
+    require_falls_of_one_body(request.scene);
     const TemporaryFolder temporary;
     const fs::path folder = case_folder_of(request.output);
     return plan_of(request, make_falling(request.scene, folder / case_body_name, temporary.path()));
@@ -131,7 +162,7 @@ BakePlan prepare_validation(const ValidationRequest& request) {
 
 ValidationResult validate_scene(const ValidationRequest& request, const FarmOptions& farm,
                                 const std::function<void(const BakePlan&)>& planned) {
-    require_one_fall(request.scene);
+    require_falls_of_one_body(request.scene);
     require_solvers(farm, 1);
     const TemporaryFolder temporary;
     const fs::path folder = case_folder_of(request.output);
@@ -144,14 +175,22 @@ ValidationResult validate_scene(const ValidationRequest& request, const FarmOpti
     require_cases_of(CaseKind::fall, folder);
     end_earlier_jobs(folder);
     write_case_folder(folder, falling.body, result.plan, foam_cases);
-    result.reused = count_solved(folder, result.plan) > 0;
-    solve_cases(folder, result.plan, farm, foam_cases);  // throws where the one fall is not solved
+    result.reused = count_solved(folder, result.plan);
+    const std::vector<LeftOutCase> left_out = solve_cases(folder, result.plan, farm, foam_cases);
+    if (!left_out.empty()) {
+        throw Error(fmt::format("{}/{}: {}; {} of {} falls are solved and kept", folder.string(),
+                                left_out.front().name, left_out.front().reason,
+                                count_solved(folder, result.plan), result.plan.falls.size()));
+    }
     result.cpu_seconds = spent_cpu_seconds(folder, result.plan);
-    const fs::path fall_folder = folder / result.plan.only_fall().name;
-    const FallRecord record = read_fall_record(fall_folder);
-    result.solution = read_solution(fall_folder);
-    result.balance = balance_of(record);
-    result.motion = motion_of(falling, record, folder / case_body_name);
+    std::vector<SolvedFall> solved;
+    for (std::size_t copy = 0; copy < falling.starts.size(); ++copy) {
+        const fs::path fall_folder = folder / result.plan.falls[copy].name;
+        solved.push_back({read_fall_record(fall_folder), falling.starts[copy], falling.start_times[copy]});
+        result.solutions.push_back(read_solution(fall_folder));
+        result.balances.push_back(balance_of(solved.back().record));
+    }
+    result.motion = motion_of(falling, solved, folder / case_body_name);
     write_motion_file(request.output, result.motion);
     if (request.beside.empty()) return result;
     std::vector<FigureUncertainty>& uncertainties = result.motion.bodies.front().uncertainties;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -41,23 +42,30 @@ struct FallSolution {
 };
 
 struct ValidationResult {
-    BakePlan plan;  ///< of one fall
-    FallSolution solution;
-    FallBalance balance;
+    BakePlan plan;                        ///< of a fall for each copy of the body
+    std::vector<FallSolution> solutions;  ///< of each
+    std::vector<FallBalance> balances;    ///< of each
     Motion motion;
-    double cpu_seconds = 0.0;  ///< of the mesh and the fall
-    bool reused = false;       ///< an earlier run had solved it
+    double cpu_seconds = 0.0;  ///< of the mesh and the falls
+    std::size_t reused = 0;    ///< falls that an earlier run had solved
+
+    /// The worst of all falls, force and moment each.
+    [[nodiscard]] FallBalance worst_balance() const;
+    /// The largest of all falls.
+    [[nodiscard]] double largest_courant_number() const;
 };
 
-/// Throws Error where full CFD cannot solve the scene: it has one body without copies, no ground and no gust.
-void require_one_fall(const Scene& scene);
+/// Throws Error where full CFD cannot solve the scene: it has one body, whose copies are of one size, no
+/// ground, no obstacles, no wind and no gust.
+void require_falls_of_one_body(const Scene& scene);
 
-/// Meshes the body and plans its fall; writes nothing. Throws Error.
+/// Meshes the body and plans its falls; writes nothing. Throws Error.
 BakePlan prepare_validation(const ValidationRequest& request);
 
-/// Solves the scene's fall in full CFD, in the folder of cases beside the output, and writes the motion file.
-/// What an earlier call solved on the same inputs is reused; one that was interrupted goes on. `planned` is
-/// told of the plan before anything long begins. Throws Error.
+/// Solves the scene's falls, one for each copy of its body, in full CFD, in the folder of cases beside the
+/// output, and writes the motion file. What an earlier call solved on the same inputs is reused; what was
+/// interrupted goes on. `planned` is told of the plan before anything long begins. Throws Error, also where
+/// one of the falls could not be solved: the others are kept.
 ValidationResult validate_scene(const ValidationRequest& request, const FarmOptions& farm,
                                 const std::function<void(const BakePlan&)>& planned);
 

@@ -200,8 +200,10 @@ void run_snakemake(const fs::path& folder, const BakePlan& plan, const FarmOptio
                    const fs::path& foam_cases) {
     const std::vector<Job> to_solve = unsettled(folder, plan);
     const bool counts_steps = plan.kind == CaseKind::fall;
-    const double all = counts_steps ? plan.only_fall().duration / plan.only_fall().time_step
-                                    : static_cast<double>(to_solve.size());
+    double all = counts_steps ? 0.0 : static_cast<double>(to_solve.size());
+    if (counts_steps) {
+        for (const FreeFall& fall : plan.falls) all += fall.duration / fall.time_step;
+    }
     Progress progress(options.work, counts_steps ? "steps" : "cases");
     const auto tick = [&, last = std::chrono::steady_clock::time_point()]() mutable {
         const auto now = std::chrono::steady_clock::now();

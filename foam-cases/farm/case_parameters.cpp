@@ -120,12 +120,16 @@ Entries step_entries(const FreeFall& fall) {
 // Where the mesh resolves the boundary layer: the scheme and the walls by which the closures were held
 // against measurements (docs/closures.md).
 Entries closure_entries(Closure closure, bool resolves_boundary_layer) {
-    Entries entries = {{"simulationType", closure == Closure::laminar ? "laminar" : "RAS"}};
+    const bool resolves_eddies = closure == Closure::k_omega_sst_ddes;
+    Entries entries = {{"simulationType", closure == Closure::laminar ? "laminar"
+                                          : resolves_eddies           ? "LES"
+                                                                      : "RAS"}};
     if (closure != Closure::laminar) entries.emplace_back("closure", name_of(closure));
     if (resolves_boundary_layer) {
-        entries.insert(entries.end(), {{"convection", "linearUpwind grad(U)"},
-                                       {"nutAtWall", "nutLowReWallFunction"},
-                                       {"kAtWall", "fixedValue"}});
+        entries.insert(entries.end(),
+                       {{"convection", resolves_eddies ? "LUST grad(U)" : "linearUpwind grad(U)"},
+                        {"nutAtWall", "nutLowReWallFunction"},
+                        {"kAtWall", "fixedValue"}});
     }
     return entries;
 }

@@ -81,6 +81,22 @@ FigureComparison compare_turn(const std::optional<TurningPoint>& motion,
                           reference ? std::optional((*reference).*figure) : std::nullopt);
 }
 
+/// Quarters of the depth (m) that all falls reach; none where one does not sink.
+std::vector<double> levels_of(const FallLengths& motion, const FallLengths& reference) {
+    const double depth = (1.0 - rounding) * std::min(motion.shallowest, reference.shallowest);
+    if (!(depth > 0.0)) return {};
+    return {0.25 * depth, 0.5 * depth, 0.75 * depth, depth};
+}
+
+void compare_all_landings(Comparison& all, const std::vector<double>& depths) {
+    for (std::size_t i = 0; i < depths.size(); ++i) {
+        const std::vector<Passage>& motion = all.motion.passages[i];
+        const std::vector<Passage>& reference = all.reference.passages[i];
+        if (std::min(motion.size(), reference.size()) < fewest_landings) return;
+        all.landings.push_back(compare_landings(depths[i], motion, reference));
+    }
+}
+
 void compare_first_swings(Comparison& all) {
     const FirstSwing& a = all.motion.first_swing;
     const FirstSwing& b = all.reference.first_swing;
@@ -180,7 +196,8 @@ Comparison compare(const FallChoice& motion, const FallChoice& reference, const 
     require_length(motion, all.motion_lengths);
     require_length(reference, all.reference_lengths);
     all.window = window_of(motion, all.motion_lengths, reference, all.reference_lengths, settings.window);
-    const FallWindow window{all.window, segment_of(motion, reference, all.window)};
+    const FallWindow window{all.window, segment_of(motion, reference, all.window),
+                            levels_of(all.motion_lengths, all.reference_lengths)};
 
     const double total = motion.runs() * motion.copies() + reference.runs() * reference.copies();
     double done = 0.0;
@@ -199,6 +216,7 @@ Comparison compare(const FallChoice& motion, const FallChoice& reference, const 
         all.motion = measure_falls(motion, window, std::nullopt, count);
     }
     compare_first_swings(all);
+    compare_all_landings(all, window.depths);
     compare_figures(all, reference.of_body(), settings.tolerances);
     all.notes = comparison_notes(motion, reference, all);
     return all;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "internal/comparison/distribution_distance.hpp"
+#include "internal/comparison/landing_comparison.hpp"
 #include "internal/figures/fall_set.hpp"
 
 namespace samara {
@@ -71,6 +72,9 @@ struct Comparison {
     std::array<FigureComparison, quantile_percents.size()> quantiles;  ///< of the inclination (rad)
     DistributionDistance distribution;
     FirstSwingComparison first_swing;
+    /// At a quarter, a half, three quarters and the whole of the depth that all falls reach; none where
+    /// either side has fewer than fewest_landings.
+    std::vector<LandingComparison> landings;
     bool judges_inclination = true;  ///< false for bodies without a shortest axis, such as spheres: then only
                                      ///< the descent speed has a verdict
     bool regimes_agree = false;

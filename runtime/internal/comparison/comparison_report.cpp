@@ -112,10 +112,10 @@ std::string distribution_text(const Comparison& all) {
     }
     const DistributionDistance& distance = all.distribution;
     text += fmt::format("  distributions apart by {:.3f}", distance.distance);
-    if (distance.by_chance) {
+    if (distance.chance) {
         text += fmt::format("; {} by chance {:.3f}, 95 % of them below {:.3f} (p = {:.3f})",
-                            distance.by_falls ? "runs" : "swings", *distance.by_chance,
-                            *distance.chance_limit, *distance.probability);
+                            distance.by_falls ? "runs" : "swings", distance.chance->mean,
+                            distance.chance->limit, distance.chance->probability);
     }
     return text + '\n';
 }
@@ -134,6 +134,34 @@ std::string first_swing_text(const Comparison& all) {
                         100.0 * swing.path_distance->value / std::abs(*swing.way_fallen), *swing.way_fallen);
     }
     return text;
+}
+
+json as_json(const Landings& landings) {
+    return {{"time", as_json(std::optional(landings.time))},
+            {"scatter", as_json(std::optional(landings.scatter))},
+            {"mean", samara::as_json(landings.mean)}};
+}
+
+json as_json(const LandingComparison& landing) {
+    return {{"depth", landing.depth},
+            {"motion", as_json(landing.motion)},
+            {"reference", as_json(landing.reference)},
+            {"distance", landing.distance},
+            {"distance_by_chance", landing.chance.mean},
+            {"distance_by_chance_limit", landing.chance.limit},
+            {"probability", landing.chance.probability}};
+}
+
+std::string landing_text(const LandingComparison& landing) {
+    std::string text = fmt::format("landing {:.3g} m below the release\n", landing.depth);
+    text += figure_row("  after (s)", compare_figure(landing.motion.time, landing.reference.time), 1.0, true);
+    text += figure_row("  scattered by (mm)",
+                       compare_figure(landing.motion.scatter, landing.reference.scatter), 1000.0, true);
+    return text + fmt::format(
+                      "  places apart by {:.3g} mm; falls by chance {:.3g}, 95 % of them below {:.3g} (p = "
+                      "{:.3f})\n",
+                      1000.0 * landing.distance, 1000.0 * landing.chance.mean, 1000.0 * landing.chance.limit,
+                      landing.chance.probability);
 }
 
 bool has_doubts(const Comparison& all) {
@@ -166,6 +194,9 @@ json as_json(const Comparison& all) {
         quantiles.push_back(one);
     }
     const FirstSwingComparison& swing = all.first_swing;
+    const std::optional<Chance>& chance = all.distribution.chance;
+    json landings = json::array();
+    for (const LandingComparison& landing : all.landings) landings.push_back(as_json(landing));
     return {{"window", {all.window.begin, all.window.end}},
             {"motion", as_json(all.motion, all.motion_body, all.motion_lengths)},
             {"reference", as_json(all.reference, all.reference_body, all.reference_lengths)},
@@ -173,9 +204,9 @@ json as_json(const Comparison& all) {
             {"inclination_distribution",
              {{"quantiles", quantiles},
               {"distance", all.distribution.distance},
-              {"distance_by_chance", or_null(all.distribution.by_chance)},
-              {"distance_by_chance_limit", or_null(all.distribution.chance_limit)},
-              {"probability", or_null(all.distribution.probability)},
+              {"distance_by_chance", chance ? json(chance->mean) : json()},
+              {"distance_by_chance_limit", chance ? json(chance->limit) : json()},
+              {"probability", chance ? json(chance->probability) : json()},
               {"chance_between", all.distribution.by_falls ? "falls" : "swings"}}},
             {"first_swing",
              {{"minimum_time", as_json(swing.minimum_time)},
@@ -185,6 +216,7 @@ json as_json(const Comparison& all) {
               {"end", or_null(swing.end)},
               {"path_distance", as_json(swing.path_distance)},
               {"way_fallen", or_null(swing.way_fallen)}}},
+            {"landings", landings},
             {"judges_inclination", all.judges_inclination},
             {"regimes_agree", all.regimes_agree},
             {"regime_is_uncertain", all.regime_is_uncertain},
@@ -209,6 +241,7 @@ std::string as_text(const Comparison& all) {
         text += figure_row(what, figure, entry.in_unit, entry.relative);
     }
     text += distribution_text(all) + first_swing_text(all);
+    for (const LandingComparison& landing : all.landings) text += landing_text(landing);
     for (const std::string& note : all.notes) text += "note: " + note + '\n';
     text += all.agrees ? "the motion agrees with the reference" : "the motion differs from the reference";
     if (!all.certain) text += ", but not for certain";

@@ -2,16 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <numeric>
 #include <random>
-
-#include "internal/figures/inclination.hpp"
+#include <utility>
 
 namespace samara {
 namespace {
 
-constexpr int draws = 999;
 constexpr std::size_t fewest_pieces = 3;
 constexpr std::size_t enough_falls = 10;
 
@@ -65,11 +62,6 @@ std::vector<double> distances_between_falls(const PieceHistograms& falls) {
     return distances;
 }
 
-/// A whole number below `size`, the same on every machine.
-std::size_t drawn_below(std::mt19937_64& generator, std::size_t size) {
-    return static_cast<std::size_t>(generator() % static_cast<std::uint64_t>(size));
-}
-
 std::vector<double> distances_of_draws(const PieceHistograms& motion, const PieceHistograms& reference) {
     std::vector<const InclinationHistogram*> pool = all_pieces(motion);
     const std::vector<const InclinationHistogram*> more = all_pieces(reference);
@@ -80,7 +72,7 @@ std::vector<double> distances_of_draws(const PieceHistograms& motion, const Piec
     add(all, sum_of(reference));
     std::mt19937_64 generator(1);
     std::vector<double> distances;
-    for (int draw = 0; draw < draws; ++draw) {
+    for (int draw = 0; draw < chance_draws; ++draw) {
         InclinationHistogram one{};
         for (std::size_t i = 0; i < drawn; ++i) {
             std::swap(pool[i], pool[i + drawn_below(generator, pool.size() - i)]);
@@ -104,13 +96,7 @@ DistributionDistance distribution_distance(const PieceHistograms& motion, const 
     std::vector<double> distances =
         result.by_falls ? distances_between_falls(more) : distances_of_draws(motion, reference);
     if (distances.empty()) return result;
-    std::sort(distances.begin(), distances.end());
-    const auto count = static_cast<double>(distances.size());
-    result.by_chance = std::accumulate(distances.begin(), distances.end(), 0.0) / count;
-    result.chance_limit = percentile_of_sorted(distances, 95.0);
-    const auto as_far = distances.end() -
-                        std::lower_bound(distances.begin(), distances.end(), result.distance * (1.0 - 1e-12));
-    result.probability = (1.0 + static_cast<double>(as_far)) / (1.0 + count);
+    result.chance = chance_among(result.distance, std::move(distances));
     return result;
 }
 

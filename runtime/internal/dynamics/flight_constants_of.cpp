@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "internal/kernel/wake_noise.hpp"
+
 namespace samara {
 namespace {
 
@@ -207,6 +209,12 @@ FlightConstants<Real> flight_constants(const ImmersedBody& body) {
     c.langevin = body.langevin == Langevin::wake && body.turbulence != Turbulence::table
                      ? Langevin::seen_fluid
                      : body.langevin;
+    c.has_side_pressure =
+        body.loads != Loads::none && body.turbulence == Turbulence::table && c.langevin == Langevin::wake;
+    if (c.has_side_pressure) {
+        const double pressure = wake_side_pressure * static_cast<double>(c.tow_factor);
+        c.side_pressure = symmetric<Real>(pressure / body.reference_area * body.shadows);
+    }
     c.turbulent_kinetic_energy = static_cast<Real>(body.turbulent_kinetic_energy);
     c.dissipation_rate = static_cast<Real>(body.dissipation_rate);
     if (body.turbulence == Turbulence::table) {

@@ -72,7 +72,7 @@ FluidLoad fluid_load_of(const ImmersedBody& body, double size, const Surrounding
     const SizedWind wind{meeting.source(), size};
     BodyState stirred = state;
     kernel::SeenStream stream = seen_stream(body, size, own_step, wind.source(), noise, step, stirred);
-    if (!stream.moves) stream = {Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero(), false, false};
+    if (!stream.moves) stream = {Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()};
     const Matrix3d to_world = state.orientation.toRotationMatrix();
     const Matrix3d to_body = to_world.transpose();
     const Vector3d gravity = size * size_square * surroundings.gravity;
@@ -104,7 +104,7 @@ FluidLoad fluid_load_of(const ImmersedBody& body, double size, const Surrounding
     if (body.loads != Loads::none) {
         const Vector6d of_centroid = body.to_centroid * relative;
         const Vector3d seen_rotation = to_body * stream.rotation;
-        const LoadMatrices loads = load_matrices(body, of_centroid, seen_rotation);
+        const LoadMatrices loads = load_matrices(body, of_centroid, seen_rotation, to_body * stream.slip);
         wrench += body.to_centroid.transpose() *
                   (loads.relative.leftCols<3>() * seen_rotation - loads.whole * of_centroid);
         damping = body.to_centroid.transpose() * loads.whole * body.to_centroid;

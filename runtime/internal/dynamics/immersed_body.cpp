@@ -84,6 +84,14 @@ std::vector<double> projected_areas(const Surface& surface) {
     return areas;
 }
 
+/// projected_area() along the principal axes, as a matrix that has these areas along them.
+Matrix3d shadows(const Body& body) {
+    const Matrix3d axes = principal_axes(body.moments);
+    Vector3d areas;
+    for (Eigen::Index i = 0; i < 3; ++i) areas[i] = projected_area(body.surface, axes.col(i));
+    return axes * areas.asDiagonal() * axes.transpose();
+}
+
 /// What separated flow lacks of the fluid's momentum goes with that momentum, where the scene leaves it out.
 DynamicCoefficients without_momentum(DynamicCoefficients coefficients, const BodyPhysics& physics) {
     if (physics.added_mass) return coefficients;
@@ -156,6 +164,7 @@ ImmersedBody make_immersed_body(const Body& body, const BodyPhysics& physics, co
     result.turning_scale = turning_scale(result.inertia, result.added_mass);
     result.length = reference_length(body.moments.surface_area);
     result.reference_area = std::numbers::pi * result.length * result.length / 4.0;
+    result.shadows = shadows(body);
 
     result.loads = physics.loads;
     result.coefficients = physics.coefficients;

@@ -34,10 +34,11 @@ struct ImmersedBody {
     Matrix3d added_inertia = Matrix3d::Zero();    ///< rho_f J, K_fluid's block of (omega, omega) (kg m^2)
     Matrix3d added_coupling = Matrix3d::Zero();   ///< rho_f C, its block of (omega, v) (kg m)
     ContactPoints contact_points;
-    double length = 1.0;          ///< L = sqrt(S/pi) (m)
-    double reference_area = 0.0;  ///< A = pi L^2/4 (m^2)
-    double turning_scale = 0.0;   ///< sqrt of the largest ratio of added-mass difference to inertia (1/m):
-                                  ///< with |v| the rate at which the Munk moment turns the body
+    double length = 1.0;                  ///< L = sqrt(S/pi) (m)
+    double reference_area = 0.0;          ///< A = pi L^2/4 (m^2)
+    Matrix3d shadows = Matrix3d::Zero();  ///< m^2, body axes: projected areas along the principal axes
+    double turning_scale = 0.0;  ///< sqrt of the largest ratio of added-mass difference to inertia (1/m):
+                                 ///< with |v| the rate at which the Munk moment turns the body
 
     Loads loads = Loads::none;
     CoefficientLoads coefficients;  ///< where loads are coefficients; normal always set

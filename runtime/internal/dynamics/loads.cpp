@@ -8,10 +8,10 @@ Matrix6d load_matrix(const ImmersedBody& body, const Vector6d& relative_velocity
     return load_matrices(body, relative_velocity, Vector3d::Zero()).whole;
 }
 
-LoadMatrices load_matrices(const ImmersedBody& body, const Vector6d& velocity,
-                           const Vector3d& seen_rotation) noexcept {
+LoadMatrices load_matrices(const ImmersedBody& body, const Vector6d& velocity, const Vector3d& seen_rotation,
+                           const Vector3d& slip) noexcept {
     if (body.loads == Loads::none) return {};
-    return kernel::load_matrices(body.constants, velocity, seen_rotation);
+    return kernel::load_matrices(body.constants, velocity, seen_rotation, slip);
 }
 
 double reynolds_number(const ImmersedBody& body, double speed) noexcept {

@@ -15,9 +15,9 @@ Matrix6d load_matrix(const ImmersedBody& body, const Vector6d& relative_velocity
 
 /// D in a fluid that turns with `seen_rotation` (rad/s, body axes): the loads are
 /// -whole u + relative (seen_rotation, 0), where u holds the body's own angular velocity and the velocity of
-/// its centroid relative to the fluid. Never throws.
-LoadMatrices load_matrices(const ImmersedBody& body, const Vector6d& velocity,
-                           const Vector3d& seen_rotation) noexcept;
+/// its centroid relative to the fluid, of which `slip` (m/s, body axes) is that of the wake. Never throws.
+LoadMatrices load_matrices(const ImmersedBody& body, const Vector6d& velocity, const Vector3d& seen_rotation,
+                           const Vector3d& slip = Vector3d::Zero()) noexcept;
 
 /// U L / nu of a speed (m/s).
 double reynolds_number(const ImmersedBody& body, double speed) noexcept;

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "internal/base/angles.hpp"
+#include "internal/figures/inclination.hpp"
 #include "samara/base/error.hpp"
 
 namespace samara {
@@ -40,6 +41,21 @@ double fastest_turn(const Motion& motion, int run, int copy, const TimeWindow& f
     return fastest;
 }
 
+/// How far (m) the centre of mass comes below its release in a fall.
+double deepest(const Motion& motion, int run, int copy, const TimeWindow& fall) {
+    const Vector3d down = down_direction(motion.gravity);
+    std::optional<double> release;
+    double deepest = 0.0;
+    for (int frame = 0; frame < motion.frames(); ++frame) {
+        const double time = motion.times[static_cast<std::size_t>(frame)];
+        if (time < fall.begin || time > fall.end) continue;
+        const double depth = motion.pose(motion.bodies[0], run, frame, copy).position.dot(down);
+        if (!release) release = depth;
+        deepest = std::max(deepest, depth - *release);
+    }
+    return deepest;
+}
+
 void require_frame_rate(const FallChoice& choice, double fastest) {
     const std::vector<double>& times = choice.motion().times;
     double longest = 0.0;
@@ -60,7 +76,9 @@ using Estimates = std::vector<Estimate>;
 class Gathering {
   public:
     Gathering(const FallWindow& window, const std::optional<std::pair<const FallSeries*, double>>& path)
-        : window_(window), path_(path) {}
+        : window_(window), path_(path) {
+        set_.passages.resize(window_.depths.size());
+    }
 
     void add(FallSeries&& record) {
         ++set_.falls;
@@ -69,6 +87,8 @@ class Gathering {
         add_first_swing(record);
         if (path_) distances_.push_back({path_distance(record, *path_->first, path_->second), {}, {}});
         set_.regimes.add(record.measures.regime);
+        const std::vector<Passage> passages = passages_of(record, window_.depths);
+        for (std::size_t i = 0; i < passages.size(); ++i) set_.passages[i].push_back(passages[i]);
         if (marks_.size() == 1) {
             set_.mean_ways.assign(record.times.size(), Vector3d::Zero());
             set_.example = record;
@@ -171,7 +191,9 @@ FallLengths fall_lengths(const FallChoice& choice) {
     for_each_fall(choice, [&](const Motion& part, int run, int copy) {
         const TimeWindow fall = fall_of(part, part.bodies[0], run, copy);
         const double length = fall.end - fall.begin;
-        if (!lengths) lengths = FallLengths{length, length};
+        const double depth = deepest(part, run, copy, fall);
+        if (!lengths) lengths = FallLengths{length, length, depth};
+        lengths->shallowest = std::min(lengths->shallowest, depth);
         lengths->shortest = std::min(lengths->shortest, length);
         lengths->longest = std::max(lengths->longest, length);
         fastest = std::max(fastest, fastest_turn(part, run, copy, fall));

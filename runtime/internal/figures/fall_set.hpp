@@ -8,6 +8,7 @@
 #include "internal/comparison/distribution_distance.hpp"
 #include "internal/figures/fall_figures.hpp"
 #include "internal/figures/first_swing.hpp"
+#include "internal/figures/passages.hpp"
 #include "internal/figures/regime_counts.hpp"
 #include "samara/motion/motion_file.hpp"
 
@@ -34,8 +35,9 @@ void for_each_fall(const FallChoice& choice,
 
 /// What is known of the falls before a window is chosen.
 struct FallLengths {
-    double shortest = 0.0;  ///< s
-    double longest = 0.0;   ///< s
+    double shortest = 0.0;    ///< s
+    double longest = 0.0;     ///< s
+    double shallowest = 0.0;  ///< m: what the least deep of them descends
 };
 
 /// Throws Error, naming the file, where a fall's frames are too far apart to see how the shortest axis turns:
@@ -44,8 +46,9 @@ FallLengths fall_lengths(const FallChoice& choice);
 
 /// How falls are measured.
 struct FallWindow {
-    TimeWindow window;     ///< s since the release
-    double segment = 0.0;  ///< s, of the spectra: see swing_spectrum()
+    TimeWindow window;           ///< s since the release
+    double segment = 0.0;        ///< s, of the spectra: see swing_spectrum()
+    std::vector<double> depths;  ///< m: of the levels whose passages are noted, see passages_of()
 };
 
 /// What the chosen falls do together: the means over those that differ from one another. A set of one has the
@@ -64,6 +67,8 @@ struct FallSet {
     FallSeries example;                     ///< the first fall
     std::vector<FallSeries> more;           ///< some of the others, for pictures
     std::vector<Vector3d> mean_ways;        ///< m, at the example's times
+    /// By level, of the distinct falls that pass it.
+    std::vector<std::vector<Passage>> passages;
 };
 
 /// `path`: of another motion, and until when (s since the release) the distance from it is measured.

@@ -164,7 +164,7 @@ HWY_INLINE void meet_turbulence(const FlightConstants<Real>& c, V h, const Draw&
 /// Fluid at rest.
 template <class V>
 HWY_INLINE Stream<V> no_stream() {
-    return {no_vector<V>(), no_vector<V>(), no_vector<V>(), false};
+    return {no_vector<V>(), no_vector<V>(), no_vector<V>(), false, no_vector<V>()};
 }
 
 /// Where the centroid is halfway through a step, as far as its velocity says (m, in the flow's frame).
@@ -180,9 +180,11 @@ HWY_INLINE Triple<V> halfway(const FlightConstants<Real>& c, V h, const Flight<V
 template <class V, class Real>
 HWY_INLINE Stream<V> seen_stream(const FlightConstants<Real>& c, const Triple<V>& before,
                                  const Flight<V>& flight) {
-    if (c.langevin != Langevin::wake) return {before, flight.seen_velocity, flight.seen_rotation, false};
+    if (c.langevin != Langevin::wake) {
+        return {before, flight.seen_velocity, flight.seen_rotation, false, no_vector<V>()};
+    }
     const Triple<V> middle = V(0.5) * (before + flight.seen_velocity);
-    return {middle, middle, flight.seen_rotation, true};
+    return {middle, middle, flight.seen_rotation, true, middle};
 }
 
 /// The Langevin update of one step in a wind, or without (then `wind` is none), and the stream that the body
@@ -203,7 +205,7 @@ HWY_INLINE Stream<V> meet_fluid(const FlightConstants<Real>& c, V h, bool windy,
     flight.velocity = driven ? flight.velocity + of_wind : velocity;
     if (!sees_turbulence(c)) return wind;
     const Stream<V> seen = seen_stream(c, seen_before, flight);
-    return {seen.begin + wind.begin, seen.end + wind.end, seen.rotation + wind.rotation, false};
+    return {seen.begin + wind.begin, seen.end + wind.end, seen.rotation + wind.rotation, false, seen.slip};
 }
 
 /// The wind that the bodies of the lanes meet in a step.
@@ -232,7 +234,8 @@ HWY_INLINE Stream<Lanes<Tag>> met_wind(Tag tag, const FlightConstants<Real>& c,
     const auto three = [&](const double(&rows)[3][kernel::MetWind::size]) HWY_ATTR {
         return Triple<V>{take(rows[0]), take(rows[1]), take(rows[2])};
     };
-    return {size * three(met.begin), size * three(met.end), (size * size) * three(met.rotation), false};
+    return {size * three(met.begin), size * three(met.end), (size * size) * three(met.rotation), false,
+            no_vector<V>()};
 }
 
 /// What pushes the bodies of the lanes, in the units of a body of the shape's size that moves alike

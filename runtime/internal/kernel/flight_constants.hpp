@@ -82,6 +82,8 @@ struct FlightConstants {
     Square<Real> wake_by_turning{};          ///< rho_f c^2 N_w / (m* l^3)
     Square<Real> drag_in_motion{};           ///< rho_f l C_m A / (2 m*)
     Square<Real> rotational_drag{};          ///< rho_f C_w D / (2 m* l)
+    bool has_side_pressure = false;          ///< whether the next is not zero: of a wake that fluctuates
+    Square<Real> side_pressure{};            ///< wake_side_pressure S/A tow_factor, S the shadows (m^2)
     bool has_spin = false;                   ///< whether the next two are not zero
     Square<Real> drag_in_spin{};             ///< rho_f l C_s A / (2 m*)
     Square<Real> rotational_drag_in_spin{};  ///< rho_f C_r D / (2 m* l)

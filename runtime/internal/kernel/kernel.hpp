@@ -81,8 +81,9 @@ BatchReport advance_blocks(const FlightConstants<float>& constants, const BlockS
 /// while its rotation (rad/s) is held.
 struct SeenStream {
     Vector3d begin, end, rotation;
-    bool moves = false;    ///< false: the seen fluid is taken to be at rest, and not to turn
-    bool is_slip = false;  ///< of the loads alone: it neither changes nor turns
+    bool moves = false;                ///< false: the seen fluid is taken to be at rest, and not to turn
+    bool is_slip = false;              ///< of the loads alone: it neither changes nor turns
+    Vector3d slip = Vector3d::Zero();  ///< of the wake, in the stream: it presses on the body's sides
 };
 
 /// implicit_step() of step.hpp over h, which is the part `part` of `parts` equal ones of a whole step.
@@ -108,7 +109,7 @@ BatchReport advance_one(const FlightConstants<double>& constants, const BlockSte
 
 /// load_matrices() of loads.hpp.
 LoadMatrices load_matrices(const FlightConstants<double>& constants, const Vector6d& velocity,
-                           const Vector3d& seen_rotation) noexcept;
+                           const Vector3d& seen_rotation, const Vector3d& slip) noexcept;
 
 /// The functions of langevin.hpp; the velocities are the state's.
 TurbulenceLevel turbulence_level(const FlightConstants<double>& constants, const Vector3d& velocity) noexcept;

@@ -144,7 +144,7 @@ void step_one(const FlightConstants<double>& c, const Vector3d& gravity, double 
     Flight<One> flight = flight_of(state);
     const Push<One> push = push_of_one(external);
     const Stream<One> whole{triple_of(stream.begin), triple_of(stream.end), triple_of(stream.rotation),
-                            stream.is_slip};
+                            stream.is_slip, triple_of(stream.slip)};
     implicit_step(c, triple_of(gravity), One(h), stream.moves, part_of(whole, part, One(parts)),
                   external == nullptr ? nullptr : &push, flight);
     keep(flight, state);
@@ -167,7 +167,7 @@ HWY_INLINE Beginning beginning(const FlightConstants<double>& c, double h, const
         source.meet(source.context, step, 1, met);
         const auto first = [](const double(&rows)[3][kernel::MetWind::size])
                                HWY_ATTR { return triple_of(Vector3d(rows[0][0], rows[1][0], rows[2][0])); };
-        wind = {first(met.begin), first(met.end), first(met.rotation), false};
+        wind = {first(met.begin), first(met.end), first(met.rotation), false, no_vector<One>()};
     }
     const Stream<One> stream = meet_fluid(c, One(h), windy, wind, OneDraw{noise, step}, One(1.0), flight);
     const bool sees_fluid = windy || sees_turbulence(c);
@@ -182,7 +182,7 @@ void begin_one(const FlightConstants<double>& c, double h, const kernel::WindSou
     keep(flight, state);
     begun = {b.parts,
              {vector_of(b.stream.begin), vector_of(b.stream.end), vector_of(b.stream.rotation), b.sees_fluid,
-              b.stream.is_slip}};
+              b.stream.is_slip, vector_of(b.stream.slip)}};
 }
 
 void lone_steps(const FlightConstants<double>& c, const kernel::BlockSteps& task, const Noise& noise,
@@ -216,12 +216,15 @@ HWY_INLINE void keep_blocks(const FlightConstants<double>& c, const LoadBlocks<O
 }
 
 void loads_of_one(const FlightConstants<double>& c, const Vector6d& velocity, const Vector3d& seen_rotation,
-                  LoadMatrices& loads) {
+                  const Vector3d& slip, LoadMatrices& loads) {
     const Triple<One> turning = triple_of(velocity.data());
     const Triple<One> moving = One(c.inverse_length) * triple_of(velocity.data() + 3);
     LoadBlocks<One> blocks = relative_load_blocks(c, turning - triple_of(seen_rotation), moving, turning);
     keep_blocks(c, blocks, loads.relative);
     add_transports(c, turning, moving, blocks);
+    if (c.has_side_pressure) {
+        add_side_pressure(c, moving, One(c.inverse_length) * triple_of(slip), blocks);
+    }
     keep_blocks(c, blocks, loads.whole);
 }
 
@@ -294,9 +297,9 @@ BatchReport advance_one(const FlightConstants<double>& constants, const BlockSte
 }
 
 LoadMatrices load_matrices(const FlightConstants<double>& constants, const Vector6d& velocity,
-                           const Vector3d& seen_rotation) noexcept {
+                           const Vector3d& seen_rotation, const Vector3d& slip) noexcept {
     LoadMatrices loads;
-    HWY_DYNAMIC_DISPATCH(loads_of_one)(constants, velocity, seen_rotation, loads);
+    HWY_DYNAMIC_DISPATCH(loads_of_one)(constants, velocity, seen_rotation, slip, loads);
     return loads;
 }
 

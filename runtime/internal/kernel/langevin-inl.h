@@ -70,20 +70,15 @@ HWY_INLINE void advance_seen_fluid(const FlightConstants<Real>& c, const Level<V
         now.kept * flight.seen_rotation + (deviation * V(c.inverse_eddy_length)) * normals.rotation;
 }
 
-/// The slip of the wake: another along the path than across it, as lasting as the body takes to come so many
-/// of its lengths (docs/noise.md).
+/// The slip of the wake, as lasting as the body takes to come so many of its lengths (docs/noise.md).
 template <class V, class Real>
 HWY_INLINE void advance_wake(const FlightConstants<Real>& c, const Level<V>& level, V h,
                              const Triple<V>& normals, Flight<V>& flight) {
-    const V zero(0.0);
-    const Heading<V> heading = heading_of(centroid_velocity(c, flight));
-    const V speed = V(c.length) * heading.speed;
+    const Triple<V> velocity = centroid_velocity(c, flight);
+    const V speed = V(c.length) * root(dot(velocity, velocity));
     const Renewal<V> now = renewal(V(c.inverse_eddy_length / wake_persistence) * speed, h);
-    const V across = select(zero < level.turbulent_kinetic_energy, V(wake_across) * speed, zero);
-    const V along = V(wake_along) * root(V(2.0 / 3.0) * level.turbulent_kinetic_energy);
-    const Triple<V> path = rotation_matrix(flight.orientation) * heading.direction;
-    const Triple<V> drawn = across * normals + ((along - across) * dot(path, normals)) * path;
-    flight.seen_velocity = now.kept * flight.seen_velocity + now.added * drawn;
+    const V deviation = now.added * V(wake_slip) * root(V(2.0 / 3.0) * level.turbulent_kinetic_energy);
+    flight.seen_velocity = now.kept * flight.seen_velocity + deviation * normals;
     flight.seen_rotation = no_vector<V>();
 }
 

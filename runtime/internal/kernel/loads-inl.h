@@ -157,6 +157,16 @@ HWY_INLINE void add_transport(const FlightConstants<Real>& c, const Triple<V>& o
     blocks.force_by_turning = plus_cross(blocks.force_by_turning, momentum);
 }
 
+/// Adds the force across the path by which a wake that fluctuates pushes on the body's sides: workless.
+/// `slip`: of the wake (l/s, body axes).
+template <class V, class Real>
+HWY_INLINE void add_side_pressure(const FlightConstants<Real>& c, const Triple<V>& velocity,
+                                  const Triple<V>& slip, LoadBlocks<V>& blocks) {
+    const Triple<V> pressed = broadcast_symmetric<V>(c.side_pressure) * slip;
+    blocks.force_by_velocity =
+        plus_cross(blocks.force_by_velocity, cross(pressed, heading_of(velocity).direction));
+}
+
 /// Adds omega x the wake's angular momentum: workless.
 template <class V, class Real>
 HWY_INLINE void add_wake(const FlightConstants<Real>& c, const Triple<V>& omega, const Triple<V>& velocity,

@@ -55,6 +55,7 @@ template <class V>
 struct Stream {
     Triple<V> begin, end, rotation;
     bool is_slip = false;
+    Triple<V> slip;  ///< of the wake, in it
 };
 
 /// The stream of the part `i` of a step that is cut into `parts`, from that of the whole step.
@@ -64,7 +65,7 @@ HWY_INLINE Stream<V> part_of(const Stream<V>& whole, int i, V parts) {
     const Triple<V> difference = whole.end - whole.begin;
     const Triple<V> begin = i == 0 ? whole.begin : whole.begin + (V(i) / parts) * difference;
     const Triple<V> end = whole.begin + (V(i + 1) / parts) * difference;
-    return {begin, select(V(i + 1) < parts, end, whole.end), whole.rotation, false};
+    return {begin, select(V(i + 1) < parts, end, whole.end), whole.rotation, false, whole.slip};
 }
 
 /// A host's push: moment about the centre of mass and force (world axes, in the shape's own units).
@@ -78,7 +79,7 @@ template <class V>
 struct StepStart {
     V h;
     Triple<V> omega, velocity;
-    Triple<V> gravity, seen_rotation;  // body axes
+    Triple<V> gravity, seen_rotation, slip;  // body axes
     bool fluid_turns;
     bool is_pushed;
     Push<V> push;  // body axes, about the centroid
@@ -190,6 +191,7 @@ HWY_INLINE void improve(const FlightConstants<Real>& c, const StepStart<V>& star
             loads = relative_load_blocks(c, middle.omega, middle.velocity, middle.omega);
         }
         add_transports(c, middle.omega, middle.velocity, loads);
+        if (c.has_side_pressure) add_side_pressure(c, middle.velocity, under_body(start.slip), loads);
         const Stiffness<V> stiff = stiffness(c, loads, start.h);
         const V z = larger(stiff.turning, stiff.moving);
         middle.theta = (V(3.0) + z) / (V(6.0) + z);
@@ -355,6 +357,8 @@ HWY_INLINE void implicit_step(const FlightConstants<Real>& c, const Triple<V>& g
     }
     StepStart<V> start = step_start(c, to_world, apparent_gravity, h, fluid_changes, stream.rotation,
                                     relative_velocity, flight);
+    start.slip =
+        c.has_side_pressure ? V(c.inverse_length) * transposed_times(to_world, stream.slip) : no_vector<V>();
     start.is_pushed = push != nullptr;
     start.push =
         start.is_pushed ? push_at_centroid(c, to_world, *push) : Push<V>{no_vector<V>(), no_vector<V>()};

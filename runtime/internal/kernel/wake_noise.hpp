@@ -3,11 +3,12 @@
 namespace samara {
 
 /// How a body's own wake makes its loads fluctuate: as if it met the flow with a slip, of which each
-/// component across the path has this rms over the body's speed |w|, that along it this rms over the root of
-/// 2k/3, and which lasts so many L/|w|. Where k is zero the flow is laminar, and does not fluctuate. Measured
-/// on a sphere and a disc (docs/noise.md).
-inline constexpr double wake_across = 0.05;
-inline constexpr double wake_along = 0.5;
+/// component has this rms over the root of 2k/3, and which lasts so many L/|w|. Where k is zero the flow is
+/// laminar, and does not fluctuate. And the pressure of what sheds pushes on the body's sides: a force across
+/// the path of rho |w|/2 times the slip, times the body's shadow in the force's direction, times this.
+/// Measured on a sphere, a disc, an ellipsoid and a sheet (docs/noise.md).
+inline constexpr double wake_slip = 0.3;
+inline constexpr double wake_side_pressure = 1.15;
 inline constexpr double wake_persistence = 2.5;
 
 }  // namespace samara

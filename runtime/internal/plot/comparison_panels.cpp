@@ -198,8 +198,8 @@ PanelText distribution_panel(const Comparison& comparison, const Box& box) {
     text.plots = place_frame(box) + axis("x", {0.0, 90.0}, 30.0) + axis("y", {0.0, 100.0}, 25.0);
     text.plots += x_title("inclination (°)", box);
     std::string right = fmt::format("{:.0f} % apart", 100.0 * comparison.distribution.distance);
-    if (comparison.distribution.probability) {
-        right += fmt::format(", p {:.1g}", *comparison.distribution.probability);
+    if (comparison.distribution.chance) {
+        right += fmt::format(", p {:.1g}", comparison.distribution.chance->probability);
     }
     text.plots += header("Time below (%)", right, box);
     if (gap.angle > 0.0) {

@@ -12,9 +12,9 @@ namespace {
 using testing::HasSubstr;
 
 // A body in a fall that is uniform in case axes: it moves with `velocity` and turns with `angular_velocity`.
-class TakeFall : public testing::Test {
+class TakeFalls : public testing::Test {
   protected:
-    TakeFall() {
+    TakeFalls() {
         record_.fall.length = 0.05;
         record_.fall.speed = 0.2;
         record_.fall.time_step = 0.5;
@@ -42,7 +42,7 @@ class TakeFall : public testing::Test {
         for (int i = 0; i < count; ++i) motion_.times.push_back(i / rate);
     }
     void take(double start_time = 0.0) {
-        take_fall(record_, start_, start_time, surroundings_, motion_);
+        take_falls({{record_, start_, start_time}}, surroundings_, motion_);
         ASSERT_EQ(motion_.bodies.front().poses.size(), motion_.times.size());
     }
     const Pose& pose(std::size_t frame) { return motion_.bodies.front().poses.at(frame); }
@@ -57,7 +57,7 @@ class TakeFall : public testing::Test {
     Motion motion_;
 };
 
-TEST_F(TakeFall, GivesTheMotionInWorldAxes) {
+TEST_F(TakeFalls, GivesTheMotionInWorldAxes) {
     frames(5, 4.0);
     take();
     const Vector3d turning = start_.orientation * start_.velocity.head<3>();
@@ -72,7 +72,7 @@ TEST_F(TakeFall, GivesTheMotionInWorldAxes) {
     }
 }
 
-TEST_F(TakeFall, HoldsTheBodyUntilItsStart) {
+TEST_F(TakeFalls, HoldsTheBodyUntilItsStart) {
     frames(5, 4.0);
     surroundings_.current = {1, 0, 0};
     take(0.6);
@@ -87,7 +87,7 @@ TEST_F(TakeFall, HoldsTheBodyUntilItsStart) {
     EXPECT_LT((pose(4).velocity - velocity).norm(), 1e-12);
 }
 
-TEST_F(TakeFall, DropsFramesAfterTheLastStepButForOneWithinHalfAStep) {
+TEST_F(TakeFalls, DropsFramesAfterTheLastStepButForOneWithinHalfAStep) {
     // The steps end at 4 L/U = 1 s, and are 0.125 s long.
     frames(100, 20.0);
     take();
@@ -95,9 +95,27 @@ TEST_F(TakeFall, DropsFramesAfterTheLastStepButForOneWithinHalfAStep) {
     EXPECT_LT((pose(21).position - pose(20).position).norm(), 1e-12);
 }
 
-TEST_F(TakeFall, IsRefusedWhereTheFallEndsBeforeItsSecondFrame) {
+TEST_F(TakeFalls, GivesEachFallToACopyAndEndsWithTheShortest) {
+    FallRecord shorter = record_;
+    shorter.samples.resize(6);
+    frames(8, 10.0);
+    motion_.bodies.front().copies = 2;
+    take_falls({{record_, start_}, {shorter, start_, 0.1}}, surroundings_, motion_);
+    ASSERT_EQ(motion_.times.size(), 8u);
+    ASSERT_EQ(motion_.bodies.front().poses.size(), 16u);
+    for (int frame = 1; frame < 8; ++frame) {
+        const Pose& first = motion_.pose(motion_.bodies.front(), 0, frame, 0);
+        const Pose& second = motion_.pose(motion_.bodies.front(), 0, frame, 1);
+        EXPECT_LT((first.position - start_.position - start_velocity() * 0.1 * frame).norm(), 1e-12);
+        EXPECT_LT((second.position - start_.position - start_velocity() * 0.1 * (frame - 1)).norm(), 1e-12);
+    }
+}
+
+TEST_F(TakeFalls, IsRefusedWhereTheFallEndsBeforeItsSecondFrame) {
     frames(2, 0.5);
-    EXPECT_THAT(test::error_of([&] { take_fall(record_, start_, 0.0, surroundings_, motion_); }),
+    EXPECT_THAT(test::error_of([&] {
+                    take_falls({{record_, start_}}, surroundings_, motion_);
+                }),
                 HasSubstr("ends before its second frame"));
 }
 

@@ -262,17 +262,17 @@ TEST(FallPlan, TakesTheMeshWhoseCellsAreNearestAsARatio) {
     planned.plan();
     planned.model = fall_model_of(Closure::k_epsilon);
     const auto mesh_at = [&](double cells) {
-        return plan_single_fall(planned.body, cells, planned.fall, planned.model);
+        return plan_falls(planned.body, cells, {planned.fall}, planned.model);
     };
-    EXPECT_EQ(mesh_at(5000).only_fall().mesh, "mesh_coarse");
-    EXPECT_EQ(mesh_at(20000).only_fall().mesh, "mesh_medium");
-    EXPECT_EQ(mesh_at(40000).only_fall().mesh, "mesh_fine");
+    EXPECT_EQ(mesh_at(5000).falls.front().mesh, "mesh_coarse");
+    EXPECT_EQ(mesh_at(20000).falls.front().mesh, "mesh_medium");
+    EXPECT_EQ(mesh_at(40000).falls.front().mesh, "mesh_fine");
     const BakePlan plan = mesh_at(1e7);
-    EXPECT_EQ(plan.only_fall().mesh, "mesh_finest");
+    EXPECT_EQ(plan.falls.front().mesh, "mesh_finest");
     EXPECT_TRUE(plan.cases.empty());
     ASSERT_EQ(plan.quality.meshes.size(), 1u);
     EXPECT_EQ(plan.quality.meshes.front().name, "mesh_finest");
-    const double of_fall = estimated_fall_seconds(plan.only_fall(), plan.cells.front());
+    const double of_fall = estimated_fall_seconds(plan.falls.front(), plan.cells.front());
     EXPECT_GT(plan.cpu_seconds, of_fall);
     EXPECT_LT(plan.cpu_seconds, 2.0 * of_fall);
 }
@@ -282,14 +282,14 @@ TEST(FallPlan, TakesAsManyCellsAsAreAskedForWhereTheBoundaryLayerIsResolved) {
     Planned planned(of_density(1200.0));
     planned.plan();
     const auto plan_at = [&](double cells) {
-        return plan_single_fall(planned.body, cells, planned.fall, planned.model);
+        return plan_falls(planned.body, cells, {planned.fall}, planned.model);
     };
     for (const double cells : {6000.0, 20'000.0, 40'000.0, 120'000.0, 400'000.0}) {
         const BakePlan plan = plan_at(cells);
         ASSERT_EQ(plan.quality.meshes.size(), 1u);
         EXPECT_NEAR(plan.cells.front(), cells, 0.2 * cells);
         const FlowMesh& mesh = plan.quality.meshes.front();
-        EXPECT_EQ(plan.only_fall().mesh, mesh.name);
+        EXPECT_EQ(plan.falls.front().mesh, mesh.name);
         EXPECT_TRUE(mesh.resolves_boundary_layer);
         const double last = 0.5 * mesh.background_cell / std::ldexp(1.0, mesh.surface_level);
         EXPECT_NEAR(std::log(470.0 * last / std::pow(1.4, mesh.layers - 1)), 0.0, 0.2) << cells;
@@ -314,13 +314,12 @@ BakePlan bake_with_falls(const Body& body, const BakeQuality& quality) {
 TEST(FallPlan, IsOfItsOwnKindNotOfAQuality) {
     Planned planned(of_density(1200.0));
     planned.plan();
-    const BakePlan plan = plan_single_fall(planned.body, 5000.0, planned.fall, planned.model);
+    const BakePlan plan = plan_falls(planned.body, 5000.0, {planned.fall}, planned.model);
     EXPECT_EQ(plan.kind, CaseKind::fall);
     EXPECT_EQ(plan_json(plan)["quality"], "fall");
     EXPECT_EQ(kind_of_plan(plan_json(plan)), CaseKind::fall);
     const BakePlan bake = bake_with_falls(planned.body, bake_quality("standard"));
     EXPECT_EQ(kind_of_plan(plan_json(bake)), CaseKind::bake);
-    EXPECT_THROW(static_cast<void>(bake.only_fall()), std::logic_error);
 }
 
 TEST(IdentificationFalls, AreTwoAtStandardOnTheMediumMeshAndAtHighOnTheFine) {

@@ -64,8 +64,8 @@ TEST_F(Validate, RefusesScenesThatFullCfdDoesNotSolve) {
     const std::string body = "density = 1200\nturbulence = \"none\"";
     write_scene("", "", body + "\n[[body]]\nname = \"other\"\nshape = \"ball.body.h5\"\ndensity = 1200");
     EXPECT_THAT(fault(), HasSubstr("scene.toml: full CFD solves one body at a time"));
-    write_scene("", "", body + "\ncount = 3");
-    EXPECT_THAT(fault(), HasSubstr("'count'"));
+    write_scene("", "", body + "\ncount = 3\nspread = { size = [0.9, 1.1] }");
+    EXPECT_THAT(fault(), HasSubstr("copies of the shape's own size; drop 'size' from 'spread'"));
     write_scene("ground = -2.0", "", body);
     EXPECT_THAT(fault(), HasSubstr("'ground'"));
     std::ofstream(folder_ / "roof.stl") << "solid roof\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"
@@ -77,6 +77,8 @@ TEST_F(Validate, RefusesScenesThatFullCfdDoesNotSolve) {
     write_scene("", "gust = { amplitude = [0.1, 0, 0], period = 1.0 }", body);
     EXPECT_THAT(fault(), HasSubstr("'gust'"));
     write_scene("", "", body + "\nstart = 1.5");
+    EXPECT_THAT(fault(), HasSubstr("ends before its body starts"));
+    write_scene("", "", body + "\ncount = 2\nstart = 0.5\nspread = { start = 0.6 }");
     EXPECT_THAT(fault(), HasSubstr("ends before its body starts"));
 }
 
@@ -129,6 +131,18 @@ TEST_F(Validate, SaysInADryRunWhatItWouldSolve) {
     EXPECT_FALSE(fs::exists(folder_.path() / "out.cases"));
 }
 
+TEST_F(Validate, SolvesAFallForEachCopy) {
+    write_scene("", "", "density = 1200\nturbulence = \"none\"");
+    const nlohmann::json one = validate({"--dry-run", "--json"}).json();
+    write_scene("", "", "density = 1200\nturbulence = \"none\"\ncount = 3\nspread = { angle = 0.1 }");
+    const nlohmann::json three = validate({"--dry-run", "--json"}).json();
+    EXPECT_EQ(one["falls"], 1);
+    EXPECT_EQ(three["falls"], 3);
+    EXPECT_EQ(three["steps"], one["steps"]);
+    EXPECT_GT(three["estimated_cpu_seconds"].get<double>(), 2.0 * one["estimated_cpu_seconds"].get<double>());
+    EXPECT_THAT(validate({"--dry-run"}).output, HasSubstr("3 falls, each: "));
+}
+
 TEST_F(Validate, SolvesByAnotherClosureWhereOneIsNamed) {
     write_scene("", "", "density = 1200\nturbulence = \"none\"");
     const auto plan = [&](const std::vector<std::string>& more) {
@@ -141,8 +155,9 @@ TEST_F(Validate, SolvesByAnotherClosureWhereOneIsNamed) {
     EXPECT_EQ(functions["closure"], "kEpsilon");
     EXPECT_LT(functions["time_step"].get<double>(), plan({})["time_step"].get<double>());
     EXPECT_EQ(plan({"--closure", "laminar"})["closure"], "laminar");
+    EXPECT_EQ(plan({"--closure", "kOmegaSSTDDES"})["closure"], "kOmegaSSTDDES");
     EXPECT_THAT(fault({"--closure", "kOmega"}),
-                HasSubstr("choose kOmegaSSTLM, kOmegaSST, laminar or kEpsilon"));
+                HasSubstr("choose kOmegaSSTLM, kOmegaSST, kOmegaSSTDDES, laminar or kEpsilon"));
 }
 
 TEST_F(Validate, LeavesTheCasesOfABakeAlone) {

@@ -120,7 +120,7 @@ class CaseByHand : public testing::Test {
         fall.time_step = 0.01;
         fall.acceleration_relaxation = 0.7;
         const fs::path cases = place_ / (name + ".cases");
-        BakePlan plan = plan_single_fall(test::sphere(0.01), 6000.0, fall, fall_model_of(Closure::k_epsilon));
+        BakePlan plan = plan_falls(test::sphere(0.01), 6000.0, {fall}, fall_model_of(Closure::k_epsilon));
         plan.quality.meshes.front().resolves_boundary_layer = fall_model_of(closure).resolved;
         write_case_folder(cases, test::sphere(0.01), plan, foam_cases);
         const fs::path folder = place_ / name;

@@ -67,7 +67,7 @@ Vector3d vector_of(const std::string& parameters, const std::string& name) {
 class FallCase : public testing::Test {
   protected:
     const Body body_ = test::ellipsoid({0.01, 0.02, 0.04});
-    const BakePlan plan_ = plan_single_fall(body_, 6000.0, some_fall(), fall_model_of(Closure::k_epsilon));
+    const BakePlan plan_ = plan_falls(body_, 6000.0, {some_fall()}, fall_model_of(Closure::k_epsilon));
     const test::TemporaryFolder temporary_;
     const fs::path folder_ = temporary_.path() / "body.cases";
 
@@ -117,13 +117,25 @@ TEST_F(FallCase, IsOfSecondOrderInTimeAndSpaceWhereTheMeshResolvesTheBoundaryLay
     for (const Closure closure : {Closure::k_omega_sst_lm, Closure::laminar}) {
         FreeFall fall = some_fall();
         fall.closure = closure;
-        const BakePlan plan = plan_single_fall(body_, 6000.0, fall, fall_model_of(closure));
-        const std::string resolved = fall_parameters(text, plan, plan.only_fall());
+        const BakePlan plan = plan_falls(body_, 6000.0, {fall}, fall_model_of(closure));
+        const std::string resolved = fall_parameters(text, plan, plan.falls.front());
         EXPECT_EQ(entry_of(resolved, "rateOfChange"), "backward");
         EXPECT_EQ(entry_of(resolved, "convection"), "linearUpwind grad(U)");
         EXPECT_EQ(entry_of(resolved, "nutAtWall"), "nutLowReWallFunction");
         EXPECT_EQ(entry_of(resolved, "simulationType"), closure == Closure::laminar ? "laminar" : "RAS");
     }
+}
+
+TEST_F(FallCase, ResolvesEddiesByDdes) {
+    const std::string text = read_bytes(foam_cases / "templates/free-fall/parameters");
+    FreeFall fall = some_fall();
+    fall.closure = Closure::k_omega_sst_ddes;
+    const BakePlan plan = plan_falls(body_, 6000.0, {fall}, fall_model_of(fall.closure));
+    const std::string resolved = fall_parameters(text, plan, plan.falls.front());
+    EXPECT_EQ(entry_of(resolved, "simulationType"), "LES");
+    EXPECT_EQ(entry_of(resolved, "closure"), "kOmegaSSTDDES");
+    EXPECT_EQ(entry_of(resolved, "convection"), "LUST grad(U)");
+    EXPECT_EQ(entry_of(resolved, "nutAtWall"), "nutLowReWallFunction");
 }
 
 // sixDoFRigidBodyMotion keeps the angular momentum along its principal axes.
@@ -146,7 +158,7 @@ TEST_F(FallCase, PullsTheCentroidUpWithTheWeightOfTheFluidWhereverItFalls) {
 }
 
 TEST_F(FallCase, HasNoBuoyancyWithoutGravity) {
-    FreeFall fall = plan_.only_fall();
+    FreeFall fall = plan_.falls.front();
     fall.gravity.setZero();
     const std::string text =
         fall_parameters(read_bytes(foam_cases / "templates/free-fall/parameters"), plan_, fall);

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "internal/comparison/comparison_report.hpp"
 #include "internal/figures/inclination.hpp"
@@ -78,9 +79,24 @@ TEST(Comparison, OfAMotionWithItselfShowsNoDifference) {
     }
     for (const FigureComparison& one : comparison.quantiles) EXPECT_EQ(one.difference, 0.0);
     EXPECT_EQ(comparison.distribution.distance, 0.0);
-    EXPECT_EQ(comparison.distribution.probability, 1.0);
+    EXPECT_EQ(comparison.distribution.chance->probability, 1.0);
     EXPECT_EQ(comparison.first_swing.minimum_time.difference, 0.0);
     EXPECT_EQ(comparison.first_swing.path_distance->value, 0.0);
+}
+
+TEST(Comparison, HoldsTheLandingsOfSeveralFallsAgainstEachOther) {
+    const Motion three = runs_of(1, 3, 6.0);
+    const Comparison all = compare_motions(runs_of(4, 5, 8.0), three);
+    ASSERT_EQ(all.landings.size(), 4u);
+    EXPECT_DOUBLE_EQ(
+        all.landings[3].depth,
+        std::min(all.motion_lengths.shallowest, all.reference_lengths.shallowest) * (1.0 - 1e-9));
+    EXPECT_DOUBLE_EQ(all.landings[0].depth, 0.25 * all.landings[3].depth);
+    EXPECT_LT(all.landings[0].motion.time.value, all.landings[3].motion.time.value);
+    EXPECT_THAT(as_text(all), HasSubstr("m below the release"));
+    EXPECT_EQ(as_json(all)["landings"].size(), 4u);
+    // Two falls do not scatter.
+    EXPECT_TRUE(compare_motions(three, runs_of(4, 2, 6.0)).landings.empty());
 }
 
 // The window of 4 s holds whole swings of both.
@@ -314,8 +330,8 @@ TEST(DistributionDistance, ByChanceIsExceededAsOftenAsItsProbabilitySays) {
             sides[side] = {fall_figures(record, 7.0).histograms};
         }
         const DistributionDistance distance = distribution_distance(sides[0], sides[1]);
-        below_a_fifth += *distance.probability < 0.2 ? 1 : 0;
-        EXPECT_LT(*distance.by_chance, *distance.chance_limit);
+        below_a_fifth += distance.chance->probability < 0.2 ? 1 : 0;
+        EXPECT_LT(distance.chance->mean, distance.chance->limit);
     }
     // 8 expected; 16 or more of 40 have a probability of 0.3 %.
     EXPECT_LT(below_a_fifth, 16);
@@ -330,8 +346,8 @@ TEST(DistributionDistance, OfSeparateDistributionsIsOneAndNotByChance) {
     const DistributionDistance distance =
         distribution_distance({{low, low, low, low}}, {{high, high, high, high}});
     EXPECT_DOUBLE_EQ(distance.distance, 1.0);
-    EXPECT_LT(*distance.probability, 0.06);  // 2 of the 70 ways to draw four of eight are as far apart
-    EXPECT_FALSE(distribution_distance({{low, low}}, {{high, high}}).probability.has_value());
+    EXPECT_LT(distance.chance->probability, 0.06);  // 2 of the 70 ways to draw four of eight are as far apart
+    EXPECT_FALSE(distribution_distance({{low, low}}, {{high, high}}).chance.has_value());
 }
 
 TEST(ComparisonReport, WritesFiguresToTheDigitsThatTheirErrorsAllow) {

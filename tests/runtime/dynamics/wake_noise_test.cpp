@@ -3,11 +3,13 @@
 
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "internal/dynamics/langevin.hpp"
 #include "internal/dynamics/step.hpp"
+#include "internal/kernel/kernel.hpp"
 #include "support/hard_bodies.hpp"
 #include "support/known_bodies.hpp"
 
@@ -58,16 +60,13 @@ WakeStatistics statistics_of(const ImmersedBody& body, const Vector3d& velocity,
     return found;
 }
 
-TEST(WakeNoise, HasItsVariancesAcrossAndAlongThePathAndItsTimeWhateverTheStep) {
+TEST(WakeNoise, HasItsVarianceAndItsTimeWhateverTheStep) {
     const ImmersedBody body = ellipsoid_with_a_wake(1e9);
     for (const double speed : {0.22, 0.44}) {
         const Vector3d velocity = speed * Vector3d(2.0, 0.0, 1.0).normalized();
         const double energy = turbulence_level(body, velocity).turbulent_kinetic_energy;
         const double time = wake_persistence * body.length / speed;
-        const Vector3d path = velocity.normalized();
-        const Matrix3d along = path * path.transpose();
-        const Matrix3d expected = wake_along * wake_along * 2.0 / 3.0 * energy * along +
-                                  std::pow(wake_across * speed, 2) * (Matrix3d::Identity() - along);
+        const Matrix3d expected = wake_slip * wake_slip * 2.0 / 3.0 * energy * Matrix3d::Identity();
         for (const double step_by_time : {0.2, 2.0}) {
             const WakeStatistics found = statistics_of(body, velocity, step_by_time * time);
             EXPECT_LT((found.slip - expected).cwiseAbs().maxCoeff(), 0.02 * expected.trace());
@@ -77,7 +76,9 @@ TEST(WakeNoise, HasItsVariancesAcrossAndAlongThePathAndItsTimeWhateverTheStep) {
 }
 
 TEST(WakeNoise, PushesByTheLoadsAtTheSlipAndNotByItsChange) {
-    const ImmersedBody body = ellipsoid_with_a_wake(1200.0);
+    ImmersedBody body = ellipsoid_with_a_wake(1200.0);
+    body.shadows.setZero();
+    prepare(body);
     const Noise noise(12, "wake", 0, 0);
     const double h = 0.01;
     BodyState state = moving_at({0.2, 0.0, 0.1});
@@ -93,6 +94,60 @@ TEST(WakeNoise, PushesByTheLoadsAtTheSlipAndNotByItsChange) {
                 .norm(),
             1e-4);
         state = after;
+    }
+}
+
+/// One step in the frozen slip of a wake (m/s, world axes).
+BodyState stepped(const ImmersedBody& body, const Vector3d& slip, double h, const BodyState& state) {
+    BodyState after = state;
+    const kernel::SeenStream stream{slip, slip, Vector3d::Zero(), true, true, slip};
+    kernel::implicit_step(body.constants, Vector3d::Zero(), h, stream, 0, 1, nullptr, after);
+    return after;
+}
+
+TEST(WakeNoise, PressesOnTheSidesAcrossThePath) {
+    ImmersedBody body = ellipsoid_with_a_wake(1e6);
+    const Vector3d path = Vector3d(2.0, 1.0, 1.0).normalized();
+    const Vector3d slip(0.004, -0.003, 0.005);
+    BodyState state = moving_at(0.22 * path);
+    state.orientation = Quaterniond(Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()));
+    const double h = 1e-3;
+    const Vector3d with = stepped(body, slip, h, state).velocity.tail<3>();
+    const Vector3d seen = state.orientation.conjugate() * slip;
+    const Vector3d relative = 0.22 * path - seen;
+    const Vector3d pressed =
+        wake_side_pressure * 0.5 * body.fluid_density * relative.norm() * (body.shadows * seen);
+    const Vector3d across = pressed - pressed.dot(relative) / relative.squaredNorm() * relative;
+    body.shadows.setZero();
+    prepare(body);
+    const Vector3d without = stepped(body, slip, h, state).velocity.tail<3>();
+    EXPECT_LT(((with - without) * body.mass / h - across).norm(), 1e-3 * across.norm());
+}
+
+TEST(WakeNoise, HasTheShadowsAlongThePrincipalAxes) {
+    const ImmersedBody body = ellipsoid_with_a_wake(1200.0);
+    const Vector3d exact = std::numbers::pi * Vector3d(8e-4, 4e-4, 2e-4);
+    EXPECT_LT((body.shadows.diagonal() - exact).cwiseAbs().maxCoeff(), 0.03 * exact.x());  // flat triangles
+    EXPECT_LT((body.shadows - Matrix3d(body.shadows.diagonal().asDiagonal())).norm(), 1e-6 * exact.x());
+}
+
+// In the frame of the slip no load but drag changes the energy of body and fluid.
+TEST(WakeNoise, MakesNoEnergyInTheFrameOfItsSlip) {
+    for (const double h : {0.002, 0.05}) {
+        const ImmersedBody body = ellipsoid_with_a_wake(1200.0);
+        const Vector3d slip(0.1, -0.2, 0.15);  // far beyond what k makes
+        BodyState state = moving_at({0.2, 0.1, -0.1});
+        state.velocity.head<3>() = Vector3d(1.0, -2.0, 0.5);
+        const auto energy = [&](BodyState of) {
+            of.velocity.tail<3>() -= of.orientation.conjugate() * slip;
+            return kinetic_energy(body, of);
+        };
+        double before = energy(state);
+        for (int step = 0; step < 200; ++step) {
+            state = stepped(body, slip, h, state);
+            EXPECT_LE(energy(state), before * (1.0 + 1e-12));
+            before = energy(state);
+        }
     }
 }
 
