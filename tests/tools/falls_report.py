@@ -36,6 +36,8 @@ BODIES = {
     "disc-range": (f"{FALLS}/disc.geo", ["--density", "1497.3", "--density-to", "11340"]),
     "ellipsoid-range": ("meshes/shapes/ellipsoid.geo", ["--density", "1200", "--density-to", "4800"]),
 }
+# Of these what runtime/bodies/bodies.toml bakes, at the same quality.
+READY_BAKED = ("sphere", "ellipsoid", "sheet")
 SCENES = {
     "sphere": "sphere", "ellipsoid-tilted": "ellipsoid", "ellipsoid-compound": "ellipsoid",
     "ellipsoid-edgewise": "ellipsoid", "ellipsoid-heavy": "ellipsoid", "spheroid": "spheroid",
@@ -66,11 +68,13 @@ def baked_file(folder, body):
 
 
 def baked(programs, folder, body):
-    """The baked body's file and its falls, separated by commas: none of those files that are kept in docs/falls/bodies."""
+    """The baked body's file and its falls, separated by commas: none of those files that are kept in docs/falls/bodies, nor of
+    the ready-baked ones that are baked for the same."""
     shape, options = BODIES[body]
-    file, kept = baked_file(folder, body), baked_file(f"{FALLS}/bodies", body)
-    if not os.path.exists(file) and os.path.exists(kept):
-        return kept, ""
+    file = baked_file(folder, body)
+    for kept in (baked_file(f"{FALLS}/bodies", body), *([baked_file("runtime/bodies", body)] if body in READY_BAKED else [])):
+        if not os.path.exists(file) and os.path.exists(kept):
+            return kept, ""
     if not os.path.exists(file):
         run([f"{programs}/samara", "bake", shape, "-o", file, "--quality", "standard", "--json"] + options)
     cases = os.path.join(folder, f"{body}.cases")

@@ -24,6 +24,7 @@ FOLDER = "docs/test-falls"
 # With which bodies each fall is flown, of those of docs/falls or ready-baked ones: first the one that is baked for its
 # density.
 SCENES = {
+    "disc-2000": ("disc-range",),
     "disc-3000": ("disc-range",),
     "disc-6000": ("disc-range",),
     "ellipsoid-3000": ("ellipsoid-range", "samara:ellipsoid"),
