@@ -162,6 +162,28 @@ TEST_F(Falls, ASphereTakesHalfItsDisplacedMassAlongAndEndsAtItsTerminalSpeed) {
     EXPECT_THAT(motion.bodies.front().models, HasSubstr("full CFD"));
 }
 
+TEST_F(Falls, EachCopyIsAFallOfItsOwnOnOneMesh) {
+    write_scene("duration = 0.08", "sphere",
+                "density = 1200\ncount = 2\nspread = { position = [0.01, 0, 0], angle = 0.1 }");
+    const nlohmann::json json = solved({"--closure", "kOmegaSSTDDES"});
+    ASSERT_TRUE(json.is_object());
+    EXPECT_EQ(json["falls"], 2);
+    EXPECT_EQ(json["reused"], 0);
+    EXPECT_EQ(json["attempts"].size(), 2u);
+    EXPECT_TRUE(fs::exists(folder_.path() / "out.cases/fall_01/provenance.json"));
+    const Motion motion = read_motion_file(folder_.path() / "out.h5");
+    const BodyMotion& body = motion.bodies.front();
+    ASSERT_EQ(body.copies, 2);
+    const Vector3d apart = motion.pose(body, 0, 0, 1).position - motion.pose(body, 0, 0, 0).position;
+    EXPECT_GT(apart.norm(), 1e-4);
+    for (int copy = 0; copy < 2; ++copy) {
+        const Pose& last = motion.pose(body, 0, motion.frames() - 1, copy);
+        EXPECT_LT(last.velocity.z(), -0.05);
+        EXPECT_LT((last.position - motion.pose(body, 0, 0, copy).position).head<2>().norm(), 1e-4);
+    }
+    EXPECT_EQ(solved({"--closure", "kOmegaSSTDDES"})["reused"], 2);
+}
+
 // The fluid is at rest in the first instant, and takes its share of the momentum that the body is given.
 TEST_F(Falls, ASphereThatStartsWithAVelocityKeepsItOnceTheFluidMoves) {
     write_scene("duration = 0.16\ngravity = [0, 0, 0]", "sphere", "density = 1200\nvelocity = [0, 0.1, 0]");
