@@ -46,8 +46,7 @@ struct Host {
     std::unique_ptr<btHingeConstraint> hinge;
 };
 
-// ---- The coupling
-// ---------------------------------------------------------------------------------------------
+// ---- The coupling --------------------------------------------------------------------------------------
 
 Six velocity_of(const btRigidBody& body) {
     const btVector3& turning = body.getAngularVelocity();
@@ -69,7 +68,7 @@ samara_pose pose_of(const Link& link) {
     return pose;
 }
 
-// What `matrix` makes into `right`, which is what is returned; the matrix is one of inertia and damping.
+// The x of matrix x = right, for a matrix of inertia and damping, which needs no pivots.
 Six solved(std::array<Six, 6> matrix, Six right) {
     for (std::size_t column = 0; column < 6; ++column) {
         for (std::size_t row = column + 1; row < 6; ++row) {
@@ -167,8 +166,7 @@ void step_host(Host& host) {
     check(samara_advance_to(host.fluid, ++host.steps * host.step, error, sizeof error));
 }
 
-// ---- What falls
-// -----------------------------------------------------------------------------------------------
+// ---- What falls ----------------------------------------------------------------------------------------
 
 // Links above each other; the second on a hinge along x, halfway between their origins.
 std::unique_ptr<Host> make_host(const samara_body* body, double step, int turbulent,
