@@ -301,7 +301,8 @@ typedef struct samara_obstacle {
     double friction;                 /* Coulomb's coefficient; default: 0.5 */
     double position[3];              /* where the obstacle's origin is, m; default: 0, 0, 0 */
     double orientation[4];           /* w, x, y, z; is normalised; default: 1, 0, 0, 0 */
-    const samara_obstacle_key* keys; /* where it moves: in order of time, and in place of the two above */
+    const samara_obstacle_key* keys; /* where it moves: in order of time, in place of the two above, and no
+                                        point of it faster than 100 m/s */
     size_t key_count;                /* default: 0 */
 } samara_obstacle;
 

@@ -149,10 +149,18 @@ BodyState start_of(const ReadyFall& fall) {
 }
 
 // Of every `stride`th state.
-Measures measures_of(const Body& body, const ReadyFall& fall, const std::vector<BodyState>& states) {
-    const Motion motion =
-        motion_of(body, fall.gravity, step_of(fall) * static_cast<double>(fall.stride), states);
+Motion motion_of(const Body& body, const ReadyFall& fall, const std::vector<BodyState>& states) {
+    return motion_of(body, fall.gravity, step_of(fall) * static_cast<double>(fall.stride), states);
+}
+
+Measures measures_of(const Motion& motion) {
     return measure(motion, motion.bodies.front());
+}
+
+std::vector<BodyState> solved_states(const ReadyFall& fall) {
+    std::vector<BodyState> solved;
+    for (std::size_t i = 0; i < fall.states.size(); i += fall.stride) solved.push_back(fall.states[i]);
+    return solved;
 }
 
 ReadyFall ready(const Body& body, const FallRecord& record) {
@@ -162,13 +170,11 @@ ReadyFall ready(const Body& body, const FallRecord& record) {
                    {}};
     const double step = record.samples.front().time;
     fall.stride = static_cast<std::size_t>(std::max(1.0, std::round(flown_step / step)));
-    std::vector<BodyState> solved;
-    for (std::size_t i = 0; i < fall.states.size(); i += fall.stride) solved.push_back(fall.states[i]);
-    fall.measures = measures_of(body, fall, solved);
+    fall.measures = measures_of(motion_of(body, fall, solved_states(fall)));
     return fall;
 }
 
-Measures fly_whole(const Body& body, const ReadyFall& fall, const ImmersedBody& flying) {
+Motion fly_whole(const Body& body, const ReadyFall& fall, const ImmersedBody& flying) {
     const double time_step = step_of(fall) * static_cast<double>(fall.stride);
     std::vector<BodyState> flown;
     BodyState state = start_of(fall);
@@ -176,7 +182,7 @@ Measures fly_whole(const Body& body, const ReadyFall& fall, const ImmersedBody& 
         flown.push_back(state);
         state = implicit_step(flying, fall.gravity, time_step, state);
     }
-    return measures_of(body, fall, flown);
+    return motion_of(body, fall, flown);
 }
 
 // How far two figures are apart, over `usual`; as far as can be where there is but one of them.
@@ -226,7 +232,7 @@ VectorXd residuals_of(const Body& body, const std::vector<ReadyFall>& falls,
         at += numbers_of_segment;
     }
     for (std::size_t i = 0; i < falls.size(); ++i) {
-        const Measures flown = fly_whole(body, falls[i], flying[i]);
+        const Measures flown = measures_of(fly_whole(body, falls[i], flying[i]));
         residuals.segment<figures_of_fall>(at) = usual_miss * figures_miss(flown, falls[i].measures);
         at += figures_of_fall;
     }
@@ -289,7 +295,8 @@ FlownFall flown_fall(const Body& body, const ReadyFall& fall, const DynamicCoeff
     ImmersedBody flying = fall.body;
     flying.dynamic = coefficients;
     prepare(flying);
-    return {fall.record.fall.name, fall.measures, fly_whole(body, fall, flying), balance_of(fall.record)};
+    return {fall.record.fall.name, fall.measures, measures_of(fly_whole(body, fall, flying)),
+            balance_of(fall.record)};
 }
 
 IdentifiedDensities densities_of(const std::vector<FallRecord>& falls) {
@@ -316,6 +323,24 @@ std::string origin_of(const std::vector<FallRecord>& falls, double error) {
 FlownFall fly_fall(const Body& body, const FallRecord& record) {
     const ReadyFall fall = ready(body, record);
     return flown_fall(body, fall, fall.body.dynamic);
+}
+
+FallMotions fall_motions(const Body& body, const FallRecord& record) {
+    const ReadyFall fall = ready(body, record);
+    const Quaterniond upright = Quaterniond::FromTwoVectors(fall.gravity, -Vector3d::UnitZ());
+    const auto shown = [&](Motion motion) {
+        motion.gravity = upright * motion.gravity;
+        BodyMotion& one = motion.bodies.front();
+        one.surface = body.surface;
+        for (Pose& pose : one.poses) {
+            pose.position = upright * pose.position;
+            pose.orientation = upright * pose.orientation;
+            pose.velocity = upright * pose.velocity;
+            pose.angular_velocity = upright * pose.angular_velocity;
+        }
+        return motion;
+    };
+    return {shown(motion_of(body, fall, solved_states(fall))), shown(fly_whole(body, fall, fall.body))};
 }
 
 Identification identify_motion(const Body& body, const std::vector<FallRecord>& records,

@@ -18,6 +18,12 @@ struct FlownFall {
     FallBalance balance;  ///< of the full CFD
 };
 
+/// One fall of a body as a motion, solved and flown.
+struct FallMotions {
+    Motion solved;  ///< of the full CFD
+    Motion flown;   ///< of the runtime, at the same times
+};
+
 /// Dynamic coefficients that were identified, and how good they are.
 struct Identification {
     IdentifiedCoefficients coefficients;
@@ -47,5 +53,9 @@ Identification identify_motion(const Body& body, const std::vector<FallRecord>& 
 /// The figures of a body with its coefficients on a solved fall, whether or not they are from it. Throws
 /// Error as identify_motion does, but takes falls of any length.
 FlownFall fly_fall(const Body& body, const FallRecord& record);
+
+/// The motions that fly_fall() has its figures from, with the body's surface, turned so that gravity points
+/// along -z. Throws Error as it does.
+FallMotions fall_motions(const Body& body, const FallRecord& record);
 
 }  // namespace samara

@@ -15,10 +15,14 @@
 #include "converter/falls/fall_identification.hpp"
 #include "converter/report/case_history.hpp"
 #include "internal/base/angles.hpp"
+#include "internal/comparison/comparison.hpp"
+#include "internal/files/temporary_folder.hpp"
+#include "internal/plot/comparison_plot.hpp"
 #include "internal/report/html.hpp"
 #include "internal/report/words.hpp"
 #include "samara/base/error.hpp"
 #include "samara/body/body_file.hpp"
+#include "samara/motion/motion_file.hpp"
 
 namespace samara {
 namespace {
@@ -278,8 +282,30 @@ struct SwingsApart {
     }
 };
 
+/// A fall as 'samara compare' draws it: paths, inclination, spectra and distributions.
+std::string fall_picture(const Body& body, const FallRecord& record) {
+    const TemporaryFolder folder;
+    const FallMotions motions = fall_motions(body, record);
+    write_motion_file(folder / "flown", motions.flown);
+    write_motion_file(folder / "solved", motions.solved);
+    const MotionReader flown(folder / "flown");
+    const MotionReader solved(folder / "solved");
+    const std::string& name = record.fall.name;
+    FallChoice one;
+    one.name = name + ", flown";
+    one.file = &flown;
+    FallChoice other;
+    other.name = name + ", solved";
+    other.file = &solved;
+    const Comparison comparison = compare(one, other, {}, [](double, double) {});
+    return html_picture(
+        name + ": its path, inclination and swings, solved and flown",
+        [&](const fs::path& file) { plot_comparison(file, comparison, one.name, "solved by full CFD"); });
+}
+
 void Folder::tell_falls(const Told& told) {
     Rows rows;
+    std::string pictures;
     double farthest = 0.0;
     SwingsApart swings;
     FallBalance worst;
@@ -302,6 +328,7 @@ void Folder::tell_falls(const Told& told) {
                 {planned.name, figures_of(flown.solved), figures_of(flown.flown), per_cent(difference),
                  fmt::format("{}, {}", per_cent(flown.balance.force), per_cent(flown.balance.moment)),
                  in_plain_digits(record.fall.mass / record.fall.volume * record.fall.fluid_density)});
+            pictures += fall_picture(body_, record);
         });
     }
     told(1.0);
@@ -314,7 +341,8 @@ void Folder::tell_falls(const Told& told) {
              "falls in full CFD, and of the runtime's flights from the same starts with this file.") +
              html_table({"fall", "solved", "flown", "descent speeds differ by",
                          "momenta balance to (force, moment)", "density kg/m³"},
-                        rows)});
+                        rows) +
+             pictures});
     if (farthest > 0.0) {
         report_.findings.push_back(
             {farthest <= good_fall   ? Grade::good

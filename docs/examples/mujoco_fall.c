@@ -8,20 +8,11 @@
  * matrices go into MuJoCo's mass matrix, so that its joints and contacts feel the fluid's inertia too.
  */
 #include <mujoco/mujoco.h>
-#include <samara.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-enum { most_dofs = 16, most_links = 4 };
+#include "water.h"
 
-static char error[512];
-
-static void check(samara_status status) {
-    if (status == SAMARA_OK) return;
-    fprintf(stderr, "mujoco-fall: %s\n", error);
-    exit(1);
-}
+enum { most_dofs = 16 };
 
 /* Bodies in both: number i of samara is body i + 1 of MuJoCo, with the shape's origin and axes. */
 typedef struct host {
@@ -121,31 +112,6 @@ static void step_host(host* h) {
 
 /* ---- What falls ---------------------------------------------------------------------------------------- */
 
-static samara_simulation* water(const samara_body* body, double step, int turbulent, const double* densities,
-                                int links) {
-    samara_settings settings;
-    samara_simulation* simulation;
-    samara_kind kind;
-    char name[16];
-    int i;
-    check(samara_default_settings(&settings, sizeof settings, error, sizeof error));
-    settings.step = step;
-    check(samara_simulation_create(&settings, &simulation, error, sizeof error));
-    for (i = 0; i < links; ++i) {
-        check(samara_default_kind(&kind, sizeof kind, error, sizeof error));
-        snprintf(name, sizeof name, "link-%d", i);
-        kind.name = name;
-        kind.density = densities[i];
-        if (!samara_body_has_tables(body)) kind.loads = SAMARA_LOADS_COEFFICIENTS;
-        if (!turbulent) kind.turbulence = SAMARA_TURBULENCE_NONE;
-        kind.orientation[0] = 0.9;
-        kind.orientation[1] = 0.3;
-        kind.orientation[2] = 0.3;
-        check(samara_simulation_add(simulation, body, &kind, NULL, error, sizeof error));
-    }
-    return simulation;
-}
-
 /* How one link is written in MuJoCo's XML: each the child of the one before, on a hinge between them. */
 static int write_link(char* text, size_t size, const samara_simulation* fluid, int link, double gap) {
     samara_mass_properties own;
@@ -212,19 +178,13 @@ static void free_host(host* h) {
 static double difference(const samara_body* body, double step) {
     const double density = 1200.0;
     host h = make_host(body, step, 0, &density, 1, 0.0);
-    samara_simulation* own = water(body, step, 0, &density, 1);
-    samara_pose flown;
-    double off[3], way;
     const int steps = (int)(1.0 / step + 0.5);
+    double off;
     int i;
     for (i = 0; i < steps; ++i) step_host(&h);
-    check(samara_advance_to(own, steps * step, error, sizeof error));
-    check(samara_get_poses(own, 0, 1, &flown, 0, error, sizeof error));
-    for (i = 0; i < 3; ++i) off[i] = h.data->qpos[i] - flown.position[i];
-    way = mju_norm3(flown.position);
+    off = off_from_own_flight(body, step, density, steps * step, h.data->qpos);
     free_host(&h);
-    samara_simulation_free(own);
-    return mju_norm3(off) / way;
+    return off;
 }
 
 int main(int count, char** words) {

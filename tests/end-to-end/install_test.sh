@@ -39,4 +39,22 @@ PKG_CONFIG_PATH=$library pkg-config --modversion samara | grep -q '^[0-9]'
 cc -std=c99 "$source_folder/docs/examples/fall.c" $(PKG_CONFIG_PATH=$library pkg-config --cflags --libs samara) \
   -Wl,-rpath,"$(dirname "$library")" -o "$work/fall"
 "$work/fall" "$source_folder/runtime/bodies/leaf.body.h5" | grep -q '^1.0000 s  body 2'
+# The wheel, by the same build folder, where its backend is installed (./dev test does so).
+if /usr/bin/python3 -c 'import scikit_build_core, pip' 2>/dev/null; then
+  settings=()
+  for setting in build-dir="$work/build" cmake.build-type=Debug cmake.define.CMAKE_CXX_FLAGS_DEBUG=-O0 cmake.define.SAMARA_PAGE=OFF; do
+    settings+=(--config-settings "$setting")
+  done
+  /usr/bin/python3 -m pip wheel "$source_folder" --quiet --no-build-isolation --no-deps --wheel-dir "$work/wheel" "${settings[@]}"
+  /usr/bin/python3 -m pip install --quiet --no-deps --target "$work/site" "$work"/wheel/samara-*.whl
+  cd "$work"
+  PYTHONPATH=$work/site /usr/bin/python3 -c '
+import samara
+leaf = {"name": "leaf", "shape": "samara:leaf"}
+motion = samara.simulate({"scene": {"duration": 1}, "fluid": {"preset": "air"}, "body": [leaf]})
+print(samara.__file__, motion["leaf"].measure()["descent_speed"])' >flown
+  grep -q "^$work/site/samara" flown
+else
+  echo "the wheel was not tried: python3-scikit-build-core is missing"
+fi
 rm -rf "$work"

@@ -39,6 +39,12 @@ for name, o in objects.items():
         found[name]["mesh"] = o.data.name
         found[name]["vertices"] = [list(v.co) for v in o.data.vertices]
         found[name]["materials"] = [slot.name for slot in o.material_slots]
+        found[name]["images"] = [
+            [node.image.name, *node.image.size]
+            for slot in o.material_slots
+            for node in slot.material.node_tree.nodes
+            if node.type == "TEX_IMAGE"
+        ]
         found[name]["slots"] = [polygon.material_index for polygon in o.data.polygons]
         found[name]["uvs"] = [list(place.uv) for layer in o.data.uv_layers for place in layer.data]
 for frame in range(int(last_frame) + 1):

@@ -3,13 +3,16 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <string>
+#include <string_view>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <tiny_gltf.h>
 
 #include "internal/base/content_hash.hpp"
+#include "internal/body/look_image.hpp"
 #include "samara/base/error.hpp"
 
 namespace samara {
@@ -23,8 +26,10 @@ Vector3d z_up(const Vector3d& vector) {
     return {vector.x(), -vector.z(), vector.y()};
 }
 
-bool no_image(tinygltf::Image* /*image*/, int /*index*/, std::string* /*error*/, std::string* /*warning*/,
-              int /*width*/, int /*height*/, const unsigned char* /*bytes*/, int /*size*/, void* /*data*/) {
+/// Keeps the bytes of an image that stands in the text; those of a buffer are read later, and with care.
+bool keep_image(tinygltf::Image* image, int /*index*/, std::string* /*error*/, std::string* /*warning*/,
+                int /*width*/, int /*height*/, const unsigned char* bytes, int size, void* /*data*/) {
+    if (image->bufferView < 0 && size > 0) image->image.assign(bytes, bytes + size);
     return true;
 }
 
@@ -47,13 +52,19 @@ class GlbReader {
         const std::string bytes = read_bytes(file);
         if (bytes.size() > std::numeric_limits<unsigned int>::max()) fail("is larger than 4 GB");
         tinygltf::TinyGLTF loader;
-        loader.SetImageLoader(no_image, nullptr);
+        loader.SetImageLoader(keep_image, nullptr);
         loader.SetFsCallbacks(no_files());
         std::string error;
         std::string warning;
         const auto* first = reinterpret_cast<const unsigned char*>(bytes.data());
-        if (!loader.LoadBinaryFromMemory(&model_, &error, &warning, first,
-                                         static_cast<unsigned int>(bytes.size()))) {
+        bool read = false;
+        try {
+            read = loader.LoadBinaryFromMemory(&model_, &error, &warning, first,
+                                               static_cast<unsigned int>(bytes.size()));
+        } catch (const std::exception&) {  // of what it did not expect, such as an image without bytes
+            error.clear();
+        }
+        if (!read) {
             while (!error.empty() && std::isspace(static_cast<unsigned char>(error.back())) != 0)
                 error.pop_back();
             std::replace(error.begin(), error.end(), '\n', ' ');
@@ -75,6 +86,9 @@ class GlbReader {
             for (std::size_t i = 0; i < std::min<std::size_t>(4, color.size()); ++i) {
                 slot.color[i] = std::isfinite(color[i]) ? std::clamp(color[i], 0.0, 1.0) : 1.0;
             }
+            slot.image = image_of(material.pbrMetallicRoughness.baseColorTexture);
+            if (material.alphaMode == "MASK") slot.transparency = LookTransparency::cut_out;
+            if (material.alphaMode == "BLEND") slot.transparency = LookTransparency::blended;
         }
         if (model_.scenes.empty()) fail("shows no scene");
         const std::size_t shown = model_.defaultScene < 0 ? 0 : static_cast<std::size_t>(model_.defaultScene);
@@ -96,6 +110,33 @@ class GlbReader {
             fail(fmt::format("names a {} that is not there", what));
         }
         return parts[static_cast<std::size_t>(index)];
+    }
+
+    /// The number in the look of the image that a texture shows; -1 where it shows none that can be carried.
+    std::int32_t image_of(const tinygltf::TextureInfo& info) {
+        if (info.index < 0 || info.texCoord != 0) return -1;
+        const tinygltf::Texture& texture = at(model_.textures, info.index, "texture");
+        if (texture.source < 0) return -1;
+        const auto [known, is_new] = images_.try_emplace(texture.source, -1);
+        if (!is_new) return known->second;
+        const tinygltf::Image& image = at(model_.images, texture.source, "image");
+        const std::string_view bytes = bytes_of(image);
+        if (image_type(bytes) == nullptr) return -1;
+        look_.images.push_back({image.name, std::string(bytes)});
+        known->second = static_cast<std::int32_t>(look_.images.size()) - 1;
+        return known->second;
+    }
+
+    [[nodiscard]] std::string_view bytes_of(const tinygltf::Image& image) const {
+        if (image.bufferView < 0) {
+            return {reinterpret_cast<const char*>(image.image.data()), image.image.size()};
+        }
+        const tinygltf::BufferView& view = at(model_.bufferViews, image.bufferView, "view of its bytes");
+        const std::vector<unsigned char>& bytes = at(model_.buffers, view.buffer, "buffer").data;
+        if (view.byteOffset > bytes.size() || view.byteLength > bytes.size() - view.byteOffset) {
+            fail("is cut short");
+        }
+        return {reinterpret_cast<const char*>(bytes.data()) + view.byteOffset, view.byteLength};
     }
 
     void add_node(int index, const Eigen::Affine3d& parent, std::size_t depth) {
@@ -244,7 +285,7 @@ class GlbReader {
         }
         if (plain_slot_ < 0) {
             plain_slot_ = static_cast<std::int32_t>(look_.materials.size());
-            look_.materials.push_back({"body", {0.8, 0.8, 0.8, 1.0}});
+            look_.materials.emplace_back().name = "body";
         }
         return plain_slot_;
     }
@@ -252,6 +293,7 @@ class GlbReader {
     std::string label_;
     tinygltf::Model model_;
     LookMesh look_;
+    std::map<int, std::int32_t> images_;  // of the file: their numbers in the look
     std::int32_t plain_slot_ = -1;
     bool has_normals_ = true;
     bool has_texture_ = false;

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "internal/base/content_hash.hpp"
+#include "internal/body/look_image.hpp"
 #include "internal/body/polygon_triangles.hpp"
 #include "samara/base/error.hpp"
 
@@ -34,6 +35,9 @@ class Words {
         rest_.remove_prefix(word.size());
         return word;
     }
+
+    /// What was not taken yet.
+    [[nodiscard]] std::string_view rest() const { return rest_; }
 
   private:
     std::string_view rest_;
@@ -72,7 +76,7 @@ class ObjReader {
 
     /// What was read besides the surface.
     LookMesh look(const std::filesystem::path& folder) {
-        for (const std::string& library : libraries_) read_colors(folder / library);
+        for (const std::string& library : libraries_) read_materials(folder / library, folder);
         if (!all_have_normals_) look_.normals.clear();
         if (texture_.empty()) look_.texture.clear();
         return std::move(look_);
@@ -113,12 +117,40 @@ class ObjReader {
             if (look_.materials[i].name == name) return static_cast<std::int32_t>(i);
         }
         if (look_.materials.size() == most_materials) fail("too many materials");
-        look_.materials.push_back({name, LookMaterial().color});
+        look_.materials.emplace_back().name = name;
         return static_cast<std::int32_t>(look_.materials.size()) - 1;
     }
 
+    /// The image that a line of a file of materials names behind its options: where the file says, unless
+    /// that is outside of the .obj's folder, else beside it; -1 where there is none to carry.
+    std::int32_t image_named(std::string_view rest, const std::filesystem::path& folder) {
+        constexpr std::string_view blanks = " \t";
+        rest.remove_prefix(std::min(rest.find_first_not_of(blanks), rest.size()));
+        rest.remove_suffix(rest.size() - std::min(rest.find_last_not_of(blanks) + 1, rest.size()));
+        if (rest.starts_with('-')) rest.remove_prefix(rest.find_last_of(blanks) + 1);
+        std::string name(rest);
+        std::replace(name.begin(), name.end(), '\\', '/');
+        std::filesystem::path place = name;
+        std::error_code missing;
+        if (place.is_absolute() || name.find("..") != std::string::npos ||
+            !std::filesystem::is_regular_file(folder / place, missing)) {
+            place = place.filename();
+        }
+        const std::filesystem::path file = folder / place;
+        const auto [known, is_new] = images_.try_emplace(file.string(), -1);
+        if (!is_new || !std::filesystem::is_regular_file(file, missing) ||
+            std::filesystem::file_size(file, missing) > most_image_bytes) {
+            return known->second;
+        }
+        std::string bytes = read_bytes(file);
+        if (image_type(bytes) == nullptr) return -1;
+        look_.images.push_back({place.stem().string(), std::move(bytes)});
+        known->second = static_cast<std::int32_t>(look_.images.size()) - 1;
+        return known->second;
+    }
+
     /// Of a file of materials, where it can be read.
-    void read_colors(const std::filesystem::path& file) {
+    void read_materials(const std::filesystem::path& file, const std::filesystem::path& folder) {
         std::error_code missing;
         if (!std::filesystem::is_regular_file(file, missing)) return;
         LookMaterial* material = nullptr;
@@ -139,6 +171,8 @@ class ObjReader {
             if (keyword == "d" && read_number(words.next(), number)) {
                 material->color[3] = std::clamp(number, 0.0, 1.0);
             }
+            if (keyword == "map_Kd") material->image = image_named(words.rest(), folder);
+            if (keyword == "map_d") material->transparency = LookTransparency::cut_out;
         });
     }
 
@@ -254,6 +288,7 @@ class ObjReader {
     std::vector<Eigen::Vector2d> texture_;
     std::vector<Vector3d> normals_;
     std::vector<std::string> libraries_;
+    std::unordered_map<std::string, std::int32_t> images_;  // by file: their numbers in the look
     std::unordered_map<std::string, std::size_t> known_;
 };
 

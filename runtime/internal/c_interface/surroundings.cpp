@@ -15,6 +15,7 @@
 #include "internal/c_interface/objects.hpp"
 #include "internal/scene/wind_table.hpp"
 #include "samara.h"
+#include "samara/physics/obstacle_motion.hpp"
 
 namespace {
 
@@ -93,6 +94,11 @@ samara::Obstacle read_obstacle(const samara_obstacle& all, std::size_t number) {
     } catch (const samara::Error& fault) {
         throw Fault(SAMARA_INVALID_ARGUMENT,
                     fmt::format("obstacle '{}' is no sound surface: {}", obstacle.name, fault.what()));
+    }
+    try {
+        samara::require_steady_keys(obstacle);
+    } catch (const samara::Error& fault) {
+        samara::refuse("keys", fmt::format("of obstacle '{}' {}", obstacle.name, fault.what()));
     }
     return obstacle;
 }

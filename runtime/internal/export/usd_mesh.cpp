@@ -54,6 +54,52 @@ std::map<std::int32_t, std::vector<std::size_t>> faces_by_slot(const LookMesh& l
     return faces;
 }
 
+/// A preview surface; where there is an image, its texture and what reads the UVs.
+std::string usd_material(const std::string& name, const LookMaterial& material,
+                         const std::vector<std::string>& image_files, const std::string& outer) {
+    const std::string inner = outer + "    ";
+    const std::string innermost = inner + "    ";
+    const std::array<double, 4>& color = material.color;
+    fmt::memory_buffer text;
+    const auto line = std::back_inserter(text);
+    fmt::format_to(line,
+                   "\n{0}def Material \"{3}\"\n{0}{{\n{1}token outputs:surface.connect = "
+                   "<preview.outputs:surface>\n\n"
+                   "{1}def Shader \"preview\"\n{1}{{\n{2}uniform token info:id = \"UsdPreviewSurface\"\n",
+                   outer, inner, innermost, name);
+    if (material.image < 0) {
+        fmt::format_to(
+            line, "{0}color3f inputs:diffuseColor = ({1}, {2}, {3})\n{0}float inputs:opacity = {4}\n",
+            innermost, usd_float(color[0]), usd_float(color[1]), usd_float(color[2]), usd_float(color[3]));
+    } else {
+        fmt::format_to(line, "{0}color3f inputs:diffuseColor.connect = <../image.outputs:rgb>\n", innermost);
+        if (material.transparency != LookTransparency::none) {
+            fmt::format_to(line, "{}float inputs:opacity.connect = <../image.outputs:a>\n", innermost);
+        }
+        if (material.transparency == LookTransparency::cut_out) {
+            fmt::format_to(line, "{}float inputs:opacityThreshold = 0.5\n", innermost);
+        }
+    }
+    fmt::format_to(line, "{1}float inputs:roughness = 0.6\n{1}token outputs:surface\n{0}}}\n", inner,
+                   innermost);
+    if (material.image >= 0) {
+        fmt::format_to(line,
+                       "\n{0}def Shader \"image\"\n{0}{{\n{1}uniform token info:id = \"UsdUVTexture\"\n"
+                       "{1}asset inputs:file = @{2}@\n{1}float4 inputs:scale = ({3}, {4}, {5}, {6})\n"
+                       "{1}token inputs:sourceColorSpace = \"sRGB\"\n"
+                       "{1}float2 inputs:st.connect = <../uv.outputs:result>\n"
+                       "{1}token inputs:wrapS = \"repeat\"\n{1}token inputs:wrapT = \"repeat\"\n"
+                       "{1}float outputs:a\n{1}float3 outputs:rgb\n{0}}}\n"
+                       "\n{0}def Shader \"uv\"\n{0}{{\n"
+                       "{1}uniform token info:id = \"UsdPrimvarReader_float2\"\n"
+                       "{1}string inputs:varname = \"st\"\n{1}float2 outputs:result\n{0}}}\n",
+                       inner, innermost, image_files[static_cast<std::size_t>(material.image)],
+                       usd_float(color[0]), usd_float(color[1]), usd_float(color[2]), usd_float(color[3]));
+    }
+    fmt::format_to(line, "{}}}\n", outer);
+    return fmt::to_string(text);
+}
+
 }  // namespace
 
 std::string usd_float(double value) {
@@ -104,7 +150,7 @@ std::string usd_mesh(const Surface& surface, std::size_t indent, double grey, bo
     return fmt::to_string(text);
 }
 
-std::string usd_look(const LookMesh& look, std::size_t indent) {
+std::string usd_look(const LookMesh& look, const std::vector<std::string>& image_files, std::size_t indent) {
     const std::string outer(indent, ' ');
     const std::string inner = outer + "    ";
     const std::string innermost = inner + "    ";
@@ -154,15 +200,8 @@ std::string usd_look(const LookMesh& look, std::size_t indent) {
     }
     fmt::format_to(line, "{}}}\n", outer);
     for (const auto& [slot, name] : names) {
-        const std::array<double, 4>& color = look.materials[static_cast<std::size_t>(slot)].color;
-        fmt::format_to(line,
-                       "\n{0}def Material \"{3}\"\n{0}{{\n{1}token outputs:surface.connect = "
-                       "<preview.outputs:surface>\n\n"
-                       "{1}def Shader \"preview\"\n{1}{{\n{2}uniform token info:id = \"UsdPreviewSurface\"\n"
-                       "{2}color3f inputs:diffuseColor = ({4}, {5}, {6})\n{2}float inputs:opacity = {7}\n"
-                       "{2}float inputs:roughness = 0.6\n{2}token outputs:surface\n{1}}}\n{0}}}\n",
-                       outer, inner, innermost, name, usd_float(color[0]), usd_float(color[1]),
-                       usd_float(color[2]), usd_float(color[3]));
+        const LookMaterial& material = look.materials[static_cast<std::size_t>(slot)];
+        text.append(usd_material(name, material, image_files, outer));
     }
     return fmt::to_string(text);
 }

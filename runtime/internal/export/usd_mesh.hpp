@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "samara/body/look_mesh.hpp"
 #include "samara/body/surface.hpp"
@@ -20,7 +21,7 @@ std::string usd_mesh(const Surface& surface, std::size_t indent, double grey = 0
                      bool double_sided = false);
 
 /// The Mesh prim "mesh" of a look with its texture coordinates (primvars:st), a subset of faces for each of
-/// its materials in use, and these beside it.
-std::string usd_look(const LookMesh& look, std::size_t indent);
+/// its materials in use, and these beside it. `image_files`: where its images are, from the stage's folder.
+std::string usd_look(const LookMesh& look, const std::vector<std::string>& image_files, std::size_t indent);
 
 }  // namespace samara

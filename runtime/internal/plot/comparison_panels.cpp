@@ -157,8 +157,10 @@ PanelText inclination_panel(const Comparison& comparison, const Box& box) {
     if (const auto& swing = comparison.first_swing.end; swing && *swing < end) {
         text.plots += vertical_line(*swing, gray, "(2,4)");
         text.plots += fmt::format(
-            "set label 98 'first swing' at first {:.9g}, graph 0.94 {} tc rgb '#{:06x}' front\n", *swing,
-            *swing < 0.5 * end ? "left offset character 0.6,0" : "right offset character -0.6,0", gray);
+            "set style textbox opaque noborder margins 0.3,0.3\n"
+            "set label 98 'first swing' at first {:.9g}, graph 0.94 {} tc rgb '#{:06x}' front boxed\n",
+            *swing, *swing < 0.5 * end ? "left offset character 0.6,0" : "right offset character -0.6,0",
+            gray);
     }
     text.plots += plot + '\n' + end_panel();
     return text;

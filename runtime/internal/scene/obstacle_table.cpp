@@ -12,6 +12,7 @@
 #include "internal/body/welded_surface.hpp"
 #include "internal/files/input_file.hpp"
 #include "internal/scene/plain_name.hpp"
+#include "samara/physics/obstacle_motion.hpp"
 
 namespace samara {
 namespace {
@@ -63,6 +64,14 @@ std::vector<ObstacleKey> read_keys(TomlTable& table, const ObstaclePlace& place)
     return keys;
 }
 
+void require_steady(const TomlTable& table, const Obstacle& obstacle) {
+    try {
+        require_steady_keys(obstacle);
+    } catch (const Error& fault) {
+        throw table.fault("keys", fault.what());
+    }
+}
+
 /// Shape, scale, place and keys.
 void read_solid(TomlTable& table, const std::filesystem::path& folder, Obstacle& obstacle) {
     const auto shape = table.text("shape");
@@ -71,6 +80,7 @@ void read_solid(TomlTable& table, const std::filesystem::path& folder, Obstacle&
     const double scale = table.number("scale", positive_number).value_or(1.0);
     for (Vector3d& vertex : obstacle.surface.vertices) vertex *= scale;
     obstacle.keys = read_keys(table, read_place(table, {}));
+    require_steady(table, obstacle);
 }
 
 }  // namespace
@@ -81,11 +91,7 @@ Emitter read_emitter(TomlTable& table, const std::filesystem::path& folder) {
     const double offset = table.number("offset", non_negative_number).value_or(0.0);
     const double speed = table.number("speed", any_number).value_or(0.0);
     table.finish();
-    try {
-        return make_emitter(std::move(mesh), offset, speed);
-    } catch (const Error& fault) {
-        throw table.fault("keys", fault.what());
-    }
+    return make_emitter(std::move(mesh), offset, speed);
 }
 
 Obstacle read_obstacle(TomlTable& table, const std::filesystem::path& folder) {

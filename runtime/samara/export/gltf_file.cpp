@@ -4,11 +4,13 @@
 #include <limits>
 #include <map>
 #include <ostream>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <tiny_gltf.h>
 
 #include "internal/base/printable.hpp"
+#include "internal/body/look_image.hpp"
 #include "internal/export/key_reduction.hpp"
 #include "internal/export/shaded_mesh.hpp"
 #include "internal/export/shape_pose.hpp"
@@ -70,6 +72,23 @@ class Builder {
         tinygltf::Accessor accessor = next_accessor(3 * triangles.size(), TINYGLTF_TYPE_SCALAR);
         accessor.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
         return add(accessor, triangles.data(), triangles.size() * sizeof triangles[0]);
+    }
+
+    /// A texture of an image file; returns its number.
+    int add_texture(const LookImage& image) {
+        begin_view(0);
+        bytes().insert(bytes().end(), image.bytes.begin(), image.bytes.end());
+        model_.bufferViews.back().byteLength = image.bytes.size();
+        bytes().resize((bytes().size() + 3) / 4 * 4);  // floats follow
+        tinygltf::Image added;
+        added.name = printable(image.name);
+        added.bufferView = static_cast<int>(model_.bufferViews.size()) - 1;
+        added.mimeType = image_type(image.bytes) == std::string_view("png") ? "image/png" : "image/jpeg";
+        model_.images.push_back(added);
+        tinygltf::Texture texture;
+        texture.source = static_cast<int>(model_.images.size()) - 1;
+        model_.textures.push_back(texture);
+        return static_cast<int>(model_.textures.size()) - 1;
     }
 
   private:
@@ -158,13 +177,22 @@ int add_look(Builder& builder, const std::string& name, const LookMesh& look) {
         builder.begin_view(TINYGLTF_TARGET_ARRAY_BUFFER);
         attributes["TEXCOORD_0"] = builder.add_floats(values, 2, TINYGLTF_TYPE_VEC2);
     }
+    std::vector<int> textures;
+    for (const LookImage& image : look.images) textures.push_back(builder.add_texture(image));
     for (std::size_t slot = 0; slot < look.materials.size(); ++slot) {
         const LookMaterial& material = look.materials[slot];
         builder.model().materials.push_back(matte_material(printable(material.name).c_str(), 1.0));
         tinygltf::Material& added = builder.model().materials.back();
         added.pbrMetallicRoughness.baseColorFactor.assign(material.color.begin(), material.color.end());
         added.doubleSided = true;  // a look may be a sheet
-        if (material.color[3] < 1.0) added.alphaMode = "BLEND";
+        if (material.image >= 0) {
+            added.pbrMetallicRoughness.baseColorTexture.index =
+                textures[static_cast<std::size_t>(material.image)];
+        }
+        if (material.transparency == LookTransparency::cut_out) added.alphaMode = "MASK";
+        if (material.transparency == LookTransparency::blended || material.color[3] < 1.0) {
+            added.alphaMode = "BLEND";
+        }
         std::vector<std::array<std::uint32_t, 3>> triangles;
         for (std::size_t i = 0; i < look.corners.size(); ++i) {
             if (look.slots[i] != static_cast<std::int32_t>(slot)) continue;

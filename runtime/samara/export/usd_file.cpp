@@ -1,5 +1,6 @@
 #include "samara/export/usd_file.hpp"
 
+#include <cctype>
 #include <cmath>
 #include <iterator>
 #include <numbers>
@@ -8,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "internal/base/as_index.hpp"
+#include "internal/body/look_image.hpp"
 #include "internal/export/key_reduction.hpp"
 #include "internal/export/prim_names.hpp"
 #include "internal/export/shape_pose.hpp"
@@ -29,11 +31,38 @@ std::vector<double> time_codes(const Motion& motion) {
     return codes;
 }
 
+/// Of each body the files of its look's images, from the stage's folder.
+using ImageFiles = std::vector<std::vector<std::string>>;
+
+/// Writes the images of all looks into the folder STAGE.images beside the stage.
+ImageFiles write_images(const std::filesystem::path& stage, const Motion& motion) {
+    std::string folder = stage.stem().string() + ".images";
+    for (char& letter : folder) {
+        if (letter == '@' || std::iscntrl(static_cast<unsigned char>(letter)) != 0)
+            letter = '_';  // ends a path in USD
+    }
+    PrimNames names;
+    ImageFiles files;
+    for (const BodyMotion& body : motion.bodies) {
+        files.emplace_back();
+        if (body.look == nullptr) continue;
+        for (const LookImage& image : body.look->images) {
+            const std::string name = names(image.name) + "." + image_type(image.bytes);
+            const std::filesystem::path file = stage.parent_path() / folder / name;
+            std::error_code fault;  // which the write will meet
+            std::filesystem::create_directories(file.parent_path(), fault);
+            replace_file_with(file, image.bytes);
+            files.back().push_back(fmt::format("./{}/{}", folder, name));
+        }
+    }
+    return files;
+}
+
 /// Writes the stage of one run.
 class Stage {
   public:
-    Stage(std::ostream& stream, const Motion& motion, int run)
-        : stream_(stream), motion_(motion), run_(run), codes_(time_codes(motion)) {}
+    Stage(std::ostream& stream, const Motion& motion, int run, const ImageFiles& images)
+        : stream_(stream), motion_(motion), run_(run), images_(images), codes_(time_codes(motion)) {}
 
     std::size_t write(const std::optional<double>& tolerance) {
         print(
@@ -63,8 +92,10 @@ class Stage {
         stream_.write(text_.data(), static_cast<std::streamsize>(text_.size()));
     }
 
-    static std::string shape_of(const BodyMotion& body, std::size_t indent) {
-        return body.look != nullptr ? usd_look(*body.look, indent) : usd_mesh(body.surface, indent);
+    [[nodiscard]] std::string shape_of(const BodyMotion& body, std::size_t indent) const {
+        if (body.look == nullptr) return usd_mesh(body.surface, indent);
+        const auto number = static_cast<std::size_t>(&body - motion_.bodies.data());
+        return usd_look(*body.look, images_[number], indent);
     }
 
     void write_transforms(const BodyMotion& body, const KeyTolerance& tolerance) {
@@ -208,6 +239,7 @@ class Stage {
     std::ostream& stream_;
     const Motion& motion_;
     int run_;
+    const ImageFiles& images_;
     std::vector<double> codes_;
     PrimNames names_;
     fmt::memory_buffer text_;
@@ -219,8 +251,9 @@ class Stage {
 std::size_t write_usda(const std::filesystem::path& file, const Motion& motion, int run,
                        const std::optional<double>& tolerance) {
     std::size_t samples = 0;
+    const ImageFiles images = write_images(file, motion);
     replace_file_by_stream(
-        file, [&](std::ostream& stream) { samples = Stage(stream, motion, run).write(tolerance); });
+        file, [&](std::ostream& stream) { samples = Stage(stream, motion, run, images).write(tolerance); });
     return samples;
 }
 

@@ -23,6 +23,8 @@ inline constexpr int most_usd_transforms = 100;
 /// there twice: as `orientationsf` (quatf), which OpenUSD prefers from 24.03 on, and as `orientations`
 /// (quath, to 5e-4), which every version reads. Positions are floats, as the schema asks.
 ///
+/// Images of looks are files in the folder STAGE.images beside it, which its materials name.
+///
 /// Normals are smooth over curved parts and sharp at creases (shaded_mesh.hpp). Numbers are the shortest text
 /// that reads back as the same float or double. Equal motions give equal bytes. Throws Error where the file
 /// cannot be written; `run` must be in the motion. Returns the number of time samples.

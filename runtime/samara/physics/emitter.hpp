@@ -15,10 +15,8 @@ struct Emitter {
     std::vector<double> areas;  ///< m^2: of each triangle and all before it
 };
 
-/// An emitter with its areas. Between two keys no point of the mesh may move faster than most_emitter_speed:
-/// else it jumps. Throws Error, which names the times, where one does.
+/// An emitter with its areas. Throws Error as require_steady_keys() does: what leaves it has its velocity.
 Emitter make_emitter(Obstacle mesh, double offset, double speed);
-inline constexpr double most_emitter_speed = 100.0;  ///< m/s
 
 /// How something leaves an emitter.
 struct Emission {

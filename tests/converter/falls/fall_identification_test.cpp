@@ -215,6 +215,22 @@ TEST_F(FallIdentification, FliesAFallFromTheSpeedItHasAfterTheFirstInstant) {
     EXPECT_NEAR(flown.rms_angular_speed, solved.rms_angular_speed, 0.01 * solved.rms_angular_speed);
 }
 
+TEST_F(FallIdentification, ShowsAFallAndItsFlightWithGravityDownwards) {
+    Body body = body_;
+    body.dynamic = {.values = true_, .standard_errors = {}, .densities = {}};
+    const FallMotions motions = fall_motions(body, record_);
+    const FlownFall figures = fly_fall(body, record_);
+    EXPECT_EQ(motions.solved.times, motions.flown.times);
+    for (const Motion* motion : {&motions.solved, &motions.flown}) {
+        EXPECT_LT((motion->gravity.normalized() + Vector3d::UnitZ()).norm(), 1e-12);
+        EXPECT_EQ(motion->bodies[0].surface.corners, body.surface.corners);
+        EXPECT_LT(motion->bodies[0].poses.back().position.z(), 0.0);
+    }
+    const Measures measures = measure(motions.flown, motions.flown.bodies[0]);
+    EXPECT_NEAR(measures.descent_speed, figures.flown.descent_speed, 1e-9 * figures.flown.descent_speed);
+    EXPECT_NEAR(measures.inclination_amplitude, figures.flown.inclination_amplitude, 1e-9);
+}
+
 TEST_F(FallIdentification, LeavesOutTheTermsThatItIsToldTo) {
     const Identification without = identify_motion(body_, {record_}, {"wake by velocity", "wake by turning"});
     EXPECT_EQ(without.coefficients.values.wake_by_velocity, Matrix3d::Zero());

@@ -21,6 +21,7 @@ using testing::HasSubstr;
 
 LookMesh painted(const TemporaryFolder& folder) {
     (void)folder.file("leaf.mtl", test::painted_mtl);
+    (void)folder.file("leaf.png", test::painted_png());
     return read_look_file(folder.file("leaf.obj", test::painted_obj));
 }
 
@@ -47,6 +48,13 @@ void expect_same(const LookMesh& one, const LookMesh& other, double tolerance) {
         for (std::size_t k = 0; k < 4; ++k) {
             EXPECT_NEAR(one.materials[i].color[k], other.materials[i].color[k], tolerance);
         }
+        EXPECT_EQ(one.materials[i].image, other.materials[i].image);
+    }
+    EXPECT_EQ(one.materials[0].transparency, other.materials[0].transparency);
+    ASSERT_EQ(one.images.size(), other.images.size());
+    for (std::size_t i = 0; i < one.images.size(); ++i) {
+        EXPECT_EQ(one.images[i].name, other.images[i].name);
+        EXPECT_EQ(one.images[i].bytes, other.images[i].bytes);
     }
 }
 
@@ -68,6 +76,21 @@ TEST(LookFile, KeepsTextureCoordinatesNormalsAndMaterialsOfAnObj) {
         }
     }
     for (const Vector3d& normal : look.normals) EXPECT_EQ(normal, Vector3d::UnitZ());
+}
+
+TEST(LookFile, CarriesTheImageThatLiesBesideAnObj) {
+    const TemporaryFolder folder;
+    const LookMesh look = painted(folder);
+    ASSERT_EQ(look.images.size(), 1U) << "of a path on another machine the name is looked for";
+    EXPECT_EQ(look.images[0].name, "leaf");
+    EXPECT_EQ(look.images[0].bytes, test::painted_png());
+    EXPECT_EQ(look.materials[0].image, 0);
+    EXPECT_EQ(look.materials[0].transparency, LookTransparency::cut_out);
+    EXPECT_EQ(look.materials[1].image, -1);
+    (void)folder.file("leaf.png", "GIF89a, or a key that is nobody's business");
+    EXPECT_EQ(read_look_file(folder / "leaf.obj").materials[0].image, -1);
+    std::filesystem::remove(folder / "leaf.png");
+    EXPECT_TRUE(read_look_file(folder / "leaf.obj").images.empty());
 }
 
 TEST(LookFile, ReadsWhatWasWrittenAsGlbTheSame) {

@@ -215,6 +215,7 @@ TEST(CObstacle, ThatIsMovedInFlightIsInTheState) {
 TEST(CObstacle, OutOfRangeIsRefusedByName) {
     using Change = void (*)(samara_obstacle&);
     static const samara_obstacle_key unordered[] = {key_at(1.0, 0.0), key_at(1.0, 1.0)};
+    static const samara_obstacle_key jumping[] = {key_at(1.0, 0.0), key_at(1.01, 2.0)};
     static const samara_obstacle_key endless[] = {key_at(not_a_number, 0.0)};
     static const std::int32_t far_corners[] = {0, 1, 5000};
     const std::vector<std::pair<const char*, Change>> changes = {
@@ -229,6 +230,8 @@ TEST(CObstacle, OutOfRangeIsRefusedByName) {
         {"keys", [](samara_obstacle& o) { o.key_count = 2; }},
         {"time", [](samara_obstacle& o) { o.keys = unordered, o.key_count = 2; }},
         {"time", [](samara_obstacle& o) { o.keys = endless, o.key_count = 1; }},
+        {"keys of obstacle 'obstacle-0' jump: from 1 s to 1.01 s",
+         [](samara_obstacle& o) { o.keys = jumping, o.key_count = 2; }},
         {"obstacle 'obstacle-0' is no sound surface",
          [](samara_obstacle& o) { o.triangles = far_corners, o.triangle_count = 1; }},
         {"obstacle 'obstacle-0' is no sound surface", [](samara_obstacle& o) { o.triangle_count = 0; }},

@@ -27,6 +27,7 @@ using testing::HasSubstr;
 /// Copies of a body that looks like the painted mesh.
 Motion painted_motion(const TemporaryFolder& folder, int copies) {
     (void)folder.file("leaf.mtl", test::painted_mtl);
+    (void)folder.file("leaf.png", test::painted_png());
     Motion motion = test::motion_of(test::wander, 0.5);
     BodyMotion& body = motion.bodies[0];
     body.look = std::make_shared<const LookMesh>(read_look_file(folder.file("leaf.obj", test::painted_obj)));
@@ -50,6 +51,9 @@ TEST(Look, IsSoundToTheKhronosValidator) {
     EXPECT_EQ(found["info"]["materialCount"], 3);
     EXPECT_EQ(found["info"]["totalTriangleCount"], 4);
     EXPECT_EQ(found["info"]["maxUVs"], 1);
+    const std::string resources = found["info"]["resources"].dump();
+    EXPECT_THAT(resources, HasSubstr(R"("mimeType":"image/png")"));
+    EXPECT_THAT(resources, HasSubstr(R"("width":1)"));
 }
 
 TEST(Look, ArrivesInUsdWithItsSubsetsMaterialsAndUVs) {
@@ -67,6 +71,9 @@ TEST(Look, ArrivesInUsdWithItsSubsetsMaterialsAndUVs) {
         EXPECT_THAT(stage, HasSubstr("GeomSubset \"stalk\""));
         EXPECT_THAT(stage, HasSubstr("Material \"stalk\""));
         EXPECT_THAT(stage, HasSubstr("UsdPreviewSurface"));
+        EXPECT_THAT(stage, HasSubstr("UsdUVTexture"));
+        EXPECT_THAT(stage, HasSubstr("@./motion.images/leaf.png@"));
+        EXPECT_EQ(read_bytes(folder / "motion.images/leaf.png"), test::painted_png());
     }
 }
 
@@ -85,6 +92,7 @@ TEST(Look, ArrivesInBlenderWithItsSlotsAndUVs) {
     const json& object = *found["objects"].begin();
     EXPECT_EQ(object["materials"], (json{"leaf_front", "stalk"}));
     EXPECT_EQ(object["slots"], (json{0, 0, 1, 1}));
+    EXPECT_EQ(object["images"].dump(), R"([["leaf",1,1]])");
     std::set<std::array<double, 2>> places;
     for (const json& uv : object["uvs"]) {
         places.insert({std::round(100.0 * uv[0].get<double>()) / 100.0,

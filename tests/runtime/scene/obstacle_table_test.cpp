@@ -94,6 +94,9 @@ TEST(Obstacle, OfBadInputIsRefusedInOneLineThatSaysWhereAndWhatToDo) {
                    "time in [[keys]] is missing");
     expect_refused("shape = \"mesh.obj\"\nkeys = [{ time = 1 }, { time = 1 }]\n",
                    "must be later than that of the key before");
+    expect_refused(
+        "shape = \"mesh.obj\"\nkeys = [{ time = 1 }, { time = 1.01, position = [2, 0, 0] }]\n",
+        "keys in [[obstacle]] jump: from 1 s to 1.01 s the mesh moves at 200 m/s, and 100 is the most");
     expect_refused("shape = \"mesh.obj\"\n", "turned against the others",
                    "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 4 3\nv 2 0 0\nf 2 5 3\n");
     expect_refused("shape = \"mesh.obj\"\n", "has no area",

@@ -118,7 +118,7 @@ TEST_F(SceneFile, AnEmitterHasTheKeysOfAnObstacleAndTakesThePlaceOfAPosition) {
                 AllOf(HasSubstr("position"), HasSubstr("stands beside emitter")));
     EXPECT_THAT(refusal(with_body("density = 1\nemitter = { shape = \"tree.obj\", keys = [{ time = 0 }, "
                                   "{ time = 0.001, position = [9, 0, 0] }] }\n")),
-                AllOf(HasSubstr("keys"), HasSubstr("jumps: from 0 s to 0.001 s")));
+                AllOf(HasSubstr("keys"), HasSubstr("jump: from 0 s to 0.001 s")));
     EXPECT_THAT(refusal(with_body("density = 1\nemitter = { shape = \"none.obj\" }\n")),
                 HasSubstr("cannot be had"));
 }
