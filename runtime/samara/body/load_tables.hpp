@@ -33,6 +33,9 @@ struct LoadTables {
     int subdivisions = 1;                  ///< n: each edge of the octahedron is cut into n
     Matrix3d axes = Matrix3d::Identity();  ///< columns: the map's axes, in body axes
     std::vector<double> reynolds_numbers;  ///< ascending
+    /// Whether Stokes' resistance stands beside the entries at every Reynolds number; else it is added below
+    /// the first alone, and fades out there.
+    bool stokes_throughout = false;
     std::vector<LoadEntry> entries;        ///< by index()
     std::vector<LoadEntryError> errors;    ///< beside the entries; empty where unknown
     std::string quality;                   ///< of the bake: smoke, preview, ...
