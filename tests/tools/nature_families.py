@@ -8,6 +8,7 @@ tables of them. BIN: the folder of the programs. Run from the project's folder; 
 """
 
 import csv
+import itertools
 import math
 import os
 import sys
@@ -84,8 +85,16 @@ def transition(rows):
 
 
 def strips_table():
-    rows = read(STRIPS)
-    return table(["Fr", *REGIMES], ([row["froude"]] + [row[regime] if row[regime] != "0" else "" for regime in REGIMES] for row in rows))
+    """The commonest regime of each stretch of Froude numbers."""
+    def lines():
+        stretches = itertools.groupby(read(STRIPS), lambda row: max(REGIMES, key=lambda regime: int(row[regime])))
+        for regime, of in stretches:
+            of = list(of)
+            shares = [int(row[regime]) / sum(int(row[each]) for each in REGIMES) for row in of]
+            spread = "" if min(shares) == max(shares) else f"{100 * min(shares):.0f} to "
+            yield [f"{of[0]['froude']} to {of[-1]['froude']}", regime, f"{spread}{100 * max(shares):.0f} %"]
+
+    return table(["Fr", "most of the 20", "share"], lines())
 
 
 def slope(points):

@@ -129,7 +129,7 @@ def cards():
         yield name, scene(
             f"A card of 120 x {width} x {thickness:g} mm of 800 kg/m^3 in air, let go at 30 degrees about its long axis (Mahadevan, Ryu "
             "and Samuel 1999). Their cards' sizes were not at hand: only the exponents of thickness and width are compared.",
-            2, AIR, name, f"{name}.geo", {"density": 800}, turned_about(0, 30), 0.0005, 400)
+            3, AIR, name, f"{name}.geo", {"density": 800}, turned_about(0, 30), 0.0005, 400)
 
 
 def discs():
