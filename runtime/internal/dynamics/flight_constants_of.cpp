@@ -181,8 +181,8 @@ void set_loads(const ImmersedBody& body, FlightConstants<Real>& c) {
         c.creeping_drag = static_cast<Real>(3.0 * creeping);
         c.potential_transport = symmetric<Real>(
             directed(body.added_mass - body.fluid_density * dynamic.transport) / (mass * tow));
-        c.creeping_fades =
-            static_cast<Real>(body.tables->stokes_throughout ? 0.0 : 1.0 / body.tables->reynolds_numbers.front());
+        c.creeping_fades = static_cast<Real>(
+            body.tables->stokes_throughout ? 0.0 : 1.0 / body.tables->reynolds_numbers.front());
         c.loads_by_direction = load_table<Real>(body);
     } else {
         c.drag_coefficient = static_cast<Real>(body.coefficients.drag_coefficient);
