@@ -24,8 +24,8 @@ from surface_report import plain
 FIGURES = dict(zip(("descent", "frequency", "amplitude", "angular_speed"), MEASURES))
 DEFAULT, BEST, SHAPE, ALONE = "MuJoCo default", "MuJoCo best", "MuJoCo best for each shape", "MuJoCo best for each fall"
 # The runtime, by the noise of its rows in falls.csv; and without a bake.
-OURS = {"samara, tables, noise": "on", "samara, tables": "off"}
-SURFACE = "samara, surface"
+OURS = {"samara by tables with noise": "on", "samara by tables": "off"}
+SURFACE = "samara by the surface"
 PLATES = ("disc-light", "disc-heavy", "plate", "sheet")
 # Models by their equations alone: their names, those of the program, the falls that they know, and whether their numbers
 # are published ones.
@@ -50,32 +50,34 @@ def searched(programs, folder, samples, model="mujoco", scenes=tuple(SCENES)):
         return json.load(file)
 
 
-def row_of(fall, who, comparison, step_seconds, second_seconds):
+def agreement(fall, within, same_regime):
+    """Whether a fall is within the limits and of the same regime, of which a sphere is not judged."""
+    return "yes" if within and (same_regime or fall == "sphere") else "no"
+
+
+def row_of(fall, who, comparison):
     """A row of peers.csv. Without a comparison the numbers ran away."""
-    row = {"fall": fall, "model": who, "seconds_per_step": step_seconds,
-           "seconds_per_simulated_second": second_seconds}
+    row = {"fall": fall, "model": who}
     if comparison is None:
         return row | {"regime": "breaks", "worst": 1.0, "agrees": "no"}
     row |= {name: (comparison["measures"].get(figure) or {}).get("relative_difference")
             for name, figure in FIGURES.items()}
     return row | {"regime": comparison["motion"]["regime"], "regime_cfd": comparison["reference"]["regime"],
-                  "worst": worst_figure(comparison), "agrees": "yes" if comparison["agrees"] else "no"}
+                  "worst": worst_figure(comparison), "agrees": agreement(fall, comparison["agrees"], comparison["regimes_agree"])}
 
 
-def peer(programs, scenes, who, coefficients, integrator="implicit", model="mujoco"):
+def peer(programs, scenes, who, coefficients, model="mujoco"):
     """A model's rows: its motions, judged as every motion is. Its own coefficients where none are given."""
     rows = []
     with tempfile.TemporaryDirectory() as work:
-        words = [f"{programs}/samara-peer-falls", scenes_of(scenes), "--model", model, "-o", work, "--integrator",
-                 integrator, "--json"]
+        words = [f"{programs}/samara-peer-falls", scenes_of(scenes), "--model", model, "-o", work, "--json"]
         if coefficients is not None:
             words += ["--coefficients", ",".join(map(str, coefficients))]
         for flown in run(words)["falls"]:
             comparison = None if flown["broke"] else run(
                 [f"{programs}/samara", "compare", f"{work}/{flown['fall']}.h5", f"{FALLS}/{flown['fall']}.h5",
                  "--json"])
-            rows.append(row_of(flown["fall"], who, comparison, flown["seconds_per_step"],
-                               flown["seconds_per_simulated_second"]))
+            rows.append(row_of(flown["fall"], who, comparison))
     return rows
 
 
@@ -91,7 +93,7 @@ def by_equations(programs, folder, samples):
 
 
 def reported(who, noise):
-    """The runtime's rows as docs/falls/falls.csv has them, without times."""
+    """The runtime's rows as docs/falls/falls.csv has them."""
     for row in rows_of_falls(noise):
         differences = differences_of(row)
         judged = differences[:1] if row["fall"] == "sphere" else differences
@@ -99,23 +101,14 @@ def reported(who, noise):
         if row["fall"] != "sphere" and not has_the_regime(row):
             misses.append(1.0)
         yield {"fall": row["fall"], "model": who, "regime_cfd": row["regime_cfd"], "regime": row["regime_runtime"],
-               **dict(zip(FIGURES, differences)), "worst": max(misses), "agrees": row["agrees"], "seconds_per_step": None,
-               "seconds_per_simulated_second": None}
+               **dict(zip(FIGURES, differences)), "worst": max(misses), "agrees": agreement(row["fall"], row["agrees"] == "yes", has_the_regime(row))}
 
 
 def by_surface(programs):
-    """The runtime's rows by the loads of the surface. The time is the least of several flights on one thread."""
-    rows = []
+    """The runtime's rows by the loads of the surface."""
     with tempfile.TemporaryDirectory() as work:
-        for scene, body in SCENES.items():
-            file = plain(programs, BODIES[body][0], work)
-            comparison = compared(programs, file, scene, work)
-            flights = [run([f"{programs}/samara", "simulate", f"{work}/{scene}.toml", "-o", f"{work}/again.h5", "--threads", "1",
-                            "--json"]) for _ in range(7)]
-            least = min(flights, key=lambda flight: flight["seconds"])
-            seconds = run([f"{programs}/samara", "info", f"{work}/again.h5", "--json"])["duration"]
-            rows.append(row_of(scene, SURFACE, comparison, 1e-9 * least["nanoseconds_per_step"], least["seconds"] / seconds))
-    return rows
+        return [row_of(scene, SURFACE, compared(programs, plain(programs, BODIES[body][0], work), scene, work))
+                for scene, body in SCENES.items()]
 
 
 def percent(value):
@@ -153,8 +146,6 @@ def summary_table(rows):
     def lines():
         for model in dict.fromkeys(row["model"] for row in rows):
             of = [row for row in rows if row["model"] == model]
-            if model in ("MuJoCo Euler", "MuJoCo RK4"):  # for their times alone
-                continue
             figures = [mean_of([abs(row[name]) for row in of if row.get(name) is not None and (name == "descent" or row["fall"] != "sphere")])
                        for name in FIGURES]
             worst = [row["worst"] for row in of]
@@ -164,23 +155,6 @@ def summary_table(rows):
 
     return table(["model", "descent", "frequency", "amplitude", "rms angular speed", "worst figure: mean", "largest", "regimes right",
                   "within 10, 20, 30 %"], lines())
-
-
-def times(rows):
-    """The table of times: a line a fall; our column first."""
-    found = {(row["fall"], row["model"]): row for row in rows}
-    models = (SURFACE, BEST, "MuJoCo Euler", "MuJoCo RK4")
-    lines = ["| fall | " + " | ".join(f"{'MuJoCo implicit' if model == BEST else model}, us a step; ms a simulated second"
-                                      for model in models) + " |", "|---" * (len(models) + 1) + "|"]
-    for scene in SCENES:
-        cells = []
-        for model in models:
-            row = found.get((scene, model))
-            broke = " (breaks)" if row and row["regime"] == "breaks" else ""
-            cells.append("-" if row is None or row["seconds_per_step"] is None else f"{1e6 * row['seconds_per_step']:.2f}; "
-                         f"{1e3 * row['seconds_per_simulated_second']:.2f}{broke}")
-        lines.append("| " + " | ".join([scene] + cells) + " |")
-    return "\n".join(lines) + "\n"
 
 
 def coefficients_table(search, default):
@@ -211,13 +185,10 @@ def main(words):
         rows += peer(programs, found["falls"], SHAPE, found["coefficients"])
     for scene in scenes:
         rows += peer(programs, [scene], ALONE, search["best_alone"][scene]["coefficients"])
-    for integrator in ("Euler", "RK4"):
-        rows += peer(programs, scenes, f"MuJoCo {integrator}", best, integrator)
     equations = by_equations(programs, work, samples)
     rows += equations + by_surface(programs) + [row for who, noise in OURS.items() for row in reported(who, noise)]
     own = [SURFACE, *OURS]
-    columns = ["fall", "model", "regime_cfd", "regime"] + list(FIGURES) + ["worst", "agrees", "seconds_per_step",
-                                                                         "seconds_per_simulated_second"]
+    columns = ["fall", "model", "regime_cfd", "regime"] + list(FIGURES) + ["worst", "agrees"]
     with open(os.path.join(folder, "peers.csv"), "w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, columns, lineterminator="\n")
         writer.writeheader()
@@ -225,7 +196,7 @@ def main(words):
             writer.writerow({key: f"{value:.4g}" if isinstance(value, float) else value for key, value in row.items()})
     write_tables(os.path.join(folder, "peers.md"), [
         summary_table(rows), coefficients_table(search, default), errors_table(rows, (DEFAULT, BEST, SHAPE, ALONE)),
-        errors_table(rows, tuple(dict.fromkeys(row["model"] for row in equations))), errors_table(rows, own), times(rows)], mark("falls"))
+        errors_table(rows, tuple(dict.fromkeys(row["model"] for row in equations))), errors_table(rows, own)], mark("falls"))
     subprocess.run(["gnuplot", "-e", f"rows='{folder}/peers.csv'; picture='{folder}/peers.png'", f"{folder}/peers.gp"],
                    check=True)
     print(f"Written: peers.csv, peers.md and peers.png in {folder}")
