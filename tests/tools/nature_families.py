@@ -131,8 +131,9 @@ def fruits_table():
                     for column in (quantity, f"surface_{quantity}")))
             yield cells
 
-    return table(["fruits", "payloads", "descent, over published", f"within {100 * NEAR:.0f} %", "exponent of the payload, published / runtime",
-                  "spin, over published", f"within {100 * NEAR:.0f} %", "exponent, published / runtime"], lines())
+    within = f"within {100 * NEAR:.0f} %"
+    return table(["fruits", "payloads", "descent, over published", within, "exponent of the payload, published / runtime",
+                  "spin, over published", within, "exponent, published / runtime"], lines())
 
 
 def main(programs):

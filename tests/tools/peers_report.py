@@ -101,7 +101,8 @@ def reported(who, noise):
         if row["fall"] != "sphere" and not has_the_regime(row):
             misses.append(1.0)
         yield {"fall": row["fall"], "model": who, "regime_cfd": row["regime_cfd"], "regime": row["regime_runtime"],
-               **dict(zip(FIGURES, differences)), "worst": max(misses), "agrees": agreement(row["fall"], row["agrees"] == "yes", has_the_regime(row))}
+               **dict(zip(FIGURES, differences)), "worst": max(misses),
+               "agrees": agreement(row["fall"], row["agrees"] == "yes", has_the_regime(row))}
 
 
 def by_surface(programs):
@@ -146,7 +147,8 @@ def summary_table(rows):
     def lines():
         for model in dict.fromkeys(row["model"] for row in rows):
             of = [row for row in rows if row["model"] == model]
-            figures = [mean_of([abs(row[name]) for row in of if row.get(name) is not None and (name == "descent" or row["fall"] != "sphere")])
+            figures = [mean_of([abs(row[name]) for row in of
+                                if row.get(name) is not None and (name == "descent" or row["fall"] != "sphere")])
                        for name in FIGURES]
             worst = [row["worst"] for row in of]
             regimes = sum(row["regime"] == row.get("regime_cfd") for row in of)

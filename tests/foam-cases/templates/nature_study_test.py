@@ -18,7 +18,8 @@ from gnuplot_picture import Pose, rotation_of  # noqa: E402
 from nature_families import FRUITS, REGIMES, slope, transition  # noqa: E402
 from nature_measure import coning, drift, first_acceleration, horizontal_speed, measured, peak_speed, spin, turning_rate  # noqa: E402
 from nature_report import mean_of_flights, with_copies  # noqa: E402
-from nature_study import ACCELERATIONS, CASES, REGIME, added_mass, first_acceleration as exact_acceleration, fruit_name, terminal_speed  # noqa: E402
+from nature_study import ACCELERATIONS, CASES, REGIME, added_mass, fruit_name, terminal_speed  # noqa: E402
+from nature_study import first_acceleration as exact_acceleration  # noqa: E402
 from nature_tables import DERIVED, MODELS, bracket, derived, merged, misses, told  # noqa: E402
 
 UPRIGHT = rotation_of(1, 0, 0, 0)
