@@ -3,18 +3,26 @@
 
     nature_report.py BIN WORK ROWS.csv [SECONDS [CASE...]]
 
-BIN: the folder of the programs. WORK: WORK/bodies holds what is baked and WORK/full-cfd the falls that are solved; what is there
-and made from the scene as it is now is used again, and a bake or fall that was stopped goes on. SECONDS (1200): how many CPU
-seconds of bakes and falls are begun in this run, by the programs' own estimates; the cheapest come first, one after the other.
-CASE: only these. With 0 seconds everything is measured anew from what is there. Writes ROWS.csv, a row for each case, quantity
-and model that is measured, and beside it costs.csv, what each bake and fall is estimated to cost. Run from the project's folder.
+BIN: the folder of the programs. All cases are flown by the loads of the surface first, which needs nothing else and takes minutes.
+WORK: WORK/bodies holds what is baked and WORK/full-cfd the falls that are solved; what is there and made from the scene as it is
+now is used again, and a bake or fall that was stopped goes on. SECONDS (1200): how many CPU seconds of bakes and falls are begun
+in this run, by the programs' own estimates; the cheapest come first, one after the other. CASE: only these. With 0 seconds
+everything is measured anew from what is there. Writes ROWS.csv, a row for each case, quantity and model that is measured, and
+beside it costs.csv, what each bake and fall is estimated to cost. Run from the project's folder.
+
+The runtime flies copies that are turned a little from the scene's start, by the noise that a scene has of itself; a figure is
+their mean, its error what a fall still drifts by together with the mean's standard error. A regime is the commonest, its error the
+share of the flights that have another.
 """
 
 import collections
 import csv
 import json
+import math
 import os
+import re
 import shutil
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -25,7 +33,8 @@ from nature_measure import measured  # noqa: E402
 from nature_study import CASES, REGIME  # noqa: E402
 
 COLUMNS = ("case", "quantity", "model", "value", "error", "by")
-RUNTIME, FULL_CFD = "runtime", "full CFD"
+SURFACE, TABLES, FULL_CFD = "surface", "tables", "full CFD"
+COPIES, TURNED = 20, 0.05  # let go turned by up to so much (rad) about any axis
 COSTS = ("case", "bake", "fall")
 CLOSURE = "kOmegaSSTLM"  # of the falls by full CFD
 
@@ -118,28 +127,59 @@ def make(programs, work, cases, costs, budget):
             made(work, case).note()
 
 
+def mean_of_flights(figures):
+    """(value, error) of those of several flights."""
+    values, drifts = zip(*figures)
+    standard_error = statistics.stdev(values) / math.sqrt(len(values)) if len(values) > 1 else 0.0
+    return statistics.fmean(values), math.hypot(statistics.fmean(drifts), standard_error)
+
+
 def rows_of(programs, case, model, motion):
     told = run([f"{programs}/samara", "info", motion, "--json"])["bodies"][0]
-    poses = next(iter(flights(programs, motion).values()))
+    falls = list(flights(programs, motion).values())
     for quantity in case.measures:
-        value, error = (told["regime"], "") if quantity == REGIME else measured(case, quantity, poses)
-        yield {"case": case.name, "quantity": quantity, "model": model,
-               "value": value if quantity == REGIME else f"{value:.6g}",
-               "error": error if quantity == REGIME else f"{error:.2g}", "by": told["models"]}
+        if quantity == REGIME:
+            value, error = told["regime"], 1.0 - told["regimes"][told["regime"]] / sum(told["regimes"].values())
+        else:
+            value, error = mean_of_flights([measured(case, quantity, poses) for poses in falls])
+        yield {"case": case.name, "quantity": quantity, "model": model, "value": value if quantity == REGIME else f"{value:.6g}",
+               "error": f"{error:.2g}", "by": told["models"]}
+
+
+def with_copies(text, shape, loads=None):
+    """A scene's text with copies of its body, which has this shape or body file, flown by these loads, and with its noise."""
+    text = re.sub(r'(?m)^turbulence = .*\n', "", text)
+    text = re.sub(r'shape = ".*"', f'shape = "{os.path.abspath(shape)}"', text)
+    return text + f"count = {COPIES}\nspread = {{ angle = {TURNED} }}\n" + (f'loads = "{loads}"\n' if loads else "")
+
+
+def shape_of(scene):
+    return os.path.join(os.path.dirname(scene), re.search(r'shape = "(.*)"', read(scene)).group(1))
+
+
+def flown(programs, case, folder, bodies=None):
+    """The motion of a case by the runtime, with the bodies of a folder or by the loads of the surface; None where that fails."""
+    scene, motion = os.path.join(folder, f"{case.name}.toml"), os.path.join(folder, f"{case.name}.h5")
+    if case.without_loads:
+        scene = case.scene
+    else:
+        with open(scene, "w", encoding="utf-8") as file:
+            file.write(with_copies(read(case.scene), shape_of(case.scene), None if bodies else SURFACE))
+    words = [f"{programs}/samara", "simulate", scene, "-o", motion, "--json"] + (["--bodies", bodies] if bodies else [])
+    return motion if run(words) is not None else None
 
 
 def motions_of(programs, work, case, folder):
-    """(model, motion file) of what can be flown and is solved."""
-    if not case.quality or baked(work, case).is_there():
-        motion = os.path.join(folder, f"{case.name}.h5")
-        words = [f"{programs}/samara", "simulate", case.scene, "-o", motion, "--json"]
-        if case.quality:
-            words += ["--bodies", os.path.join(work, "bodies")]
-        elif case.ready:
-            shutil.copy(f"runtime/bodies/{case.ready}.body.h5", os.path.join(folder, f"{case.name}.body.h5"))
-            words += ["--bodies", folder]
-        if run(words) is not None:
-            yield RUNTIME, motion
+    """(model, motion file) of what can be flown with a bake, and of what is solved."""
+    bodies = None
+    if case.ready:
+        shutil.copy(f"runtime/bodies/{case.ready}.body.h5", os.path.join(folder, f"{case.name}.body.h5"))
+        bodies = folder
+    elif case.quality and baked(work, case).is_there():
+        bodies = os.path.join(work, "bodies")
+    motion = flown(programs, case, folder, bodies) if bodies or case.without_loads else None
+    if motion:
+        yield TABLES, motion
     fall = solved(work, case)
     if case.reference or fall.is_there():
         yield FULL_CFD, case.reference or fall.file
@@ -159,10 +199,15 @@ def main(programs, work, target, budget=1200.0, names=()):
     unknown = set(names) - {case.name for case in CASES}
     if unknown:
         sys.exit(f"no such case: {', '.join(sorted(unknown))}")
-    costs = costs_of(programs, work, CASES)
-    make(programs, work, [case for case in CASES if not names or case.name in names], costs, float(budget))
+    chosen = [case for case in CASES if not names or case.name in names]
     rows = []
     with tempfile.TemporaryDirectory() as folder:
+        for case in chosen:
+            motion = flown(programs, case, folder)
+            rows += rows_of(programs, case, SURFACE, motion) if motion else []
+        write(target, COLUMNS, rows)
+        costs = costs_of(programs, work, CASES)
+        make(programs, work, chosen, costs, float(budget))
         for case in CASES:
             for model, motion in motions_of(programs, work, case, folder):
                 rows += rows_of(programs, case, model, motion)
@@ -171,7 +216,7 @@ def main(programs, work, target, budget=1200.0, names=()):
           [{"case": name, "bake": bake, "fall": fall} for name, (bake, fall) in costs.items()])
     found = collections.Counter(row["model"] for row in rows)
     wanted = sum(len(case.measures) for case in CASES)
-    print(f"Measured: {found[RUNTIME]} figures of the runtime, {found[FULL_CFD]} of full CFD, of {wanted}")
+    print("Measured: " + ", ".join(f"{found[model]} by {model}" for model in (SURFACE, TABLES, FULL_CFD)) + f", of {wanted} figures")
     return 0
 
 

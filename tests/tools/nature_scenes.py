@@ -18,6 +18,8 @@ from nature_study import (  # noqa: E402
 
 WATER, AIR = 'preset = "water"', 'preset = "air"'
 WATER_DENSITY = 998.2
+# Of winged seeds, which are made to spin; all else, which may swing or turn over, has the default of one (docs/spin.md).
+SPINNING_PATCHES = 2
 WIDTH = 120
 
 
@@ -52,7 +54,7 @@ def scene(text, duration, fluid, name, shape, body, orientation=None, step=0.002
     lines += [f"{key} = {value}" for key, value in body.items()]
     if orientation:
         lines.append("orientation = [" + ", ".join(number(part) for part in orientation) + "]")
-    return "\n".join(lines + ['turbulence = "none"', ""])
+    return "\n".join(lines + [""])
 
 
 # From the axis that points down to the orientation: the shapes' axes are x, y, z.
@@ -107,15 +109,18 @@ def plate():
         0.0005, 400)
 
 
+def strip_scene(froude):
+    ratio = froude ** 2 / STRIP_THICKNESS_RATIO
+    return scene(
+        f"A strip of 100 x 20 x 1 mm at a Froude number of {froude:g} (Belmonte, Eisenberg and Moses 1998): the root of "
+        f"(thickness over width) x (density over the fluid's, {ratio:.4g}). Left out: their cell, thin across the strip, in which "
+        "the flow is nearly two-dimensional, and the rings that keep the strip upright in it. Fr is varied by the density alone.",
+        4, WATER, strip_name(froude), "strip.geo", {"density": number(ratio * WATER_DENSITY)}, turned_about(0, 20), 0.0005, 400)
+
+
 def strips():
     for froude in STRIP_FROUDE_NUMBERS:
-        ratio = froude ** 2 / STRIP_THICKNESS_RATIO
-        name = strip_name(froude)
-        yield name, scene(
-            f"A strip of 100 x 20 x 1 mm at a Froude number of {froude:g} (Belmonte, Eisenberg and Moses 1998): the root of "
-            f"(thickness over width) x (density over the fluid's, {ratio:.4g}). Left out: their cell, thin across the strip, in which "
-            "the flow is nearly two-dimensional, and the rings that keep the strip upright in it. Fr is varied by the density alone.",
-            4, WATER, name, "strip.geo", {"density": number(ratio * WATER_DENSITY)}, turned_about(0, 20), 0.0005, 400)
+        yield strip_name(froude), strip_scene(froude)
 
 
 def cards():
@@ -124,7 +129,7 @@ def cards():
         yield name, scene(
             f"A card of 120 x {width} x {thickness:g} mm of 800 kg/m^3 in air, let go at 30 degrees about its long axis (Mahadevan, Ryu "
             "and Samuel 1999). Their cards' sizes were not at hand: only the exponents of thickness and width are compared.",
-            2, AIR, name, f"{name}.geo", {"density": 800}, turned_about(0, 30), 0.0005, 400)
+            3, AIR, name, f"{name}.geo", {"density": 800}, turned_about(0, 30), 0.0005, 400)
 
 
 def discs():
@@ -140,19 +145,23 @@ def discs():
             {"density": number(ratio * DISC_FLUID)}, turned_about(1, 20), 0.01 * time, 15 / time)
 
 
+def fruit_scene(angle, radius, payload):
+    mass, centre, inertia = mass_properties(angle, radius, payload)
+    rows = "[" + ", ".join("[" + ", ".join(f"{x:.4g}" for x in row) + "]" for row in inertia) + "]"
+    curve = f"curved with a radius of {radius} mm" if radius < 10000 else "straight"
+    return scene(
+        f"A printed fruit with two wings in water (Fauli, Rabault and Carlson 2019): wings at {angle} degrees from the axis, "
+        f"{curve}, {payload:g} g of lead in the pod. Mass, centre and inertia by tests/tools/nature_fruit.py, with the water that "
+        "fills the pod. Left out: the holes by which it is filled. Assumed: the print weighs 1240 kg/m^3, and the lead lies in the "
+        "pod's lower end.",
+        6, WATER, fruit_name(angle, radius, payload), f"{fruit_shape(angle, radius)}.geo",
+        {"mass": f"{mass:.6g}", "center_of_mass": "[" + ", ".join(f"{x:.5g}" for x in centre) + "]", "inertia": rows,
+         "patches": SPINNING_PATCHES})
+
+
 def fruits():
-    for angle, radius, payload in FRUITS:
-        name = fruit_name(angle, radius, payload)
-        mass, centre, inertia = mass_properties(angle, radius, payload)
-        rows = "[" + ", ".join("[" + ", ".join(f"{x:.4g}" for x in row) + "]" for row in inertia) + "]"
-        curve = f"curved with a radius of {radius} mm" if radius < 10000 else "straight"
-        yield name, scene(
-            f"A printed fruit with two wings in water (Fauli, Rabault and Carlson 2019): wings at {angle} degrees from the axis, "
-            f"{curve}, {payload:g} g of lead in the pod. Mass, centre and inertia by tests/tools/nature_fruit.py, with the water that "
-            "fills the pod. Left out: the holes by which it is filled. Assumed: the print weighs 1240 kg/m^3, and the lead lies in the "
-            "pod's lower end.",
-            6, WATER, name, f"{fruit_shape(angle, radius)}.geo",
-            {"mass": f"{mass:.6g}", "center_of_mass": "[" + ", ".join(f"{x:.5g}" for x in centre) + "]", "inertia": rows})
+    for fruit in FRUITS:
+        yield fruit_name(*fruit), fruit_scene(*fruit)
 
 
 def maple():
@@ -160,7 +169,8 @@ def maple():
         "The maple samara of meshes/shapes in air, mass and inertia as in docs/scenes/samara.toml. The published figures (Lee, Lee "
         "and Sohn 2014) are of Acer palmatum, whose mass and size were not at hand: this seed is another, larger one.",
         3, AIR, "maple", "../../meshes/shapes/samara.geo",
-        {"mass": "1.42e-4", "center_of_mass": "[0.0035, -0.0003, 0]", "inertia": "[6.8e-10, 1.07e-8, 1.12e-8]"},
+        {"mass": "1.42e-4", "center_of_mass": "[0.0035, -0.0003, 0]", "inertia": "[6.8e-10, 1.07e-8, 1.12e-8]",
+         "patches": SPINNING_PATCHES},
         turned_about(1, 30), 0.0005, 500)
 
 

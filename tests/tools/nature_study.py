@@ -6,16 +6,18 @@ import math
 GRAVITY = 9.81
 REGIME = "regime"
 
-# `scene`: of docs/nature, or a path from the project's folder. `quality`: of the bake; None where the body flies by its added
-# mass alone. `measures`: the quantities, as published.csv names them. `scales`: what a dimensionless unit is in SI units.
-# `reference`: a motion by full CFD that the project has. `cells`, `step`: of `samara validate`. `ready`: a body of runtime/bodies
-# that the case flies with, unbaked. `group`: the table on the page.
-Case = collections.namedtuple("Case", "name group text scene quality measures scales reference cells step ready")
+# `scene`: of docs/nature, or a path from the project's folder. `quality`: of the bake; None where there is none to make.
+# `without_loads`: the body flies by its added mass alone. `measures`: the quantities, as published.csv names them. `scales`: what a
+# dimensionless unit is in SI units. `reference`: a motion by full CFD that the project has. `cells`, `step`: of `samara validate`.
+# `ready`: a body of runtime/bodies that the case flies with, unbaked. `group`: the table on the page.
+Case = collections.namedtuple("Case", "name group text scene quality measures scales reference cells step ready "
+                              "without_loads")
 
 
 def case(name, group, text, quality, measures, scales=None, scene=None, reference=None, cells=20000, step=1,
-         ready=None):
-    return Case(name, group, text, scene or f"docs/nature/{name}.toml", quality, measures, scales or {}, reference, cells, step, ready)
+         ready=None, without_loads=False):
+    return Case(name, group, text, scene or f"docs/nature/{name}.toml", quality, measures, scales or {}, reference, cells, step, ready,
+                without_loads)
 
 
 # First accelerations: the short, middle and long axis of the body point down one after the other.
@@ -50,7 +52,7 @@ DISC_DIAMETER, DISC_THICKNESS, DISC_FLUID = 0.04, 0.004, 998.2
 
 # Winged fruits: base angle (degrees), radius of curvature (mm; 10000 is straight), payload of lead (g).
 FRUITS = ((0, 20, 2.16), (0, 26, 0.54), (0, 26, 2.16), (0, 26, 4.0), (0, 35, 2.16), (0, 65, 2.16), (35, 45, 2.16),
-          (35, 10000, 2.16))
+          (35, 10000, 2.16), (35, 45, 0.54), (35, 45, 3.78), (35, 35, 2.16), (35, 65, 2.16))
 
 
 def added_mass(semi_axes, axis):
@@ -116,7 +118,7 @@ def fruit_name(angle, radius, payload):
 
 CASES = [
     *(case(name, "acceleration", name.removeprefix("acceleration-").replace("-", ", "), None, ("first acceleration",),
-           step=ACCELERATION_STEPS.get(name, 1))
+           step=ACCELERATION_STEPS.get(name, 1), without_loads=True)
       for name in ACCELERATIONS),
     *(case(f"sphere-ga-{galileo}", "spheres", f"sphere at Ga {galileo}", "preview",
            ("descent speed",) + (("horizontal speed", "drift") if galileo == 178 else ("drift",)), {"u_g": SPHERE_SPEED})

@@ -9,17 +9,20 @@ Reads costs.csv beside ROWS.csv too.
 import csv
 import math
 import os
+import re
 import sys
 
 sys.dont_write_bytecode = True
 from gnuplot_picture import block, draw  # noqa: E402
-from nature_report import FULL_CFD, RUNTIME, write  # noqa: E402
+from nature_families import STRIPS, fruits_table, strips_table, transition  # noqa: E402
+from nature_report import FULL_CFD, SURFACE, TABLES, write  # noqa: E402
 from nature_study import CARDS, CASES, REGIME, SPHERES, STRIP_FROUDE_NUMBERS, card_name, strip_name  # noqa: E402
-from report_tables import mark, write_tables  # noqa: E402
+from report_tables import mark, table, write_tables  # noqa: E402
 
-MODELS = {RUNTIME: "runtime", FULL_CFD: "cfd"}
-COLUMNS = ("case", "group", "quantity", "published", "uncertainty", "unit", "verified", "runtime", "runtime_error", "runtime_ratio",
-           "cfd", "cfd_error", "cfd_ratio")
+MODELS = {SURFACE: "surface", TABLES: "tables", FULL_CFD: "cfd"}
+HEADS = ("runtime, surface", "runtime, tables", "full CFD")
+COLUMNS = ("case", "group", "quantity", "published", "uncertainty", "unit", "verified",
+           *(f"{column}{what}" for column in MODELS.values() for what in ("", "_error", "_ratio")))
 GROUPS = ("acceleration", "spheres", "plates", "discs", "fruits")
 # What is worked out from several cases, with the group that it stands in.
 DERIVED = {"onset": ("spheres", "onset of the path's asymmetry"), "rising": ("spheres", "rising spheres"),
@@ -83,19 +86,22 @@ def derived(values):
 def in_its_unit(case, quantity, unit, row):
     """(value, error) of a measured row in the unit that is published."""
     if quantity == REGIME:
-        return row["value"], None
+        return row["value"], float(row["error"] or 0)
     scale = case.scales.get(unit, 1.0)
     return tuple(0.0 if abs(number) < ROUNDING else number for number in (float(row["value"]) / scale, float(row["error"]) / scale))
 
 
-def merged(published, rows, before):
+def merged(published, rows, before, strips=()):
     """The rows of nature.csv: every published figure, with what is measured of it; what these rows have not stays as it was
-    before, for no folder holds all that was ever solved."""
+    before, for no folder holds all that was ever solved. `strips`: rows of the family over Froude numbers, which the surface's
+    transition is read from."""
     cases = {case.name: case for case in CASES}
     found = {(row["case"], row["quantity"], row["model"]): row for row in rows}
     values = {model: {(row["case"], row["quantity"]): as_number(row["value"]) if row["quantity"] != REGIME else row["value"]
                       for row in rows if row["model"] == model} for model in MODELS}
     together = {model: derived(values[model]) for model in MODELS}
+    if strips:
+        together[SURFACE]["strips", "Froude number of the transition"] = transition(strips)
     order = {name: place for place, name in enumerate([case.name for case in CASES] + list(DERIVED))}
     kept = {(row["case"], row["quantity"]): row for row in before}
     result = []
@@ -109,8 +115,8 @@ def merged(published, rows, before):
                 row[column] = together[model][name, quantity]
             elif (name, quantity, model) in found:
                 value, error = in_its_unit(cases[name], quantity, unit, found[name, quantity, model])
-                row[column] = value if error is None else f"{value:.4g}"
-                row[f"{column}_error"] = "" if error is None else f"{error:.2g}"
+                row[column] = value if quantity == REGIME else f"{value:.4g}"
+                row[f"{column}_error"] = f"{error:.2g}"
             elif (name, quantity) in kept:
                 row |= {key: kept[name, quantity][key] for key in (column, f"{column}_error")}
             ratio = ratio_of(row, column)
@@ -131,9 +137,13 @@ def misses(row, column):
     published, value = as_number(row["published"]), as_number(row[column])
     if published is None:
         return row[column] != row["published"] if row["quantity"] == REGIME and row["published"] != "at the transition" else None
-    if value is None or not row["uncertainty"]:
+    between = re.match(r"between (\S+) and (\S+)$", row[column])
+    if (value is None and not between) or not row["uncertainty"]:
         return None
     allowed = EXACT_LIMIT * published if row["verified"] == "exact" else float(row["uncertainty"])
+    if between:
+        low, high = map(float, between.groups())
+        return low > published + allowed or high < published - allowed
     return abs(value - published) > allowed + float(row[f"{column}_error"] or 0)
 
 
@@ -143,7 +153,9 @@ def told(row, column):
         return "no case yet" if any(word in row["quantity"] for word in WITHOUT_CASE) else "not solved yet"
     text = row[column]
     error = as_number(row[f"{column}_error"])
-    if error and error > 1e-4 * abs(float(row[column])):
+    if row["quantity"] == REGIME:
+        text += f", {100 * (1 - error):.0f} %" if error else ""
+    elif error and error > 1e-4 * abs(float(row[column])):
         text += f" +- {error:.2g}"
     ratio = ratio_of(row, column)
     if ratio is not None:
@@ -159,11 +171,6 @@ def title(name):
     return f"[{case.text}]({scene})"
 
 
-def table(head, lines):
-    return "\n".join(["| " + " | ".join(head) + " |", "|---" * len(head) + "|"]
-                     + ["| " + " | ".join(line) + " |" for line in lines]) + "\n"
-
-
 def group_table(rows, group):
     def lines():
         before = None
@@ -173,10 +180,10 @@ def group_table(rows, group):
             published = row["published"] + (f" +- {row['uncertainty']}" if as_number(row["uncertainty"]) else "")
             unit = row["unit"] if row["unit"] not in ("", "-") else ""
             yield [title(row["case"]) if row["case"] != before else "", row["quantity"] + (f", {unit}" if unit else ""), published,
-                   row["verified"], told(row, "runtime"), told(row, "cfd")]
+                   row["verified"], *(told(row, column) for column in MODELS.values())]
             before = row["case"]
 
-    return table(["case", "figure", "published", "verified", "runtime", "full CFD"], lines())
+    return table(["case", "figure", "published", "verified", *HEADS], lines())
 
 
 def tally_table(rows):
@@ -190,7 +197,7 @@ def tally_table(rows):
                 cells.append(f"{judged.count(False)} of {len(judged)}")
             yield cells
 
-    return table(["group", "figures", "runtime within", "full CFD within"], lines())
+    return table(["group", "figures", *(f"{head} within" for head in HEADS)], lines())
 
 
 def cost_table(rows, costs):
@@ -203,9 +210,9 @@ def cost_table(rows, costs):
     def lines():
         for cost in costs:
             case = next((case for case in CASES if case.name == cost["case"]), None)
-            if case is None or all((case.name, model) in done for model in MODELS):
+            if case is None or all((case.name, model) in done for model in (TABLES, FULL_CFD)):
                 continue
-            yield [case.name, cell(cost["bake"], case.name, RUNTIME), cell(cost["fall"], case.name, FULL_CFD)]
+            yield [case.name, cell(cost["bake"], case.name, TABLES), cell(cost["fall"], case.name, FULL_CFD)]
 
     return table(["case", "bake, CPU s", "full CFD, CPU s"], lines())
 
@@ -222,7 +229,7 @@ def source_table(published):
 
 def picture(rows, file):
     """Measured over published, of every figure of which there is such a ratio; a bar spans the published one's uncertainty."""
-    shown = [row for row in rows if row["runtime_ratio"] or row["cfd_ratio"]]
+    shown = [row for row in rows if any(row[f"{column}_ratio"] for column in MODELS.values())]
 
     def points(column, aside):
         for place, row in enumerate(shown):
@@ -231,8 +238,12 @@ def picture(rows, file):
 
     bands = [(place, (as_number(row["uncertainty"]) or 0.0) / float(row["published"])) for place, row in enumerate(shown)]
     tics = ", ".join(f'"{row["case"]}: {row["quantity"]}" {place}' for place, row in enumerate(shown))
-    draw(block("band", [bands]) + block("runtime", [points("runtime", -0.12)]) + block("cfd", [points("cfd", 0.12)]) + f'''
-set terminal pngcairo size 2000, 900 noenhanced font "DejaVu Sans,14" linewidth 1.6
+    asides, colours, marks = (-0.2, 0.0, 0.2), ("#3a9d5d", "#2a6f97", "#d98c1f"), (9, 7, 5)
+    series = ", \\\n     ".join(
+        f'${column} using 1:2:3 with yerrorbars lc rgb "{colour}" pt {mark_} ps 1.4 title "{head}"'
+        for column, colour, mark_, head in zip(MODELS.values(), colours, marks, HEADS))
+    draw(block("band", [bands]) + "".join(block(column, [points(column, aside)]) for column, aside in zip(MODELS.values(), asides)) + f'''
+set terminal pngcairo size 2400, 950 noenhanced font "DejaVu Sans,14" linewidth 1.6
 set output "{file}"
 set grid ytics lc rgb "#e4e4e4" lt 1 lw 0.8
 set border 3 lc rgb "#6b6b6b"
@@ -248,19 +259,20 @@ set bmargin 13
 set style fill solid 0.35 noborder
 set arrow 1 from graph 0, first 1 to graph 1, first 1 nohead lc rgb "#1a1a1a" back
 plot $band using 1:(1.0):(0.4):2 with boxxyerror lc rgb "#8a8a8a" title "published, with its uncertainty", \\
-     $runtime using 1:2:3 with yerrorbars lc rgb "#2a6f97" pt 7 ps 1.6 title "runtime", \\
-     $cfd using 1:2:3 with yerrorbars lc rgb "#d98c1f" pt 5 ps 1.6 title "full CFD"
+     {series}
 ''')
 
 
 def main(source, docs):
     published = rows_from(os.path.join(docs, "nature", "published.csv"))
     target = os.path.join(docs, "nature.csv")
-    rows = merged(published, rows_from(source), rows_from(target))
+    rows = merged(published, rows_from(source), rows_from(target), rows_from(STRIPS))
     write(target, COLUMNS, rows)
     costs = rows_from(os.path.join(os.path.dirname(source), "costs.csv"))
-    write_tables(os.path.join(docs, "nature.md"), [tally_table(rows), *(group_table(rows, group) for group in GROUPS),
-                                                   cost_table(rows, costs), source_table(published)], mark("nature"))
+    families = {"plates": [strips_table()], "fruits": [fruits_table()]}
+    groups = [text for group in GROUPS for text in [group_table(rows, group), *families.get(group, [])]]
+    write_tables(os.path.join(docs, "nature.md"), [tally_table(rows), *groups, cost_table(rows, costs), source_table(published)],
+                 mark("nature"))
     picture(rows, os.path.join(docs, "nature.png"))
 
 

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """Other models of falling bodies and the runtime against the reference falls.
 
-    peers_report.py BIN BODIES FOLDER [SAMPLES]
+    peers_report.py BIN WORK FOLDER [SAMPLES]
 
-BIN: the folder of the programs; BODIES: that of the baked bodies (`falls_report.py ... falls` bakes them; the runtime's
-cells stay empty for a body that is not there); FOLDER: of peers.csv, peers.gp and peers.md, whose tables it writes.
-SAMPLES: how many sets of coefficients are drawn in the search for each model's best, 2000 by default; what was found is
-kept in BODIES and used again. Run from the project's folder.
+BIN: the folder of the programs; FOLDER: of peers.csv, peers.gp and peers.md, whose tables it writes. SAMPLES: how many sets of
+coefficients are drawn in the search for each model's best, 2000 by default; what was found is kept in WORK and used again. The
+runtime's rows by tables are those of docs/falls/falls.csv, which falls_report.py flies; by the loads of the surface it is flown
+here. Run from the project's folder.
 """
 
 import csv
@@ -16,13 +16,16 @@ import subprocess
 import sys
 import tempfile
 
-from falls_report import FALLS, SCENES, baked_file, compared, has_the_regime, rows_of_falls, run, worst_figure, worst_of
-from report_tables import mark, write_tables
+from falls_report import BODIES, FALLS, SCENES, compared, differences_of, has_the_regime, rows_of_falls, run, worst_figure
+from falls_report import FIGURES as MEASURES
+from report_tables import mark, table, write_tables
+from surface_report import plain
 
-FIGURES = {"descent": "descent_speed", "frequency": "frequency", "amplitude": "inclination_amplitude",
-           "angular_speed": "rms_angular_speed"}
-DEFAULT, BEST, SHAPE, ALONE, OURS = ("MuJoCo default", "MuJoCo best", "MuJoCo best for each shape",
-                                     "MuJoCo best for each fall", "samara")
+FIGURES = dict(zip(("descent", "frequency", "amplitude", "angular_speed"), MEASURES))
+DEFAULT, BEST, SHAPE, ALONE = "MuJoCo default", "MuJoCo best", "MuJoCo best for each shape", "MuJoCo best for each fall"
+# The runtime, by the noise of its rows in falls.csv; and without a bake.
+OURS = {"samara by tables with noise": "on", "samara by tables": "off"}
+SURFACE = "samara by the surface"
 PLATES = ("disc-light", "disc-heavy", "plate", "sheet")
 # Models by their equations alone: their names, those of the program, the falls that they know, and whether their numbers
 # are published ones.
@@ -47,32 +50,34 @@ def searched(programs, folder, samples, model="mujoco", scenes=tuple(SCENES)):
         return json.load(file)
 
 
-def row_of(fall, who, comparison, step_seconds, second_seconds):
+def agreement(fall, within, same_regime):
+    """Whether a fall is within the limits and of the same regime, of which a sphere is not judged."""
+    return "yes" if within and (same_regime or fall == "sphere") else "no"
+
+
+def row_of(fall, who, comparison):
     """A row of peers.csv. Without a comparison the numbers ran away."""
-    row = {"fall": fall, "model": who, "seconds_per_step": step_seconds,
-           "seconds_per_simulated_second": second_seconds}
+    row = {"fall": fall, "model": who}
     if comparison is None:
         return row | {"regime": "breaks", "worst": 1.0, "agrees": "no"}
     row |= {name: (comparison["measures"].get(figure) or {}).get("relative_difference")
             for name, figure in FIGURES.items()}
     return row | {"regime": comparison["motion"]["regime"], "regime_cfd": comparison["reference"]["regime"],
-                  "worst": worst_figure(comparison), "agrees": "yes" if comparison["agrees"] else "no"}
+                  "worst": worst_figure(comparison), "agrees": agreement(fall, comparison["agrees"], comparison["regimes_agree"])}
 
 
-def peer(programs, scenes, who, coefficients, integrator="implicit", model="mujoco"):
+def peer(programs, scenes, who, coefficients, model="mujoco"):
     """A model's rows: its motions, judged as every motion is. Its own coefficients where none are given."""
     rows = []
     with tempfile.TemporaryDirectory() as work:
-        words = [f"{programs}/samara-peer-falls", scenes_of(scenes), "--model", model, "-o", work, "--integrator",
-                 integrator, "--json"]
+        words = [f"{programs}/samara-peer-falls", scenes_of(scenes), "--model", model, "-o", work, "--json"]
         if coefficients is not None:
             words += ["--coefficients", ",".join(map(str, coefficients))]
         for flown in run(words)["falls"]:
             comparison = None if flown["broke"] else run(
                 [f"{programs}/samara", "compare", f"{work}/{flown['fall']}.h5", f"{FALLS}/{flown['fall']}.h5",
                  "--json"])
-            rows.append(row_of(flown["fall"], who, comparison, flown["seconds_per_step"],
-                               flown["seconds_per_simulated_second"]))
+            rows.append(row_of(flown["fall"], who, comparison))
     return rows
 
 
@@ -87,36 +92,24 @@ def by_equations(programs, folder, samples):
     return rows
 
 
-def reported(scene):
-    """The runtime's row as docs/falls/falls.csv has it, without times."""
-    row = next(row for row in rows_of_falls("off") if row["fall"] == scene)
-    number = {"descent": "descent_speed", "frequency": "frequency", "amplitude": "inclination_amplitude",
-              "angular_speed": "rms_angular_speed"}
-    differences = {name: row[f"{column}_difference"] for name, column in number.items()}
-    worst = abs(float(row["descent_speed_difference"])) if scene == "sphere" else worst_of(row)
-    return {"fall": scene, "model": OURS, "regime_cfd": row["regime_cfd"], "regime": row["regime_runtime"],
-            **{name: float(value) if value else None for name, value in differences.items()},
-            "worst": worst if scene == "sphere" or has_the_regime(row) else max(worst, 1.0), "agrees": row["agrees"],
-            "seconds_per_step": None, "seconds_per_simulated_second": None}
+def reported(who, noise):
+    """The runtime's rows as docs/falls/falls.csv has them."""
+    for row in rows_of_falls(noise):
+        differences = differences_of(row)
+        judged = differences[:1] if row["fall"] == "sphere" else differences
+        misses = [abs(difference) for difference in judged if difference is not None]
+        if row["fall"] != "sphere" and not has_the_regime(row):
+            misses.append(1.0)
+        yield {"fall": row["fall"], "model": who, "regime_cfd": row["regime_cfd"], "regime": row["regime_runtime"],
+               **dict(zip(FIGURES, differences)), "worst": max(misses),
+               "agrees": agreement(row["fall"], row["agrees"] == "yes", has_the_regime(row))}
 
 
-def ours(programs, bodies):
-    """The runtime's rows. The time is the least of several flights on one thread."""
-    rows = []
+def by_surface(programs):
+    """The runtime's rows by the loads of the surface."""
     with tempfile.TemporaryDirectory() as work:
-        for scene, body in SCENES.items():
-            if not os.path.exists(baked_file(bodies, body)):
-                print(f"{scene}: no {baked_file(bodies, body)}, taken from the last report of the falls")
-                rows.append(reported(scene))
-                continue
-            comparison = compared(programs, baked_file(bodies, body), scene, work)
-            flights = [run([f"{programs}/samara", "simulate", f"{FALLS}/{scene}.toml", "-o", f"{work}/again.h5",
-                            "--bodies", f"{work}/bodies", "--threads", "1", "--json"]) for _ in range(7)]
-            least = min(flights, key=lambda flight: flight["seconds"])
-            seconds = run([f"{programs}/samara", "info", f"{work}/again.h5", "--json"])["duration"]
-            rows.append(row_of(scene, OURS, comparison, 1e-9 * least["nanoseconds_per_step"],
-                               least["seconds"] / seconds))
-    return rows
+        return [row_of(scene, SURFACE, compared(programs, plain(programs, BODIES[body][0], work), scene, work))
+                for scene, body in SCENES.items()]
 
 
 def percent(value):
@@ -134,40 +127,36 @@ def cell(row):
     return f"{figures}, {row['regime']}" + (" **yes**" if row["agrees"] == "yes" else "")
 
 
-def worst_in_the_mean(rows):
-    return f"{100 * sum(float(row['worst']) for row in rows) / len(rows):.0f} %"
-
-
-def table(rows, models):
-    """The table of errors: a line a fall, a column a model."""
+def errors_table(rows, models):
+    """A line a fall, a column a model."""
     found = {(row["fall"], row["model"]): row for row in rows}
-    lines = ["| fall (full CFD) | " + " | ".join(models) + " |", "|---" * (len(models) + 1) + "|"]
-    for scene in SCENES:
+
+    def title(scene):
         regime = next(row["regime_cfd"] for row in rows if row["fall"] == scene and row.get("regime_cfd"))
-        title = scene if scene == "sphere" else f"{scene} ({regime})"
-        lines.append("| " + " | ".join([title] + [cell(found.get((scene, model))) for model in models]) + " |")
-    of_model = [[row for row in rows if row["model"] == model] for model in models]
-    lines.append("| worst figure, mean over the falls | " + " | ".join(worst_in_the_mean(of) for of in of_model) + " |")
-    counts = [f"{sum(row['agrees'] == 'yes' for row in of)} of {len(of)}" for of in of_model]
-    lines.append("| within the limits | " + " | ".join(counts) + " |")
-    return "\n".join(lines) + "\n"
+        return scene if scene == "sphere" else f"{scene} ({regime})"
+
+    return table(["fall (full CFD)", *models],
+                 ([title(scene)] + [cell(found.get((scene, model))) for model in models] for scene in SCENES))
 
 
-def times(rows):
-    """The table of times: a line a fall; our column first."""
-    found = {(row["fall"], row["model"]): row for row in rows}
-    models = (OURS, BEST, "MuJoCo Euler", "MuJoCo RK4")
-    lines = ["| fall | " + " | ".join(f"{'MuJoCo implicit' if model == BEST else model}, us a step; ms a simulated second"
-                                      for model in models) + " |", "|---" * (len(models) + 1) + "|"]
-    for scene in SCENES:
-        cells = []
-        for model in models:
-            row = found.get((scene, model))
-            broke = " (breaks)" if row and row["regime"] == "breaks" else ""
-            cells.append("-" if row is None or row["seconds_per_step"] is None else f"{1e6 * row['seconds_per_step']:.2f}; "
-                         f"{1e3 * row['seconds_per_simulated_second']:.2f}{broke}")
-        lines.append("| " + " | ".join([scene] + cells) + " |")
-    return "\n".join(lines) + "\n"
+def summary_table(rows):
+    """A line a model: what it misses in the mean over the falls, undivided."""
+    def mean_of(values):
+        return f"{100 * sum(values) / len(values):.0f} %" if values else "-"
+
+    def lines():
+        for model in dict.fromkeys(row["model"] for row in rows):
+            of = [row for row in rows if row["model"] == model]
+            figures = [mean_of([abs(row[name]) for row in of
+                                if row.get(name) is not None and (name == "descent" or row["fall"] != "sphere")])
+                       for name in FIGURES]
+            worst = [row["worst"] for row in of]
+            regimes = sum(row["regime"] == row.get("regime_cfd") for row in of)
+            yield [model, *figures, mean_of(worst), f"{100 * max(worst):.0f} %", f"{regimes} of {len(of)}",
+                   f"{sum(row['agrees'] == 'yes' for row in of)} of {len(of)}"]
+
+    return table(["model", "descent", "frequency", "amplitude", "rms angular speed", "worst figure: mean", "largest", "regimes right",
+                  "within 10, 20, 30 %"], lines())
 
 
 def coefficients_table(search, default):
@@ -187,31 +176,29 @@ def main(words):
     if len(words) not in (4, 5):
         sys.stderr.write(__doc__)
         return 2
-    programs, bodies, folder = words[1:4]
+    programs, work, folder = words[1:4]
     default = (0.5, 0.25, 1.5, 1.0, 1.0)
     scenes = list(SCENES)
     samples = words[4] if len(words) == 5 else "2000"
-    search = searched(programs, bodies, samples)
+    search = searched(programs, work, samples)
     best = search["best"]["coefficients"]
     rows = peer(programs, scenes, DEFAULT, default) + peer(programs, scenes, BEST, best)
     for found in search["best_by_shape"].values():
         rows += peer(programs, found["falls"], SHAPE, found["coefficients"])
     for scene in scenes:
         rows += peer(programs, [scene], ALONE, search["best_alone"][scene]["coefficients"])
-    for integrator in ("Euler", "RK4"):
-        rows += peer(programs, scenes, f"MuJoCo {integrator}", best, integrator)
-    rows += by_equations(programs, bodies, samples) + ours(programs, bodies)
-    equations = list(dict.fromkeys(row["model"] for row in rows if "MuJoCo" not in row["model"]))
-    columns = ["fall", "model", "regime_cfd", "regime"] + list(FIGURES) + ["worst", "agrees", "seconds_per_step",
-                                                                         "seconds_per_simulated_second"]
+    equations = by_equations(programs, work, samples)
+    rows += equations + by_surface(programs) + [row for who, noise in OURS.items() for row in reported(who, noise)]
+    own = [SURFACE, *OURS]
+    columns = ["fall", "model", "regime_cfd", "regime"] + list(FIGURES) + ["worst", "agrees"]
     with open(os.path.join(folder, "peers.csv"), "w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, columns, lineterminator="\n")
         writer.writeheader()
         for row in rows:
             writer.writerow({key: f"{value:.4g}" if isinstance(value, float) else value for key, value in row.items()})
-    write_tables(os.path.join(folder, "peers.md"), [coefficients_table(search, default), table(rows, (DEFAULT, BEST, SHAPE, ALONE, OURS)),
-                  table(rows, equations), times(rows)],
-                 mark("falls"))
+    write_tables(os.path.join(folder, "peers.md"), [
+        summary_table(rows), coefficients_table(search, default), errors_table(rows, (DEFAULT, BEST, SHAPE, ALONE)),
+        errors_table(rows, tuple(dict.fromkeys(row["model"] for row in equations))), errors_table(rows, own)], mark("falls"))
     subprocess.run(["gnuplot", "-e", f"rows='{folder}/peers.csv'; picture='{folder}/peers.png'", f"{folder}/peers.gp"],
                    check=True)
     print(f"Written: peers.csv, peers.md and peers.png in {folder}")

@@ -10,6 +10,12 @@ def mark(part):
     return f"<!-- table: written by ./dev report {part} -->\n"
 
 
+def table(head, lines):
+    """Of rows of cells."""
+    return "\n".join(["| " + " | ".join(head) + " |", "|---" * len(head) + "|"]
+                     + ["| " + " | ".join(line) + " |" for line in lines]) + "\n"
+
+
 def write_tables(document, tables, begin):
     """Puts the tables between the document's marks, in their order."""
     with open(document, encoding="utf-8") as file:

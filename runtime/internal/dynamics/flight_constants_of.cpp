@@ -179,11 +179,12 @@ void set_loads(const ImmersedBody& body, FlightConstants<Real>& c) {
     const double creeping = std::numbers::pi * body.viscosity * body.length / mass;
     const double ratio = body.length / length;
     c.creeping_turn = static_cast<Real>(creeping * ratio * ratio);
-    c.creeping_drag = static_cast<Real>(3.0 * creeping);
     if (body.loads != Loads::coefficients) {
+        c.creeping_drag = static_cast<Real>(3.0 * creeping);
         c.potential_transport = symmetric<Real>(
             directed(body.added_mass - body.fluid_density * dynamic.transport) / (mass * tow));
-        c.lowest_reynolds_inverse = static_cast<Real>(1.0 / body.tables->reynolds_numbers.front());
+        c.creeping_fades = static_cast<Real>(
+            body.tables->stokes_throughout ? 0.0 : 1.0 / body.tables->reynolds_numbers.front());
         c.loads_by_direction = load_table<Real>(body);
     } else {
         c.drag_coefficient = static_cast<Real>(body.coefficients.drag_coefficient);

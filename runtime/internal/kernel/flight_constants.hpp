@@ -69,7 +69,6 @@ struct FlightConstants {
     Real twice_lift_coefficient = 0;
     Triple<Real> normal{};
     Triple<Real> center_of_pressure{};  ///< over l, from the centroid
-    Real lowest_reynolds_inverse = 0;   ///< of the table; 0: no Stokes resistance in translation
 
     Square<Real> potential_transport{};      ///< rho_f (M - T) / m* over tow_factor, less its isotropic part
     Square<Real> directed_transport{};       ///< rho_f T / m* less its isotropic part
@@ -89,7 +88,8 @@ struct FlightConstants {
     Square<Real> rotational_drag_in_spin{};  ///< rho_f C_r D / (2 m* l)
     Real half_length = 0;                    ///< c / l
     Real creeping_turn = 0;                  ///< pi mu L^3 / (m* l^2) (1/s)
-    Real creeping_drag = 0;                  ///< 3 pi mu L / m* (1/s)
+    Real creeping_drag = 0;                  ///< 3 pi mu L / m* (1/s); 0 of loads by coefficients
+    Real creeping_fades = 0;                 ///< 1/Re where that has faded out; 0: nowhere
 
     Turbulence turbulence = Turbulence::none;
     Langevin langevin = Langevin::seen_fluid;      ///< wake: of tables alone

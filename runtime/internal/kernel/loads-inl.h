@@ -196,7 +196,6 @@ HWY_INLINE V share_of(V a, V b) {
 template <class V, class Real>
 HWY_INLINE LoadBlocks<V> relative_load_blocks(const FlightConstants<Real>& c, const Triple<V>& omega,
                                               const Triple<V>& velocity, const Triple<V>& turning) {
-    const V zero(0.0);
     const Heading<V> heading = heading_of(velocity);
     const V speed_square = dot(velocity, velocity);
     const V reach_square(c.half_length * c.half_length);
@@ -210,9 +209,9 @@ HWY_INLINE LoadBlocks<V> relative_load_blocks(const FlightConstants<Real>& c, co
     add_windmill(point.moment_along_force, velocity, blocks);
 
     const V in_motion = combined * share_of(tip_square, V(motion_onset) * speed_square);
-    const V below =
-        larger(zero, V(1.0) - V(c.reynolds_factor) * heading.speed * V(c.lowest_reynolds_inverse));
-    const V creeping_drag = select(zero < V(c.lowest_reynolds_inverse), V(c.creeping_drag) * below, zero);
+    const V creeping_drag =
+        V(c.creeping_drag) *
+        larger(V(0.0), V(1.0) - V(c.reynolds_factor) * heading.speed * V(c.creeping_fades));
     blocks.moment_by_turning = plus_diagonal(
         blocks.moment_by_turning + combined * broadcast_symmetric<V>(c.rotational_drag), V(c.creeping_turn));
     blocks.force_by_velocity = plus_diagonal(

@@ -33,10 +33,13 @@ struct LoadTables {
     int subdivisions = 1;                  ///< n: each edge of the octahedron is cut into n
     Matrix3d axes = Matrix3d::Identity();  ///< columns: the map's axes, in body axes
     std::vector<double> reynolds_numbers;  ///< ascending
-    std::vector<LoadEntry> entries;        ///< by index()
-    std::vector<LoadEntryError> errors;    ///< beside the entries; empty where unknown
-    std::string quality;                   ///< of the bake: smoke, preview, ...
-    std::string provenance;                ///< JSON text: one object for each solved case (docs/file-formats)
+    /// Whether Stokes' resistance stands beside the entries at every Reynolds number; else it is added below
+    /// the first alone, and fades out there.
+    bool stokes_throughout = false;
+    std::vector<LoadEntry> entries;      ///< by index()
+    std::vector<LoadEntryError> errors;  ///< beside the entries; empty where unknown
+    std::string quality;                 ///< of the bake: smoke, preview, ...
+    std::string provenance;              ///< JSON text: one object for each solved case (docs/file-formats)
     std::vector<ErrorShare> error_sources;  ///< that `errors` hold; empty where the file does not say
     std::vector<LeftOutCase> left_out;      ///< what the bake could not solve
     PlannedRegion plan;                     ///< what a bake for a scene was planned for

@@ -25,7 +25,8 @@ LoadTables as_tables(const SurfaceLoads& loads, double length) {
     LoadTables tables;
     tables.reference_length = length;
     tables.subdivisions = loads.subdivisions;
-    tables.reynolds_numbers = {1e2, 3e2, 1e3, 3e3, 1e4, 1e5};
+    tables.reynolds_numbers = {1.0, 3.0, 1e1, 3e1, 1e2, 3e2, 1e3, 3e3, 1e4, 1e5};
+    tables.stokes_throughout = true;
     const int size = tables.map_size();
     const LoadEntryError error{.force = Vector3d::Constant(error_of_force / std::sqrt(3.0) *
                                                            rms(loads.pressure, &PressureLoads::force)),

@@ -26,9 +26,9 @@ struct SurfaceLoads {
     Matrix3d friction_moment = Matrix3d::Zero();  ///< its moment likewise
 };
 
-/// The same as tables for Reynolds numbers from 100 to 1e5, with the friction of a laminar boundary layer,
-/// 1.33 Re^-1/2 (Blasius), k = epsilon = 0, and the standard errors that such tables have beside those by
-/// CFD. `length`: L (m).
+/// The same as tables for Reynolds numbers from 1 to 1e5, with the friction of a laminar boundary layer,
+/// 1.33 Re^-1/2 (Blasius), beside which Stokes' resistance stands throughout, k = epsilon = 0, and the
+/// standard errors that such tables have beside those by CFD. `length`: L (m).
 LoadTables as_tables(const SurfaceLoads& loads, double length);
 
 }  // namespace samara

@@ -15,9 +15,12 @@ sys.path.insert(0, os.path.join(HERE, "..", "..", "tools"))
 import nature_fruit  # noqa: E402
 import nature_scenes  # noqa: E402
 from gnuplot_picture import Pose, rotation_of  # noqa: E402
+from nature_families import FRUITS, REGIMES, slope, transition  # noqa: E402
 from nature_measure import coning, drift, first_acceleration, horizontal_speed, measured, peak_speed, spin, turning_rate  # noqa: E402
-from nature_study import ACCELERATIONS, CASES, REGIME, added_mass, first_acceleration as exact_acceleration, terminal_speed  # noqa: E402
-from nature_tables import DERIVED, bracket, derived, merged, misses, told  # noqa: E402
+from nature_report import mean_of_flights, with_copies  # noqa: E402
+from nature_study import ACCELERATIONS, CASES, REGIME, added_mass, fruit_name, terminal_speed  # noqa: E402
+from nature_study import first_acceleration as exact_acceleration  # noqa: E402
+from nature_tables import DERIVED, MODELS, bracket, derived, merged, misses, told  # noqa: E402
 
 UPRIGHT = rotation_of(1, 0, 0, 0)
 
@@ -105,6 +108,46 @@ class Fruits(unittest.TestCase):
             self.assertGreater(min(inertia[i][i] for i in range(3)), 0)
 
 
+    def test_all_84_are_there_and_those_of_the_table_are_among_them(self):
+        with open(os.path.join(PROJECT, FRUITS), newline="", encoding="utf-8") as file:
+            fruits = {fruit_name(int(row["angle"]), int(row["radius"]), float(row["payload"])): row for row in csv.DictReader(file)}
+        self.assertEqual(len(fruits), 84)
+        for row in published():
+            if row["case"].startswith("fruit-"):
+                one = fruits[row["case"]]
+                column = "spin" if row["quantity"] == "spin" else "descent"
+                self.assertEqual((float(row["value"]), float(row["uncertainty"])),
+                                 (float(one[column]), float(one[f"{column}_deviation"])), row["case"])
+
+
+class Families(unittest.TestCase):
+    @staticmethod
+    def strip(froude, fluttering, tumbling):
+        return {"froude": str(froude)} | dict.fromkeys(REGIMES, "0") | {"fluttering": str(fluttering), "tumbling": str(tumbling)}
+
+    def test_strips_go_over_where_most_of_them_no_longer_flutter(self):
+        falls = [self.strip(0.4, 20, 0), self.strip(0.6, 11, 9), self.strip(0.8, 9, 11), self.strip(1.0, 0, 20)]
+        self.assertEqual(transition(falls), "between 0.6 and 0.8")
+        self.assertEqual(transition(falls[:2]), "above 0.6")
+        self.assertEqual(transition(falls[2:]), "below 0.8")
+        self.assertEqual(transition([falls[0], falls[2], self.strip(0.9, 20, 0)]), "not sharp, 0.8 to 0.9")
+
+    def test_an_exponent_is_that_of_a_power(self):
+        self.assertAlmostEqual(slope([(x, 7 * x ** -0.5) for x in (0.3, 1, 4)]), -0.5)
+
+    def test_the_error_of_a_mean_is_the_falls_drift_and_the_means_own(self):
+        self.assertEqual(mean_of_flights([(2.0, 0.1)]), (2.0, 0.1))
+        value, error = mean_of_flights([(1.0, 0.3), (3.0, 0.3)])
+        self.assertEqual(value, 2.0)
+        self.assertAlmostEqual(error, math.hypot(0.3, math.sqrt(2.0) / math.sqrt(2)))
+
+    def test_copies_have_the_noise_that_a_scene_has_of_itself(self):
+        text = with_copies('[[body]]\nname = "a"\nshape = "a.geo"\nturbulence = "none"\n', "/tmp/b.body.h5", "surface")
+        self.assertNotIn("turbulence", text)
+        self.assertIn('shape = "/tmp/b.body.h5"', text)
+        self.assertIn('loads = "surface"', text)
+
+
 class Tables(unittest.TestCase):
     def test_every_published_figure_is_of_a_case_that_measures_it(self):
         measures = {case.name: case.measures for case in CASES}
@@ -116,31 +159,40 @@ class Tables(unittest.TestCase):
     def test_what_is_not_measured_is_not_solved_yet(self):
         rows = merged(published(), [], [])
         self.assertEqual(len(rows), len(published()))
-        self.assertEqual({told(row, column) for row in rows for column in ("runtime", "cfd")}, {"not solved yet", "no case yet"})
+        self.assertEqual({told(row, column) for row in rows for column in MODELS.values()}, {"not solved yet", "no case yet"})
 
     def test_what_a_folder_has_not_stays_as_it_was_measured(self):
-        before = [dict(row, runtime="1.3", runtime_error="0.1") if row["case"] == "sphere-ga-144" else row
+        before = [dict(row, tables="1.3", tables_error="0.1") if row["case"] == "sphere-ga-144" else row
                   for row in merged(published(), [], [])]
         after = merged(published(), [], before)
-        self.assertEqual({row["runtime"] for row in after if row["case"] == "sphere-ga-144"}, {"1.3"})
-        self.assertEqual({row["runtime"] for row in after if row["case"] != "sphere-ga-144"}, {""})
+        self.assertEqual({row["tables"] for row in after if row["case"] == "sphere-ga-144"}, {"1.3"})
+        self.assertEqual({row["tables"] for row in after if row["case"] != "sphere-ga-144"}, {""})
 
     def test_a_miss_is_bold_and_a_figure_within_the_uncertainty_is_not(self):
         def row(speed):
-            found = merged(published(), [{"case": "sphere-ga-144", "quantity": "descent speed", "model": "runtime", "value": speed,
+            found = merged(published(), [{"case": "sphere-ga-144", "quantity": "descent speed", "model": "surface", "value": speed,
                                           "error": "0", "by": ""}], [])
             return next(each for each in found if each["case"] == "sphere-ga-144" and each["quantity"] == "descent speed")
 
         speed = 1.285 * 0.442944691807
-        self.assertEqual(told(row(str(speed)), "runtime"), "1.285 (+0.0 %)")
-        self.assertFalse(misses(row(str(1.004 * speed)), "runtime"))
-        self.assertTrue(told(row(str(0.95 * speed)), "runtime").startswith("**"))
+        self.assertEqual(told(row(str(speed)), "surface"), "1.285 (+0.0 %)")
+        self.assertFalse(misses(row(str(1.004 * speed)), "surface"))
+        self.assertTrue(told(row(str(0.95 * speed)), "surface").startswith("**"))
 
     def test_a_transition_lies_between_the_last_and_the_first(self):
         falls = [(0.4, "fluttering"), (0.6, "fluttering"), (0.8, "tumbling")]
         self.assertEqual(bracket(falls, "fluttering", "tumbling"), "between 0.6 and 0.8")
         self.assertEqual(bracket([(0.4, "fluttering")], "fluttering", "tumbling"), "above 0.4")
         self.assertIsNone(bracket([], "fluttering", "tumbling"))
+
+    def test_a_transition_holds_where_its_bracket_meets_the_published_one(self):
+        def row(text):
+            return {"quantity": "Froude number of the transition", "published": "0.67", "uncertainty": "0.05", "verified": "yes",
+                    "surface": text, "surface_error": ""}
+
+        self.assertTrue(misses(row("between 0.8 and 0.85"), "surface"))
+        self.assertFalse(misses(row("between 0.7 and 0.75"), "surface"))
+        self.assertIsNone(misses(row("above 1"), "surface"))
 
     def test_the_cards_exponents_are_those_of_their_rates(self):
         rates = {"card-20-0_3": 10.0, "card-20-0_6": 10.0 * math.sqrt(2), "card-30-0_3": 10.0 * 2 / 3}
