@@ -12,6 +12,7 @@
 #include "foam-cases/falls/fall_motion.hpp"
 #include "foam-cases/farm/case_folder.hpp"
 #include "foam-cases/farm/cluster_jobs.hpp"
+#include "foam-cases/farm/cpu_account.hpp"
 #include "foam-cases/farm/folder_lock.hpp"
 #include "internal/base/content_hash.hpp"
 #include "internal/comparison/reference_uncertainty.hpp"
@@ -146,7 +147,7 @@ ValidationResult validate_scene(const ValidationRequest& request, const FarmOpti
     write_case_folder(folder, falling.body, result.plan, foam_cases);
     result.reused = count_solved(folder, result.plan) > 0;
     solve_cases(folder, result.plan, farm, foam_cases);  // throws where the one fall is not solved
-    result.cpu_seconds = spent_cpu_seconds(folder, result.plan);
+    result.cpu_seconds = cpu_seconds_of(cpu_account(folder, result.plan));
     const fs::path fall_folder = folder / result.plan.only_fall().name;
     const FallRecord record = read_fall_record(fall_folder);
     result.solution = read_solution(fall_folder);

@@ -56,19 +56,43 @@ constexpr double good_step = 1e-5;  // over the edge's length: the node's own pl
 constexpr double most_astray = 0.5;  // from the middle, over the edge's length
 constexpr double least_turn = 1e-6;  // between the normals at the ends
 
+using Places = std::unordered_map<std::size_t, Eigen::Vector2d>;
+
+// The parameters of the nodes of a curve (its one comes first) or a surface, and of its boundary, by their
+// tags.
+Places places_on(int dimension, int tag) {
+    std::vector<std::size_t> tags;
+    std::vector<double> coordinates;
+    std::vector<double> parameters;
+    constexpr bool with_boundary = true;
+    constexpr bool with_parameters = true;
+    gmsh::model::mesh::getNodes(tags, coordinates, parameters, dimension, tag, with_boundary,
+                                with_parameters);
+    Places places;
+    const auto count = static_cast<std::size_t>(dimension);
+    for (std::size_t i = 0; i < tags.size() && count * (i + 1) <= parameters.size(); ++i) {
+        places[tags[i]] = {parameters[count * i], count == 2 ? parameters[2 * i + 1] : 0.0};
+    }
+    return places;
+}
+
+// The parameters of the point of a curve or surface that is nearest to the given one, and that point. Slow.
+std::pair<Eigen::Vector2d, Vector3d> nearest_on(int dimension, int tag, const Vector3d& point) {
+    std::vector<double> nearest;
+    std::vector<double> place;
+    gmsh::model::getClosestPoint(dimension, tag, {point.x(), point.y(), point.z()}, nearest, place);
+    gmsh::model::getParametrization(dimension, tag, nearest, place);
+    return {{place[0], dimension == 2 ? place[1] : 0.0}, Vector3d(nearest.data())};
+}
+
 // Where the nodes of edges go on one surface of the geometry.
 class NodesOnSurface {
   public:
-    explicit NodesOnSurface(int tag) : tag_(tag) {
-        std::vector<std::size_t> tags;
-        std::vector<double> coordinates;
-        std::vector<double> parameters;
-        constexpr bool with_boundary = true;
-        constexpr bool with_parameters = true;
-        gmsh::model::mesh::getNodes(tags, coordinates, parameters, 2, tag, with_boundary, with_parameters);
-        for (std::size_t i = 0; i < tags.size() && 2 * i + 1 < parameters.size(); ++i) {
-            places_[tags[i]] = {parameters[2 * i], parameters[2 * i + 1]};
-        }
+    explicit NodesOnSurface(int tag) : tag_(tag), places_(places_on(2, tag)) {
+        std::vector<double> low;
+        std::vector<double> high;
+        gmsh::model::getParametrizationBounds(2, tag, low, high);
+        range_ = Eigen::Vector2d(high.data()) - Eigen::Vector2d(low.data());
     }
 
     // The node of the edge from a to b.
@@ -79,19 +103,25 @@ class NodesOnSurface {
         const auto two = places_.find(tag_b);
         Vector3d turn = Vector3d::Zero();
         if (one != places_.end() && two != places_.end()) {
-            turn = turn_between(one->second, two->second);
-            if (const auto found = from(0.5 * (one->second + two->second), b - a, middle, turn))
-                return *found;
+            for (const Eigen::Vector2d& end : {two->second, over_seam(one->second, two->second)}) {
+                turn = turn_between(one->second, end);
+                if (const auto found = from(0.5 * (one->second + end), b - a, middle, turn)) return *found;
+            }
         }
-        // As over a seam; gmsh's own search is slow.
-        std::vector<double> nearest;
-        std::vector<double> place;
-        gmsh::model::getClosestPoint(2, tag_, {middle.x(), middle.y(), middle.z()}, nearest, place);
-        gmsh::model::getParametrization(2, tag_, nearest, place);
-        return from({place[0], place[1]}, b - a, middle, turn).value_or(Vector3d(nearest.data()));
+        const auto [place, nearest] = nearest_on(2, tag_, middle);
+        return from(place, b - a, middle, turn).value_or(nearest);
     }
 
   private:
+    // The place `two` as it is next to the other across the seam of a surface that closes.
+    [[nodiscard]] Eigen::Vector2d over_seam(const Eigen::Vector2d& one, Eigen::Vector2d two) const {
+        for (Eigen::Index i = 0; i < 2; ++i) {
+            const double apart = two[i] - one[i];
+            if (std::abs(apart) > 0.5 * range_[i]) two[i] -= std::copysign(range_[i], apart);
+        }
+        return two;
+    }
+
     // The unit vector across the normals at two places; zero where they are parallel. Just within: at the
     // poles of a sphere there is none.
     [[nodiscard]] Vector3d turn_between(const Eigen::Vector2d& one, const Eigen::Vector2d& two) const {
@@ -144,41 +174,59 @@ class NodesOnSurface {
     }
 
     int tag_;
-    std::unordered_map<std::size_t, Eigen::Vector2d> places_;
+    Places places_;
+    Eigen::Vector2d range_;
 };
 
-// The node of the edge from a to b of a curve of the geometry: the point that is farthest from the chord.
-Vector3d node_on_curve(int tag, const Vector3d& a, const Vector3d& b) {
-    const Vector3d middle = 0.5 * (a + b);
-    const double length = (b - a).norm();
-    const Vector3d chord = (b - a) / length;
-    std::vector<double> nearest;
-    std::vector<double> place;
-    gmsh::model::getClosestPoint(1, tag, {middle.x(), middle.y(), middle.z()}, nearest, place);
-    gmsh::model::getParametrization(1, tag, nearest, place);
-    for (int step = 0; step < most_steps; ++step) {
-        std::vector<double> numbers;
-        gmsh::model::getValue(1, tag, place, numbers);
-        const Vector3d point(numbers.data());
-        const Vector3d arm = point - middle;
-        if (!(arm.norm() < most_astray * length)) break;
-        gmsh::model::getDerivative(1, tag, place, numbers);
-        const Vector3d slope(numbers.data());
-        gmsh::model::getSecondDerivative(1, tag, place, numbers);
-        const Vector3d bend(numbers.data());
-        const Vector3d off = arm - arm.dot(chord) * chord;
-        const Vector3d out = off.norm() > least_turn * length ? off.normalized() : Vector3d::Zero();
-        const double speed = slope.norm();
-        const Eigen::Vector2d residual(out.dot(slope) / speed,
-                                       weight_of_middle / length * arm.dot(slope) / speed);
-        const Eigen::Vector2d jacobian(out.dot(bend) / speed, weight_of_middle / length * speed);
-        const double shift = -jacobian.dot(residual) / jacobian.squaredNorm();
-        if (!std::isfinite(shift)) break;
-        if (std::abs(shift) * speed < good_step * length) return point;
-        place[0] += shift;
+// The same on a curve: there the point that is farthest from the chord.
+class NodesOnCurve {
+  public:
+    explicit NodesOnCurve(int tag) : tag_(tag), places_(places_on(1, tag)) {}
+
+    [[nodiscard]] Vector3d between(const Vector3d& a, const Vector3d& b, std::size_t tag_a,
+                                   std::size_t tag_b) const {
+        const auto one = places_.find(tag_a);
+        const auto two = places_.find(tag_b);
+        if (one != places_.end() && two != places_.end()) {
+            if (const auto found = from(0.5 * (one->second.x() + two->second.x()), a, b)) return *found;
+        }
+        // As over the end of a closed curve.
+        const auto [place, nearest] = nearest_on(1, tag_, 0.5 * (a + b));
+        return from(place.x(), a, b).value_or(nearest);
     }
-    return Vector3d(nearest.data());
-}
+
+  private:
+    [[nodiscard]] std::optional<Vector3d> from(double place, const Vector3d& a, const Vector3d& b) const {
+        const Vector3d middle = 0.5 * (a + b);
+        const double length = (b - a).norm();
+        const Vector3d chord = (b - a) / length;
+        for (int step = 0; step < most_steps; ++step) {
+            std::vector<double> numbers;
+            gmsh::model::getValue(1, tag_, {place}, numbers);
+            const Vector3d point(numbers.data());
+            const Vector3d arm = point - middle;
+            if (!(arm.norm() < most_astray * length)) break;
+            gmsh::model::getDerivative(1, tag_, {place}, numbers);
+            const Vector3d slope(numbers.data());
+            gmsh::model::getSecondDerivative(1, tag_, {place}, numbers);
+            const Vector3d bend(numbers.data());
+            const Vector3d off = arm - arm.dot(chord) * chord;
+            const Vector3d out = off.norm() > least_turn * length ? off.normalized() : Vector3d::Zero();
+            const double speed = slope.norm();
+            const Eigen::Vector2d residual(out.dot(slope) / speed,
+                                           weight_of_middle / length * arm.dot(slope) / speed);
+            const Eigen::Vector2d jacobian(out.dot(bend) / speed, weight_of_middle / length * speed);
+            const double shift = -jacobian.dot(residual) / jacobian.squaredNorm();
+            if (!std::isfinite(shift)) break;
+            if (std::abs(shift) * speed < good_step * length) return point;
+            place += shift;
+        }
+        return std::nullopt;
+    }
+
+    int tag_;
+    Places places_;
+};
 
 class EdgeNodeMaker {
   public:
@@ -188,19 +236,9 @@ class EdgeNodeMaker {
     }
 
     // Curves before surfaces: an edge gets its node on the first that it lies on.
-    void add_on_curve(int tag) {
-        for (const auto& [from, to] : edges_on(1, tag)) {
-            if (is_new(from, to)) surface_.vertices.push_back(node_on_curve(tag, vertex(from), vertex(to)));
-        }
-    }
+    void add_on_curve(int tag) { add(NodesOnCurve(tag), edges_on(1, tag)); }
 
-    void add_on_surface(int tag) {
-        const NodesOnSurface nodes(tag);
-        for (const auto& [from, to] : edges_on(2, tag)) {
-            if (!is_new(from, to)) continue;
-            surface_.vertices.push_back(nodes.between(vertex(from), vertex(to), from, to));
-        }
-    }
+    void add_on_surface(int tag) { add(NodesOnSurface(tag), edges_on(2, tag)); }
 
     [[nodiscard]] std::int32_t node_between(std::int32_t a, std::int32_t b) const {
         return nodes_.at({std::min(a, b), std::max(a, b)});
@@ -219,6 +257,14 @@ class EdgeNodeMaker {
         const std::int32_t b = index_.at(to);
         const auto next = static_cast<std::int32_t>(surface_.vertices.size());
         return nodes_.emplace(std::pair(std::min(a, b), std::max(a, b)), next).second;
+    }
+
+    template <class Nodes>
+    void add(const Nodes& nodes, const std::vector<Tags>& edges) {
+        for (const auto& [from, to] : edges) {
+            if (!is_new(from, to)) continue;
+            surface_.vertices.push_back(nodes.between(vertex(from), vertex(to), from, to));
+        }
     }
 
     // The mesh's edges, as tags of nodes, on a curve or a surface.
