@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -31,7 +32,7 @@ namespace {
 namespace fs = std::filesystem;
 using Planned = std::function<void(const BakePreparation&)>;
 
-// Seconds since the last call.
+// Seconds since the last call: of the clock on the wall, and of CPUs.
 class Stopwatch {
   public:
     double lap() {
@@ -41,8 +42,14 @@ class Stopwatch {
         return passed.count();
     }
 
+    double cpu_lap() {
+        const double now = cpu_seconds_so_far();
+        return now - std::exchange(last_cpu_, now);
+    }
+
   private:
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+    double last_cpu_ = cpu_seconds_so_far();
 };
 
 /// Writes the output; the body weighs from now on what it was baked for.
@@ -119,16 +126,23 @@ class CaseSolving {
     void solve(const BakePlan& plan, Unplanned unplanned) {
         write_case_folder(folder_, body_, plan, foam_cases_, unplanned);
         const std::size_t solved_before = count_solved(folder_, plan);
+        const double spent_before = cpu_seconds_of(cpu_account(folder_, plan));
+        watch_.cpu_lap();
         result_.reused += solved_before - std::min(solved_before, solved_);
         const std::vector<LeftOutCase> left_out = solve_cases(folder_, plan, farm_, foam_cases_);
         solved_ = plan.cases.size() + plan.falls.size() - left_out.size();
         result_.left_out = left_out;
-        result_.cpu_seconds = spent_cpu_seconds(folder_, plan);
+        records_ = cpu_account(folder_, plan);
+        result_.cpu_seconds = cpu_seconds_of(records_);
+        // A cluster's cases are no processes of this one.
+        const double of_cases = farm_.cluster.empty() ? result_.cpu_seconds - spent_before : 0.0;
+        farming_.seconds += std::max(0.0, watch_.cpu_lap() - of_cases);
         result_.case_seconds += watch_.lap();
     }
 
     [[nodiscard]] Conversion converted() {
         watch_.lap();
+        watch_.cpu_lap();
         Progress progress("converting", "cases");
         std::optional<Progress> identification;
         Conversion conversion = convert_folder(
@@ -141,6 +155,7 @@ class CaseSolving {
                 identification->update(100.0 * share, 100.0);
             });
         result_.conversion_seconds += watch_.lap();
+        reduction_.seconds += watch_.cpu_lap();
         return conversion;
     }
 
@@ -158,6 +173,12 @@ class CaseSolving {
 
     void name_work(std::string work) { farm_.work = std::move(work); }
 
+    /// Puts what was done here into the result's account.
+    void close_account() const {
+        result_.account.insert(result_.account.end(), records_.begin(), records_.end());
+        result_.account.insert(result_.account.end(), {farming_, reduction_});
+    }
+
   private:
     fs::path folder_;
     fs::path foam_cases_;
@@ -167,6 +188,9 @@ class CaseSolving {
     FolderLock lock_;
     Stopwatch watch_;
     std::size_t solved_ = 0;
+    CpuAccount records_;
+    CpuPart farming_ = {.what = "running them, checks"};
+    CpuPart reduction_ = {.what = "tables"};
 };
 
 void bake_for_scene(const BakeRequest& request, CaseSolving& solving, BakeResult& result) {
@@ -193,17 +217,20 @@ void solve_and_convert(const BakeRequest& request, const Body& body, const FarmO
     CaseSolving solving(request, body, farm, result);
     if (request.goal) {
         bake_for_scene(request, solving, result);
+        solving.close_account();
         return;
     }
     const BakePlan plan = *result.preparation.plan;
     solving.solve(plan, Unplanned::removed);
     if (request.probes > 0) {
         const FolderReduction reduction = solving.reduced();
+        solving.close_account();
         result.probes = reduction.cases.size();
         replace_file_with(request.output, samples_csv(reduction.cases, plan.axes));
         return;
     }
     result.conversion = solving.converted();
+    solving.close_account();
     write_result(request, result.conversion->body);
 }
 
@@ -229,8 +256,10 @@ BakeResult bake_body(const BakeRequest& request, const FarmOptions& farm, const 
     if (request.tables) require_solvers(farm, request.ranks);
     Body body = named_body(request, temporary.path());
     result.mesh_seconds = watch.lap();
+    result.account.push_back({"surface", 0, watch.cpu_lap()});
     add_kirchhoff_tensor(body, folder / case_body_name, temporary.path());
     result.kirchhoff_seconds = watch.lap();
+    result.account.push_back({"Kirchhoff tensor", 0, watch.cpu_lap()});
     result.preparation = plan_of(request, body);
     planned(result.preparation);
     if (request.tables) {

@@ -9,6 +9,7 @@
 #include "converter/convert.hpp"
 #include "foam-cases/bake/bake_plan.hpp"
 #include "foam-cases/farm/case_farm.hpp"
+#include "foam-cases/farm/cpu_account.hpp"
 #include "foam-cases/scene/scene_plan.hpp"
 #include "samara/scene/scene.hpp"
 
@@ -49,7 +50,8 @@ struct BakeResult {
     std::size_t probes = 0;  ///< rows of the table of cases, where probes were asked for
     std::size_t reused = 0;  ///< cases that an earlier bake had solved
     std::vector<LeftOutCase> left_out;
-    double cpu_seconds = 0.0;   ///< of all meshes and cases (spent_cpu_seconds)
+    double cpu_seconds = 0.0;   ///< of all meshes, cases and falls
+    CpuAccount account;         ///< these, and what else the bake did
     double mesh_seconds = 0.0;  ///< wall clock, as the next three
     double kirchhoff_seconds = 0.0;
     double case_seconds = 0.0;  ///< of the cases, their mesh included

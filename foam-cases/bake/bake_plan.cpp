@@ -336,6 +336,8 @@ Closure closure_at(double reynolds_number, Closure turbulent) {
 
 double estimated_iterations(const BakePlan& plan, const BakeCase& entry) {
     // Means over the bakes in docs/bake.md.
+    if (entry.closure == Closure::k_epsilon)
+        return (entry.start_from.empty() ? 1.5 : 0.8) * plan.quality.least_iterations;
     return (entry.start_from.empty() ? 0.35 : 0.25) * plan.quality.most_iterations;
 }
 

@@ -61,6 +61,7 @@ BakeQuality standard_quality() {
 BakeQuality high_quality() {
     BakeQuality quality;
     quality.name = "high";
+    quality.least_iterations = 200;
     quality.meshes = {coarse_mesh(), medium_mesh(), fine_mesh(), finest_mesh()};
     quality.most_directions = 28;
     quality.table_subdivisions = 12;

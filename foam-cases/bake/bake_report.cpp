@@ -105,6 +105,7 @@ nlohmann::json bake_as_json(const BakeRequest& request, const BakeResult& result
     nlohmann::json json = base_json(request, result.preparation);
     json["cases"] = nlohmann::json::array();
     json["cpu_seconds"] = result.cpu_seconds;
+    json["cpu_account"] = account_as_json(result.account);
     json["seconds"] = {{"mesh", result.mesh_seconds},
                        {"kirchhoff", result.kirchhoff_seconds},
                        {"cases", result.case_seconds},
@@ -192,6 +193,7 @@ void print_result(const BakeRequest& request, const BakeResult& result) {
     if (result.conversion->identification) {
         print_result("{}", identification_as_text(*result.conversion->identification));
     }
+    print_result("{}", account_as_text(result.account));
     print_result(
         "surface {:.1f} s, Kirchhoff tensor {:.1f} s, cases {:.1f} s ({:.0f} CPU s in all), tables {:.1f} s; "
         "the cases are in {}\n",

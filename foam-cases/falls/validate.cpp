@@ -14,6 +14,7 @@
 #include "foam-cases/falls/fall_motion.hpp"
 #include "foam-cases/farm/case_folder.hpp"
 #include "foam-cases/farm/cluster_jobs.hpp"
+#include "foam-cases/farm/cpu_account.hpp"
 #include "foam-cases/farm/folder_lock.hpp"
 #include "internal/base/content_hash.hpp"
 #include "internal/comparison/reference_uncertainty.hpp"
@@ -182,7 +183,7 @@ ValidationResult validate_scene(const ValidationRequest& request, const FarmOpti
                                 left_out.front().name, left_out.front().reason,
                                 count_solved(folder, result.plan), result.plan.falls.size()));
     }
-    result.cpu_seconds = spent_cpu_seconds(folder, result.plan);
+    result.cpu_seconds = cpu_seconds_of(cpu_account(folder, result.plan));
     std::vector<SolvedFall> solved;
     for (std::size_t copy = 0; copy < falling.starts.size(); ++copy) {
         const fs::path fall_folder = folder / result.plan.falls[copy].name;

@@ -255,14 +255,6 @@ std::size_t count_solved(const fs::path& folder, const BakePlan& plan) {
         jobs_of(plan), [&](const Job& entry) { return is_solved(folder / entry.name); }));
 }
 
-double spent_cpu_seconds(const fs::path& folder, const BakePlan& plan) {
-    const auto seconds_in = [](const fs::path& file) { return number_in(read_record(file), "cpu_seconds"); };
-    double sum = 0.0;
-    for (const FlowMesh& mesh : plan.all_meshes()) sum += seconds_in(folder / mesh.name / mesh_record);
-    for (const Job& entry : jobs_of(plan)) sum += seconds_in(folder / entry.name / "provenance.json");
-    return sum;
-}
-
 namespace {
 
 // The words before each of OpenFOAM's programs, where they are in a container.

@@ -23,9 +23,6 @@ void require_solvers(const FarmOptions& options, int ranks);
 /// How many of the planned cases are solved.
 std::size_t count_solved(const std::filesystem::path& folder, const BakePlan& plan);
 
-/// The CPU seconds that the solved cases and the meshes took, by their records; whichever bake solved them.
-double spent_cpu_seconds(const std::filesystem::path& folder, const BakePlan& plan);
-
 /// Solves the cases of a folder written by write_case_folder that are not solved yet, with
 /// Snakemake; a case that fails leaves the others running. Progress goes to standard error. Returns the cases
 /// that failed (they have a failed.json, or their mesh has) while others are solved. Throws Error where no

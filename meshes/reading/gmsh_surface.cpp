@@ -1,12 +1,14 @@
 #include "meshes/reading/gmsh_surface.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 
-#include <Eigen/Cholesky>
+#include <Eigen/Dense>
 #include <fmt/format.h>
 #include <gmsh.h>
 
@@ -43,60 +45,187 @@ void add_elements(Surface& surface, const IndexOfTag& index, int type, const std
     }
 }
 
-// Places of points on one surface of the geometry.
-class SurfaceProjection {
+// A quadratic edge follows a curve to the fourth order where its node is the curve's point whose tangent is
+// parallel to the chord; anywhere else, as nearest to the chord's middle, to the third where the curvature
+// changes. On a surface the normal at the node is then across the chord, and between the normals at the ends:
+// so the middles of chords of a sphere, stretched to an ellipsoid, become those of the ellipsoid's. Where
+// nothing bends that says little, and the place near the middle, by this much of the residual, all.
+constexpr double weight_of_middle = 0.01;
+constexpr int most_steps = 20;
+constexpr double good_step = 1e-5;  // over the edge's length: the node's own place counts to the second order
+constexpr double most_astray = 0.5;  // from the middle, over the edge's length
+constexpr double least_turn = 1e-6;  // between the normals at the ends
+
+using Places = std::unordered_map<std::size_t, Eigen::Vector2d>;
+
+// The parameters of the nodes of a curve (its one comes first) or a surface, and of its boundary, by their
+// tags.
+Places places_on(int dimension, int tag) {
+    std::vector<std::size_t> tags;
+    std::vector<double> coordinates;
+    std::vector<double> parameters;
+    constexpr bool with_boundary = true;
+    constexpr bool with_parameters = true;
+    gmsh::model::mesh::getNodes(tags, coordinates, parameters, dimension, tag, with_boundary,
+                                with_parameters);
+    Places places;
+    const auto count = static_cast<std::size_t>(dimension);
+    for (std::size_t i = 0; i < tags.size() && count * (i + 1) <= parameters.size(); ++i) {
+        places[tags[i]] = {parameters[count * i], count == 2 ? parameters[2 * i + 1] : 0.0};
+    }
+    return places;
+}
+
+// The parameters of the point of a curve or surface that is nearest to the given one, and that point. Slow.
+std::pair<Eigen::Vector2d, Vector3d> nearest_on(int dimension, int tag, const Vector3d& point) {
+    std::vector<double> nearest;
+    std::vector<double> place;
+    gmsh::model::getClosestPoint(dimension, tag, {point.x(), point.y(), point.z()}, nearest, place);
+    gmsh::model::getParametrization(dimension, tag, nearest, place);
+    return {{place[0], dimension == 2 ? place[1] : 0.0}, Vector3d(nearest.data())};
+}
+
+// Where the nodes of edges go on one surface of the geometry.
+class NodesOnSurface {
   public:
-    explicit SurfaceProjection(int tag) : tag_(tag) {
-        std::vector<std::size_t> tags;
-        std::vector<double> coordinates;
-        std::vector<double> parameters;
-        constexpr bool with_boundary = true;
-        constexpr bool with_parameters = true;
-        gmsh::model::mesh::getNodes(tags, coordinates, parameters, 2, tag, with_boundary, with_parameters);
-        for (std::size_t i = 0; i < tags.size() && 2 * i + 1 < parameters.size(); ++i) {
-            parameters_[tags[i]] = {parameters[2 * i], parameters[2 * i + 1]};
-        }
+    explicit NodesOnSurface(int tag) : tag_(tag), places_(places_on(2, tag)) {
+        std::vector<double> low;
+        std::vector<double> high;
+        gmsh::model::getParametrizationBounds(2, tag, low, high);
+        range_ = Eigen::Vector2d(high.data()) - Eigen::Vector2d(low.data());
     }
 
-    // The surface's point nearest to the middle of the nodes a and b: Gauss and Newton, from the middle of
-    // their parameters. Where that fails, as over a seam, gmsh's own search, which is slow.
-    [[nodiscard]] Vector3d nearest(const Vector3d& a, const Vector3d& b, std::size_t tag_a,
+    // The node of the edge from a to b.
+    [[nodiscard]] Vector3d between(const Vector3d& a, const Vector3d& b, std::size_t tag_a,
                                    std::size_t tag_b) const {
         const Vector3d middle = 0.5 * (a + b);
-        const double length = (b - a).norm();
-        if (parameters_.contains(tag_a) && parameters_.contains(tag_b)) {
-            Eigen::Vector2d place = 0.5 * (parameters_.at(tag_a) + parameters_.at(tag_b));
-            for (int iteration = 0; iteration < 20; ++iteration) {
-                const Vector3d point = value(place);
-                const Eigen::Matrix<double, 3, 2> slope = derivative(place);
-                const Eigen::Vector2d gradient = slope.transpose() * (middle - point);
-                const Eigen::Matrix2d normal_matrix = slope.transpose() * slope;
-                const Eigen::Vector2d step = normal_matrix.ldlt().solve(gradient);
-                if (!step.allFinite() || (point - middle).norm() > 0.5 * length) break;
-                if ((slope * step).norm() < 1e-7 * length) return point;
-                place += step;
+        const auto one = places_.find(tag_a);
+        const auto two = places_.find(tag_b);
+        Vector3d turn = Vector3d::Zero();
+        if (one != places_.end() && two != places_.end()) {
+            for (const Eigen::Vector2d& end : {two->second, over_seam(one->second, two->second)}) {
+                turn = turn_between(one->second, end);
+                if (const auto found = from(0.5 * (one->second + end), b - a, middle, turn)) return *found;
             }
         }
-        std::vector<double> found;
-        std::vector<double> parametric;
-        gmsh::model::getClosestPoint(2, tag_, {middle.x(), middle.y(), middle.z()}, found, parametric);
-        return Vector3d(found.data());
+        const auto [place, nearest] = nearest_on(2, tag_, middle);
+        return from(place, b - a, middle, turn).value_or(nearest);
     }
 
   private:
-    [[nodiscard]] Vector3d value(const Eigen::Vector2d& place) const {
-        std::vector<double> found;
-        gmsh::model::getValue(2, tag_, {place.x(), place.y()}, found);
-        return Vector3d(found.data());
+    // The place `two` as it is next to the other across the seam of a surface that closes.
+    [[nodiscard]] Eigen::Vector2d over_seam(const Eigen::Vector2d& one, Eigen::Vector2d two) const {
+        for (Eigen::Index i = 0; i < 2; ++i) {
+            const double apart = two[i] - one[i];
+            if (std::abs(apart) > 0.5 * range_[i]) two[i] -= std::copysign(range_[i], apart);
+        }
+        return two;
     }
-    [[nodiscard]] Eigen::Matrix<double, 3, 2> derivative(const Eigen::Vector2d& place) const {
-        std::vector<double> found;
-        gmsh::model::getDerivative(2, tag_, {place.x(), place.y()}, found);
-        return Eigen::Map<const Eigen::Matrix<double, 3, 2>>(found.data());
+
+    // The unit vector across the normals at two places; zero where they are parallel. Just within: at the
+    // poles of a sphere there is none.
+    [[nodiscard]] Vector3d turn_between(const Eigen::Vector2d& one, const Eigen::Vector2d& two) const {
+        constexpr double within = 1e-3;
+        const Eigen::Vector2d near_one = one + within * (two - one);
+        const Eigen::Vector2d near_two = two + within * (one - two);
+        std::vector<double> normals;
+        gmsh::model::getNormal(tag_, {near_one.x(), near_one.y(), near_two.x(), near_two.y()}, normals);
+        const Vector3d turn = Vector3d(normals.data()).cross(Vector3d(normals.data() + 3));
+        return turn.norm() > least_turn ? turn.normalized() : Vector3d::Zero();
+    }
+
+  private:
+    // Gauss and Newton from the place.
+    [[nodiscard]] std::optional<Vector3d> from(Eigen::Vector2d place, const Vector3d& along,
+                                               const Vector3d& middle, const Vector3d& turn) const {
+        const double length = along.norm();
+        const Vector3d chord = along / length;
+        for (int step = 0; step < most_steps; ++step) {
+            const std::vector<double> parameters = {place.x(), place.y()};
+            std::vector<double> numbers;
+            gmsh::model::getValue(2, tag_, parameters, numbers);
+            const Vector3d point(numbers.data());
+            if (!((point - middle).norm() < most_astray * length)) break;
+            gmsh::model::getDerivative(2, tag_, parameters, numbers);
+            const Eigen::Matrix<double, 3, 2> slope(numbers.data());
+            gmsh::model::getSecondDerivative(2, tag_, parameters, numbers);
+            const Vector3d uu(numbers.data());
+            const Vector3d vv(numbers.data() + 3);
+            const Vector3d uv(numbers.data() + 6);
+            const Vector3d area = slope.col(0).cross(slope.col(1));
+            const Vector3d normal = area.normalized();
+            Eigen::Matrix<double, 3, 2> change;  // of the normal
+            change << uu.cross(slope.col(1)) + slope.col(0).cross(uv),
+                uv.cross(slope.col(1)) + slope.col(0).cross(vv);
+            change = ((Matrix3d::Identity() - normal * normal.transpose()) * change / area.norm()).eval();
+            const double pull = weight_of_middle / length;
+            const Matrix3d across = pull * (Matrix3d::Identity() - normal * normal.transpose());
+            Eigen::Matrix<double, 5, 2> jacobian;
+            jacobian << chord.transpose() * change, turn.transpose() * change, across * slope;
+            Eigen::Matrix<double, 5, 1> residual;
+            residual << chord.dot(normal), turn.dot(normal), across * (point - middle);
+            const Eigen::Matrix2d normal_matrix = jacobian.transpose() * jacobian;
+            const Eigen::Vector2d shift = -normal_matrix.ldlt().solve(jacobian.transpose() * residual);
+            if (!shift.allFinite()) break;
+            if ((slope * shift).norm() < good_step * length) return point;
+            place += shift;
+        }
+        return std::nullopt;
     }
 
     int tag_;
-    std::unordered_map<std::size_t, Eigen::Vector2d> parameters_;
+    Places places_;
+    Eigen::Vector2d range_;
+};
+
+// The same on a curve: there the point that is farthest from the chord.
+class NodesOnCurve {
+  public:
+    explicit NodesOnCurve(int tag) : tag_(tag), places_(places_on(1, tag)) {}
+
+    [[nodiscard]] Vector3d between(const Vector3d& a, const Vector3d& b, std::size_t tag_a,
+                                   std::size_t tag_b) const {
+        const auto one = places_.find(tag_a);
+        const auto two = places_.find(tag_b);
+        if (one != places_.end() && two != places_.end()) {
+            if (const auto found = from(0.5 * (one->second.x() + two->second.x()), a, b)) return *found;
+        }
+        // As over the end of a closed curve.
+        const auto [place, nearest] = nearest_on(1, tag_, 0.5 * (a + b));
+        return from(place.x(), a, b).value_or(nearest);
+    }
+
+  private:
+    [[nodiscard]] std::optional<Vector3d> from(double place, const Vector3d& a, const Vector3d& b) const {
+        const Vector3d middle = 0.5 * (a + b);
+        const double length = (b - a).norm();
+        const Vector3d chord = (b - a) / length;
+        for (int step = 0; step < most_steps; ++step) {
+            std::vector<double> numbers;
+            gmsh::model::getValue(1, tag_, {place}, numbers);
+            const Vector3d point(numbers.data());
+            const Vector3d arm = point - middle;
+            if (!(arm.norm() < most_astray * length)) break;
+            gmsh::model::getDerivative(1, tag_, {place}, numbers);
+            const Vector3d slope(numbers.data());
+            gmsh::model::getSecondDerivative(1, tag_, {place}, numbers);
+            const Vector3d bend(numbers.data());
+            const Vector3d off = arm - arm.dot(chord) * chord;
+            const Vector3d out = off.norm() > least_turn * length ? off.normalized() : Vector3d::Zero();
+            const double speed = slope.norm();
+            const Eigen::Vector2d residual(out.dot(slope) / speed,
+                                           weight_of_middle / length * arm.dot(slope) / speed);
+            const Eigen::Vector2d jacobian(out.dot(bend) / speed, weight_of_middle / length * speed);
+            const double shift = -jacobian.dot(residual) / jacobian.squaredNorm();
+            if (!std::isfinite(shift)) break;
+            if (std::abs(shift) * speed < good_step * length) return point;
+            place += shift;
+        }
+        return std::nullopt;
+    }
+
+    int tag_;
+    Places places_;
 };
 
 class EdgeNodeMaker {
@@ -107,24 +236,9 @@ class EdgeNodeMaker {
     }
 
     // Curves before surfaces: an edge gets its node on the first that it lies on.
-    void add_on_curve(int tag) {
-        for (const auto& [from, to] : edges_on(1, tag)) {
-            const Vector3d middle = 0.5 * (vertex(from) + vertex(to));
-            std::vector<double> found;
-            std::vector<double> parametric;
-            if (!is_new(from, to)) continue;
-            gmsh::model::getClosestPoint(1, tag, {middle.x(), middle.y(), middle.z()}, found, parametric);
-            surface_.vertices.emplace_back(found.data());
-        }
-    }
+    void add_on_curve(int tag) { add(NodesOnCurve(tag), edges_on(1, tag)); }
 
-    void add_on_surface(int tag) {
-        const SurfaceProjection projection(tag);
-        for (const auto& [from, to] : edges_on(2, tag)) {
-            if (!is_new(from, to)) continue;
-            surface_.vertices.push_back(projection.nearest(vertex(from), vertex(to), from, to));
-        }
-    }
+    void add_on_surface(int tag) { add(NodesOnSurface(tag), edges_on(2, tag)); }
 
     [[nodiscard]] std::int32_t node_between(std::int32_t a, std::int32_t b) const {
         return nodes_.at({std::min(a, b), std::max(a, b)});
@@ -143,6 +257,14 @@ class EdgeNodeMaker {
         const std::int32_t b = index_.at(to);
         const auto next = static_cast<std::int32_t>(surface_.vertices.size());
         return nodes_.emplace(std::pair(std::min(a, b), std::max(a, b)), next).second;
+    }
+
+    template <class Nodes>
+    void add(const Nodes& nodes, const std::vector<Tags>& edges) {
+        for (const auto& [from, to] : edges) {
+            if (!is_new(from, to)) continue;
+            surface_.vertices.push_back(nodes.between(vertex(from), vertex(to), from, to));
+        }
     }
 
     // The mesh's edges, as tags of nodes, on a curve or a surface.

@@ -13,6 +13,9 @@
 #include <fmt/format.h>
 
 #include "internal/kirchhoff/solvers/tensor_error.hpp"
+#ifdef SAMARA_ELLIPSOID
+#include "meshes/make_body.hpp"
+#endif
 #include "peers/offset_sources.hpp"
 #include "samara/kirchhoff/kirchhoff_solver.hpp"
 #include "support/exact_bodies.hpp"
@@ -153,6 +156,24 @@ std::vector<Row> measure(const Case& body, const Method& method) {
     return rows;
 }
 
+/// The same ellipsoid from its shape file, on meshes by gmsh; none in a build without gmsh.
+std::vector<Row> measure_shape_file(const Case& body) {
+    std::vector<Row> rows;
+#ifdef SAMARA_ELLIPSOID
+    for (const int count : {320, 1280, 5120}) {
+        MeshOptions options;
+        options.triangles = count;
+        options.scale = 100.0;  // semi-axes of 1, 2 and 4 m
+        const Body made = make_body(SAMARA_ELLIPSOID, options);
+        rows.push_back(measured(body, "samara from gmsh mesh", made.surface,
+                                [&] { return kirchhoff_tensor(made.surface, body.moments); }));
+    }
+#else
+    (void)body;
+#endif
+    return rows;
+}
+
 void print(const Row& row) {
     fmt::print("{:<18}{:<24}{:>10}{:>12.2f}{:>12.1e}{:>12}\n", row.body, row.method, row.triangles,
                row.milliseconds, row.error, row.estimate > 0.0 ? fmt::format("{:.1e}", row.estimate) : "");
@@ -174,6 +195,7 @@ int main(int argc, char** argv) {
     for (const Case& body : cases()) {
         for (const Method& method : methods()) report(measure(body, method));
         if (body.mesh(1, true).order() == 1) report(measure_tolerances(body));
+        if (body.name == "ellipsoid 1:2:4") report(measure_shape_file(body));
     }
     if (argc < 2) return 0;
     std::ofstream file(argv[1]);

@@ -10,10 +10,13 @@
 #include <gmsh.h>
 #include <gtest/gtest.h>
 
+#include "internal/kirchhoff/solvers/tensor_error.hpp"
 #include "meshes/checks/sound_surface.hpp"
 #include "meshes/shape_files.hpp"
 #include "samara/body/body_file.hpp"
+#include "samara/kirchhoff/kirchhoff_solver.hpp"
 #include "support/expect_error.hpp"
+#include "support/known_bodies.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_shapes.hpp"
 
@@ -92,6 +95,37 @@ TEST(MakeBody, CurvedTrianglesAreAHundredTimesMoreAccurate) {
     for (const Vector3d& vertex : curved.surface.vertices) {
         const Vector3d scaled = vertex.cwiseQuotient(Vector3d(0.01, 0.02, 0.04));
         EXPECT_NEAR(scaled.norm(), 1.0, 1e-6);
+    }
+}
+
+/// The error of the added mass of the 1:2:4 ellipsoid on the surface.
+double added_mass_error(const Surface& surface) {
+    const Body exact = test::rubber_ellipsoid();
+    const KirchhoffTensor found = kirchhoff_tensor(surface, exact.moments);
+    return relative_tensor_error(found.matrix, exact.kirchhoff->matrix,
+                                 {exact.moments.volume, exact.moments.surface_area});
+}
+
+TEST(MakeBody, AddedMassIsWithinTwiceOfThatOnAnIdealMesh) {
+    const double ideal = added_mass_error(test::curved_ellipsoid({0.01, 0.02, 0.04}, 3));
+    const Surface meshed = make_body(test::shape_of_samara("ellipsoid.geo"), with_triangles(1280)).surface;
+    EXPECT_LT(added_mass_error(meshed), 2.0 * ideal);
+}
+
+TEST(MakeBody, NodesOfEdgesLieInTheMiddleAsTheEllipsoidStretchesThem) {
+    const Vector3d semi_axes(0.01, 0.02, 0.04);
+    const Surface surface = make_body(test::shape_of_samara("ellipsoid.geo"), with_triangles(320)).surface;
+    for (std::size_t t = 0; t < surface.triangle_count(); ++t) {
+        for (std::size_t side = 0; side < 3; ++side) {
+            const auto at = [&](std::int32_t index) {
+                return surface.vertices[static_cast<std::size_t>(index)];
+            };
+            const Vector3d one = at(surface.corners[t][side]);
+            const Vector3d two = at(surface.corners[t][(side + 1) % 3]);
+            const Vector3d middle = 0.5 * (one + two);
+            const Vector3d ideal = middle / middle.cwiseQuotient(semi_axes).norm();
+            EXPECT_LT((at(surface.edge_nodes[t][side]) - ideal).norm(), 0.01 * (two - one).norm());
+        }
     }
 }
 

@@ -1,8 +1,10 @@
 #include "internal/report/body_parts.hpp"
 
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -132,6 +134,23 @@ std::string or_dash(double number, const char* format) {
     return number > 0.0 ? fmt::format(fmt::runtime(format), number) : "-";
 }
 
+/// Where the solver's CPU seconds went, by mesh.
+std::string table_of_cpu_seconds(const std::vector<CaseRecord>& records, double all) {
+    std::map<double, std::pair<int, double>> meshes;
+    for (const CaseRecord& one : records) {
+        auto& [count, seconds] = meshes[one.cells];
+        ++count;
+        seconds += one.cpu_seconds;
+    }
+    Rows rows;
+    for (const auto& [cells, spent] : meshes) {
+        rows.push_back({or_dash(cells, "{:.0f}"), fmt::format("{}", spent.first),
+                        fmt::format("{:.1f}", spent.second),
+                        all > 0.0 ? fmt::format("{:.0f} %", 100.0 * spent.second / all) : "-"});
+    }
+    return html_table({"cells", "cases", "CPU s", "share"}, rows);
+}
+
 ReportPart part_of_cases(const LoadTables& tables) {
     const std::vector<CaseRecord> records = case_records(tables);
     std::string html;
@@ -152,10 +171,11 @@ ReportPart part_of_cases(const LoadTables& tables) {
     double seconds = 0.0;
     for (const CaseRecord& one : records) seconds += one.cpu_seconds;
     return {"The cases",
-            html + html_details(fmt::format("{} solved cases, {:.0f} CPU seconds", records.size(), seconds),
-                                html_table({"case", "for", "moving along", "Reynolds", "closure", "cells",
-                                            "drag", "k/U²", "verdict", "residual of p", "CPU s"},
-                                           rows))};
+            html + table_of_cpu_seconds(records, seconds) +
+                html_details(fmt::format("{} solved cases, {:.0f} CPU seconds", records.size(), seconds),
+                             html_table({"case", "for", "moving along", "Reynolds", "closure", "cells",
+                                         "drag", "k/U²", "verdict", "residual of p", "CPU s"},
+                                        rows))};
 }
 
 std::string joined(const std::set<std::string>& words) {

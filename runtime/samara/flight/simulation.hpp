@@ -16,7 +16,7 @@ namespace samara {
 
 /// What happened to the copies of a body of a scene in all runs.
 struct BodyReport : FlightReport {
-    TableErrorsMet table_errors;  ///< at the frames
+    TableErrorsMet table_errors;  ///< at the frames; of a crowd a thousand bodies or more stand for all
 };
 
 /// What happened on the way, over all bodies, copies and runs.

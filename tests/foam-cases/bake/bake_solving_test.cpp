@@ -48,6 +48,12 @@ TEST_F(Bake, OfAnEllipsoidGivesTablesAndReusesThemWhenRunAgain) {
     EXPECT_EQ(json["reused_cases"], 0);
     EXPECT_EQ(json["meshes"][0]["verdict"], "ok");
     EXPECT_GT(json["cases"][0]["cpu_seconds"].get<double>(), 0.1);
+    double accounted = 0.0;
+    for (const nlohmann::json& part : json["cpu_account"]) accounted += part["cpu_seconds"].get<double>();
+    EXPECT_EQ(json["cpu_account"][0]["part"], "surface");
+    EXPECT_EQ(json["cpu_account"][3]["part"], "cases on mesh_coarse");
+    EXPECT_EQ(json["cpu_account"][3]["count"], 6);
+    EXPECT_GT(accounted, json["cpu_seconds"].get<double>());
 
     // Broadside first, end-on last. A fine solution has 1.30 and 0.09 on the area pi L^2 / 4; the smoke mesh
     // is coarse. Disks and prolate spheroids (Hoerner 1965) bracket these.

@@ -1,0 +1,79 @@
+#include "foam-cases/farm/cpu_account.hpp"
+
+#include <tuple>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "support/temporary_folder.hpp"
+
+namespace samara {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+/// Two meshes, a case on each and a fall on the second.
+BakePlan small_plan() {
+    BakePlan plan;
+    plan.quality = bake_quality("preview");
+    plan.cases.resize(2);
+    plan.cases[0].name = "a_coarse";
+    plan.cases[0].mesh = "mesh_coarse";
+    plan.cases[1].name = "a_medium";
+    plan.cases[1].mesh = "mesh_medium";
+    plan.falls.resize(1);
+    plan.falls[0].name = "fall";
+    plan.falls[0].mesh = "mesh_medium";
+    return plan;
+}
+
+void write_record(const test::TemporaryFolder& folder, const std::string& name, const std::string& file,
+                  double seconds) {
+    fs::create_directories(folder / name);
+    std::ignore = folder.file(name + "/" + file, nlohmann::json({{"cpu_seconds", seconds}}).dump());
+}
+
+TEST(CpuAccount, SumsTheRecordsByMeshAndKind) {
+    const test::TemporaryFolder folder;
+    write_record(folder, "mesh_coarse", "mesh.json", 1.0);
+    write_record(folder, "mesh_medium", "mesh.json", 2.0);
+    write_record(folder, "a_coarse", "provenance.json", 4.0);
+    write_record(folder, "a_medium", "provenance.json", 8.0);
+    write_record(folder, "fall", "provenance.json", 16.0);
+    const CpuAccount account = cpu_account(folder.path(), small_plan());
+    EXPECT_EQ(account_as_json(account), nlohmann::json::parse(R"([
+        {"part": "meshes", "count": 2, "cpu_seconds": 3.0},
+        {"part": "cases on mesh_coarse", "count": 1, "cpu_seconds": 4.0},
+        {"part": "cases on mesh_medium", "count": 1, "cpu_seconds": 8.0},
+        {"part": "falls on mesh_medium", "count": 1, "cpu_seconds": 16.0}])"));
+    EXPECT_EQ(cpu_seconds_of(account), 31.0);
+}
+
+TEST(CpuAccount, LeavesOutWhatIsNotSolved) {
+    const test::TemporaryFolder folder;
+    write_record(folder, "a_medium", "provenance.json", 8.0);
+    const CpuAccount account = cpu_account(folder.path(), small_plan());
+    ASSERT_EQ(account.size(), 2u);
+    EXPECT_EQ(account[0].count, 0u);
+    EXPECT_EQ(account[1].what, "cases on mesh_medium");
+    EXPECT_EQ(cpu_seconds_of(account), 8.0);
+}
+
+TEST(CpuAccount, AsTextHasTheShares) {
+    const std::string text = account_as_text({{"meshes", 2, 1.0}, {"tables", 0, 3.0}});
+    EXPECT_THAT(text, HasSubstr("  meshes                           2       1.0    25 %\n"));
+    EXPECT_THAT(text, HasSubstr("  tables                                   3.0    75 %\n"));
+    EXPECT_THAT(text, HasSubstr("  all                                      4.0   100 %\n"));
+}
+
+TEST(CpuAccount, CountsThisProcess) {
+    const double before = cpu_seconds_so_far();
+    volatile double sum = 0.0;
+    while (cpu_seconds_so_far() < before + 0.02) sum = sum + 1.0;
+    EXPECT_GT(sum, 0.0);
+}
+
+}  // namespace
+}  // namespace samara
