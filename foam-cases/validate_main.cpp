@@ -1,5 +1,6 @@
 // The program samara-validate: a scene by full CFD, as a motion file.
 
+#include <algorithm>
 #include <filesystem>
 #include <sstream>
 #include <string>
@@ -115,14 +116,16 @@ nlohmann::json run_validation(const ValidateOptions& options, bool quiet) {
     const BodyMeasures measures = measure_all(result.motion, result.motion.bodies.front());
     nlohmann::json json = as_json(result.plan);
     json["output"] = options.output;
-    json["reused"] = result.reused;
+    json["reused"] = result.reused == result.solutions.size();
     json["cpu_seconds"] = result.cpu_seconds;
     const FallSolution& first = result.solutions.front();
     const FallBalance balance = result.worst_balance();
     json["time_step"] = first.time_step * result.plan.falls.front().time_unit();
     json["cells"] = first.cells;
-    json["attempts"] = nlohmann::json::array();
-    for (const FallSolution& solution : result.solutions) json["attempts"].push_back(solution.attempts);
+    // Of the fall that took the most.
+    json["attempts"] = std::ranges::max(result.solutions, {}, [](const FallSolution& solution) {
+                           return solution.attempts.size();
+                       }).attempts;
     json["largest_courant_number"] = result.largest_courant_number();
     json["balance"] = {{"force", balance.force}, {"moment", balance.moment}};
     json["body"] = as_json(measures);

@@ -187,7 +187,11 @@ class Reader {
             text.box = turned;
         }
         text.box.translate(numbers_.place(transform_part(transform, "translate")));
-        picture.texts.push_back(text);
+        // A boxed label is drawn twice, the second time over its box.
+        const bool again = std::ranges::any_of(picture.texts, [&](const SvgText& other) {
+            return other.words == text.words && other.box.isApprox(text.box);
+        });
+        if (!again) picture.texts.push_back(text);
     }
 
     /// The key's sample stands beside the curve's text, the first of its group.

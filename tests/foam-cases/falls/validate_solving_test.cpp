@@ -168,8 +168,8 @@ TEST_F(Falls, EachCopyIsAFallOfItsOwnOnOneMesh) {
     const nlohmann::json json = solved({"--closure", "kOmegaSSTDDES"});
     ASSERT_TRUE(json.is_object());
     EXPECT_EQ(json["falls"], 2);
-    EXPECT_EQ(json["reused"], 0);
-    EXPECT_EQ(json["attempts"].size(), 2u);
+    EXPECT_EQ(json["reused"], false);
+    EXPECT_THAT(json["attempts"], ElementsAre("as planned"));
     EXPECT_TRUE(fs::exists(folder_.path() / "out.cases/fall_01/provenance.json"));
     const Motion motion = read_motion_file(folder_.path() / "out.h5");
     const BodyMotion& body = motion.bodies.front();
@@ -181,7 +181,7 @@ TEST_F(Falls, EachCopyIsAFallOfItsOwnOnOneMesh) {
         EXPECT_LT(last.velocity.z(), -0.05);
         EXPECT_LT((last.position - motion.pose(body, 0, 0, copy).position).head<2>().norm(), 1e-4);
     }
-    EXPECT_EQ(solved({"--closure", "kOmegaSSTDDES"})["reused"], 2);
+    EXPECT_EQ(solved({"--closure", "kOmegaSSTDDES"})["reused"], true);
 }
 
 // The fluid is at rest in the first instant, and takes its share of the momentum that the body is given.

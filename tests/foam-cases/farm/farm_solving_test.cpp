@@ -77,7 +77,7 @@ TEST_F(Farm, GivesTheSameTablesAfterAKillAtAnyMoment) {
         {"in the mesh", [&] { return fs::exists(cases_ / "mesh_coarse/log.snappyHexMesh"); }},
         {"in the first round", [&] { return solver_is_at(0); }},
         {"in a later round", [&] { return solver_is_at(100); }},
-        {"in the third case", [&] { return solved().size() == 2; }},
+        {"after the second case", [&] { return solved().size() >= 2; }},
         {"before the tables", [&] { return solved().size() == 6; }}};
     fs::remove_all(cases_);
     fs::remove(output_);

@@ -79,7 +79,7 @@ TEST(Resample, FollowsTheReferenceFallsByFullCfd) {
         EXPECT_LT(at_24.orientation, (spins ? 7.1 : 0.25) * test::degree) << entry.path();
         ++falls;
     }
-    EXPECT_EQ(falls, 12);
+    EXPECT_EQ(falls, 13);
 }
 
 TEST(Resample, FollowsABodyThatTurnsSeveralTimesBetweenFrames) {
