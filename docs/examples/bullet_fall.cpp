@@ -212,7 +212,7 @@ void free_host(std::unique_ptr<Host> host) {
 
 double difference(const samara_body* body, double step) {
     std::unique_ptr<Host> host = make_host(body, step, 0, {1200.0}, 0.0);
-    const int steps = int(1.0 / step + 0.5);
+    const int steps = static_cast<int>(std::lround(1.0 / step));
     for (int i = 0; i < steps; ++i) step_host(*host);
     const samara_pose pose = pose_of(host->links[0]);
     free_host(std::move(host));
