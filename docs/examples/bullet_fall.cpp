@@ -9,6 +9,7 @@
 // mass and inertia that it can hold, finds the impulses of joints and contacts.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <memory>
 #include <utility>
