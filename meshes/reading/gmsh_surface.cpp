@@ -134,7 +134,6 @@ class NodesOnSurface {
         return turn.norm() > least_turn ? turn.normalized() : Vector3d::Zero();
     }
 
-  private:
     // Gauss and Newton from the place.
     [[nodiscard]] std::optional<Vector3d> from(Eigen::Vector2d place, const Vector3d& along,
                                                const Vector3d& middle, const Vector3d& turn) const {

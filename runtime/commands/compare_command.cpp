@@ -24,10 +24,11 @@ constexpr const char* footer =
     R"(Falls are chaotic: compared are statistics over a window, each with its standard
 error, the first swing as a path, and of three falls or more where they land. One fall's
 errors come from its swings, those of several runs and copies from their scatter. A
-difference is that to the reference; verdicts are by the tolerances, which are relative to it, on what lies beyond what the
-reference's file says that it is itself uncertain by (mesh, closure). 'agrees?' and
-'differs?': within that uncertainty and two standard errors it may be otherwise. The exit status is 0
-whatever the verdict; --json has it as "agrees".
+difference is that to the reference; verdicts are by the tolerances, which are relative
+to it, on what lies beyond what the reference's file says that it is itself uncertain by
+(mesh, closure). 'agrees?' and 'differs?': within that uncertainty and two standard
+errors it may be otherwise. The exit status is 0 whatever the verdict; --json has it as
+"agrees".
 
 Example: samara compare motion.h5 reference.h5 -o comparison.png)";
 

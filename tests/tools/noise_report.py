@@ -325,8 +325,7 @@ class Row:
 
 
 def read_rows():
-    with open(ROWS, newline="", encoding="utf-8") as file:
-        return [Row(values) for values in csv.DictReader(file)]
+    return [Row(values) for values in rows_kept(ROWS)]
 
 
 def judged(rows):
