@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include "internal/body/octahedral_map.hpp"
-#include "samara/kirchhoff/surface_flow.hpp"
 #include "support/known_bodies.hpp"
 
 namespace samara {
@@ -67,28 +66,6 @@ TEST(TableLoads, AreHeldAboveTheTableAndTendToStokesBelowIt) {
     const double slow = speed_at(1e-3);
     const double stokes = 3.0 * std::numbers::pi * body.viscosity * body.length * slow;
     EXPECT_NEAR(-tow(body, slow * direction).tail<3>().dot(direction) / stokes, 1.0, 1e-4);
-}
-
-TEST(SurfaceLoads, OfASphereAreItsMeasuredDragFromCreepingFlowOn) {
-    Body ball = test::exact_sphere(0.01);
-    ball.surface_loads = surface_loads(ball.surface, ball.moments);
-    SceneBody physics = test::scene_body(1200.0);
-    physics.loads = Loads::surface;
-    physics.turbulence = Turbulence::none;
-    const ImmersedBody body = make_immersed_body(ball, physics, Fluid{});
-    const auto drag_over_stokes = [&](double reynolds) {
-        const double speed = reynolds * body.viscosity / (body.fluid_density * body.length);
-        const Vector3d direction = Vector3d(1, 2, 3).normalized();
-        const double stokes = 3.0 * std::numbers::pi * body.viscosity * body.length * speed;
-        return -tow_force(body, speed * direction).dot(direction) / stokes;
-    };
-    EXPECT_NEAR(drag_over_stokes(1e-3), 1.0, 1e-3);
-    // Brown and Lawler, J. Environ. Eng. 129, 222 (2003).
-    for (const double reynolds : {0.1, 0.3, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0}) {
-        const double measured =
-            1.0 + 0.15 * std::pow(reynolds, 0.681) + 0.407 / (1.0 + 8710.0 / reynolds) * reynolds / 24.0;
-        EXPECT_NEAR(drag_over_stokes(reynolds) / measured, 1.0, 0.06) << reynolds;
-    }
 }
 
 TEST(Loads, NeverMakeEnergyInStillFluid) {

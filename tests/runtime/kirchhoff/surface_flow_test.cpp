@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "internal/body/octahedral_map.hpp"
+#include "internal/dynamics/loads.hpp"
 #include "internal/kirchhoff/operators/hypersingular.hpp"
+#include "support/known_bodies.hpp"
 #include "support/test_shapes.hpp"
 
 namespace samara {
@@ -163,6 +165,29 @@ TEST(SurfaceLoads, AsTablesHaveBlasiusFriction) {
     const double rubbed = 4.0 * 2.0 / 3.0 * 1.33;
     EXPECT_NEAR(drag_at(1e2) - drag_at(1e4), rubbed * (0.1 - 0.01), 0.02 * rubbed * 0.1);
     for (const LoadEntryError& error : tables.errors) EXPECT_GT(error.force.minCoeff(), 0.0);
+}
+
+TEST(SurfaceLoads, OfASphereAreItsMeasuredDragFromCreepingFlowOn) {
+    Body ball = test::exact_sphere(0.01);
+    ball.surface_loads = surface_loads(ball.surface, ball.moments);
+    SceneBody physics = test::scene_body(1200.0);
+    physics.loads = Loads::surface;
+    physics.turbulence = Turbulence::none;
+    const ImmersedBody body = make_immersed_body(ball, physics, Fluid{});
+    const Vector3d direction = Vector3d(1, 2, 3).normalized();
+    const auto drag_over_stokes = [&](double reynolds) {
+        Vector6d motion = Vector6d::Zero();
+        motion.tail<3>() = reynolds * body.viscosity / (body.fluid_density * body.length) * direction;
+        const Vector3d force = -(load_matrix(body, motion) * motion).tail<3>();
+        return -force.dot(direction) / (3.0 * pi * body.viscosity * body.length * motion.tail<3>().norm());
+    };
+    EXPECT_NEAR(drag_over_stokes(1e-3), 1.0, 1e-3);
+    // Brown and Lawler, J. Environ. Eng. 129, 222 (2003).
+    for (const double reynolds : {0.1, 0.3, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0}) {
+        const double measured =
+            1.0 + 0.15 * std::pow(reynolds, 0.681) + 0.407 / (1.0 + 8710.0 / reynolds) * reynolds / 24.0;
+        EXPECT_NEAR(drag_over_stokes(reynolds) / measured, 1.0, 0.06) << reynolds;
+    }
 }
 
 }  // namespace
