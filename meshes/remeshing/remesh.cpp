@@ -17,6 +17,7 @@
 #include "meshes/checks/sound_surface.hpp"
 #include "meshes/checks/triangle_tree.hpp"
 #include "meshes/checks/volume_moments.hpp"
+#include "meshes/remeshing/edge_middle.hpp"
 #include "meshes/remeshing/evened_surface.hpp"
 #include "meshes/remeshing/mesh_size_field.hpp"
 #include "meshes/remeshing/reduced_surface.hpp"
@@ -91,16 +92,26 @@ Surface with_nodes_on(const SmoothShape& shape, const Surface& surface, int orde
         const auto triangle = static_cast<std::size_t>(use.triangle);
         const Vector3d first = area_vector(surface, triangle);
         const Vector3d second = area_vector(surface, static_cast<std::size_t>(edge.back().triangle));
-        const double length = (surface.vertices[static_cast<std::size_t>(use.high)] -
-                               surface.vertices[static_cast<std::size_t>(use.low)])
-                                  .norm();
+        const auto vertex = [&](std::int32_t index) -> const Vector3d& {
+            return surface.vertices[static_cast<std::size_t>(index)];
+        };
+        const auto across = [&](const EdgeUse& one) -> const Vector3d& {
+            return vertex(surface.corners[static_cast<std::size_t>(one.triangle)]
+                                         [static_cast<std::size_t>(one.side + 2) % 3]);
+        };
+        const double length = (vertex(use.high) - vertex(use.low)).norm();
         const std::int32_t index = result.edge_nodes[triangle][static_cast<std::size_t>(use.side)];
         Vector3d& node = result.vertices[static_cast<std::size_t>(index)];
         std::optional<Vector3d> moved;
         if (first.dot(second) < std::cos(shape.crease_angle()) * first.norm() * second.norm()) {
             moved = shape.on_crease(node, most_bent * length);
         }
-        if (!moved) moved = shape.on_surface(node, first + second);
+        const auto lifted = [&](const Vector3d& point) { return shape.on_surface(point, first + second); };
+        if (!moved) {
+            moved = middle_on_surface({vertex(use.low), vertex(use.high)},
+                                      {across(edge.front()), across(edge.back())}, lifted);
+        }
+        if (!moved) moved = lifted(node);
         if (moved && (*moved - node).norm() < most_bent * length) node = *moved;
     }
     straighten_overturned(result);

@@ -112,6 +112,15 @@ TEST(MakeBody, AddedMassIsWithinTwiceOfThatOnAnIdealMesh) {
     EXPECT_LT(added_mass_error(meshed), 2.0 * ideal);
 }
 
+TEST(MakeBody, AddedMassFromFineFacetsIsWithinTwiceOfThatOnAnIdealMesh) {
+    const test::TemporaryFolder folder;
+    const Vector3d semi_axes(0.01, 0.02, 0.04);
+    const double ideal = added_mass_error(test::curved_ellipsoid(semi_axes, 3));
+    test::write_binary_stl(folder / "ellipsoid.stl", test::ellipsoid(semi_axes, 5));
+    const Surface meshed = make_body(folder / "ellipsoid.stl", with_triangles(1280)).surface;
+    EXPECT_LT(added_mass_error(meshed), 2.0 * ideal);
+}
+
 TEST(MakeBody, NodesOfEdgesLieInTheMiddleAsTheEllipsoidStretchesThem) {
     const Vector3d semi_axes(0.01, 0.02, 0.04);
     const Surface surface = make_body(test::shape_of_samara("ellipsoid.geo"), with_triangles(320)).surface;

@@ -58,7 +58,7 @@ def row_of(programs, work, body):
     usual = flown(programs, work, body, 0.002, 2)
     fine = flown(programs, work, body, 0.00025, 3)
     row = [body, automatic["step"]["seconds"], automatic["step"]["auto"]["error"], automatic["step"]["auto"]["limit"],
-           automatic["implicit_steps"], usual["implicit_steps"], fine["implicit_steps"]]
+           automatic["implicit_steps"], usual["implicit_steps"], fine["implicit_steps"], automatic["most_substeps"]]
     for figure in FIGURES:
         truth, truth_error = estimate(fine["bodies"][0], figure)
         for other in (automatic, usual):
@@ -68,15 +68,15 @@ def row_of(programs, work, body):
 
 
 def heading():
-    return ["body", "step", "error", "limit", "implicit_steps", "implicit_steps_usual", "implicit_steps_fine"] + [
+    return ["body", "step", "error", "limit", "implicit_steps", "implicit_steps_usual", "implicit_steps_fine", "most_parts"] + [
         f"{figure}_{which}" for figure in FIGURES for which in ("auto", "auto_chance", "usual", "usual_chance")]
 
 
 def table():
     with open(ROWS, newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
-    lines = ["| body | step | off by, a window | no longer by | implicit steps a second and body (at 2 ms) | descent (at 2 ms) | rms angular speed (at 2 ms) |",
-             "|---" * 7 + "|"]
+    lines = ["| body | step | off by, a window | no longer by | parts of a step: mean (most) | implicit steps a second and body (at 2 ms) | descent (at 2 ms) | rms angular speed (at 2 ms) |",
+             "|---" * 8 + "|"]
 
     def changed(row, figure):
         auto, chance = 100 * float(row[f"{figure}_auto"]), 100 * float(row[f"{figure}_auto_chance"])
@@ -85,9 +85,10 @@ def table():
 
     for row in rows:
         seconds = RUNS * DURATION
+        parts = int(row["implicit_steps"]) / seconds * float(row["step"])
         limit = row["limit"].split(" of ")[0] or "the longest there is"
         lines.append(f"| {row['body']} | {1e3 * float(row['step']):.3g} ms | {100 * float(row['error']):.2g} % | {limit} "
-                     f"| {int(row['implicit_steps']) / seconds:.0f} ({int(row['implicit_steps_usual']) / seconds:.0f}) "
+                     f"| {parts:.2g} ({row['most_parts']}) | {int(row['implicit_steps']) / seconds:.0f} ({int(row['implicit_steps_usual']) / seconds:.0f}) "
                      f"| {changed(row, FIGURES[0])} | {changed(row, FIGURES[1])} |")
     return "\n".join(lines) + "\n"
 

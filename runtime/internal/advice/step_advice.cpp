@@ -30,6 +30,7 @@ constexpr double finest_of_length = 0.01;  // of the way L that a body comes in 
 constexpr int fewest_halvings = 4;         // of the longest step, down to the finest
 constexpr int most_halvings = 14;
 constexpr int truth_halvings = 2;  // by which the finest flight is finer than the finest step that is judged
+constexpr double least_turning = 0.01;  // speed of a tip, over the body's: less is not judged
 constexpr double turbulence_rate = 0.75 * kolmogorov_constant;  // times epsilon/k: docs/theory.md#langevin
 
 /// The flights of one body.
@@ -47,20 +48,13 @@ class JudgedBody {
     /// The longest steps that motion and turbulence allow.
     BodyStep judge() {
         fly_finest();
-        BodyStep result{
-            .name = name_, .motion = longest_step, .turbulence = std::numeric_limits<double>::infinity()};
+        BodyStep result{.name = name_};
         errors_.clear();
-        int longest = -1;
-        for (int j = 0; j <= halvings_ - truth_halvings; ++j) {
-            errors_.push_back(error_at(j));
-            if (errors_.back() > scene_.step_tolerance) {
-                longest = -1;
-            } else if (longest < 0) {
-                longest = j;
-            }
-        }
-        is_met_ = longest >= 0;
-        result.motion = step_of(is_met_ ? longest : halvings_ - truth_halvings);
+        for (int j = 0; j <= halvings_ - truth_halvings; ++j) errors_.push_back(errors_at(j));
+        result.motion = longest_within(&StepErrors::motion);
+        result.turning =
+            turbulent_ ? longest_within(&StepErrors::turning) : std::numeric_limits<double>::infinity();
+        result.turbulence = std::numeric_limits<double>::infinity();
         if (turbulent_ && samples_ > 0 && squared_rates_ > 0.0) {
             const double rate = std::sqrt(squared_rates_ / static_cast<double>(samples_));
             result.turbulence = std::sqrt(12.0 * scene_.step_tolerance) / rate;
@@ -71,22 +65,37 @@ class JudgedBody {
     /// Of the motion, at the longest step over a power of two.
     [[nodiscard]] double error_of(double step) const {
         const auto j = static_cast<std::size_t>(std::max(0L, std::lround(std::log2(longest_step / step))));
-        return errors_[std::min(j, errors_.size() - 1)];
+        return errors_[std::min(j, errors_.size() - 1)].motion;
     }
     [[nodiscard]] bool is_met() const { return is_met_; }
 
   private:
-    /// What a window ended with, and poses within steps.
-    struct WindowEnd {
-        std::vector<Pose> end;
+    /// The finest flight through a window: what it begins and ends with, and poses within steps.
+    struct Window {
+        std::vector<Pose> begin, end;
         std::vector<std::vector<Pose>> middle;  // half a step before, for each step that is judged
+    };
+    struct StepErrors {
+        double motion;   ///< of place and tip, over the way
+        double turning;  ///< of the rms angular speed
     };
 
     static double step_of(int halvings) { return longest_step / std::exp2(halvings); }
 
+    /// The longest step from which on all shorter ones are within the tolerance, or the shortest.
+    double longest_within(double StepErrors::*error) {
+        int longest = 0;
+        const int shortest = static_cast<int>(errors_.size()) - 1;
+        for (int j = 0; j <= shortest; ++j) {
+            if (errors_[as_place(j)].*error > scene_.step_tolerance) longest = j + 1;
+        }
+        is_met_ = is_met_ && longest <= shortest;
+        return step_of(std::min(longest, shortest));
+    }
+
     void set_scales() {
         Flight flight(settings_at(longest_step));
-        add_to(flight);
+        add_to(flight, quiet_);
         const ImmersedBody& body = flight.kinds()[0]->body();
         double smallest = flight.size_of(0);
         double largest = smallest;
@@ -119,36 +128,56 @@ class JudgedBody {
         settings.step = step;
         return settings;
     }
-    void add_to(Flight& flight) const { flight.add(loaded_, quiet_, release_, name_); }
+    void add_to(Flight& flight, const BodyPhysics& physics) const {
+        flight.add(loaded_, physics, release_, name_);
+    }
 
     /// The end of window number w (s).
     [[nodiscard]] double end_of(int w) const {
         return release_.start + static_cast<double>(w * steps_in_window_) * longest_step;
     }
 
+    /// From where the windows begin: with noise from where it brings the bodies, since it may be what turns
+    /// them.
     void fly_finest() {
         Flight flight(settings_at(step_of(halvings_)));
-        add_to(flight);
+        add_to(flight, quiet_);
+        std::unique_ptr<Flight> noisy;
+        if (turbulent_) {
+            noisy = std::make_unique<Flight>(settings_at(step_of(halvings_ - truth_halvings)));
+            add_to(*noisy, physics_);
+        }
         const FlightKind& kind = *flight.kinds()[0];
-        finest_.assign(1, {poses_of(flight), {}});
+        finest_.clear();
         way_ = 0.0;
-        std::vector<Pose> before = finest_.front().end;
-        const auto go_on_to = [&](double time) {
-            flight.advance_to(time);
-            std::vector<Pose> now = poses_of(flight);
-            for (std::size_t i = 0; i < now.size(); ++i) way_ += distance(before[i], now[i]);
-            before = now;
-            if (turbulent_) sample_rates(kind, time);
-            return now;
-        };
         for (int w = 0; w < windows_; ++w) {
-            for (int step = 1; step < steps_in_window_; ++step) go_on_to(end_of(w) + step * longest_step);
-            WindowEnd reached;
-            for (int j = 0; j <= halvings_ - truth_halvings; ++j) {
-                reached.middle.push_back(go_on_to(end_of(w + 1) - 0.5 * step_of(j)));
+            if (noisy && w > 0) {
+                noisy->advance_to(end_of(w));
+                put(flight, poses_of(*noisy), end_of(w));
             }
-            reached.end = go_on_to(end_of(w + 1));
-            finest_.push_back(std::move(reached));
+            Window window{poses_of(flight), {}, {}};
+            std::vector<Pose> before = window.begin;
+            const auto go_on_to = [&](double time) {
+                flight.advance_to(time);
+                std::vector<Pose> now = poses_of(flight);
+                for (std::size_t i = 0; i < now.size(); ++i) way_ += distance(before[i], now[i]);
+                before = now;
+                if (turbulent_) sample_rates(kind, time);
+                return now;
+            };
+            for (int step = 1; step < steps_in_window_; ++step) go_on_to(end_of(w) + step * longest_step);
+            for (int j = 0; j <= halvings_ - truth_halvings; ++j) {
+                window.middle.push_back(go_on_to(end_of(w + 1) - 0.5 * step_of(j)));
+            }
+            window.end = go_on_to(end_of(w + 1));
+            finest_.push_back(std::move(window));
+        }
+    }
+
+    /// Puts those that have started by the time (s) where they are to be.
+    static void put(Flight& flight, const std::vector<Pose>& poses, double time) {
+        for (std::size_t i = 0; i < flight.size(); ++i) {
+            if (time > flight.kinds()[0]->start(i)) flight.set_pose(i, poses[i]);
         }
     }
 
@@ -175,36 +204,43 @@ class JudgedBody {
     }
 
     /// Infinite where the motion leaves the range of numbers.
-    double error_at(int j) {
+    StepErrors errors_at(int j) {
         try {
-            return error_of_flight(j);
+            return errors_of_flight(j);
         } catch (const FlightError&) {
-            return std::numeric_limits<double>::infinity();
+            return {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
         }
     }
 
-    double error_of_flight(int j) {
+    StepErrors errors_of_flight(int j) {
         Flight flight(settings_at(step_of(j)));
-        add_to(flight);
+        add_to(flight, quiet_);
         double squares = 0.0;
+        double finest_turning = 0.0;
+        double turning = 0.0;
         const auto compare_at = [&](double time, const std::vector<Pose>& finest) {
             flight.advance_to(time);
             const std::vector<Pose> now = poses_of(flight);
             for (std::size_t i = 0; i < now.size(); ++i) {
                 const double off = distance(finest[i], now[i]);
                 squares += off * off;
+                finest_turning += finest[i].angular_velocity.squaredNorm();
+                turning += now[i].angular_velocity.squaredNorm();
             }
         };
         for (int w = 0; w < windows_; ++w) {
-            for (std::size_t i = 0; w > 0 && i < flight.size(); ++i) {
-                if (end_of(w) > flight.kinds()[0]->start(i)) flight.set_pose(i, finest_[as_place(w)].end[i]);
-            }
-            const WindowEnd& finest = finest_[as_place(w + 1)];
+            const Window& finest = finest_[as_place(w)];
+            if (w > 0) put(flight, finest.begin, end_of(w));
             compare_at(end_of(w + 1) - 0.5 * step_of(j), finest.middle[as_place(j)]);
             compare_at(end_of(w + 1), finest.end);
         }
+        if (!(way_ > 0.0)) return {0.0, 0.0};
         const double pieces = static_cast<double>(windows_) * static_cast<double>(flight.size());
-        return way_ > 0.0 ? std::sqrt(0.5 * squares / pieces) / (way_ / pieces) : 0.0;
+        const double speed = way_ / pieces / (steps_in_window_ * longest_step);
+        const double tip_speed = half_length_ * std::sqrt(0.5 * turning / pieces);
+        const double finest_tip_speed = half_length_ * std::sqrt(0.5 * finest_turning / pieces);
+        return {std::sqrt(0.5 * squares * pieces) / way_,
+                std::abs(tip_speed - finest_tip_speed) / std::max(finest_tip_speed, least_turning * speed)};
     }
 
     static std::size_t as_place(int w) { return static_cast<std::size_t>(w); }
@@ -229,12 +265,12 @@ class JudgedBody {
     int halvings_ = 0;
     int steps_in_window_ = 1;
     int windows_ = 1;
-    std::vector<WindowEnd> finest_;  // of the windows, behind where they began
-    double way_ = 0.0;
+    std::vector<Window> finest_;
+    double way_ = 0.0;  // of all copies through all windows
     std::unique_ptr<const ImmersedBody> rated_;
     double squared_rates_ = 0.0;
     std::size_t samples_ = 0;
-    std::vector<double> errors_;
+    std::vector<StepErrors> errors_;
     bool is_met_ = true;
 };
 
@@ -265,6 +301,7 @@ StepAdvice advise_step(const Scene& scene, const std::vector<LoadedBody>& loaded
             advice.limit = fmt::format("the {} of '{}'", what, body.name);
         };
         limit_to(body.motion, "motion");
+        limit_to(body.turning, "turning");
         limit_to(body.turbulence, "turbulence");
     }
     advice.step = longest_step / std::exp2(std::ceil(std::log2(longest_step / advice.step) - 1e-9));

@@ -12,6 +12,7 @@ namespace samara {
 struct BodyStep {
     std::string name;
     double motion = 0.0;      ///< s: the longest step whose error in the motion is within the tolerance
+    double turning = 0.0;     ///< s: the same of its turning, where noise turns it; infinite without any
     double turbulence = 0.0;  ///< s: the longest that its turbulence allows; infinite without any
     double error = 0.0;       ///< of the motion at the scene's step, over the way
 };
@@ -30,8 +31,10 @@ struct StepAdvice {
 /// ms over powers of two, and takes the longest by which none is off by more than the scene's step_tolerance:
 /// by the root mean square, over windows in which it comes four lengths L far (each begun anew from the
 /// finest flight), of the distance of place and tip from those of the finest flight, at the end of a step and
-/// within one, over the mean way. Turbulence of the rate a allows the step sqrt(12 tolerance)/a: between two
-/// steps the seen fluid goes evenly, which makes the diffusion by it (a h)^2/12 too large
+/// within one, over the mean way. Where there is noise the windows begin where a flight with it brings the
+/// bodies, and their rms angular speed may be off by no more either: noise turns a body as far as its step
+/// lets the turning last. Turbulence of the rate a allows the step sqrt(12 tolerance)/a: between two steps
+/// the seen fluid goes evenly, which makes the diffusion by it (a h)^2/12 too large
 /// (docs/theory.md#the-step). Deterministic; `threads`: 0 for all cores.
 StepAdvice advise_step(const Scene& scene, const std::vector<LoadedBody>& loaded, int threads);
 

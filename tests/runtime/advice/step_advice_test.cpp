@@ -7,7 +7,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "samara/body/body_file.hpp"
 #include "samara/flight/flight.hpp"
+#include "samara/scene/ready_bodies.hpp"
 #include "support/known_bodies.hpp"
 
 namespace samara {
@@ -102,6 +104,26 @@ TEST(StepAdvice, LetsTurbulenceMakeTheDiffusionTooLargeByTheToleranceAtMost) {
     EXPECT_NEAR(advice.bodies[0].turbulence, std::sqrt(12.0 * 0.005) / rate, 1e-12);
     EXPECT_EQ(advice.step, 0.04 / 16) << "3.11 ms, and the next below";
     EXPECT_EQ(advice.limit, "the turbulence of 'body'");
+}
+
+/// The ready-baked cube swings by its noise, hardly damped: to a step of 40 ms, by which its way is right, it
+/// would lose its swing twice as fast.
+TEST(StepAdvice, SeesWhatNoiseTurns) {
+    Scene scene;
+    scene.duration = 6.0;
+    scene.step_auto = true;
+    SceneBody cube;
+    cube.name = "cube";
+    cube.orientation = Quaterniond(0.8, 0.3, 0.5, 0.1).normalized();
+    scene.bodies = {cube};
+    const LoadedBody loaded{read_body_file(ready_body_file("cube")), "hash"};
+    const StepAdvice advice = advise_step(scene, {loaded}, 1);
+    EXPECT_EQ(advice.step, 0.01);
+    EXPECT_EQ(advice.limit, "the turning of 'cube'");
+    EXPECT_EQ(advice.bodies[0].motion, 0.04);
+    EXPECT_EQ(advice.bodies[0].turning, 0.01);
+    scene.bodies[0].turbulence = Turbulence::none;
+    EXPECT_EQ(advise_step(scene, {loaded}, 1).step, 0.04);
 }
 
 /// (a h)^2/12: the diffusion by a seen fluid that goes evenly between samples, over that by the process.

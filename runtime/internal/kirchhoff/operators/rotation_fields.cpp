@@ -57,7 +57,7 @@ HWY_INLINE void add_sources(const RotationSources& sources, std::size_t there, c
     const Lanes dy = hn::Sub(hn::Set(tag, target.place[1]), hn::LoadU(tag, &sources.place[1][there]));
     const Lanes dz = hn::Sub(hn::Set(tag, target.place[2]), hn::LoadU(tag, &sources.place[2][there]));
     const Lanes squared = hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz)));
-    const Lanes inverse = hn::IfThenElseZero(count, inverse_root(tag, squared));
+    const Lanes inverse = hn::IfThenElseZero(count, inverse_root<1>(tag, squared));
     const Lanes cubed = hn::Mul(inverse, hn::Mul(inverse, inverse));
     const Lanes along = hn::MulAdd(
         dx, hn::Set(tag, target.normal[0]),
@@ -79,7 +79,7 @@ HWY_INLINE Lanes solid_angles(const RotationSources& sources, std::size_t there,
     const Lanes dy = hn::Sub(hn::LoadU(tag, &sources.place[1][there]), hn::Set(tag, eye.place[1]));
     const Lanes dz = hn::Sub(hn::LoadU(tag, &sources.place[2][there]), hn::Set(tag, eye.place[2]));
     const Lanes squared = hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz)));
-    const Lanes inverse = hn::IfThenElseZero(marked, inverse_root(tag, squared));
+    const Lanes inverse = hn::IfThenElseZero(marked, inverse_root<1>(tag, squared));
     const Lanes along = hn::MulAdd(dx, hn::LoadU(tag, &sources.area_vector[0][there]),
                                    hn::MulAdd(dy, hn::LoadU(tag, &sources.area_vector[1][there]),
                                               hn::Mul(dz, hn::LoadU(tag, &sources.area_vector[2][there]))));
@@ -230,7 +230,7 @@ namespace {
 HWY_EXPORT(all_fields);
 
 // In sums of both radii: beyond the first one point a triangle, beyond the next three, beyond the last six.
-constexpr std::array<double, 3> source_distances = {15.0, 3.0, 1.2};
+constexpr std::array<double, 3> source_distances = {10.0, 2.0, 1.2};
 // The widest vector register: arrays are read this far beyond their last triangle.
 constexpr std::size_t padding = 64;
 

@@ -25,6 +25,7 @@ using Tag = hn::CappedTag<double, 8>;
 using Lanes = hn::Vec<Tag>;
 
 /// Sums of 1/r between the points of one triangle and those of as many others as there are lanes.
+template <int newton_steps>
 HWY_INLINE Lanes product_rule(const SingleLayerEntries::Arrays& arrays,
                               const SingleLayerEntries::RulePoints& rule, std::size_t row,
                               std::size_t column) {
@@ -43,7 +44,8 @@ HWY_INLINE Lanes product_rule(const SingleLayerEntries::Arrays& arrays,
             const Lanes dy = hn::Sub(y, hn::Set(tag, rule.coordinates[1][here]));
             const Lanes dz = hn::Sub(z, hn::Set(tag, rule.coordinates[2][here]));
             const Lanes squared = hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz)));
-            inner = hn::MulAdd(hn::Set(tag, rule.weights[p]), inverse_root(tag, squared), inner);
+            inner =
+                hn::MulAdd(hn::Set(tag, rule.weights[p]), inverse_root<newton_steps>(tag, squared), inner);
         }
         sum = hn::MulAdd(hn::Set(tag, rule.weights[q]), inner, sum);
     }
@@ -76,7 +78,8 @@ void fill_far_lanes(const SingleLayerEntries::Arrays& arrays, const std::array<d
         const std::size_t rule = beyond(0) ? 0 : beyond(1) ? 1 : 2;
         const bool any = !hn::AllTrue(tag, hn::Lt(ratio, hn::Set(tag, distances[2] * distances[2])));
         if (any) {
-            const Lanes sum = product_rule(arrays, arrays.rules[rule], row, j);
+            const Lanes sum = rule == 0 ? product_rule<1>(arrays, arrays.rules[0], row, j)
+                                        : product_rule<2>(arrays, arrays.rules[rule], row, j);
             hn::Store(hn::Mul(hn::Mul(sum, scale), hn::LoadU(tag, &arrays.area[j])), tag, buffer);
         }
         const std::size_t count = std::min(lanes, end - j);
