@@ -32,7 +32,7 @@ constexpr ShippedFall falls[] = {
     {"falls/sphere", "sphere", Regime::steady, 0.6690, {}, {}},
     {"falls/disc-light", "disc", Regime::fluttering, 0.08580, 0.8372, 2.708},
     {"falls/sheet", "sheet", Regime::tumbling, 0.6784, 1.896, 12.13},
-    {"falls/samara", "samara", Regime::autorotating, 2.164, {}, 83.02},
+    {"falls/samara", "samara", Regime::autorotating, 1.332, {}, 107.5},
     {"scenes/samara", "samara", Regime::autorotating, 1.016, {}, 116.2},
 };
 
