@@ -107,6 +107,7 @@ std::vector<SurfacePatch> surface_patches(const Surface& surface, int count) {
     }
     center /= area;
     std::vector<SurfacePatch> patches;
+    patches.reserve(pieces.size());
     for (Piece& piece : pieces) {
         patches.push_back({piece.center - center, piece.area / area, std::move(piece.faces)});
     }

@@ -76,6 +76,7 @@ void set_what_is_left(const std::vector<SurfacePatch>& cut, DividedSurface& divi
 std::vector<Vector3d> pushes(const std::vector<SurfacePatch>& cut,
                              const std::vector<SurfaceElement>& elements, const Vector3d& direction) {
     std::vector<double> pressures;
+    pressures.reserve(elements.size());
     for (const SurfaceElement& element : elements) {
         pressures.push_back(pressure_on(element, direction, SurfacePressure{}));
     }
@@ -142,6 +143,7 @@ DividedSurface divided_surface(const Body& body, const LoadTables* tables, int c
     const std::vector<SurfacePatch> cut = surface_patches(
         body.surface_loads ? body.surface_loads->surface : about_centroid(body, length), count);
     DividedSurface divided;
+    divided.patches.reserve(cut.size());
     for (const SurfacePatch& patch : cut) divided.patches.push_back({length * patch.place, patch.share, {}});
     set_what_is_left(cut, divided);
     if (tables != nullptr && body.surface_loads) {
