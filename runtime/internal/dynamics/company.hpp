@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "internal/dynamics/free_flight.hpp"
 #include "internal/dynamics/hull_pair.hpp"
 #include "internal/dynamics/immersed_body.hpp"
 #include "internal/dynamics/joint_impulses.hpp"
@@ -35,6 +36,7 @@ struct CompanyGround {
     std::optional<double> height;            ///< m: of level ground
     const ObstacleSet* obstacles = nullptr;  ///< null: none
     double time = 0.0;                       ///< s: when the step begins
+    Vector3d flow = Vector3d::Zero();        ///< m/s: of the fluid, relative to the ground
 };
 
 /// How far (m) two bodies that touch stay apart, over the smaller bounding radius: what keeps the plane
@@ -72,8 +74,9 @@ class CompanyStep {
         BodyPlace before, place;             ///< when the part began, and now
         BodyPlace alone;                     ///< where it would be after the part if nothing were in its way
         Vector6d velocity_before, velocity;  ///< when the part began, and now
-        Vector6d gain;  ///< of velocity, in a part: of omega in body axes, so that spin keeps its energy
-        Vector3d load;  ///< N: what pulls it
+        Vector6d own_velocity;         ///< when the part began, if nothing had met it: omega in body axes
+        Vector6d gain;                 ///< of it a second, so that spin keeps its energy
+        Vector3d load;                 ///< N: what pulls it
         double energy_before, energy;  ///< J: when the part began, and after the impulses
         ContactRecord met;             ///< in the step
         Vector3d shift;                ///< m: by which it was moved apart
@@ -87,6 +90,7 @@ class CompanyStep {
         Vector3d normal;
         double gap;
         double apart;  ///< m: the gap that they keep
+        bool waits;    ///< whether they are to meet where they do, not before
 
         /// Whether there was a gap when the part began: what overlapped, since it started so, is to come out.
         [[nodiscard]] bool began_parted() const { return gap > 0.0; }
@@ -95,23 +99,33 @@ class CompanyStep {
     };
 
     void find_overlaps();
+    void keep_angular_momentum(const Near& near, const Vector3d& first_shift, const Vector3d& second_shift);
     [[nodiscard]] int parts_of(std::span<const Pair> pairs, double time_step) const;
     bool take_parts(std::span<const Pair> pairs, const CompanyGround& ground, double time_step, int parts);
     [[nodiscard]] bool turned_far(double time_step) const;
-    void start(double time_step, int parts);
+    void start(double time_step);
     void begin_part(double time_step);
-    void find_pairs(std::span<const Pair> pairs, double time_step);
+    void try_part(std::span<const Pair> pairs, const CompanyGround& ground, double time, double part,
+                  bool ends_step, bool may_stop);
+    void part_all(const CompanyGround& ground, double time, double part);
+    void take_back();
+    [[nodiscard]] bool all_come_through() const;
+    void find_pairs(std::span<const Pair> pairs, double time_step, bool may_stop);
+    [[nodiscard]] double free_of_hits() const;
     void find_ground(const CompanyGround& ground, double time, double time_step);
     void push(double time_step, std::size_t known);
-    void move(double time_step);
+    void move(double time_step, bool ends_step);
     bool find_passages(double time_step);
     void part_pairs(double time_step, int round, bool& moved);
     void part_from_ground(const CompanyGround& ground, double time, double time_step, bool& moved);
     void hold_back();
+    void slow(std::size_t i, double most);
     void pay();
     void note(double time);
     void settle(double time_step);
-    [[nodiscard]] Vector6d fed(const Mover& mover) const;
+    [[nodiscard]] PlacedMotion flown(std::size_t i, Vector6d velocity, double time) const;
+    [[nodiscard]] Vector6d changed_by_itself(std::size_t i, const Vector6d& velocity, double time) const;
+    [[nodiscard]] static Vector6d fed(const Mover& mover, double time);
     [[nodiscard]] MeetingHull hull(std::size_t i, const BodyPlace& place) const;
     [[nodiscard]] bool passes_by(const Near& near) const;
     [[nodiscard]] bool parted_before(const Near& near, const Vector3d& normal, double gap) const;
@@ -121,6 +135,7 @@ class CompanyStep {
     [[nodiscard]] double energy_of(std::size_t i, const BodyPlace& place, const Vector6d& velocity) const;
 
     std::span<Companion> companions_;
+    Vector3d flow_ = Vector3d::Zero();
     std::vector<Mover> movers_;
     std::vector<JointBody> bodies_;
     std::vector<JointPoint> points_;
