@@ -149,13 +149,10 @@ void CompanyStep::begin_part(double time_step) {
     for (std::size_t i = 0; i < companions_.size(); ++i) {
         Mover& mover = movers_[i];
         const ImmersedBody& body = *companions_[i].body;
-        Matrix6d to_world = Matrix6d::Zero();
-        to_world.topLeftCorner<3, 3>() = mover.place.orientation.toRotationMatrix();
-        to_world.bottomRightCorner<3, 3>() = to_world.topLeftCorner<3, 3>();
         mover.velocity_before = mover.velocity;
         mover.before = mover.place;
         bodies_[i] = {.velocity = fed(mover, time_step),
-                      .inverse_inertia = to_world * body.inverse_inertia * to_world.transpose(),
+                      .inverse_inertia = in_world(body.inverse_inertia, mover.place.orientation),
                       .radius = body.contact_points.bounding_radius};
         mover.energy_before = energy_of(i, mover.place, mover.velocity);
         mover.alone = flown(i, bodies_[i].velocity, time_step).place;

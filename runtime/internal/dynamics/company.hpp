@@ -50,17 +50,27 @@ inline double speed_of_points(const Vector6d& velocity, double radius) {
     return velocity.tail<3>().norm() + radius * velocity.head<3>().norm();
 }
 
+/// A matrix of (omega, v), such as an inertia, from body axes to the world's.
+inline Matrix6d in_world(const Matrix6d& of_body, const Quaterniond& orientation) {
+    Matrix6d to_world = Matrix6d::Zero();
+    to_world.topLeftCorner<3, 3>() = to_world.bottomRightCorner<3, 3>() = orientation.toRotationMatrix();
+    return to_world * of_body * to_world.transpose();
+}
+
 /// Steps bodies that may touch each other. Keeps its memory from step to step.
 ///
 /// The step is cut into parts, in which no body turns by more than a quarter of a radian, passes another by
-/// more than half its radius or would fall from a standstill by more than a two-hundredth of it. In each the
-/// bodies get their share of what the step does to them alone, and joint impulses (joint_impulses.hpp), at
-/// the points where they may meet within the part, allow each gap to close and no more; with the velocities
-/// that these leave the bodies move. So much is Moreau's stepping: whatever the step, contact takes energy
-/// and gives none. Where two come through each other at other points, those where they first touch on their
-/// way are added, and the impulses found anew. What turning still brings too close is moved apart, and where
-/// that does not keep two from passing through each other both stop on their way; either is paid for in
-/// kinetic energy.
+/// more than half its radius or would fall from a standstill by more than a two-hundredth of it. Where two
+/// that come fast from afar hit, the part ends, and they are struck there and then: so are the first of a
+/// step, the fewer the more bodies there are. In each part the bodies get their share of what the step does
+/// to them alone, and joint impulses (joint_impulses.hpp), at the points where they may meet within the part,
+/// allow each gap to close and no more; with the velocities that these leave the bodies fly freely
+/// (free_flight.hpp). So much is Moreau's stepping: whatever the step, contact takes energy and gives none.
+/// Two are pushed at one place of the world, so that they keep their momentum and angular momentum. Where two
+/// come through each other at other points, those where they first touch on their way are added, and the
+/// impulses found anew. What turning still brings too close is moved apart, and where that does not keep two
+/// from passing through each other the part is halved, or both stop on their way; what they win by it is paid
+/// for in kinetic energy.
 class CompanyStep {
   public:
     using Pair = std::pair<std::size_t, std::size_t>;

@@ -215,38 +215,39 @@ void CompanyStep::part_pairs(double time_step, int round, bool& moved) {
     }
 }
 
+/// Gives two that were moved apart the angular momentum that their moving took, as a turning of both as one
+/// body about where they are: it changes nothing between them. It takes energy as a rule; else it is let be.
 void CompanyStep::keep_angular_momentum(const Near& near, const Vector3d& first_shift,
                                         const Vector3d& second_shift) {
-    Matrix6d joint = Matrix6d::Zero();
-    Vector6d missed = Vector6d::Zero();
-    std::array<Matrix6d, 2> ways;
-    std::array<Vector6d, 2> momenta;
-    const std::array<std::size_t, 2> numbers = {near.first, near.second};
+    struct Part {
+        std::size_t number;
+        Vector3d shift;
+        Matrix6d by_turning = Matrix6d::Identity();  ///< velocity by that of both as one body
+        double gain = 0.0;                           ///< J
+    };
+    Part parts[] = {{near.first, first_shift}, {near.second, second_shift}};
     const Vector3d about = movers_[near.first].place.position;
-    for (std::size_t k = 0; k < 2; ++k) {
-        const Mover& mover = movers_[numbers[k]];
-        const Matrix3d turn = mover.place.orientation.toRotationMatrix();
-        Matrix6d to_world = Matrix6d::Zero();
-        to_world.topLeftCorner<3, 3>() = to_world.bottomRightCorner<3, 3>() = turn;
-        const Matrix6d inertia = to_world * companions_[numbers[k]].body->inertia * to_world.transpose();
-        ways[k].setIdentity();
-        ways[k].bottomLeftCorner<3, 3>() = -skew(mover.place.position - about);
-        joint += ways[k].transpose() * inertia * ways[k];
-        momenta[k] = inertia * mover.velocity;
-        missed.head<3>() -= (k == 0 ? first_shift : second_shift).cross(momenta[k].tail<3>());
+    Matrix6d inertia_of_both = Matrix6d::Zero();
+    Vector6d missed = Vector6d::Zero();
+    for (Part& part : parts) {
+        const Mover& mover = movers_[part.number];
+        const Matrix6d inertia = in_world(companions_[part.number].body->inertia, mover.place.orientation);
+        part.by_turning.bottomLeftCorner<3, 3>() = -skew(mover.place.position - about);
+        inertia_of_both += part.by_turning.transpose() * inertia * part.by_turning;
+        missed.head<3>() -= part.shift.cross((inertia * mover.velocity).tail<3>());
     }
-    const Vector6d together = Eigen::LLT<Matrix6d>(joint).solve(missed);
-    std::array<double, 2> gains;
-    for (std::size_t k = 0; k < 2; ++k) {
-        const Vector6d change = ways[k] * together;
-        gains[k] = energy_of(numbers[k], movers_[numbers[k]].place, movers_[numbers[k]].velocity + change) -
-                   energy_of(numbers[k], movers_[numbers[k]].place, movers_[numbers[k]].velocity);
+    const Vector6d turning = Eigen::LLT<Matrix6d>(inertia_of_both).solve(missed);
+    double gain = 0.0;
+    for (Part& part : parts) {
+        const Mover& mover = movers_[part.number];
+        part.gain = energy_of(part.number, mover.place, mover.velocity + part.by_turning * turning) -
+                    energy_of(part.number, mover.place, mover.velocity);
+        gain += part.gain;
     }
-    if (gains[0] + gains[1] > 0.0) return;
-    for (std::size_t k = 0; k < 2; ++k) {
-        Mover& mover = movers_[numbers[k]];
-        mover.velocity += ways[k] * together;
-        mover.energy += gains[k];
+    if (gain > 0.0) return;
+    for (const Part& part : parts) {
+        movers_[part.number].velocity += part.by_turning * turning;
+        movers_[part.number].energy += part.gain;
     }
 }
 

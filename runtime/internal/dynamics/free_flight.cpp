@@ -6,7 +6,7 @@ namespace samara {
 namespace {
 
 constexpr int most_iterations = 12;
-constexpr double solved = 1e-14;  // change of the velocity in an iteration, over the velocity, in energy
+constexpr double solved = 1e-9;  // last step, over the velocity, by energy: the next would be of its square
 
 /// K u' of Kirchhoff's equations: (l x omega + p x v, p x omega).
 Vector6d rate_of_momentum(const Vector6d& momentum, const Vector6d& velocity) {

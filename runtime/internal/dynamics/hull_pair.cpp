@@ -11,7 +11,7 @@ namespace {
 
 constexpr double of_face = 1e-6;     // one less the cosine of the angle between a normal and that of its face
 constexpr double sticks_out = 1e-4;  // of a round side over a face, over the bounding radius
-constexpr double drawn_in = 0.01;    // of a hull, towards its middle, where two touch
+constexpr double drawn_in = 0.03;    // of a hull, towards its middle, where two touch
 constexpr double seam = 1e-6;        // by which a face reaches over its sides, over the bounding radius
 constexpr std::size_t most_outline = 2 * most_corners + 8;
 
@@ -35,7 +35,10 @@ bool parting_drawn_in(const MeetingHull& first, const MeetingHull& second, Parti
         return false;
     result.normal = way.normalized();
     result.gap = gap_along(first.hull, second.hull, result.normal);
-    result.on_second = second_middle + (simplex.on_second() - second_middle) / (1.0 - drawn_in);
+    result.on_second =
+        second.hull.points->round.empty()
+            ? Vector3d(second_middle + (simplex.on_second() - second_middle) / (1.0 - drawn_in))
+            : second.hull.farthest(result.normal);
     result.overlap = result.gap <= 0.0;
     return true;
 }
