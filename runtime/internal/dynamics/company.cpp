@@ -155,6 +155,11 @@ void CompanyStep::begin_part(double time_step) {
                       .inverse_inertia = in_world(body.inverse_inertia, mover.place.orientation),
                       .radius = body.contact_points.bounding_radius};
         mover.energy_before = energy_of(i, mover.place, mover.velocity);
+        // Of what a step of the body alone gives, how its turning changes by itself is left to the way: it
+        // may turn otherwise by now.
+        Vector6d own = mover.own_velocity;
+        own.head<3>() = mover.before.orientation * own.head<3>();
+        mover.by_itself = changed_by_itself(i, own, time_step);
         mover.alone = flown(i, bodies_[i].velocity, time_step).place;
     }
 }
@@ -222,15 +227,10 @@ void CompanyStep::push(double time_step, std::size_t known) {
 void CompanyStep::move(double time_step, bool ends_step) {
     for (std::size_t i = 0; i < companions_.size(); ++i) {
         Mover& mover = movers_[i];
-        // Of what a step of the body alone gives, how its turning changes by itself is left to the way: it
-        // may turn otherwise by now.
-        Vector6d alone = mover.own_velocity;
-        alone.head<3>() = mover.before.orientation * alone.head<3>();
-        const Vector6d by_itself = changed_by_itself(i, alone, time_step);
         // Nothing met: half of the loads before, half after, as the step of a body alone has it.
         Vector6d later = Vector6d::Zero();
-        if (!mover.pressed) later = 0.5 * (bodies_[i].velocity - mover.velocity_before - by_itself);
-        const PlacedMotion end = flown(i, bodies_[i].velocity - by_itself - later, time_step);
+        if (!mover.pressed) later = 0.5 * (bodies_[i].velocity - mover.velocity_before - mover.by_itself);
+        const PlacedMotion end = flown(i, bodies_[i].velocity - mover.by_itself - later, time_step);
         later.head<3>() = end.place.orientation * (mover.before.orientation.conjugate() * later.head<3>());
         mover.place = end.place;
         mover.velocity = end.velocity + later;

@@ -84,9 +84,10 @@ class CompanyStep {
         BodyPlace before, place;             ///< when the part began, and now
         BodyPlace alone;                     ///< where it would be after the part if nothing were in its way
         Vector6d velocity_before, velocity;  ///< when the part began, and now
-        Vector6d own_velocity;         ///< when the part began, if nothing had met it: omega in body axes
-        Vector6d gain;                 ///< of it a second, so that spin keeps its energy
-        Vector3d load;                 ///< N: what pulls it
+        Vector6d own_velocity;  ///< when the part began, if nothing had met it: omega in body axes
+        Vector6d gain;          ///< of it a second, so that spin keeps its energy
+        Vector6d by_itself;     ///< of this what comes without loads in the part: world axes as it began
+        Vector3d load;          ///< N: what pulls it
         double energy_before, energy;  ///< J: when the part began, and after the impulses
         ContactRecord met;             ///< in the step
         Vector3d shift;                ///< m: by which it was moved apart
