@@ -87,10 +87,12 @@ void print_kirchhoff(const KirchhoffTensor& kirchhoff) {
     print_row("method", "{}, {} triangles", kirchhoff.method, kirchhoff.triangles);
 }
 
+constexpr int print_subdivisions = 8;  // of directions to look for the largest in
+
 /// The largest force and moment of a tow by pressure (rho U^2 A / 2, and times L).
 PressureLoads largest_of(const SurfaceLoads& loads) {
     PressureLoads largest;
-    for (const PressureLoads& load : loads.pressure) {
+    for (const PressureLoads& load : pressure_loads(loads, print_subdivisions)) {
         if (load.force.norm() > largest.force.norm()) largest.force = load.force;
         if (load.moment.norm() > largest.moment.norm()) largest.moment = load.moment;
     }

@@ -59,21 +59,17 @@ struct Fall {
     bool judges_inclination = true;
 };
 
-struct Shape {
-    Body body;
-    SurfaceFlow flow;
-};
-
 class Falls {
   public:
-    explicit Falls(const std::string& bodies) {
+    Falls(const std::string& bodies, int patches) : patches_(patches) {
         for (Fall& fall : falls_) {
             fall.scene = read_scene_file(fmt::format("docs/falls/{}.toml", fall.name));
             fall.reference = read_motion_file(fmt::format("docs/falls/{}.h5", fall.name));
             fall.measures = measure(fall.reference, fall.reference.bodies.front());
-            if (shapes_.contains(fall.body)) continue;
-            const Body body = read_body_file(fmt::format("{}/{}.body.h5", bodies, fall.body));
-            shapes_.emplace(fall.body, Shape{body, SurfaceFlow(body.surface, body.moments)});
+            if (bodies_.contains(fall.body)) continue;
+            Body body = read_body_file(fmt::format("{}/{}.body.h5", bodies, fall.body));
+            body.surface_loads = surface_loads(body.surface, body.moments);
+            bodies_.emplace(fall.body, body);
         }
     }
 
@@ -81,14 +77,15 @@ class Falls {
 
     /// The figures of a fall with these numbers.
     [[nodiscard]] Measures flown(const Fall& fall, const Numbers& x) const {
-        const Shape& shape = shapes_.at(fall.body);
-        Body body = shape.body;
-        body.tables = as_tables(shape.flow.loads({x[0], x[1]}), reference_length(body.moments.surface_area));
+        Body body = bodies_.at(fall.body);
+        body.tables =
+            as_tables(*body.surface_loads, reference_length(body.moments.surface_area), {x[0], x[1]});
         body.dynamic = IdentifiedCoefficients{
             surface_dynamic_coefficients(body, {x[2], x[3], x[4], x[5], x[6], x[7]}), {}, {}};
         BodyPhysics physics = fall.scene.bodies.front();
         physics.loads = Loads::table;
         physics.turbulence = Turbulence::none;
+        physics.patches = patches_;
         const ImmersedBody immersed = make_immersed_body(body, physics, fall.scene.fluid);
         const double step = std::max(fall.scene.step, 0.5 / fall.reference.frame_rate);
         BodyState state;
@@ -146,7 +143,8 @@ class Falls {
                                 {"plate", "plate"},
                                 {"sheet", "sheet"},
                                 {"cube", "cube", {}, {}, {}, false}};
-    std::map<std::string, Shape> shapes_;
+    std::map<std::string, Body> bodies_;
+    int patches_;
 };
 
 /// A search by broods around a mean that moves, with a spread of its own for each number (Ros and Hansen,
@@ -238,10 +236,11 @@ struct Request {
     std::string without;
     int rounds = 0;
     int seed = 1;
+    int patches = 1;
 };
 
 nlohmann::json run(const Request& request) {
-    const Falls falls(request.bodies);
+    const Falls falls(request.bodies, request.patches);
     const Numbers x = request.rounds > 0 ? searched(falls, request.without, request.rounds,
                                                     static_cast<unsigned>(request.seed))
                                          : chosen();
@@ -264,5 +263,6 @@ int main(int argc, char** argv) {
     arguments.option("--rounds", request.rounds, "of the search; 0: the numbers that are in use", 0, 10000);
     arguments.option("--without", request.without, "a body whose falls are left out; they alone are printed");
     arguments.option("--seed", request.seed, "of the search", 1, 1000000);
+    arguments.option("--patches", request.patches, "of each body's surface", 1, 32);
     return samara::run_program(argc, argv, arguments, [&] { return samara::run(request); });
 }

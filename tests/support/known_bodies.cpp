@@ -94,6 +94,7 @@ Body lopsided_shape() {
     tensor.topRightCorner<3, 3>() *= 1e-8;
     tensor.bottomLeftCorner<3, 3>() = tensor.topRightCorner<3, 3>().transpose();
     body.tables = blunt_tables(body, 4);
+    body.surface_loads = made_up_surface_loads(body.surface, body.moments);
     DynamicCoefficients dynamic;
     dynamic.transport << 40.0, 5.0, -3.0, 5.0, 11.0, 2.0, -3.0, 2.0, -4.0;
     dynamic.transport *= 1e-6;

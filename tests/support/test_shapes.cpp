@@ -198,6 +198,19 @@ LoadTables smooth_tables(int subdivisions) {
     return tables;
 }
 
+SurfaceLoads made_up_surface_loads(const Surface& surface, const VolumeMoments& moments) {
+    SurfaceLoads loads;
+    loads.surface = surface;
+    loads.surface.edge_nodes.clear();
+    const double length = reference_length(moments.surface_area);
+    const Vector3d shares(-0.9, -0.4, -0.2);
+    for (Vector3d& vertex : loads.surface.vertices) {
+        vertex = (vertex - moments.centroid) / length;
+        loads.potentials.emplace_back(shares.cwiseProduct(vertex));
+    }
+    return loads;
+}
+
 Body full_body() {
     Body body;
     body.name = "pebble";
@@ -220,13 +233,7 @@ Body full_body() {
     kirchhoff.triangles = 320;
     kirchhoff.method = "boundary elements";
     body.kirchhoff = kirchhoff;
-    SurfaceLoads surface_loads;
-    for (int node = 0; node < 9; ++node) {
-        surface_loads.pressure.push_back({Vector3d(-0.5, 0.01 * node, 0.02), Vector3d(0.003, -0.04, 0.1)});
-    }
-    surface_loads.friction_force << -2.0, 0.1, 0.0, 0.1, -3.0, 0.2, 0.0, 0.2, -1.0;
-    surface_loads.friction_moment << 0.0, 0.5, -0.1, -0.5, 0.0, 0.3, 0.1, -0.3, 0.0;
-    body.surface_loads = surface_loads;
+    body.surface_loads = made_up_surface_loads(body.surface, body.moments);
     body.tables = smooth_tables(2);
     body.tables->error_sources = {{ErrorSource::tail, 0.01, 0.02, 0.03, 0.04},
                                   {ErrorSource::interpolation, 0.05, 0.06, 0.07, 0.08}};

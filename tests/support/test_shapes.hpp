@@ -26,6 +26,9 @@ Surface shaken_icosphere(int level, double amount, unsigned seed);
 /// The moments of the flat corner triangles.
 VolumeMoments moments_of(const Surface& surface);
 
+/// Potentials that grow with the place along each axis, as an ellipsoid's do, but made up.
+SurfaceLoads made_up_surface_loads(const Surface& surface, const VolumeMoments& moments);
+
 /// A body with all parts filled: a small ellipsoid, its tensor and tables with values that are all different.
 Body full_body();
 

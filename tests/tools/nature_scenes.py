@@ -18,8 +18,9 @@ from nature_study import (  # noqa: E402
 
 WATER, AIR = 'preset = "water"', 'preset = "air"'
 WATER_DENSITY = 998.2
-# Of winged seeds, which are made to spin; all else, which may swing or turn over, has the default of one (docs/spin.md).
-SPINNING_PATCHES = 2
+# Of winged seeds, which are made to spin; all else, which may swing or turn over, has the default of one. Eight say the same as
+# sixteen; the samara flies as it ships (docs/spin.md).
+FRUIT_PATCHES, SAMARA_PATCHES = 8, 2
 WIDTH = 120
 
 
@@ -156,7 +157,7 @@ def fruit_scene(angle, radius, payload):
         "pod's lower end.",
         6, WATER, fruit_name(angle, radius, payload), f"{fruit_shape(angle, radius)}.geo",
         {"mass": f"{mass:.6g}", "center_of_mass": "[" + ", ".join(f"{x:.5g}" for x in centre) + "]", "inertia": rows,
-         "patches": SPINNING_PATCHES})
+         "patches": FRUIT_PATCHES})
 
 
 def fruits():
@@ -170,7 +171,7 @@ def maple():
         "and Sohn 2014) are of Acer palmatum, whose mass and size were not at hand: this seed is another, larger one.",
         3, AIR, "maple", "../../meshes/shapes/samara.geo",
         {"mass": "1.42e-4", "center_of_mass": "[0.0035, -0.0003, 0]", "inertia": "[6.8e-10, 1.07e-8, 1.12e-8]",
-         "patches": SPINNING_PATCHES},
+         "patches": SAMARA_PATCHES},
         turned_about(1, 30), 0.0005, 500)
 
 

@@ -140,6 +140,6 @@ CASES = [
     *(case(disc_name(*disc), "discs", f"disc, I* {disc[0]:g}, Re {disc[1]:,} aimed at", "standard", (REGIME,)) for disc in DISCS),
     *(case(fruit_name(*fruit), "fruits", f"fruit, {fruit[0]} degrees, "
            + (f"R {fruit[1]} mm" if fruit[1] < 10000 else "straight") + f", {fruit[2]:g} g", "preview",
-           ("descent speed", "spin"), cells=200000) for fruit in FRUITS),
+           ("descent speed", "spin")) for fruit in FRUITS),
     case("maple", "fruits", "maple seed", None, ("descent speed", "spin", "coning"), cells=60000, ready="samara"),
 ]

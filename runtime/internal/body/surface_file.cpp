@@ -32,9 +32,9 @@ Triples read_triples(const Hdf5Reader& file, const std::string& name, std::size_
 
 }  // namespace
 
-void write_surface(Hdf5Writer& file, const std::string& group, const Surface& surface) {
-    file.write(group + "/vertices", flattened(surface.vertices), {surface.vertices.size(), 3}, "m",
-               "shape axes");
+void write_surface(Hdf5Writer& file, const std::string& group, const Surface& surface, const char* units,
+                   const char* axes) {
+    file.write(group + "/vertices", flattened(surface.vertices), {surface.vertices.size(), 3}, units, axes);
     file.write(group + "/corners", flattened_indices(surface.corners), {surface.corners.size(), 3}, "1",
                "triangles: three rows of vertices, counter-clockwise from outside");
     if (surface.order() == 2) {

@@ -8,9 +8,10 @@
 
 namespace samara {
 
-/// Writes a surface as the datasets vertices (n, 3) in metres, corners (triangles, 3) and, for order 2,
-/// edge_nodes (triangles, 3) of the group: the same in body files and motion files.
-void write_surface(Hdf5Writer& file, const std::string& group, const Surface& surface);
+/// Writes a surface as the datasets vertices (n, 3), corners (triangles, 3) and, for order 2, edge_nodes
+/// (triangles, 3) of the group: the same in body files and motion files.
+void write_surface(Hdf5Writer& file, const std::string& group, const Surface& surface,
+                   const char* units = "m", const char* axes = "shape axes");
 
 /// Reads what write_surface wrote. Throws Error where a value is not finite, an index points outside the
 /// vertices, or the lengths do not fit.

@@ -11,7 +11,10 @@ namespace samara {
 /// Writes the group /surface_loads of a body file (docs/file-formats.md).
 void write_surface_loads(Hdf5Writer& file, const SurfaceLoads& loads);
 
-/// Reads it. Throws Error where its map has no sane size or its numbers are no coefficients.
+/// Whether the file holds it; an earlier form, of forces by direction, counts as none.
+bool has_surface_loads(const Hdf5Reader& file);
+
+/// Reads it. Throws Error where it is no surface, or has lengths or potentials that none has.
 SurfaceLoads read_surface_loads(const Hdf5Reader& file);
 
 }  // namespace samara

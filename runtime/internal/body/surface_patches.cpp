@@ -1,7 +1,6 @@
 #include "internal/body/surface_patches.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <utility>
@@ -19,16 +18,16 @@ double area_of(const Corners& corners) {
 
 /// A part of the surface with its first moments.
 struct Piece {
-    std::vector<Corners> triangles;
+    std::vector<PatchFace> faces;
     double area = 0.0;
     Vector3d center = Vector3d::Zero();
     double spread = 0.0;                  ///< the largest second moment of area about the centre (m^4)
     Vector3d widest = Vector3d::UnitX();  ///< along which it is that large
 };
 
-Piece piece_of(std::vector<Corners> triangles) {
-    Piece piece{std::move(triangles)};
-    for (const Corners& corners : piece.triangles) {
+Piece piece_of(std::vector<PatchFace> faces) {
+    Piece piece{std::move(faces)};
+    for (const auto& [corners, triangle] : piece.faces) {
         const double area = area_of(corners);
         piece.area += area;
         piece.center += area / 3.0 * (corners[0] + corners[1] + corners[2]);
@@ -36,7 +35,7 @@ Piece piece_of(std::vector<Corners> triangles) {
     if (!(piece.area > 0.0)) return piece;
     piece.center /= piece.area;
     Matrix3d spread = Matrix3d::Zero();
-    for (const Corners& corners : piece.triangles) {
+    for (const auto& [corners, triangle] : piece.faces) {
         // The middles of the edges weigh a quadratic function exactly.
         for (std::size_t i = 0; i < 3; ++i) {
             const Vector3d arm = 0.5 * (corners[i] + corners[(i + 1) % 3]) - piece.center;
@@ -51,8 +50,9 @@ Piece piece_of(std::vector<Corners> triangles) {
 
 /// The part of a triangle on one side of a plane, over which its corners have these heights. What lies in the
 /// plane is above it.
-void clip(const Corners& corners, const std::array<double, 3>& heights, bool above,
-          std::vector<Corners>& kept) {
+void clip(const PatchFace& face, const std::array<double, 3>& heights, bool above,
+          std::vector<PatchFace>& kept) {
+    const Corners& corners = face.corners;
     std::vector<Vector3d> polygon;
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t next = (i + 1) % 3;
@@ -61,18 +61,20 @@ void clip(const Corners& corners, const std::array<double, 3>& heights, bool abo
         const double along = heights[i] / (heights[i] - heights[next]);
         polygon.push_back(corners[i] + along * (corners[next] - corners[i]));
     }
-    for (std::size_t i = 2; i < polygon.size(); ++i) kept.push_back({polygon[0], polygon[i - 1], polygon[i]});
+    for (std::size_t i = 2; i < polygon.size(); ++i) {
+        kept.push_back({{polygon[0], polygon[i - 1], polygon[i]}, face.triangle});
+    }
 }
 
 /// The two halves of a piece, cut through its centre across its widest direction.
 std::pair<Piece, Piece> halves_of(const Piece& piece) {
-    std::vector<Corners> above;
-    std::vector<Corners> below;
-    for (const Corners& corners : piece.triangles) {
+    std::vector<PatchFace> above;
+    std::vector<PatchFace> below;
+    for (const PatchFace& face : piece.faces) {
         std::array<double, 3> heights{};
-        for (std::size_t i = 0; i < 3; ++i) heights[i] = piece.widest.dot(corners[i] - piece.center);
-        clip(corners, heights, true, above);
-        clip(corners, heights, false, below);
+        for (std::size_t i = 0; i < 3; ++i) heights[i] = piece.widest.dot(face.corners[i] - piece.center);
+        clip(face, heights, true, above);
+        clip(face, heights, false, below);
     }
     return {piece_of(std::move(above)), piece_of(std::move(below))};
 }
@@ -81,15 +83,16 @@ std::pair<Piece, Piece> halves_of(const Piece& piece) {
 
 std::vector<SurfacePatch> surface_patches(const Surface& surface, int count) {
     assert(count >= 1 && count <= most_surface_patches);
-    std::vector<Corners> triangles;
-    for (const auto& corners : surface.corners) {
-        Corners places;
-        for (std::size_t i = 0; i < 3; ++i)
-            places[i] = surface.vertices[static_cast<std::size_t>(corners[i])];
-        triangles.push_back(places);
+    std::vector<PatchFace> faces;
+    for (std::size_t triangle = 0; triangle < surface.triangle_count(); ++triangle) {
+        PatchFace face{{}, triangle};
+        for (std::size_t i = 0; i < 3; ++i) {
+            face.corners[i] = surface.vertices[static_cast<std::size_t>(surface.corners[triangle][i])];
+        }
+        faces.push_back(face);
     }
     std::vector<Piece> pieces;
-    pieces.push_back(piece_of(std::move(triangles)));
+    pieces.push_back(piece_of(std::move(faces)));
     while (pieces.size() < static_cast<std::size_t>(count)) {
         const auto widest = std::ranges::max_element(pieces, {}, &Piece::spread);
         auto [above, below] = halves_of(*widest);
@@ -104,7 +107,9 @@ std::vector<SurfacePatch> surface_patches(const Surface& surface, int count) {
     }
     center /= area;
     std::vector<SurfacePatch> patches;
-    for (const Piece& piece : pieces) patches.push_back({piece.center - center, piece.area / area});
+    for (Piece& piece : pieces) {
+        patches.push_back({piece.center - center, piece.area / area, std::move(piece.faces)});
+    }
     return patches;
 }
 

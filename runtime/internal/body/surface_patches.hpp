@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <vector>
 
 #include "samara/base/linear_algebra.hpp"
@@ -10,10 +12,17 @@ namespace samara {
 /// How many patches a surface can be divided into.
 inline constexpr int most_surface_patches = 32;
 
-/// A part of a body's surface, for what acts on the parts one by one.
+/// A triangle of a patch: one of the surface's, or a part of one.
+struct PatchFace {
+    std::array<Vector3d, 3> corners;
+    std::size_t triangle = 0;  ///< of the surface
+};
+
+/// A part of a surface, for what acts on the parts one by one.
 struct SurfacePatch {
-    Vector3d place = Vector3d::Zero();  ///< of its centre of area, m from that of the whole surface
+    Vector3d place = Vector3d::Zero();  ///< of its centre of area, from that of the whole surface
     double share = 1.0;                 ///< of the whole area
+    std::vector<PatchFace> faces;
 };
 
 /// Divides a surface into patches of no great extent: the piece with the widest spread is cut through its

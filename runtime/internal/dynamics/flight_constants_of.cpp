@@ -37,7 +37,7 @@ void set_planes(const std::vector<double>& reynolds_numbers, DirectionTable<Real
     }
 }
 
-/// The table with each entry's numbers as `row` gives them.
+/// The table with the numbers of entry i as row(i) gives them.
 template <class Real, std::size_t width, class Row>
 DirectionTable<Real> direction_table(const LoadTables& tables, const Row& row) {
     DirectionTable<Real> result;
@@ -46,7 +46,7 @@ DirectionTable<Real> direction_table(const LoadTables& tables, const Row& row) {
     result.turned = !tables.axes.isIdentity(0.0);
     result.to_map_axes = square<Real>(tables.axes.transpose());
     set_planes(tables.reynolds_numbers, result);
-    for (const LoadEntry& entry : tables.entries) {
+    for (std::size_t entry = 0; entry < tables.entries.size(); ++entry) {
         const std::array<double, width> numbers = row(entry);
         for (std::size_t i = 0; i < width; i += 4) {
             result.rows.push_back({static_cast<Real>(numbers[i]), static_cast<Real>(numbers[i + 1]),
@@ -64,17 +64,31 @@ double length_scale(const ImmersedBody& body) {
 template <class Real>
 DirectionTable<Real> load_table(const ImmersedBody& body) {
     const double arm = body.length / length_scale(body);
-    return direction_table<Real, 8>(*body.tables, [&](const LoadEntry& entry) {
-        const Vector3d f = body.dynamic.unsteady_factor * entry.force;
-        const Vector3d m = body.dynamic.unsteady_factor * arm * entry.moment;
+    return direction_table<Real, 8>(*body.tables, [&](std::size_t i) {
+        Vector3d moment = body.tables->entries[i].moment;
+        for (const TowPatch& patch : body.patches) {
+            if (!patch.force.empty()) moment -= patch.place.cross(patch.force[i]) / body.length;
+        }
+        const Vector3d f = body.dynamic.unsteady_factor * body.tables->entries[i].force;
+        const Vector3d m = body.dynamic.unsteady_factor * arm * moment;
         return std::array<double, 8>{f.x(), f.y(), f.z(), 0.0, m.x(), m.y(), m.z(), 0.0};
+    });
+}
+
+template <class Real>
+DirectionTable<Real> patch_table(const ImmersedBody& body, const TowPatch& patch) {
+    if (patch.force.empty()) return {};
+    return direction_table<Real, 4>(*body.tables, [&](std::size_t i) {
+        const Vector3d f = body.dynamic.unsteady_factor * patch.force[i];
+        return std::array<double, 4>{f.x(), f.y(), f.z(), 0.0};
     });
 }
 
 template <class Real>
 DirectionTable<Real> turbulence_table(const ImmersedBody& body) {
     const double scale = length_scale(body) / body.length;
-    return direction_table<Real, 4>(*body.tables, [&](const LoadEntry& entry) {
+    return direction_table<Real, 4>(*body.tables, [&](std::size_t i) {
+        const LoadEntry& entry = body.tables->entries[i];
         return std::array<double, 4>{entry.turbulent_kinetic_energy, scale * entry.dissipation_rate, 0.0,
                                      0.0};
     });
@@ -173,8 +187,9 @@ void set_loads(const ImmersedBody& body, FlightConstants<Real>& c) {
         symmetric<Real>(half_density / (mass * length) * dynamic.rotational_drag_in_spin);
     set_transport(body, mass, length, c);
     set_wake(body, mass, length, c);
-    for (const SurfacePatch& patch : body.patches) {
-        c.patches.push_back({triple<Real>(patch.place / length), static_cast<Real>(patch.share)});
+    for (const TowPatch& patch : body.patches) {
+        c.patches.push_back({triple<Real>(patch.place / length), static_cast<Real>(patch.share),
+                             patch_table<Real>(body, patch)});
     }
     const double creeping = std::numbers::pi * body.viscosity * body.length / mass;
     const double ratio = body.length / length;

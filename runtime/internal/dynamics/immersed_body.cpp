@@ -173,12 +173,17 @@ ImmersedBody make_immersed_body(const Body& body, const BodyPhysics& physics, co
         result.projected_areas = projected_areas(body.surface);
     }
     result.dynamic = dynamic_coefficients_of(body, physics);
-    if (physics.patches > 1) result.patches = surface_patches(body.surface, physics.patches);
     result.turbulence = physics.turbulence;
     result.turbulent_kinetic_energy = physics.turbulent_kinetic_energy;
     result.dissipation_rate = physics.dissipation_rate;
     result.langevin = physics.langevin;
     result.tables = tables_of(body, physics, result.length);
+    if (physics.patches > 1) {
+        const bool tabled = result.loads != Loads::coefficients && result.tables.has_value();
+        DividedSurface divided = divided_surface(body, tabled ? &*result.tables : nullptr, physics.patches);
+        result.dynamic = within_patches(std::move(result.dynamic), divided);
+        result.patches = std::move(divided.patches);
+    }
     prepare(result);
     return result;
 }

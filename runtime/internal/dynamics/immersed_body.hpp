@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "internal/body/surface_patches.hpp"
 #include "internal/dynamics/dynamic_coefficients.hpp"
+#include "internal/dynamics/tow_patches.hpp"
 #include "internal/kernel/flight_constants.hpp"
 #include "samara/base/linear_algebra.hpp"
 #include "samara/body/body.hpp"
@@ -47,7 +47,7 @@ struct ImmersedBody {
     std::vector<double> projected_areas;
     std::optional<LoadTables> tables;  ///< where loads or turbulence are from tables
     DynamicCoefficients dynamic;
-    std::vector<SurfacePatch> patches{SurfacePatch()};  ///< of the surface; one stands for the whole
+    std::vector<TowPatch> patches{TowPatch()};  ///< of the surface; one stands for the whole
 
     Turbulence turbulence = Turbulence::none;
     double turbulent_kinetic_energy = 0.0;

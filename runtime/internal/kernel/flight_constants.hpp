@@ -31,11 +31,12 @@ struct DirectionTable {
     [[nodiscard]] const Real* numbers() const { return reinterpret_cast<const Real*>(rows.data()); }
 };
 
-/// A part of the surface, which feels its share of a tow's force at its own velocity.
+/// A part of the surface, which feels its part of a tow's force at its own velocity.
 template <class Real>
 struct LoadPatch {
-    Triple<Real> place{};  ///< over l, from the middle of all
-    Real share = 1;        ///< all add up to one
+    Triple<Real> place{};        ///< over l, from the middle of all
+    Real share = 1;              ///< all add up to one
+    DirectionTable<Real> force;  ///< on its own faces; without rows it feels its share of the whole's
 };
 
 /// What the step needs of a body, worked out once. Body axes about the centroid; lengths are in the power of
@@ -63,7 +64,8 @@ struct FlightConstants {
     Loads loads = Loads::none;
     Real tow_factor = 0;                      ///< rho_f A l / (2 m*)
     Real reynolds_factor = 0;                 ///< L l / nu (s)
-    DirectionTable<Real> loads_by_direction;  ///< force, 0, moment L/l, 0; or the area over A and zeros
+    DirectionTable<Real> loads_by_direction;  ///< force, 0, moment L/l less what patches make of
+                                              ///< it, 0; or the area over A and zeros
     std::vector<LoadPatch<Real>> patches;     ///< one at least
     Real drag_coefficient = 0;
     Real twice_lift_coefficient = 0;

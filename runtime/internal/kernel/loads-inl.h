@@ -47,12 +47,13 @@ struct TowCoefficients {
 };
 
 template <bool with_moment, class V, class Real>
-HWY_INLINE TowCoefficients<V> tow_coefficients(const FlightConstants<Real>& c, const Triple<V>& velocity,
-                                               const Heading<V>& heading) {
+HWY_INLINE TowCoefficients<V> tow_coefficients(const FlightConstants<Real>& c,
+                                               const DirectionTable<Real>& by_direction,
+                                               const Triple<V>& velocity, const Heading<V>& heading) {
     Place<V> place;
-    find_place(c.loads_by_direction, velocity, V(c.reynolds_factor) * heading.speed, place);
+    find_place(by_direction, velocity, V(c.reynolds_factor) * heading.speed, place);
     Quad<V> numbers[2];
-    look_up<with_moment ? 2 : 1>(c.loads_by_direction, place, numbers);
+    look_up<with_moment ? 2 : 1>(by_direction, place, numbers);
     const Triple<V> force = first_three(numbers[0]);
     if (c.loads == Loads::coefficients) {
         const Triple<V> of_area = coefficient_force(c, heading.direction, first_of(numbers[0]));
@@ -70,7 +71,7 @@ struct PressurePoint {
 template <class V, class Real>
 HWY_INLINE PressurePoint<V> pressure_point(const FlightConstants<Real>& c, const Triple<V>& velocity,
                                            const Heading<V>& heading, V share) {
-    const TowCoefficients<V> tow = tow_coefficients<true>(c, velocity, heading);
+    const TowCoefficients<V> tow = tow_coefficients<true>(c, c.loads_by_direction, velocity, heading);
     // What transport leaves, in a steady tow, of the Kirchhoff moment on the equations' left side.
     const Triple<V> kirchhoff =
         cross(broadcast_symmetric<V>(c.potential_transport) * heading.direction, heading.direction);
@@ -80,17 +81,20 @@ HWY_INLINE PressurePoint<V> pressure_point(const FlightConstants<Real>& c, const
     return {scale * cross(tow.force, moment), (V(c.tow_factor) * scale * dot(moment, tow.force)) * tow.force};
 }
 
-/// The tow's force at its point as -(drag + side x): the lift turns with the flow and does no work.
+/// A patch's force at its point as -(drag + side x): the lift turns with the flow and does no work.
 template <class V>
 struct TowMatrix {
     V drag;
     Triple<V> side;
 };
 template <class V, class Real>
-HWY_INLINE TowMatrix<V> tow_matrix(const FlightConstants<Real>& c, const Triple<V>& velocity) {
+HWY_INLINE TowMatrix<V> tow_matrix(const FlightConstants<Real>& c, const LoadPatch<Real>& patch,
+                                   const Triple<V>& velocity) {
     const Heading<V> heading = heading_of(velocity);
-    const Triple<V> force = tow_coefficients<false>(c, velocity, heading).force;
-    const V scale = V(c.tow_factor) * heading.speed;
+    const bool own = !patch.force.rows.empty();
+    const Triple<V> force =
+        tow_coefficients<false>(c, own ? patch.force : c.loads_by_direction, velocity, heading).force;
+    const V scale = V(own ? c.tow_factor : patch.share * c.tow_factor) * heading.speed;
     return {scale * larger(V(0.0), -dot(force, heading.direction)), scale * cross(force, heading.direction)};
 }
 
@@ -106,16 +110,14 @@ HWY_INLINE LoadBlocks<V> moved_by_arm(const TowMatrix<V>& tow, const Triple<V>& 
 }
 
 /// The tow's matrix about the centroid, of a force that acts at the arm r: each patch of the surface feels
-/// its share of it at its own velocity and place. A steady tow is that of the whole body; no patch makes
+/// its part of it at its own velocity and place. A steady tow is that of the whole body; no patch makes
 /// energy.
 template <class V, class Real>
 HWY_INLINE LoadBlocks<V> tow_blocks(const FlightConstants<Real>& c, const Triple<V>& omega,
                                     const Triple<V>& velocity, const Triple<V>& r) {
     const auto of_patch = [&](const LoadPatch<Real>& patch) HWY_ATTR {
         const Triple<V> arm = r + broadcast<V>(patch.place);
-        const TowMatrix<V> tow = tow_matrix(c, velocity + cross(omega, arm));
-        const V share(patch.share);
-        return moved_by_arm(TowMatrix<V>{share * tow.drag, share * tow.side}, arm);
+        return moved_by_arm(tow_matrix(c, patch, velocity + cross(omega, arm)), arm);
     };
     LoadBlocks<V> blocks = of_patch(c.patches[0]);
     for (std::size_t i = 1; i < c.patches.size(); ++i) {

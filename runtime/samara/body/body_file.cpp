@@ -225,7 +225,7 @@ Body read_body_file(const std::filesystem::path& path) {
         from_row_major<Matrix3d>(file.finite_doubles("/moments/second_moments", {3, 3}));
     body.symmetry = read_symmetry(file);
     if (file.has("/kirchhoff")) body.kirchhoff = read_kirchhoff(file);
-    if (file.has("/surface_loads")) body.surface_loads = read_surface_loads(file);
+    if (has_surface_loads(file)) body.surface_loads = read_surface_loads(file);
     if (file.has("/tables")) body.tables = read_tables(file);
     if (file.has("/dynamic_coefficients")) body.dynamic = read_dynamic_coefficients(file);
     if (file.has("/mass")) body.mass = read_mass(file);

@@ -83,14 +83,9 @@ void expect_equal(const Body& a, const Body& b) {
     EXPECT_EQ(a.mass, b.mass);
     ASSERT_EQ(a.surface_loads.has_value(), b.surface_loads.has_value());
     if (a.surface_loads) {
-        EXPECT_EQ(a.surface_loads->subdivisions, b.surface_loads->subdivisions);
-        EXPECT_EQ(a.surface_loads->friction_force, b.surface_loads->friction_force);
-        EXPECT_EQ(a.surface_loads->friction_moment, b.surface_loads->friction_moment);
-        ASSERT_EQ(a.surface_loads->pressure.size(), b.surface_loads->pressure.size());
-        for (std::size_t i = 0; i < a.surface_loads->pressure.size(); ++i) {
-            EXPECT_EQ(a.surface_loads->pressure[i].force, b.surface_loads->pressure[i].force);
-            EXPECT_EQ(a.surface_loads->pressure[i].moment, b.surface_loads->pressure[i].moment);
-        }
+        EXPECT_EQ(a.surface_loads->surface.vertices, b.surface_loads->surface.vertices);
+        EXPECT_EQ(a.surface_loads->surface.corners, b.surface_loads->surface.corners);
+        EXPECT_EQ(a.surface_loads->potentials, b.surface_loads->potentials);
     }
     ASSERT_EQ(a.tables.has_value(), b.tables.has_value());
     if (!a.tables) return;
@@ -291,17 +286,22 @@ TEST(BodyFile, ValuesThatAreNotFiniteAreNamed) {
 TEST(BodyFile, SurfaceLoadsThatAreNoneAreNamedWithTheirRemedy) {
     const test::TemporaryFolder folder;
     Body body = test::full_body();
-    body.surface_loads->pressure[3].moment.y() = 5e3;
+    body.surface_loads->potentials[3].y() = 5e5;
     write_body_file(folder / "a.body.h5", body);
-    EXPECT_THAT(fault_of(folder / "a.body.h5"), AllOf(HasSubstr("/surface_loads holds a coefficient of 5000"),
-                                                      HasSubstr("samara kirchhoff")));
+    EXPECT_THAT(fault_of(folder / "a.body.h5"),
+                AllOf(HasSubstr("/surface_loads holds a length of 500000 L"), HasSubstr("samara kirchhoff")));
     body = test::full_body();
-    body.surface_loads->friction_force(1, 1) = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_THAT(error_of([&] {
-                    write_body_file(folder / "b.body.h5", body);
-                    read_body_file(folder / "b.body.h5");
-                }),
-                HasSubstr("/surface_loads/friction_force"));
+    body.surface_loads->potentials[1].x() = std::numeric_limits<double>::quiet_NaN();
+    write_body_file(folder / "b.body.h5", body);
+    EXPECT_THAT(fault_of(folder / "b.body.h5"), HasSubstr("/surface_loads/potentials"));
+    body = test::full_body();
+    body.surface_loads->potentials.pop_back();
+    write_body_file(folder / "c.body.h5", body);
+    EXPECT_THAT(fault_of(folder / "c.body.h5"), HasSubstr("/surface_loads/potentials"));
+    body = test::full_body();
+    body.surface_loads->surface.corners[2][1] = 1000;
+    write_body_file(folder / "d.body.h5", body);
+    EXPECT_THAT(fault_of(folder / "d.body.h5"), HasSubstr("/surface_loads/corners row 2"));
 }
 
 TEST(BodyFile, DynamicCoefficientsThatAreNoneAreNamed) {

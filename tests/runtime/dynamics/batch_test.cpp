@@ -35,10 +35,9 @@ ImmersedBody noisy_lopsided_body(Turbulence turbulence = Turbulence::table) {
 
 /// The same whose surface meets the flow in patches.
 ImmersedBody noisy_patched_body() {
-    ImmersedBody body = noisy_lopsided_body();
-    body.patches = surface_patches(test::lopsided_shape().surface, 6);
-    prepare(body);
-    return body;
+    SceneBody given = test::scene_body(1200.0);
+    given.patches = 6;
+    return make_immersed_body(test::lopsided_shape(), given, Fluid{});
 }
 
 ImmersedBody coefficient_body() {

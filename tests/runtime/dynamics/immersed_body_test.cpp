@@ -10,6 +10,7 @@
 
 #include "support/expect_error.hpp"
 #include "support/known_bodies.hpp"
+#include "support/test_shapes.hpp"
 
 namespace samara {
 namespace {
@@ -219,7 +220,7 @@ TEST(ImmersedBody, RefusesLoadsOfASurfaceThatItsBodyDoesNotHold) {
     given.scene_body.turbulence = Turbulence::none;
     EXPECT_THAT(test::error_of([&] { (void)given.made(); }),
                 AllOf(StartsWith("body 'ball': loads = \"surface\""), HasSubstr("samara kirchhoff")));
-    given.body.surface_loads.emplace().pressure.resize(9);
+    given.body.surface_loads = test::made_up_surface_loads(given.body.surface, given.body.moments);
     EXPECT_NO_THROW((void)given.made());
     given.scene_body.turbulence = Turbulence::table;
     EXPECT_THAT(test::error_of([&] { (void)given.made(); }),
@@ -230,7 +231,7 @@ TEST(ImmersedBody, OfSurfaceLoadsSharesItsCoefficientsWithAllBodies) {
     Given given;
     given.scene_body.loads = Loads::surface;
     given.scene_body.turbulence = Turbulence::none;
-    given.body.surface_loads.emplace().pressure.resize(9);
+    given.body.surface_loads = test::made_up_surface_loads(given.body.surface, given.body.moments);
     given.body.dynamic = IdentifiedCoefficients{};  // of the tables' falls: not meant
     const ImmersedBody made = given.made();
     const Matrix3d added_mass = given.body.kirchhoff->matrix.bottomRightCorner<3, 3>();

@@ -124,18 +124,27 @@ inline std::pair<Vector3d, Vector3d> tabulated(const ImmersedBody& body, const V
     return {pressure * entry.force, pressure * body.length * entry.moment};
 }
 
+/// Of a tow, on one patch.
+inline Vector3d patch_force(const ImmersedBody& body, const TowPatch& patch, const Vector3d& velocity) {
+    if (patch.force.empty()) return patch.share * tabulated(body, velocity).first;
+    ImmersedBody alone = body;
+    for (std::size_t i = 0; i < patch.force.size(); ++i) alone.tables->entries[i].force = patch.force[i];
+    return tabulated(alone, velocity).first;
+}
+
 /// The static table's part, less what transport leaves of the Kirchhoff moment.
 inline Vector6d static_table(const Motion& m) {
     const auto& [force, tow_moment] = tabulated(m.body, m.v);
     const Vector3d left = m.body.added_mass * m.v - m.body.fluid_density * m.body.dynamic.transport * m.v;
-    const Vector3d moment = tow_moment - left.cross(m.v);
+    Vector3d moment = tow_moment - left.cross(m.v);
+    for (const TowPatch& patch : m.body.patches) moment -= patch.place.cross(patch_force(m.body, patch, m.v));
     const double share = m.v.squaredNorm() / (m.v.squaredNorm() + motion_onset * m.tip * m.tip);
     const Vector3d arm = share * force.cross(moment) / force.squaredNorm();
     const Vector3d along = share * moment.dot(force) / force.squaredNorm() * force;
     Vector6d static_part = motion_of(along, -along.dot(m.omega) / m.v.squaredNorm() * m.v);
-    for (const SurfacePatch& patch : m.body.patches) {
+    for (const TowPatch& patch : m.body.patches) {
         const Vector3d place = arm + patch.place;
-        const Vector3d local = patch.share * tabulated(m.body, m.v + m.omega.cross(place)).first;
+        const Vector3d local = patch_force(m.body, patch, m.v + m.omega.cross(place));
         static_part += motion_of(place.cross(local), local);
     }
     return static_part;
