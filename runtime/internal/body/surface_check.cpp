@@ -205,7 +205,7 @@ void require_matter_inside(const Surface& surface, const std::vector<Component>&
     if (inside_out == outer) {
         throw Error(
             fmt::format("the surface is inside out: its faces look inwards (volume {:.4g}); turn them "
-                        "round with 'samara mesh --flip'",
+                        "round where it was modelled, or a body's with 'samara mesh --flip'",
                         *std::min_element(volumes.begin(), volumes.end())));
     }
     for (std::size_t i = 0; i < pieces.size(); ++i) {

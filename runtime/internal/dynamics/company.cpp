@@ -14,8 +14,11 @@ constexpr double most_turn = 0.25;   // rad, in a part
 constexpr double most_way = 0.5;     // past another, over the smaller radius, in a part
 constexpr double most_fall = 0.005;  // from a standstill, over the radius, in a part
 constexpr int most_parts = 64;
-constexpr int most_attempts = 6;      // to find where bodies meet within a part
-constexpr double held_back = 0.25;    // of its kinetic energy, that one which stays keeps
+constexpr int most_attempts = 6;    // to find where bodies meet within a part
+constexpr double held_back = 0.25;  // of its kinetic energy, that one which stays keeps
+constexpr int most_stops =
+    24;  // in a step, times bodies: parts that end sooner, where some hit or would be held
+constexpr int most_tries = 6;         // of a part
 constexpr int most_rounds = 60;       // in which bodies are moved apart
 constexpr double resting_way = 2e-4;  // in a step, over the radius, that counts as none
 constexpr double no_way = 2e-5;       // the same, which what rests is taken back by
@@ -26,18 +29,6 @@ constexpr std::size_t most_ground_points = 12;
 Vector6d turned(const Quaterniond& rotation, const Vector6d& velocity) {
     Vector6d result;
     result << rotation * velocity.head<3>(), rotation * velocity.tail<3>();
-    return result;
-}
-
-/// Where steady motion leads in a time.
-BodyPlace carried(const BodyPlace& place, const Vector6d& velocity, double time) {
-    BodyPlace result = place;
-    result.position += time * velocity.tail<3>();
-    const double angle = time * velocity.head<3>().norm();
-    if (angle > 0.0) {
-        result.orientation = (Eigen::AngleAxisd(angle, velocity.head<3>().normalized()) * place.orientation);
-        result.orientation.normalize();
-    }
     return result;
 }
 
@@ -105,7 +96,7 @@ int CompanyStep::parts_of(std::span<const Pair> pairs, double time_step) const {
     return static_cast<int>(std::ceil(std::min(parts, static_cast<double>(most_parts))));
 }
 
-void CompanyStep::start(double time_step, int parts) {
+void CompanyStep::start(double time_step) {
     movers_.resize(companions_.size());
     bodies_.resize(companions_.size());
     for (std::size_t i = 0; i < companions_.size(); ++i) {
@@ -117,20 +108,40 @@ void CompanyStep::start(double time_step, int parts) {
         mover.velocity = companion.begin_velocity;
         const Vector6d change = companion.end_velocity - companion.begin_velocity;
         const Quaterniond& to_world = companion.begin.orientation;
-        mover.gain << (companion.end.orientation.conjugate() * companion.end_velocity.head<3>() -
-                       to_world.conjugate() * companion.begin_velocity.head<3>()) /
-                          parts,
-            change.tail<3>() / parts;
+        mover.own_velocity << to_world.conjugate() * companion.begin_velocity.head<3>(),
+            companion.begin_velocity.tail<3>();
+        mover.gain << companion.end.orientation.conjugate() * companion.end_velocity.head<3>() -
+                          mover.own_velocity.head<3>(),
+            change.tail<3>();
+        mover.gain /= time_step;
         const Vector6d momentum = companion.body->inertia * turned(to_world.conjugate(), change);
         mover.load = to_world * momentum.tail<3>() / time_step;
     }
 }
 
-/// The velocity with the part's share of what the step gives.
-Vector6d CompanyStep::fed(const Mover& mover) const {
+/// Where a body comes from where it began, and with which velocity, if nothing loads it.
+PlacedMotion CompanyStep::flown(std::size_t i, Vector6d velocity, double time) const {
+    velocity.tail<3>() -= flow_;
+    PlacedMotion end = free_flight(companions_[i].body->inertia, {movers_[i].before, velocity}, time);
+    end.place.position += time * flow_;
+    end.velocity.tail<3>() += flow_;
+    return end;
+}
+
+/// How the velocity of a body that nothing loads changes in body axes, of which these are turned as it began.
+Vector6d CompanyStep::changed_by_itself(std::size_t i, const Vector6d& velocity, double time) const {
+    const PlacedMotion end = flown(i, velocity, time);
+    const Quaterniond back = movers_[i].before.orientation * end.place.orientation.conjugate();
+    Vector6d change = end.velocity - velocity;
+    change.head<3>() = back * end.velocity.head<3>() - velocity.head<3>();
+    return change;
+}
+
+/// The velocity with what a step of the body alone gives in a time.
+Vector6d CompanyStep::fed(const Mover& mover, double time) {
     Vector6d velocity = mover.velocity_before;
-    velocity.head<3>() += mover.before.orientation * mover.gain.head<3>();
-    velocity.tail<3>() += mover.gain.tail<3>();
+    velocity.head<3>() += mover.before.orientation * (time * mover.gain.head<3>());
+    velocity.tail<3>() += time * mover.gain.tail<3>();
     return velocity;
 }
 
@@ -138,16 +149,18 @@ void CompanyStep::begin_part(double time_step) {
     for (std::size_t i = 0; i < companions_.size(); ++i) {
         Mover& mover = movers_[i];
         const ImmersedBody& body = *companions_[i].body;
-        Matrix6d to_world = Matrix6d::Zero();
-        to_world.topLeftCorner<3, 3>() = mover.place.orientation.toRotationMatrix();
-        to_world.bottomRightCorner<3, 3>() = to_world.topLeftCorner<3, 3>();
         mover.velocity_before = mover.velocity;
         mover.before = mover.place;
-        bodies_[i] = {.velocity = fed(mover),
-                      .inverse_inertia = to_world * body.inverse_inertia * to_world.transpose(),
+        bodies_[i] = {.velocity = fed(mover, time_step),
+                      .inverse_inertia = in_world(body.inverse_inertia, mover.place.orientation),
                       .radius = body.contact_points.bounding_radius};
         mover.energy_before = energy_of(i, mover.place, mover.velocity);
-        mover.alone = carried(mover.place, bodies_[i].velocity, time_step);
+        // Of what a step of the body alone gives, how its turning changes by itself is left to the way: it
+        // may turn otherwise by now.
+        Vector6d own = mover.own_velocity;
+        own.head<3>() = mover.before.orientation * own.head<3>();
+        mover.by_itself = changed_by_itself(i, own, time_step);
+        mover.alone = flown(i, bodies_[i].velocity, time_step).place;
     }
 }
 
@@ -187,7 +200,7 @@ void CompanyStep::find_ground(const CompanyGround& ground, double time, double t
 
 void CompanyStep::push(double time_step, std::size_t known) {
     for (std::size_t i = 0; i < companions_.size(); ++i) {
-        bodies_[i].velocity = fed(movers_[i]);
+        bodies_[i].velocity = fed(movers_[i], time_step);
         movers_[i].pressed = companions_[i].touched;
     }
     impulses_.solve(bodies_, points_, known);
@@ -203,24 +216,31 @@ void CompanyStep::push(double time_step, std::size_t known) {
         for (const Near& near : near_) {
             Mover& a = movers_[near.first];
             Mover& b = movers_[near.second];
-            const double off = time_step * std::max(a.gain.tail<3>().norm(), b.gain.tail<3>().norm());
+            const double off =
+                time_step * time_step * std::max(a.gain.tail<3>().norm(), b.gain.tail<3>().norm());
             if (a.pressed == b.pressed || near.gap > 2.0 * near.apart + off) continue;
             a.pressed = b.pressed = spreads = true;
         }
     }
 }
 
-void CompanyStep::move(double time_step) {
+void CompanyStep::move(double time_step, bool ends_step) {
     for (std::size_t i = 0; i < companions_.size(); ++i) {
         Mover& mover = movers_[i];
-        mover.velocity = bodies_[i].velocity;
-        mover.energy = energy_of(i, mover.before, mover.velocity);
+        // Nothing met: half of the loads before, half after, as the step of a body alone has it.
+        Vector6d later = Vector6d::Zero();
+        if (!mover.pressed) later = 0.5 * (bodies_[i].velocity - mover.velocity_before - mover.by_itself);
+        const PlacedMotion end = flown(i, bodies_[i].velocity - mover.by_itself - later, time_step);
+        later.head<3>() = end.place.orientation * (mover.before.orientation.conjugate() * later.head<3>());
+        mover.place = end.place;
+        mover.velocity = end.velocity + later;
+        if (ends_step && !mover.pressed) {
+            mover.place = companions_[i].end;
+            mover.velocity = companions_[i].end_velocity;
+        }
+        mover.energy = energy_of(i, mover.before, bodies_[i].velocity);
         mover.shift.setZero();
         mover.held = 0;
-        // Nothing met: halfway between the velocities, as the step of a body alone has it.
-        const Vector6d way =
-            mover.pressed ? mover.velocity : Vector6d(0.5 * (mover.velocity_before + mover.velocity));
-        mover.place = carried(mover.before, way, time_step);
     }
 }
 
@@ -246,6 +266,24 @@ void CompanyStep::part_from_ground(const CompanyGround& ground, double time, dou
     }
 }
 
+/// Takes energy (J) out of a body's turning, and where that is not enough out of all its motion.
+void CompanyStep::slow(std::size_t i, double most) {
+    Mover& mover = movers_[i];
+    Vector6d moving = mover.velocity;
+    moving.head<3>().setZero();
+    Vector6d turning = mover.velocity - moving;
+    const double of_moving = energy_of(i, mover.place, moving);
+    const double of_turning = energy_of(i, mover.place, turning);
+    const double of_both = energy_of(i, mover.place, mover.velocity) - of_moving - of_turning;
+    const double discriminant = of_both * of_both - 4.0 * of_turning * (of_moving - most);
+    if (mover.held == 0 && of_moving <= most && of_turning > 0.0) {
+        const double share = (std::sqrt(discriminant) - of_both) / (2.0 * of_turning);
+        mover.velocity = moving + std::min(1.0, share) * turning;
+    } else {
+        mover.velocity *= std::sqrt(most / (of_moving + of_both + of_turning));
+    }
+}
+
 void CompanyStep::pay() {
     double owed = 0.0;
     double left = 0.0;
@@ -267,7 +305,7 @@ void CompanyStep::pay() {
         most = std::max(0.0, most);
         // The inertia turns with the body, and that gives nothing either.
         const double energy = energy_of(i, mover.place, mover.velocity);
-        if (energy > most) mover.velocity *= std::sqrt(most / energy);
+        if (energy > most) slow(i, most);
         left += std::min(energy, most);
     }
     // What some cannot pay the others do.
@@ -323,34 +361,68 @@ bool CompanyStep::turned_far(double time_step) const {
     });
 }
 
+/// Moves the bodies for a part of the step, as they meet each other, ground and obstacles.
+void CompanyStep::try_part(std::span<const Pair> pairs, const CompanyGround& ground, double time, double part,
+                           bool ends_step, bool may_stop) {
+    begin_part(part);
+    points_.clear();
+    find_pairs(pairs, part, may_stop);
+    find_ground(ground, time, part);
+    std::size_t known = 0;
+    for (int attempt = 0; attempt < most_attempts; ++attempt) {
+        push(part, known);
+        known = points_.size();
+        move(part, ends_step);
+        if ((may_stop && free_of_hits() < 1.0) || !find_passages(part)) return;
+    }
+}
+
+void CompanyStep::part_all(const CompanyGround& ground, double time, double part) {
+    bool moved = true;
+    for (int round = 0; round < most_rounds && moved; ++round) {
+        moved = false;
+        part_pairs(part, round, moved);
+        part_from_ground(ground, time, part, moved);
+    }
+}
+
+void CompanyStep::take_back() {
+    for (Mover& mover : movers_) {
+        mover.place = mover.before;
+        mover.velocity = mover.velocity_before;
+    }
+}
+
 /// Takes the step in so many parts; false where they should be more.
 bool CompanyStep::take_parts(std::span<const Pair> pairs, const CompanyGround& ground, double time_step,
                              int parts) {
-    const double part = time_step / parts;
-    start(time_step, parts);
-    for (int k = 0; k < parts; ++k) {
-        const double time = ground.time + k * part;
-        begin_part(part);
-        points_.clear();
-        find_pairs(pairs, part);
-        find_ground(ground, time, part);
-        std::size_t known = 0;
-        for (int attempt = 0; attempt < most_attempts; ++attempt) {
-            push(part, known);
-            known = points_.size();
-            move(part);
-            if (!find_passages(part)) break;
+    start(time_step);
+    double longest = time_step / parts;
+    int stops = 0;
+    for (double begun = 0.0; begun < time_step;) {
+        const double time = ground.time + begun;
+        const double rest = time_step - begun;
+        // Not a sliver at the end.
+        double part = rest <= longest * (1.0 + 1e-9) ? rest : longest;
+        for (int tries = 1;; ++tries) {
+            const bool may_stop = tries < most_tries && stops * static_cast<int>(movers_.size()) < most_stops;
+            try_part(pairs, ground, time, part, part == rest, may_stop);
+            const double free = may_stop ? free_of_hits() : 1.0;
+            if (free == 1.0) {
+                if (2 * parts <= most_parts && turned_far(part)) return false;
+                part_all(ground, time, part);
+                if (!may_stop || all_come_through()) break;
+                longest = 0.5 * part;
+            }
+            part *= free < 1.0 ? free : 0.5;
+            ++stops;
+            take_back();
         }
-        if (2 * parts <= most_parts && turned_far(part)) return false;
         note(time + part);
-        bool moved = true;
-        for (int round = 0; round < most_rounds && moved; ++round) {
-            moved = false;
-            part_pairs(part, round, moved);
-            part_from_ground(ground, time, part, moved);
-        }
         hold_back();
         pay();
+        for (Mover& mover : movers_) mover.own_velocity += part * mover.gain;
+        begun = part == rest ? time_step : begun + part;
     }
     return true;
 }
@@ -358,6 +430,7 @@ bool CompanyStep::take_parts(std::span<const Pair> pairs, const CompanyGround& g
 void CompanyStep::take(std::span<Companion> companions, std::span<const Pair> pairs,
                        const CompanyGround& ground, double time_step) {
     companions_ = companions;
+    flow_ = ground.flow;
     for (int parts = parts_of(pairs, time_step); !take_parts(pairs, ground, time_step, parts);) parts *= 2;
     settle(time_step);
 }

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "internal/dynamics/free_flight.hpp"
 #include "internal/dynamics/hull_pair.hpp"
 #include "internal/dynamics/immersed_body.hpp"
 #include "internal/dynamics/joint_impulses.hpp"
@@ -35,6 +36,7 @@ struct CompanyGround {
     std::optional<double> height;            ///< m: of level ground
     const ObstacleSet* obstacles = nullptr;  ///< null: none
     double time = 0.0;                       ///< s: when the step begins
+    Vector3d flow = Vector3d::Zero();        ///< m/s: of the fluid, relative to the ground
 };
 
 /// How far (m) two bodies that touch stay apart, over the smaller bounding radius: what keeps the plane
@@ -48,17 +50,27 @@ inline double speed_of_points(const Vector6d& velocity, double radius) {
     return velocity.tail<3>().norm() + radius * velocity.head<3>().norm();
 }
 
+/// A matrix of (omega, v), such as an inertia, from body axes to the world's.
+inline Matrix6d in_world(const Matrix6d& of_body, const Quaterniond& orientation) {
+    Matrix6d to_world = Matrix6d::Zero();
+    to_world.topLeftCorner<3, 3>() = to_world.bottomRightCorner<3, 3>() = orientation.toRotationMatrix();
+    return to_world * of_body * to_world.transpose();
+}
+
 /// Steps bodies that may touch each other. Keeps its memory from step to step.
 ///
 /// The step is cut into parts, in which no body turns by more than a quarter of a radian, passes another by
-/// more than half its radius or would fall from a standstill by more than a two-hundredth of it. In each the
-/// bodies get their share of what the step does to them alone, and joint impulses (joint_impulses.hpp), at
-/// the points where they may meet within the part, allow each gap to close and no more; with the velocities
-/// that these leave the bodies move. So much is Moreau's stepping: whatever the step, contact takes energy
-/// and gives none. Where two come through each other at other points, those where they first touch on their
-/// way are added, and the impulses found anew. What turning still brings too close is moved apart, and where
-/// that does not keep two from passing through each other both stop on their way; either is paid for in
-/// kinetic energy.
+/// more than half its radius or would fall from a standstill by more than a two-hundredth of it. Where two
+/// that come fast from afar hit, the part ends, and they are struck there and then: so are the first of a
+/// step, the fewer the more bodies there are. In each part the bodies get their share of what the step does
+/// to them alone, and joint impulses (joint_impulses.hpp), at the points where they may meet within the part,
+/// allow each gap to close and no more; with the velocities that these leave the bodies fly freely
+/// (free_flight.hpp). So much is Moreau's stepping: whatever the step, contact takes energy and gives none.
+/// Two are pushed at one place of the world, so that they keep their momentum and angular momentum. Where two
+/// come through each other at other points, those where they first touch on their way are added, and the
+/// impulses found anew. What turning still brings too close is moved apart, and where that does not keep two
+/// from passing through each other the part is halved, or both stop on their way; what they win by it is paid
+/// for in kinetic energy.
 class CompanyStep {
   public:
     using Pair = std::pair<std::size_t, std::size_t>;
@@ -72,8 +84,10 @@ class CompanyStep {
         BodyPlace before, place;             ///< when the part began, and now
         BodyPlace alone;                     ///< where it would be after the part if nothing were in its way
         Vector6d velocity_before, velocity;  ///< when the part began, and now
-        Vector6d gain;  ///< of velocity, in a part: of omega in body axes, so that spin keeps its energy
-        Vector3d load;  ///< N: what pulls it
+        Vector6d own_velocity;  ///< when the part began, if nothing had met it: omega in body axes
+        Vector6d gain;          ///< of it a second, so that spin keeps its energy
+        Vector6d by_itself;     ///< of this what comes without loads in the part: world axes as it began
+        Vector3d load;          ///< N: what pulls it
         double energy_before, energy;  ///< J: when the part began, and after the impulses
         ContactRecord met;             ///< in the step
         Vector3d shift;                ///< m: by which it was moved apart
@@ -87,6 +101,7 @@ class CompanyStep {
         Vector3d normal;
         double gap;
         double apart;  ///< m: the gap that they keep
+        bool waits;    ///< whether they are to meet where they do, not before
 
         /// Whether there was a gap when the part began: what overlapped, since it started so, is to come out.
         [[nodiscard]] bool began_parted() const { return gap > 0.0; }
@@ -95,23 +110,33 @@ class CompanyStep {
     };
 
     void find_overlaps();
+    void keep_angular_momentum(const Near& near, const Vector3d& first_shift, const Vector3d& second_shift);
     [[nodiscard]] int parts_of(std::span<const Pair> pairs, double time_step) const;
     bool take_parts(std::span<const Pair> pairs, const CompanyGround& ground, double time_step, int parts);
     [[nodiscard]] bool turned_far(double time_step) const;
-    void start(double time_step, int parts);
+    void start(double time_step);
     void begin_part(double time_step);
-    void find_pairs(std::span<const Pair> pairs, double time_step);
+    void try_part(std::span<const Pair> pairs, const CompanyGround& ground, double time, double part,
+                  bool ends_step, bool may_stop);
+    void part_all(const CompanyGround& ground, double time, double part);
+    void take_back();
+    [[nodiscard]] bool all_come_through() const;
+    void find_pairs(std::span<const Pair> pairs, double time_step, bool may_stop);
+    [[nodiscard]] double free_of_hits() const;
     void find_ground(const CompanyGround& ground, double time, double time_step);
     void push(double time_step, std::size_t known);
-    void move(double time_step);
+    void move(double time_step, bool ends_step);
     bool find_passages(double time_step);
     void part_pairs(double time_step, int round, bool& moved);
     void part_from_ground(const CompanyGround& ground, double time, double time_step, bool& moved);
     void hold_back();
+    void slow(std::size_t i, double most);
     void pay();
     void note(double time);
     void settle(double time_step);
-    [[nodiscard]] Vector6d fed(const Mover& mover) const;
+    [[nodiscard]] PlacedMotion flown(std::size_t i, Vector6d velocity, double time) const;
+    [[nodiscard]] Vector6d changed_by_itself(std::size_t i, const Vector6d& velocity, double time) const;
+    [[nodiscard]] static Vector6d fed(const Mover& mover, double time);
     [[nodiscard]] MeetingHull hull(std::size_t i, const BodyPlace& place) const;
     [[nodiscard]] bool passes_by(const Near& near) const;
     [[nodiscard]] bool parted_before(const Near& near, const Vector3d& normal, double gap) const;
@@ -121,6 +146,7 @@ class CompanyStep {
     [[nodiscard]] double energy_of(std::size_t i, const BodyPlace& place, const Vector6d& velocity) const;
 
     std::span<Companion> companions_;
+    Vector3d flow_ = Vector3d::Zero();
     std::vector<Mover> movers_;
     std::vector<JointBody> bodies_;
     std::vector<JointPoint> points_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Cholesky>
+
 #include "internal/dynamics/company.hpp"
 #include "internal/dynamics/contact_set.hpp"
 
@@ -11,6 +13,8 @@ namespace {
 
 // Chosen by trial: what they must give is what the tests Encounters and EncountersStability hold them to.
 constexpr double finest_piece = 1e-3;  // of a way, to which the place is found where two meet
+constexpr double quick =
+    0.02;  // way of two in a part, over the radius, from which their hit is met where it is
 constexpr double parted = 0.2;         // over the skin, to where those that come too close are moved
 constexpr double most_shift = 0.06;    // over the radius, to part those that turning brought together
 constexpr double most_parting = 0.5;   // over the skin, by which those that overlap are moved in a part
@@ -18,7 +22,8 @@ constexpr double parting_speed = 1.0;  // radii a second at which bodies that ov
 
 }  // namespace
 
-void CompanyStep::find_pairs(std::span<const Pair> pairs, double time_step) {
+/// `may_stop`: whether those that are fast are to meet where they do.
+void CompanyStep::find_pairs(std::span<const Pair> pairs, double time_step, bool may_stop) {
     near_.clear();
     const auto fastest = [&](std::size_t i) {
         return std::max(speed_of_points(movers_[i].velocity, bodies_[i].radius),
@@ -39,8 +44,11 @@ void CompanyStep::find_pairs(std::span<const Pair> pairs, double time_step) {
         const MeetingHull second = hull(b, movers_[b].place);
         const Parting now = parting(first, second, reach_if_struck);
         if (now.gap > reach_if_struck) continue;
-        near_.push_back({a, b, now.normal, now.gap, apart});
-        if (now.gap > reach || passes_by(near_.back())) continue;
+        const double way = time_step * (fastest(a) + fastest(b));
+        const bool waits =
+            may_stop && now.gap > 2.0 * apart && way > quick * std::min(bodies_[a].radius, bodies_[b].radius);
+        near_.push_back({a, b, now.normal, now.gap, apart, waits});
+        if (waits || now.gap > reach || passes_by(near_.back())) continue;
         add_points(near_.back(), meeting(first, second, reach), 0.0, time_step);
     }
 }
@@ -68,8 +76,8 @@ void CompanyStep::add_points(const Near& near, const Meeting& met, double share,
         return Vector3d(way - time_step * mover.velocity.head<3>().cross(of_centre));
     };
     for (std::size_t k = 0; k < met.count; ++k) {
-        const Vector3d first_arm = arm(near.first, met.points[k].on_first);
-        const Vector3d second_arm = arm(near.second, met.points[k].on_second);
+        Vector3d first_arm = arm(near.first, met.points[k].on_first);
+        Vector3d second_arm = arm(near.second, met.points[k].on_second);
         double gap = met.normal.dot(movers_[near.first].before.position + first_arm -
                                     movers_[near.second].before.position - second_arm);
         if (share > 0.0) {
@@ -77,6 +85,11 @@ void CompanyStep::add_points(const Near& near, const Meeting& met, double share,
                                                     beyond_velocity(near.second, second_arm));
             gap += std::min(0.0, turned_by);
         }
+        // At one place of the world, so that no angular momentum is lost between the two.
+        const Vector3d across = 0.5 * (movers_[near.second].before.position + second_arm -
+                                       movers_[near.first].before.position - first_arm);
+        first_arm += across;
+        second_arm -= across;
         points_.push_back({.first = near.first,
                            .second = near.second,
                            .first_arm = first_arm,
@@ -140,6 +153,23 @@ double CompanyStep::Near::least() const {
     return std::min(closest * apart, 0.5 * gap);
 }
 
+/// How much of their ways those surely come by that are to meet where they do; 1 where none of them meet.
+double CompanyStep::free_of_hits() const {
+    double free = 1.0;
+    for (const Near& near : near_) {
+        if (!near.waits) continue;
+        const double share = free_share(near);
+        if (share > 0.0) free = std::min(free, share);
+    }
+    return free;
+}
+
+/// Whether none are to be held back.
+bool CompanyStep::all_come_through() const {
+    return std::all_of(near_.begin(), near_.end(),
+                       [&](const Near& near) { return !near.began_parted() || free_share(near) >= 1.0; });
+}
+
 bool CompanyStep::find_passages(double time_step) {
     bool found = false;
     for (const Near& near : near_) {
@@ -181,6 +211,43 @@ void CompanyStep::part_pairs(double time_step, int round, bool& moved) {
         b.place.position -= (1.0 - share) * way * normal;
         a.pressed = b.pressed = true;
         moved = true;
+        keep_angular_momentum(near, share * way * normal, (share - 1.0) * way * normal);
+    }
+}
+
+/// Gives two that were moved apart the angular momentum that their moving took, as a turning of both as one
+/// body about where they are: it changes nothing between them. It takes energy as a rule; else it is let be.
+void CompanyStep::keep_angular_momentum(const Near& near, const Vector3d& first_shift,
+                                        const Vector3d& second_shift) {
+    struct Part {
+        std::size_t number;
+        Vector3d shift;
+        Matrix6d by_turning = Matrix6d::Identity();  ///< velocity by that of both as one body
+        double gain = 0.0;                           ///< J
+    };
+    Part parts[] = {{near.first, first_shift}, {near.second, second_shift}};
+    const Vector3d about = movers_[near.first].place.position;
+    Matrix6d inertia_of_both = Matrix6d::Zero();
+    Vector6d missed = Vector6d::Zero();
+    for (Part& part : parts) {
+        const Mover& mover = movers_[part.number];
+        const Matrix6d inertia = in_world(companions_[part.number].body->inertia, mover.place.orientation);
+        part.by_turning.bottomLeftCorner<3, 3>() = -skew(mover.place.position - about);
+        inertia_of_both += part.by_turning.transpose() * inertia * part.by_turning;
+        missed.head<3>() -= part.shift.cross((inertia * mover.velocity).tail<3>());
+    }
+    const Vector6d turning = Eigen::LLT<Matrix6d>(inertia_of_both).solve(missed);
+    double gain = 0.0;
+    for (Part& part : parts) {
+        const Mover& mover = movers_[part.number];
+        part.gain = energy_of(part.number, mover.place, mover.velocity + part.by_turning * turning) -
+                    energy_of(part.number, mover.place, mover.velocity);
+        gain += part.gain;
+    }
+    if (gain > 0.0) return;
+    for (const Part& part : parts) {
+        movers_[part.number].velocity += part.by_turning * turning;
+        movers_[part.number].energy += part.gain;
     }
 }
 

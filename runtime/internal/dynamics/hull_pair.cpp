@@ -11,6 +11,7 @@ namespace {
 
 constexpr double of_face = 1e-6;     // one less the cosine of the angle between a normal and that of its face
 constexpr double sticks_out = 1e-4;  // of a round side over a face, over the bounding radius
+constexpr double drawn_in = 0.03;    // of a hull, towards its middle, where two touch
 constexpr double seam = 1e-6;        // by which a face reaches over its sides, over the bounding radius
 constexpr std::size_t most_outline = 2 * most_corners + 8;
 
@@ -18,8 +19,35 @@ Vector3d middle_of(const PlacedHull& hull) {
     return hull.position + hull.orientation * hull.points->middle;
 }
 
-/// The direction along which hulls that overlap do so least.
+/// The plane by which hulls that are each drawn in towards their middle are parted. Round sides are smoothed
+/// tables, of which two that touch may seem to overlap by less than that. False where even these overlap.
+bool parting_drawn_in(const MeetingHull& first, const MeetingHull& second, Parting& result) {
+    const Vector3d first_middle = middle_of(first.hull);
+    const Vector3d second_middle = middle_of(second.hull);
+    const auto of = [](const PlacedHull& hull, const Vector3d& middle) {
+        return [&hull, middle](const Vector3d& direction) {
+            return Vector3d(middle + (1.0 - drawn_in) * (hull.farthest(direction) - middle));
+        };
+    };
+    Simplex simplex;
+    Vector3d way = first_middle - second_middle;
+    if (!nearest_way(of(first.hull, first_middle), of(second.hull, second_middle), simplex, way))
+        return false;
+    result.normal = way.normalized();
+    result.gap = gap_along(first.hull, second.hull, result.normal);
+    result.on_second =
+        second.hull.points->round.empty()
+            ? Vector3d(second_middle + (simplex.on_second() - second_middle) / (1.0 - drawn_in))
+            : second.hull.farthest(result.normal);
+    result.overlap = result.gap <= 0.0;
+    return true;
+}
+
+/// Of hulls that seem to overlap the direction along which they do so least.
 Parting overlapping(const MeetingHull& first, const MeetingHull& second) {
+    Parting apart;
+    const bool barely = parting_drawn_in(first, second, apart);
+    if (barely && !apart.overlap) return apart;
     Parting best{Vector3d::UnitZ(), -std::numeric_limits<double>::infinity(), Vector3d::Zero(), true};
     const auto look_along = [&](const Vector3d& normal) {
         const double gap = gap_along(first.hull, second.hull, normal);
@@ -29,6 +57,7 @@ Parting overlapping(const MeetingHull& first, const MeetingHull& second) {
     };
     const Vector3d between = middle_of(first.hull) - middle_of(second.hull);
     if (between.norm() > 0.0) look_along(between.normalized());
+    if (barely) look_along(apart.normal);
     look_along(Vector3d::UnitZ());
     look_along(-Vector3d::UnitZ());
     for (const HullFace& face : *first.faces) look_along(-(first.hull.orientation * face.normal));

@@ -245,7 +245,8 @@ void Encounters::meet_company(Run& run, const Surroundings& surroundings, const 
     run.step.take(run.companions, pairs,
                   {.height = surroundings.ground,
                    .obstacles = surroundings.obstacles.get(),
-                   .time = ground.time - step_},
+                   .time = ground.time - step_,
+                   .flow = -ground.velocity},
                   step_);
     for (std::size_t k = 0; k < run.numbers.size(); ++k) {
         const Companion& companion = run.companions[k];

@@ -98,14 +98,20 @@ TEST(Encounters, AnImpactAskewKeepsMomentumAndAngularMomentumAndTakesEnergy) {
                     .orientation = turned(0.5, {1, 2, 3}),
                     .velocity = {-1.0, 0, 0}},
                    "b");
+        flight.watch_contacts(true);
         const Vector3d momentum = momentum_of(flight);
-        const Vector3d angular = angular_momentum_of(flight);
         const double energy = test::energy_of(flight, 0.0);
-        flight.advance_to(1.0);
+        double missed = 0.0;  // of angular momentum, in the steps in which they touch
+        for (double time = 0.0; time < 1.0; time += step) {
+            const Vector3d angular = angular_momentum_of(flight);
+            flight.advance_to(time + step);
+            if (flight.take_contacts(0).strongest == 0.0) continue;
+            missed += (angular_momentum_of(flight) - angular).norm();
+        }
         const double scale = flight.mass(0) * 1.0;
-        EXPECT_LT((momentum_of(flight) - momentum).norm(), 1e-9 * scale);
-        // The skin between the points that touch has a moment, and turning makes ways that are not straight.
-        EXPECT_LT((angular_momentum_of(flight) - angular).norm(), (step < 0.01 ? 0.02 : 0.1) * scale * 0.02);
+        EXPECT_LT((momentum_of(flight) - momentum).norm(), 1e-12 * scale);
+        EXPECT_GT(missed, 0.0);
+        EXPECT_LT(missed, (step < 0.01 ? 1e-3 : 5e-3) * scale * 0.02) << step;
         EXPECT_LT(test::energy_of(flight, 0.0), energy);
         EXPECT_EQ(test::deepest_overlap(flight), 0.0);
     }
@@ -127,7 +133,10 @@ TEST(Encounters, TheFluidThatBodiesCarryMeetsWithThem) {
     flight.add(wet, light, {.position = {0.05, 0, 0}}, "b");
     flight.advance_to(0.4);
     EXPECT_NEAR(flight.pose(0).velocity.x(), 2500.0 / (2500.0 + 600.0), 2e-3);
-    EXPECT_NEAR(flight.pose(1).velocity.x(), flight.pose(0).velocity.x(), 1e-6);
+    // Balls of triangles are struck a little beside their middles: they go on together, turning slowly.
+    const double turning = flight.pose(0).angular_velocity.norm();
+    EXPECT_LT(turning, 2e-3);
+    EXPECT_NEAR(flight.pose(1).velocity.x(), flight.pose(0).velocity.x(), turning * 0.01);
 }
 
 TEST(Encounters, ABlockPushesAnotherAlongTheGroundUntilFrictionStopsBoth) {

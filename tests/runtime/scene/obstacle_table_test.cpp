@@ -110,7 +110,7 @@ TEST(Obstacle, OfBadInputIsRefusedInOneLineThatSaysWhereAndWhatToDo) {
          at = inside_out.find("f ", at + 1)) {
         std::swap(inside_out[at + 2], inside_out[at + 6]);
     }
-    expect_refused("shape = \"mesh.obj\"\n", "inside out", inside_out);
+    expect_refused("shape = \"mesh.obj\"\n", "turn them round where it was modelled", inside_out);
 }
 
 TEST(Obstacle, AroundABodyThatStartsInsideOrAcrossItIsRefused) {
