@@ -1,5 +1,6 @@
 #pragma once
 
+#include <numbers>
 #include <vector>
 
 #include "samara/body/surface_loads.hpp"
@@ -24,6 +25,6 @@ std::vector<SurfaceElement> surface_elements(const SurfaceLoads& loads);
 double pressure_on(const SurfaceElement& element, const Vector3d& direction, const SurfacePressure& pressure);
 
 /// A over L^2.
-inline constexpr double reference_area_over_length_square = 0.25 * 3.14159265358979323846;
+inline constexpr double reference_area_over_length_square = std::numbers::pi / 4.0;
 
 }  // namespace samara
