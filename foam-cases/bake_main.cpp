@@ -35,7 +35,7 @@ struct BakeOptions {
     int ranks = 1;
     std::string cluster;
     std::string quality = "preview";
-    std::string loads = "kEpsilon";
+    std::string loads;  ///< empty: by the closure that is usual at the quality
     std::string falls;  ///< empty: by the closure of the loads
     std::string inflow = "still";
     int probes = 0;
@@ -47,7 +47,9 @@ struct BakeOptions {
 };
 
 BakeQuality quality_of(const BakeOptions& options) {
-    BakeQuality quality = with_loads_by(closure_of(options.loads), bake_quality(options.quality));
+    const Closure loads =
+        options.loads.empty() ? usual_loads_closure(options.quality) : closure_of(options.loads);
+    BakeQuality quality = with_loads_by(loads, bake_quality(options.quality));
     return options.falls.empty() ? quality : with_falls_by(closure_of(options.falls), std::move(quality));
 }
 
@@ -191,10 +193,10 @@ int run(int argc, const char* const* argv) {
         "--quality", options.quality, bake_quality_names(),
         "smoke: seconds, for tests only; preview: two minutes on two cores; standard: three meshes "
         "and Reynolds numbers; high: four meshes, three closures");
-    arguments.choice(
-        "--loads", options.loads, {"kEpsilon", "kOmegaSST", "kOmegaSSTLM"},
-        "closure that forces and moments are solved by; k and epsilon are kEpsilon's, beside the others in "
-        "cases of their own, on meshes of their own");
+    arguments.choice("--loads", options.loads, {"kEpsilon", "kOmegaSST", "kOmegaSSTLM"},
+                     "closure that forces, moments and falls are solved by; where it is not given, "
+                     "kOmegaSSTLM at standard and "
+                     "high and kEpsilon below. k and epsilon are kEpsilon's, in cases of their own beside");
     arguments.choice("--falls", options.falls, {"kEpsilon", "kOmegaSST", "kOmegaSSTLM"},
                      "closure that the falls are solved by, on a mesh of their own; else that of the loads");
     arguments.choice("--inflow", options.inflow, {"still", "paper"},

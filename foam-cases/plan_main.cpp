@@ -130,7 +130,7 @@ nlohmann::json run(const PlanOptions& options, const Arguments& arguments) {
     }
     const std::filesystem::path folder = options.bodies.empty() ? "." : options.bodies;
     SceneBakeOptions wanted;
-    wanted.quality = bake_quality(options.quality);
+    wanted.quality = with_loads_by(usual_loads_closure(options.quality), bake_quality(options.quality));
     wanted.tolerance = options.tolerance;
     nlohmann::json result = {{"bodies", nlohmann::json::array()}};
     std::vector<LoadedBody> loaded;

@@ -159,4 +159,8 @@ BakeQuality bake_quality(const std::string& name) {
                             fmt::join(bake_quality_names(), ", ")));
 }
 
+Closure usual_loads_closure(const std::string& quality) {
+    return quality == "standard" || quality == "high" ? Closure::k_omega_sst_lm : Closure::k_epsilon;
+}
+
 }  // namespace samara

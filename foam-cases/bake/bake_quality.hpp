@@ -69,8 +69,13 @@ BakeQuality with_falls_by(Closure closure, BakeQuality quality);
 /// one mesh in ever smaller cells, alike on all sides of a body that may turn any of them to its wake.
 std::vector<FlowMesh> meshes_of_falls(double reynolds_number);
 
-/// The quality of that name; throws Error where there is none.
+/// The quality of that name, all by k-epsilon; throws Error where there is none.
 BakeQuality bake_quality(const std::string& name);
+
+/// By what the loads of a quality are solved where nobody asks for another: kOmegaSSTLM, which measurements
+/// and falls support (docs/closures.md, docs/falls.md), but for the two that are for trying and for a first
+/// look.
+Closure usual_loads_closure(const std::string& quality);
 
 /// The names that bake_quality knows, cheapest first.
 std::vector<std::string> bake_quality_names();

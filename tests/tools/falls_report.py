@@ -86,7 +86,8 @@ def baked(programs, folder, body):
         if not os.path.exists(file) and os.path.exists(kept):
             return kept, ""
     if not os.path.exists(file):
-        run([f"{programs}/samara", "bake", shape, "-o", file, "--quality", "standard", "--json"] + options)
+        closure = [] if "--loads" in options else ["--loads", "kEpsilon"]
+        run([f"{programs}/samara", "bake", shape, "-o", file, "--quality", "standard", "--json"] + closure + options)
     cases = os.path.join(folder, f"{body}.cases")
     falls = sorted(name for name in os.listdir(cases) if name.startswith("fall_")) if os.path.isdir(cases) else []
     return file, ",".join(os.path.join(cases, name) for name in falls)

@@ -75,8 +75,8 @@ def solved(work, case):
 
 
 def bake_words(programs, work, case):
-    return [f"{programs}/samara", "bake", case.scene, "-o", os.path.join(work, "bodies"), "--quality", case.quality, "--jobs", "1",
-            "--json"]
+    return [f"{programs}/samara", "bake", case.scene, "-o", os.path.join(work, "bodies"), "--quality", case.quality,
+            "--loads", "kEpsilon", "--jobs", "1", "--json"]
 
 
 def fall_words(programs, work, case):

@@ -271,6 +271,13 @@ TEST(BakeQuality, OfAnUnknownNameIsRefused) {
     EXPECT_THROW(bake_quality("perfect"), Error);
 }
 
+TEST(BakeQuality, HasTheLoadsByTheClosureWithTransitionFromStandardOn) {
+    EXPECT_EQ(usual_loads_closure("smoke"), Closure::k_epsilon);
+    EXPECT_EQ(usual_loads_closure("preview"), Closure::k_epsilon);
+    EXPECT_EQ(usual_loads_closure("standard"), Closure::k_omega_sst_lm);
+    EXPECT_EQ(usual_loads_closure("high"), Closure::k_omega_sst_lm);
+}
+
 TEST(BakeQuality, WithLoadsByAClosureWithoutOmegaIsRefused) {
     EXPECT_THROW((void)with_loads_by(Closure::launder_sharma_k_epsilon, bake_quality("smoke")), Error);
     EXPECT_TRUE(with_loads_by(Closure::k_epsilon, bake_quality("smoke")).turbulence_meshes.empty());
