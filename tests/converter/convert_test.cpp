@@ -63,13 +63,10 @@ TEST_F(Convert, FillsTheTablesInBodyAxesWhateverTheyAre) {
     EXPECT_EQ(tables.quality, "smoke");
     EXPECT_EQ(tables.reference_length, reference_length(body.moments.surface_area));
     for (const double reynolds_number : tables.reynolds_numbers) {
-        for (int row = 0; row <= 4; ++row) {
-            for (int column = 0; column <= 4; ++column) {
-                const Vector3d node = octahedral_node(2, row, column);
-                const LoadEntry exact = transformed(box_law(node, reynolds_number), tables.axes);
-                const LoadEntry found = look_up(tables, tables.axes * node, reynolds_number);
-                EXPECT_LT(test::difference(found, exact), 1e-8);
-            }
+        for (const Vector3d& node : octahedral_nodes(2)) {
+            const LoadEntry exact = transformed(box_law(node, reynolds_number), tables.axes);
+            const LoadEntry found = look_up(tables, tables.axes * node, reynolds_number);
+            EXPECT_LT(test::difference(found, exact), 1e-8);
         }
     }
 }

@@ -180,19 +180,16 @@ LoadTables smooth_tables(int subdivisions) {
     tables.quality = "preview";
     tables.provenance = R"([{"name": "first", "openfoam_version": "v1912"}, {"name": "second"}])";
     for (const double reynolds : tables.reynolds_numbers) {
-        for (int row = 0; row < tables.map_size(); ++row) {
-            for (int column = 0; column < tables.map_size(); ++column) {
-                const Vector3d direction = octahedral_node(subdivisions, row, column);
-                LoadEntry entry;
-                entry.force = -direction * (1.0 + 10.0 / reynolds) + Vector3d(0.1, 0.2, 0.3);
-                entry.moment = direction.cross(Vector3d(1.0, 2.0, 3.0)) * std::log(reynolds);
-                entry.turbulent_kinetic_energy = 0.01 + direction.x() * direction.x();
-                entry.dissipation_rate = 0.6 + direction.y() * direction.z() + 1.0 / reynolds;
-                tables.entries.push_back(entry);
-                entry.force = 0.01 * entry.force.cwiseAbs();
-                entry.moment = 0.02 * entry.moment.cwiseAbs();
-                tables.errors.push_back(entry);
-            }
+        for (const Vector3d& direction : octahedral_nodes(subdivisions)) {
+            LoadEntry entry;
+            entry.force = -direction * (1.0 + 10.0 / reynolds) + Vector3d(0.1, 0.2, 0.3);
+            entry.moment = direction.cross(Vector3d(1.0, 2.0, 3.0)) * std::log(reynolds);
+            entry.turbulent_kinetic_energy = 0.01 + direction.x() * direction.x();
+            entry.dissipation_rate = 0.6 + direction.y() * direction.z() + 1.0 / reynolds;
+            tables.entries.push_back(entry);
+            entry.force = 0.01 * entry.force.cwiseAbs();
+            entry.moment = 0.02 * entry.moment.cwiseAbs();
+            tables.errors.push_back(entry);
         }
     }
     return tables;
