@@ -7,7 +7,7 @@
 #include "converter/tables/symmetric_loads.hpp"
 #include "internal/base/angles.hpp"
 #include "internal/body/octahedral_map.hpp"
-#include "internal/figures/inclination.hpp"
+#include "internal/figures/fall_figures.hpp"
 #include "internal/kernel/noise.hpp"
 
 namespace samara {

@@ -11,7 +11,7 @@
 
 #include "internal/base/laminar_flow.hpp"
 #include "internal/dynamics/dynamic_coefficients.hpp"
-#include "internal/figures/inclination.hpp"
+#include "internal/figures/fall_figures.hpp"
 #include "samara/base/error.hpp"
 
 namespace samara {

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "internal/base/symmetric_matrix.hpp"
-#include "internal/figures/inclination.hpp"
+#include "internal/motion/inclination.hpp"
 
 namespace samara {
 namespace {
