@@ -1,7 +1,5 @@
 #include "support/hard_bodies.hpp"
 
-#include <numbers>
-
 #include "internal/body/octahedral_map.hpp"
 #include "support/exact_bodies.hpp"
 #include "support/known_bodies.hpp"

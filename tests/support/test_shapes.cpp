@@ -3,7 +3,6 @@
 #include <cmath>
 #include <map>
 #include <random>
-#include <set>
 #include <utility>
 
 #include "internal/body/octahedral_map.hpp"
@@ -132,6 +131,28 @@ Surface mapped(const Surface& surface, const Matrix3d& map, const Vector3d& shif
         for (Triangle& nodes : result.edge_nodes) std::swap(nodes[0], nodes[2]);
     }
     return result;
+}
+
+Surface together(const std::vector<Surface>& parts) {
+    Surface all;
+    for (const Surface& part : parts) {
+        const auto first = static_cast<std::int32_t>(all.vertices.size());
+        all.vertices.insert(all.vertices.end(), part.vertices.begin(), part.vertices.end());
+        for (const auto& [a, b, c] : part.corners) all.corners.push_back({a + first, b + first, c + first});
+        for (const auto& [a, b, c] : part.edge_nodes) {
+            all.edge_nodes.push_back({a + first, b + first, c + first});
+        }
+    }
+    return all;
+}
+
+Surface lopsided(Surface surface) {
+    for (Vector3d& vertex : surface.vertices) {
+        const double bump = std::exp(-2.0 * (vertex - Vector3d(0.6, 0.4, 0.3)).squaredNorm());
+        vertex *= 1.0 + 0.5 * bump;
+        vertex.z() += 0.2 * vertex.x() * vertex.y();
+    }
+    return surface;
 }
 
 Surface shaken_icosphere(int level, double amount, unsigned seed) {

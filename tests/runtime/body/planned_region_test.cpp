@@ -5,7 +5,6 @@
 #include "internal/body/octahedral_map.hpp"
 #include "samara/body/body_file.hpp"
 #include "samara/flight/table_errors_met.hpp"
-#include "support/expect_error.hpp"
 #include "support/known_bodies.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_shapes.hpp"

@@ -1,8 +1,6 @@
 #include "internal/dynamics/tow_patches.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdint>
 #include <numbers>
 
 #include <Eigen/Eigenvalues>
@@ -60,17 +58,11 @@ TEST(TowPatches, FeelTheirShareWhereTheBodyHoldsNoLoadsOfItsSurface) {
 
 TEST(TowPatches, OfAPitchedPairOfWingsPushThemOppositeWays) {
     // Two flat wings along x, the one at x > 0 pitched by 30 degrees about x, the other by -30.
-    const Surface wing = test::mapped(test::box({1.0, 0.5, 0.02}, 8), Matrix3d::Identity(), {0.0, 0.0, 0.0});
-    Surface wings;
-    for (const double side : {1.0, -1.0}) {
+    const auto wing = [](double side) {
         const Matrix3d pitch = Eigen::AngleAxisd(side * std::numbers::pi / 6.0, Vector3d::UnitX()).matrix();
-        const Surface one = test::mapped(wing, pitch, {0.6 * side, 0.0, 0.0});
-        const auto first = static_cast<std::int32_t>(wings.vertices.size());
-        wings.vertices.insert(wings.vertices.end(), one.vertices.begin(), one.vertices.end());
-        for (const auto& corners : one.corners) {
-            wings.corners.push_back({corners[0] + first, corners[1] + first, corners[2] + first});
-        }
-    }
+        return test::mapped(test::box({1.0, 0.5, 0.02}, 8), pitch, {0.6 * side, 0.0, 0.0});
+    };
+    const Surface wings = test::together({wing(1.0), wing(-1.0)});
     Body body;
     body.surface = wings;
     body.moments = test::moments_of(wings);
