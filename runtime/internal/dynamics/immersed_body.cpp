@@ -1,6 +1,5 @@
 #include "internal/dynamics/immersed_body.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -11,6 +10,7 @@
 
 #include "internal/base/symmetric_matrix.hpp"
 #include "internal/body/octahedral_map.hpp"
+#include "internal/dynamics/dynamic_coefficients.hpp"
 #include "internal/dynamics/flight_constants_of.hpp"
 #include "internal/dynamics/immersed_body_check.hpp"
 #include "samara/base/error.hpp"

@@ -9,7 +9,6 @@
 #include "converter/tables/direction_sampling.hpp"
 #include "internal/body/octahedral_map.hpp"
 #include "load_laws.hpp"
-#include "samara/base/error.hpp"
 #include "support/expect_error.hpp"
 #include "symmetry_groups.hpp"
 #include "table_cases.hpp"

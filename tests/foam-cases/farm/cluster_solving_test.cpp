@@ -12,7 +12,6 @@
 #include "foam-cases/farm/cluster_jobs.hpp"
 #include "internal/command/subprocess.hpp"
 #include "paths.hpp"
-#include "samara/base/error.hpp"
 #include "test_bodies.hpp"
 
 namespace samara {

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "converter/tables/direction_sampling.hpp"
-#include "internal/plot/gnuplot.hpp"
 #include "support/picture_faults.hpp"
 #include "support/temporary_folder.hpp"
 #include "test_bodies.hpp"
