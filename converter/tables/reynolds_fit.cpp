@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "converter/tables/student.hpp"
 #include "samara/base/error.hpp"
@@ -49,6 +50,11 @@ double hypot_scaled(double scale, double spread, double other) {
     return std::hypot(scale * spread, other);
 }
 
+// A few samples tell which errs less only where the difference is large (docs/theory, "Between the cases").
+bool halves_the_variance(double error, double other) {
+    return error * error < 0.5 * other * other;
+}
+
 }  // namespace
 
 bool is_turbulent(const LoadEntry& entry) {
@@ -64,17 +70,44 @@ LoadEntry in_logarithms(const LoadEntry& entry) {
 ReynoldsFit::ReynoldsFit(const Symmetry& symmetry, const std::vector<DirectionSample>& samples,
                          const ReynoldsFit* main)
     : fit_(symmetry, directions_of(samples)), main_(main), turbulent_(all_turbulent(samples)) {
+    set_values(samples);
+    if (!fit_.is_spherical()) scale_ = left_out(symmetry, samples);
+}
+
+ReynoldsFit::ReynoldsFit(const Symmetry& symmetry, const std::vector<DirectionSample>& samples,
+                         std::optional<SurfaceTrend> trend)
+    : ReynoldsFit(symmetry, samples, static_cast<const ReynoldsFit*>(nullptr)) {
+    if (!trend) return;
+    trend_ = std::move(trend);
+    const ErrorFigures alone = scale_;
+    force_has_trend_ = moment_has_trend_ = true;
+    set_values(samples);
+    const ErrorFigures with = left_out(symmetry, samples);
+    force_has_trend_ = halves_the_variance(with.force, alone.force);
+    moment_has_trend_ = halves_the_variance(with.moment, alone.moment);
+    set_values(samples);
+    scale_ = left_out(symmetry, samples);
+}
+
+void ReynoldsFit::set_values(const std::vector<DirectionSample>& samples) {
+    values_.clear();
     for (const DirectionSample& sample : samples) {
-        LoadEntry value = in_logarithms(sample.entry);
-        if (main_ != nullptr) value = plus(value, -1.0, main_->logarithms_at(sample.direction));
-        values_.push_back(value);
+        values_.push_back(plus(in_logarithms(sample.entry), -1.0, beside(sample.direction)));
     }
-    if (!fit_.is_spherical()) leave_out_each(symmetry, samples);
+}
+
+LoadEntry ReynoldsFit::beside(const Vector3d& direction) const {
+    if (main_ != nullptr) return main_->logarithms_at(direction);
+    LoadEntry trend;
+    if (!force_has_trend_ && !moment_has_trend_) return trend;
+    const LoadEntry both = trend_->at(direction);
+    if (force_has_trend_) trend.force = both.force;
+    if (moment_has_trend_) trend.moment = both.moment;
+    return trend;
 }
 
 LoadEntry ReynoldsFit::logarithms_at(const Vector3d& direction) const {
-    const LoadEntry value = fit_.at(values_, direction);
-    return main_ == nullptr ? value : plus(value, 1.0, main_->logarithms_at(direction));
+    return plus(fit_.at(values_, direction), 1.0, beside(direction));
 }
 
 LoadEntry ReynoldsFit::at(const Vector3d& direction) const {
@@ -84,7 +117,8 @@ LoadEntry ReynoldsFit::at(const Vector3d& direction) const {
     return entry;
 }
 
-void ReynoldsFit::leave_out_each(const Symmetry& symmetry, const std::vector<DirectionSample>& samples) {
+ErrorFigures ReynoldsFit::left_out(const Symmetry& symmetry,
+                                   const std::vector<DirectionSample>& samples) const {
     MeanSquare force;
     MeanSquare moment;
     MeanSquare turbulent_kinetic_energy;
@@ -103,8 +137,8 @@ void ReynoldsFit::leave_out_each(const Symmetry& symmetry, const std::vector<Dir
                                      spread);
         dissipation_rate.add(error.dissipation_rate * error.dissipation_rate, 1, spread);
     }
-    scale_ = {force.widened_root(), moment.widened_root(), turbulent_kinetic_energy.widened_root(),
-              dissipation_rate.widened_root()};
+    return {force.widened_root(), moment.widened_root(), turbulent_kinetic_energy.widened_root(),
+            dissipation_rate.widened_root()};
 }
 
 ErrorFigures ReynoldsFit::interpolation_error(const Vector3d& direction) const {

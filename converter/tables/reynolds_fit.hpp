@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "converter/tables/direction_fit.hpp"
+#include "converter/tables/surface_trend.hpp"
 #include "converter/tables/symmetric_loads.hpp"
 
 namespace samara {
@@ -26,13 +28,18 @@ bool is_turbulent(const LoadEntry& entry);
 /// Forces and moments are interpolated as they are, k and epsilon by their logarithms, so that they stay
 /// positive; in laminar flow they are 0 everywhere. Beside another, denser fit (`main`, at another Reynolds
 /// number) it is main's value that stands, plus a smooth interpolation of the samples' differences from it:
-/// few samples then give a whole table.
+/// few samples then give a whole table. Likewise force and moment, each where leaving out each sample in turn
+/// halves the variance of its errors so, may stand beside the body's trend by its surface.
 class ReynoldsFit {
   public:
     /// `samples` already passed through keep_symmetric_part, at least one; no two directions are images of
     /// each other. `main` must outlive the fit. Throws Error where laminar and turbulent samples are mixed.
     ReynoldsFit(const Symmetry& symmetry, const std::vector<DirectionSample>& samples,
-                const ReynoldsFit* main = nullptr);
+                const ReynoldsFit* main);
+
+    /// The same of the main fit itself, beside the trend where there is one.
+    ReynoldsFit(const Symmetry& symmetry, const std::vector<DirectionSample>& samples,
+                std::optional<SurfaceTrend> trend);
 
     /// The entry in a direction.
     [[nodiscard]] LoadEntry at(const Vector3d& direction) const;
@@ -51,14 +58,26 @@ class ReynoldsFit {
 
     [[nodiscard]] bool turbulent() const { return turbulent_; }
 
+    /// Whether force and moment stand beside the trend.
+    [[nodiscard]] bool force_has_trend() const { return force_has_trend_; }
+    [[nodiscard]] bool moment_has_trend() const { return moment_has_trend_; }
+
   private:
     [[nodiscard]] LoadEntry logarithms_at(const Vector3d& direction) const;
-    void leave_out_each(const Symmetry& symmetry, const std::vector<DirectionSample>& samples);
+    /// Main's value or the trend's, of what stands beside it.
+    [[nodiscard]] LoadEntry beside(const Vector3d& direction) const;
+    void set_values(const std::vector<DirectionSample>& samples);
+    /// The errors per spread that leaving out each sample tells of the values.
+    [[nodiscard]] ErrorFigures left_out(const Symmetry& symmetry,
+                                        const std::vector<DirectionSample>& samples) const;
 
     DirectionFit fit_;
-    std::vector<LoadEntry> values_;  ///< in logarithms; differences from main
+    std::vector<LoadEntry> values_;  ///< in logarithms; differences from what is beside
     ErrorFigures scale_;             ///< of the error per spread
-    const ReynoldsFit* main_;
+    const ReynoldsFit* main_ = nullptr;
+    std::optional<SurfaceTrend> trend_;
+    bool force_has_trend_ = false;
+    bool moment_has_trend_ = false;
     bool turbulent_;
 };
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -98,20 +99,25 @@ double main_reynolds_number(const std::vector<SolvedCase>& cases) {
     return most == counts.end() ? 0.0 : most->first;
 }
 
-void fit(std::vector<ReynoldsTable>& tables, const Symmetry& symmetry) {
+void fit(std::vector<ReynoldsTable>& tables, const Symmetry& symmetry,
+         const std::optional<SurfaceLoads>& surface) {
     const auto main = std::max_element(
         tables.begin(), tables.end(),
         [](const ReynoldsTable& a, const ReynoldsTable& b) { return a.samples.size() < b.samples.size(); });
-    const auto fit_one = [&](ReynoldsTable& table) {
+    const auto fit_one = [&](ReynoldsTable& table, auto beside) {
         try {
-            table.fit = std::make_unique<ReynoldsFit>(symmetry, table.samples, main->fit.get());
+            table.fit = std::make_unique<ReynoldsFit>(symmetry, table.samples, std::move(beside));
         } catch (const Error& fault) {
             throw Error(fmt::format("Reynolds number {:.6g}: {}", table.reynolds_number, fault.what()));
         }
     };
-    fit_one(*main);
+    std::optional<SurfaceTrend> trend;
+    if (surface && symmetry.kind == Symmetry::Kind::finite) {
+        trend.emplace(*surface, symmetry, main->reynolds_number);
+    }
+    fit_one(*main, std::move(trend));
     for (ReynoldsTable& table : tables) {
-        if (&table != &*main) fit_one(table);
+        if (&table != &*main) fit_one(table, std::as_const(main->fit).get());
     }
 }
 
@@ -289,10 +295,11 @@ LoadEntryError variance_between(const std::vector<ReynoldsTable>& tables) {
 }  // namespace
 
 std::vector<LoadEntryError> fill_tables(LoadTables& tables, const Symmetry& symmetry,
-                                        std::vector<SolvedCase>& cases) {
+                                        std::vector<SolvedCase>& cases,
+                                        const std::optional<SurfaceLoads>& surface) {
     transfer_to_main_mesh(cases, main_reynolds_number(cases));
     std::vector<ReynoldsTable> parts = symmetric_tables(symmetry, cases);
-    fit(parts, symmetry);
+    fit(parts, symmetry, surface);
     for (ReynoldsTable& part : parts) fill_nodes(part, tables.subdivisions);
     const ModelErrors model = errors_of_models(symmetry, cases, parts);
     const LoadEntryError between = variance_between(parts);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "converter/cases/case_reduction.hpp"
@@ -9,7 +10,8 @@ namespace samara {
 
 /// Fills the tables (Reynolds numbers, entries, errors, error sources) over all directions from the solved
 /// table cases, with `subdivisions` and `axes` of the tables as they stand. The Reynolds number with most
-/// directions is the main one; the others may have any of its directions (ReynoldsFit).
+/// directions is the main one; the others may have any of its directions (ReynoldsFit). Of a body of finite
+/// symmetry it may stand beside the loads of its surface, where these are given (SurfaceTrend).
 ///
 /// In `cases` the loads that the symmetry forbids are taken from every case, and the table cases' errors are
 /// widened by them (keep_symmetric_part).
@@ -31,6 +33,7 @@ namespace samara {
 ///
 /// Throws Error where there is no table case, or where a Reynolds number mixes laminar and turbulent ones.
 std::vector<LoadEntryError> fill_tables(LoadTables& tables, const Symmetry& symmetry,
-                                        std::vector<SolvedCase>& cases);
+                                        std::vector<SolvedCase>& cases,
+                                        const std::optional<SurfaceLoads>& surface = {});
 
 }  // namespace samara

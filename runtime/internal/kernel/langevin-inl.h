@@ -70,14 +70,20 @@ HWY_INLINE void advance_seen_fluid(const FlightConstants<Real>& c, const Level<V
         now.kept * flight.seen_rotation + (deviation * V(c.inverse_eddy_length)) * normals.rotation;
 }
 
-/// The slip of the wake, as lasting as the body takes to come so many of its lengths (docs/noise.md).
+/// The slip of the wake, as lasting as the body takes to come so many of its lengths, and the weaker the more the
+/// body turns on its way (docs/noise.md).
 template <class V, class Real>
 HWY_INLINE void advance_wake(const FlightConstants<Real>& c, const Level<V>& level, V h,
                              const Triple<V>& normals, Flight<V>& flight) {
     const Triple<V> velocity = centroid_velocity(c, flight);
-    const V speed = V(c.length) * root(dot(velocity, velocity));
-    const Renewal<V> now = renewal(V(c.inverse_eddy_length / wake_persistence) * speed, h);
-    const V deviation = now.added * V(wake_slip) * root(V(2.0 / 3.0) * level.turbulent_kinetic_energy);
+    const V lengths_per_second = V(c.length * c.inverse_eddy_length) * root(dot(velocity, velocity));
+    const Renewal<V> now = renewal(V(1.0 / wake_persistence) * lengths_per_second, h);
+    const V going = lengths_per_second * lengths_per_second;
+    const V turning = V(wake_order * wake_order) * dot(flight.angular_velocity, flight.angular_velocity);
+    const V least(in_single_precision<V> ? 1e-30 : 1e-200);
+    const V unordered = going / larger(least, going + turning);
+    const V deviation =
+        now.added * V(wake_slip) * unordered * root(V(2.0 / 3.0) * level.turbulent_kinetic_energy);
     flight.seen_velocity = now.kept * flight.seen_velocity + deviation * normals;
     flight.seen_rotation = no_vector<V>();
 }

@@ -26,28 +26,28 @@ ImmersedBody ellipsoid_with_a_wake(double density) {
     return body;
 }
 
-BodyState moving_at(const Vector3d& velocity) {
+BodyState moving_at(const Vector3d& velocity, const Vector3d& angular_velocity = Vector3d::Zero()) {
     BodyState state;
-    state.velocity.tail<3>() = velocity;
+    state.velocity << angular_velocity, velocity;
     return state;
 }
 
-/// What the wake of a body too heavy to be moved does at its velocity, over many steps.
+/// What the wake of a body too heavy to be moved does at its velocities, over many steps.
 struct WakeStatistics {
     Matrix3d slip = Matrix3d::Zero();  // mean of its square
     double kept = 0.0;                 // correlation from step to step
 };
-WakeStatistics statistics_of(const ImmersedBody& body, const Vector3d& velocity, double h) {
+WakeStatistics statistics_of(const ImmersedBody& body, const BodyState& moving, double h) {
     constexpr std::uint64_t settling = 200;
     constexpr std::uint64_t steps = 400'000;
     const Noise noise(11, "wake", 0, 0);
-    BodyState state = moving_at(velocity);
+    BodyState state = moving;
     WakeStatistics found;
     double product = 0.0;
     for (std::uint64_t step = 0; step < settling + steps; ++step) {
         const Vector3d before = state.seen_fluid.velocity;
         state = advance(body, weightless, 0.0, h, state, noise, step).state;
-        state.velocity = moving_at(velocity).velocity;
+        state.velocity = moving.velocity;
         state.orientation = Quaterniond::Identity();
         EXPECT_EQ(state.seen_fluid.angular_velocity, Vector3d::Zero());
         if (step < settling) continue;
@@ -67,10 +67,25 @@ TEST(WakeNoise, HasItsVarianceAndItsTimeWhateverTheStep) {
         const double time = wake_persistence * body.length / speed;
         const Matrix3d expected = wake_slip * wake_slip * 2.0 / 3.0 * energy * Matrix3d::Identity();
         for (const double step_by_time : {0.2, 2.0}) {
-            const WakeStatistics found = statistics_of(body, velocity, step_by_time * time);
+            const WakeStatistics found = statistics_of(body, moving_at(velocity), step_by_time * time);
             EXPECT_LT((found.slip - expected).cwiseAbs().maxCoeff(), 0.02 * expected.trace());
             EXPECT_NEAR(found.kept, std::exp(-step_by_time), 0.01);
         }
+    }
+}
+
+TEST(WakeNoise, IsTheWeakerTheMoreTheBodyTurnsOnItsWay) {
+    const ImmersedBody body = ellipsoid_with_a_wake(1e9);
+    const Vector3d velocity(0.4, 0.0, 0.2);
+    const double time = wake_persistence * body.length / velocity.norm();
+    const double straight = statistics_of(body, moving_at(velocity), time).slip.trace();
+    const double rate = velocity.norm() / body.length;  // lengths gone in a second
+    for (const double turns : {0.1, 0.25, 1.0}) {
+        const Vector3d turning = turns * rate * Vector3d(1.0, 2.0, -2.0) / 3.0;
+        const WakeStatistics found = statistics_of(body, moving_at(velocity, turning), time);
+        const double share = 1.0 / (1.0 + wake_order * wake_order * turns * turns);
+        EXPECT_NEAR(std::sqrt(found.slip.trace() / straight), share, 0.02 * share);
+        EXPECT_NEAR(found.kept, std::exp(-1.0), 0.01);
     }
 }
 
