@@ -13,6 +13,7 @@
 #include "internal/dynamics/loads.hpp"
 #include "paths.hpp"
 #include "samara/body/body_file.hpp"
+#include "samara/scene/scene.hpp"
 #include "support/program_run.hpp"
 
 namespace samara {

@@ -1,5 +1,6 @@
 #include "internal/figures/tilt.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 

@@ -1,5 +1,6 @@
 #include "samara/export/page_file.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <ostream>

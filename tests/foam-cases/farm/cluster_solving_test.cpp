@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 
 #include "bake_folder.hpp"
 #include "foam-cases/farm/cluster_jobs.hpp"

@@ -1,5 +1,7 @@
 #include "foam-cases/scene/scene_plan_picture.hpp"
 
+#include <cmath>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "internal/dynamics/contact_impulses.hpp"
 #include "internal/dynamics/hull_separation.hpp"
 #include "support/compared_states.hpp"
 #include "support/ground_bodies.hpp"

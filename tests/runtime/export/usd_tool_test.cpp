@@ -1,7 +1,9 @@
 // .usda files in two readers that know nothing of samara: three.js and TinyUSDZ (tests/tools/read_usd.mjs).
 
 #include <fstream>
+#include <map>
 #include <regex>
+#include <utility>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
