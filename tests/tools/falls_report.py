@@ -5,12 +5,13 @@
                                   anew without each term, and holds the falls again
     falls_report.py BIN BODIES FALL...
                                   bakes, flies and compares these falls alone; the rows of others stay as they are. As FALL,
-                                  `range` is all those with bodies that are baked for a range of densities, `fewer` all with
-                                  bodies that are identified from fewer falls
+                                  `range` is all those with bodies that are baked for a range of densities, `closure` all
+                                  with bodies that are baked by the references' closure, `fewer` all with bodies that are
+                                  identified from fewer falls
     falls_report.py               writes the tables again from the rows of the last run
 
-Writes docs/falls/falls.csv, range.csv, terms.csv and fewer.csv, and the tables of docs/falls.md. BIN: the folder of the
-programs; BODIES: a folder for baked bodies. Run from the project's folder.
+Writes docs/falls/falls.csv, range.csv, closure.csv, terms.csv and fewer.csv, and the tables of docs/falls.md. BIN: the folder
+of the programs; BODIES: a folder for baked bodies. Run from the project's folder.
 """
 
 import csv
@@ -24,6 +25,8 @@ import tempfile
 from report_tables import mark, write_tables
 
 FALLS = "docs/falls"
+# The closure of the references.
+RESOLVED = "kOmegaSSTLM"
 # The body of each scene: its shape, and what it is baked for. No body is baked from a reference fall.
 BODIES = {
     "sphere": ("meshes/shapes/sphere.geo", ["--density", "1300"]),
@@ -47,12 +50,19 @@ SCENES = {
 OF_A_RANGE = {"disc-light": "disc-range", "disc-heavy": "disc-range", "ellipsoid-tilted": "ellipsoid-range",
               "ellipsoid-compound": "ellipsoid-range", "ellipsoid-edgewise": "ellipsoid-range",
               "ellipsoid-heavy": "ellipsoid-range"}
+# The falls with bodies whose loads and falls are by the references' closure.
+BY_THAT_CLOSURE = {scene: f"{body}-resolved" for scene, body in SCENES.items()}
+BODIES |= {f"{body}-resolved": (shape, [*options, "--loads", RESOLVED]) for body, (shape, options) in BODIES.items()
+           if not body.endswith("-range")}
 TERMS = ("transport", "turning transport", "drag in motion", "drag in spin", "rotational drag",
          "rotational drag in spin", "wake by velocity", "wake by turning", "entrained inertia", "unsteady factor")
-# What bodies are identified from.
-FEWER = {"the gentle fall": ["fall_00"], "the oblique fall": ["fall_01"], "both": None}
+# Falls with other bodies than theirs: which, their rows, and whether with noise too.
+OTHERS = {"closure": (BY_THAT_CLOSURE, f"{FALLS}/closure.csv", ("on", "off")),
+          "range": (OF_A_RANGE, f"{FALLS}/range.csv", ("off",))}
 # As users fly them, with noise; and without.
 RUNS = {"on": 20, "off": 1}
+# What bodies are identified from.
+FEWER = {"the gentle fall": ["fall_00"], "the oblique fall": ["fall_01"], "both": None}
 # Narrower limits than those of `samara compare`: of descent, frequency, amplitude and rms angular speed.
 NARROW = (0.05, 0.15, 0.25, 0.25)
 FIGURES = ("descent_speed", "frequency", "inclination_amplitude", "rms_angular_speed")
@@ -201,12 +211,12 @@ def fly(programs, folder, scenes):
                                                  if (scene, noise) in rows])
 
 
-def fly_ranges(programs, folder):
-    """Writes range.csv: the falls with bodies that are baked for a range of densities, without noise."""
+def fly_others(programs, folder, bodies, table, noises):
+    """Writes the rows of falls with other bodies than theirs (body by scene)."""
     with tempfile.TemporaryDirectory() as work:
-        rows = [row_of(scene, "off", compared(programs, baked(programs, folder, body)[0], scene, work))
-                for scene, body in OF_A_RANGE.items()]
-    written(f"{FALLS}/range.csv", [heading()] + rows)
+        rows = [row_of(scene, noise, compared(programs, baked(programs, folder, body)[0], scene, work, noise))
+                for noise in noises for scene, body in bodies.items()]
+    written(table, [heading()] + rows)
 
 
 def rows_of_falls(noise, table=f"{FALLS}/falls.csv"):
@@ -216,7 +226,7 @@ def rows_of_falls(noise, table=f"{FALLS}/falls.csv"):
 
 def tables_of_falls():
     return [table_of_falls(rows_of_falls(noise)) for noise in RUNS] + [
-        table_of_falls(rows_of_falls("off", f"{FALLS}/range.csv"))]
+        table_of_falls(rows_of_falls(noise, table)) for _, table, noises in OTHERS.values() for noise in noises]
 
 
 def table_of_falls(rows, who="runtime"):
@@ -314,15 +324,16 @@ def table_of_terms():
 
 def main(words):
     names = words[3:]
-    if len(words) == 2 or not set(names) <= {*SCENES, "range", "fewer"}:
+    if len(words) == 2 or not set(names) <= {*SCENES, *OTHERS, "fewer"}:
         sys.stderr.write(__doc__)
         return 2
     if len(words) >= 3:
         programs, folder = words[1:3]
         os.makedirs(folder, exist_ok=True)
         fly(programs, folder, [name for name in names if name in SCENES] if names else SCENES)
-        if not names or "range" in names:
-            fly_ranges(programs, folder)
+        for kind in OTHERS:
+            if not names or kind in names:
+                fly_others(programs, folder, *OTHERS[kind])
         if not names:
             fly_without_terms(programs, folder)
         if not names or "fewer" in names:

@@ -30,6 +30,8 @@ SCENES = {
     "ellipsoid-3000": ("ellipsoid-range", "samara:ellipsoid"),
     "sheet-steep": ("samara:sheet",),
     "sphere-light": ("samara:sphere",),
+    "plate-steep": ("plate-resolved",),
+    "spheroid-steep": ("spheroid-resolved",),
 }
 REFERENCES, ROWS = f"{FOLDER}/references.csv", f"{FOLDER}/falls.csv"
 
