@@ -12,7 +12,12 @@
 namespace samara {
 namespace {
 
-using test::distance;
+/// How far (m) the motions of a body that reaches 5 cm are apart, with the difference of all velocities over
+/// 0.1 s.
+double distance(const BodyState& a, const BodyState& b) {
+    return (a.position - b.position).norm() + 0.05 * a.orientation.angularDistance(b.orientation) +
+           0.1 * (a.velocity - b.velocity).norm();
+}
 
 const Vector3d gravity(0.0, 0.0, -9.81);
 
