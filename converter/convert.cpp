@@ -97,8 +97,4 @@ Conversion convert_folder(const std::filesystem::path& folder,
     return conversion;
 }
 
-Body convert_cases(const std::filesystem::path& folder) {
-    return convert_folder(folder).body;
-}
-
 }  // namespace samara

@@ -32,7 +32,4 @@ Conversion convert_folder(const std::filesystem::path& folder,
                           const std::function<void(std::size_t done, std::size_t total)>& progress = {},
                           const std::function<void(double share)>& identifying = {});
 
-/// The body of convert_folder.
-Body convert_cases(const std::filesystem::path& folder);
-
 }  // namespace samara

@@ -1,7 +1,6 @@
 // The program samara-identify: dynamic coefficients from solved free falls, anew or without some of their
 // terms.
 
-#include <filesystem>
 #include <sstream>
 #include <string>
 #include <vector>

@@ -1,6 +1,5 @@
 // The program samara-check-tables: a body's tables against solved cases that they were not made from.
 
-#include <cstdio>
 #include <string>
 
 #include <fmt/format.h>

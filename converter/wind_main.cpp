@@ -1,7 +1,6 @@
 // The program samara-wind: velocity grids of other programs -> a wind file.
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <vector>

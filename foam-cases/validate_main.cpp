@@ -14,7 +14,7 @@
 #include "internal/command/arguments.hpp"
 #include "internal/command/motion_output.hpp"
 #include "internal/command/print.hpp"
-#include "internal/motion/description.hpp"
+#include "internal/figures/description.hpp"
 #include "samara/base/error.hpp"
 #include "samara/motion/motion_file.hpp"
 #include "samara/scene/scene_file.hpp"

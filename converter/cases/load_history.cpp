@@ -1,6 +1,5 @@
 #include "converter/cases/load_history.hpp"
 
-#include <array>
 #include <string>
 
 #include <fmt/format.h>

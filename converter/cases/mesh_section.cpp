@@ -1,6 +1,5 @@
 #include "converter/cases/mesh_section.hpp"
 
-#include <array>
 #include <cmath>
 
 namespace samara {

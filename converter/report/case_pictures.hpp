@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "converter/cases/mesh_section.hpp"
-#include "samara/base/linear_algebra.hpp"
 
 namespace samara {
 

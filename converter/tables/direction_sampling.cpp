@@ -31,17 +31,6 @@ std::optional<std::size_t> node_at(const Vector3d& direction, int subdivisions, 
     return unique_node(subdivisions, row, column);
 }
 
-/// All nodes, row by row, the repeated ones too.
-std::vector<Vector3d> map_nodes(int subdivisions) {
-    std::vector<Vector3d> nodes;
-    for (int row = 0; row <= 2 * subdivisions; ++row) {
-        for (int column = 0; column <= 2 * subdivisions; ++column) {
-            nodes.push_back(octahedral_node(subdivisions, row, column));
-        }
-    }
-    return nodes;
-}
-
 bool comes_before(const Vector3d& a, const Vector3d& b) {
     return std::lexicographical_compare(b.begin(), b.end(), a.begin(), a.end());
 }
@@ -131,7 +120,7 @@ AxialArc axial_arc(const Symmetry& symmetry, int subdivisions) {
 
 std::vector<NodeImage> node_images(const Symmetry& symmetry, int subdivisions) {
     require_subdivisions(subdivisions);
-    const std::vector<Vector3d> nodes = map_nodes(subdivisions);
+    const std::vector<Vector3d> nodes = octahedral_nodes(subdivisions);
     const std::vector<Matrix3d> elements = elements_in_map_axes(symmetry);
     std::vector<std::optional<NodeImage>> images(nodes.size());
     for (const std::size_t node : largest_first(nodes)) {

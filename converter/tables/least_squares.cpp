@@ -1,7 +1,6 @@
 #include "converter/tables/least_squares.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include <Eigen/Cholesky>

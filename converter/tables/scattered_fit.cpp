@@ -1,7 +1,5 @@
 #include "converter/tables/scattered_fit.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "converter/tables/direction_sampling.hpp"

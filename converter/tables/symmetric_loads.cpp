@@ -1,6 +1,5 @@
 #include "converter/tables/symmetric_loads.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "converter/tables/direction_sampling.hpp"

@@ -121,11 +121,12 @@ void fit(std::vector<ReynoldsTable>& tables, const Symmetry& symmetry,
     }
 }
 
-/// Calls visit(row, column) for the nodes of the map (one_less = 0) or its cells (1).
+/// Calls visit(row, column) for each place of a square: the map has 2 subdivisions + 1 nodes a side, and one
+/// cell fewer.
 template <typename Visit>
-void for_each(int subdivisions, int one_less, const Visit& visit) {
-    for (int row = 0; row <= 2 * subdivisions - one_less; ++row) {
-        for (int column = 0; column <= 2 * subdivisions - one_less; ++column) visit(row, column);
+void for_each(int side, const Visit& visit) {
+    for (int row = 0; row < side; ++row) {
+        for (int column = 0; column < side; ++column) visit(row, column);
     }
 }
 
@@ -138,7 +139,7 @@ void fill_nodes(ReynoldsTable& table, int subdivisions) {
     double force = 0.0;
     double moment = 0.0;
     double directions = 0.0;
-    for_each(subdivisions, 0, [&](int row, int column) {
+    for_each(2 * subdivisions + 1, [&](int row, int column) {
         const LoadEntry entry = table.fit->at(octahedral_node(subdivisions, row, column));
         const std::size_t here = node_index(subdivisions, row, column);
         table.nodes.push_back(entry);
@@ -170,7 +171,7 @@ std::vector<LoadEntryError> variances_around_nodes(const ReynoldsTable& table, c
                                                    int subdivisions) {
     std::vector<LoadEntryError> sums(table.nodes.size());
     std::vector<double> cells(table.nodes.size(), 0.0);
-    for_each(subdivisions, 1, [&](int row, int column) {
+    for_each(2 * subdivisions, [&](int row, int column) {
         const LoadEntryError variance = variance_in_cell(table, symmetry, subdivisions, row, column);
         for (const auto& [down, right] : {std::pair{0, 0}, {0, 1}, {1, 0}, {1, 1}}) {
             const std::size_t node = unique_node(subdivisions, row + down, column + right);
@@ -179,7 +180,7 @@ std::vector<LoadEntryError> variances_around_nodes(const ReynoldsTable& table, c
         }
     });
     std::vector<LoadEntryError> means;
-    for_each(subdivisions, 0, [&](int row, int column) {
+    for_each(2 * subdivisions + 1, [&](int row, int column) {
         const std::size_t node = unique_node(subdivisions, row, column);
         means.push_back(plus({}, 1.0 / cells[node], sums[node]));
     });
@@ -206,9 +207,9 @@ std::vector<SourceVariances> source_variances(const ReynoldsTable& table, const 
                                               int subdivisions) {
     const std::vector<LoadEntryError> interpolation = variances_around_nodes(table, symmetry, subdivisions);
     std::vector<SourceVariances> result(table.nodes.size());
-    for_each(subdivisions, 0, [&](int row, int column) {
-        const std::size_t node = node_index(subdivisions, row, column);
-        const Vector3d direction = octahedral_node(subdivisions, row, column);
+    const std::vector<Vector3d> directions = octahedral_nodes(subdivisions);
+    for (std::size_t node = 0; node < directions.size(); ++node) {
+        const Vector3d& direction = directions[node];
         SourceVariances& variances = result[node];
         of(variances, ErrorSource::tail) = squared(table.fit->error_at(table.tail, direction));
         of(variances, ErrorSource::symmetry) = squared(table.fit->error_at(table.asymmetry, direction));
@@ -220,7 +221,7 @@ std::vector<SourceVariances> source_variances(const ReynoldsTable& table, const 
         of(variances, ErrorSource::mesh) = of_model(model.mesh);
         of(variances, ErrorSource::closure) = of_model(model.closure);
         of(variances, ErrorSource::interpolation) = plus(interpolation[node], 1.0, between_reynolds_numbers);
-    });
+    }
     return result;
 }
 

@@ -4,7 +4,6 @@
 #include <functional>
 #include <optional>
 
-#include "samara/base/linear_algebra.hpp"
 #include "samara/physics/wind_grid.hpp"
 
 namespace samara {

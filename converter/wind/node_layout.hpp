@@ -1,6 +1,5 @@
 #pragma once
 
-#include "samara/base/linear_algebra.hpp"
 #include "samara/physics/wind_grid.hpp"
 
 namespace samara {

@@ -1,7 +1,5 @@
 #include "converter/wind/vdb_wind.hpp"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <openvdb/openvdb.h>

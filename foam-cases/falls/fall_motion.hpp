@@ -3,7 +3,8 @@
 #include <vector>
 
 #include "converter/falls/fall_record.hpp"
-#include "internal/dynamics/step.hpp"
+#include "internal/dynamics/surroundings.hpp"
+#include "internal/kernel/body_state.hpp"
 #include "samara/motion/motion.hpp"
 
 namespace samara {

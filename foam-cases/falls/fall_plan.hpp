@@ -6,7 +6,7 @@
 #include "converter/falls/free_fall.hpp"
 #include "foam-cases/bake/bake_plan.hpp"
 #include "internal/dynamics/immersed_body.hpp"
-#include "internal/dynamics/step.hpp"
+#include "internal/kernel/body_state.hpp"
 #include "samara/scene/scene.hpp"
 
 namespace samara {

@@ -7,7 +7,7 @@
 #include "converter/tables/symmetric_loads.hpp"
 #include "internal/base/angles.hpp"
 #include "internal/body/octahedral_map.hpp"
-#include "internal/figures/inclination.hpp"
+#include "internal/figures/fall_figures.hpp"
 #include "internal/kernel/noise.hpp"
 
 namespace samara {
@@ -96,17 +96,15 @@ LoadTables drawn_tables(const LoadTables& tables, const Symmetry& symmetry, cons
     }
     const DirectionFit fit(symmetry, directions);
     LoadTables drawn = tables;
-    for (int row = 0; row < tables.map_size(); ++row) {
-        for (int column = 0; column < tables.map_size(); ++column) {
-            const LoadEntry deviation = transformed(
-                fit.at(deviations, octahedral_node(tables.subdivisions, row, column)), tables.axes);
-            for (std::size_t i = 0; i < tables.reynolds_numbers.size(); ++i) {
-                LoadEntry& entry = drawn.entries[tables.index(static_cast<int>(i), row, column)];
-                entry.force += deviation.force;
-                entry.moment += deviation.moment;
-                entry.turbulent_kinetic_energy *= std::exp(deviation.turbulent_kinetic_energy);
-                entry.dissipation_rate *= std::exp(deviation.dissipation_rate);
-            }
+    const std::vector<Vector3d> nodes = octahedral_nodes(tables.subdivisions);
+    for (std::size_t node = 0; node < nodes.size(); ++node) {
+        const LoadEntry deviation = transformed(fit.at(deviations, nodes[node]), tables.axes);
+        for (std::size_t at = node; at < drawn.entries.size(); at += nodes.size()) {
+            LoadEntry& entry = drawn.entries[at];
+            entry.force += deviation.force;
+            entry.moment += deviation.moment;
+            entry.turbulent_kinetic_energy *= std::exp(deviation.turbulent_kinetic_energy);
+            entry.dissipation_rate *= std::exp(deviation.dissipation_rate);
         }
     }
     return drawn;

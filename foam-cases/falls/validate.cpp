@@ -1,7 +1,6 @@
 #include "foam-cases/falls/validate.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <iterator>
 #include <utility>
@@ -19,7 +18,7 @@
 #include "internal/base/content_hash.hpp"
 #include "internal/comparison/reference_uncertainty.hpp"
 #include "internal/files/temporary_folder.hpp"
-#include "internal/flight/flight_kind.hpp"
+#include "internal/flight/flight_surroundings.hpp"
 #include "internal/flight/world_pose.hpp"
 #include "samara/base/error.hpp"
 #include "samara/flight/simulation.hpp"

@@ -1,7 +1,5 @@
 #include "foam-cases/farm/case_folder.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <map>
 

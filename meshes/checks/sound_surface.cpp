@@ -1,7 +1,6 @@
 #include "meshes/checks/sound_surface.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 

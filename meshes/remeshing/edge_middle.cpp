@@ -1,9 +1,6 @@
 #include "meshes/remeshing/edge_middle.hpp"
 
-#include <cmath>
-
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 
 namespace samara {
 namespace {

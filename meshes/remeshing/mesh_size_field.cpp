@@ -9,6 +9,7 @@
 
 #include "internal/base/as_index.hpp"
 #include "internal/base/symmetric_matrix.hpp"
+#include "internal/body/creases.hpp"
 #include "internal/body/surface_edges.hpp"
 #include "samara/body/surface.hpp"
 

@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "internal/body/creases.hpp"
 #include "meshes/checks/triangle_tree.hpp"
 #include "samara/body/surface.hpp"
 

@@ -11,6 +11,7 @@
 
 #include "internal/base/as_index.hpp"
 #include "internal/base/parallel_for.hpp"
+#include "internal/body/creases.hpp"
 #include "meshes/checks/triangle_fans.hpp"
 #include "meshes/remeshing/mesh_size_field.hpp"
 

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "internal/base/labelled.hpp"
+#include "internal/body/creases.hpp"
 #include "internal/body/curved_surface.hpp"
 #include "internal/body/surface_edges.hpp"
 #include "internal/body/welded_surface.hpp"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "internal/body/creases.hpp"
 #include "internal/body/curved_surface.hpp"
 #include "internal/body/surface_edges.hpp"
 #include "meshes/remeshing/mesh_size_field.hpp"

@@ -1,7 +1,6 @@
 // samara kirchhoff: the added mass of a body or shape.
 
 #include <chrono>
-#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>

@@ -1,6 +1,5 @@
 #include "commands/table_lookup_report.hpp"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "internal/base/vector_json.hpp"

@@ -1,7 +1,5 @@
 #include "commands/vector_words.hpp"
 
-#include <cstdio>
-
 namespace samara {
 
 std::optional<Vector3d> vector_of_words(const std::string& words) {

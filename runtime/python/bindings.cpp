@@ -1,5 +1,6 @@
 #include "bindings.hpp"
 
+#include <atomic>
 #include <cstddef>
 #include <string>
 

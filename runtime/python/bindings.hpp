@@ -3,7 +3,6 @@
 // What the parts of the Python module `samara` share: one file a part, each with its bind_ function.
 
 #include <array>
-#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <cstring>
@@ -22,7 +21,6 @@
 #include "samara/base/error.hpp"
 #include "samara/flight/simulation.hpp"
 #include "samara/motion/motion.hpp"
-#include "samara/scene/scene.hpp"
 
 namespace samara::python {
 

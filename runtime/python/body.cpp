@@ -51,6 +51,12 @@ py::object entries_view(const py::object& self, Member member,
     return array;
 }
 
+/// The property that shows them.
+template <typename Member>
+auto table_of(Member member, const std::vector<LoadEntry> LoadTables::*entries = &LoadTables::entries) {
+    return [member, entries](const py::object& self) { return entries_view(self, member, entries); };
+}
+
 }  // namespace
 
 void bind_body(py::module_& module) {
@@ -113,33 +119,17 @@ void bind_body(py::module_& module) {
             },
             "Of the tables, ascending, shape (r,), or None.")
         .def_property_readonly(
-            "force_table",
-            [](const py::object& self) {
-                return entries_view(self, &LoadEntry::force, &LoadTables::entries);
-            },
+            "force_table", table_of(&LoadEntry::force),
             "F / (rho U^2 A / 2) over the octahedral map, body axes, shape (r, n, n, 3), or None.")
-        .def_property_readonly(
-            "moment_table",
-            [](const py::object& self) {
-                return entries_view(self, &LoadEntry::moment, &LoadTables::entries);
-            },
-            "M / (rho U^2 A L / 2), as force_table.")
-        .def_property_readonly(
-            "force_error_table",
-            [](const py::object& self) { return entries_view(self, &LoadEntry::force, &LoadTables::errors); },
-            "Standard errors of force_table, or None.")
-        .def_property_readonly(
-            "turbulent_kinetic_energy_table",
-            [](const py::object& self) {
-                return entries_view(self, &LoadEntry::turbulent_kinetic_energy, &LoadTables::entries);
-            },
-            "k / U^2 over the octahedral map, shape (r, n, n), or None.")
-        .def_property_readonly(
-            "dissipation_rate_table",
-            [](const py::object& self) {
-                return entries_view(self, &LoadEntry::dissipation_rate, &LoadTables::entries);
-            },
-            "epsilon L / U^3, as turbulent_kinetic_energy_table.")
+        .def_property_readonly("moment_table", table_of(&LoadEntry::moment),
+                               "M / (rho U^2 A L / 2), as force_table.")
+        .def_property_readonly("force_error_table", table_of(&LoadEntry::force, &LoadTables::errors),
+                               "Standard errors of force_table, or None.")
+        .def_property_readonly("turbulent_kinetic_energy_table",
+                               table_of(&LoadEntry::turbulent_kinetic_energy),
+                               "k / U^2 over the octahedral map, shape (r, n, n), or None.")
+        .def_property_readonly("dissipation_rate_table", table_of(&LoadEntry::dissipation_rate),
+                               "epsilon L / U^3, as turbulent_kinetic_energy_table.")
         .def(
             "loads",
             [](const Body& body, const py::object& given, double reynolds_number) {

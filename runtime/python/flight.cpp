@@ -17,7 +17,7 @@
 
 #include "bindings.hpp"
 #include "internal/command/scene_bodies.hpp"
-#include "internal/flight/flight_kind.hpp"
+#include "internal/flight/flight_surroundings.hpp"
 #include "internal/scene/toml_table.hpp"
 #include "internal/scene/wind_table.hpp"
 #include "samara/base/error.hpp"

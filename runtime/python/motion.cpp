@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -13,9 +12,9 @@
 #include "bindings.hpp"
 #include "internal/command/scene_bodies.hpp"
 #include "internal/comparison/comparison_report.hpp"
+#include "internal/figures/description.hpp"
 #include "internal/figures/ensemble.hpp"
 #include "internal/files/temporary_folder.hpp"
-#include "internal/motion/description.hpp"
 #include "samara/base/error.hpp"
 #include "samara/export/chan_file.hpp"
 #include "samara/export/csv_file.hpp"

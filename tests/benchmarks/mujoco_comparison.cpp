@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <ctime>
 #include <fstream>
 #include <functional>
 #include <memory>
@@ -20,6 +19,7 @@
 
 #include "internal/dynamics/batch.hpp"
 #include "internal/dynamics/step.hpp"
+#include "peers/peer_body.hpp"
 #include "support/known_bodies.hpp"
 
 namespace samara {
@@ -51,13 +51,6 @@ Quaterniond start(double perturbation) {
     const Quaterniond tilt =
         Quaterniond::FromTwoVectors(Vector3d(-0.5, -0.25, -1.0), Vector3d(0.0, 0.0, -1.0));
     return Quaterniond(Eigen::AngleAxisd(perturbation, Vector3d(1.0, 1.0, 0.0).normalized())) * tilt;
-}
-
-/// CPU seconds of this thread.
-double cpu_time() {
-    std::timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 /// A model with the memory that its steps use.

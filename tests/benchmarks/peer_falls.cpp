@@ -18,7 +18,7 @@
 #include "internal/command/arguments.hpp"
 #include "internal/command/progress.hpp"
 #include "internal/comparison/comparison.hpp"
-#include "internal/figures/inclination.hpp"
+#include "internal/motion/inclination.hpp"
 #include "peers/peer_body.hpp"
 #include "samara/base/error.hpp"
 #include "samara/motion/motion_file.hpp"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -16,7 +15,6 @@
 #include "internal/command/subprocess.hpp"
 #include "load_laws.hpp"
 #include "paths.hpp"
-#include "samara/base/error.hpp"
 #include "samara/body/body_file.hpp"
 #include "solved_folder.hpp"
 #include "support/expect_error.hpp"
@@ -46,7 +44,7 @@ Body turned_box() {
 class Convert : public testing::Test {
   protected:
     std::string fault() const {
-        return test::error_of([&] { convert_cases(folder_.path()); });
+        return test::error_of([&] { convert_folder(folder_.path()); });
     }
 
     test::SolvedFolder folder_{test::box_body(Vector3d(0.01, 0.02, 0.04)), 2, {1e3, 1e4}, box_law};
@@ -54,7 +52,7 @@ class Convert : public testing::Test {
 
 TEST_F(Convert, FillsTheTablesInBodyAxesWhateverTheyAre) {
     const test::SolvedFolder folder(turned_box(), 2, {1e4, 1e3}, box_law);
-    const Body body = convert_cases(folder.path());
+    const Body body = convert_folder(folder.path()).body;
     ASSERT_TRUE(body.tables);
     const LoadTables& tables = *body.tables;
     EXPECT_EQ(tables.reynolds_numbers, (std::vector<double>{1e3, 1e4}));
@@ -63,13 +61,10 @@ TEST_F(Convert, FillsTheTablesInBodyAxesWhateverTheyAre) {
     EXPECT_EQ(tables.quality, "smoke");
     EXPECT_EQ(tables.reference_length, reference_length(body.moments.surface_area));
     for (const double reynolds_number : tables.reynolds_numbers) {
-        for (int row = 0; row <= 4; ++row) {
-            for (int column = 0; column <= 4; ++column) {
-                const Vector3d node = octahedral_node(2, row, column);
-                const LoadEntry exact = transformed(box_law(node, reynolds_number), tables.axes);
-                const LoadEntry found = look_up(tables, tables.axes * node, reynolds_number);
-                EXPECT_LT(test::difference(found, exact), 1e-8);
-            }
+        for (const Vector3d& node : octahedral_nodes(2)) {
+            const LoadEntry exact = transformed(box_law(node, reynolds_number), tables.axes);
+            const LoadEntry found = look_up(tables, tables.axes * node, reynolds_number);
+            EXPECT_LT(test::difference(found, exact), 1e-8);
         }
     }
 }
@@ -106,7 +101,7 @@ TEST_F(Convert, TakesWhatSymmetryForbidsAsError) {
 }
 
 TEST_F(Convert, KeepsTheRestOfTheBodyAndTheProvenance) {
-    const Body body = convert_cases(folder_.path());
+    const Body body = convert_folder(folder_.path()).body;
     EXPECT_EQ(body.name, "box");
     EXPECT_EQ(surface_hash(body.surface), surface_hash(folder_.body().surface));
     const nlohmann::json provenance = nlohmann::json::parse(body.tables->provenance);
@@ -232,7 +227,7 @@ TEST(ConvertFalls, IdentifiesTheCoefficientsOfTheFallsThatAreSolved) {
     Body body = test::box_body(Vector3d(0.02, 0.04, 0.08));
     body.kirchhoff = test::rubber_ellipsoid().kirchhoff;
     const test::SolvedFolder folder(body, 2, {1e3, 1e4}, box_law);
-    const Body with_tables = convert_cases(folder.path());
+    const Body with_tables = convert_folder(folder.path()).body;
     FreeFall fall = test::oblique_fall(with_tables, 10.0);
     const MotionParameters parameters(with_tables);
     const DynamicCoefficients expected = parameters.coefficients(parameters.expected());
@@ -381,7 +376,7 @@ TEST_F(ConvertProgram, EqualCasesGiveEqualTablesToTheLastBit) {
     const std::string file = scratch_.path() / "a.body.h5";
     ASSERT_EQ(run({folder_.path().string(), "-o", file}).first, 0);
     const LoadTables written = read_body_file(file).tables.value();
-    const LoadTables again = convert_cases(folder_.path()).tables.value();
+    const LoadTables again = convert_folder(folder_.path()).body.tables.value();
     ASSERT_EQ(written.entries.size(), again.entries.size());
     for (std::size_t i = 0; i < again.entries.size(); ++i) {
         EXPECT_EQ(test::difference(written.entries[i], again.entries[i]), 0.0);

@@ -19,6 +19,11 @@ struct BoxLaw {
     }
 };
 
+/// The same at any Reynolds number, for SolvedFolder.
+inline LoadEntry box_law(const Vector3d& direction, double /*reynolds_number*/) {
+    return BoxLaw{}(direction);
+}
+
 /// Loads of a body of revolution about `axis`; `taper` makes its two ends differ.
 struct AxialLaw {
     Vector3d axis;

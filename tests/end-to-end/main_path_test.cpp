@@ -4,7 +4,6 @@
 #include <cmath>
 #include <fstream>
 #include <numbers>
-#include <sstream>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -14,7 +13,7 @@
 #include "internal/dynamics/loads.hpp"
 #include "paths.hpp"
 #include "samara/body/body_file.hpp"
-#include "samara/scene/scene_file.hpp"
+#include "samara/scene/scene.hpp"
 #include "support/program_run.hpp"
 
 namespace samara {

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdlib>
 #include <sstream>
-#include <utility>
 
 #include <fmt/format.h>
 #include <hdf5.h>

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "harness.hpp"
-#include "internal/base/content_hash.hpp"
 #include "internal/files/temporary_folder.hpp"
 #include "samara/body/body_file.hpp"
 #include "samara/flight/simulation.hpp"

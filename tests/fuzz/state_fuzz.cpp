@@ -1,7 +1,6 @@
 // The bytes of samara_set_state: raw, or a sound state with numbers overwritten and its seal renewed, which
 // no accident makes.
 
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <string>

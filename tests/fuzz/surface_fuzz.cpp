@@ -4,7 +4,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <optional>
 
 #include "harness.hpp"
 #include "internal/body/obj_file.hpp"

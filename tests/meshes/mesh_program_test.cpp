@@ -1,7 +1,6 @@
 // The program samara-mesh as its users run it.
 
 #include <algorithm>
-#include <filesystem>
 #include <string>
 #include <vector>
 

@@ -62,8 +62,7 @@ BodyState flown(const ImmersedBody& body, const Surroundings& surroundings, Body
     const Noise noise(1, "body", 0, 0);
     const auto steps = static_cast<std::uint64_t>(std::lround(duration / time_step));
     for (std::uint64_t i = 0; i < steps; ++i) {
-        state =
-            advance(body, surroundings, static_cast<double>(i) * time_step, time_step, state, noise, i).state;
+        state = advance(body, surroundings, 0.0, time_step, state, noise, i).state;
     }
     return state;
 }

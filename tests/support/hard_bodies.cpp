@@ -1,7 +1,5 @@
 #include "support/hard_bodies.hpp"
 
-#include <numbers>
-
 #include "internal/body/octahedral_map.hpp"
 #include "support/exact_bodies.hpp"
 #include "support/known_bodies.hpp"
@@ -40,14 +38,10 @@ Body baked_sphere(double radius, int subdivisions) {
     Body body = exact_sphere(radius);
     body.tables = blunt_tables(body, subdivisions);
     body.tables->reynolds_numbers = {1.0, 1e5};
-    for (int reynolds = 0; reynolds < 2; ++reynolds) {
-        for (int row = 0; row < body.tables->map_size(); ++row) {
-            for (int column = 0; column < body.tables->map_size(); ++column) {
-                LoadEntry& entry = body.tables->entries[body.tables->index(reynolds, row, column)];
-                entry.force = -0.5 * octahedral_node(body.tables->subdivisions, row, column);
-                entry.moment.setZero();
-            }
-        }
+    const std::vector<Vector3d> nodes = octahedral_nodes(subdivisions);
+    for (std::size_t i = 0; i < body.tables->entries.size(); ++i) {
+        body.tables->entries[i].force = -0.5 * nodes[i % nodes.size()];
+        body.tables->entries[i].moment.setZero();
     }
     return body;
 }

@@ -54,17 +54,14 @@ LoadTables blunt_tables(const Body& body, int subdivisions) {
     const double area = std::numbers::pi * length * length / 4.0;
     const Matrix3d added_mass = body.kirchhoff->matrix.bottomRightCorner<3, 3>();
     for (const double factor : {1.0, 0.8}) {
-        for (int row = 0; row < tables.map_size(); ++row) {
-            for (int column = 0; column < tables.map_size(); ++column) {
-                const Vector3d d = octahedral_node(subdivisions, row, column);
-                LoadEntry entry;
-                entry.force = -factor * Vector3d(1.6, 1.0, 0.4).cwiseProduct(d);
-                const Vector3d kirchhoff = (added_mass * d).cross(d) / (0.5 * area * length);
-                entry.moment = factor * (0.5 * kirchhoff + 0.03 * d);
-                entry.turbulent_kinetic_energy = factor * (0.01 + 0.01 * d.x() * d.x());
-                entry.dissipation_rate = 0.008 * factor;
-                tables.entries.push_back(entry);
-            }
+        for (const Vector3d& d : octahedral_nodes(subdivisions)) {
+            LoadEntry entry;
+            entry.force = -factor * Vector3d(1.6, 1.0, 0.4).cwiseProduct(d);
+            const Vector3d kirchhoff = (added_mass * d).cross(d) / (0.5 * area * length);
+            entry.moment = factor * (0.5 * kirchhoff + 0.03 * d);
+            entry.turbulent_kinetic_energy = factor * (0.01 + 0.01 * d.x() * d.x());
+            entry.dissipation_rate = 0.008 * factor;
+            tables.entries.push_back(entry);
         }
     }
     tables.errors.resize(tables.entries.size());

@@ -75,16 +75,16 @@ LoadTables RandomBodies::tables(double length) {
     const double first = magnitude(1.0, 1e4);
     result.reynolds_numbers = {first, first * magnitude(1.5, 1e3)};
     const bool jumps = uniform(0.0, 1.0) < 0.5;
-    const int size = result.map_size();
-    for (int node = 0; node < 2 * size * size; ++node) {
-        const Vector3d d = octahedral_node(result.subdivisions, node / size % size, node % size);
-        LoadEntry entry;
-        const double drag = jumps ? magnitude(0.01, 100.0) : 1.0 + 0.5 * d.x() * d.x();
-        entry.force = -drag * (result.axes * d) + (jumps ? 10.0 : 0.3) * vector();
-        entry.moment = (jumps ? 10.0 : 0.3) * vector();
-        entry.turbulent_kinetic_energy = magnitude(1e-4, 1.0);
-        entry.dissipation_rate = magnitude(1e-4, 1.0);
-        result.entries.push_back(entry);
+    for (std::size_t i = 0; i < result.reynolds_numbers.size(); ++i) {
+        for (const Vector3d& d : octahedral_nodes(result.subdivisions)) {
+            LoadEntry entry;
+            const double drag = jumps ? magnitude(0.01, 100.0) : 1.0 + 0.5 * d.x() * d.x();
+            entry.force = -drag * (result.axes * d) + (jumps ? 10.0 : 0.3) * vector();
+            entry.moment = (jumps ? 10.0 : 0.3) * vector();
+            entry.turbulent_kinetic_energy = magnitude(1e-4, 1.0);
+            entry.dissipation_rate = magnitude(1e-4, 1.0);
+            result.entries.push_back(entry);
+        }
     }
     result.errors.resize(result.entries.size());
     result.quality = "invented";

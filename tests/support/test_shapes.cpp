@@ -3,7 +3,6 @@
 #include <cmath>
 #include <map>
 #include <random>
-#include <set>
 #include <utility>
 
 #include "internal/body/octahedral_map.hpp"
@@ -134,6 +133,28 @@ Surface mapped(const Surface& surface, const Matrix3d& map, const Vector3d& shif
     return result;
 }
 
+Surface together(const std::vector<Surface>& parts) {
+    Surface all;
+    for (const Surface& part : parts) {
+        const auto first = static_cast<std::int32_t>(all.vertices.size());
+        all.vertices.insert(all.vertices.end(), part.vertices.begin(), part.vertices.end());
+        for (const auto& [a, b, c] : part.corners) all.corners.push_back({a + first, b + first, c + first});
+        for (const auto& [a, b, c] : part.edge_nodes) {
+            all.edge_nodes.push_back({a + first, b + first, c + first});
+        }
+    }
+    return all;
+}
+
+Surface lopsided(Surface surface) {
+    for (Vector3d& vertex : surface.vertices) {
+        const double bump = std::exp(-2.0 * (vertex - Vector3d(0.6, 0.4, 0.3)).squaredNorm());
+        vertex *= 1.0 + 0.5 * bump;
+        vertex.z() += 0.2 * vertex.x() * vertex.y();
+    }
+    return surface;
+}
+
 Surface shaken_icosphere(int level, double amount, unsigned seed) {
     Surface surface = icosphere(level);
     const double edge = std::sqrt(surface_area(surface) / static_cast<double>(surface.triangle_count()));
@@ -180,19 +201,16 @@ LoadTables smooth_tables(int subdivisions) {
     tables.quality = "preview";
     tables.provenance = R"([{"name": "first", "openfoam_version": "v1912"}, {"name": "second"}])";
     for (const double reynolds : tables.reynolds_numbers) {
-        for (int row = 0; row < tables.map_size(); ++row) {
-            for (int column = 0; column < tables.map_size(); ++column) {
-                const Vector3d direction = octahedral_node(subdivisions, row, column);
-                LoadEntry entry;
-                entry.force = -direction * (1.0 + 10.0 / reynolds) + Vector3d(0.1, 0.2, 0.3);
-                entry.moment = direction.cross(Vector3d(1.0, 2.0, 3.0)) * std::log(reynolds);
-                entry.turbulent_kinetic_energy = 0.01 + direction.x() * direction.x();
-                entry.dissipation_rate = 0.6 + direction.y() * direction.z() + 1.0 / reynolds;
-                tables.entries.push_back(entry);
-                entry.force = 0.01 * entry.force.cwiseAbs();
-                entry.moment = 0.02 * entry.moment.cwiseAbs();
-                tables.errors.push_back(entry);
-            }
+        for (const Vector3d& direction : octahedral_nodes(subdivisions)) {
+            LoadEntry entry;
+            entry.force = -direction * (1.0 + 10.0 / reynolds) + Vector3d(0.1, 0.2, 0.3);
+            entry.moment = direction.cross(Vector3d(1.0, 2.0, 3.0)) * std::log(reynolds);
+            entry.turbulent_kinetic_energy = 0.01 + direction.x() * direction.x();
+            entry.dissipation_rate = 0.6 + direction.y() * direction.z() + 1.0 / reynolds;
+            tables.entries.push_back(entry);
+            entry.force = 0.01 * entry.force.cwiseAbs();
+            entry.moment = 0.02 * entry.moment.cwiseAbs();
+            tables.errors.push_back(entry);
         }
     }
     return tables;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "samara/body/body.hpp"
 
 namespace samara::test {
@@ -18,6 +20,12 @@ Surface box(const Vector3d& edges, int n);
 
 /// The surface after x -> map x + shift; a reflection also turns the triangles, so that they stay outward.
 Surface mapped(const Surface& surface, const Matrix3d& map, const Vector3d& shift = Vector3d::Zero());
+
+/// The surfaces as one: a body of several closed parts.
+Surface together(const std::vector<Surface>& parts);
+
+/// The surface, about as large as the unit sphere, with a bump and a twist: an ellipsoid loses all symmetry.
+Surface lopsided(Surface surface);
 
 /// The icosphere with every vertex moved along the sphere by up to about `amount` edge lengths: an uneven
 /// mesh.

@@ -5,13 +5,14 @@
 #include <list>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "internal/base/laminar_flow.hpp"
 #include "internal/dynamics/dynamic_coefficients.hpp"
-#include "internal/figures/inclination.hpp"
+#include "internal/figures/fall_figures.hpp"
 #include "samara/base/error.hpp"
 
 namespace samara {

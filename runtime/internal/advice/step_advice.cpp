@@ -14,6 +14,7 @@
 #include "internal/dynamics/body_size.hpp"
 #include "internal/dynamics/langevin.hpp"
 #include "internal/flight/flight_kind.hpp"
+#include "internal/flight/flight_surroundings.hpp"
 #include "internal/flight/terminal_speed.hpp"
 #include "internal/flight/world_pose.hpp"
 #include "internal/kernel/kolmogorov_constant.hpp"

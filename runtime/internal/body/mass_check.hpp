@@ -2,7 +2,8 @@
 
 #include <string>
 
-#include "samara/body/body.hpp"
+#include "samara/body/mass_specification.hpp"
+#include "samara/body/surface.hpp"
 
 namespace samara {
 

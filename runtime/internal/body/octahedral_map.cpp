@@ -43,6 +43,16 @@ Vector3d octahedral_node(int subdivisions, int row, int column) noexcept {
     return Vector3d(x, y, z).normalized();
 }
 
+std::vector<Vector3d> octahedral_nodes(int subdivisions) {
+    std::vector<Vector3d> nodes;
+    for (int row = 0; row <= 2 * subdivisions; ++row) {
+        for (int column = 0; column <= 2 * subdivisions; ++column) {
+            nodes.push_back(octahedral_node(subdivisions, row, column));
+        }
+    }
+    return nodes;
+}
+
 OctahedralCell octahedral_cell(int subdivisions, const Vector3d& direction) noexcept {
     const Eigen::Vector2d place =
         (octahedral_coordinates(direction).array() + 1.0).matrix() * static_cast<double>(subdivisions);

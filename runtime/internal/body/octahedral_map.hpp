@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include <Eigen/Core>
 
 #include "samara/base/linear_algebra.hpp"
@@ -19,6 +21,9 @@ Vector3d octahedral_direction(const Eigen::Vector2d& coordinates) noexcept;
 /// square has 2 subdivisions + 1 nodes a side. Nodes on opposite halves of the square's edge are the same
 /// direction, exactly.
 Vector3d octahedral_node(int subdivisions, int row, int column) noexcept;
+
+/// All of them, row by row, as LoadTables holds them; those on the square's edge more than once.
+std::vector<Vector3d> octahedral_nodes(int subdivisions);
 
 /// The cell of the map that holds a direction: the node of its least row and column, and the place in it from
 /// 0 to 1.

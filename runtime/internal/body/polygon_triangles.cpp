@@ -1,7 +1,6 @@
 #include "internal/body/polygon_triangles.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include <Eigen/Geometry>

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <span>
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "internal/base/as_index.hpp"

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "internal/files/hdf5_reader.hpp"
 #include "internal/files/hdf5_writer.hpp"
 #include "samara/body/surface_loads.hpp"

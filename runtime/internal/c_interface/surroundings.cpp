@@ -2,8 +2,6 @@
 #include <limits>
 #include <mutex>
 #include <optional>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>

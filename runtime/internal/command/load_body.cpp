@@ -1,6 +1,5 @@
 #include "internal/command/load_body.hpp"
 
-#include <cerrno>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>

@@ -1,6 +1,5 @@
 #include "internal/command/subprocess.hpp"
 
-#include <array>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>

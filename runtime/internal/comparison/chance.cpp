@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "internal/figures/inclination.hpp"
+#include "internal/motion/inclination.hpp"
 
 namespace samara {
 

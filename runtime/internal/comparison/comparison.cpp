@@ -5,10 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "internal/base/angles.hpp"
 #include "internal/comparison/comparison_notes.hpp"
 #include "internal/comparison/reference_uncertainty.hpp"
-#include "internal/figures/inclination.hpp"
+#include "internal/motion/inclination.hpp"
 #include "samara/base/error.hpp"
 
 namespace samara {

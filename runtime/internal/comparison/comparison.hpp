@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "internal/comparison/distribution_distance.hpp"
+#include "internal/comparison/fall_set.hpp"
 #include "internal/comparison/landing_comparison.hpp"
-#include "internal/figures/fall_set.hpp"
 
 namespace samara {
 

@@ -8,7 +8,7 @@
 
 #include "internal/base/angles.hpp"
 #include "internal/base/vector_json.hpp"
-#include "internal/motion/description.hpp"
+#include "internal/figures/description.hpp"
 
 namespace samara {
 namespace {

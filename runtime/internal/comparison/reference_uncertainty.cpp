@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "internal/comparison/comparison.hpp"
 #include "samara/base/error.hpp"
 #include "samara/motion/motion_file.hpp"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "internal/comparison/comparison.hpp"
+#include "samara/motion/motion.hpp"
 
 namespace samara {
 

@@ -1,7 +1,6 @@
 // How two companions pass each other, or meet, within a part of a step.
 
 #include <algorithm>
-#include <cmath>
 
 #include <Eigen/Cholesky>
 

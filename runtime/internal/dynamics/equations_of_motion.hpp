@@ -1,7 +1,7 @@
 #pragma once
 
 #include "internal/dynamics/immersed_body.hpp"
-#include "internal/dynamics/step.hpp"
+#include "internal/kernel/body_state.hpp"
 #include "samara/base/linear_algebra.hpp"
 
 namespace samara {

@@ -3,8 +3,8 @@
 #include "internal/dynamics/contact_impulses.hpp"
 #include "internal/dynamics/immersed_body.hpp"
 #include "internal/dynamics/obstacle_contact.hpp"
-#include "internal/dynamics/step.hpp"
 #include "internal/dynamics/surroundings.hpp"
+#include "internal/kernel/body_state.hpp"
 
 namespace samara {
 

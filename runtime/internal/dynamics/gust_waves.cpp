@@ -1,6 +1,5 @@
 #include "internal/dynamics/gust_waves.hpp"
 
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -37,15 +36,6 @@ Triple<double> triple(const Vector3d& v) {
 }
 
 }  // namespace
-
-double longitudinal_spectrum(const WindGusts& gusts, double k) noexcept {
-    const double whole = 2.0 * gusts.length / pi * gusts.rms * gusts.rms;
-    if (gusts.spectrum == WindGusts::Spectrum::kaimal) {
-        return whole * std::pow(1.0 + 3.0 * gusts.length / pi * k, -5.0 / 3.0);
-    }
-    const double b = von_karman_factor * gusts.length;
-    return whole * std::pow(1.0 + b * b * k * k, -5.0 / 6.0);
-}
 
 double energy_spectrum(const WindGusts& gusts, double k) noexcept {
     const double whole = 2.0 * gusts.length / pi * gusts.rms * gusts.rms;

@@ -7,12 +7,9 @@
 
 namespace samara {
 
-/// The one-dimensional spectrum of the velocity along a line (m^3/s^2), one-sided: its integral over the wave
-/// numbers k (rad/m) from 0 is the variance.
-double longitudinal_spectrum(const WindGusts& gusts, double k) noexcept;
-
-/// The energy spectrum (m^3/s^2) of the isotropic, divergence-free field with that longitudinal spectrum F:
-/// k^3/2 d/dk (F'/k) (Pope, Turbulent Flows, 2000, eq. 6.217).
+/// The energy spectrum (m^3/s^2) at the wave number k (rad/m) of the isotropic, divergence-free field whose
+/// spectrum along a line is F (WindGusts::Spectrum): k^3/2 d/dk (F'/k) (Pope, Turbulent Flows, 2000, eq.
+/// 6.217).
 double energy_spectrum(const WindGusts& gusts, double k) noexcept;
 
 /// The waves of the gusts, three of each band at right angles to each other, so that every component of the

@@ -1,7 +1,6 @@
 #include "internal/dynamics/hull_pair.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "internal/dynamics/nearest_way.hpp"

@@ -1,7 +1,6 @@
 #include "internal/dynamics/hull_separation.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "internal/dynamics/nearest_way.hpp"
 

@@ -1,6 +1,5 @@
 #include "internal/dynamics/immersed_body.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -11,6 +10,7 @@
 
 #include "internal/base/symmetric_matrix.hpp"
 #include "internal/body/octahedral_map.hpp"
+#include "internal/dynamics/dynamic_coefficients.hpp"
 #include "internal/dynamics/flight_constants_of.hpp"
 #include "internal/dynamics/immersed_body_check.hpp"
 #include "samara/base/error.hpp"
@@ -68,18 +68,13 @@ std::optional<LoadTables> tables_of(const Body& body, const BodyPhysics& physics
 
 /// projected_area() in all directions of the map, with each triangle's area vector worked out once.
 std::vector<double> projected_areas(const Surface& surface) {
-    constexpr int side = 2 * shadow_subdivisions + 1;
     Eigen::MatrixX3d area_vectors(static_cast<Eigen::Index>(surface.triangle_count()), 3);
     for (std::size_t t = 0; t < surface.triangle_count(); ++t) {
         area_vectors.row(static_cast<Eigen::Index>(t)) = area_vector(surface, t).transpose();
     }
     std::vector<double> areas;
-    areas.reserve(std::size_t{side} * side);
-    for (int row = 0; row < side; ++row) {
-        for (int column = 0; column < side; ++column) {
-            const Vector3d direction = octahedral_node(shadow_subdivisions, row, column);
-            areas.push_back(0.5 * (area_vectors * direction).cwiseAbs().sum());
-        }
+    for (const Vector3d& direction : octahedral_nodes(shadow_subdivisions)) {
+        areas.push_back(0.5 * (area_vectors * direction).cwiseAbs().sum());
     }
     return areas;
 }
@@ -180,7 +175,8 @@ ImmersedBody make_immersed_body(const Body& body, const BodyPhysics& physics, co
     result.tables = tables_of(body, physics, result.length);
     if (physics.patches > 1) {
         const bool tabled = result.loads != Loads::coefficients && result.tables.has_value();
-        DividedSurface divided = divided_surface(body, tabled ? &*result.tables : nullptr, physics.patches);
+        DividedSurface divided = tabled ? divided_surface(body, *result.tables, physics.patches)
+                                        : divided_surface(body, physics.patches);
         result.dynamic = within_patches(std::move(result.dynamic), divided);
         result.patches = std::move(divided.patches);
     }

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "internal/dynamics/dynamic_coefficients.hpp"
 #include "internal/dynamics/tow_patches.hpp"
 #include "internal/kernel/flight_constants.hpp"
 #include "samara/base/linear_algebra.hpp"
@@ -50,8 +49,8 @@ struct ImmersedBody {
     std::vector<TowPatch> patches{TowPatch()};  ///< of the surface; one stands for the whole
 
     Turbulence turbulence = Turbulence::none;
-    double turbulent_kinetic_energy = 0.0;
-    double dissipation_rate = 0.0;
+    double turbulent_kinetic_energy = 0.0;  ///< m^2/s^2, where turbulence is constant
+    double dissipation_rate = 0.0;          ///< m^2/s^3, likewise
     Langevin langevin = Langevin::wake;
 
     // Of all the above, by prepare().

@@ -1,7 +1,6 @@
 #include "internal/dynamics/joint_impulses.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <Eigen/LU>
 

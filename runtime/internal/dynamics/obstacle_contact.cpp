@@ -1,8 +1,6 @@
 #include "internal/dynamics/obstacle_contact.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <limits>
 
 #include "internal/dynamics/face_contacts.hpp"

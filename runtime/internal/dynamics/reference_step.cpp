@@ -10,6 +10,7 @@
 #include <Eigen/LU>
 
 #include "internal/dynamics/equations_of_motion.hpp"
+#include "internal/dynamics/step.hpp"
 
 namespace samara {
 namespace {

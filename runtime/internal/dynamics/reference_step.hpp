@@ -1,6 +1,7 @@
 #pragma once
 
-#include "internal/dynamics/step.hpp"
+#include "internal/dynamics/immersed_body.hpp"
+#include "internal/kernel/body_state.hpp"
 
 namespace samara {
 

@@ -108,20 +108,17 @@ std::vector<Vector3d> departures(const std::vector<TowPatch>& patches, std::vect
 void set_forces(const std::vector<SurfacePatch>& cut, const SurfaceLoads& loads, const LoadTables& tables,
                 std::vector<TowPatch>& patches) {
     const std::vector<SurfaceElement> elements = surface_elements(loads);
-    const int size = tables.map_size();
-    const auto nodes = static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
+    const std::vector<Vector3d> nodes = octahedral_nodes(tables.subdivisions);
     for (TowPatch& patch : patches) patch.force.resize(tables.entries.size());
-    for (std::size_t node = 0; node < nodes; ++node) {
-        const auto row = static_cast<int>(node / static_cast<std::size_t>(size));
-        const auto column = static_cast<int>(node % static_cast<std::size_t>(size));
-        const Vector3d direction = tables.axes * octahedral_node(tables.subdivisions, row, column);
+    for (std::size_t node = 0; node < nodes.size(); ++node) {
+        const Vector3d direction = tables.axes * nodes[node];
         double drag = -tables.entries[node].force.dot(direction);
-        for (std::size_t at = node; at < tables.entries.size(); at += nodes) {
+        for (std::size_t at = node; at < tables.entries.size(); at += nodes.size()) {
             drag = std::min(drag, -tables.entries[at].force.dot(direction));
         }
         const std::vector<Vector3d> departing =
             departures(patches, pushes(cut, elements, direction), direction, drag);
-        for (std::size_t at = node; at < tables.entries.size(); at += nodes) {
+        for (std::size_t at = node; at < tables.entries.size(); at += nodes.size()) {
             for (std::size_t i = 0; i < patches.size(); ++i) {
                 patches[i].force[at] = patches[i].share * tables.entries[at].force + departing[i];
             }
@@ -130,25 +127,37 @@ void set_forces(const std::vector<SurfacePatch>& cut, const SurfaceLoads& loads,
 }
 
 /// In lengths of L about the centroid of the volume.
-Surface about_centroid(const Body& body, double length) {
+Surface about_centroid(const Body& body) {
+    const double length = reference_length(body.moments.surface_area);
     Surface surface = body.surface;
     for (Vector3d& vertex : surface.vertices) vertex = (vertex - body.moments.centroid) / length;
     return surface;
 }
 
-}  // namespace
+std::vector<SurfacePatch> cut_surface(const Body& body, int count) {
+    return surface_patches(body.surface_loads ? body.surface_loads->surface : about_centroid(body), count);
+}
 
-DividedSurface divided_surface(const Body& body, const LoadTables* tables, int count) {
+/// The patches without forces of their own.
+DividedSurface divided_by(const std::vector<SurfacePatch>& cut, const Body& body) {
     const double length = reference_length(body.moments.surface_area);
-    const std::vector<SurfacePatch> cut = surface_patches(
-        body.surface_loads ? body.surface_loads->surface : about_centroid(body, length), count);
     DividedSurface divided;
     divided.patches.reserve(cut.size());
     for (const SurfacePatch& patch : cut) divided.patches.push_back({length * patch.place, patch.share, {}});
     set_what_is_left(cut, divided);
-    if (tables != nullptr && body.surface_loads) {
-        set_forces(cut, *body.surface_loads, *tables, divided.patches);
-    }
+    return divided;
+}
+
+}  // namespace
+
+DividedSurface divided_surface(const Body& body, int count) {
+    return divided_by(cut_surface(body, count), body);
+}
+
+DividedSurface divided_surface(const Body& body, const LoadTables& tables, int count) {
+    const std::vector<SurfacePatch> cut = cut_surface(body, count);
+    DividedSurface divided = divided_by(cut, body);
+    if (body.surface_loads) set_forces(cut, *body.surface_loads, tables, divided.patches);
     return divided;
 }
 

@@ -26,10 +26,13 @@ struct DividedSurface {
     double reach_within = 1.0;  ///< how far faces are from their patch's centre, over that from the whole's
 };
 
-/// Divides the body's surface into `count` patches: the triangles of its surface loads, where it has any, by
-/// whose pressures the tow of `tables` (none: null) is shared out; otherwise each feels its share of the
-/// area. Together the forces are the tables'; each has a drag.
-DividedSurface divided_surface(const Body& body, const LoadTables* tables, int count);
+/// Divides the body's surface, that of its surface loads where it has any, into `count` patches
+/// (surface_patches), each of which feels its share of the whole's tow.
+DividedSurface divided_surface(const Body& body, int count);
+
+/// As divided_surface, and shares out the tow of `tables` by the pressures on the patches where the body has
+/// surface loads. Together the forces are the tables'; each has a drag.
+DividedSurface divided_surface(const Body& body, const LoadTables& tables, int count);
 
 /// The coefficients of a body in patches: of its turning they know what is left within the patches.
 DynamicCoefficients within_patches(DynamicCoefficients coefficients, const DividedSurface& divided);

@@ -1,6 +1,5 @@
 #include "internal/dynamics/wind_field.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "internal/base/parallel_for.hpp"
-#include "internal/figures/inclination.hpp"
+#include "internal/motion/inclination.hpp"
 
 namespace samara {
 namespace {

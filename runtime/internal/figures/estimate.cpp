@@ -1,6 +1,5 @@
 #include "internal/figures/estimate.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace samara {

@@ -5,7 +5,7 @@
 #include <functional>
 #include <numbers>
 
-#include "internal/figures/inclination.hpp"
+#include "internal/motion/inclination.hpp"
 
 namespace samara {
 namespace {
@@ -238,6 +238,11 @@ std::optional<double> drift_speed_error(const FallSeries& record, const Jackknif
 }
 
 }  // namespace
+
+bool tells(FigureSubject subject, const Body& body) {
+    if (subject == FigureSubject::inclination) return has_shortest_axis(body.surface);
+    return subject == FigureSubject::path || body.symmetry.kind != Symmetry::Kind::spherical;
+}
 
 std::optional<double> figure_value(Figure figure, const FallSeries& record) {
     if (figure == Figure::path_spread) return path_spread(record);

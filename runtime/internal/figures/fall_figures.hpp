@@ -5,6 +5,7 @@
 #include "internal/figures/fall_series.hpp"
 #include "internal/figures/figure_catalogue.hpp"
 #include "internal/figures/spectrum.hpp"
+#include "samara/body/body.hpp"
 
 namespace samara {
 
@@ -29,6 +30,9 @@ struct FallFigures {
     Spectrum spectrum;                             ///< swing_spectrum() of the window
     std::size_t pieces = 0;                        ///< independent ones, see pieces_of()
 };
+
+/// Whether figures of a subject tell something of a body.
+bool tells(FigureSubject subject, const Body& body);
 
 /// A figure of one fall over its window, without its error; nothing where the fall has none, and of those
 /// that are from a spectrum.

@@ -1,9 +1,8 @@
 #include "internal/figures/fall_series.hpp"
 
 #include <algorithm>
-#include <cmath>
 
-#include "internal/figures/inclination.hpp"
+#include "internal/motion/inclination.hpp"
 
 namespace samara {
 namespace {

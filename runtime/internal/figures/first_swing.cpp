@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "internal/figures/inclination.hpp"
+#include "internal/motion/inclination.hpp"
 
 namespace samara {
 namespace {

@@ -6,7 +6,8 @@
 
 #include "internal/base/parallel_for.hpp"
 #include "internal/dynamics/loads.hpp"
-#include "internal/flight/flight_kind.hpp"
+#include "internal/figures/fall_figures.hpp"
+#include "internal/flight/flight_surroundings.hpp"
 #include "internal/flight/terminal_speed.hpp"
 
 namespace samara {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "internal/figures/fall_figures.hpp"
+#include "internal/figures/figure_catalogue.hpp"
 #include "internal/figures/regime_counts.hpp"
 #include "internal/flight/flow_visits.hpp"
 #include "samara/flight/simulation.hpp"

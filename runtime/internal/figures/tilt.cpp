@@ -1,10 +1,11 @@
 #include "internal/figures/tilt.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "internal/base/symmetric_matrix.hpp"
-#include "internal/figures/inclination.hpp"
+#include "internal/motion/inclination.hpp"
 
 namespace samara {
 namespace {

@@ -11,7 +11,6 @@
 #include <ctime>
 #include <fstream>
 #include <new>
-#include <optional>
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -1,11 +1,9 @@
 #include "internal/flight/encounters.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "internal/base/parallel_for.hpp"
-#include "internal/dynamics/body_size.hpp"
 #include "internal/dynamics/ground_contact.hpp"
 
 namespace samara {

@@ -13,7 +13,6 @@
 #include "internal/kernel/noise.hpp"
 #include "samara/flight/flight.hpp"
 #include "samara/physics/fluid_load.hpp"
-#include "samara/scene/scene.hpp"
 
 namespace samara {
 
@@ -24,12 +23,6 @@ inline constexpr std::size_t poses_a_piece = 256;
 
 /// How many steps from time 0 on reach a time (s), to rounding.
 std::uint64_t steps_reaching(double time, double step);
-/// What surrounds the bodies of a flight.
-Surroundings surroundings_of(const FlightSettings& settings);
-/// What surrounds the bodies of a scene.
-Surroundings surroundings_of(const Scene& scene);
-/// How a scene is flown.
-FlightSettings flight_settings(const Scene& scene, int runs, int threads);
 
 /// The bodies of one kind in all runs, on their own grid of steps, which begins at their start. Bodies are
 /// numbered run by run, copy by copy; times are the world's (s).

@@ -1,5 +1,7 @@
 #include "internal/flight/state_bytes.hpp"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "internal/base/content_hash.hpp"
@@ -18,6 +20,10 @@ static_assert(sizeof(BodyState) == 224 && sizeof(SeenFluid) == 48);
 
 [[noreturn]] void refuse(const std::string& why) {
     throw FlightError(FlightError::Kind::foreign_state, why);
+}
+
+bool is_unit(const Quaterniond& orientation) {
+    return std::abs(orientation.norm() - 1.0) <= 1e-6;
 }
 
 /// Calls visit(coefficient) for each number.
@@ -47,6 +53,17 @@ void visit_key(Key& key, const Visit& visit) {
 }
 
 }  // namespace
+
+bool is_sound(const BodyState& state) {
+    return state.position.allFinite() && is_unit(state.orientation) && state.velocity.allFinite() &&
+           state.seen_fluid.velocity.allFinite() && state.seen_fluid.angular_velocity.allFinite() &&
+           state.acceleration.allFinite();
+}
+
+bool is_sound(const Pose& pose) {
+    return pose.position.allFinite() && is_unit(pose.orientation) && pose.velocity.allFinite() &&
+           pose.angular_velocity.allFinite();
+}
 
 void StateWriter::write(const BodyState& state) {
     visit_state(state, [&](double number) { write(number); });

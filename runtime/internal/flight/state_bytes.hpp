@@ -51,6 +51,10 @@ class StateReader {
     std::string_view bytes_;
 };
 
+/// Whether the numbers are those of a state or pose: finite, the orientation of length one.
+bool is_sound(const BodyState& state);
+bool is_sound(const Pose& pose);
+
 /// How many bytes a body state and a pose take.
 inline constexpr std::size_t body_state_bytes = 25 * sizeof(double) + sizeof(std::uint8_t);
 inline constexpr std::size_t pose_bytes = 13 * sizeof(double);

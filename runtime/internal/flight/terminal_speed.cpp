@@ -15,10 +15,7 @@ double largest_projected_area(const Body& body) {
     const Matrix3d axes = principal_axes(body.moments);
     for (int i = 0; i < 3; ++i) visit(axes.col(i));
     constexpr int subdivisions = 4;
-    constexpr int nodes = 2 * subdivisions + 1;
-    for (int row = 0; row < nodes; ++row) {
-        for (int column = 0; column < nodes; ++column) visit(octahedral_node(subdivisions, row, column));
-    }
+    for (const Vector3d& direction : octahedral_nodes(subdivisions)) visit(direction);
     return largest;
 }
 

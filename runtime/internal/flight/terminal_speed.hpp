@@ -1,7 +1,7 @@
 #pragma once
 
 #include "samara/body/body.hpp"
-#include "samara/scene/scene.hpp"
+#include "samara/physics/fluid.hpp"
 
 namespace samara {
 

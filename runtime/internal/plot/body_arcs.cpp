@@ -1,9 +1,7 @@
 #include "internal/plot/body_arcs.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
 
 #include "internal/base/angles.hpp"
 

@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "internal/body/case_records.hpp"
 #include "samara/body/body.hpp"
 
 namespace samara {

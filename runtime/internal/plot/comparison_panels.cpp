@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "internal/base/angles.hpp"
-#include "internal/comparison/comparison_report.hpp"
 
 namespace samara {
 namespace {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "internal/comparison/comparison.hpp"
 #include "internal/plot/canvas.hpp"
 #include "internal/plot/panel.hpp"

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "internal/figures/inclination.hpp"
+#include "internal/motion/inclination.hpp"
 #include "internal/plot/axis_scale.hpp"
 #include "internal/plot/gnuplot.hpp"
 #include "internal/plot/heading.hpp"

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "internal/base/angles.hpp"
-#include "internal/figures/inclination.hpp"
 #include "internal/figures/tilt.hpp"
+#include "internal/motion/inclination.hpp"
 #include "internal/plot/gnuplot.hpp"
 #include "internal/plot/motion_plot.hpp"
 #include "internal/plot/panel.hpp"

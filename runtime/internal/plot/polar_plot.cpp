@@ -1,13 +1,13 @@
 #include "internal/plot/polar_plot.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "internal/base/angles.hpp"
+#include "internal/body/case_records.hpp"
 #include "internal/plot/body_arcs.hpp"
 #include "internal/plot/body_picture.hpp"
 #include "internal/plot/gnuplot.hpp"

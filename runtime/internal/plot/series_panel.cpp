@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "internal/base/angles.hpp"
-#include "internal/figures/inclination.hpp"
+#include "internal/motion/inclination.hpp"
 #include "internal/plot/heading.hpp"
 #include "internal/plot/panel.hpp"
 #include "internal/plot/silhouette.hpp"

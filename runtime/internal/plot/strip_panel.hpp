@@ -2,7 +2,6 @@
 
 #include <string>
 
-#include "internal/plot/canvas.hpp"
 #include "internal/plot/strip.hpp"
 #include "samara/motion/motion.hpp"
 

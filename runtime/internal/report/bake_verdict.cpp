@@ -1,7 +1,6 @@
 #include "internal/report/bake_verdict.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 #include <fmt/format.h>

@@ -149,14 +149,6 @@ Vector3d smoothed_extreme(const WeightedPoints& points, const Eigen::VectorXd& r
     return sum / weights;
 }
 
-template <typename Function>
-void for_each_node(const Function& function) {
-    constexpr int size = 2 * subdivisions + 1;
-    for (int row = 0; row < size; ++row) {
-        for (int column = 0; column < size; ++column) function(octahedral_node(subdivisions, row, column));
-    }
-}
-
 }  // namespace
 
 ContactPoints contact_points(const Surface& surface, const Vector3d& center_of_mass) {
@@ -171,23 +163,22 @@ ContactPoints contact_points(const Surface& surface, const Vector3d& center_of_m
     const WeightedPoints points = thinned(vertices, vertex_areas(surface));
     const double width = smoothing * result.bounding_radius;
     Eigen::VectorXd reaches(points.areas.size());
-    bool has_round_sides = false;
-    for_each_node([&](const Vector3d& direction) {
-        if (has_round_sides) return;
+    const std::vector<Vector3d> nodes = octahedral_nodes(subdivisions);
+    const bool has_round_sides = std::any_of(nodes.begin(), nodes.end(), [&](const Vector3d& direction) {
         reaches.noalias() = points.points * direction;
-        has_round_sides = reach_of(result.corners, direction) < reaches.maxCoeff() - width;
+        return reach_of(result.corners, direction) < reaches.maxCoeff() - width;
     });
     if (!has_round_sides) {
         result.middle = mean_of(result);
         return result;
     }
-    for_each_node([&](const Vector3d& direction) {
+    for (const Vector3d& direction : nodes) {
         reaches.noalias() = points.points * direction;
         Vector3d point = smoothed_extreme(points, reaches, width);
         // Beside a sharp edge the smoothed point must stay within the hull, or it would hold the edge up.
         if (result.corners.empty()) point += (reaches.maxCoeff() - point.dot(direction)) * direction;
         result.round.push_back(point);
-    });
+    }
     result.middle = mean_of(result);
     return result;
 }

@@ -15,18 +15,6 @@ constexpr double blasius_friction = 1.33;  // of a plate, over the area of each 
 constexpr double error_of_force = 0.3;
 constexpr double error_of_moment = 0.3;
 
-/// The unit directions of the map's nodes, row by row.
-std::vector<Vector3d> directions_of(int cut_into) {
-    const int size = 2 * cut_into + 1;
-    std::vector<Vector3d> directions;
-    for (int row = 0; row < size; ++row) {
-        for (int column = 0; column < size; ++column) {
-            directions.push_back(octahedral_node(cut_into, row, column));
-        }
-    }
-    return directions;
-}
-
 std::vector<PressureLoads> in_directions(const std::vector<SurfaceElement>& elements,
                                          const std::vector<Vector3d>& directions,
                                          const SurfacePressure& pressure) {
@@ -52,7 +40,7 @@ double rms(const std::vector<PressureLoads>& loads, Vector3d PressureLoads::*par
 
 std::vector<PressureLoads> pressure_loads(const SurfaceLoads& loads, int cut_into,
                                           const SurfacePressure& pressure) {
-    return in_directions(surface_elements(loads), directions_of(cut_into), pressure);
+    return in_directions(surface_elements(loads), octahedral_nodes(cut_into), pressure);
 }
 
 LoadTables as_tables(const SurfaceLoads& loads, double length, const SurfacePressure& pressure) {
@@ -71,7 +59,7 @@ LoadTables as_tables(const SurfaceLoads& loads, double length, const SurfacePres
         friction_force += force;
         friction_moment += skew(element.place) * force;
     }
-    const std::vector<Vector3d> directions = directions_of(subdivisions);
+    const std::vector<Vector3d> directions = octahedral_nodes(subdivisions);
     const std::vector<PressureLoads> pressed = in_directions(elements, directions, pressure);
     const LoadEntryError error{
         .force = Vector3d::Constant(error_of_force / std::sqrt(3.0) * rms(pressed, &PressureLoads::force)),

@@ -1,8 +1,8 @@
 #include "samara/export/page_file.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstring>
 #include <ostream>
 #include <string_view>
 
@@ -12,9 +12,8 @@
 #include "internal/base/base64.hpp"
 #include "internal/export/page_bytes.hpp"
 #include "internal/export/shaded_mesh.hpp"
-#include "internal/export/shape_pose.hpp"
-#include "internal/figures/inclination.hpp"
 #include "internal/files/replace_file.hpp"
+#include "internal/motion/inclination.hpp"
 #include "samara/base/error.hpp"
 
 namespace samara {

@@ -15,7 +15,6 @@
 #include "internal/export/shape_pose.hpp"
 #include "internal/export/usd_mesh.hpp"
 #include "internal/files/replace_file.hpp"
-#include "samara/base/error.hpp"
 #include "samara/base/version.hpp"
 
 namespace samara {

@@ -12,6 +12,7 @@
 #include "internal/base/parallel_for.hpp"
 #include "internal/flight/encounters.hpp"
 #include "internal/flight/flight_kind.hpp"
+#include "internal/flight/flight_surroundings.hpp"
 
 namespace samara {
 namespace {

@@ -10,7 +10,7 @@
 #include "internal/base/parallel_for.hpp"
 #include "internal/dynamics/body_size.hpp"
 #include "internal/flight/flight_kind.hpp"
-#include "internal/flight/world_pose.hpp"
+#include "internal/flight/flight_surroundings.hpp"
 #include "internal/motion/motion_writer.hpp"
 #include "samara/base/error.hpp"
 

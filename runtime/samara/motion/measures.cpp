@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "internal/base/angles.hpp"
-#include "internal/figures/autorotation.hpp"
-#include "internal/figures/inclination.hpp"
+#include "internal/motion/autorotation.hpp"
+#include "internal/motion/inclination.hpp"
 #include "samara/base/error.hpp"
 
 namespace samara {

@@ -1,4 +1,3 @@
-#include <cmath>
 #include <utility>
 
 #include "internal/command/load_body.hpp"

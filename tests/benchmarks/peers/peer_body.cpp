@@ -5,16 +5,12 @@
 #include <ctime>
 
 namespace samara {
-namespace {
 
-/// CPU seconds of this thread.
 double cpu_time() {
     std::timespec now{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
-
-}  // namespace
 
 PeerFall flown_through(const std::vector<double>& times, double step, const std::function<bool()>& advance,
                        const std::function<Pose()>& pose) {

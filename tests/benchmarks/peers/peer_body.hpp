@@ -60,6 +60,9 @@ PeerModel printed_model();
 /// 91, 2005, eq. 4.1 to 4.9).
 PeerModel falling_plate_model();
 
+/// CPU seconds of this thread.
+double cpu_time();
+
 /// Poses at the times, interpolated between steps of `step` s that `advance` makes; it says whether all its
 /// numbers are still numbers. `pose`: after the last step.
 PeerFall flown_through(const std::vector<double>& times, double step, const std::function<bool()>& advance,

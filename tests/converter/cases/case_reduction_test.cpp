@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <regex>
 #include <sstream>
@@ -18,8 +17,6 @@
 #include "internal/command/subprocess.hpp"
 #include "load_laws.hpp"
 #include "paths.hpp"
-#include "samara/base/error.hpp"
-#include "samara/body/body_file.hpp"
 #include "solved_folder.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
@@ -30,10 +27,6 @@ namespace {
 
 using nlohmann::json;
 using testing::HasSubstr;
-
-LoadEntry box_law(const Vector3d& direction, double) {
-    return test::BoxLaw{}(direction);
-}
 
 /// Six solved cases of a box, in nondimensional units.
 class CaseReduction : public testing::Test {
@@ -51,7 +44,7 @@ class CaseReduction : public testing::Test {
         std::filesystem::rename(folder_.path() / from, folder_.path() / to);
     }
 
-    test::SolvedFolder folder_{test::box_body(Vector3d(0.01, 0.02, 0.04)), 2, {1e4}, box_law};
+    test::SolvedFolder folder_{test::box_body(Vector3d(0.01, 0.02, 0.04)), 2, {1e4}, test::box_law};
 };
 
 TEST_F(CaseReduction, TakesWhatThePlanSaysOfACase) {

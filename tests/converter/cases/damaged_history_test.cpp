@@ -20,10 +20,6 @@ namespace {
 using testing::EndsWith;
 using testing::HasSubstr;
 
-LoadEntry box_law(const Vector3d& direction, double) {
-    return test::BoxLaw{}(direction);
-}
-
 const std::string forces = "case_01/postProcessing/forces/";
 const std::string shell = "case_01/postProcessing/shell/";
 const std::vector<std::string> history_names = {forces + "0/force.dat", forces + "0/moment.dat",
@@ -78,7 +74,7 @@ class DamagedHistory : public testing::Test {
         folder_.write("case_01/provenance.json", noted.dump());
     }
 
-    test::SolvedFolder folder_{test::box_body(Vector3d(0.01, 0.02, 0.04)), 2, {1e4}, box_law};
+    test::SolvedFolder folder_{test::box_body(Vector3d(0.01, 0.02, 0.04)), 2, {1e4}, test::box_law};
 };
 
 TEST_F(DamagedHistory, OneAbsurdValueIsNamedByFileAndTime) {

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "gzip.hpp"
-#include "samara/base/error.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "samara/base/error.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -9,7 +9,6 @@
 #include "converter/tables/direction_sampling.hpp"
 #include "internal/body/octahedral_map.hpp"
 #include "load_laws.hpp"
-#include "samara/base/error.hpp"
 #include "support/expect_error.hpp"
 #include "symmetry_groups.hpp"
 #include "table_cases.hpp"
@@ -34,12 +33,9 @@ double largest_error(const Symmetry& symmetry, int n, const Law& law, int stored
     const LoadTables map = filled(symmetry, n, law, stored);
     double largest = 0.0;
     std::size_t node = 0;
-    for (int row = 0; row <= 2 * stored; ++row) {
-        for (int column = 0; column <= 2 * stored; ++column) {
-            const LoadEntry exact = law(octahedral_node(stored, row, column));
-            const LoadEntry found = transformed(map.entries.at(node++), map.axes.transpose());
-            largest = std::max(largest, test::difference(found, exact));
-        }
+    for (const Vector3d& direction : octahedral_nodes(stored)) {
+        const LoadEntry found = transformed(map.entries.at(node++), map.axes.transpose());
+        largest = std::max(largest, test::difference(found, law(direction)));
     }
     return largest;
 }

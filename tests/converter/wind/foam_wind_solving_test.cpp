@@ -2,14 +2,12 @@
 #include <fstream>
 #include <memory>
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "converter/wind/foam_wind.hpp"
 #include "internal/base/content_hash.hpp"
 #include "internal/command/subprocess.hpp"
-#include "internal/dynamics/grid_wind.hpp"
 #include "paths.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"

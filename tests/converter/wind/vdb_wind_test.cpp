@@ -1,7 +1,6 @@
 // Files as OpenVDB itself writes them.
 #include "converter/wind/vdb_wind.hpp"
 
-#include <cmath>
 #include <fstream>
 #include <limits>
 

@@ -1,6 +1,7 @@
 #include "foam-cases/bake/direction_choice.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

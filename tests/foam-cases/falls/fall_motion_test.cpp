@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "internal/flight/world_pose.hpp"
 #include "support/expect_error.hpp"
 
 namespace samara {

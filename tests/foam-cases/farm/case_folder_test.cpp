@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <fstream>
-#include <numbers>
 #include <regex>
 #include <sstream>
 

@@ -7,12 +7,12 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 
 #include "bake_folder.hpp"
 #include "foam-cases/farm/cluster_jobs.hpp"
 #include "internal/command/subprocess.hpp"
 #include "paths.hpp"
-#include "samara/base/error.hpp"
 #include "test_bodies.hpp"
 
 namespace samara {

@@ -3,7 +3,6 @@
 #include <fstream>
 #include <regex>
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

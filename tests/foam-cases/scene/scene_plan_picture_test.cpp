@@ -1,10 +1,11 @@
 #include "foam-cases/scene/scene_plan_picture.hpp"
 
+#include <cmath>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "converter/tables/direction_sampling.hpp"
-#include "internal/plot/gnuplot.hpp"
 #include "support/picture_faults.hpp"
 #include "support/temporary_folder.hpp"
 #include "test_bodies.hpp"

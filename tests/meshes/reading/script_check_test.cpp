@@ -5,7 +5,6 @@
 
 #include "internal/base/content_hash.hpp"
 #include "paths.hpp"
-#include "samara/base/error.hpp"
 #include "support/expect_error.hpp"
 
 namespace samara {

@@ -1,7 +1,6 @@
 // Shape files from strangers: what they try ends in one line and leaves nothing behind.
 
 #include <string>
-#include <vector>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

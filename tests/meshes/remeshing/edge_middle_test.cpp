@@ -1,8 +1,6 @@
 // Where the middle nodes of edges go on a smooth surface.
 #include "meshes/remeshing/edge_middle.hpp"
 
-#include <cmath>
-
 #include <gtest/gtest.h>
 
 namespace samara {

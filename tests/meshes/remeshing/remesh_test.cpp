@@ -10,7 +10,6 @@
 
 #include "internal/body/curved_surface.hpp"
 #include "meshes/checks/sound_surface.hpp"
-#include "samara/base/error.hpp"
 #include "support/expect_error.hpp"
 #include "support/test_shapes.hpp"
 

@@ -1,10 +1,10 @@
 #include "meshes/remeshing/smooth_shape.hpp"
 
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
+#include "internal/body/creases.hpp"
 #include "meshes/remeshing/mesh_size_field.hpp"
 #include "support/test_shapes.hpp"
 

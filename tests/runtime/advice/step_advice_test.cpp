@@ -2,7 +2,6 @@
 #include "internal/advice/step_advice.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

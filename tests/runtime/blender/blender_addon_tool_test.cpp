@@ -1,8 +1,5 @@
 // The add-on in real Blender, from its zip (tests/tools/use_addon.py).
 
-#include <cmath>
-
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -24,6 +21,7 @@ namespace {
 
 using nlohmann::json;
 using test::angle;
+using test::bodies_of;
 using test::distance;
 using test::expect_same_poses;
 using test::pose_of;
@@ -38,16 +36,8 @@ using testing::MatchesRegex;
 
 /// The scene of `samara simulate` that is the one in Blender: water, seed 5, 24 over 1.001 frames a second.
 std::string scene_of(const json& starts, const std::string& body_file) {
-    std::string text = "[scene]\nduration = 2.51\nframe_rate = 23.976023976023978\nseed = 5\n";
-    for (const auto& [name, start] : starts.items()) {
-        text +=
-            fmt::format("[[body]]\nname = {}\nshape = \"{}\"\ndensity = 1600\nturbulence = \"{}\"\n",
-                        start["noise_name"].dump(), body_file, start["noise"].get<bool>() ? "table" : "none");
-        for (const char* key : {"position", "orientation", "velocity", "angular_velocity"}) {
-            text += fmt::format("{} = {}\n", key, start[key].dump());
-        }
-    }
-    return text;
+    return "[scene]\nduration = 2.51\nframe_rate = 23.976023976023978\nseed = 5\n" +
+           bodies_of(starts, body_file);
 }
 
 TEST(BlenderAddon, HasTheLibrarysVersion) {

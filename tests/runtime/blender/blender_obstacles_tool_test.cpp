@@ -18,6 +18,7 @@ namespace {
 
 using nlohmann::json;
 using test::angle;
+using test::bodies_of;
 using test::distance;
 using test::expect_same_poses;
 using test::pose_of;
@@ -44,21 +45,12 @@ std::string obj_of(const json& triangles) {
 
 /// The scene of `samara simulate` that is the task roof.
 std::string roof_scene(const json& starts, const std::string& body_file) {
-    std::string text =
-        "[scene]\nduration = 2.51\nframe_rate = 23.976023976023978\nseed = 5\nground = -0.8\n"
-        "[wind]\nvelocity = [0, 0.05, 0]\n"
-        "profile = { law = \"log\", height = 2, roughness = 0.05 }\n"
-        "gusts = { rms = 0.02, length = 0.3, seed = 4 }\n"
-        "[[obstacle]]\nname = \"Roof\"\nshape = \"roof.obj\"\nfriction = 0.3\n";
-    for (const auto& [name, start] : starts.items()) {
-        text +=
-            fmt::format("[[body]]\nname = {}\nshape = \"{}\"\ndensity = 1600\nturbulence = \"{}\"\n",
-                        start["noise_name"].dump(), body_file, start["noise"].get<bool>() ? "table" : "none");
-        for (const char* key : {"position", "orientation", "velocity", "angular_velocity"}) {
-            text += fmt::format("{} = {}\n", key, start[key].dump());
-        }
-    }
-    return text;
+    return "[scene]\nduration = 2.51\nframe_rate = 23.976023976023978\nseed = 5\nground = -0.8\n"
+           "[wind]\nvelocity = [0, 0.05, 0]\n"
+           "profile = { law = \"log\", height = 2, roughness = 0.05 }\n"
+           "gusts = { rms = 0.02, length = 0.3, seed = 4 }\n"
+           "[[obstacle]]\nname = \"Roof\"\nshape = \"roof.obj\"\nfriction = 0.3\n" +
+           bodies_of(starts, body_file);
 }
 
 TEST(BlenderObstacles, AreMetInTheWindAsInSamaraSimulate) {

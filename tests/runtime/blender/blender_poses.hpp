@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -19,6 +20,20 @@ inline std::string rubber_file(const TemporaryFolder& folder) {
     const auto file = folder / "rubber.body.h5";
     write_body_file(file, test::rubber());
     return file.string();
+}
+
+/// The bodies of a scene file that start as a task's do.
+inline std::string bodies_of(const nlohmann::json& starts, const std::string& body_file) {
+    std::string text;
+    for (const auto& [name, start] : starts.items()) {
+        text +=
+            fmt::format("[[body]]\nname = {}\nshape = \"{}\"\ndensity = 1600\nturbulence = \"{}\"\n",
+                        start["noise_name"].dump(), body_file, start["noise"].get<bool>() ? "table" : "none");
+        for (const char* key : {"position", "orientation", "velocity", "angular_velocity"}) {
+            text += fmt::format("{} = {}\n", key, start[key].dump());
+        }
+    }
+    return text;
 }
 
 inline ShapePose pose_of(const nlohmann::json& rows) {

@@ -58,11 +58,7 @@ Motion wandering(int copies) {
     Motion motion = test::motion_of(test::wander, 1.0);
     BodyMotion& body = motion.bodies[0];
     body.center_of_mass = Vector3d(0.01, 0.02, -0.03);
-    body.copies = copies;
-    body.poses.clear();
-    for (const double time : motion.times) {
-        for (int copy = 0; copy < copies; ++copy) body.poses.push_back(test::wander(time + copy));
-    }
+    test::let_wander(body, copies, motion.times);
     return motion;
 }
 

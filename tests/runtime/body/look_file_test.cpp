@@ -147,7 +147,7 @@ TEST(LookFile, IsReadByScenesInTheShapesScaleOrItsOwn) {
 TEST(LookFile, AnObstacleMayBeAGlb) {
     const TemporaryFolder folder;
     Motion motion = test::motion_of(test::wander, 0.0);
-    motion.bodies[0].surface = test::cube_surface();
+    motion.bodies[0].surface = test::box({2.0, 2.0, 2.0}, 1);
     motion.bodies[0].center_of_mass.setZero();
     motion.times.resize(1);
     motion.bodies[0].poses.assign(1, Pose());

@@ -10,7 +10,6 @@
 #include <gtest/gtest.h>
 
 #include "internal/body/polygon_triangles.hpp"
-#include "samara/base/error.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_shapes.hpp"

@@ -5,7 +5,6 @@
 #include "internal/body/octahedral_map.hpp"
 #include "samara/body/body_file.hpp"
 #include "samara/flight/table_errors_met.hpp"
-#include "support/expect_error.hpp"
 #include "support/known_bodies.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_shapes.hpp"
@@ -17,11 +16,7 @@ namespace {
 PlannedRegion ahead() {
     PlannedRegion region;
     region.subdivisions = 6;
-    for (int row = 0; row <= 12; ++row) {
-        for (int column = 0; column <= 12; ++column) {
-            region.planned.push_back(octahedral_node(6, row, column).x() > 0.0 ? 1 : 0);
-        }
-    }
+    for (const Vector3d& node : octahedral_nodes(6)) region.planned.push_back(node.x() > 0.0 ? 1 : 0);
     region.report = R"({"tolerance": 0.1})";
     return region;
 }

@@ -1,5 +1,4 @@
 // Obstacles, wind and ground of the C interface.
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>

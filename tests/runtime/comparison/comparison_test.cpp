@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "internal/comparison/comparison_report.hpp"
-#include "internal/figures/inclination.hpp"
+#include "internal/motion/inclination.hpp"
 #include "irregular_flutter.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
@@ -217,7 +217,7 @@ TEST(Comparison, IsCertainOnlyWhereTheErrorsAllowIt) {
 }
 
 TEST(Comparison, OfASphereOrACubeJudgesTheDescentSpeedAlone) {
-    for (const Surface& surface : {test::ellipsoid_surface({0.02, 0.02, 0.02}, 2), test::cube_surface()}) {
+    for (const Surface& surface : {test::ellipsoid({0.02, 0.02, 0.02}, 2), test::box({2.0, 2.0, 2.0}, 1)}) {
         Motion motion = test::motion_of([](double t) { return test::tumble(t, 3.0, 0.2); }, 6.0);
         Motion reference = test::motion_of([](double t) { return test::tumble(t, 0.01, 0.21); }, 6.0);
         motion.bodies[0].surface = surface;
@@ -234,10 +234,10 @@ TEST(Comparison, OfASphereOrACubeJudgesTheDescentSpeedAlone) {
 
 TEST(Inclination, OfAnEllipsoidWithAxesThatDifferByAFewPerCentHasAShortestAxis) {
     BodyMotion body;
-    body.surface = test::ellipsoid_surface({0.0103, 0.01, 0.0102}, 3);
+    body.surface = test::ellipsoid({0.0103, 0.01, 0.0102}, 3);
     for (Vector3d& vertex : body.surface.vertices) vertex += Vector3d(0.3, -0.2, 0.1);
     EXPECT_TRUE(has_shortest_axis(body.surface));
-    body.surface = test::ellipsoid_surface({0.01, 0.01, 0.01}, 1);
+    body.surface = test::ellipsoid({0.01, 0.01, 0.01}, 1);
     EXPECT_FALSE(has_shortest_axis(body.surface));
 }
 

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
+#include "support/compared_states.hpp"
 #include "support/known_bodies.hpp"
 
 namespace samara {
@@ -76,25 +77,9 @@ std::vector<std::size_t> first(std::size_t count) {
     return bodies;
 }
 
-/// All numbers of a state, to compare them bit by bit.
-std::array<double, 25> numbers_of(const BodyState& state) {
-    std::array<double, 25> numbers;
-    std::size_t next = 0;
-    const auto add = [&](const auto& part) {
-        for (const double number : part) numbers[next++] = number;
-    };
-    add(state.position);
-    add(state.orientation.coeffs());
-    add(state.velocity);
-    add(state.seen_fluid.velocity);
-    add(state.seen_fluid.angular_velocity);
-    add(state.acceleration);
-    return numbers;
-}
-
 bool same_bits(const BodyState& a, const BodyState& b) {
-    using Bits = std::array<std::uint64_t, sizeof(numbers_of(a)) / sizeof(std::uint64_t)>;
-    return std::bit_cast<Bits>(numbers_of(a)) == std::bit_cast<Bits>(numbers_of(b));
+    using Bits = std::array<std::uint64_t, 25>;
+    return std::bit_cast<Bits>(test::numbers_of(a)) == std::bit_cast<Bits>(test::numbers_of(b));
 }
 
 Surroundings windy() {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "internal/dynamics/batch.hpp"
+#include "support/compared_states.hpp"
 #include "support/ground_bodies.hpp"
 #include "support/known_bodies.hpp"
 #include "support/test_shapes.hpp"
@@ -200,27 +200,12 @@ TEST(GroundContact, MovesWithTheFlowsFrameToRounding) {
 TEST(GroundContact, InABatchIsThatOfABodyAloneToTheLastBit) {
     Surroundings surroundings = ground_at_zero(Vector3d(0.05, 0.02, 0.0));
     surroundings.gust = {.amplitude = Vector3d(0.1, 0.0, 0.02), .period = 0.7};
-    constexpr std::size_t count = 37;
-    constexpr double step = 0.01;
-    Batch batch(cube(), count);
-    std::vector<BodyState> alone(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        alone[i] = test::above_ground(cube(), turned(10.0 * static_cast<double>(i), Vector3d(1, 2, 3)),
-                                      0.01 * static_cast<double>(i));
-        alone[i].velocity << 1.0, 2.0, 3.0, 0.1, 0.0, -0.2;
-        batch.set_state(i, alone[i]);
+    std::vector<BodyState> starts;
+    for (int i = 0; i < 37; ++i) {
+        starts.push_back(test::above_ground(cube(), turned(10.0 * i, Vector3d(1, 2, 3)), 0.01 * i));
+        starts.back().velocity << 1.0, 2.0, 3.0, 0.1, 0.0, -0.2;
     }
-    const Noise noise(0, "", 0, 0);
-    for (std::uint64_t call = 0; call < 20; ++call) {
-        batch.advance(surroundings, 0.0, step, 5 * call, 5, 2);
-        for (std::size_t i = 0; i < count; ++i) {
-            for (std::uint64_t k = 0; k < 5; ++k) {
-                alone[i] = advance(cube(), surroundings, 0.0, step, alone[i], noise, 5 * call + k).state;
-            }
-            ASSERT_EQ(batch.state(i).position, alone[i].position) << i << " at call " << call;
-            ASSERT_EQ(batch.state(i).velocity, alone[i].velocity) << i << " at call " << call;
-        }
-    }
+    test::expect_batch_as_alone(cube(), surroundings, starts, 2);
 }
 
 }  // namespace

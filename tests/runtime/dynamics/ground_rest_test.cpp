@@ -7,11 +7,11 @@
 #include <gtest/gtest.h>
 
 #include "internal/dynamics/batch.hpp"
-#include "internal/dynamics/ground_contact.hpp"
 #include "paths.hpp"
 #include "samara/body/body_file.hpp"
 #include "samara/flight/simulation.hpp"
 #include "samara/scene/scene_file.hpp"
+#include "support/compared_states.hpp"
 #include "support/ground_bodies.hpp"
 #include "support/test_shapes.hpp"
 
@@ -83,10 +83,7 @@ Settled settled(const ImmersedBody& body, const BodyState& start, double duratio
 }
 
 void expect_same_bits(const BodyState& a, const BodyState& b) {
-    EXPECT_EQ(a.position, b.position);
-    EXPECT_EQ(a.orientation.coeffs(), b.orientation.coeffs());
-    EXPECT_EQ(a.velocity, b.velocity);
-    EXPECT_EQ(a.acceleration, b.acceleration);
+    EXPECT_EQ(test::numbers_of(a), test::numbers_of(b));
     EXPECT_EQ(a.at_rest, b.at_rest);
 }
 

@@ -7,7 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include "internal/dynamics/ground_contact.hpp"
 #include "support/ground_bodies.hpp"
 #include "support/test_shapes.hpp"
 

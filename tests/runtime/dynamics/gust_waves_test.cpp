@@ -21,6 +21,16 @@ Vector3d vector(const Triple<double>& t) {
     return {t.x, t.y, t.z};
 }
 
+/// Of the velocity along a line (m^3/s^2), one-sided, as WindGusts::Spectrum has it.
+double longitudinal_spectrum(const WindGusts& gusts, double k) {
+    const double whole = 2.0 * gusts.length / pi * gusts.rms * gusts.rms;
+    if (gusts.spectrum == WindGusts::Spectrum::kaimal) {
+        return whole * std::pow(1.0 + 3.0 * gusts.length / pi * k, -5.0 / 3.0);
+    }
+    const double b = 1.339 * gusts.length;
+    return whole * std::pow(1.0 + b * b * k * k, -5.0 / 6.0);
+}
+
 /// The integral over the wave numbers from a to b, by the middle of many parts that grow with k.
 template <typename Function>
 double integral(double a, double b, const Function& function, int parts = 20'000) {

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "internal/dynamics/dynamic_coefficients.hpp"
 #include "support/expect_error.hpp"
 #include "support/known_bodies.hpp"
 #include "support/test_shapes.hpp"

@@ -1,6 +1,5 @@
 // Falls with noise: the same mean at any step, no spin that grows, and the same bits in any order.
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <string>

@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "internal/dynamics/batch.hpp"
-#include "internal/dynamics/ground_contact.hpp"
+#include "internal/dynamics/contact_impulses.hpp"
 #include "internal/dynamics/hull_separation.hpp"
+#include "support/compared_states.hpp"
 #include "support/ground_bodies.hpp"
 #include "support/obstacles.hpp"
 #include "support/test_shapes.hpp"
@@ -275,30 +275,14 @@ TEST(ObstacleContact, InABatchIsThatOfABodyAloneToTheLastBitForAnyThreads) {
     surroundings.current = {0.05, 0.02, 0.0};
     surroundings.gust = {.amplitude = Vector3d(0.1, 0.0, 0.02), .period = 0.7};
     surroundings.ground = -0.5;
-    constexpr std::size_t count = 37;
-    constexpr double step = 0.01;
-    const Noise noise(0, "", 0, 0);
-    for (const int threads : {1, 2}) {
-        Batch batch(paper(), count);
-        std::vector<BodyState> alone(count);
-        for (std::size_t i = 0; i < count; ++i) {
-            alone[i].orientation = turned(10.0 * static_cast<double>(i), Vector3d(1, 2, 3));
-            alone[i].position = {0.01 * static_cast<double>(i) - 0.2, 0.0,
-                                 0.2 + 0.01 * static_cast<double>(i)};
-            alone[i].velocity << 1.0, 2.0, 3.0, 0.1, 0.0, -0.2;
-            batch.set_state(i, alone[i]);
-        }
-        for (std::uint64_t call = 0; call < 20; ++call) {
-            batch.advance(surroundings, 0.0, step, 5 * call, 5, threads);
-            for (std::size_t i = 0; i < count; ++i) {
-                for (std::uint64_t k = 0; k < 5; ++k) {
-                    alone[i] = advance(paper(), surroundings, 0.0, step, alone[i], noise, 5 * call + k).state;
-                }
-                ASSERT_EQ(batch.state(i).position, alone[i].position) << i << " at call " << call;
-                ASSERT_EQ(batch.state(i).velocity, alone[i].velocity) << i << " at call " << call;
-            }
-        }
+    std::vector<BodyState> starts(37);
+    for (std::size_t i = 0; i < starts.size(); ++i) {
+        const auto number = static_cast<double>(i);
+        starts[i].orientation = turned(10.0 * number, Vector3d(1, 2, 3));
+        starts[i].position = {0.01 * number - 0.2, 0.0, 0.2 + 0.01 * number};
+        starts[i].velocity << 1.0, 2.0, 3.0, 0.1, 0.0, -0.2;
     }
+    for (const int threads : {1, 2}) test::expect_batch_as_alone(paper(), surroundings, starts, threads);
 }
 
 }  // namespace

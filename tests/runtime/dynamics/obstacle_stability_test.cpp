@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include "internal/dynamics/ground_contact.hpp"
 #include "support/ground_bodies.hpp"
 #include "support/obstacles.hpp"
 #include "support/stability_row.hpp"

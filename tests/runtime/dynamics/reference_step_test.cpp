@@ -6,11 +6,19 @@
 #include <gtest/gtest.h>
 
 #include "internal/dynamics/equations_of_motion.hpp"
+#include "support/compared_states.hpp"
 #include "support/hard_bodies.hpp"
 #include "support/known_bodies.hpp"
 
 namespace samara {
 namespace {
+
+/// How far (m) the motions of a body that reaches 5 cm are apart, with the difference of all velocities over
+/// 0.1 s.
+double distance(const BodyState& a, const BodyState& b) {
+    return (a.position - b.position).norm() + 0.05 * a.orientation.angularDistance(b.orientation) +
+           0.1 * (a.velocity - b.velocity).norm();
+}
 
 const Vector3d gravity(0.0, 0.0, -9.81);
 
@@ -21,11 +29,6 @@ BodyState flown(const ImmersedBody& body, BodyState state, double time, int step
         state = result.state;
     }
     return state;
-}
-
-double distance(const BodyState& a, const BodyState& b) {
-    return (a.position - b.position).norm() + 0.05 * a.orientation.angularDistance(b.orientation) +
-           0.1 * (a.velocity - b.velocity).norm();
 }
 
 BodyState seeing_fluid(BodyState state) {

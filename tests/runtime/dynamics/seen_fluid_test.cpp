@@ -1,7 +1,5 @@
 // What the seen fluid does to a body, by statements that need no theory of its forces: Galilean invariance,
 // and the gust that is the same stream.
-#include <cmath>
-#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -10,12 +8,15 @@
 #include "internal/dynamics/equations_of_motion.hpp"
 #include "internal/dynamics/reference_step.hpp"
 #include "internal/dynamics/step.hpp"
+#include "support/compared_states.hpp"
 #include "support/hard_bodies.hpp"
 #include "support/known_bodies.hpp"
 #include "support/random_bodies.hpp"
 
 namespace samara {
 namespace {
+
+using test::distance;
 
 const Vector3d gravity(0.0, 0.0, -9.81);
 const Vector3d offset(0.002, 0.001, -0.004);
@@ -50,12 +51,6 @@ BodyState seen_from(const BodyState& state, const Vector3d& stream, double time)
     result.velocity.tail<3>() += state.orientation.conjugate() * stream;
     result.seen_fluid.velocity += stream;
     return result;
-}
-
-double distance(const BodyState& a, const BodyState& b) {
-    return (a.position - b.position).norm() + 0.05 * a.orientation.angularDistance(b.orientation) +
-           0.1 * (a.velocity.tail<3>() - b.velocity.tail<3>()).norm() +
-           0.005 * (a.velocity.head<3>() - b.velocity.head<3>()).norm();
 }
 
 TEST(SeenFluid, ABodyAtRestInAFrozenStreamFeelsWhatATowFeels) {

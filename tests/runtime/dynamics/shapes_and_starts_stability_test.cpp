@@ -8,7 +8,6 @@
 
 #include <gtest/gtest.h>
 
-#include "internal/dynamics/loads.hpp"
 #include "internal/dynamics/reference_step.hpp"
 #include "support/hard_bodies.hpp"
 #include "support/known_bodies.hpp"

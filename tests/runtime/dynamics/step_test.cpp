@@ -6,11 +6,18 @@
 
 #include <gtest/gtest.h>
 
-#include "internal/dynamics/loads.hpp"
+#include "support/compared_states.hpp"
 #include "support/known_bodies.hpp"
 
 namespace samara {
 namespace {
+
+/// How far (m) the motions of a body that reaches 5 cm are apart, with the difference of all velocities over
+/// 0.1 s.
+double distance(const BodyState& a, const BodyState& b) {
+    return (a.position - b.position).norm() + 0.05 * a.orientation.angularDistance(b.orientation) +
+           0.1 * (a.velocity - b.velocity).norm();
+}
 
 const Vector3d gravity(0.0, 0.0, -9.81);
 
@@ -18,11 +25,6 @@ BodyState flown(const ImmersedBody& body, BodyState state, double time, int step
                 const Vector3d& weight = gravity) {
     for (int i = 0; i < steps; ++i) state = implicit_step(body, weight, time / steps, state);
     return state;
-}
-
-double distance(const BodyState& a, const BodyState& b) {
-    return (a.position - b.position).norm() + 0.05 * a.orientation.angularDistance(b.orientation) +
-           0.1 * (a.velocity - b.velocity).norm();
 }
 
 TEST(ImplicitStep, IsOfSecondOrderWithLoadsOffsetMassAndSeenFluid) {

@@ -4,13 +4,12 @@
 #include <cmath>
 #include <string>
 #include <utility>
-#include <vector>
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "internal/dynamics/loads.hpp"
 #include "internal/dynamics/step.hpp"
+#include "support/ground_bodies.hpp"
 #include "support/hard_bodies.hpp"
 #include "support/known_bodies.hpp"
 #include "support/stability_row.hpp"
@@ -21,13 +20,8 @@ namespace {
 const Vector3d earth(0.0, 0.0, -9.81);
 constexpr double film_frame = 1.0 / 24.0;
 
-BodyState flown(const ImmersedBody& body, BodyState state, double h, double duration) {
-    const Noise noise(1, "body", 0, 0);
-    const auto steps = static_cast<std::uint64_t>(std::lround(duration / h));
-    for (std::uint64_t i = 0; i < steps; ++i) {
-        state = advance(body, {.gravity = earth}, 0.0, h, state, noise, i).state;
-    }
-    return state;
+BodyState flown(const ImmersedBody& body, const BodyState& state, double h, double duration) {
+    return test::flown(body, {.gravity = earth}, state, duration, h);
 }
 
 double speed_of(const BodyState& state) {

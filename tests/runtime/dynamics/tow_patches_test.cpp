@@ -1,8 +1,6 @@
 #include "internal/dynamics/tow_patches.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdint>
 #include <numbers>
 
 #include <Eigen/Eigenvalues>
@@ -18,15 +16,14 @@ namespace {
 
 /// The direction of entry i of the tables.
 Vector3d direction_of(const LoadTables& tables, std::size_t i) {
-    const int node = static_cast<int>(i) % (tables.map_size() * tables.map_size());
-    return tables.axes *
-           octahedral_node(tables.subdivisions, node / tables.map_size(), node % tables.map_size());
+    const std::vector<Vector3d> nodes = octahedral_nodes(tables.subdivisions);
+    return tables.axes * nodes[i % nodes.size()];
 }
 
 TEST(TowPatches, ShareTheWholeBodysTowAmongThem) {
     const Body body = test::lopsided_shape();
     for (const int count : {2, 5, 8}) {
-        const DividedSurface divided = divided_surface(body, &*body.tables, count);
+        const DividedSurface divided = divided_surface(body, *body.tables, count);
         ASSERT_EQ(divided.patches.size(), static_cast<std::size_t>(count));
         for (std::size_t i = 0; i < body.tables->entries.size(); ++i) {
             Vector3d sum = Vector3d::Zero();
@@ -38,7 +35,7 @@ TEST(TowPatches, ShareTheWholeBodysTowAmongThem) {
 
 TEST(TowPatches, EachHaveADragAndAForceOfTheirOwn) {
     const Body body = test::lopsided_shape();
-    const DividedSurface divided = divided_surface(body, &*body.tables, 6);
+    const DividedSurface divided = divided_surface(body, *body.tables, 6);
     double departure = 0.0;
     for (const TowPatch& patch : divided.patches) {
         for (std::size_t i = 0; i < patch.force.size(); ++i) {
@@ -53,7 +50,7 @@ TEST(TowPatches, EachHaveADragAndAForceOfTheirOwn) {
 TEST(TowPatches, FeelTheirShareWhereTheBodyHoldsNoLoadsOfItsSurface) {
     Body body = test::lopsided_shape();
     body.surface_loads.reset();
-    for (const TowPatch& patch : divided_surface(body, &*body.tables, 4).patches) {
+    for (const TowPatch& patch : divided_surface(body, *body.tables, 4).patches) {
         EXPECT_TRUE(patch.force.empty());
         EXPECT_NEAR(patch.share, 0.25, 0.05);
     }
@@ -61,23 +58,17 @@ TEST(TowPatches, FeelTheirShareWhereTheBodyHoldsNoLoadsOfItsSurface) {
 
 TEST(TowPatches, OfAPitchedPairOfWingsPushThemOppositeWays) {
     // Two flat wings along x, the one at x > 0 pitched by 30 degrees about x, the other by -30.
-    const Surface wing = test::mapped(test::box({1.0, 0.5, 0.02}, 8), Matrix3d::Identity(), {0.0, 0.0, 0.0});
-    Surface wings;
-    for (const double side : {1.0, -1.0}) {
+    const auto wing = [](double side) {
         const Matrix3d pitch = Eigen::AngleAxisd(side * std::numbers::pi / 6.0, Vector3d::UnitX()).matrix();
-        const Surface one = test::mapped(wing, pitch, {0.6 * side, 0.0, 0.0});
-        const auto first = static_cast<std::int32_t>(wings.vertices.size());
-        wings.vertices.insert(wings.vertices.end(), one.vertices.begin(), one.vertices.end());
-        for (const auto& corners : one.corners) {
-            wings.corners.push_back({corners[0] + first, corners[1] + first, corners[2] + first});
-        }
-    }
+        return test::mapped(test::box({1.0, 0.5, 0.02}, 8), pitch, {0.6 * side, 0.0, 0.0});
+    };
+    const Surface wings = test::together({wing(1.0), wing(-1.0)});
     Body body;
     body.surface = wings;
     body.moments = test::moments_of(wings);
     body.surface_loads = test::made_up_surface_loads(wings, body.moments);
     const LoadTables tables = as_tables(*body.surface_loads, reference_length(body.moments.surface_area));
-    const DividedSurface divided = divided_surface(body, &tables, 2);
+    const DividedSurface divided = divided_surface(body, tables, 2);
     const auto down = static_cast<std::size_t>(tables.map_size() * tables.map_size() - 1);  // a corner: -z
     ASSERT_LT((direction_of(tables, down) + Vector3d::UnitZ()).norm(), 1e-12);
     for (const TowPatch& patch : divided.patches) {
@@ -92,7 +83,7 @@ TEST(TowPatches, LeaveLessAndLessOfTheTurningToTheCoefficients) {
     double drag = 1.0;
     double reach = 1.0;
     for (const int count : {2, 8, 32}) {
-        const DividedSurface divided = divided_surface(body, nullptr, count);
+        const DividedSurface divided = divided_surface(body, count);
         DynamicCoefficients turning;
         turning.rotational_drag = rotational_drag_tensor(body.surface, body.moments.centroid);
         turning.half_length = 1.0;
@@ -105,7 +96,7 @@ TEST(TowPatches, LeaveLessAndLessOfTheTurningToTheCoefficients) {
         drag = part;
         reach = left.half_length;
     }
-    const DividedSurface one = divided_surface(body, nullptr, 1);
+    const DividedSurface one = divided_surface(body, 1);
     EXPECT_NEAR(one.reach_within, 1.0, 1e-12);
     EXPECT_LT((one.turning_within - Matrix3d::Identity()).norm(), 1e-6);
 }

@@ -11,7 +11,6 @@
 #include "internal/dynamics/step.hpp"
 #include "internal/kernel/kernel.hpp"
 #include "support/hard_bodies.hpp"
-#include "support/known_bodies.hpp"
 
 namespace samara {
 namespace {

@@ -1,18 +1,20 @@
 // What a wind does to a body, by statements that need little theory of its forces.
-#include <bit>
 #include <cmath>
 #include <memory>
 #include <numbers>
-#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "internal/dynamics/batch.hpp"
 #include "internal/dynamics/step.hpp"
+#include "support/compared_states.hpp"
 #include "support/known_bodies.hpp"
 
 namespace samara {
 namespace {
+
+using test::distance;
+using test::numbers_of;
 
 constexpr double pi = std::numbers::pi;
 constexpr double h = 0.002;
@@ -69,26 +71,6 @@ Wind storm() {
     wind.gusts = WindGusts{.rms = 0.1, .length = 0.8};
     wind.fans.push_back({.position = Vector3d(-0.5, 0.0, 0.0), .diameter = 0.4, .speed = 0.5});
     return wind;
-}
-
-double distance(const BodyState& a, const BodyState& b) {
-    return (a.position - b.position).norm() + 0.05 * a.orientation.angularDistance(b.orientation) +
-           0.1 * (a.velocity.tail<3>() - b.velocity.tail<3>()).norm() +
-           0.005 * (a.velocity.head<3>() - b.velocity.head<3>()).norm();
-}
-
-std::vector<double> numbers_of(const BodyState& state) {
-    std::vector<double> numbers;
-    const auto add = [&](const auto& part) {
-        for (const double number : part) numbers.push_back(number);
-    };
-    add(state.position);
-    add(state.orientation.coeffs());
-    add(state.velocity);
-    add(state.seen_fluid.velocity);
-    add(state.seen_fluid.angular_velocity);
-    add(state.acceleration);
-    return numbers;
 }
 
 TEST(WindMotion, AWindWithoutVelocityGivesTheBytesOfNone) {

@@ -1,5 +1,6 @@
 #include <cstring>
 #include <fstream>
+#include <utility>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -38,7 +39,7 @@ Motion leaves(int copies, double duration, int runs = 1) {
     }
     BodyMotion cube = body;
     cube.name = "cube";
-    cube.surface = test::cube_surface();
+    cube.surface = test::box({2.0, 2.0, 2.0}, 1);
     motion.bodies.push_back(cube);
     return motion;
 }
@@ -312,7 +313,7 @@ TEST(GltfExport, CommandWritesTheRunAskedFor) {
 
 TEST(ShadedMesh, IsSmoothOnAnEllipsoidAndSharpOnACube) {
     const Vector3d semi_axes(0.04, 0.02, 0.01);
-    const Surface surface = test::ellipsoid_surface(semi_axes, 3);
+    const Surface surface = test::ellipsoid(semi_axes, 3);
     const ShadedMesh smooth = shaded_mesh(surface);
     EXPECT_EQ(smooth.positions.size(), surface.vertices.size());
     EXPECT_EQ(smooth.triangles.size(), surface.corners.size());
@@ -321,7 +322,7 @@ TEST(ShadedMesh, IsSmoothOnAnEllipsoidAndSharpOnACube) {
             smooth.positions[i].cwiseQuotient(semi_axes.cwiseProduct(semi_axes)).normalized();
         EXPECT_GT(smooth.normals[i].dot(exact), 0.99);
     }
-    const ShadedMesh cube = shaded_mesh(test::cube_surface());
+    const ShadedMesh cube = shaded_mesh(test::box({2.0, 2.0, 2.0}, 1));
     EXPECT_EQ(cube.positions.size(), 24U);
     for (std::size_t i = 0; i < cube.normals.size(); ++i) {
         EXPECT_NEAR(cube.normals[i].lpNorm<Eigen::Infinity>(), 1.0, 1e-12);

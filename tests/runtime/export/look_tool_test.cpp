@@ -31,11 +31,7 @@ Motion painted_motion(const TemporaryFolder& folder, int copies) {
     Motion motion = test::motion_of(test::wander, 0.5);
     BodyMotion& body = motion.bodies[0];
     body.look = std::make_shared<const LookMesh>(read_look_file(folder.file("leaf.obj", test::painted_obj)));
-    body.copies = copies;
-    body.poses.clear();
-    for (const double time : motion.times) {
-        for (int copy = 0; copy < copies; ++copy) body.poses.push_back(test::wander(time + copy));
-    }
+    test::let_wander(body, copies, motion.times);
     return motion;
 }
 

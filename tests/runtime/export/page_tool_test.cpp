@@ -6,7 +6,7 @@
 
 #include "internal/base/content_hash.hpp"
 #include "internal/command/subprocess.hpp"
-#include "internal/figures/inclination.hpp"
+#include "internal/motion/inclination.hpp"
 #include "paths.hpp"
 #include "samara/base/error.hpp"
 #include "samara/export/page_file.hpp"
@@ -28,7 +28,7 @@ Motion ellipsoid_and_cubes(int copies) {
     motion.bodies[0].center_of_mass = Vector3d(0.01, 0.0, -0.005);
     BodyMotion cube = motion.bodies[0];
     cube.name = "die <!--<script></script> <b>red</b>";
-    cube.surface = test::cube_surface();
+    cube.surface = test::box({2.0, 2.0, 2.0}, 1);
     for (Vector3d& vertex : cube.surface.vertices) vertex *= 0.02;
     cube.copies = copies;
     cube.poses.clear();
@@ -118,7 +118,7 @@ TEST(Page, DrawsACrowdInFewCallsAndFewTriangles) {
     ASSERT_TRUE(has_page()) << "configure with -DSAMARA_PAGE=ON";
     const TemporaryFolder folder;
     Motion motion = ellipsoid_and_cubes(200);
-    motion.bodies[1].surface = test::ellipsoid_surface({0.01, 0.008, 0.006}, 4);
+    motion.bodies[1].surface = test::ellipsoid({0.01, 0.008, 0.006}, 4);
     write_page(folder / "motion.html", motion, 0, "crowd", "");
     const json found = look_at(folder / "motion.html", 0.5, folder);
     EXPECT_LE(found["cost"]["calls"], 12);

@@ -1,9 +1,10 @@
 // .usda files in two readers that know nothing of samara: three.js and TinyUSDZ (tests/tools/read_usd.mjs).
 
 #include <fstream>
+#include <map>
 #include <regex>
+#include <utility>
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -11,7 +12,6 @@
 #include "internal/command/subprocess.hpp"
 #include "internal/export/shape_pose.hpp"
 #include "paths.hpp"
-#include "samara/base/error.hpp"
 #include "samara/export/usd_file.hpp"
 #include "support/temporary_folder.hpp"
 #include "synthetic_motion.hpp"
@@ -28,12 +28,8 @@ Motion ellipsoid_and_cubes(int copies) {
     motion.bodies[0].center_of_mass = Vector3d(0.01, 0.02, -0.03);
     BodyMotion cube = motion.bodies[0];
     cube.name = "die, red";
-    cube.surface = test::cube_surface();
-    cube.copies = copies;
-    cube.poses.clear();
-    for (const double time : motion.times) {
-        for (int copy = 0; copy < copies; ++copy) cube.poses.push_back(test::wander(time + copy));
-    }
+    cube.surface = test::box({2.0, 2.0, 2.0}, 1);
+    test::let_wander(cube, copies, motion.times);
     motion.bodies.push_back(cube);
     return motion;
 }

@@ -5,7 +5,6 @@
 #include <sys/stat.h>
 
 #include "c_interface_calls.hpp"
-#include "internal/base/content_hash.hpp"
 #include "internal/files/hdf5_writer.hpp"
 #include "samara/body/body_file.hpp"
 #include "samara/motion/motion_file.hpp"

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include "internal/base/content_hash.hpp"
-#include "samara/base/error.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 

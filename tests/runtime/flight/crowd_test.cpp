@@ -4,9 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "internal/flight/flight_kind.hpp"
+#include "internal/flight/flight_surroundings.hpp"
 #include "internal/flight/size_range.hpp"
-#include "samara/base/error.hpp"
 #include "samara/flight/simulation.hpp"
 #include "samara/motion/motion_file.hpp"
 #include "support/expect_error.hpp"

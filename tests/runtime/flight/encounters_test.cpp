@@ -2,13 +2,13 @@
 #include "internal/flight/encounters.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "samara/kirchhoff/kirchhoff_solver.hpp"
+#include "support/compared_states.hpp"
 #include "support/ground_bodies.hpp"
 #include "support/known_bodies.hpp"
 #include "support/meeting_flights.hpp"
@@ -43,11 +43,6 @@ FlightSettings on_ground(double step) {
 
 Quaterniond turned(double angle, const Vector3d& axis) {
     return Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()));
-}
-
-bool same(const Pose& one, const Pose& other) {
-    return one.position == other.position && one.orientation.coeffs() == other.orientation.coeffs() &&
-           one.velocity == other.velocity && one.angular_velocity == other.angular_velocity;
 }
 
 Vector3d momentum_of(const Flight& flight) {
@@ -168,7 +163,7 @@ TEST(Encounters, AStackOfCardsStaysToTheLastBit) {
         flight.advance_to(5.0);
         for (std::size_t i = 0; i < 6; ++i) {
             EXPECT_TRUE(flight.is_at_rest(i));
-            EXPECT_TRUE(same(flight.pose(i), poses[i]));
+            EXPECT_TRUE(test::same(flight.pose(i), poses[i]));
             const double height = 0.00015 + 0.0003 * static_cast<double>(i);
             EXPECT_NEAR(flight.pose(i).position.z(), height, 6e-5 * static_cast<double>(i + 1));
             EXPECT_NEAR(flight.pose(i).position.x(), 0.002 * static_cast<double>(i), 1e-5);
@@ -276,7 +271,7 @@ TEST(Encounters, WhatALoneBodyDoesIsWhatItDoesWithoutMeetings) {
     for (const double time : {0.37, 1.0, 3.0}) {
         meeting.advance_to(time);
         alone.advance_to(time);
-        for (std::size_t i = 0; i < 3; ++i) EXPECT_TRUE(same(meeting.pose(i), alone.pose(i))) << time;
+        for (std::size_t i = 0; i < 3; ++i) EXPECT_TRUE(test::same(meeting.pose(i), alone.pose(i))) << time;
     }
 }
 
@@ -311,7 +306,7 @@ TEST(Encounters, AreTheSameForAnyThreadsAndCalls) {
     Flight three = pile(3, 3);
     one.advance_to(0.8);
     for (int i = 1; i <= 16; ++i) three.advance_to(0.05 * i);
-    for (std::size_t i = 0; i < one.size(); ++i) EXPECT_TRUE(same(one.pose(i), three.pose(i)));
+    for (std::size_t i = 0; i < one.size(); ++i) EXPECT_TRUE(test::same(one.pose(i), three.pose(i)));
 }
 
 TEST(Encounters, BodiesOfDifferentRunsNeverMeet) {
@@ -320,8 +315,8 @@ TEST(Encounters, BodiesOfDifferentRunsNeverMeet) {
     all.advance_to(0.8);
     first.advance_to(0.8);
     for (std::size_t copy = 0; copy < 4; ++copy) {
-        EXPECT_TRUE(same(all.pose(copy), first.pose(copy)));
-        EXPECT_TRUE(same(all.pose(12 + copy), first.pose(4 + copy)));
+        EXPECT_TRUE(test::same(all.pose(copy), first.pose(copy)));
+        EXPECT_TRUE(test::same(all.pose(12 + copy), first.pose(4 + copy)));
     }
 }
 
@@ -333,7 +328,7 @@ TEST(Encounters, GoOnFromAState) {
     Flight other = pile(1, 1);
     other.set_state(state);
     other.advance_to(0.9);
-    for (std::size_t i = 0; i < flight.size(); ++i) EXPECT_TRUE(same(flight.pose(i), other.pose(i)));
+    for (std::size_t i = 0; i < flight.size(); ++i) EXPECT_TRUE(test::same(flight.pose(i), other.pose(i)));
 }
 
 TEST(Encounters, WhatLiesOnABodyFallsWhereThatIsTakenAway) {

@@ -13,6 +13,7 @@
 #include "internal/flight/flight_kind.hpp"
 #include "paths.hpp"
 #include "samara/flight/simulation.hpp"
+#include "support/compared_states.hpp"
 #include "support/expect_error.hpp"
 #include "support/known_bodies.hpp"
 #include "support/temporary_folder.hpp"
@@ -35,11 +36,6 @@ BodyPhysics physics_of(double density) {
     physics.turbulent_kinetic_energy = 1e-3;
     physics.dissipation_rate = 1e-3;
     return physics;
-}
-
-bool same(const Pose& one, const Pose& other) {
-    return one.position == other.position && one.orientation.coeffs() == other.orientation.coeffs() &&
-           one.velocity == other.velocity && one.angular_velocity == other.angular_velocity;
 }
 
 FlightError::Kind fault_of(const std::function<void()>& work) {
@@ -68,7 +64,7 @@ TEST(Flight, NumbersTheCopiesOfARunTogether) {
         alone.add(rubber(), physics, {.count = 3, .spread_angle = 1.0}, "a");
         alone.advance_to(0.5);
         for (std::size_t copy = 0; copy < 3; ++copy) {
-            EXPECT_TRUE(same(flight.pose(std::size_t{3} * run + copy), alone.pose(copy)));
+            EXPECT_TRUE(test::same(flight.pose(std::size_t{3} * run + copy), alone.pose(copy)));
         }
     }
 }
@@ -93,8 +89,8 @@ TEST(Flight, IsASceneToTheLastBit) {
         flight.advance_to(motion.times[static_cast<std::size_t>(frame)]);
         flight.poses(0, 2, poses.data());
         for (int copy = 0; copy < 2; ++copy) {
-            EXPECT_TRUE(
-                same(poses[static_cast<std::size_t>(copy)], motion.pose(motion.bodies[0], 0, frame, copy)));
+            EXPECT_TRUE(test::same(poses[static_cast<std::size_t>(copy)],
+                                   motion.pose(motion.bodies[0], 0, frame, copy)));
         }
     }
 }
@@ -114,7 +110,7 @@ TEST(Flight, GoesOnFromAStateInAnotherFlightOfTheSameKind) {
     second.set_state(state);
     EXPECT_EQ(second.time(), 0.31);
     second.advance_to(0.8);
-    EXPECT_TRUE(same(first.pose(1), second.pose(1)));
+    EXPECT_TRUE(test::same(first.pose(1), second.pose(1)));
     Flight other = made(1201.0);
     EXPECT_EQ(fault_of([&] { other.set_state(state); }), FlightError::Kind::foreign_state);
 }

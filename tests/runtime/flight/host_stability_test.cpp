@@ -1,7 +1,6 @@
 // Forces and impulses of any size, on bodies light and heavy, at steps up to a film frame's.
 
 #include <cmath>
-#include <string>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
-#include <vector>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
@@ -12,6 +11,7 @@
 #include "internal/dynamics/immersed_body.hpp"
 #include "internal/flight/flight_kind.hpp"
 #include "samara/flight/flight.hpp"
+#include "support/compared_states.hpp"
 #include "support/expect_error.hpp"
 #include "support/known_bodies.hpp"
 #include "support/obstacles.hpp"
@@ -55,11 +55,6 @@ Flight floating(const BodyPhysics& physics, int count = 1) {
 /// K of the body and the fluid that is part of it (omega, v).
 const Matrix6d& inertia_of(const Flight& flight) {
     return flight.kinds()[0]->body().inertia;
-}
-
-bool same(const Pose& a, const Pose& b) {
-    return a.position == b.position && a.orientation.coeffs() == b.orientation.coeffs() &&
-           a.velocity == b.velocity && a.angular_velocity == b.angular_velocity;
 }
 
 TEST(HostForce, MovesBodyAndFluidTogether) {
@@ -150,8 +145,8 @@ TEST(HostForce, OnOneOfManyMovesItAsItMovesOneAloneAndTheOthersNotAtAll) {
         pair.add_wrench(0, wrench);
         for (Flight* flight : {&crowd, &others, &alone, &pair}) flight->advance_to(frame / 60.0);
     }
-    for (std::size_t i = 0; i < 20; ++i) EXPECT_EQ(same(crowd.pose(i), others.pose(i)), i != 17) << i;
-    EXPECT_TRUE(same(alone.pose(0), pair.pose(0)));
+    for (std::size_t i = 0; i < 20; ++i) EXPECT_EQ(test::same(crowd.pose(i), others.pose(i)), i != 17) << i;
+    EXPECT_TRUE(test::same(alone.pose(0), pair.pose(0)));
 }
 
 TEST(HostForce, OnABodyOfAnotherSizeMovesWhatThatBodyAndItsFluidWeigh) {
@@ -225,11 +220,11 @@ TEST(RemovedBody, StaysWhereItIsCostsNoStepsAndComesBackWhereItIsPut) {
     flight.advance_to(0.1001);
     const Pose last = flight.pose(1);
     flight.remove(1);
-    EXPECT_TRUE(same(flight.pose(1), last));
+    EXPECT_TRUE(test::same(flight.pose(1), last));
     const std::uint64_t steps = flight.steps();
     flight.advance_to(0.2);
     EXPECT_TRUE(flight.is_removed(1));
-    EXPECT_TRUE(same(flight.pose(1), last));
+    EXPECT_TRUE(test::same(flight.pose(1), last));
     EXPECT_EQ(flight.steps() - steps, 2u * 49u) << "two bodies from 0.102 s to 0.2 s";
     Pose place = last;
     place.position = Vector3d(1.0, 2.0, 3.0);
@@ -256,8 +251,8 @@ TEST(RemovedBody, IsPartOfTheState) {
     EXPECT_TRUE(second.is_removed(0));
     first.advance_to(0.4);
     second.advance_to(0.4);
-    EXPECT_TRUE(same(first.pose(0), second.pose(0)));
-    EXPECT_TRUE(same(first.pose(1), second.pose(1)));
+    EXPECT_TRUE(test::same(first.pose(0), second.pose(0)));
+    EXPECT_TRUE(test::same(first.pose(1), second.pose(1)));
     second.set_state(before);
     EXPECT_FALSE(second.is_removed(0));
     second.advance_to(0.4);
@@ -311,7 +306,7 @@ TEST(Contacts, TellWhichObstacleWasMetAndChangeNothing) {
         const ContactRecord met = watched.take_contacts(i);
         EXPECT_EQ(met.obstacle, 1);
         EXPECT_GT(met.impulse.z(), 0.0);
-        EXPECT_TRUE(same(watched.pose(i), plain.pose(i)));
+        EXPECT_TRUE(test::same(watched.pose(i), plain.pose(i)));
     }
     EXPECT_EQ(plain.take_contacts(0).strongest, 0.0);
 }

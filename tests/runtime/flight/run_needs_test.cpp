@@ -9,7 +9,6 @@
 #include "samara/body/body_file.hpp"
 #include "support/expect_error.hpp"
 #include "support/known_bodies.hpp"
-#include "support/program_run.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace samara {

@@ -73,13 +73,7 @@ double error_of_tensor(const Surface& surface, const Matrix6d& exact) {
 
 /// A body without any symmetry, with smooth curved panels.
 Surface lopsided_surface(int level) {
-    Surface surface = curved_ellipsoid({1.0, 0.7, 0.5}, level);
-    for (Vector3d& vertex : surface.vertices) {
-        const double bump = std::exp(-2.0 * (vertex - Vector3d(0.6, 0.4, 0.3)).squaredNorm());
-        vertex *= 1.0 + 0.5 * bump;
-        vertex.z() += 0.2 * vertex.x() * vertex.y();
-    }
-    return surface;
+    return test::lopsided(curved_ellipsoid({1.0, 0.7, 0.5}, level));
 }
 
 /// The surface as one of order 2 with the middles of its straight edges.
@@ -125,14 +119,6 @@ Surface with_flipped_triangle(Surface surface) {
 Surface with_repeated_triangle(Surface surface) {
     surface.corners.push_back(surface.corners[7]);
     surface.edge_nodes.push_back(surface.edge_nodes[7]);
-    return surface;
-}
-
-Surface together(Surface surface, const Surface& other) {
-    const auto first = static_cast<std::int32_t>(surface.vertices.size());
-    surface.vertices.insert(surface.vertices.end(), other.vertices.begin(), other.vertices.end());
-    for (auto [a, b, c] : other.corners) surface.corners.push_back({a + first, b + first, c + first});
-    for (auto [a, b, c] : other.edge_nodes) surface.edge_nodes.push_back({a + first, b + first, c + first});
     return surface;
 }
 
@@ -227,8 +213,8 @@ TEST(CurvedCollocation, FollowsTheLawForAnotherReferencePoint) {
 TEST(CurvedCollocation, TwoFarSpheresAreTheSumOfBoth) {
     const Surface sphere = curved_ellipsoid({1, 1, 1}, 2);
     const Vector3d arm(10.0, 0.0, 0.0);
-    const Surface pair = together(test::mapped(sphere, Matrix3d::Identity(), arm),
-                                  test::mapped(sphere, Matrix3d::Identity(), -arm));
+    const Surface pair = test::together(
+        {test::mapped(sphere, Matrix3d::Identity(), arm), test::mapped(sphere, Matrix3d::Identity(), -arm)});
     const Matrix6d one = tensor_of(sphere);
     const Matrix6d sum = about_point(one, -arm) + about_point(one, arm);
     const double interaction = 3.0 * std::pow(1.0 / 20.0, 3);  // of the nearest order, a share of each mass

@@ -9,7 +9,6 @@
 
 #include "internal/kirchhoff/solvers/tensor_error.hpp"
 #include "samara/kirchhoff/kirchhoff_solver.hpp"
-#include "support/exact_bodies.hpp"
 #include "support/test_shapes.hpp"
 
 namespace samara {
@@ -17,18 +16,6 @@ namespace {
 
 KirchhoffTensor tensor_of(const Surface& surface) {
     return kirchhoff_tensor(surface, test::moments_of(surface));
-}
-
-/// The surfaces as one, a body of several closed parts.
-Surface together(const std::vector<Surface>& parts) {
-    Surface all;
-    for (const Surface& part : parts) {
-        const auto offset = static_cast<std::int32_t>(all.vertices.size());
-        all.vertices.insert(all.vertices.end(), part.vertices.begin(), part.vertices.end());
-        for (const auto& [a, b, c] : part.corners)
-            all.corners.push_back({a + offset, b + offset, c + offset});
-    }
-    return all;
 }
 
 Surface moved(const Surface& surface, const Vector3d& shift) {
@@ -70,8 +57,8 @@ TEST(KirchhoffHardCases, TwoPlatesAtAGapOfAHundredthMoveTheFluidBetweenThem) {
     const Surface plate = test::box({1.0, 1.0, 1e-3}, 10);
     const double gap = 1e-2;
     const auto pair_of = [&](const Surface& one) {
-        return tensor_of(
-            together({moved(one, {0, 0, 0.5 * (gap + 1e-3)}), moved(one, {0, 0, -0.5 * (gap + 1e-3)})}));
+        return tensor_of(test::together(
+            {moved(one, {0, 0, 0.5 * (gap + 1e-3)}), moved(one, {0, 0, -0.5 * (gap + 1e-3)})}));
     };
     const KirchhoffTensor pair = pair_of(plate);
     EXPECT_GT(pair.matrix(5, 5), tensor_of(plate).matrix(5, 5));
@@ -85,9 +72,9 @@ TEST(KirchhoffHardCases, TwoSpheresFarApartAddUp) {
     const double distance = 40.0;
     const Surface sphere = test::icosphere(2);
     const Matrix6d one = tensor_of(sphere).matrix;
-    const Matrix6d both =
-        tensor_of(together({moved(sphere, {-0.5 * distance, 0, 0}), moved(sphere, {0.5 * distance, 0, 0})}))
-            .matrix;
+    const Matrix6d both = tensor_of(test::together({moved(sphere, {-0.5 * distance, 0, 0}),
+                                                    moved(sphere, {0.5 * distance, 0, 0})}))
+                              .matrix;
     EXPECT_NEAR(both(3, 3), 2.0 * one(3, 3), 1e-3 * one(3, 3));
     EXPECT_NEAR(both(5, 5), 2.0 * one(5, 5), 1e-3 * one(5, 5));
     const double inertia = 2.0 * one(5, 5) * std::pow(0.5 * distance, 2);

@@ -1,9 +1,8 @@
 #include "samara/kirchhoff/surface_flow.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <tuple>
-#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -24,20 +23,13 @@ SurfaceLoads loads_of(const Surface& surface) {
 }
 
 constexpr int subdivisions = 8;
-constexpr int map_size = 2 * subdivisions + 1;
 
 /// In the direction of the map's node that is nearest; those of the axes and of the diagonals are on nodes.
 PressureLoads in_direction(const SurfaceLoads& loads, const Vector3d& direction) {
-    const std::vector<PressureLoads> all = pressure_loads(loads, subdivisions);
-    std::size_t found = 0;
-    double best = -2.0;
-    for (std::size_t node = 0; node < all.size(); ++node) {
-        const int i = static_cast<int>(node);
-        const double along =
-            octahedral_node(subdivisions, i / map_size, i % map_size).dot(direction.normalized());
-        if (along > best) std::tie(best, found) = std::pair(along, node);
-    }
-    return all[found];
+    const std::vector<Vector3d> nodes = octahedral_nodes(subdivisions);
+    const auto nearest =
+        std::ranges::max_element(nodes, {}, [&](const Vector3d& node) { return node.dot(direction); });
+    return pressure_loads(loads, subdivisions)[static_cast<std::size_t>(nearest - nodes.begin())];
 }
 
 /// Over rho U^2 / 2 and the face of that area (over L^2).
@@ -108,10 +100,8 @@ TEST(SurfaceLoads, TakeEnergyInEveryDirection) {
     for (const Surface& surface : {test::ellipsoid({0.5, 1.0, 2.0}, 3), test::box({1.0, 0.6, 0.1}, 8),
                                    test::box({1.0, 1.0, 1.0}, 6)}) {
         const std::vector<PressureLoads> loads = pressure_loads(loads_of(surface), subdivisions);
-        for (int i = 0; i < map_size * map_size; ++i) {
-            const Vector3d direction = octahedral_node(subdivisions, i / map_size, i % map_size);
-            EXPECT_LT(loads[static_cast<std::size_t>(i)].force.dot(direction), 0.0);
-        }
+        const std::vector<Vector3d> nodes = octahedral_nodes(subdivisions);
+        for (std::size_t i = 0; i < nodes.size(); ++i) EXPECT_LT(loads[i].force.dot(nodes[i]), 0.0);
     }
 }
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "internal/figures/ensemble.hpp"
-#include "internal/figures/inclination.hpp"
+#include "internal/motion/inclination.hpp"
 #include "samara/base/error.hpp"
 #include "synthetic_motion.hpp"
 
@@ -120,15 +120,18 @@ TEST(Measures, TurnsInChangingSensesAreChaotic) {
 
 TEST(Measures, InclinationIsFoldedAndBelongsToTheShortestAxis) {
     Motion motion = motion_of([](double t) { return tumble(t, 1.0, 0.0); }, 3.0, 100.0);
-    const std::vector<double> series = inclination_series(motion, motion.bodies[0], 0, 0);
-    for (std::size_t i = 0; i < series.size(); ++i) {
-        const double angle = motion.times[i];
-        EXPECT_NEAR(series[i], std::min(angle, std::numbers::pi - angle), 1e-12);
+    const BodyMotion& body = motion.bodies[0];
+    const auto inclination_at = [&](int frame) {
+        return inclination(motion, body, motion.pose(body, 0, frame, 0));
+    };
+    for (int frame = 0; frame < motion.frames(); ++frame) {
+        const double angle = motion.times[static_cast<std::size_t>(frame)];
+        EXPECT_NEAR(inclination_at(frame), std::min(angle, std::numbers::pi - angle), 1e-12);
     }
     motion.bodies[0].shortest_axis = Vector3d::UnitY();
-    EXPECT_NEAR(inclination_series(motion, motion.bodies[0], 0, 0)[77], 90.0 * degree, 1e-12);
+    EXPECT_NEAR(inclination_at(77), 90.0 * degree, 1e-12);
     motion.gravity = Vector3d(0.0, 3.0, 0.0);
-    EXPECT_NEAR(inclination_series(motion, motion.bodies[0], 0, 0)[77], 0.0, 1e-12);
+    EXPECT_NEAR(inclination_at(77), 0.0, 1e-12);
 }
 
 TEST(Measures, DescentIsAlongGravityAndAlongMinusZWithoutIt) {

@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "internal/base/content_hash.hpp"
+#include "internal/figures/description.hpp"
 #include "internal/files/hdf5_reader.hpp"
 #include "internal/files/hdf5_writer.hpp"
 #include "internal/files/replace_file.hpp"
-#include "internal/motion/description.hpp"
 #include "internal/motion/motion_writer.hpp"
 #include "samara/base/error.hpp"
 #include "support/temporary_folder.hpp"

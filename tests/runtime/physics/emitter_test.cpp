@@ -8,7 +8,6 @@
 
 #include "internal/dynamics/surroundings.hpp"
 #include "internal/flight/world_pose.hpp"
-#include "samara/base/error.hpp"
 #include "support/expect_error.hpp"
 #include "support/obstacles.hpp"
 

@@ -6,7 +6,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "internal/files/hdf5_writer.hpp"
 #include "internal/motion/file_check.hpp"
 #include "samara/body/body_file.hpp"
 #include "support/expect_error.hpp"

@@ -7,7 +7,6 @@
 #include "internal/plot/body_arcs.hpp"
 #include "internal/plot/convergence_plot.hpp"
 #include "internal/plot/polar_plot.hpp"
-#include "internal/plot/sphere_plot.hpp"
 #include "paths.hpp"
 #include "samara/body/body_file.hpp"
 #include "samara/motion/motion_file.hpp"

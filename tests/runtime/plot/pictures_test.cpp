@@ -1,5 +1,6 @@
 #include <functional>
 #include <optional>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

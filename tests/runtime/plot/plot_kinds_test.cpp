@@ -161,7 +161,7 @@ TEST_F(PlotKinds, WhatCannotBeDrawnIsRefusedInOneLine) {
     refused({"many.h5", "-o", "no.svg", "--kind", "landing", "--copy", "1"}, "is of all runs and copies");
     refused({"flutter.h5", "-o", "no.svg", "--kind", "pie"}, "--kind");
     Motion cube = test::motion_of([](double t) { return test::tumble(t, 6.0, 0.3); }, 4.0);
-    cube.bodies[0].surface = test::cube_surface();
+    cube.bodies[0].surface = test::box({2.0, 2.0, 2.0}, 1);
     write_motion_file(folder_ / "cube.h5", cube);
     refused({"cube.h5", "-o", "no.svg", "--kind", "phase"}, "has no shortest axis");
 }

@@ -11,7 +11,6 @@
 #include "internal/plot/silhouette.hpp"
 #include "internal/plot/strip.hpp"
 #include "paths.hpp"
-#include "samara/base/error.hpp"
 #include "samara/motion/motion_file.hpp"
 #include "support/temporary_folder.hpp"
 #include "synthetic_motion.hpp"
@@ -174,7 +173,7 @@ TEST(Strip, OfALongFallItIsTheLastStretch) {
 }
 
 TEST(Silhouette, ShowsTheSideTurnedToTheViewer) {
-    const ShadedMesh cube = shaded_mesh(test::cube_surface());
+    const ShadedMesh cube = shaded_mesh(test::box({2.0, 2.0, 2.0}, 1));
     ShapePose pose;
     pose.position = Vector3d(5.0, 6.0, 7.0);
     const Color color(0.2, 0.4, 0.6);
@@ -195,7 +194,7 @@ TEST(Silhouette, ShowsTheSideTurnedToTheViewer) {
 }
 
 TEST(Silhouette, UpperSidesAreBrighterThanLowerOnes) {
-    const ShadedMesh ball = shaded_mesh(test::ellipsoid_surface({1.0, 1.0, 1.0}, 3));
+    const ShadedMesh ball = shaded_mesh(test::ellipsoid({1.0, 1.0, 1.0}, 3));
     double upper = 0.0;
     double lower = 0.0;
     for (const PaintedTriangle& triangle :
@@ -208,7 +207,7 @@ TEST(Silhouette, UpperSidesAreBrighterThanLowerOnes) {
 }
 
 TEST(Silhouette, LargeSurfacesAreSimplifiedToTheSameForm) {
-    const Surface fine = test::ellipsoid_surface({0.04, 0.02, 0.01}, 5);
+    const Surface fine = test::ellipsoid({0.04, 0.02, 0.01}, 5);
     const Surface coarse = simplified_surface(fine, 3000);
     EXPECT_LE(coarse.triangle_count(), 3000U);
     EXPECT_GT(coarse.triangle_count(), 300U);

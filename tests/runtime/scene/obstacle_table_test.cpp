@@ -1,6 +1,7 @@
 // [[obstacle]] in a scene file, and what is refused.
 
 #include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -1,7 +1,6 @@
 #include "internal/kirchhoff/operators/compressed_matrix.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "internal/base/parallel_for.hpp"

@@ -1,7 +1,6 @@
 #include "internal/kirchhoff/panels/single_layer_entries.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <utility>
 

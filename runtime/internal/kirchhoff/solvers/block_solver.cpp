@@ -1,7 +1,5 @@
 #include "internal/kirchhoff/solvers/block_solver.hpp"
 
-#include <cmath>
-
 namespace samara {
 namespace {
 

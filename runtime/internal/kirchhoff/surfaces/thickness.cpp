@@ -1,7 +1,6 @@
 #include "internal/kirchhoff/surfaces/thickness.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>

@@ -2,8 +2,7 @@
 
 #include <vector>
 
-#include "internal/figures/figure_catalogue.hpp"
-#include "samara/body/body.hpp"
+#include "samara/motion/motion.hpp"
 
 namespace samara {
 
@@ -26,12 +25,6 @@ SurfaceSpread surface_spread(const Surface& surface);
 /// Whether the surface's body has a shortest axis: false for a sphere or a cube, whose surface spreads alike
 /// in all directions, to 1 % of its extent. Then the inclination is that of an axis chosen by chance.
 bool has_shortest_axis(const Surface& surface);
-
-/// Whether figures of a subject tell something of a body.
-bool tells(FigureSubject subject, const Body& body);
-
-/// The inclination (rad) at every frame of one copy in one run.
-std::vector<double> inclination_series(const Motion& motion, const BodyMotion& body, int run, int copy);
 
 /// The value below which `percent` (0 to 100) of the values lie, linear between the order statistics; values
 /// must not be empty.

@@ -1,11 +1,11 @@
-#include "internal/figures/autorotation.hpp"
+#include "internal/motion/autorotation.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "internal/base/symmetric_matrix.hpp"
-#include "internal/figures/inclination.hpp"
+#include "internal/motion/inclination.hpp"
 
 namespace samara {
 namespace {

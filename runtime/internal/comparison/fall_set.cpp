@@ -1,4 +1,4 @@
-#include "internal/figures/fall_set.hpp"
+#include "internal/comparison/fall_set.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "internal/base/angles.hpp"
-#include "internal/figures/inclination.hpp"
+#include "internal/motion/inclination.hpp"
 #include "samara/base/error.hpp"
 
 namespace samara {

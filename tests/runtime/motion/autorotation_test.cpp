@@ -1,4 +1,4 @@
-#include "internal/figures/autorotation.hpp"
+#include "internal/motion/autorotation.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "internal/motion/description.hpp"
+#include "internal/figures/description.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "internal/figures/inclination.hpp"
+#include "internal/motion/inclination.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -61,20 +61,6 @@ SurfaceSpread surface_spread(const Surface& surface) {
 bool has_shortest_axis(const Surface& surface) {
     const Vector3d extents = eigenvalues_of(surface_spread(surface).covariance).cwiseSqrt();
     return extents.maxCoeff() - extents.minCoeff() > alike * extents.maxCoeff();
-}
-
-bool tells(FigureSubject subject, const Body& body) {
-    if (subject == FigureSubject::inclination) return has_shortest_axis(body.surface);
-    return subject == FigureSubject::path || body.symmetry.kind != Symmetry::Kind::spherical;
-}
-
-std::vector<double> inclination_series(const Motion& motion, const BodyMotion& body, int run, int copy) {
-    std::vector<double> series(motion.times.size());
-    for (int frame = 0; frame < motion.frames(); ++frame) {
-        series[static_cast<std::size_t>(frame)] =
-            inclination(motion, body, motion.pose(body, run, frame, copy));
-    }
-    return series;
 }
 
 double percentile(std::vector<double> values, double percent) {

@@ -1,0 +1,6 @@
+"""The scene that the tests of the Python module fly."""
+
+
+def leaves(**more):
+    body = {"name": "leaf", "shape": "samara:leaf", "position": [0, 0, 2], "count": 3, "spread": {"angle": 0.5}}
+    return {"scene": {"duration": 0.5, "step": 0.002, "frame_rate": 50}, "fluid": {"preset": "air"}, "body": [body | more]}
