@@ -114,6 +114,7 @@ TEST(StepAdvice, SeesWhatNoiseTurns) {
     SceneBody cube;
     cube.name = "cube";
     cube.orientation = Quaterniond(0.8, 0.3, 0.5, 0.1).normalized();
+    cube.dynamic = Dynamic::by_default;  // with which its swings hardly decay by themselves
     scene.bodies = {cube};
     const LoadedBody loaded{read_body_file(ready_body_file("cube")), "hash"};
     const StepAdvice advice = advise_step(scene, {loaded}, 1);

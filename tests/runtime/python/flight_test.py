@@ -13,7 +13,7 @@ import unittest
 import numpy
 
 import samara
-from leaves import leaves
+from leaves import leaves, long_flight
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 
@@ -235,7 +235,7 @@ class LiveFlights(unittest.TestCase):
         def stop(done, total):
             raise ZeroDivisionError("enough")
 
-        scene = samara.Scene(LongFlights.long)
+        scene = samara.Scene(long_flight)
         flight, plain = samara.Flight(scene), samara.Flight(scene)
         with self.assertRaisesRegex(ZeroDivisionError, "enough"):
             flight.advance(60.0, progress=stop)
@@ -247,7 +247,7 @@ class LiveFlights(unittest.TestCase):
     def test_an_interpreter_may_exit_in_the_middle_of_an_advance(self):
         program = textwrap.dedent(f"""
             import threading, samara
-            flight = samara.Flight(samara.Scene({LongFlights.long!r}))
+            flight = samara.Flight(samara.Scene({long_flight!r}))
             begun = threading.Event()
             thread = threading.Thread(target=flight.advance, args=(60.0,), daemon=True,
                                       kwargs=dict(progress=lambda done, total: begun.set()))

@@ -18,7 +18,7 @@ import unittest
 import numpy
 
 import samara
-from leaves import leaves
+from leaves import leaves, long_flight
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 
@@ -198,8 +198,6 @@ class Motions(unittest.TestCase):
 
 
 class LongFlights(unittest.TestCase):
-    long = leaves(count=200) | {"scene": {"duration": 60.0}}
-
     def test_progress_is_told_and_what_it_raises_ends_the_flight(self):
         told = []
 
@@ -209,7 +207,7 @@ class LongFlights(unittest.TestCase):
                 raise ZeroDivisionError("enough")
 
         with self.assertRaisesRegex(ZeroDivisionError, "enough"):
-            samara.simulate(self.long, progress=stop_soon)
+            samara.simulate(long_flight, progress=stop_soon)
         self.assertEqual(len(told), 2)
         self.assertLess(told[1], 1.0)
 
@@ -237,13 +235,13 @@ class LongFlights(unittest.TestCase):
         timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
         timer.start()
         with self.assertRaises(KeyboardInterrupt):
-            samara.simulate(self.long)
+            samara.simulate(long_flight)
 
     def test_an_interpreter_may_exit_in_the_middle_of_a_flight(self):
         program = textwrap.dedent(f"""
             import threading, samara
             begun = threading.Event()
-            thread = threading.Thread(target=samara.simulate, args=({self.long!r},), daemon=True,
+            thread = threading.Thread(target=samara.simulate, args=({long_flight!r},), daemon=True,
                                       kwargs=dict(progress=lambda done, total: begun.set()))
             thread.start()
             begun.wait()
