@@ -213,7 +213,7 @@ def fly(programs, folder, scenes):
 
 
 def fly_others(programs, folder, bodies, table, noises):
-    """Writes the rows of falls with other bodies than theirs (body by scene)."""
+    """Writes into the table the rows of falls with other bodies than theirs (body by scene)."""
     with tempfile.TemporaryDirectory() as work:
         rows = [row_of(scene, noise, compared(programs, baked(programs, folder, body)[0], scene, work, noise))
                 for noise in noises for scene, body in bodies.items()]

@@ -29,7 +29,8 @@ set key off
 
 def baked(programs, folder, scene, body, quality):
     if not os.path.exists(os.path.join(folder, f"{body}.body.h5")):
-        run([f"{programs}/samara", "bake", f"{SCENES}/{scene}.toml", "-o", folder, "--quality", quality, "--loads", "kEpsilon", "--json"])
+        run([f"{programs}/samara", "bake", f"{SCENES}/{scene}.toml", "-o", folder, "--quality", quality,
+             "--loads", "kEpsilon", "--json"])
 
 
 def flown(programs, folder, scene, work, runs=1):

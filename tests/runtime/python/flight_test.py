@@ -4,16 +4,13 @@
 import gc
 import math
 import pathlib
-import subprocess
-import sys
-import textwrap
 import threading
 import unittest
 
 import numpy
 
 import samara
-from leaves import leaves, long_flight
+from leaves import ended_in_the_middle, leaves, long_flight
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 
@@ -245,16 +242,7 @@ class LiveFlights(unittest.TestCase):
         numpy.testing.assert_array_equal(flight.poses("leaf").position, plain.poses("leaf").position)
 
     def test_an_interpreter_may_exit_in_the_middle_of_an_advance(self):
-        program = textwrap.dedent(f"""
-            import threading, samara
-            flight = samara.Flight(samara.Scene({long_flight!r}))
-            begun = threading.Event()
-            thread = threading.Thread(target=flight.advance, args=(60.0,), daemon=True,
-                                      kwargs=dict(progress=lambda done, total: begun.set()))
-            thread.start()
-            begun.wait()
-        """)
-        ended = subprocess.run([sys.executable, "-c", program], capture_output=True, timeout=100, check=False)
+        ended = ended_in_the_middle("samara.Flight(long).advance", "60.0")
         self.assertEqual(ended.returncode, 0, ended.stderr)
 
     def test_arrays_of_any_memory_order_are_read_as_what_they_show(self):

@@ -11,14 +11,13 @@ import signal
 import subprocess
 import sys
 import tempfile
-import textwrap
 import threading
 import unittest
 
 import numpy
 
 import samara
-from leaves import leaves, long_flight
+from leaves import ended_in_the_middle, leaves, long_flight
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 
@@ -238,15 +237,7 @@ class LongFlights(unittest.TestCase):
             samara.simulate(long_flight)
 
     def test_an_interpreter_may_exit_in_the_middle_of_a_flight(self):
-        program = textwrap.dedent(f"""
-            import threading, samara
-            begun = threading.Event()
-            thread = threading.Thread(target=samara.simulate, args=({long_flight!r},), daemon=True,
-                                      kwargs=dict(progress=lambda done, total: begun.set()))
-            thread.start()
-            begun.wait()
-        """)
-        ended = subprocess.run([sys.executable, "-c", program], capture_output=True, timeout=100, check=False)
+        ended = ended_in_the_middle("samara.simulate", "long")
         self.assertEqual(ended.returncode, 0, ended.stderr)
 
     def test_flights_on_several_threads_give_what_one_gives(self):
