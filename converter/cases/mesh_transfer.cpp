@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "converter/tables/reynolds_fit.hpp"
-
 namespace samara {
 namespace {
 
@@ -22,15 +20,15 @@ const SolvedCase* partner(const std::vector<SolvedCase>& cases, const SolvedCase
 
 }  // namespace
 
-void transfer_to_main_mesh(std::vector<SolvedCase>& cases, double main) {
+void transfer_to_main_mesh(std::vector<SolvedCase>& cases, double main, const ReynoldsFit& finest) {
     for (SolvedCase& further : cases) {
         if (further.purpose != CasePurpose::table || further.reynolds_number == main) continue;
         const SolvedCase* const fine = partner(cases, further, CasePurpose::table, main);
         const SolvedCase* const coarse = partner(cases, further, CasePurpose::mesh, main);
-        if (fine == nullptr || coarse == nullptr) continue;
-        if (fine->mesh == further.mesh || coarse->mesh != further.mesh) continue;
+        if (coarse == nullptr || coarse->mesh != further.mesh) continue;
+        if (fine != nullptr && fine->mesh == further.mesh) continue;
         LoadEntry& entry = further.sample.entry;
-        const LoadEntry& finer = fine->sample.entry;
+        const LoadEntry finer = finest.at(further.sample.direction);
         const LoadEntry& coarser = coarse->sample.entry;
         entry.force += finer.force - coarser.force;
         entry.moment += finer.moment - coarser.moment;

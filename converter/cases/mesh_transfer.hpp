@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "converter/cases/case_reduction.hpp"
+#include "converter/tables/reynolds_fit.hpp"
 
 namespace samara {
 
@@ -11,8 +12,9 @@ namespace samara {
 /// force and moment the difference, to k and epsilon the ratio. So a table holds one mesh's figures, and its
 /// change with the Reynolds number is that of one mesh.
 ///
-/// `main`: the Reynolds number of the densest directions. A table case without such partners stays as it is,
-/// as does a laminar one beside a turbulent main one, for k and epsilon.
-void transfer_to_main_mesh(std::vector<SolvedCase>& cases, double main);
+/// `main`: the Reynolds number of the densest directions; `finest`: its fit on the last mesh, in the axes of
+/// the cases' directions. A table case without such a partner stays as it is, as does a laminar one beside a
+/// turbulent main one, for k and epsilon.
+void transfer_to_main_mesh(std::vector<SolvedCase>& cases, double main, const ReynoldsFit& finest);
 
 }  // namespace samara

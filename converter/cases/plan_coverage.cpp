@@ -13,11 +13,23 @@
 namespace samara {
 namespace {
 
-/// The table cases of the Reynolds number that has most of them.
+bool has_direction(const std::vector<const PlannedCase*>& cases, const Vector3d& direction,
+                   double tolerance) {
+    return std::ranges::any_of(
+        cases, [&](const PlannedCase* one) { return (one->direction - direction).norm() < tolerance; });
+}
+
+/// A case for each direction of the Reynolds number that has most of them: the table's, where it has none
+/// that on the mesh before the last.
 std::vector<const PlannedCase*> main_cases(const CasePlan& plan) {
     std::map<double, std::vector<const PlannedCase*>> sets;
     for (const PlannedCase& planned : plan.cases) {
         if (planned.purpose == CasePurpose::table) sets[planned.reynolds_number].push_back(&planned);
+    }
+    for (const PlannedCase& planned : plan.cases) {
+        const auto set = sets.find(planned.reynolds_number);
+        if (planned.purpose != CasePurpose::mesh || set == sets.end()) continue;
+        if (!has_direction(set->second, planned.direction, 1e-6)) set->second.push_back(&planned);
     }
     if (sets.empty()) throw Error("plans no case for the table");
     return std::max_element(sets.begin(), sets.end(),
@@ -29,10 +41,7 @@ std::vector<const PlannedCase*> main_cases(const CasePlan& plan) {
 std::optional<Vector3d> missing_direction(const std::vector<const PlannedCase*>& cases,
                                           const Symmetry& symmetry, int subdivisions) {
     for (const Vector3d& direction : required_directions(symmetry, subdivisions)) {
-        const bool planned = std::any_of(cases.begin(), cases.end(), [&](const PlannedCase* one) {
-            return (one->direction - direction).norm() < direction_tolerance(symmetry);
-        });
-        if (!planned) return direction;
+        if (!has_direction(cases, direction, direction_tolerance(symmetry))) return direction;
     }
     return std::nullopt;
 }

@@ -6,6 +6,8 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -21,7 +23,7 @@
 namespace samara {
 namespace {
 
-/// The table cases of one Reynolds number, and what comes of them in map axes.
+/// The cases of one Reynolds number and purpose, and what comes of those for the table, in map axes.
 struct ReynoldsTable {
     double reynolds_number = 0.0;
     std::vector<DirectionSample> samples;
@@ -69,56 +71,145 @@ LoadEntryError absolute(const LoadEntry& entry, const LoadEntryError& variance) 
     return error;
 }
 
-/// Takes from the cases of all purposes what the symmetry forbids; the table's, by ascending Reynolds number.
-std::vector<ReynoldsTable> symmetric_tables(const Symmetry& symmetry, std::vector<SolvedCase>& cases) {
-    std::map<std::pair<CasePurpose, double>, std::vector<SolvedCase*>> sets;
-    for (SolvedCase& solved : cases) sets[{solved.purpose, solved.reynolds_number}].push_back(&solved);
-    std::vector<ReynoldsTable> tables;
-    for (const auto& [key, members] : sets) {
-        ReynoldsTable table;
-        table.reynolds_number = key.second;
-        for (const SolvedCase* member : members) {
-            table.samples.push_back(member->sample);
-            table.tail.push_back(relative_to(member->sample.entry, member->sample.error));
-        }
-        table.asymmetry = keep_symmetric_part(symmetry, table.samples);
-        for (std::size_t i = 0; i < members.size(); ++i) members[i]->sample = table.samples[i];
-        if (key.first == CasePurpose::table) tables.push_back(std::move(table));
+/// What the symmetry forbids in each of the cases, which is taken from them (keep_symmetric_part).
+std::vector<LoadEntryError> take_forbidden(const Symmetry& symmetry, std::vector<SolvedCase>& cases) {
+    std::map<std::pair<CasePurpose, double>, std::vector<std::size_t>> sets;
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        sets[{cases[i].purpose, cases[i].reynolds_number}].push_back(i);
     }
-    if (tables.empty()) throw Error("has no solved case for the table");
-    return tables;
+    std::vector<LoadEntryError> asymmetry(cases.size());
+    for (const auto& [key, members] : sets) {
+        std::vector<DirectionSample> samples;
+        for (const std::size_t member : members) samples.push_back(cases[member].sample);
+        const std::vector<LoadEntryError> taken = keep_symmetric_part(symmetry, samples);
+        for (std::size_t i = 0; i < members.size(); ++i) {
+            cases[members[i]].sample = samples[i];
+            asymmetry[members[i]] = taken[i];
+        }
+    }
+    return asymmetry;
 }
 
-/// That of most table cases; the lowest of equals.
+/// The cases of one purpose at a Reynolds number; of purpose `mesh` those on the mesh of the first.
+ReynoldsTable table_of(CasePurpose purpose, double reynolds_number, const std::vector<SolvedCase>& cases,
+                       const std::vector<LoadEntryError>& tail,
+                       const std::vector<LoadEntryError>& asymmetry) {
+    ReynoldsTable table;
+    table.reynolds_number = reynolds_number;
+    std::string mesh;
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        if (cases[i].purpose != purpose || cases[i].reynolds_number != reynolds_number) continue;
+        if (mesh.empty()) mesh = cases[i].mesh;
+        if (purpose == CasePurpose::mesh && cases[i].mesh != mesh) continue;
+        table.samples.push_back(cases[i].sample);
+        table.tail.push_back(tail[i]);
+        table.asymmetry.push_back(asymmetry[i]);
+    }
+    return table;
+}
+
+/// That of most cases on the last mesh and the one before it; the lowest of equals.
 double main_reynolds_number(const std::vector<SolvedCase>& cases) {
     std::map<double, int> counts;
     for (const SolvedCase& solved : cases) {
-        if (solved.purpose == CasePurpose::table) ++counts[solved.reynolds_number];
+        if (solved.purpose == CasePurpose::table) counts[solved.reynolds_number] += 1;
     }
-    const auto most = std::ranges::max_element(counts, {}, [](const auto& pair) { return pair.second; });
-    return most == counts.end() ? 0.0 : most->first;
+    if (counts.empty()) throw Error("has no solved case for the table");
+    for (const SolvedCase& solved : cases) {
+        const auto found = counts.find(solved.reynolds_number);
+        if (solved.purpose == CasePurpose::mesh && found != counts.end()) ++found->second;
+    }
+    return std::ranges::max_element(counts, {}, [](const auto& pair) { return pair.second; })->first;
 }
 
-void fit(std::vector<ReynoldsTable>& tables, const Symmetry& symmetry,
-         const std::optional<SurfaceLoads>& surface) {
-    const auto main = std::max_element(
-        tables.begin(), tables.end(),
-        [](const ReynoldsTable& a, const ReynoldsTable& b) { return a.samples.size() < b.samples.size(); });
-    const auto fit_one = [&](ReynoldsTable& table, auto beside) {
-        try {
-            table.fit = std::make_unique<ReynoldsFit>(symmetry, table.samples, std::move(beside));
-        } catch (const Error& fault) {
-            throw Error(fmt::format("Reynolds number {:.6g}: {}", table.reynolds_number, fault.what()));
+/// The tables by ascending Reynolds number, and what the main one's fit stands beside.
+struct FittedTables {
+    std::vector<ReynoldsTable> tables;
+    std::unique_ptr<ReynoldsFit> mesh_before;  ///< the main Reynolds number's on the mesh before the last
+};
+
+template <typename Beside>
+std::unique_ptr<ReynoldsFit> fit_of(const Symmetry& symmetry, const ReynoldsTable& table, Beside beside) {
+    try {
+        return std::make_unique<ReynoldsFit>(symmetry, table.samples, std::move(beside));
+    } catch (const Error& fault) {
+        throw Error(fmt::format("Reynolds number {:.6g}: {}", table.reynolds_number, fault.what()));
+    }
+}
+
+const DirectionSample* sample_in(const std::vector<DirectionSample>& samples, const Vector3d& direction,
+                                 double tolerance) {
+    const auto found = std::ranges::find_if(
+        samples, [&](const DirectionSample& one) { return (one.direction - direction).norm() < tolerance; });
+    return found == samples.end() ? nullptr : &*found;
+}
+
+/// Adds to the cases on the mesh before the last the directions of the table that failed there: what the
+/// table has, less what the last mesh changes in the other directions. Else what the interpolation on the
+/// mesh before misses there would be taken for a change by the mesh.
+void add_failed_directions(const Symmetry& symmetry, const ReynoldsTable& table, ReynoldsTable& before) {
+    std::vector<Vector3d> directions;
+    std::vector<LoadEntry> changes;
+    std::vector<DirectionSample> failed;
+    for (const DirectionSample& sample : table.samples) {
+        const DirectionSample* const partner =
+            sample_in(before.samples, sample.direction, direction_tolerance(symmetry));
+        if (partner == nullptr) {
+            failed.push_back(sample);
+            continue;
         }
-    };
+        directions.push_back(sample.direction);
+        changes.push_back(plus(in_logarithms(sample.entry), -1.0, in_logarithms(partner->entry)));
+    }
+    if (directions.empty() || failed.empty()) return;
+    const DirectionFit change(symmetry, directions);
+    for (DirectionSample& sample : failed) {
+        const LoadEntry here = change.at(changes, sample.direction);
+        sample.entry.force -= here.force;
+        sample.entry.moment -= here.moment;
+        sample.entry.turbulent_kinetic_energy *= std::exp(-here.turbulent_kinetic_energy);
+        sample.entry.dissipation_rate *= std::exp(-here.dissipation_rate);
+        before.samples.push_back(sample);
+    }
+}
+
+FittedTables fitted_tables(const Symmetry& symmetry, std::vector<SolvedCase>& cases,
+                           const std::optional<SurfaceLoads>& surface) {
+    const double main = main_reynolds_number(cases);
+    std::vector<LoadEntryError> tail;
+    for (const SolvedCase& solved : cases) {
+        tail.push_back(relative_to(solved.sample.entry, solved.sample.error));
+    }
+    const std::vector<LoadEntryError> asymmetry = take_forbidden(symmetry, cases);
     std::optional<SurfaceTrend> trend;
-    if (surface && symmetry.kind == Symmetry::Kind::finite) {
-        trend.emplace(*surface, symmetry, main->reynolds_number);
+    if (surface && symmetry.kind == Symmetry::Kind::finite) trend.emplace(*surface, symmetry, main);
+    ReynoldsTable main_table = table_of(CasePurpose::table, main, cases, tail, asymmetry);
+    ReynoldsTable before = table_of(CasePurpose::mesh, main, cases, tail, asymmetry);
+    FittedTables result;
+    if (before.samples.size() > main_table.samples.size()) {
+        add_failed_directions(symmetry, main_table, before);
+        result.mesh_before = fit_of(symmetry, before, std::move(trend));
+        main_table.fit = fit_of(symmetry, main_table, std::as_const(result.mesh_before).get());
+    } else {
+        main_table.fit = fit_of(symmetry, main_table, std::move(trend));
     }
-    fit_one(*main, std::move(trend));
-    for (ReynoldsTable& table : tables) {
-        if (&table != &*main) fit_one(table, std::as_const(main->fit).get());
+    transfer_to_main_mesh(cases, main, *main_table.fit);
+    std::set<double> reynolds_numbers;
+    for (const SolvedCase& solved : cases) {
+        if (solved.purpose == CasePurpose::table) reynolds_numbers.insert(solved.reynolds_number);
     }
+    for (const double reynolds_number : reynolds_numbers) {
+        if (reynolds_number == main) {
+            result.tables.push_back(std::move(main_table));
+            continue;
+        }
+        result.tables.push_back(table_of(CasePurpose::table, reynolds_number, cases, tail, asymmetry));
+    }
+    const auto fit = std::ranges::find(result.tables, main, &ReynoldsTable::reynolds_number)->fit.get();
+    for (ReynoldsTable& table : result.tables) {
+        if (!table.fit) table.fit = fit_of(symmetry, table, std::as_const(fit));
+    }
+    return result;
 }
 
 /// Calls visit(row, column) for each place of a square: the map has 2 subdivisions + 1 nodes a side, and one
@@ -297,9 +388,8 @@ LoadEntryError variance_between(const std::vector<ReynoldsTable>& tables) {
 std::vector<LoadEntryError> fill_tables(LoadTables& tables, const Symmetry& symmetry,
                                         std::vector<SolvedCase>& cases,
                                         const std::optional<SurfaceLoads>& surface) {
-    transfer_to_main_mesh(cases, main_reynolds_number(cases));
-    std::vector<ReynoldsTable> parts = symmetric_tables(symmetry, cases);
-    fit(parts, symmetry, surface);
+    FittedTables fitted = fitted_tables(symmetry, cases, surface);
+    std::vector<ReynoldsTable>& parts = fitted.tables;
     for (ReynoldsTable& part : parts) fill_nodes(part, tables.subdivisions);
     const ModelErrors model = errors_of_models(symmetry, cases, parts);
     const LoadEntryError between = variance_between(parts);

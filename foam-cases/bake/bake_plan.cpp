@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "converter/tables/direction_sampling.hpp"
+#include "foam-cases/bake/direction_choice.hpp"
 #include "foam-cases/falls/fall_plan.hpp"
 #include "internal/base/vector_json.hpp"
 #include "internal/body/octahedral_map.hpp"
@@ -187,12 +188,38 @@ std::vector<BakeCase> few_of(const Symmetry& symmetry, const BakePlan& plan) {
     return few;
 }
 
+// Of the directions, those that are solved on the last mesh too: the ends of the map's axes, where loads and
+// turbulence have their extremes, then those between which the change that the mesh makes is interpolated
+// best.
+std::vector<std::size_t> chosen_for_last_mesh(const Symmetry& symmetry,
+                                              const std::vector<Vector3d>& directions,
+                                              const BakeQuality& quality) {
+    const double share = quality.meshes.size() < 2 ? 1.0 : quality.share_on_last_mesh;
+    const auto count = static_cast<std::size_t>(std::ceil(share * static_cast<double>(directions.size())));
+    std::vector<std::size_t> chosen;
+    for (const Vector3d& end : required_directions(symmetry, 1)) {
+        const auto found = std::ranges::find_if(directions, [&](const Vector3d& direction) {
+            return (direction - end).norm() < direction_tolerance(symmetry);
+        });
+        if (found == directions.end()) continue;
+        chosen.push_back(static_cast<std::size_t>(found - directions.begin()));
+    }
+    const std::size_t more = count - std::min(count, chosen.size());
+    const auto between =
+        choose_directions(symmetry, directions, chosen, direction_weights({}, symmetry), more);
+    chosen.insert(chosen.end(), between.begin(), between.end());
+    return chosen;
+}
+
 void plan_cases(const Symmetry& symmetry, double main_reynolds_number, BakePlan& plan) {
     const BakeQuality& quality = plan.quality;
     plan.main_reynolds_number = main_reynolds_number;
     const std::vector<Vector3d> directions = required_directions(symmetry, plan.solved_subdivisions);
+    const std::vector<std::size_t> on_last = chosen_for_last_mesh(symmetry, directions, quality);
     for (std::size_t i = 0; i < directions.size(); ++i) {
-        add_ladder("direction", i, directions[i], main_reynolds_number, plan);
+        const bool whole = std::ranges::find(on_last, i) != on_last.end();
+        add_ladder("direction", i, directions[i], main_reynolds_number, plan,
+                   whole ? Ladder::to_last_mesh : Ladder::to_mesh_before);
     }
     const std::vector<BakeCase> few = few_of(symmetry, plan);
     for (const double factor : quality.further_reynolds_numbers) {
@@ -225,11 +252,12 @@ std::vector<FlowMesh> BakePlan::all_meshes() const {
 }
 
 void add_ladder(const char* kind, std::size_t index, const Vector3d& direction, double reynolds_number,
-                BakePlan& plan) {
+                BakePlan& plan, Ladder ladder) {
     const std::vector<FlowMesh>& meshes = plan.quality.meshes;
     std::string before;
     std::string turbulence_before;
-    for (std::size_t i = 0; i < meshes.size(); ++i) {
+    const std::size_t last = meshes.size() - (ladder == Ladder::to_mesh_before ? 1 : 0);
+    for (std::size_t i = 0; i < last; ++i) {
         BakeCase entry;
         entry.name = case_name(kind, index, meshes[i]);
         entry.direction = direction;

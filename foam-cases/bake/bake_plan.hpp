@@ -67,8 +67,8 @@ struct BakePlan {
 Closure closure_at(double reynolds_number, Closure turbulent = Closure::k_epsilon);
 
 /// The cases that the quality asks for, around the main Reynolds number: the directions that the body's
-/// symmetry leaves to solve on every mesh, and those of a coarser map for further Reynolds numbers and
-/// closures.
+/// symmetry leaves to solve, a share of them on the last mesh too, and those of a coarser map for further
+/// Reynolds numbers and closures.
 BakePlan plan_bake(const Body& body, const BakeQuality& quality, double reynolds_number,
                    const Inflow& inflow = {});
 
@@ -78,11 +78,14 @@ BakePlan plan_bake(const Body& body, const BakeQuality& quality, double reynolds
 /// the body, the quality and the Reynolds number alone; more of them begin with the same ones.
 BakePlan plan_probes(const Body& body, const BakeQuality& quality, double reynolds_number, int count);
 
-/// Adds the cases of one direction on all meshes of the quality, from the coarsest to the finest, each
+/// How far a direction's cases go.
+enum class Ladder { to_last_mesh, to_mesh_before };
+
+/// Adds the cases of one direction on the meshes of the quality, from the coarsest to the finest, each
 /// started from the one before: KIND_INDEX_MESH, and, where the turbulence is of cases of its own,
 /// KIND_INDEX_MESH_turbulence.
 void add_ladder(const char* kind, std::size_t index, const Vector3d& direction, double reynolds_number,
-                BakePlan& plan);
+                BakePlan& plan, Ladder ladder = Ladder::to_last_mesh);
 
 /// Adds the case of a direction that has its ladder at a further Reynolds number, on the mesh before the
 /// last.

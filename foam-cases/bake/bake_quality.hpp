@@ -29,9 +29,11 @@ struct Closures {
     Closure turbulence;
 };
 
-/// What --quality stands for. All directions are solved on every mesh, coarsest first, each from the solution
-/// of the same direction on the mesh before: the start costs little, settles what is slow, and depends on no
-/// other direction. The last mesh's solution is the table's, the one's before it tells the mesh's error.
+/// What --quality stands for. All directions are solved on every mesh but the last, a share of them on that
+/// too, coarsest first, each from the solution of the same direction on the mesh before: the start costs
+/// little, settles what is slow, and depends on no other direction. The last mesh's solution is the table's,
+/// the one's before it tells the mesh's error; where there is none, the table has that before it and what the
+/// last changes between the others (fill_tables).
 /// Loads and turbulence are of one case, or of two with models and meshes of their own (with_loads_by).
 struct BakeQuality {
     std::string name;
@@ -43,8 +45,9 @@ struct BakeQuality {
     Closure fall_closure = Closure::k_epsilon;   ///< of the falls, likewise
     int least_subdivisions = 2;  ///< of the map of directions that are solved, whatever the cost
     int most_subdivisions = 8;
-    int most_directions = 16;    ///< multiples of the least subdivisions are taken up to so many directions
-    int table_subdivisions = 8;  ///< of the stored map, at least; its nodes hold those that are solved
+    int most_directions = 16;  ///< multiples of the least subdivisions are taken up to so many directions
+    double share_on_last_mesh = 0.4;  ///< of the directions, where there is a mesh before it
+    int table_subdivisions = 8;       ///< of the stored map, at least; its nodes hold those that are solved
     /// Further Reynolds numbers, over the main one; solved in the directions of the map of the least
     /// subdivisions on the mesh before the last, from the main one's solution there.
     std::vector<double> further_reynolds_numbers;

@@ -3,7 +3,8 @@
 
     noise_choice.py BIN    fits the forms' numbers to the cases of noise_report.py that the choice is by, and prints by what
                            factor each is off in the mean, there and on the other cases; then the chosen form, refitted
-                           without each body, on that body. BIN: the folder of the programs. Run from the project's folder.
+                           without each body, on that body, and with a body's own numbers. BIN: the folder of the
+                           programs. Run from the project's folder.
 
 A load's rms is that of table(w - u) for small slips u, to the first order; flights average over 0.24 L/U besides. Factors are
 means of |log|; a load that is off by more than e^2 counts as that in the fit, and by no more than e^5 in the mean.
@@ -111,6 +112,21 @@ def fitted(form, cases, alike):
     return all_numbers(best[1])
 
 
+def own_numbers(form, cases):
+    """What a body's own numbers would gain: of bodies with several directions, each direction by numbers from the other
+    bodies, by those from the body's other directions, and by those from all of its directions, itself among them."""
+    off = {"other bodies": [], "the body's other directions": [], "all of the body's directions": []}
+    for case in cases:
+        of_body = [one for one in cases if one.shape == case.shape]
+        if len(of_body) < 2:
+            continue
+        sets = ([one for one in cases if one.shape != case.shape], [one for one in of_body if one is not case], of_body)
+        for which, some in zip(off, sets):
+            off[which] += misses(form, fitted(form, some, True), [case])
+    for which, some in off.items():
+        print(f"numbers from {which}: off by a factor of {math.exp(sum(map(abs, some)) / len(some)):.2f}")
+
+
 def main(programs):
     rows = judged(read_rows())
     cases = {name: Case(programs, name, rows) for name in CASES if any(row.case == name for row in rows)}
@@ -135,6 +151,7 @@ def main(programs):
         whole, count = whole + sum(map(abs, off)), count + len(off)
         print(f"without the {body}:", *(f"{x:.3g}" for x in numbers[1:]), f"{math.exp(sum(map(abs, off)) / len(off)):.2f} on it")
     print(f"all left out: {math.exp(whole / count):.2f}")
+    own_numbers(chosen, list(cases.values()))
 
 
 if __name__ == "__main__":

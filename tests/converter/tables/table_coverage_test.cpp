@@ -60,6 +60,25 @@ class Errors {
     std::normal_distribution<double> normal_;
 };
 
+/// Two meshes: the last in the directions of a map with `of_last_mesh` subdivisions, the one before it, twice
+/// as wrong, in those of one with `n`. By how much they are wrong depends on the direction.
+std::vector<SolvedCase> baked_on_two_meshes(const Symmetry& symmetry, int of_last_mesh, int n, const Law& law,
+                                            const CaseErrors& sizes, unsigned seed) {
+    Errors errors(sizes, seed);
+    const auto mesh_error = [](const Vector3d& d) { return 0.5 + d.x() * d.x() - 0.5 * std::abs(d.z()); };
+    std::vector<SolvedCase> cases;
+    for (const SolvedCase& solved :
+         test::solved_cases(required_directions(symmetry, of_last_mesh), law, 1e4)) {
+        cases.push_back(errors.with_errors(solved, mesh_error(solved.sample.direction), 0.0));
+    }
+    for (const SolvedCase& solved : test::solved_cases(required_directions(symmetry, n), law, 1e4)) {
+        cases.push_back(errors.with_errors(solved, 2.0 * mesh_error(solved.sample.direction), 0.0));
+        cases.back().purpose = CasePurpose::mesh;
+        cases.back().mesh = "mesh_medium";
+    }
+    return cases;
+}
+
 /// A bake: the table's cases on the nodes of a map, coarser meshes and another closure in three of them.
 std::vector<SolvedCase> baked(const Symmetry& symmetry, int n, const Law& law, const CaseErrors& sizes,
                               unsigned seed) {
@@ -139,12 +158,16 @@ struct Bake {
     int subdivisions;
     int stored;
     CaseErrors errors;
+    int of_last_mesh = 0;  ///< subdivisions of the map that it is solved on, where the one before has more
 };
 
 Coverage coverage_of(const Bake& bake, unsigned seeds) {
     CoverageCount count;
     for (unsigned seed = 0; seed < seeds; ++seed) {
-        std::vector<SolvedCase> cases = baked(bake.symmetry, bake.subdivisions, bake.law, bake.errors, seed);
+        std::vector<SolvedCase> cases =
+            bake.of_last_mesh > 0 ? baked_on_two_meshes(bake.symmetry, bake.of_last_mesh, bake.subdivisions,
+                                                        bake.law, bake.errors, seed)
+                                  : baked(bake.symmetry, bake.subdivisions, bake.law, bake.errors, seed);
         count.add(test::filled(bake.symmetry, bake.stored, cases), bake.law);
     }
     return count.result();
@@ -248,6 +271,12 @@ TEST(TableCoverage, OfABodyOfRevolutionIsNineInTen) {
 
 TEST(TableCoverage, OfABodyWithoutSymmetryIsNineInTen) {
     expect_honest({Symmetry{}, lump_law, 3, 6, all_errors}, 12, 4.0);
+}
+
+TEST(TableCoverage, OfFewDirectionsOnTheLastMeshIsNineInTen) {
+    constexpr CaseErrors errors{.noise = 0.02, .mesh = 0.2};
+    expect_honest({test::box_symmetry(), ellipsoid_law, 4, 8, errors, 2}, 30, 3.6);
+    expect_honest({cone_symmetry(), cone_law, 6, 12, errors, 3}, 30, 3.6);
 }
 
 /// The share of one source in a bake with errors of one kind, or nothing where the tables do not name it.

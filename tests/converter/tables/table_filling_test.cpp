@@ -227,6 +227,83 @@ TEST(FilledMap, OfAFinerMapThanWasSolvedIsNearerToTheLawThanABilinearLookup) {
               0.4 * lookup_error(filled(box, 4, wavy_law, 4), wavy_law));
 }
 
+/// wavy_law on the mesh before the last, which has a tenth to a fifth too much of everything.
+LoadEntry law_on_mesh_before(const Vector3d& d) {
+    LoadEntry entry = wavy_law(d);
+    const double more = 1.1 + 0.1 * d.x() * d.x();
+    entry.force *= more;
+    entry.moment *= more;
+    entry.turbulent_kinetic_energy *= more;
+    entry.dissipation_rate *= more;
+    return entry;
+}
+
+/// The last mesh in the directions of a map with `n` subdivisions, the one before it in those of 4.
+std::vector<SolvedCase> solved_on_two_meshes(const Symmetry& symmetry, int n) {
+    std::vector<SolvedCase> cases = solve(symmetry, n, wavy_law);
+    for (SolvedCase solved : solve(symmetry, 4, law_on_mesh_before)) {
+        solved.purpose = CasePurpose::mesh;
+        solved.mesh = "mesh_medium";
+        cases.push_back(solved);
+    }
+    return cases;
+}
+
+TEST(FilledMap, OfFewDirectionsOnTheLastMeshHasTheShapeOfTheMeshBefore) {
+    for (const Symmetry& symmetry : {test::box_symmetry(), Symmetry{}}) {
+        const LoadTables everywhere = filled(symmetry, 4, wavy_law, 16);
+        const LoadTables alone = filled(symmetry, 2, wavy_law, 16);
+        std::vector<SolvedCase> cases = solved_on_two_meshes(symmetry, 2);
+        const LoadTables few = test::filled(symmetry, 16, cases);
+        EXPECT_LT(lookup_error(few, wavy_law), 1.5 * lookup_error(everywhere, wavy_law));
+        EXPECT_LT(lookup_error(few, wavy_law), lookup_error(alone, wavy_law) / 3.0);
+        for (const Vector3d& direction : required_directions(symmetry, 2)) {
+            EXPECT_LT(test::difference(look_up(few, direction, 1e4), wavy_law(direction)), 1e-13);
+        }
+    }
+}
+
+/// Few directions of a law with steep changes, without that of `failed` on the mesh before.
+LoadTables without_on_mesh_before(const Vector3d& failed) {
+    std::vector<SolvedCase> cases = solve(Symmetry{}, 1, wavy_law);
+    for (SolvedCase solved : solve(Symmetry{}, 2, wavy_law)) {
+        solved.purpose = CasePurpose::mesh;
+        solved.mesh = "mesh_medium";
+        if ((solved.sample.direction - failed).norm() > 1e-9) cases.push_back(solved);
+    }
+    return test::filled(Symmetry{}, 16, cases);
+}
+
+TEST(FilledMap, TakesWhatIsMissedInADirectionThatFailedOnTheMeshBeforeForNoChangeByTheMesh) {
+    // Both meshes agree here, so that there is no change to carry elsewhere.
+    const LoadTables whole = filled(Symmetry{}, 2, wavy_law, 16);
+    for (const Vector3d& failed : required_directions(Symmetry{}, 1)) {
+        const LoadTables few = without_on_mesh_before(failed);
+        for (std::size_t node = 0; node < few.entries.size(); ++node) {
+            EXPECT_LT(test::difference(few.entries[node], whole.entries[node]), 1e-10);
+        }
+    }
+}
+
+TEST(FilledMap, OfAFurtherReynoldsNumberHasTheChangeOfTheLastMeshEverywhere) {
+    const Symmetry box = test::box_symmetry();
+    const auto slower = [](const Vector3d& d) {
+        LoadEntry entry = law_on_mesh_before(d);
+        entry.force *= 1.3;
+        return entry;
+    };
+    std::vector<SolvedCase> cases = solved_on_two_meshes(box, 1);
+    for (SolvedCase solved : solve(box, 2, slower, 1e3)) {
+        solved.mesh = "mesh_medium";
+        cases.push_back(solved);
+    }
+    const LoadTables map = test::filled(box, 8, cases);
+    for (const Vector3d& direction : required_directions(box, 2)) {
+        const Vector3d changed = look_up(map, direction, 1e3).force - look_up(map, direction, 1e4).force;
+        EXPECT_LT((changed - 0.3 * law_on_mesh_before(direction).force).norm(), 1e-13);
+    }
+}
+
 TEST(FilledMap, HasTheBodysSymmetryBetweenTheCases) {
     const Symmetry cube = test::cube_symmetry();
     const Law law = [](const Vector3d& d) {

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "converter/tables/direction_sampling.hpp"
 #include "internal/flight/terminal_speed.hpp"
 #include "samara/base/error.hpp"
 #include "support/expect_error.hpp"
@@ -40,14 +41,37 @@ TEST(BakePlan, SolvesOneOctantOfAnEllipsoid) {
     const BakePlan plan = preview_of(test::ellipsoid({0.01, 0.02, 0.04}));
     EXPECT_EQ(plan.solved_subdivisions, 4);
     EXPECT_EQ(plan.subdivisions, 8);
-    const std::vector<BakeCase> cases = of_purpose(plan, CasePurpose::table);
+    const std::vector<BakeCase> cases = of_purpose(plan, CasePurpose::mesh);
     EXPECT_EQ(cases.size(), 15u);  // the nodes of one face of the octahedron, its edges cut into four
     for (const BakeCase& entry : cases) {
         EXPECT_NEAR(entry.direction.norm(), 1.0, 1e-12);
         EXPECT_GE(entry.direction.minCoeff(), 0.0);
         EXPECT_EQ(entry.reynolds_number, 1e4);
-        EXPECT_EQ(entry.mesh, plan.quality.meshes.back().name);
+        EXPECT_EQ(entry.mesh, plan.quality.meshes.front().name);
     }
+}
+
+TEST(BakePlan, SolvesTwoInFiveDirectionsOnTheLastMesh) {
+    const Body body = test::ellipsoid({0.01, 0.02, 0.04});
+    const BakePlan plan = preview_of(body);
+    const std::vector<BakeCase> cases = of_purpose(plan, CasePurpose::table);
+    EXPECT_EQ(cases.size(), 6u);
+    for (const BakeCase& entry : cases) {
+        EXPECT_EQ(entry.mesh, plan.quality.meshes.back().name);
+        const auto start = std::ranges::find(plan.cases, entry.start_from, &BakeCase::name);
+        ASSERT_NE(start, plan.cases.end());
+        EXPECT_EQ(start->purpose, CasePurpose::mesh);
+    }
+    for (const Vector3d& end : required_directions(body.symmetry, 1)) {
+        EXPECT_TRUE(std::ranges::any_of(
+            cases, [&](const BakeCase& entry) { return (entry.direction - end).norm() < 1e-9; }));
+    }
+}
+
+TEST(BakePlan, SolvesEveryDirectionOnItsOneMesh) {
+    const BakePlan plan = plan_bake(test::ellipsoid({0.01, 0.02, 0.04}), bake_quality("smoke"), 1e4);
+    EXPECT_EQ(of_purpose(plan, CasePurpose::table).size(), plan.cases.size());
+    EXPECT_EQ(plan.cases.size(), 6u);
 }
 
 TEST(BakePlan, SolvesOneDirectionOfASphere) {
@@ -60,7 +84,7 @@ TEST(BakePlan, SolvesEveryDirectionOfABodyWithoutSymmetry) {
     const BakePlan plan = preview_of(body);
     EXPECT_EQ(plan.solved_subdivisions, 2);
     // 6 corners and 12 edge middles of the octahedron
-    EXPECT_EQ(of_purpose(plan, CasePurpose::table).size(), 18u);
+    EXPECT_EQ(of_purpose(plan, CasePurpose::mesh).size(), 18u);
 }
 
 TEST(BakePlan, StartsEachMainCaseFromTheSameDirectionOnTheNextCoarserMesh) {
