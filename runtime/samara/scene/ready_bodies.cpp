@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 using BodiesByName = std::map<std::string, ReadyBody>;
 
-/// What the index says of each body. `./dev bodies` reads its shape and quality.
+/// What the index says of each body. `./dev bodies` reads the rest.
 BodiesByName read_index(const fs::path& file) {
     const toml::table document = parse_toml(read_bytes(file), file.string());
     BodiesByName bodies;
@@ -31,9 +31,9 @@ BodiesByName read_index(const fs::path& file) {
         body.fluid = table.text("fluid").value_or("");
         body.density = table.number("density", positive_number);
         body.purpose = table.text("purpose").value_or("");
-        table.text("shape");
-        table.text("quality");
-        for (const char* key : {"mass", "center_of_mass", "inertia"}) table.text(key);
+        for (const char* key : {"shape", "quality", "loads", "mass", "center_of_mass", "inertia"}) {
+            table.text(key);
+        }
         table.finish();
     }
     top.finish();

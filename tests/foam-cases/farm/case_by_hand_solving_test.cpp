@@ -192,6 +192,24 @@ TEST_F(CaseByHand, OnTheMeshOfAnotherKeepsThatMeshWhenItIsCleaned) {
     EXPECT_EQ(files_in(first), of_first);
 }
 
+TEST_F(CaseByHand, StartsFromTheNearestCellsWhereTheInterpolationCrashes) {
+    const fs::path first = flow_case("first");
+    ASSERT_EQ(run(first, {"Allrun"}), 0) << said();
+    std::ofstream(first / "provenance.json") << "{}";
+    const fs::path second = flow_case("second");
+    fs::create_directory_symlink("../../first/constant/polyMesh", second / "constant/polyMesh");
+    set_parameters(second, {{"startFrom", "first"}});
+    const fs::path crashing = folder_.file(
+        "bin/mapFields",
+        "#!/bin/sh\ncase $* in *mapNearest) exec /usr/bin/mapFields \"$@\" ;; esac\nkill -SEGV $$\n");
+    fs::permissions(crashing, fs::perms::owner_all);
+    const std::string path = crashing.parent_path().string() + ":" + std::getenv("PATH");
+    ASSERT_EQ(run(second, {"Allrun"}, path), 0) << said();
+    const nlohmann::json rounds = nlohmann::json::parse(read_bytes(second / "rounds.json"));
+    EXPECT_EQ(rounds["attempts"][0]["started_from"], "first");
+    EXPECT_EQ(rounds["attempts"].size(), 1u);
+}
+
 // The models of docs/closures.md, each with what it needs of the parameters, on one mesh.
 TEST_F(CaseByHand, SolvesByTheModelThatItsParametersName) {
     const fs::path first = flow_case("first");
