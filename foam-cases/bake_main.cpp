@@ -46,11 +46,16 @@ struct BakeOptions {
     bool dry_run = false;
 };
 
+constexpr const char* no_falls = "none";
+
 BakeQuality quality_of(const BakeOptions& options) {
     const Closure loads =
         options.loads.empty() ? usual_loads_closure(options.quality) : closure_of(options.loads);
     BakeQuality quality = with_loads_by(loads, bake_quality(options.quality));
-    return options.falls.empty() ? quality : with_falls_by(closure_of(options.falls), std::move(quality));
+    if (options.falls.empty()) return quality;
+    if (options.falls != no_falls) return with_falls_by(closure_of(options.falls), std::move(quality));
+    quality.falls = 0;
+    return quality;
 }
 
 Inflow inflow_of(const BakeOptions& options) {
@@ -63,10 +68,11 @@ void require_falls_at(const BakeOptions& options, bool density_is_given) {
             fmt::format("{}: --density-to is the other end of a range; give --density too", options.input));
     }
     if (quality_of(options).falls == 0) {
-        throw Error(
-            fmt::format("{}: --density-to is of the falls that coefficients are identified from, and quality "
-                        "{} solves none; bake at standard or high",
-                        options.input, options.quality));
+        throw Error(fmt::format(
+            "{}: --density-to is of the falls that coefficients are identified from, and {} "
+            "solves none; bake at standard or high{}",
+            options.input, options.falls == no_falls ? "--falls none" : "quality " + options.quality,
+            options.falls == no_falls ? ", with falls" : ""));
     }
 }
 
@@ -191,14 +197,15 @@ int run(int argc, const char* const* argv) {
         "as a job there, --jobs of them at once; the output is in a folder that the nodes share");
     arguments.choice(
         "--quality", options.quality, bake_quality_names(),
-        "smoke: seconds, for tests only; preview: two minutes on two cores; standard: three meshes "
+        "smoke: seconds, for tests only; preview: half a minute on two cores; standard: three meshes "
         "and Reynolds numbers; high: four meshes, three closures");
     arguments.choice("--loads", options.loads, {"kEpsilon", "kOmegaSST", "kOmegaSSTLM"},
                      "closure that forces, moments and falls are solved by; where it is not given, "
                      "kOmegaSSTLM at standard and "
                      "high and kEpsilon below. k and epsilon are kEpsilon's, in cases of their own beside");
-    arguments.choice("--falls", options.falls, {"kEpsilon", "kOmegaSST", "kOmegaSSTLM"},
-                     "closure that the falls are solved by, on a mesh of their own; else that of the loads");
+    arguments.choice("--falls", options.falls, {"kEpsilon", "kOmegaSST", "kOmegaSSTLM", no_falls},
+                     "closure that the falls are solved by, on a mesh of their own; else that of the loads. "
+                     "none: no falls, and so the coefficients that bodies have in common");
     arguments.choice("--inflow", options.inflow, {"still", "paper"},
                      "turbulence of the fluid around: still: 1 % intensity; paper: its eq. 13, 100 %");
     arguments.option("--probes", options.probes,

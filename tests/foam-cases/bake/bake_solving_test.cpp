@@ -253,7 +253,21 @@ TEST_F(Bake, OfARangeOfDensitiesNeedsItsOtherEndAndFalls) {
         bake(fmt::format("{} -o out.body.h5 --quality smoke --density 1200 --density-to 8000", shape));
     EXPECT_EQ(no_falls.status, 1);
     EXPECT_THAT(no_falls.fault, HasSubstr("quality smoke solves none"));
+    const test::ProgramRun left_out = bake(fmt::format(
+        "{} -o out.body.h5 --quality standard --density 1200 --density-to 8000 --falls none", shape));
+    EXPECT_EQ(left_out.status, 1);
+    EXPECT_THAT(left_out.fault, HasSubstr("--falls none solves none"));
     EXPECT_FALSE(fs::exists(cases_));
+}
+
+TEST_F(Bake, WithoutFallsPlansTheSameTables) {
+    const std::string words = write_body(test::sphere(0.01)).string() +
+                              " -o out.body.h5 --quality standard --density 1200 --dry-run --json";
+    const nlohmann::json with = bake(words).json();
+    const nlohmann::json without = bake(words + " --falls none").json();
+    EXPECT_EQ(without["cases"], with["cases"]);
+    EXPECT_EQ(with["falls"].size(), 2u);
+    EXPECT_TRUE(without["falls"].empty());
 }
 
 TEST_F(Bake, OfASceneSolvesInRoundsWhatItVisitsAndEndsTheSameAfterAnInterruption) {
