@@ -3,8 +3,8 @@
 
     paper_scenes.py BIN BODIES DOCS
 
-BIN: the folder of the programs; BODIES: of rubber.body.h5 (standard) and airplane.body.h5 (preview), which are baked where
-they are missing; DOCS: the documents' folder, which gets pictures/. Run from the project's folder.
+BIN: the folder of the programs; BODIES: of rubber.body.h5 and airplane.body.h5, the ready-baked ellipsoid and airplane;
+DOCS: the documents' folder, which gets pictures/. Run from the project's folder.
 """
 
 import math
@@ -25,12 +25,6 @@ STYLE = '''set border 3 lc rgb "#6b6b6b"
 set tics nomirror textcolor rgb "#1a1a1a"
 set key off
 '''
-
-
-def baked(programs, folder, scene, body, quality):
-    if not os.path.exists(os.path.join(folder, f"{body}.body.h5")):
-        run([f"{programs}/samara", "bake", f"{SCENES}/{scene}.toml", "-o", folder, "--quality", quality,
-             "--loads", "kEpsilon", "--json"])
 
 
 def flown(programs, folder, scene, work, runs=1):
@@ -127,7 +121,6 @@ def rubber_row(title, falls):
 
 def rubber(programs, folder, work, docs):
     """Figure 3; returns its table."""
-    baked(programs, folder, "rubber-ellipsoid", "rubber", "standard")
 
     def falls_of(motion):
         return list(flights(programs, motion).values())
@@ -267,7 +260,6 @@ def airplane_row(title, told, all_flights):
 
 def airplane(programs, folder, work, docs):
     """Figure 1; returns its table."""
-    baked(programs, folder, "paper-airplane", "airplane", "preview")
     lines = ["| form | runs | in the air | descent | landing: mean, rms distance from it | turns front | turns aside | regimes |",
              "|---|---|---|---|---|---|---|---|"]
     flights_of, body = {}, ""
@@ -289,7 +281,6 @@ def main(words):
         sys.stderr.write(__doc__)
         return 2
     programs, folder, docs = words[1:4]
-    os.makedirs(folder, exist_ok=True)
     with tempfile.TemporaryDirectory() as work:
         tables = [rubber(programs, folder, work, docs), airplane(programs, folder, work, docs)]
     write_tables(f"{docs}/paper-scenes.md", tables, mark("scenes"))

@@ -31,7 +31,7 @@ BodiesByName read_index(const fs::path& file) {
         body.fluid = table.text("fluid").value_or("");
         body.density = table.number("density", positive_number);
         body.purpose = table.text("purpose").value_or("");
-        for (const char* key : {"shape", "quality", "loads", "mass", "center_of_mass", "inertia"}) {
+        for (const char* key : {"shape", "quality", "loads", "falls", "mass", "center_of_mass", "inertia"}) {
             table.text(key);
         }
         table.finish();
