@@ -23,7 +23,8 @@ FALLS_OF = {"airplane": ("airplane", FALLS), "cube": ("cube", FALLS), "disc": ("
 
 def flown(programs):
     with tempfile.TemporaryDirectory() as work:
-        return [row_of(body, noise, compared(programs, f"runtime/bodies/{body}.body.h5", scene, work, noise, folder))
+        return [row_of(body, noise, compared(programs, f"runtime/bodies/{body}.body.h5", scene, work, noise, folder,
+                                             {"loads": "table"}))
                 for noise in RUNS for body, (scene, folder) in FALLS_OF.items()]
 
 

@@ -107,9 +107,10 @@ def scene_with(scene, keys, folder, steps=1, falls=FALLS):
     return path
 
 
-def compared(programs, body_file, scene, folder, noise="off", falls=FALLS):
-    """The comparison of a scene flown with a body with its fall in full CFD, both of the folder `falls`."""
-    keys = {"shape": os.path.abspath(body_file)} | ({"turbulence": "table"} if noise == "on" else {})
+def compared(programs, body_file, scene, folder, noise="off", falls=FALLS, more=None):
+    """The comparison of a scene flown with a body, and with `more` keys of it, with its fall in full CFD, both of the folder
+    `falls`."""
+    keys = {"shape": os.path.abspath(body_file)} | ({"turbulence": "table"} if noise == "on" else {}) | (more or {})
     motion = os.path.join(folder, f"{scene}.h5")
     run([f"{programs}/samara", "simulate", scene_with(scene, keys, folder, falls=falls), "-o", motion, "--runs", str(RUNS[noise]),
          "--json"])

@@ -82,7 +82,7 @@ std::vector<CaseRecord> case_records(const LoadTables& tables) {
 double main_reynolds_number(const LoadTables& tables, const std::vector<CaseRecord>& records) {
     std::map<double, int> counts;
     for (const CaseRecord& record : records) {
-        if (record.purpose == "table") ++counts[record.reynolds_number];
+        if (record.purpose == "table" || record.purpose == "mesh") ++counts[record.reynolds_number];
     }
     double main = tables.reynolds_numbers.back();
     int most = 0;

@@ -31,7 +31,8 @@ struct CaseRecord {
 /// the provenance is not that of `samara bake`.
 std::vector<CaseRecord> case_records(const LoadTables& tables);
 
-/// The Reynolds number at which the most cases of purpose "table" were solved; without records the highest.
+/// The Reynolds number at which the most cases were solved on the last mesh and the one before it (purposes
+/// "table" and "mesh"); without records the highest.
 double main_reynolds_number(const LoadTables& tables, const std::vector<CaseRecord>& records);
 
 }  // namespace samara

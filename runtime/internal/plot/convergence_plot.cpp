@@ -23,7 +23,7 @@ constexpr double same_direction = 1e-6;
 /// One direction on its meshes, coarsest first.
 using Ladder = std::vector<CaseRecord>;
 
-/// The ladders of the main Reynolds number with the closure of the table's cases.
+/// The ladders of the main Reynolds number with the closure of the table's cases that go to the last mesh.
 std::vector<Ladder> ladders_of(const std::vector<CaseRecord>& records, double reynolds_number) {
     std::vector<Ladder> ladders;
     for (const CaseRecord& record : records) {
@@ -38,6 +38,9 @@ std::vector<Ladder> ladders_of(const std::vector<CaseRecord>& records, double re
             known->push_back(record);
         }
     }
+    std::erase_if(ladders, [](const Ladder& ladder) {
+        return std::ranges::none_of(ladder, [](const CaseRecord& one) { return one.purpose == "table"; });
+    });
     for (Ladder& ladder : ladders) std::ranges::sort(ladder, {}, &CaseRecord::cells);
     return ladders;
 }

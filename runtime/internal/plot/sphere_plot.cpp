@@ -18,6 +18,8 @@
 namespace samara {
 namespace {
 
+constexpr double same_direction = 1e-6;
+
 constexpr double pi = std::numbers::pi;
 constexpr double half_width = 2.0 * std::numbers::sqrt2;  // of the projected sphere
 constexpr double half_height = std::numbers::sqrt2;
@@ -194,13 +196,16 @@ std::string grid_data() {
     return fmt::to_string(data);
 }
 
-/// The solved directions at the Reynolds number; returns how many.
+/// The solved directions at the Reynolds number, on the last mesh or the one before it; returns how many.
 int add_cases(const Sphere& sphere, std::string& data) {
     std::vector<Vector3d> directions;
     for (const CaseRecord& record : case_records(*sphere.body.tables)) {
-        if (record.purpose == "table" && record.reynolds_number == sphere.reynolds_number) {
-            directions.push_back(record.direction);
-        }
+        const bool counts = record.purpose == "table" || record.purpose == "mesh";
+        if (!counts || record.reynolds_number != sphere.reynolds_number) continue;
+        const bool known = std::ranges::any_of(directions, [&](const Vector3d& direction) {
+            return (direction - record.direction).norm() < same_direction;
+        });
+        if (!known) directions.push_back(record.direction);
     }
     data += "$cases << EOD\n";
     for (const Vector3d& direction : directions) {
