@@ -71,17 +71,20 @@ TEST(Resample, FollowsTheReferenceFallsByFullCfd) {
         const Motion fall = read_motion_file(entry.path());
         const Errors at_60 = errors_of_fall(fall, 60.0);
         const Errors at_24 = errors_of_fall(fall, 24.0);
-        // The samara turns by nine tenths of a turn between two frames of 24, which are too few for it.
-        const bool spins = entry.path().stem() == "samara";
+        // The samara turns by nine tenths of a turn between two frames of 24, and the leaf by up to 0.44 of
+        // one as it tumbles, which are too few for them.
+        const bool samara = entry.path().stem() == "samara";
+        const bool leaf = entry.path().stem() == "leaf";
+        const bool spins = samara || leaf;
         EXPECT_LT(at_60.position, 0.0045) << entry.path();
         EXPECT_LT(at_60.orientation, (spins ? 0.3 : 0.11) * test::degree) << entry.path();
-        EXPECT_LT(at_24.position, spins ? 0.031 : 0.016) << entry.path();
+        EXPECT_LT(at_24.position, leaf ? 0.045 : samara ? 0.031 : 0.016) << entry.path();
         if (!spins) {
             EXPECT_LT(at_24.orientation, 0.25 * test::degree) << entry.path();
         }
         ++falls;
     }
-    EXPECT_EQ(falls, 13);
+    EXPECT_EQ(falls, 14);
 }
 
 TEST(Resample, FollowsABodyThatTurnsSeveralTimesBetweenFrames) {
