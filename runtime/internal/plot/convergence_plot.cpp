@@ -55,8 +55,10 @@ std::string message_panel(const Box& box, const std::string& title, const std::s
 /// Tics at 1, 2 and 5 times powers of ten in the range, on an axis that is logarithmic.
 std::string log_axis(const Range& range) {
     std::string tics;
-    for (double power = std::pow(10.0, std::floor(std::log10(range.low))); power <= range.high;
-         power *= 10.0) {
+    const auto lowest = static_cast<int>(std::floor(std::log10(range.low)));
+    const auto highest = static_cast<int>(std::floor(std::log10(range.high)));
+    for (int exponent = lowest; exponent <= highest; ++exponent) {
+        const double power = std::pow(10.0, exponent);
         for (const double factor : {1.0, 2.0, 5.0}) {
             const double number = factor * power;
             // One at the very end would leave the picture.

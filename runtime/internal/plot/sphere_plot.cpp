@@ -141,7 +141,7 @@ std::string raster_data(const std::string& block, const Raster& raster) {
     fmt::format_to(std::back_inserter(data), "{} << EOD\n", block);
     for (int row = 0; row < rows; ++row) {
         for (int column = 0; column < columns; ++column) {
-            const auto i = static_cast<std::size_t>(row * columns + column);
+            const std::size_t i = static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column);
             const auto& value = raster.values[i];
             append_pixel(data, half_width * (2.0 * (column + 0.5) / columns - 1.0),
                          half_height * (2.0 * (row + 0.5) / rows - 1.0),
