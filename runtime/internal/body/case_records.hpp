@@ -27,6 +27,9 @@ struct CaseRecord {
     double final_residual = 0.0;  ///< of the pressure in the last iteration; 0 where it is not said
 };
 
+/// The distance between unit vectors below which two records are of one direction.
+inline constexpr double same_direction = 1e-6;
+
 /// The records of the tables' cases that say in which flow they were solved, in the file's order; none where
 /// the provenance is not that of `samara bake`.
 std::vector<CaseRecord> case_records(const LoadTables& tables);

@@ -18,8 +18,6 @@
 namespace samara {
 namespace {
 
-constexpr double same_direction = 1e-6;
-
 /// One direction on its meshes, coarsest first.
 using Ladder = std::vector<CaseRecord>;
 

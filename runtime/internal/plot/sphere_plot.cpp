@@ -18,8 +18,6 @@
 namespace samara {
 namespace {
 
-constexpr double same_direction = 1e-6;
-
 constexpr double pi = std::numbers::pi;
 constexpr double half_width = 2.0 * std::numbers::sqrt2;  // of the projected sphere
 constexpr double half_height = std::numbers::sqrt2;
