@@ -69,10 +69,9 @@ void require_falls_at(const BakeOptions& options, bool density_is_given) {
     }
     if (quality_of(options).falls == 0) {
         throw Error(fmt::format(
-            "{}: --density-to is of the falls that coefficients are identified from, and {} "
-            "solves none; bake at standard or high{}",
-            options.input, options.falls == no_falls ? "--falls none" : "quality " + options.quality,
-            options.falls == no_falls ? ", with falls" : ""));
+            "{}: --density-to is of the falls that coefficients are identified from, and this bake "
+            "has none; bake at standard or high, without --falls none",
+            options.input));
     }
 }
 

@@ -12,9 +12,10 @@ namespace samara {
 
 /// What a case is solved for.
 enum class CasePurpose {
-    table,       ///< its loads go into the table
-    mesh,        ///< as some table case, on another mesh: their difference estimates the table's mesh error
-    closure,     ///< as some table case, with another closure: their difference estimates the closure's error
+    table,    ///< its loads go into the table
+    mesh,     ///< on another mesh: its difference from the table case of its flow estimates the table's mesh
+              ///< error; where there is none, it fills the table between those that there are
+    closure,  ///< as some table case, with another closure: their difference estimates the closure's error
     turbulence,  ///< its k and epsilon go to the case that names it; its loads are not used
     start        ///< only where a case on a finer mesh starts from
 };

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 
+#include "internal/body/case_records.hpp"
+
 namespace samara {
 namespace {
-
-// Unit vectors that plan.json holds in full are this near to each other where they are one: they differ by
-// the rounding of a turn of axes alone.
-constexpr double same_direction = 1e-6;
 
 const SolvedCase* partner(const std::vector<SolvedCase>& cases, const SolvedCase& of, CasePurpose purpose,
                           double reynolds_number) {

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "converter/tables/direction_sampling.hpp"
+#include "internal/body/case_records.hpp"
 #include "samara/base/error.hpp"
 
 namespace samara {
@@ -29,7 +30,7 @@ std::vector<const PlannedCase*> main_cases(const CasePlan& plan) {
     for (const PlannedCase& planned : plan.cases) {
         const auto set = sets.find(planned.reynolds_number);
         if (planned.purpose != CasePurpose::mesh || set == sets.end()) continue;
-        if (!has_direction(set->second, planned.direction, 1e-6)) set->second.push_back(&planned);
+        if (!has_direction(set->second, planned.direction, same_direction)) set->second.push_back(&planned);
     }
     if (sets.empty()) throw Error("plans no case for the table");
     return std::max_element(sets.begin(), sets.end(),

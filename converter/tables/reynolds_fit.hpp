@@ -27,9 +27,10 @@ bool is_turbulent(const LoadEntry& entry);
 /// The loads over the direction at one Reynolds number: a smooth function through its samples (map axes).
 /// Forces and moments are interpolated as they are, k and epsilon by their logarithms, so that they stay
 /// positive; in laminar flow they are 0 everywhere. Beside another, denser fit (`main`, at another Reynolds
-/// number) it is main's value that stands, plus a smooth interpolation of the samples' differences from it:
-/// few samples then give a whole table. Likewise force and moment, each where leaving out each sample in turn
-/// halves the variance of its errors so, may stand beside the body's trend by its surface.
+/// number or on a coarser mesh) it is main's value that stands, plus a smooth interpolation of the samples'
+/// differences from it: few samples then give a whole table. Likewise force and moment, each where leaving
+/// out each sample in turn halves the variance of its errors so, may stand beside the body's trend by its
+/// surface.
 class ReynoldsFit {
   public:
     /// `samples` already passed through keep_symmetric_part, at least one; no two directions are images of

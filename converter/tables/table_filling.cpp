@@ -173,6 +173,9 @@ void add_failed_directions(const Symmetry& symmetry, const ReynoldsTable& table,
     }
 }
 
+/// Takes from the cases what the symmetry forbids, adds to further Reynolds numbers what the last mesh
+/// changes, and fits the table cases of each: the main one's beside the mesh before where that has more
+/// directions.
 FittedTables fitted_tables(const Symmetry& symmetry, std::vector<SolvedCase>& cases,
                            const std::optional<SurfaceLoads>& surface) {
     const double main = main_reynolds_number(cases);
@@ -198,16 +201,14 @@ FittedTables fitted_tables(const Symmetry& symmetry, std::vector<SolvedCase>& ca
     for (const SolvedCase& solved : cases) {
         if (solved.purpose == CasePurpose::table) reynolds_numbers.insert(solved.reynolds_number);
     }
+    const ReynoldsFit* const main_fit = main_table.fit.get();
     for (const double reynolds_number : reynolds_numbers) {
-        if (reynolds_number == main) {
-            result.tables.push_back(std::move(main_table));
-            continue;
-        }
-        result.tables.push_back(table_of(CasePurpose::table, reynolds_number, cases, tail, asymmetry));
-    }
-    const auto fit = std::ranges::find(result.tables, main, &ReynoldsTable::reynolds_number)->fit.get();
-    for (ReynoldsTable& table : result.tables) {
-        if (!table.fit) table.fit = fit_of(symmetry, table, std::as_const(fit));
+        const bool is_main = reynolds_number == main;
+        result.tables.push_back(is_main
+                                    ? std::move(main_table)
+                                    : table_of(CasePurpose::table, reynolds_number, cases, tail, asymmetry));
+        ReynoldsTable& table = result.tables.back();
+        if (!is_main) table.fit = fit_of(symmetry, table, main_fit);
     }
     return result;
 }

@@ -10,8 +10,10 @@ namespace samara {
 
 /// Fills the tables (Reynolds numbers, entries, errors, error sources) over all directions from the solved
 /// table cases, with `subdivisions` and `axes` of the tables as they stand. The Reynolds number with most
-/// directions is the main one; the others may have any of its directions (ReynoldsFit). Of a body of finite
-/// symmetry it may stand beside the loads of its surface, where these are given (SurfaceTrend).
+/// directions on the last mesh and the one before it is the main one; the others may have any of its
+/// directions (ReynoldsFit). Where the mesh before (purpose `mesh`) has more directions than the table, the
+/// main one is its fit plus that of what the last mesh changes (docs/theory.md, "Two meshes"). Of a body of
+/// finite symmetry it may stand beside the loads of its surface, where these are given (SurfaceTrend).
 ///
 /// In `cases` the loads that the symmetry forbids are taken from every case, and the table cases' errors are
 /// widened by them (keep_symmetric_part).

@@ -79,10 +79,14 @@ std::vector<CaseRecord> case_records(const LoadTables& tables) {
     return records;
 }
 
+bool is_on_last_meshes(const CaseRecord& record) {
+    return record.purpose == "table" || record.purpose == "mesh";
+}
+
 double main_reynolds_number(const LoadTables& tables, const std::vector<CaseRecord>& records) {
     std::map<double, int> counts;
     for (const CaseRecord& record : records) {
-        if (record.purpose == "table" || record.purpose == "mesh") ++counts[record.reynolds_number];
+        if (is_on_last_meshes(record)) ++counts[record.reynolds_number];
     }
     double main = tables.reynolds_numbers.back();
     int most = 0;

@@ -27,15 +27,18 @@ struct CaseRecord {
     double final_residual = 0.0;  ///< of the pressure in the last iteration; 0 where it is not said
 };
 
-/// The distance between unit vectors below which two records are of one direction.
+/// The distance between unit vectors below which two cases are of one direction: those of one plan differ by
+/// the rounding of a turn of axes alone.
 inline constexpr double same_direction = 1e-6;
+
+/// Whether the case is on the last mesh or the one before it (purposes "table" and "mesh").
+bool is_on_last_meshes(const CaseRecord& record);
 
 /// The records of the tables' cases that say in which flow they were solved, in the file's order; none where
 /// the provenance is not that of `samara bake`.
 std::vector<CaseRecord> case_records(const LoadTables& tables);
 
-/// The Reynolds number at which the most cases were solved on the last mesh and the one before it (purposes
-/// "table" and "mesh"); without records the highest.
+/// The Reynolds number at which the most cases are on the last meshes; without records the highest.
 double main_reynolds_number(const LoadTables& tables, const std::vector<CaseRecord>& records);
 
 }  // namespace samara

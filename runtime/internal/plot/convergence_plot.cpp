@@ -25,8 +25,8 @@ using Ladder = std::vector<CaseRecord>;
 std::vector<Ladder> ladders_of(const std::vector<CaseRecord>& records, double reynolds_number) {
     std::vector<Ladder> ladders;
     for (const CaseRecord& record : records) {
-        const bool counts = record.purpose == "table" || record.purpose == "mesh";
-        if (!counts || record.reynolds_number != reynolds_number || !(record.cells > 0.0)) continue;
+        if (!is_on_last_meshes(record) || record.reynolds_number != reynolds_number || !(record.cells > 0.0))
+            continue;
         const auto known = std::ranges::find_if(ladders, [&](const Ladder& ladder) {
             return (ladder.front().direction - record.direction).norm() < same_direction;
         });

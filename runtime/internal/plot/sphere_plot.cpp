@@ -198,8 +198,7 @@ std::string grid_data() {
 int add_cases(const Sphere& sphere, std::string& data) {
     std::vector<Vector3d> directions;
     for (const CaseRecord& record : case_records(*sphere.body.tables)) {
-        const bool counts = record.purpose == "table" || record.purpose == "mesh";
-        if (!counts || record.reynolds_number != sphere.reynolds_number) continue;
+        if (!is_on_last_meshes(record) || record.reynolds_number != sphere.reynolds_number) continue;
         const bool known = std::ranges::any_of(directions, [&](const Vector3d& direction) {
             return (direction - record.direction).norm() < same_direction;
         });
