@@ -1,0 +1,164 @@
+#include "converter/tables/fitted_tables.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "converter/cases/mesh_transfer.hpp"
+#include "converter/tables/direction_sampling.hpp"
+#include "samara/base/error.hpp"
+
+namespace samara {
+namespace {
+
+/// The errors of k and epsilon over k and epsilon, as those of their logarithms are to first order.
+LoadEntryError relative_to(const LoadEntry& entry, LoadEntryError error) {
+    const bool turbulent = is_turbulent(entry);
+    error.turbulent_kinetic_energy =
+        turbulent ? error.turbulent_kinetic_energy / entry.turbulent_kinetic_energy : 0.0;
+    error.dissipation_rate = turbulent ? error.dissipation_rate / entry.dissipation_rate : 0.0;
+    return error;
+}
+
+/// What the symmetry forbids in each of the cases, which is taken from them (keep_symmetric_part).
+std::vector<LoadEntryError> take_forbidden(const Symmetry& symmetry, std::vector<SolvedCase>& cases) {
+    std::map<std::pair<CasePurpose, double>, std::vector<std::size_t>> sets;
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        sets[{cases[i].purpose, cases[i].reynolds_number}].push_back(i);
+    }
+    std::vector<LoadEntryError> asymmetry(cases.size());
+    for (const auto& [key, members] : sets) {
+        std::vector<DirectionSample> samples;
+        for (const std::size_t member : members) samples.push_back(cases[member].sample);
+        const std::vector<LoadEntryError> taken = keep_symmetric_part(symmetry, samples);
+        for (std::size_t i = 0; i < members.size(); ++i) {
+            cases[members[i]].sample = samples[i];
+            asymmetry[members[i]] = taken[i];
+        }
+    }
+    return asymmetry;
+}
+
+/// The cases of one purpose at a Reynolds number; of purpose `mesh` those on the mesh of the first.
+ReynoldsTable table_of(CasePurpose purpose, double reynolds_number, const std::vector<SolvedCase>& cases,
+                       const std::vector<LoadEntryError>& tail,
+                       const std::vector<LoadEntryError>& asymmetry) {
+    ReynoldsTable table;
+    table.reynolds_number = reynolds_number;
+    std::string mesh;
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        if (cases[i].purpose != purpose || cases[i].reynolds_number != reynolds_number) continue;
+        if (mesh.empty()) mesh = cases[i].mesh;
+        if (purpose == CasePurpose::mesh && cases[i].mesh != mesh) continue;
+        table.samples.push_back(cases[i].sample);
+        table.tail.push_back(tail[i]);
+        table.asymmetry.push_back(asymmetry[i]);
+    }
+    return table;
+}
+
+/// That of most cases on the last mesh and the one before it; the lowest of equals.
+double main_reynolds_number(const std::vector<SolvedCase>& cases) {
+    std::map<double, int> counts;
+    for (const SolvedCase& solved : cases) {
+        if (solved.purpose == CasePurpose::table) counts[solved.reynolds_number] += 1;
+    }
+    if (counts.empty()) throw Error("has no solved case for the table");
+    for (const SolvedCase& solved : cases) {
+        const auto found = counts.find(solved.reynolds_number);
+        if (solved.purpose == CasePurpose::mesh && found != counts.end()) ++found->second;
+    }
+    return std::ranges::max_element(counts, {}, [](const auto& pair) { return pair.second; })->first;
+}
+
+template <typename Beside>
+std::unique_ptr<ReynoldsFit> fit_of(const Symmetry& symmetry, const ReynoldsTable& table, Beside beside) {
+    try {
+        return std::make_unique<ReynoldsFit>(symmetry, table.samples, std::move(beside));
+    } catch (const Error& fault) {
+        throw Error(fmt::format("Reynolds number {:.6g}: {}", table.reynolds_number, fault.what()));
+    }
+}
+
+const DirectionSample* sample_in(const std::vector<DirectionSample>& samples, const Vector3d& direction,
+                                 double tolerance) {
+    const auto found = std::ranges::find_if(
+        samples, [&](const DirectionSample& one) { return (one.direction - direction).norm() < tolerance; });
+    return found == samples.end() ? nullptr : &*found;
+}
+
+/// Adds to the cases on the mesh before the last the directions of the table that failed there: what the
+/// table has, less what the last mesh changes in the other directions. Else what the interpolation on the
+/// mesh before misses there would be taken for a change by the mesh.
+void add_failed_directions(const Symmetry& symmetry, const ReynoldsTable& table, ReynoldsTable& before) {
+    std::vector<Vector3d> directions;
+    std::vector<LoadEntry> changes;
+    std::vector<DirectionSample> failed;
+    for (const DirectionSample& sample : table.samples) {
+        const DirectionSample* const partner =
+            sample_in(before.samples, sample.direction, direction_tolerance(symmetry));
+        if (partner == nullptr) {
+            failed.push_back(sample);
+            continue;
+        }
+        directions.push_back(sample.direction);
+        changes.push_back(plus(in_logarithms(sample.entry), -1.0, in_logarithms(partner->entry)));
+    }
+    if (directions.empty() || failed.empty()) return;
+    const DirectionFit change(symmetry, directions);
+    for (DirectionSample& sample : failed) {
+        const LoadEntry here = change.at(changes, sample.direction);
+        sample.entry.force -= here.force;
+        sample.entry.moment -= here.moment;
+        sample.entry.turbulent_kinetic_energy *= std::exp(-here.turbulent_kinetic_energy);
+        sample.entry.dissipation_rate *= std::exp(-here.dissipation_rate);
+        before.samples.push_back(sample);
+    }
+}
+
+}  // namespace
+
+FittedTables fitted_tables(const Symmetry& symmetry, std::vector<SolvedCase>& cases,
+                           const std::optional<SurfaceLoads>& surface) {
+    const double main = main_reynolds_number(cases);
+    std::vector<LoadEntryError> tail;
+    tail.reserve(cases.size());
+    for (const SolvedCase& solved : cases) {
+        tail.push_back(relative_to(solved.sample.entry, solved.sample.error));
+    }
+    const std::vector<LoadEntryError> asymmetry = take_forbidden(symmetry, cases);
+    std::optional<SurfaceTrend> trend;
+    if (surface && symmetry.kind == Symmetry::Kind::finite) trend.emplace(*surface, symmetry, main);
+    ReynoldsTable main_table = table_of(CasePurpose::table, main, cases, tail, asymmetry);
+    ReynoldsTable before = table_of(CasePurpose::mesh, main, cases, tail, asymmetry);
+    FittedTables result;
+    if (before.samples.size() > main_table.samples.size()) {
+        add_failed_directions(symmetry, main_table, before);
+        result.mesh_before = fit_of(symmetry, before, std::move(trend));
+        main_table.fit = fit_of(symmetry, main_table, std::as_const(result.mesh_before).get());
+    } else {
+        main_table.fit = fit_of(symmetry, main_table, std::move(trend));
+    }
+    transfer_to_main_mesh(cases, main, *main_table.fit);
+    std::set<double> further_reynolds_numbers;
+    for (const SolvedCase& solved : cases) {
+        if (solved.purpose == CasePurpose::table && solved.reynolds_number != main) {
+            further_reynolds_numbers.insert(solved.reynolds_number);
+        }
+    }
+    for (const double reynolds_number : further_reynolds_numbers) {
+        ReynoldsTable& table =
+            result.tables.emplace_back(table_of(CasePurpose::table, reynolds_number, cases, tail, asymmetry));
+        table.fit = fit_of(symmetry, table, std::as_const(main_table.fit).get());
+    }
+    result.tables.push_back(std::move(main_table));
+    std::ranges::sort(result.tables, {}, &ReynoldsTable::reynolds_number);
+    return result;
+}
+
+}  // namespace samara
