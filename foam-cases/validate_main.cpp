@@ -92,8 +92,35 @@ void warn_of_doubts(const ValidationResult& result) {
     }
 }
 
+OtherSolutions solutions_beside(const ValidateOptions& options) {
+    OtherSolutions beside = {{"mesh", motions_of("--other-mesh", options.other_mesh)},
+                             {"closure", motions_of("--other-closure", options.other_closure)}};
+    std::erase_if(beside, [](const auto& one) { return one.second.empty(); });
+    return beside;
+}
+
+/// Writes a motion that is solved already, with its uncertainties.
+nlohmann::json judge_again(const ValidateOptions& options, bool quiet) {
+    const OtherSolutions beside = solutions_beside(options);
+    if (beside.empty()) {
+        throw Error(fmt::format(
+            "{}: is a motion, solved already; give what it is to be held beside, with --other-mesh "
+            "or --other-closure",
+            options.scene));
+    }
+    const Motion motion = with_uncertainties(options.scene, beside);
+    write_motion_file(options.output, motion);
+    const BodyMeasures measures = measure_all(motion, motion.bodies.front());
+    if (!quiet) {
+        print_result("{}\n{}  solved earlier -> {}\n", motion.bodies.front().name, as_text(measures),
+                     options.output);
+    }
+    return {{"output", options.output}, {"reused", true}, {"body", as_json(measures)}};
+}
+
 nlohmann::json run_validation(const ValidateOptions& options, bool quiet) {
     require_motion_file_name(options.output);
+    if (is_motion_file(options.scene)) return judge_again(options, quiet);
     ValidationRequest request;
     request.scene = read_scene_file(options.scene);
     request.output = options.output;
@@ -101,9 +128,7 @@ nlohmann::json run_validation(const ValidateOptions& options, bool quiet) {
     request.step = options.step;
     request.fields = options.fields;
     request.closure = closure_of_falls(options.closure);
-    request.beside = {{"mesh", motions_of("--other-mesh", options.other_mesh)},
-                      {"closure", motions_of("--other-closure", options.other_closure)}};
-    std::erase_if(request.beside, [](const auto& one) { return one.second.empty(); });
+    request.beside = solutions_beside(options);
     if (options.dry_run) {
         const BakePlan plan = prepare_validation(request);
         if (!quiet) print_plan(plan);
@@ -144,8 +169,10 @@ nlohmann::json run_validation(const ValidateOptions& options, bool quiet) {
 int run(int argc, const char* const* argv) {
     ValidateOptions options;
     Arguments arguments("samara validate", "Solves a scene by full CFD: the yardstick for samara simulate");
-    arguments.positional("SCENE", options.scene,
-                         "scene file (.toml) of one body; each of its copies is a fall");
+    arguments.positional(
+        "SCENE", options.scene,
+        "scene file (.toml) of one body, each of whose copies is a fall; or a motion file that is "
+        "solved already, to hold it beside others");
     arguments.required_option("-o,--output", options.output, "motion file to write (.h5)");
     arguments.option("--cells", options.cells,
                      "of the mesh, about; with kEpsilon that of 6,000, 20,000, 60,000 or 200,000 that is "

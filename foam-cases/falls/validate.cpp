@@ -153,6 +153,18 @@ void require_falls_of_one_body(const Scene& scene) {
         throw refuse("the scene ends before its body starts");
 }
 
+Motion with_uncertainties(const fs::path& file, const OtherSolutions& beside) {
+    Motion motion = read_motion_file(file);
+    std::vector<FigureUncertainty>& uncertainties = motion.bodies.front().uncertainties;
+    for (const auto& [cause, others] : beside) {
+        std::erase_if(uncertainties, [&](const FigureUncertainty& one) { return one.cause == cause; });
+        const fs::path& reference = others.size() > 1 ? others.back() : file;
+        std::ranges::copy(uncertainty_beside(reference, others.front(), cause),
+                          std::back_inserter(uncertainties));
+    }
+    return motion;
+}
+
 BakePlan prepare_validation(const ValidationRequest& request) {
     require_falls_of_one_body(request.scene);
     const TemporaryFolder temporary;
@@ -193,12 +205,7 @@ ValidationResult validate_scene(const ValidationRequest& request, const FarmOpti
     result.motion = motion_of(falling, solved, folder / case_body_name);
     write_motion_file(request.output, result.motion);
     if (request.beside.empty()) return result;
-    std::vector<FigureUncertainty>& uncertainties = result.motion.bodies.front().uncertainties;
-    for (const auto& [cause, others] : request.beside) {
-        const fs::path& reference = others.size() > 1 ? others.back() : request.output;
-        std::ranges::copy(uncertainty_beside(reference, others.front(), cause),
-                          std::back_inserter(uncertainties));
-    }
+    result.motion = with_uncertainties(request.output, request.beside);
     write_motion_file(request.output, result.motion);
     return result;
 }

@@ -16,6 +16,10 @@
 
 namespace samara {
 
+/// Motion files of other solutions of a scene, by what they differ in ("mesh", "closure"): one, which differs
+/// from the motion that they are held beside, or two, which differ from each other.
+using OtherSolutions = std::map<std::string, std::vector<std::filesystem::path>>;
+
 /// A scene that is to be solved by full CFD.
 struct ValidationRequest {
     Scene scene;
@@ -24,10 +28,7 @@ struct ValidationRequest {
     double step = 1.0;                          ///< over that of the model
     double fields = 0.0;                        ///< flows a second that are kept for pictures; 0: none
     Closure closure = Closure::k_omega_sst_lm;  ///< above the laminar Reynolds number
-    /// Motion files of other solutions of the scene, by what they differ in ("mesh", "closure"): the
-    /// differences between the two of a cause, or of the one to the output, are written as the motion's
-    /// uncertainties.
-    std::map<std::string, std::vector<std::filesystem::path>> beside;
+    OtherSolutions beside;                      ///< tell the motion's uncertainties
 };
 
 /// Above this a step moves the fluid past several cells at once, and the solution is smeared.
@@ -54,6 +55,11 @@ struct ValidationResult {
     /// The largest of all falls.
     [[nodiscard]] double largest_courant_number() const;
 };
+
+/// The motion of a file with what others tell of its uncertainties (uncertainty_beside), in place of those
+/// that it had by the same causes. Throws Error where one of the files cannot be read or compared with the
+/// other.
+Motion with_uncertainties(const std::filesystem::path& file, const OtherSolutions& beside);
 
 /// Throws Error where full CFD cannot solve the scene: it has one body, whose copies are of one size, no
 /// ground, no obstacles, no wind and no gust.

@@ -277,6 +277,18 @@ TEST_F(Falls, ASolvedFallSaysWhatItDiffersFromAnotherSolutionBy) {
         EXPECT_NEAR(one.relative, 0.1, 0.01) << one.cause;
     }
     EXPECT_EQ(known.bodies[0].poses.size(), other.bodies[0].poses.size());
+
+    // The motion says so too where it is given in place of the scene: nothing is solved, nothing is said
+    // twice.
+    const auto judge = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words = {"samara-validate", "out.h5", "-o", "again.h5"};
+        words.insert(words.end(), more.begin(), more.end());
+        return test::run_program_in(folder_, words);
+    };
+    const test::ProgramRun run = judge({"--other-mesh", "other.h5", "--other-closure", "other.h5,out.h5"});
+    EXPECT_EQ(run.status, 0) << run.fault;
+    EXPECT_EQ(read_bytes(folder_ / "again.h5"), read_bytes(folder_ / "out.h5"));
+    EXPECT_THAT(judge({}).fault, HasSubstr("out.h5: is a motion, solved already; give"));
 }
 
 TEST_F(Falls, WhoseSolverIsKilledSaySoAndGoOnFromTheLastState) {
