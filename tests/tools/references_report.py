@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """The reference falls of docs/falls, solved by full CFD on two meshes and by two closures.
 
-    references_report.py BIN WORK [--mesh-alone] [NAME...]
+    references_report.py BIN WORK [--mesh-alone] [--others-alone] [NAME...]
         solves what is missing in WORK, some three CPU hours where nothing is, and writes docs/falls/NAME.h5 with its
-        uncertainties, references.csv, and the tables of docs/falls.md, where those by kEpsilon stand beside them; of the falls that are named, or all; with
-        --mesh-alone not by the other closure
+        uncertainties, references.csv, and the tables of docs/falls.md, where those by kEpsilon stand beside them; of the falls
+        that are named, or all; with --mesh-alone not by the other closure; with --others-alone docs/falls/NAME.h5 is taken as
+        it stands, and what it is held beside is solved
     references_report.py
         writes the tables again from references.csv
 
@@ -43,7 +44,8 @@ def differences(programs, motion, reference):
     return [(measures.get(figure) or {}).get("relative_difference") for figure in FIGURES], comparison["motion"]["regime"]
 
 
-def row_of(programs, work, name, mesh_alone):
+def row_of(programs, work, name, mesh_alone, old):
+    """The row of a fall, whose reference is solved where there is no `old` row of it, and held beside the others in any case."""
     cells, coarse_cells = CELLS_OF.get(name, CELLS)
     coarse, _ = solved(programs, work, name, coarse_cells, CLOSURE)
     others = ["--other-mesh", coarse]
@@ -52,13 +54,19 @@ def row_of(programs, work, name, mesh_alone):
         other, _ = solved(programs, work, name, coarse_cells, OTHER_CLOSURE)
         others += ["--other-closure", f"{other},{coarse}"]
         by_closure, regime_by_closure = differences(programs, other, coarse)
-    file, result = solved(programs, work, name, cells, CLOSURE, others)
-    shutil.copyfile(file, f"{FALLS}/{name}.h5")
-    body = result["body"]
-    by_mesh, regime_by_mesh = differences(programs, coarse, file)
-    return ([name, result["cells"], result["cpu_seconds"], result["balance"]["force"], result["balance"]["moment"],
-             result["largest_courant_number"], body["regime"], regime_by_mesh, regime_by_closure]
-            + [body.get(figure) for figure in FIGURES] + by_mesh + by_closure)
+    target = f"{FALLS}/{name}.h5"
+    if old:
+        run([f"{programs}/samara", "validate", target, "-o", target, "--json", *others])
+        figures = old[:heading().index("regime_coarse")]
+        measured = old[heading().index(FIGURES[0]):heading().index(f"{FIGURES[0]}_by_mesh")]
+    else:
+        file, result = solved(programs, work, name, cells, CLOSURE, others)
+        shutil.copyfile(file, target)
+        figures = [name, result["cells"], result["cpu_seconds"], result["balance"]["force"], result["balance"]["moment"],
+                   result["largest_courant_number"], result["body"]["regime"]]
+        measured = [result["body"].get(figure) for figure in FIGURES]
+    by_mesh, regime_by_mesh = differences(programs, coarse, target)
+    return figures + [regime_by_mesh, regime_by_closure] + measured + by_mesh + by_closure
 
 
 def hold_k_epsilon(programs):
@@ -113,14 +121,14 @@ def main(words):
         sys.stderr.write(__doc__)
         return 2
     if len(words) > 2:
-        mesh_alone = "--mesh-alone" in words
-        names = [word for word in words[3:] if word != "--mesh-alone"] or NAMES
+        mesh_alone, others_alone = "--mesh-alone" in words, "--others-alone" in words
+        names = [word for word in words[3:] if not word.startswith("--")] or NAMES
         old = {}
         if os.path.exists(ROWS):
             with open(ROWS, newline="", encoding="utf-8") as file:
                 old = {row[0]: row for row in list(csv.reader(file))[1:]}
         for name in names:
-            old[name] = row_of(words[1], words[2], name, mesh_alone)
+            old[name] = row_of(words[1], words[2], name, mesh_alone, old.get(name) if others_alone else None)
             print(*old[name])
         written(ROWS, [heading()] + [old[name] for name in NAMES if name in old])
         hold_k_epsilon(words[1])
