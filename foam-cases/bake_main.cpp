@@ -203,7 +203,8 @@ int run(int argc, const char* const* argv) {
                      "kOmegaSSTLM at standard and "
                      "high and kEpsilon below. k and epsilon are kEpsilon's, in cases of their own beside");
     arguments.choice("--falls", options.falls, {"kEpsilon", "kOmegaSST", "kOmegaSSTLM", no_falls},
-                     "closure that the falls are solved by, on a mesh of their own; else that of the loads. "
+                     "closure that the falls are solved by; else that of the loads. Their mesh is that of "
+                     "samara validate, but for kEpsilon's beside loads by kEpsilon. "
                      "none: no falls, and so the coefficients that bodies have in common");
     arguments.choice("--inflow", options.inflow, {"still", "paper"},
                      "turbulence of the fluid around: still: 1 % intensity; paper: its eq. 13, 100 %");

@@ -68,6 +68,7 @@ BakeQuality high_quality() {
     quality.further_reynolds_numbers = {0.1, 0.3, 3.0};
     quality.falls = 2;
     quality.fall_mesh = 2;
+    quality.fall_cells = 60'000;
     quality.other_closures = {{Closure::realizable_k_epsilon, Closure::realizable_k_epsilon},
                               {Closure::rng_k_epsilon, Closure::rng_k_epsilon}};
     return quality;

@@ -40,7 +40,8 @@ struct BakeQuality {
     std::vector<FlowMesh> meshes;  ///< of the loads, for a compact body; a long one gets a wider box
     /// Of k and epsilon, as many; none where they are of the loads' cases.
     std::vector<FlowMesh> turbulence_meshes;
-    std::vector<FlowMesh> fall_meshes;           ///< one, where falls have one of their own (add_falls)
+    std::vector<FlowMesh>
+        fall_meshes;  ///< one, where falls have one of their own (add_falls): that of validate
     Closure loads_closure = Closure::k_epsilon;  ///< where the flow is not laminar
     Closure fall_closure = Closure::k_epsilon;   ///< of the falls, likewise
     int least_subdivisions = 2;  ///< of the map of directions that are solved, whatever the cost
@@ -54,7 +55,8 @@ struct BakeQuality {
     /// Other closures, solved likewise: the spread is the closure's error.
     std::vector<Closures> other_closures;
     int falls = 0;                ///< free falls that the dynamic coefficients are identified from
-    std::size_t fall_mesh = 1;    ///< the mesh they are solved on
+    std::size_t fall_mesh = 1;    ///< the mesh they are solved on, where that is one of the loads'
+    double fall_cells = 20'000;   ///< about, of a mesh of their own
     double stationarity = 0.005;  ///< tolerance of the tail (body-flow/stationarity.py)
     int least_iterations = 100;   ///< by k-epsilon; half as many from a solution on another mesh
     int most_iterations = 800;    ///< of each attempt

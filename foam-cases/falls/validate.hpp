@@ -9,6 +9,7 @@
 
 #include "converter/falls/fall_record.hpp"
 #include "foam-cases/bake/bake_plan.hpp"
+#include "foam-cases/bake/bake_quality.hpp"
 #include "foam-cases/falls/fall_plan.hpp"
 #include "foam-cases/farm/case_farm.hpp"
 #include "samara/motion/motion.hpp"
@@ -24,7 +25,7 @@ using OtherSolutions = std::map<std::string, std::vector<std::filesystem::path>>
 struct ValidationRequest {
     Scene scene;
     std::filesystem::path output;               ///< the motion file
-    double cells = 20'000.0;                    ///< of the mesh, about
+    double cells = BakeQuality().fall_cells;    ///< of the mesh, about: as the falls of a bake have
     double step = 1.0;                          ///< over that of the model
     double fields = 0.0;                        ///< flows a second that are kept for pictures; 0: none
     Closure closure = Closure::k_omega_sst_lm;  ///< above the laminar Reynolds number

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "foam-cases/falls/validate.hpp"
 #include "internal/flight/terminal_speed.hpp"
 #include "internal/flight/world_pose.hpp"
 #include "samara/base/error.hpp"
@@ -369,13 +370,19 @@ TEST(IdentificationFalls, ByAnotherClosureHaveAMeshOfTheirOwnOfAsManyCells) {
     EXPECT_THROW(static_cast<void>(with_falls_by(Closure::laminar, bake_quality("standard"))), Error);
 }
 
-TEST(IdentificationFalls, AreByTheClosureOfTheLoads) {
+TEST(IdentificationFalls, AreByTheClosureOfTheLoadsOnTheMeshOfValidation) {
     const Body body = test::ellipsoid({0.01, 0.02, 0.04});
     const BakePlan plan =
         bake_with_falls(body, with_loads_by(Closure::k_omega_sst_lm, bake_quality("standard")));
     EXPECT_EQ(plan.falls[0].closure, Closure::k_omega_sst_lm);
     EXPECT_GT(plan.falls[0].time_step, fall_model_of(Closure::k_epsilon).time_step(1.0));
-    EXPECT_TRUE(mesh_of(plan, plan.falls[0].mesh).resolves_boundary_layer);
+    ASSERT_EQ(plan.quality.fall_meshes.size(), 1u);
+    const FlowMesh mesh = mesh_of(plan, plan.falls[0].mesh);
+    EXPECT_EQ(mesh.name, plan.quality.fall_meshes.front().name);
+    EXPECT_TRUE(mesh.resolves_boundary_layer);
+    const BakePlan validation =
+        plan_falls(body, ValidationRequest().cells, plan.falls, fall_model_of(plan.falls[0].closure));
+    EXPECT_EQ(cells_of(plan, mesh.name), validation.cells.front());
 }
 
 TEST(IdentificationFalls, StartFromRestWithTheBodysMassAndLastThirtyUnits) {
