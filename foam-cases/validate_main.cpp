@@ -99,9 +99,15 @@ OtherSolutions solutions_beside(const ValidateOptions& options) {
     return beside;
 }
 
+void make_folder_of(const std::filesystem::path& file) {
+    if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
+}
+
 /// Writes a motion that is solved already, with its uncertainties.
 nlohmann::json judge_again(const ValidateOptions& options, bool quiet) {
     const OtherSolutions beside = solutions_beside(options);
+    if (options.dry_run)
+        throw Error(fmt::format("{}: is a motion, solved already; nothing is planned", options.scene));
     if (beside.empty()) {
         throw Error(fmt::format(
             "{}: is a motion, solved already; give what it is to be held beside, with --other-mesh "
@@ -109,6 +115,7 @@ nlohmann::json judge_again(const ValidateOptions& options, bool quiet) {
             options.scene));
     }
     const Motion motion = with_uncertainties(options.scene, beside);
+    make_folder_of(options.output);
     write_motion_file(options.output, motion);
     const BodyMeasures measures = measure_all(motion, motion.bodies.front());
     if (!quiet) {
@@ -134,7 +141,7 @@ nlohmann::json run_validation(const ValidateOptions& options, bool quiet) {
         if (!quiet) print_plan(plan);
         return as_json(plan);
     }
-    if (request.output.has_parent_path()) std::filesystem::create_directories(request.output.parent_path());
+    make_folder_of(request.output);
     const ValidationResult result =
         validate_scene(request, {options.jobs, options.cluster, "solving"}, [](const BakePlan&) {});
     warn_of_doubts(result);

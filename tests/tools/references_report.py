@@ -127,6 +127,8 @@ def main(words):
         if os.path.exists(ROWS):
             with open(ROWS, newline="", encoding="utf-8") as file:
                 old = {row[0]: row for row in list(csv.reader(file))[1:]}
+        if others_alone and not set(names) <= set(old):
+            sys.exit(f"{ROWS} has no row of {', '.join(sorted(set(names) - set(old)))}, which --others-alone needs")
         for name in names:
             old[name] = row_of(words[1], words[2], name, mesh_alone, old.get(name) if others_alone else None)
             print(*old[name])

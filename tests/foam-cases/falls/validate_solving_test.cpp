@@ -289,6 +289,9 @@ TEST_F(Falls, ASolvedFallSaysWhatItDiffersFromAnotherSolutionBy) {
     EXPECT_EQ(run.status, 0) << run.fault;
     EXPECT_EQ(read_bytes(folder_ / "again.h5"), read_bytes(folder_ / "out.h5"));
     EXPECT_THAT(judge({}).fault, HasSubstr("out.h5: is a motion, solved already; give"));
+    fs::remove(folder_ / "again.h5");
+    EXPECT_EQ(judge({"--other-mesh", "other.h5", "--dry-run"}).status, 1);
+    EXPECT_FALSE(fs::exists(folder_ / "again.h5"));
 }
 
 TEST_F(Falls, WhoseSolverIsKilledSaySoAndGoOnFromTheLastState) {
