@@ -46,8 +46,8 @@ LoadTables make_tables(const CasePlan& plan, const Symmetry& symmetry, Conversio
     tables.subdivisions = plan.subdivisions;
     tables.axes = plan.axes;
     tables.quality = plan.quality;
-    conversion.sampling_errors =
-        fill_tables(tables, symmetry, conversion.cases, conversion.body.surface_loads);
+    conversion.sampling_errors = fill_tables(tables, symmetry, conversion.cases, main_reynolds_number(plan),
+                                             conversion.body.surface_loads);
     tables.provenance = provenance_of(conversion.cases);
     return tables;
 }

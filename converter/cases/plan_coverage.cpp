@@ -20,22 +20,20 @@ bool has_direction(const std::vector<const PlannedCase*>& cases, const Vector3d&
         cases, [&](const PlannedCase* one) { return (one->direction - direction).norm() < tolerance; });
 }
 
-/// A case for each direction of the Reynolds number that has most of them: the table's, where it has none
-/// that on the mesh before the last.
+/// A case for each direction of the main Reynolds number: the table's, where it has none that on the mesh
+/// before the last.
 std::vector<const PlannedCase*> main_cases(const CasePlan& plan) {
-    std::map<double, std::vector<const PlannedCase*>> sets;
-    for (const PlannedCase& planned : plan.cases) {
-        if (planned.purpose == CasePurpose::table) sets[planned.reynolds_number].push_back(&planned);
+    const double main = main_reynolds_number(plan);
+    std::vector<const PlannedCase*> cases;
+    for (const CasePurpose purpose : {CasePurpose::table, CasePurpose::mesh}) {
+        for (const PlannedCase& planned : plan.cases) {
+            if (planned.purpose != purpose || planned.reynolds_number != main) continue;
+            if (purpose == CasePurpose::mesh && has_direction(cases, planned.direction, same_direction))
+                continue;
+            cases.push_back(&planned);
+        }
     }
-    for (const PlannedCase& planned : plan.cases) {
-        const auto set = sets.find(planned.reynolds_number);
-        if (planned.purpose != CasePurpose::mesh || set == sets.end()) continue;
-        if (!has_direction(set->second, planned.direction, same_direction)) set->second.push_back(&planned);
-    }
-    if (sets.empty()) throw Error("plans no case for the table");
-    return std::max_element(sets.begin(), sets.end(),
-                            [](const auto& a, const auto& b) { return a.second.size() < b.second.size(); })
-        ->second;
+    return cases;
 }
 
 /// The first of the directions that the map needs and no case has.
@@ -48,6 +46,19 @@ std::optional<Vector3d> missing_direction(const std::vector<const PlannedCase*>&
 }
 
 }  // namespace
+
+double main_reynolds_number(const CasePlan& plan) {
+    std::map<double, int> counts;
+    for (const PlannedCase& planned : plan.cases) {
+        if (planned.purpose == CasePurpose::table) ++counts[planned.reynolds_number];
+    }
+    if (counts.empty()) throw Error("plans no case for the table");
+    for (const PlannedCase& planned : plan.cases) {
+        const auto found = counts.find(planned.reynolds_number);
+        if (planned.purpose == CasePurpose::mesh && found != counts.end()) ++found->second;
+    }
+    return std::ranges::max_element(counts, {}, [](const auto& pair) { return pair.second; })->first;
+}
 
 void require_enough_directions(const CasePlan& plan, const Symmetry& symmetry,
                                const FolderReduction& reduction) {

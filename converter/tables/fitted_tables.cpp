@@ -62,20 +62,6 @@ ReynoldsTable table_of(CasePurpose purpose, double reynolds_number, const std::v
     return table;
 }
 
-/// That of most cases on the last mesh and the one before it; the lowest of equals.
-double main_reynolds_number(const std::vector<SolvedCase>& cases) {
-    std::map<double, int> counts;
-    for (const SolvedCase& solved : cases) {
-        if (solved.purpose == CasePurpose::table) counts[solved.reynolds_number] += 1;
-    }
-    if (counts.empty()) throw Error("has no solved case for the table");
-    for (const SolvedCase& solved : cases) {
-        const auto found = counts.find(solved.reynolds_number);
-        if (solved.purpose == CasePurpose::mesh && found != counts.end()) ++found->second;
-    }
-    return std::ranges::max_element(counts, {}, [](const auto& pair) { return pair.second; })->first;
-}
-
 template <typename Beside>
 std::unique_ptr<ReynoldsFit> fit_of(const Symmetry& symmetry, const ReynoldsTable& table, Beside beside) {
     try {
@@ -123,9 +109,8 @@ void add_failed_directions(const Symmetry& symmetry, const ReynoldsTable& table,
 
 }  // namespace
 
-FittedTables fitted_tables(const Symmetry& symmetry, std::vector<SolvedCase>& cases,
+FittedTables fitted_tables(const Symmetry& symmetry, std::vector<SolvedCase>& cases, double main,
                            const std::optional<SurfaceLoads>& surface) {
-    const double main = main_reynolds_number(cases);
     std::vector<LoadEntryError> tail;
     tail.reserve(cases.size());
     for (const SolvedCase& solved : cases) {
@@ -135,6 +120,7 @@ FittedTables fitted_tables(const Symmetry& symmetry, std::vector<SolvedCase>& ca
     std::optional<SurfaceTrend> trend;
     if (surface && symmetry.kind == Symmetry::Kind::finite) trend.emplace(*surface, symmetry, main);
     ReynoldsTable main_table = table_of(CasePurpose::table, main, cases, tail, asymmetry);
+    if (main_table.samples.empty()) throw Error("has no solved case for the table");
     ReynoldsTable before = table_of(CasePurpose::mesh, main, cases, tail, asymmetry);
     FittedTables result;
     if (before.samples.size() > main_table.samples.size()) {

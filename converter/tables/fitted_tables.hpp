@@ -30,8 +30,9 @@ struct FittedTables {
 /// Takes from the cases what the symmetry forbids, adds to further Reynolds numbers what the last mesh
 /// changes, and fits the table cases of each: the main one's beside the mesh before where that has more
 /// directions. The trend by the surface, where it is given, stands for bodies of finite symmetry only. Throws
-/// Error where there is no table case, or where a Reynolds number mixes laminar and turbulent ones.
+/// Error where there is no table case at the main Reynolds number, or where a Reynolds number mixes laminar
+/// and turbulent ones.
 FittedTables fitted_tables(const Symmetry& symmetry, std::vector<SolvedCase>& cases,
-                           const std::optional<SurfaceLoads>& surface);
+                           double main_reynolds_number, const std::optional<SurfaceLoads>& surface);
 
 }  // namespace samara

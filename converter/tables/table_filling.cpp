@@ -216,9 +216,9 @@ LoadEntryError variance_between(const std::vector<ReynoldsTable>& tables) {
 }  // namespace
 
 std::vector<LoadEntryError> fill_tables(LoadTables& tables, const Symmetry& symmetry,
-                                        std::vector<SolvedCase>& cases,
+                                        std::vector<SolvedCase>& cases, double main_reynolds_number,
                                         const std::optional<SurfaceLoads>& surface) {
-    FittedTables fitted = fitted_tables(symmetry, cases, surface);
+    FittedTables fitted = fitted_tables(symmetry, cases, main_reynolds_number, surface);
     std::vector<ReynoldsTable>& parts = fitted.tables;
     for (ReynoldsTable& part : parts) fill_nodes(part, tables.subdivisions);
     const ModelErrors model = errors_of_models(symmetry, cases, parts);

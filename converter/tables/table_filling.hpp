@@ -9,11 +9,11 @@
 namespace samara {
 
 /// Fills the tables (Reynolds numbers, entries, errors, error sources) over all directions from the solved
-/// table cases, with `subdivisions` and `axes` of the tables as they stand. The Reynolds number with most
-/// directions on the last mesh and the one before it is the main one; the others may have any of its
-/// directions (ReynoldsFit). Where the mesh before (purpose `mesh`) has more directions than the table, the
-/// main one is its fit plus that of what the last mesh changes (docs/theory.md, "Two meshes"). Of a body of
-/// finite symmetry it may stand beside the loads of its surface, where these are given (SurfaceTrend).
+/// table cases, with `subdivisions` and `axes` of the tables as they stand. The main Reynolds number has
+/// most directions; the others may have any of its directions (ReynoldsFit). Where the mesh before (purpose
+/// `mesh`) has more directions than the table, the main one is its fit plus that of what the last mesh
+/// changes (docs/theory.md, "Two meshes"). Of a body of finite symmetry it may stand beside the loads of its
+/// surface, where these are given (SurfaceTrend).
 ///
 /// In `cases` the loads that the symmetry forbids are taken from every case, and the table cases' errors are
 /// widened by them (keep_symmetric_part).
@@ -33,9 +33,10 @@ namespace samara {
 /// Returns the standard errors of the interpolation alone, entry by entry: what more directions and Reynolds
 /// numbers would lower.
 ///
-/// Throws Error where there is no table case, or where a Reynolds number mixes laminar and turbulent ones.
+/// Throws Error where there is no table case at the main Reynolds number, or where a Reynolds number mixes
+/// laminar and turbulent ones.
 std::vector<LoadEntryError> fill_tables(LoadTables& tables, const Symmetry& symmetry,
-                                        std::vector<SolvedCase>& cases,
+                                        std::vector<SolvedCase>& cases, double main_reynolds_number,
                                         const std::optional<SurfaceLoads>& surface = {});
 
 }  // namespace samara

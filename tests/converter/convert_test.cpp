@@ -258,6 +258,22 @@ TEST_F(Convert, RefusesWhereMoreThanOneDirectionInFiveCouldNotBeSolved) {
                   "in five; the first is case_00: never settled; run 'samara bake' again");
 }
 
+// As of a sphere, which has one direction.
+TEST(ConvertOneDirection, TheMainReynoldsNumberIsThePlansWhateverCouldNotBeSolved) {
+    const test::SolvedFolder folder(test::box_body(Vector3d(0.01, 0.02, 0.04)), 1, {1e3, 1e4, 1e4}, box_law);
+    folder.change_plan([](nlohmann::json& plan) {
+        const nlohmann::json cases = plan["cases"];
+        plan["cases"] = {cases[0], cases[3], cases[6]};
+        plan["cases"][1]["purpose"] = "mesh";
+        plan["covers"] = "scene";
+    });
+    EXPECT_EQ(convert_folder(folder.path()).body.tables->reynolds_numbers, (std::vector<double>{1e3, 1e4}));
+    std::filesystem::remove(folder.case_path(6) / "provenance.json");
+    folder.write("case_06/failed.json", R"({"reason": "never settled"})");
+    EXPECT_THAT(test::error_of([&] { convert_folder(folder.path()); }),
+                HasSubstr("plan.json: 1 of the 1 directions at Reynolds number 10000 could not be solved"));
+}
+
 TEST_F(Convert, NamesTheCaseThatDiverged) {
     const std::filesystem::path forces = "case_02/postProcessing/forces/0/force.dat";
     const std::string text = read_bytes(folder_.path() / forces);

@@ -26,12 +26,13 @@ inline std::vector<SolvedCase> solved_cases(const std::vector<Vector3d>& directi
 }
 
 /// Tables on a map with `subdivisions`, filled from the cases.
-inline LoadTables filled(const Symmetry& symmetry, int subdivisions, std::vector<SolvedCase>& cases) {
+inline LoadTables filled(const Symmetry& symmetry, int subdivisions, std::vector<SolvedCase>& cases,
+                         double main_reynolds_number = 1e4) {
     LoadTables tables;
     tables.reference_length = 1.0;
     tables.subdivisions = subdivisions;
     tables.axes = symmetry.axes;
-    fill_tables(tables, symmetry, cases);
+    fill_tables(tables, symmetry, cases, main_reynolds_number);
     return tables;
 }
 

@@ -7,8 +7,8 @@ A case that does not settle, or diverges, is tried again in the ways of ATTEMPTS
 rounds.json holds what was done. A round that was cut short is done again from the last whole one, so that a case
 that was killed ends with the same bytes as one that was not; where an input has changed, all starts afresh.
 
-Exit 0: rounds.json has the verdict "stationary", or "restless" where an attempt ended within ACCEPTED tolerances
-(a wake that swings about a mean that stays); its standard error then says how well it is known. Exit 1: one line says why; the verdict is "failed"
+Exit 0: rounds.json has the verdict "stationary", or "restless" where an attempt ended within ACCEPTED_TOLERANCES or
+ACCEPTED_SHARE (a wake that swings about a mean that stays); its standard error then says how well it is known. Exit 1: one line says why; the verdict is "failed"
 where all attempts did, else something stopped the solver.
 """
 
@@ -37,7 +37,9 @@ AFTER_DIVERGENCE = {"as planned": "cautious", "damped": "cautious"}
 # Of an unsteady case: what swings is the flow itself, and no relaxation helps what blows up.
 AFTER_DIVERGENCE_IN_TIME = {"as planned": "half the step"}
 STEPS_OVER_PLANNED = {"half the step": 2}
-ACCEPTED = 3.0
+ACCEPTED_TOLERANCES = 3.0
+# Of the force, whatever the tolerance: else the strictest quality would lose what the others take.
+ACCEPTED_SHARE = 0.03
 
 
 def own(name):
@@ -68,6 +70,7 @@ class Rounds:
         self.most_iterations = int(own("mostIterations"))
         self.least_iterations = int(own("leastIterations"))
         self.tolerance = float(own("stationarity"))
+        self.accepted = max(ACCEPTED_TOLERANCES, ACCEPTED_SHARE / self.tolerance)
         self.turbulent = has_k_and_epsilon(read("parameters"))
         self.solver = own("solver")
         self.log = f"log.{self.solver}"
@@ -178,7 +181,7 @@ class Rounds:
         following = following.get(self.attempt["what"])
         if following:
             self.begin(following)
-        elif self.attempt.get("unsteadiness_over_tolerance", ACCEPTED + 1) <= ACCEPTED:
+        elif self.attempt.get("unsteadiness_over_tolerance", self.accepted + 1) <= self.accepted:
             self.state["verdict"] = "restless"
         else:
             self.state["verdict"] = "failed"
@@ -188,7 +191,7 @@ class Rounds:
         while self.state["verdict"] is None:
             # An attempt that had ended before a kill is not gone on with.
             if "end" in self.attempt:
-                accepted = self.attempt["unsteadiness_over_tolerance"] <= ACCEPTED
+                accepted = self.attempt["unsteadiness_over_tolerance"] <= self.accepted
                 self.after(self.attempt["end"], {} if accepted or self.unsteady else AFTER_RESTLESSNESS)
                 continue
             try:

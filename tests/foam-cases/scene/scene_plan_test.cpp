@@ -64,7 +64,8 @@ Conversion solved(const Body& body, const ScenePlan& plan) {
     tables.reference_length = reference_length(body.moments.surface_area);
     tables.subdivisions = plan.cases.subdivisions;
     tables.axes = plan.cases.axes;
-    conversion.sampling_errors = fill_tables(tables, body.symmetry, conversion.cases);
+    conversion.sampling_errors =
+        fill_tables(tables, body.symmetry, conversion.cases, plan.cases.main_reynolds_number);
     conversion.body.tables = tables;
     return conversion;
 }

@@ -14,7 +14,8 @@ sys.dont_write_bytecode = True
 from faked_solver import TEMPLATES, FakedSolverTest  # noqa: E402
 
 # Settles at once. FAKE: what happens in the round that ends there: "nothing", "kill" (at its end), "disk" (its files are
-# cut short, and all seems well), "refuse" (it does not know what the case asks for).
+# cut short, and all seems well), "refuse" (it does not know what the case asks for). "AT swing": a force of 0.4 that is more
+# by AT in every other sixty iterations.
 SOLVER = '''#!/usr/bin/env python3
 import os, re, sys
 at, what = os.environ["FAKE"].split()
@@ -28,10 +29,13 @@ if what == "refuse":
 full = what == "disk" and int(at) == end
 for name, values in (("forces/{}/force.dat", "(0.4 0 0)"), ("forces/{}/moment.dat", "(0 0 0)"),
                      ("shell/{}/volFieldValue.dat", "0.01 0.02")):
+    if what == "swing" and name.startswith("forces/{}/force"):
+        values = "({} 0 0)"
     path = "postProcessing/" + name.format(start)
     os.makedirs(os.path.dirname(path), exist_ok=True)
     with open(path, "w") as file:
-        file.write("# Time values\\n" + "".join(f"{i} {values}\\n" for i in range(start + 1, end + 1 - 5 * full)))
+        file.write("# Time values\\n" + "".join(f"{i} {values.format(0.4 + float(at) * (i // 60 % 2))}\\n"
+                                              for i in range(start + 1, end + 1 - 5 * full)))
 os.makedirs(f"{end}")
 with open(f"{end}/U", "w") as file:
     file.write("" if full else "values")
@@ -137,6 +141,19 @@ class IterateTest(IteratedCase):
         self.assertEqual(self.run_case()[0], 0)
         self.assertTrue(os.path.isdir(os.path.join(self.case, "1.2.3")))
         self.assertTrue(os.path.isdir(os.path.join(self.case, "7th try")))
+
+    def verdict_of_a_swing(self, size, tolerance):
+        self.set_parameter("stationarity", tolerance)
+        status, _ = self.run_case(f"{size} swing")
+        rounds = self.rounds()
+        return status, rounds["verdict"], [one["what"] for one in rounds["attempts"]]
+
+    def test_a_swing_within_three_per_cent_is_taken_at_every_tolerance(self):
+        for tolerance in ("0.01", "0.005"):
+            self.assertEqual(self.verdict_of_a_swing(0.07, tolerance), (0, "restless", ["as planned"]))
+
+    def test_a_swing_beyond_that_is_damped_and_then_fails(self):
+        self.assertEqual(self.verdict_of_a_swing(0.2, "0.005"), (1, "failed", ["as planned", "damped", "cautious"]))
 
     def test_a_mesh_that_is_not_made_yet_is_said(self):
         os.rmdir(os.path.join(self.case, "constant/polyMesh"))
