@@ -27,7 +27,7 @@ Motion small_motion() {
         body.name = name;
         body.body_hash = "0123456789abcdef0123456789abcdef";
         body.models = "loads none, turbulence none";
-        body.uncertainties = {{"closure", "frequency", 0.1}, {"mesh", "descent_speed", 0.03}};
+        body.uncertainties = {{"closure", "frequency", 0.1, 0.2}, {"mesh", "descent_speed", 0.03}};
         body.surface = test::box({0.1, 0.2, 0.3}, 1);
         body.copies = 2;
         for (int i = 0; i < 12; ++i) {

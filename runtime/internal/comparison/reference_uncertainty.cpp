@@ -27,11 +27,12 @@ void require_same_scene(const std::filesystem::path& reference, const Motion& a,
     }
 }
 
-std::optional<double> uncertainty_of(const FigureComparison& figure) {
+std::optional<FigureUncertainty> uncertainty_of(const FigureComparison& figure, const std::string& cause,
+                                                const char* key) {
     if (!figure.motion && !figure.reference) return std::nullopt;
-    if (!figure.relative) return 1.0;
+    if (!figure.relative) return FigureUncertainty{cause, key, 1.0};
     const double chance = figure.difference_error.value_or(0.0) / std::abs(figure.reference->value);
-    return std::max(std::abs(*figure.relative), chance);
+    return FigureUncertainty{cause, key, std::abs(*figure.relative), chance};
 }
 
 }  // namespace
@@ -48,8 +49,8 @@ std::vector<FigureUncertainty> uncertainty_beside(const std::filesystem::path& r
     for (const Figure figure : baked_figures) {
         const CataloguedFigure& entry = catalogued(figure);
         if (entry.subject != FigureSubject::path && !comparison.judges_inclination) continue;
-        const auto relative = uncertainty_of(comparison.figures[figure]);
-        if (relative) uncertainties.push_back({cause, entry.key, *relative});
+        const auto uncertainty = uncertainty_of(comparison.figures[figure], cause, entry.key);
+        if (uncertainty) uncertainties.push_back(*uncertainty);
     }
     if (comparison.judges_inclination) {
         uncertainties.push_back({cause, regime_key, comparison.regimes_agree ? 0.0 : 1.0});
@@ -60,10 +61,13 @@ std::vector<FigureUncertainty> uncertainty_beside(const std::filesystem::path& r
 
 double uncertainty_of(const BodyMotion& body, const std::string& figure) {
     double sum = 0.0;
+    double chance = 0.0;
     for (const FigureUncertainty& one : body.uncertainties) {
-        if (one.figure == figure) sum += one.relative;
+        if (one.figure != figure) continue;
+        sum += one.relative;
+        chance = std::max(chance, one.chance);
     }
-    return sum;
+    return std::max(sum, chance);
 }
 
 }  // namespace samara

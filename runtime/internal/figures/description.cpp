@@ -1,5 +1,6 @@
 #include "internal/figures/description.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -21,7 +22,7 @@ json describe(const BodyMotion& body, const BodyMeasures& measures) {
                       {"body_hash", body.body_hash},
                       {"models", body.models}};
     for (const FigureUncertainty& one : body.uncertainties) {
-        described["uncertainties"][one.cause][one.figure] = one.relative;
+        described["uncertainties"][one.cause][one.figure] = std::max(one.relative, one.chance);
     }
     described.update(as_json(measures));
     return described;
@@ -39,7 +40,8 @@ std::string uncertainty_text(const BodyMotion& body) {
         const bool begins = cause == nullptr || *cause != one.cause;
         if (begins) text += fmt::format("{}  uncertain by its {}: ", text.empty() ? "" : "\n", one.cause);
         cause = &one.cause;
-        text += fmt::format("{}{} {:.2g} %", begins ? "" : ", ", one.figure, 100.0 * one.relative);
+        text += fmt::format("{}{} {:.2g} %", begins ? "" : ", ", one.figure,
+                            100.0 * std::max(one.relative, one.chance));
     }
     return text.empty() ? text : text + '\n';
 }

@@ -58,7 +58,7 @@ void check_body(const std::filesystem::path& file, const BodyMotion& body, int r
             !known.emplace(one.cause, one.figure).second) {
             fail(file, place(body.name, "has an uncertainty twice or without a name"));
         }
-        if (!(one.relative >= 0.0) || !std::isfinite(one.relative)) {
+        if (!(one.relative >= 0.0 && one.chance >= 0.0) || !std::isfinite(one.relative + one.chance)) {
             fail(file, place(body.name, "has an uncertainty that is negative or not finite"));
         }
     }

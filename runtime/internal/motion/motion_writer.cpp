@@ -93,8 +93,10 @@ void write_body(Hdf5Writer& file, const Motion& motion, std::size_t index) {
                    "lengths of each copy over the surface's: run, copy");
     }
     for (const FigureUncertainty& one : body.uncertainties) {
-        file.write(fmt::format("{}/{}/{}", uncertainty_group(body.name), one.cause, one.figure),
-                   std::vector{one.relative}, {1}, "1", "by how much the figure may be wrong, over it");
+        const std::string name = fmt::format("{}/{}/{}", uncertainty_group(body.name), one.cause, one.figure);
+        file.write(
+            name, std::vector{one.relative, one.chance}, {2}, "1",
+            "what the figure differs by from another solution and the standard error, over the figure");
     }
     file.attribute(group, "index", static_cast<std::int64_t>(index));
     file.attribute(group, "body_hash", std::string_view(body.body_hash));

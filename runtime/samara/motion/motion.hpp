@@ -16,11 +16,12 @@
 namespace samara {
 
 /// By how much a figure of a motion may be wrong for a reason that its own swings do not show, such as the
-/// mesh of a fall by full CFD.
+/// mesh of a fall by full CFD: what it differs by from another solution, and the standard error of that.
 struct FigureUncertainty {
     std::string cause;      ///< such as "mesh" or "closure"
     std::string figure;     ///< as in JSON: descent_speed, frequency, ...
-    double relative = 0.0;  ///< over the figure, 0 or more
+    double relative = 0.0;  ///< the difference over the figure, 0 or more
+    double chance = 0.0;    ///< its standard error over the figure, 0 or more
 
     friend bool operator==(const FigureUncertainty&, const FigureUncertainty&) = default;
 };

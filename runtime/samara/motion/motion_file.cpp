@@ -42,7 +42,10 @@ std::vector<FigureUncertainty> read_uncertainties(const Hdf5Reader& file, const 
     for (const std::string& cause : file.children(group)) {
         for (const std::string& figure : file.children(group + "/" + cause)) {
             const std::string name = fmt::format("{}/{}/{}", group, cause, figure);
-            uncertainties.push_back({cause, figure, file.finite_doubles(name, {1}).front()});
+            // Older files have no chance.
+            const hsize_t count = file.shape(name) == std::vector<hsize_t>{1} ? 1 : 2;
+            const std::vector<double> values = file.finite_doubles(name, {count});
+            uncertainties.push_back({cause, figure, values.front(), count == 2 ? values.back() : 0.0});
         }
     }
     return uncertainties;

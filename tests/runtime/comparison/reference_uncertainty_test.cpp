@@ -54,6 +54,7 @@ TEST_F(ReferenceUncertainty, IsTheWholeDifferenceToTheOtherSolution) {
 TEST_F(ReferenceUncertainty, IsNoLessThanWhatChanceHides) {
     const Motion motion = test::irregular_flutter(5, 8.0);
     const auto known = beside(motion, motion);
+    EXPECT_THAT(known, Each(Field(&FigureUncertainty::relative, 0.0)));
     EXPECT_GT(of(known, "descent_speed"), 0.0);
     EXPECT_GT(of(known, "frequency"), 1e-3);
 }
@@ -77,6 +78,14 @@ TEST_F(ReferenceUncertainty, IsOfOneSceneAlone) {
     other.bodies.push_back(other.bodies.front());
     other.bodies.back().name = "second";
     EXPECT_THAT(test::error_of([&] { (void)beside(reference, other); }), HasSubstr("holds several bodies"));
+}
+
+TEST(UncertaintyOf, AFigureHoldsItsChanceOnce) {
+    BodyMotion body;
+    body.uncertainties = {{"closure", "frequency", 0.003, 0.04}, {"mesh", "frequency", 0.01, 0.05}};
+    EXPECT_DOUBLE_EQ(uncertainty_of(body, "frequency"), 0.05);
+    body.uncertainties.front().relative = 0.06;
+    EXPECT_DOUBLE_EQ(uncertainty_of(body, "frequency"), 0.07);
 }
 
 TEST(UncertaintyOf, AFigureIsTheSumOverTheCauses) {

@@ -37,7 +37,7 @@ Motion two_bodies() {
     first.poses.insert(first.poses.end(), other.bodies[0].poses.begin(), other.bodies[0].poses.end());
     BodyMotion second = other.bodies[0];
     second.name = "a second, with two copies";
-    second.uncertainties = {{"closure", "descent_speed", 0.05}, {"mesh", "descent_speed", 0.03}};
+    second.uncertainties = {{"closure", "descent_speed", 0.05, 0.01}, {"mesh", "descent_speed", 0.03}};
     second.copies = 2;
     second.poses.clear();
     for (int i = 0; i < 2 * 2 * motion.frames(); ++i) second.poses.push_back(late(0.01 * i));
@@ -67,6 +67,8 @@ TEST(MotionFile, RefusesUncertaintiesThatAreNone) {
     };
     EXPECT_EQ(error_with({{"mesh", "descent_speed", 0.0}}), "no error");
     EXPECT_THAT(error_with({{"mesh", "descent_speed", -0.1}}), HasSubstr("uncertainty that is negative"));
+    EXPECT_THAT(error_with({{"mesh", "descent_speed", 0.1, -0.1}}),
+                HasSubstr("uncertainty that is negative"));
     EXPECT_THAT(error_with({{"", "descent_speed", 0.1}}), HasSubstr("twice or without a name"));
     EXPECT_THAT(error_with({{"mesh", "a/b", 0.1}}), HasSubstr("twice or without a name"));
     EXPECT_THAT(error_with({{"mesh", "descent_speed", 0.1}, {"mesh", "descent_speed", 0.1}}),
