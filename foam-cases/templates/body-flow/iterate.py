@@ -8,7 +8,7 @@ rounds.json holds what was done. A round that was cut short is done again from t
 that was killed ends with the same bytes as one that was not; where an input has changed, all starts afresh.
 
 Exit 0: rounds.json has the verdict "stationary", or "restless" where an attempt ended within ACCEPTED_TOLERANCES or
-ACCEPTED_SHARE (a wake that swings about a mean that stays); its standard error then says how well it is known. Exit 1: one line says why; the verdict is "failed"
+`acceptedError` (a wake that swings about a mean that stays); its standard error then says how well it is known. Exit 1: one line says why; the verdict is "failed"
 where all attempts did, else something stopped the solver.
 """
 
@@ -38,8 +38,6 @@ AFTER_DIVERGENCE = {"as planned": "cautious", "damped": "cautious"}
 AFTER_DIVERGENCE_IN_TIME = {"as planned": "half the step"}
 STEPS_OVER_PLANNED = {"half the step": 2}
 ACCEPTED_TOLERANCES = 3.0
-# Of the force, whatever the tolerance: else the strictest quality would lose what the others take.
-ACCEPTED_SHARE = 0.03
 
 
 def own(name):
@@ -70,7 +68,7 @@ class Rounds:
         self.most_iterations = int(own("mostIterations"))
         self.least_iterations = int(own("leastIterations"))
         self.tolerance = float(own("stationarity"))
-        self.accepted = max(ACCEPTED_TOLERANCES, ACCEPTED_SHARE / self.tolerance)
+        self.accepted = max(ACCEPTED_TOLERANCES, float(own("acceptedError")) / self.tolerance)
         self.turbulent = has_k_and_epsilon(read("parameters"))
         self.solver = own("solver")
         self.log = f"log.{self.solver}"

@@ -83,6 +83,16 @@ TEST_F(CaseFolder, HoldsAPlainCaseForEachDirectionOnOneMesh) {
     }
 }
 
+TEST_F(CaseFolder, TakesAWakeThatSwingsWithATenthOfErrorWhereTheBoundaryLayerIsResolved) {
+    const BakePlan plan =
+        plan_bake(body_, with_loads_by(Closure::k_omega_sst_lm, bake_quality("smoke")), 1e4);
+    const std::string text = read_bytes(foam_cases / "templates/body-flow/parameters");
+    for (const BakeCase& entry : plan.cases) {
+        const bool resolved = entry.closure == Closure::k_omega_sst_lm;
+        EXPECT_EQ(entry_of(case_parameters(text, plan, entry), "acceptedError"), resolved ? "0.1" : "0.03");
+    }
+}
+
 TEST_F(CaseFolder, CanBeOpenedByParaviewAndCopiedWithoutLinksThatLeadOutOfIt) {
     write_case_folder(folder_, body_, plan_, foam_cases);
     std::size_t opened = 0;

@@ -148,9 +148,13 @@ class IterateTest(IteratedCase):
         rounds = self.rounds()
         return status, rounds["verdict"], [one["what"] for one in rounds["attempts"]]
 
-    def test_a_swing_within_three_per_cent_is_taken_at_every_tolerance(self):
+    def test_a_swing_within_the_accepted_error_is_taken_at_every_tolerance(self):
         for tolerance in ("0.01", "0.005"):
             self.assertEqual(self.verdict_of_a_swing(0.07, tolerance), (0, "restless", ["as planned"]))
+
+    def test_the_accepted_error_is_the_cases_own(self):
+        self.set_parameter("acceptedError", "0.1")
+        self.assertEqual(self.verdict_of_a_swing(0.2, "0.005"), (0, "restless", ["as planned"]))
 
     def test_a_swing_beyond_that_is_damped_and_then_fails(self):
         self.assertEqual(self.verdict_of_a_swing(0.2, "0.005"), (1, "failed", ["as planned", "damped", "cautious"]))
