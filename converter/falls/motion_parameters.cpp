@@ -12,6 +12,12 @@
 namespace samara {
 namespace {
 
+constexpr const char* entrained_inertia = "entrained inertia";
+constexpr const char* unsteady_factor = "unsteady factor";
+// Of these every body has what bodies have in common.
+constexpr const char* drag_in_spin = "drag in spin";
+constexpr const char* turning_transport = "turning transport";
+
 struct Expectation {
     Matrix3d DynamicCoefficients::*member;
     const char* name;
@@ -22,22 +28,13 @@ struct Expectation {
 constexpr Expectation expectations[] = {
     {&DynamicCoefficients::transport, "transport", 0.0, 1.0, -6.0, 6.0},
     {&DynamicCoefficients::drag_in_motion, "drag in motion", usual_drag_in_motion, 0.6, 0.0, 6.0},
-    {&DynamicCoefficients::drag_in_spin, "drag in spin", usual_drag_in_spin, 0.6, 0.0, 6.0},
     {&DynamicCoefficients::rotational_drag, "rotational drag", usual_rotational_drag, 0.7, 0.0, 6.0},
     {&DynamicCoefficients::rotational_drag_in_spin, "rotational drag in spin", usual_rotational_drag_in_spin,
      0.7, 0.0, 6.0},
-    {&DynamicCoefficients::wake_by_velocity, "wake by velocity", 0.0, 0.5, -3.0, 3.0},
-    {&DynamicCoefficients::wake_by_turning, "wake by turning", 0.0, 0.5, -3.0, 3.0},
-    {&DynamicCoefficients::entrained_inertia, "entrained inertia", 0.0, 1.0, -6.0, 6.0},
+    {&DynamicCoefficients::entrained_inertia, entrained_inertia, 0.0, 1.0, -6.0, 6.0},
 };
 
-struct NumberExpectation {
-    double expected, deviation, lower, upper;
-};
-// Of numbers_of_motion.
-constexpr NumberExpectation number_expectations[] = {{usual_rotational_transport, 0.3, -2.0, 4.0},
-                                                     {1.0, 0.3, 0.3, 3.0}};
-static_assert(std::size(number_expectations) == std::size(numbers_of_motion));
+constexpr int nowhere = -1;
 
 // Axes along which the body moves alike: within this, relative.
 constexpr double alike = 0.01;
@@ -77,7 +74,7 @@ Vector3d projected_areas(const Body& body, const Matrix3d& axes) {
 std::vector<std::string> MotionParameters::names() {
     std::vector<std::string> names;
     for (const Expectation& expectation : expectations) names.emplace_back(expectation.name);
-    for (const NumberOfMotion& number : numbers_of_motion) names.emplace_back(number.title);
+    for (const char* name : {unsteady_factor, drag_in_spin, turning_transport}) names.emplace_back(name);
     return names;
 }
 
@@ -90,26 +87,23 @@ MotionParameters::MotionParameters(const Body& body, const std::vector<std::stri
     const Vector3d turning =
         (axes_.transpose() * rotational_drag_tensor(body.surface, body.moments.centroid) * axes_).diagonal();
     const Vector3d none = Vector3d::Zero();
-    const Vector3d of_wake = Vector3d::Constant(largest * half_length_);
     const Vector3d of_entrained = Vector3d::Constant(
         (axes_.transpose() * body.kirchhoff->matrix.topLeftCorner<3, 3>() * axes_).diagonal().maxCoeff());
-    const Vector3d offsets[] = {added_mass.diagonal(), none, none, none, none, none, none, none};
+    const Vector3d offsets[] = {added_mass.diagonal(), none, none, none, none};
     // A body of revolution has no rotational drag about its axis by its pressure: friction is a small share.
     const Vector3d of_turning = turning.cwiseMax(0.02 * turning.maxCoeff());
     const Vector3d areas = projected_areas(body, axes_);
-    const Vector3d units[] = {Vector3d::Constant(0.25 * largest),
-                              areas,
-                              areas,
-                              of_turning,
-                              of_turning,
-                              of_wake,
-                              of_wake,
+    const Vector3d units[] = {Vector3d::Constant(0.25 * largest), areas, of_turning, of_turning,
                               of_entrained};
     for (std::size_t t = 0; t < std::size(expectations); ++t) {
         const Expectation& expectation = expectations[t];
         Tensor tensor{expectation.member, offsets[t], units[t], {}};
+        // E acts as omega x (E omega): what is alike about all axes does nothing, so the first has none.
+        const bool is_relative = expectation.member == &DynamicCoefficients::entrained_inertia;
         for (int i = 0; i < 3; ++i) {
-            if (tied_[i] == i) {
+            if (is_relative && tied_[i] == 0) {
+                tensor.place[i] = nowhere;
+            } else if (tied_[i] == i) {
                 tensor.place[i] = static_cast<int>(parameters_.size());
                 parameters_.push_back({fmt::format("{} {}", expectation.name, i + 1), expectation.expected,
                                        expectation.deviation, expectation.lower, expectation.upper});
@@ -119,11 +113,11 @@ MotionParameters::MotionParameters(const Body& body, const std::vector<std::stri
         }
         tensors_.push_back(tensor);
     }
-    first_number_ = static_cast<Eigen::Index>(parameters_.size());
-    for (std::size_t i = 0; i < std::size(numbers_of_motion); ++i) {
-        const auto& [expected, deviation, lower, upper] = number_expectations[i];
-        parameters_.push_back({numbers_of_motion[i].title, expected, deviation, lower, upper});
-    }
+    parameters_.push_back({unsteady_factor, 1.0, 0.3, 0.3, 3.0});
+    const Matrix3d spin = axes_ * (usual_drag_in_spin * areas).asDiagonal() * axes_.transpose();
+    shared_.drag_in_spin = 0.5 * (spin + spin.transpose());
+    shared_.rotational_transport = usual_rotational_transport;
+    shared_.half_length = half_length_;
     for (const std::string& name : without) leave_out(name);
 }
 
@@ -132,6 +126,8 @@ void MotionParameters::leave_out(const std::string& name) {
     if (std::ranges::find(known, name) == known.end()) {
         throw Error(fmt::format("there is no term '{}'; the terms are {}", name, fmt::join(known, ", ")));
     }
+    if (name == drag_in_spin) shared_.drag_in_spin.setZero();
+    if (name == turning_transport) shared_.rotational_transport = 0.0;
     // Transport's numbers are added to the added mass; as in potential flow there is none.
     for (Tensor& tensor : tensors_) {
         if (name == "transport" && tensor.member == &DynamicCoefficients::transport) tensor.offset.setZero();
@@ -141,7 +137,7 @@ void MotionParameters::leave_out(const std::string& name) {
             parameter.name.find_first_not_of(" 123", name.size()) != std::string::npos) {
             continue;
         }
-        const double left_out = name == "unsteady factor" ? 1.0 : 0.0;
+        const double left_out = name == unsteady_factor ? 1.0 : 0.0;
         parameter.expected = parameter.lower = parameter.upper = left_out;
     }
 }
@@ -155,25 +151,21 @@ Eigen::VectorXd MotionParameters::expected() const {
 
 Eigen::Vector3d MotionParameters::principal_values(const Tensor& tensor,
                                                    const Eigen::VectorXd& numbers) const {
-    return {tensor.unit[0] * numbers[tensor.place[0]], tensor.unit[1] * numbers[tensor.place[1]],
-            tensor.unit[2] * numbers[tensor.place[2]]};
-}
-
-void MotionParameters::set_numbers(const Eigen::VectorXd& numbers, DynamicCoefficients& coefficients) const {
-    for (std::size_t i = 0; i < std::size(numbers_of_motion); ++i) {
-        coefficients.*numbers_of_motion[i].member = numbers[first_number_ + static_cast<Eigen::Index>(i)];
+    Vector3d values;
+    for (int i = 0; i < 3; ++i) {
+        values[i] = tensor.place[i] == nowhere ? 0.0 : tensor.unit[i] * numbers[tensor.place[i]];
     }
+    return values;
 }
 
 DynamicCoefficients MotionParameters::coefficients(const Eigen::VectorXd& numbers) const {
-    DynamicCoefficients coefficients;
+    DynamicCoefficients coefficients = shared_;
     for (const Tensor& tensor : tensors_) {
         const Vector3d values = tensor.offset + principal_values(tensor, numbers);
         const Matrix3d matrix = axes_ * values.asDiagonal() * axes_.transpose();
         coefficients.*tensor.member = 0.5 * (matrix + matrix.transpose());
     }
-    set_numbers(numbers, coefficients);
-    coefficients.half_length = half_length_;
+    coefficients.unsteady_factor = numbers[numbers.size() - 1];
     return coefficients;
 }
 
@@ -189,7 +181,7 @@ DynamicCoefficients MotionParameters::standard_errors(const Eigen::VectorXd& err
         }
         coefficients.*tensor.member = squares.cwiseSqrt();
     }
-    set_numbers(errors, coefficients);
+    coefficients.unsteady_factor = errors[errors.size() - 1];
     return coefficients;
 }
 

@@ -20,7 +20,8 @@ struct MotionParameter {
 
 /// The numbers that a body's dynamic coefficients are made of, over what belongs to its size: the principal
 /// values of each tensor along the body's principal axes, the shortest extent first; along two axes that the
-/// body's symmetry makes equal there is one. What is expected is what the falls in docs/falls have in common.
+/// body's symmetry makes equal there is one. What is expected is what the falls in docs/falls have in common;
+/// drag in spin and transport of the turning are that for every body, and have no numbers.
 class MotionParameters {
   public:
     /// The body must have its Kirchhoff tensor. Terms whose names are in `without`, as names() has them, stay
@@ -41,12 +42,11 @@ class MotionParameters {
   private:
     struct Tensor {
         Matrix3d DynamicCoefficients::*member;
-        Vector3d offset;  // what the numbers are added to
-        Vector3d unit;    // of the numbers
-        Eigen::Vector3i place;
+        Vector3d offset;        // what the numbers are added to
+        Vector3d unit;          // of the numbers
+        Eigen::Vector3i place;  // among the numbers, or nowhere
     };
     void leave_out(const std::string& name);
-    void set_numbers(const Eigen::VectorXd& numbers, DynamicCoefficients& coefficients) const;
     [[nodiscard]] Eigen::Vector3d principal_values(const Tensor& tensor,
                                                    const Eigen::VectorXd& numbers) const;
 
@@ -55,7 +55,7 @@ class MotionParameters {
     double half_length_ = 0.0;
     std::vector<Tensor> tensors_;
     std::vector<MotionParameter> parameters_;
-    Eigen::Index first_number_ = 0;  // of numbers_of_motion
+    DynamicCoefficients shared_;  // what every body has
 };
 
 }  // namespace samara

@@ -6,8 +6,8 @@
     falls_report.py BIN BODIES FALL...
                                   bakes, flies and compares these falls alone; the rows of others stay as they are. As FALL,
                                   `range` is all those with bodies that are baked for a range of densities, `closure` all
-                                  with bodies that are baked by the references' closure, `fewer` all with bodies that are
-                                  identified from fewer falls
+                                  with bodies that are baked by the references' closure, `terms` and `fewer` all with these
+                                  identified anew without each term, and from fewer falls
     falls_report.py               writes the tables again from the rows of the last run
 
 Writes docs/falls/falls.csv, range.csv, closure.csv, terms.csv and fewer.csv, and the tables of docs/falls.md. BIN: the folder
@@ -55,7 +55,7 @@ BY_THAT_CLOSURE = {scene: f"{body}-resolved" for scene, body in SCENES.items()}
 BODIES |= {f"{body}-resolved": (shape, [*options, "--loads", RESOLVED]) for body, (shape, options) in BODIES.items()
            if not body.endswith("-range")}
 TERMS = ("transport", "turning transport", "drag in motion", "drag in spin", "rotational drag",
-         "rotational drag in spin", "wake by velocity", "wake by turning", "entrained inertia", "unsteady factor")
+         "rotational drag in spin", "entrained inertia", "unsteady factor")
 # Falls with other bodies than theirs: which, their rows, and whether with noise too.
 OTHERS = {"closure": (BY_THAT_CLOSURE, f"{FALLS}/closure.csv", ("on", "off")),
           "range": (OF_A_RANGE, f"{FALLS}/range.csv", ("off",))}
@@ -253,9 +253,10 @@ def table_of_falls(rows, who="runtime"):
 
 
 def fly_anew(programs, folder, words=(), falls=None):
-    """Every body but the sphere identified anew, with other options or from some of its falls alone: how well they predict
-    those, what the bodies' falls cost in CPU seconds, and the comparisons of their scenes, both in the mean over the bodies."""
-    scenes = {scene: body for scene, body in SCENES.items() if body != "sphere"}
+    """Every body by the references' closure but the sphere identified anew, with other options or from some of its falls alone:
+    how well they predict those, what the bodies' falls cost in CPU seconds, and the comparisons of their scenes, both in the mean
+    over the bodies."""
+    scenes = {scene: body for scene, body in BY_THAT_CLOSURE.items() if scene != "sphere"}
     files, errors, costs = {}, [], []
     with tempfile.TemporaryDirectory() as work:
         for body in sorted(set(scenes.values())):
@@ -326,7 +327,7 @@ def table_of_terms():
 
 def main(words):
     names = words[3:]
-    if len(words) == 2 or not set(names) <= {*SCENES, *OTHERS, "fewer"}:
+    if len(words) == 2 or not set(names) <= {*SCENES, *OTHERS, "terms", "fewer"}:
         sys.stderr.write(__doc__)
         return 2
     if len(words) >= 3:
@@ -336,7 +337,7 @@ def main(words):
         for kind in OTHERS:
             if not names or kind in names:
                 fly_others(programs, folder, *OTHERS[kind])
-        if not names:
+        if not names or "terms" in names:
             fly_without_terms(programs, folder)
         if not names or "fewer" in names:
             fly_fewer(programs, folder)

@@ -23,18 +23,14 @@ using testing::Not;
 // Of a body that flutters without end, with numbers (motion_parameters.hpp) about which what is expected is
 // wrong, in turn above and below the first of each pair by the second.
 DynamicCoefficients true_coefficients(const Body& body) {
-    const std::pair<double, double> terms[] = {{0.0, 0.5},  {0.6, 0.3},  {0.3, 0.3},  {0.3, 0.25},
-                                               {0.3, 0.25}, {0.0, 0.25}, {0.0, 0.25}, {0.0, 0.25}};
+    const std::pair<double, double> terms[] = {{0.0, 0.5}, {0.6, 0.3}, {0.3, 0.25}, {0.3, 0.25}, {0.0, 0.25}};
     const MotionParameters parameters(body);
     Eigen::VectorXd numbers(static_cast<Eigen::Index>(parameters.all().size()));
-    Eigen::Index next = 0;
-    for (const auto& [middle, difference] : terms) {
-        for (int axis = 0; axis < 3; ++axis, ++next) {
-            numbers[next] = next % 2 == 0 ? middle + difference : middle - difference;
-        }
+    for (Eigen::Index i = 0; i + 1 < numbers.size(); ++i) {
+        const auto& [middle, difference] = terms[i / 3];
+        numbers[i] = i % 2 == 0 ? middle + difference : middle - difference;
     }
-    numbers[next] = 0.85;
-    numbers[next + 1] = 1.1;
+    numbers[numbers.size() - 1] = 1.1;
     return parameters.coefficients(numbers);
 }
 
@@ -49,16 +45,11 @@ FallRecord with_noise(FallRecord record, double deviation) {
     return record;
 }
 
-// N_v and N_w that are the same along all axes exert nothing: v x v is zero.
-Matrix3d uneven_part(const Matrix3d& tensor) {
-    return tensor - tensor.trace() / 3.0 * Matrix3d::Identity();
-}
-
 double relative_difference(const Matrix3d& found, const Matrix3d& expected) {
     return (found - expected).norm() / expected.norm();
 }
 
-// Of what was wrong with the expectation (of a wake: all), which pulls: what one fall may leave.
+// Of what was wrong with the expectation (of entrained inertia: all), which pulls: what one fall may leave.
 constexpr double remaining = 0.15;
 
 constexpr double noise = 0.05;  // over U, and U/L
@@ -82,10 +73,7 @@ class FallIdentification : public testing::Test {
 TEST_F(FallIdentification, FindsTheCoefficientsThatAFallWasFlownWith) {
     const DynamicCoefficients& found = found_.coefficients.values;
     EXPECT_LT(relative_difference(found.transport, true_.transport), 0.03);
-    EXPECT_LT(relative_difference(uneven_part(found.wake_by_velocity), uneven_part(true_.wake_by_velocity)),
-              remaining);
-    EXPECT_LT(relative_difference(uneven_part(found.wake_by_turning), uneven_part(true_.wake_by_turning)),
-              remaining);
+    EXPECT_LT(relative_difference(found.entrained_inertia, true_.entrained_inertia), remaining);
     EXPECT_EQ(found.half_length, true_.half_length);
 }
 
@@ -109,7 +97,7 @@ TEST_F(FallIdentification, StatesErrorsThatHoldTheTruth) {
     for (const TensorOfMotion& tensor : tensors_of_motion) {
         const Vector3d difference = (found.*tensor.member - true_.*tensor.member).diagonal();
         const Vector3d error = (errors.*tensor.member).diagonal();
-        for (int i = 0; i < 3; ++i) EXPECT_LT(std::abs(difference[i]), 3.0 * error[i]) << tensor.name << i;
+        for (int i = 0; i < 3; ++i) EXPECT_LE(std::abs(difference[i]), 3.0 * error[i]) << tensor.name << i;
     }
     for (const NumberOfMotion& number : numbers_of_motion) {
         EXPECT_NEAR(found.*number.member, true_.*number.member, 3.0 * (errors.*number.member)) << number.name;
@@ -174,8 +162,8 @@ TEST_F(FallIdentification, IsLessCertainOfANoisyFall) {
     const Identification noisy = identify_motion(body_, {with_noise(record_, noise)});
     EXPECT_GT(noisy.prediction_error, noise);
     EXPECT_LT(noisy.prediction_error, 2.0 * noise);
-    EXPECT_GT(noisy.coefficients.standard_errors.wake_by_velocity.norm(),
-              1.2 * found_.coefficients.standard_errors.wake_by_velocity.norm());
+    EXPECT_GT(noisy.coefficients.standard_errors.entrained_inertia.norm(),
+              1.2 * found_.coefficients.standard_errors.entrained_inertia.norm());
     EXPECT_LT(relative_difference(noisy.coefficients.values.transport, true_.transport), 0.1);
 }
 
@@ -232,20 +220,21 @@ TEST_F(FallIdentification, ShowsAFallAndItsFlightWithGravityDownwards) {
 }
 
 TEST_F(FallIdentification, LeavesOutTheTermsThatItIsToldTo) {
-    const Identification without = identify_motion(body_, {record_}, {"wake by velocity", "wake by turning"});
-    EXPECT_EQ(without.coefficients.values.wake_by_velocity, Matrix3d::Zero());
-    EXPECT_EQ(without.coefficients.standard_errors.wake_by_turning, Matrix3d::Zero());
+    const Identification without = identify_motion(body_, {record_}, {"entrained inertia", "drag in spin"});
+    EXPECT_EQ(without.coefficients.values.drag_in_spin, Matrix3d::Zero());
+    EXPECT_EQ(without.coefficients.values.entrained_inertia, Matrix3d::Zero());
+    EXPECT_EQ(without.coefficients.standard_errors.entrained_inertia, Matrix3d::Zero());
     EXPECT_GT(without.prediction_error, 3.0 * found_.prediction_error);
     EXPECT_THAT(test::error_of([&] { static_cast<void>(identify_motion(body_, {record_}, {"wake"})); }),
                 HasSubstr("there is no term 'wake'; the terms are transport, "));
 }
 
-// Fitted to its segments alone the body falls 16 % too slowly here, and swings 35 % too seldom.
+// Fitted to its segments alone the body falls 8 % too fast here.
 TEST_F(FallIdentification, KeepsTheFiguresOfTheWholeFallWhereTheModelCannotFollowIt) {
-    const Identification without = identify_motion(body_, {record_}, {"transport"});
+    const Identification without = identify_motion(body_, {record_}, {"drag in motion"});
     EXPECT_GT(without.prediction_error, 5.0 * found_.prediction_error);
     const auto& [name, solved, flown, balance] = without.falls.front();
-    EXPECT_NEAR(flown.descent_speed, solved.descent_speed, 0.1 * solved.descent_speed);
+    EXPECT_NEAR(flown.descent_speed, solved.descent_speed, 0.05 * solved.descent_speed);
     ASSERT_TRUE(solved.frequency && flown.frequency);
     EXPECT_NEAR(*flown.frequency, *solved.frequency, 0.15 * *solved.frequency);
 }
