@@ -176,7 +176,8 @@ void MotionWriter::finish(std::size_t frames) {
 }
 
 std::size_t frames_in_block(const Motion& motion) {
-    const std::size_t in_memory = block_bytes / (poses_in_frame(motion) * pose_bytes);
+    const std::size_t in_memory =
+        block_bytes / (std::max<std::size_t>(1, poses_in_frame(motion)) * pose_bytes);
     return even_piece(motion.times.size(), std::clamp<std::size_t>(in_memory, 1, most_frames));
 }
 

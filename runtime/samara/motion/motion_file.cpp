@@ -40,7 +40,7 @@ std::vector<FigureUncertainty> read_uncertainties(const Hdf5Reader& file, const 
     const std::string group = uncertainty_group(body);
     if (!file.has(group)) return uncertainties;
     for (const std::string& cause : file.children(group)) {
-        for (const std::string& figure : file.children(group + "/" + cause)) {
+        for (const std::string& figure : file.children(fmt::format("{}/{}", group, cause))) {
             const std::string name = fmt::format("{}/{}/{}", group, cause, figure);
             // Older files have no chance.
             const hsize_t count = file.shape(name) == std::vector<hsize_t>{1} ? 1 : 2;
