@@ -15,6 +15,7 @@ namespace {
 constexpr const char* entrained_inertia = "entrained inertia";
 constexpr const char* unsteady_factor = "unsteady factor";
 // Of these every body has what bodies have in common.
+constexpr const char* drag_in_motion = "drag in motion";
 constexpr const char* drag_in_spin = "drag in spin";
 constexpr const char* turning_transport = "turning transport";
 
@@ -27,7 +28,6 @@ struct Expectation {
 // What the falls in docs/falls have in common (docs/falls.md), and how far they differ.
 constexpr Expectation expectations[] = {
     {&DynamicCoefficients::transport, "transport", 0.0, 1.0, -6.0, 6.0},
-    {&DynamicCoefficients::drag_in_motion, "drag in motion", usual_drag_in_motion, 0.6, 0.0, 6.0},
     {&DynamicCoefficients::rotational_drag, "rotational drag", usual_rotational_drag, 0.7, 0.0, 6.0},
     {&DynamicCoefficients::rotational_drag_in_spin, "rotational drag in spin", usual_rotational_drag_in_spin,
      0.7, 0.0, 6.0},
@@ -74,7 +74,8 @@ Vector3d projected_areas(const Body& body, const Matrix3d& axes) {
 std::vector<std::string> MotionParameters::names() {
     std::vector<std::string> names;
     for (const Expectation& expectation : expectations) names.emplace_back(expectation.name);
-    for (const char* name : {unsteady_factor, drag_in_spin, turning_transport}) names.emplace_back(name);
+    for (const char* name : {unsteady_factor, drag_in_motion, drag_in_spin, turning_transport})
+        names.emplace_back(name);
     return names;
 }
 
@@ -89,12 +90,11 @@ MotionParameters::MotionParameters(const Body& body, const std::vector<std::stri
     const Vector3d none = Vector3d::Zero();
     const Vector3d of_entrained = Vector3d::Constant(
         (axes_.transpose() * body.kirchhoff->matrix.topLeftCorner<3, 3>() * axes_).diagonal().maxCoeff());
-    const Vector3d offsets[] = {added_mass.diagonal(), none, none, none, none};
+    const Vector3d offsets[] = {added_mass.diagonal(), none, none, none};
     // A body of revolution has no rotational drag about its axis by its pressure: friction is a small share.
     const Vector3d of_turning = turning.cwiseMax(0.02 * turning.maxCoeff());
     const Vector3d areas = projected_areas(body, axes_);
-    const Vector3d units[] = {Vector3d::Constant(0.25 * largest), areas, of_turning, of_turning,
-                              of_entrained};
+    const Vector3d units[] = {Vector3d::Constant(0.25 * largest), of_turning, of_turning, of_entrained};
     for (std::size_t t = 0; t < std::size(expectations); ++t) {
         const Expectation& expectation = expectations[t];
         Tensor tensor{expectation.member, offsets[t], units[t], {}};
@@ -114,8 +114,9 @@ MotionParameters::MotionParameters(const Body& body, const std::vector<std::stri
         tensors_.push_back(tensor);
     }
     parameters_.push_back({unsteady_factor, 1.0, 0.3, 0.3, 3.0});
-    const Matrix3d spin = axes_ * (usual_drag_in_spin * areas).asDiagonal() * axes_.transpose();
-    shared_.drag_in_spin = 0.5 * (spin + spin.transpose());
+    const Matrix3d shadows = axes_ * areas.asDiagonal() * axes_.transpose();
+    shared_.drag_in_motion = 0.5 * usual_drag_in_motion * (shadows + shadows.transpose());
+    shared_.drag_in_spin = 0.5 * usual_drag_in_spin * (shadows + shadows.transpose());
     shared_.rotational_transport = usual_rotational_transport;
     shared_.half_length = half_length_;
     for (const std::string& name : without) leave_out(name);
@@ -126,6 +127,7 @@ void MotionParameters::leave_out(const std::string& name) {
     if (std::ranges::find(known, name) == known.end()) {
         throw Error(fmt::format("there is no term '{}'; the terms are {}", name, fmt::join(known, ", ")));
     }
+    if (name == drag_in_motion) shared_.drag_in_motion.setZero();
     if (name == drag_in_spin) shared_.drag_in_spin.setZero();
     if (name == turning_transport) shared_.rotational_transport = 0.0;
     // Transport's numbers are added to the added mass; as in potential flow there is none.
