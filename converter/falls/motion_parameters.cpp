@@ -39,7 +39,7 @@ constexpr int nowhere = -1;
 // Axes along which the body moves alike: within this, relative.
 constexpr double alike = 0.01;
 
-Eigen::Vector3i tied_axes(const Matrix3d& axes, const Body& body) {
+Eigen::Vector3i tied_axes(const Matrix3d& axes, const Body& body, double half_length) {
     const auto along = [&](const Matrix3d& tensor) -> Vector3d {
         return (axes.transpose() * tensor * axes).diagonal();
     };
@@ -48,8 +48,7 @@ Eigen::Vector3i tied_axes(const Matrix3d& axes, const Body& body) {
     const Vector3d inertias = along(fluid.topLeftCorner<3, 3>());
     const Vector3d extents = along(body.moments.second_moments);
     // The inertia of a body of revolution about its axis, and all of a sphere's, is nothing but rounding.
-    const double usual_inertia =
-        masses.maxCoeff() * std::pow(default_dynamic_coefficients(body).half_length, 2);
+    const double usual_inertia = masses.maxCoeff() * std::pow(half_length, 2);
     const auto equal = [](const Vector3d& values, int i, int j, double least = 0.0) {
         return std::abs(values[i] - values[j]) <= alike * std::max(values.maxCoeff(), least);
     };
@@ -61,12 +60,6 @@ Eigen::Vector3i tied_axes(const Matrix3d& axes, const Body& body) {
         }
     }
     return tied;
-}
-
-Vector3d projected_areas(const Body& body, const Matrix3d& axes) {
-    Vector3d areas;
-    for (int i = 0; i < 3; ++i) areas[i] = projected_area(body.surface, axes.col(i));
-    return areas;
 }
 
 }  // namespace
@@ -81,8 +74,13 @@ std::vector<std::string> MotionParameters::names() {
 
 MotionParameters::MotionParameters(const Body& body, const std::vector<std::string>& without) {
     axes_ = principal_axes(body.moments);
-    tied_ = tied_axes(axes_, body);
-    half_length_ = default_dynamic_coefficients(body).half_length;
+    shared_ = default_dynamic_coefficients(body);
+    shared_.origin.clear();
+    // Whole, where the defaults' fade towards a sphere: so they follow the falls better (docs/falls.md).
+    const Matrix3d areas = projected_area_tensor(body);
+    shared_.drag_in_motion = 0.5 * usual_drag_in_motion * (areas + areas.transpose());
+    shared_.drag_in_spin = 0.5 * usual_drag_in_spin * (areas + areas.transpose());
+    tied_ = tied_axes(axes_, body, shared_.half_length);
     const Matrix3d added_mass = axes_.transpose() * body.kirchhoff->matrix.bottomRightCorner<3, 3>() * axes_;
     const double largest = added_mass.diagonal().maxCoeff();
     const Vector3d turning =
@@ -93,7 +91,6 @@ MotionParameters::MotionParameters(const Body& body, const std::vector<std::stri
     const Vector3d offsets[] = {added_mass.diagonal(), none, none, none};
     // A body of revolution has no rotational drag about its axis by its pressure: friction is a small share.
     const Vector3d of_turning = turning.cwiseMax(0.02 * turning.maxCoeff());
-    const Vector3d areas = projected_areas(body, axes_);
     const Vector3d units[] = {Vector3d::Constant(0.25 * largest), of_turning, of_turning, of_entrained};
     for (std::size_t t = 0; t < std::size(expectations); ++t) {
         const Expectation& expectation = expectations[t];
@@ -114,11 +111,6 @@ MotionParameters::MotionParameters(const Body& body, const std::vector<std::stri
         tensors_.push_back(tensor);
     }
     parameters_.push_back({unsteady_factor, 1.0, 0.3, 0.3, 3.0});
-    const Matrix3d shadows = axes_ * areas.asDiagonal() * axes_.transpose();
-    shared_.drag_in_motion = 0.5 * usual_drag_in_motion * (shadows + shadows.transpose());
-    shared_.drag_in_spin = 0.5 * usual_drag_in_spin * (shadows + shadows.transpose());
-    shared_.rotational_transport = usual_rotational_transport;
-    shared_.half_length = half_length_;
     for (const std::string& name : without) leave_out(name);
 }
 

@@ -52,10 +52,9 @@ class MotionParameters {
 
     Matrix3d axes_;
     Eigen::Vector3i tied_;  // the axis whose number each axis takes
-    double half_length_ = 0.0;
     std::vector<Tensor> tensors_;
     std::vector<MotionParameter> parameters_;
-    DynamicCoefficients shared_;  // what every body has
+    DynamicCoefficients shared_;  // of what has no numbers
 };
 
 }  // namespace samara

@@ -217,7 +217,7 @@ std::string case_parameters(const std::string& template_text, const BakePlan& pl
     replace_values(text, mesh_entries_of(mesh_of(plan, entry.mesh)));
     const bool resolves_boundary_layer = mesh_of(plan, entry.mesh).resolves_boundary_layer;
     replace_values(text, closure_entries(entry.closure, resolves_boundary_layer));
-    // The wake itself swings then, and damping helped none of ten such cases.
+    // The wake itself swings then, and damping settled one of eleven such cases.
     if (resolves_boundary_layer) replace_values(text, {{"acceptedError", "0.1"}});
     replace_values(text, model_entries(plan.quality, entry));
     replace_values(text, process_entries(plan.ranks));

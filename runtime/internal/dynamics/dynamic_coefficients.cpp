@@ -30,6 +30,10 @@ Shadow shadow_of(const Body& body) {
 
 }  // namespace
 
+Matrix3d projected_area_tensor(const Body& body) {
+    return shadow_of(body).areas;
+}
+
 Matrix3d rotational_drag_tensor(const Surface& surface, const Vector3d& centroid) {
     Matrix3d tensor = Matrix3d::Zero();
     for (std::size_t t = 0; t < surface.triangle_count(); ++t) {

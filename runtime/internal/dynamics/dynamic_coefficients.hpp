@@ -39,6 +39,9 @@ DynamicCoefficients rotational_drag_alone(const Body& body);
 /// None: a body whose flow is that of a steady tow at every instant, but for the creeping turn.
 DynamicCoefficients no_dynamic_coefficients(const Body& body);
 
+/// A: the areas projected along the body's principal axes (m^2), as a tensor in body axes.
+Matrix3d projected_area_tensor(const Body& body);
+
 /// D = 1/2 the integral over the surface of (r x n)(r x n)^T dA (m^4), r from the centroid: symmetric,
 /// positive semidefinite, zero for a sphere.
 Matrix3d rotational_drag_tensor(const Surface& surface, const Vector3d& centroid);

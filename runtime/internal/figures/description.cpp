@@ -14,6 +14,10 @@ namespace {
 
 using nlohmann::json;
 
+double told_by(const FigureUncertainty& one) {
+    return std::max(one.relative, one.chance);
+}
+
 json describe(const BodyMotion& body, const BodyMeasures& measures) {
     json described = {{"name", body.name},
                       {"copies", body.copies},
@@ -22,7 +26,7 @@ json describe(const BodyMotion& body, const BodyMeasures& measures) {
                       {"body_hash", body.body_hash},
                       {"models", body.models}};
     for (const FigureUncertainty& one : body.uncertainties) {
-        described["uncertainties"][one.cause][one.figure] = std::max(one.relative, one.chance);
+        described["uncertainties"][one.cause][one.figure] = told_by(one);
     }
     described.update(as_json(measures));
     return described;
@@ -40,8 +44,7 @@ std::string uncertainty_text(const BodyMotion& body) {
         const bool begins = cause == nullptr || *cause != one.cause;
         if (begins) text += fmt::format("{}  uncertain by its {}: ", text.empty() ? "" : "\n", one.cause);
         cause = &one.cause;
-        text += fmt::format("{}{} {:.2g} %", begins ? "" : ", ", one.figure,
-                            100.0 * std::max(one.relative, one.chance));
+        text += fmt::format("{}{} {:.2g} %", begins ? "" : ", ", one.figure, 100.0 * told_by(one));
     }
     return text.empty() ? text : text + '\n';
 }

@@ -75,6 +75,9 @@ TEST(MotionParameters, ExpectTheTransportThatTakesThePotentialFlowsOwnAway) {
     EXPECT_EQ(expected.rotational_transport, 1.0);
     EXPECT_EQ(expected.unsteady_factor, 1.0);
     EXPECT_EQ(expected.entrained_inertia, Matrix3d::Zero());
+    const Matrix3d areas = projected_area_tensor(body);
+    EXPECT_LT((expected.drag_in_motion - usual_drag_in_motion * areas).norm(), 1e-12 * areas.norm());
+    EXPECT_LT((expected.drag_in_spin - usual_drag_in_spin * areas).norm(), 1e-12 * areas.norm());
     EXPECT_EQ(expected.wake_by_velocity, Matrix3d::Zero());
     EXPECT_EQ(expected.wake_by_turning, Matrix3d::Zero());
     EXPECT_EQ(expected.half_length, default_dynamic_coefficients(body).half_length);
