@@ -37,6 +37,7 @@ struct BakeOptions {
     std::string quality = "preview";
     std::string loads;  ///< empty: by the closure that is usual at the quality
     std::string falls;  ///< empty: by the closure of the loads
+    double fall_step = 1.0;
     std::string inflow = "still";
     int probes = 0;
     bool whole_grid = false;
@@ -52,6 +53,7 @@ BakeQuality quality_of(const BakeOptions& options) {
     const Closure loads =
         options.loads.empty() ? usual_loads_closure(options.quality) : closure_of(options.loads);
     BakeQuality quality = with_loads_by(loads, bake_quality(options.quality));
+    quality.fall_step = options.fall_step;
     if (options.falls.empty()) return quality;
     if (options.falls != no_falls) return with_falls_by(closure_of(options.falls), std::move(quality));
     quality.falls = 0;
@@ -158,6 +160,7 @@ nlohmann::json run_requests(const std::vector<BakeRequest>& requests, const Bake
                     notes.print();
                 });
             warn_of_left_out_cases(request, result);
+            warn_of_unbalanced_falls(request, result);
             if (!quiet) print_result(request, result);
             one = bake_as_json(request, result);
         }
@@ -206,6 +209,9 @@ int run(int argc, const char* const* argv) {
                      "closure that the falls are solved by; else that of the loads. Their mesh is that of "
                      "samara validate, but for kEpsilon's beside loads by kEpsilon. "
                      "none: no falls, and so the coefficients that bodies have in common");
+    arguments.option("--fall-step", options.fall_step,
+                     "over the step that a fall gets of itself: 0.5 for a fall whose momenta do not balance",
+                     0.05, 4.0);
     arguments.choice("--inflow", options.inflow, {"still", "paper"},
                      "turbulence of the fluid around: still: 1 % intensity; paper: its eq. 13, 100 %");
     arguments.option("--probes", options.probes,

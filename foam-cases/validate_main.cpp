@@ -71,7 +71,7 @@ std::vector<std::filesystem::path> motions_of(const char* option, const std::str
 void warn_of_doubts(const ValidationResult& result) {
     const auto note = [](const std::string& text) { print_note("samara validate: note: {}\n", text); };
     const FallBalance balance = result.worst_balance();
-    if (balance.force > doubtful_balance.force || balance.moment > doubtful_balance.moment) {
+    if (is_doubtful(balance)) {
         note(fmt::format(
             "the momenta do not balance the loads (force {:.0f} %, moment {:.0f} %): the fall is doubtful; "
             "halve its step with --step",

@@ -114,6 +114,10 @@ FallRecord read_fall_record(const std::filesystem::path& folder) {
     return record;
 }
 
+bool is_doubtful(const FallBalance& balance) {
+    return balance.force > doubtful_balance.force || balance.moment > doubtful_balance.moment;
+}
+
 FallBalance balance_of(const FallRecord& record) {
     const FreeFall& fall = record.fall;
     const std::vector<FallSample>& samples = record.samples;

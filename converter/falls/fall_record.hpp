@@ -46,4 +46,7 @@ FallBalance balance_of(const FallRecord& record);
 /// (docs/validate.md).
 inline constexpr FallBalance doubtful_balance = {0.05, 0.15};
 
+/// Whether either is above that.
+bool is_doubtful(const FallBalance& balance);
+
 }  // namespace samara

@@ -352,10 +352,8 @@ void Folder::tell_falls(const Told& told) {
              fmt::format("flown from the starts of the solved falls, descent speeds differ by up to {}",
                          per_cent(farthest))});
         report_.findings.push_back(swings.finding());
-        const bool balances =
-            worst.force <= doubtful_balance.force && worst.moment <= doubtful_balance.moment;
         report_.findings.push_back(
-            {balances ? Grade::good : Grade::limited, "balance",
+            {is_doubtful(worst) ? Grade::limited : Grade::good, "balance",
              fmt::format("the solved falls' momenta balance to {} (force) and {} (moment)",
                          per_cent(worst.force), per_cent(worst.moment))});
     }

@@ -57,6 +57,7 @@ struct BakeQuality {
     int falls = 0;                ///< free falls that the dynamic coefficients are identified from
     std::size_t fall_mesh = 1;    ///< the mesh they are solved on, where that is one of the loads'
     double fall_cells = 20'000;   ///< about, of a mesh of their own
+    double fall_step = 1.0;       ///< times the step that a fall gets of itself
     double stationarity = 0.005;  ///< tolerance of the tail (body-flow/stationarity.py)
     int least_iterations = 100;   ///< by k-epsilon; half as many from a solution on another mesh
     int most_iterations = 800;    ///< of each attempt

@@ -22,4 +22,7 @@ void note_doubts(BodyNotes& notes, const BakeRequest& request, const BakePrepara
 /// One line on standard error that names the cases that were left out.
 void warn_of_left_out_cases(const BakeRequest& request, const BakeResult& result);
 
+/// Notes the falls whose momenta do not balance their loads, and the remedy.
+void warn_of_unbalanced_falls(const BakeRequest& request, const BakeResult& result);
+
 }  // namespace samara

@@ -259,6 +259,7 @@ void add_falls(const Body& body, const Fluid& fluid, const std::vector<MassSpeci
         FreeFall fall = plan_fall(body, immersed, identification_start(body, i), gravity * -Vector3d::UnitZ(),
                                   speed, duration, model);
         fall.name = name_of_fall(static_cast<std::size_t>(i));
+        fall.time_step *= plan.quality.fall_step;
         fall.mesh = has_own_mesh ? own_mesh : mesh_of_loads;
         reynolds_number = std::max(reynolds_number, fall.reynolds_number);
         plan.falls.push_back(fall);

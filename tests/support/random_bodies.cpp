@@ -57,8 +57,6 @@ DynamicCoefficients RandomBodies::coefficients(double size) {
     result.rotational_transport = uniform(-2.0, 2.0);
     result.drag_in_motion = semidefinite(area * magnitude(0.01, 100.0));
     result.rotational_drag = semidefinite(area * area * magnitude(0.01, 100.0));
-    result.wake_by_velocity = symmetric(area * area * magnitude(0.01, 100.0));
-    result.wake_by_turning = symmetric(area * area * magnitude(0.01, 100.0));
     result.entrained_inertia = symmetric(area * area * size * magnitude(0.01, 100.0));
     result.unsteady_factor = magnitude(0.3, 3.0);
     result.drag_in_spin = semidefinite(area * magnitude(0.01, 100.0));

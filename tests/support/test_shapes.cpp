@@ -261,8 +261,6 @@ Body full_body() {
     dynamic.rotational_transport = 0.8;
     dynamic.drag_in_motion << 0.3, 0.01, -0.02, 0.01, 0.2, 0.03, -0.02, 0.03, 0.1;
     dynamic.rotational_drag << 0.003, 0.0, 0.001, 0.0, 0.002, 0.0, 0.001, 0.0, 0.004;
-    dynamic.wake_by_velocity << -0.02, 0.0, 0.0, 0.0, 0.03, 0.0, 0.0, 0.0, 0.0;
-    dynamic.wake_by_turning << 0.001, 0.0005, 0.0, 0.0005, -0.002, 0.0, 0.0, 0.0, 0.003;
     dynamic.entrained_inertia << 0.002, 0.0, 0.0001, 0.0, -0.001, 0.0, 0.0001, 0.0, 0.004;
     dynamic.unsteady_factor = 1.3;
     dynamic.drag_in_spin = Vector3d(0.5, 0.6, 0.0).asDiagonal();
@@ -274,8 +272,6 @@ Body full_body() {
     errors.rotational_transport = 0.06;
     errors.drag_in_motion = Matrix3d::Constant(0.007);
     errors.rotational_drag = Matrix3d::Constant(0.0008);
-    errors.wake_by_velocity = Vector3d(0.001, 0.002, 0.003).asDiagonal();
-    errors.wake_by_turning = Matrix3d::Constant(0.0001);
     errors.entrained_inertia = Matrix3d::Constant(0.0002);
     errors.unsteady_factor = 0.05;
     errors.drag_in_spin = Matrix3d::Constant(0.009);

@@ -5,12 +5,11 @@
                                   anew without each term, and holds the falls again
     falls_report.py BIN BODIES FALL...
                                   bakes, flies and compares these falls alone; the rows of others stay as they are. As FALL,
-                                  `range` is all those with bodies that are baked for a range of densities, `closure` all
-                                  with bodies that are baked by the references' closure, `terms` and `fewer` all with these
-                                  identified anew without each term, and from fewer falls
+                                  `range` is all those with bodies that are baked for a range of densities, `terms` and
+                                  `fewer` all with bodies identified anew without each term, and from fewer falls
     falls_report.py               writes the tables again from the rows of the last run
 
-Writes docs/falls/falls.csv, range.csv, closure.csv, terms.csv and fewer.csv, and the tables of docs/falls.md. BIN: the folder
+Writes docs/falls/falls.csv, range.csv, terms.csv and fewer.csv, and the tables of docs/falls.md. BIN: the folder
 of the programs; BODIES: a folder for baked bodies. Run from the project's folder.
 """
 
@@ -25,8 +24,6 @@ import tempfile
 from report_tables import mark, write_tables
 
 FALLS = "docs/falls"
-# The closure of the references.
-RESOLVED = "kOmegaSSTLM"
 # The body of each scene: its shape, and what it is baked for. No body is baked from a reference fall.
 BODIES = {
     "sphere": ("meshes/shapes/sphere.geo", ["--density", "1300"]),
@@ -37,10 +34,8 @@ BODIES = {
     "plate": (f"{FALLS}/plate.geo", ["--density", "2700"]),
     "sheet": ("meshes/shapes/sheet.geo", ["--fluid", "air", "--density", "800"]),
     "disc-range": (f"{FALLS}/disc.geo", ["--density", "1497.3", "--density-to", "11340"]),
-    "ellipsoid-range": ("meshes/shapes/ellipsoid.geo", ["--density", "1200", "--density-to", "4800"]),
+    "ellipsoid-range": ("meshes/shapes/ellipsoid.geo", ["--density", "1200", "--density-to", "2700"]),
 }
-# Of these what runtime/bodies/bodies.toml bakes, at the same quality.
-READY_BAKED = ("sphere", "ellipsoid", "sheet")
 SCENES = {
     "sphere": "sphere", "ellipsoid-tilted": "ellipsoid", "ellipsoid-compound": "ellipsoid",
     "ellipsoid-edgewise": "ellipsoid", "ellipsoid-heavy": "ellipsoid", "spheroid": "spheroid",
@@ -50,17 +45,11 @@ SCENES = {
 OF_A_RANGE = {"disc-light": "disc-range", "disc-heavy": "disc-range", "ellipsoid-tilted": "ellipsoid-range",
               "ellipsoid-compound": "ellipsoid-range", "ellipsoid-edgewise": "ellipsoid-range",
               "ellipsoid-heavy": "ellipsoid-range"}
-# The falls with bodies whose loads and falls are by the references' closure.
-BY_THAT_CLOSURE = {scene: f"{body}-resolved" for scene, body in SCENES.items()}
-BODIES |= {f"{body}-resolved": (shape, [*options, "--loads", RESOLVED]) for body, (shape, options) in BODIES.items()
-           if not body.endswith("-range")}
 TERMS = ("transport", "turning transport", "drag in motion", "drag in spin", "rotational drag",
          "rotational drag in spin", "entrained inertia", "unsteady factor")
-# Falls with other bodies than theirs: which, their rows, and whether with noise too.
-OTHERS = {"closure": (BY_THAT_CLOSURE, f"{FALLS}/closure.csv", ("on", "off")),
-          "range": (OF_A_RANGE, f"{FALLS}/range.csv", ("off",))}
 # As users fly them, with noise; and without.
 RUNS = {"on": 20, "off": 1}
+RANGE_ROWS = f"{FALLS}/range.csv"
 # What bodies are identified from.
 FEWER = {"the gentle fall": ["fall_00"], "the oblique fall": ["fall_01"], "both": None}
 # Narrower limits than those of `samara compare`: of descent, frequency, amplitude and rms angular speed.
@@ -78,16 +67,13 @@ def baked_file(folder, body):
 
 
 def baked(programs, folder, body):
-    """The baked body's file and its falls, separated by commas: none of those files that are kept in docs/falls/bodies, nor of
-    the ready-baked ones that are baked for the same."""
+    """The baked body's file and its falls, separated by commas: none of those files that are kept in docs/falls/bodies."""
     shape, options = BODIES[body]
-    file = baked_file(folder, body)
-    for kept in (baked_file(f"{FALLS}/bodies", body), *([baked_file("runtime/bodies", body)] if body in READY_BAKED else [])):
-        if not os.path.exists(file) and os.path.exists(kept):
-            return kept, ""
+    file, kept = baked_file(folder, body), baked_file(f"{FALLS}/bodies", body)
+    if not os.path.exists(file) and os.path.exists(kept):
+        return kept, ""
     if not os.path.exists(file):
-        closure = [] if "--loads" in options else ["--loads", "kEpsilon"]
-        run([f"{programs}/samara", "bake", shape, "-o", file, "--quality", "standard", "--json"] + closure + options)
+        run([f"{programs}/samara", "bake", shape, "-o", file, "--quality", "standard", "--json"] + options)
     cases = os.path.join(folder, f"{body}.cases")
     falls = sorted(name for name in os.listdir(cases) if name.startswith("fall_")) if os.path.isdir(cases) else []
     return file, ",".join(os.path.join(cases, name) for name in falls)
@@ -213,12 +199,12 @@ def fly(programs, folder, scenes):
                                                  if (scene, noise) in rows])
 
 
-def fly_others(programs, folder, bodies, table, noises):
-    """Writes into the table the rows of falls with other bodies than theirs (body by scene)."""
+def fly_ranges(programs, folder):
+    """Writes range.csv: falls with bodies that are baked for a range of densities."""
     with tempfile.TemporaryDirectory() as work:
         rows = [row_of(scene, noise, compared(programs, baked(programs, folder, body)[0], scene, work, noise))
-                for noise in noises for scene, body in bodies.items()]
-    written(table, [heading()] + rows)
+                for noise in RUNS for scene, body in OF_A_RANGE.items()]
+    written(RANGE_ROWS, [heading()] + rows)
 
 
 def rows_of_falls(noise, table=f"{FALLS}/falls.csv"):
@@ -227,8 +213,7 @@ def rows_of_falls(noise, table=f"{FALLS}/falls.csv"):
 
 
 def tables_of_falls():
-    return [table_of_falls(rows_of_falls(noise)) for noise in RUNS] + [
-        table_of_falls(rows_of_falls(noise, table)) for _, table, noises in OTHERS.values() for noise in noises]
+    return [table_of_falls(rows_of_falls(noise, table)) for table in (f"{FALLS}/falls.csv", RANGE_ROWS) for noise in RUNS]
 
 
 def table_of_falls(rows, who="runtime"):
@@ -253,10 +238,10 @@ def table_of_falls(rows, who="runtime"):
 
 
 def fly_anew(programs, folder, words=(), falls=None):
-    """Every body by the references' closure but the sphere identified anew, with other options or from some of its falls alone:
+    """Every body but the sphere identified anew, with other options or from some of its falls alone:
     how well they predict those, what the bodies' falls cost in CPU seconds, and the comparisons of their scenes, both in the mean
     over the bodies."""
-    scenes = {scene: body for scene, body in BY_THAT_CLOSURE.items() if scene != "sphere"}
+    scenes = {scene: body for scene, body in SCENES.items() if scene != "sphere"}
     files, errors, costs = {}, [], []
     with tempfile.TemporaryDirectory() as work:
         for body in sorted(set(scenes.values())):
@@ -327,16 +312,15 @@ def table_of_terms():
 
 def main(words):
     names = words[3:]
-    if len(words) == 2 or not set(names) <= {*SCENES, *OTHERS, "terms", "fewer"}:
+    if len(words) == 2 or not set(names) <= {*SCENES, "range", "terms", "fewer"}:
         sys.stderr.write(__doc__)
         return 2
     if len(words) >= 3:
         programs, folder = words[1:3]
         os.makedirs(folder, exist_ok=True)
         fly(programs, folder, [name for name in names if name in SCENES] if names else SCENES)
-        for kind in OTHERS:
-            if not names or kind in names:
-                fly_others(programs, folder, *OTHERS[kind])
+        if not names or "range" in names:
+            fly_ranges(programs, folder)
         if not names or "terms" in names:
             fly_without_terms(programs, folder)
         if not names or "fewer" in names:

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """The test set of docs/test-falls: falls that nothing was fitted on nor chosen by, held against the runtime.
 
-    test_falls_report.py BIN BODIES WORK    solves what is missing in WORK by full CFD on two meshes, bakes what is missing in
-                                            BODIES, flies every scene and compares
+    test_falls_report.py BIN BODIES WORK    solves in WORK, by full CFD on two meshes, the falls that references.csv has no row
+                                            of, bakes what is missing in BODIES, flies every scene and compares
     test_falls_report.py                    writes the tables again from the rows of the last run
 
 Writes docs/test-falls/NAME.h5, references.csv and falls.csv, and the tables of docs/test-falls.md. Run from the project's
@@ -16,22 +16,25 @@ import sys
 import tempfile
 
 import falls_report
-from falls_report import FIGURES, RUNS, baked, compared, rows_of_falls, table_of_falls, written
+from falls_report import BODIES, FIGURES, RUNS, baked, compared, rows_of_falls, table_of_falls, written
 from references_report import CELLS, CLOSURE, differences, number, percent, solved
 from report_tables import mark, write_tables
 
 FOLDER = "docs/test-falls"
-# With which bodies each fall is flown, of those of docs/falls or ready-baked ones: first the one that is baked for its
-# density.
+# With which body each fall is flown: one of these, of docs/falls, or a ready-baked one.
+BODIES |= {
+    "box": (f"{FOLDER}/box.geo", ["--density", "1200", "--density-to", "7850"]),
+    "thick-disc": (f"{FOLDER}/thick-disc.geo", ["--density", "1200", "--density-to", "7850"]),
+}
 SCENES = {
-    "disc-2000": ("disc-range",),
-    "disc-3000": ("disc-range",),
-    "disc-6000": ("disc-range",),
-    "ellipsoid-3000": ("ellipsoid-range", "samara:ellipsoid"),
-    "sheet-steep": ("samara:sheet",),
-    "sphere-light": ("samara:sphere",),
-    "plate-steep": ("plate-resolved",),
-    "spheroid-steep": ("spheroid-resolved",),
+    "box-1500": "box", "box-6000": "box", "thick-disc-1400": "thick-disc", "thick-disc-5000": "thick-disc",
+    "cube-1050": "samara:cube",
+    "cube-2400": "samara:cube", "ellipsoid-1600": "ellipsoid-range", "sheet-1000": "samara:sheet",
+}
+# A test set of before, which has been looked at.
+SEEN = {
+    "disc-2000": "disc-range", "disc-3000": "disc-range", "disc-6000": "disc-range", "ellipsoid-3000": "ellipsoid-range",
+    "sheet-steep": "samara:sheet", "sphere-light": "samara:sphere", "plate-steep": "plate", "spheroid-steep": "spheroid",
 }
 REFERENCES, ROWS = f"{FOLDER}/references.csv", f"{FOLDER}/falls.csv"
 
@@ -42,20 +45,28 @@ def file_of(programs, bodies, body):
     return baked(programs, bodies, body)[0]
 
 
-def solved_references(programs, work):
+def rows_of_references():
+    with open(REFERENCES, newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def solve_references(programs, work):
     """Solves the falls and writes them with their uncertainty, and the rows of references.csv."""
-    rows = [["fall", "cells", "cpu_seconds", "balance_force", "balance_moment", "regime", "regime_coarse"] + list(FIGURES)
-            + [f"{figure}_by_mesh" for figure in FIGURES]]
+    heads = (["fall", "cells", "cpu_seconds", "balance_force", "balance_moment", "regime", "regime_coarse"] + list(FIGURES)
+             + [f"{figure}_by_mesh" for figure in FIGURES])
+    rows = {row["fall"]: [row[head] for head in heads] for row in rows_of_references()}
     for name in SCENES:
+        if name in rows:
+            continue
         cells, coarse_cells = CELLS
         coarse, _ = solved(programs, work, name, coarse_cells, CLOSURE, falls=FOLDER)
         file, result = solved(programs, work, name, cells, CLOSURE, ["--other-mesh", coarse], falls=FOLDER)
         shutil.copyfile(file, f"{FOLDER}/{name}.h5")
         by_mesh, regime_by_mesh = differences(programs, coarse, file)
         body, balance = result["body"], result["balance"]
-        rows.append([name, result["cells"], result["cpu_seconds"], balance["force"], balance["moment"], body["regime"],
-                     regime_by_mesh] + [body.get(figure) for figure in FIGURES] + by_mesh)
-    written(REFERENCES, rows)
+        rows[name] = [name, result["cells"], result["cpu_seconds"], balance["force"], balance["moment"], body["regime"],
+                      regime_by_mesh] + [body.get(figure) for figure in FIGURES] + by_mesh
+    written(REFERENCES, [heads] + list(rows.values()))
 
 
 def flown(programs, bodies):
@@ -63,20 +74,17 @@ def flown(programs, bodies):
     rows = []
     with tempfile.TemporaryDirectory() as work:
         for noise in RUNS:
-            for scene, names in SCENES.items():
-                for body in names:
-                    comparison = compared(programs, file_of(programs, bodies, body), scene, work, noise, FOLDER)
-                    rows.append([body] + falls_report.row_of(scene, noise, comparison))
-                    print(*rows[-1])
-    written(ROWS, [["body"] + falls_report.heading()] + rows)
+            for scene, body in (SCENES | SEEN).items():
+                comparison = compared(programs, file_of(programs, bodies, body), scene, work, noise, FOLDER)
+                rows.append(falls_report.row_of(scene, noise, comparison))
+                print(*rows[-1])
+    written(ROWS, [falls_report.heading()] + rows)
 
 
 def table_of_references():
-    with open(REFERENCES, newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
     lines = ["| fall | cells | CPU s | momenta balance (force / moment) | descent | frequency | amplitude | rms angular speed "
              "| regime | coarser mesh: descent | frequency | amplitude | rms angular speed | regime |", "|---" * 14 + "|"]
-    for row in rows:
+    for row in rows_of_references():
         changes = [percent(float(row[f"{figure}_by_mesh"])) if row[f"{figure}_by_mesh"] else "-" for figure in FIGURES]
         lines.append("| " + " | ".join(
             [f"[{row['fall']}](test-falls/{row['fall']}.toml)", f"{int(row['cells']):,}", f"{float(row['cpu_seconds']):.0f}",
@@ -88,13 +96,9 @@ def table_of_references():
 
 
 def tables():
-    """Of the references; of each fall with the body that is baked for it, without noise and with; and with the others."""
-    made = [table_of_references()]
-    for noise in ("off", "on"):
-        made.append(table_of_falls([row for row in rows_of_falls(noise, ROWS) if row["body"] == SCENES[row["fall"]][0]]))
-    others = [row | {"fall": f"{row['fall']}, the body {row['body']}"} for row in rows_of_falls("off", ROWS)
-              if len(SCENES[row["fall"]]) > 1 and row["body"] != SCENES[row["fall"]][0]]
-    return made + [table_of_falls(others)]
+    """Of the references; of the test set and of the one of before, without noise and with."""
+    return [table_of_references()] + [table_of_falls([row for row in rows_of_falls(noise, ROWS) if row["fall"] in falls])
+                                      for falls in (SCENES, SEEN) for noise in ("off", "on")]
 
 
 def main(words):
@@ -105,7 +109,7 @@ def main(words):
         programs, bodies, work = words[1:]
         os.makedirs(bodies, exist_ok=True)
         os.makedirs(work, exist_ok=True)
-        solved_references(programs, work)
+        solve_references(programs, work)
         flown(programs, bodies)
     write_tables("docs/test-falls.md", tables(), mark("test-falls"))
     return 0

@@ -1,6 +1,8 @@
 #include "internal/body/dynamic_coefficients_file.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -13,6 +15,8 @@ namespace {
 constexpr const char* group = "/dynamic_coefficients";
 constexpr const char* lowest_density = "lowest_density";
 constexpr const char* highest_density = "highest_density";
+/// Of an angular momentum that the wake carried along.
+constexpr const char* former_tensors[] = {"wake_by_velocity", "wake_by_turning"};
 
 std::string place(const char* name, const char* name_end = "") {
     return fmt::format("{}/{}{}", group, name, name_end);
@@ -74,6 +78,14 @@ std::string fault_of_errors(const DynamicCoefficients& errors) {
     return {};
 }
 
+/// Whether the coefficients hold terms that flights no longer have.
+bool is_of_an_earlier_form(const Hdf5Reader& file) {
+    if (file.has_attribute(group, "force_transport")) return true;
+    return std::any_of(std::begin(former_tensors), std::end(former_tensors), [&file](const char* name) {
+        return file.has(place(name)) && !read_tensor(file, name, "").isZero(0.0);
+    });
+}
+
 }  // namespace
 
 void write_dynamic_coefficients(Hdf5Writer& file, const IdentifiedCoefficients& coefficients) {
@@ -88,11 +100,11 @@ void write_dynamic_coefficients(Hdf5Writer& file, const IdentifiedCoefficients& 
 }
 
 IdentifiedCoefficients read_dynamic_coefficients(const Hdf5Reader& file) {
-    if (file.has_attribute(group, "force_transport")) {
-        throw Error(
-            fmt::format("{}: {} is of an earlier form, which this version does not fly; remove the group "
-                        "to fly with defaults",
-                        file.path().string(), group));
+    if (is_of_an_earlier_form(file)) {
+        throw Error(fmt::format(
+            "{}: {} is of an earlier form, which this version does not fly; bake the body again, or "
+            "remove the group to fly with defaults",
+            file.path().string(), group));
     }
     IdentifiedCoefficients coefficients{.values = read_numbers(file, ""),
                                         .standard_errors = read_numbers(file, "_error"),

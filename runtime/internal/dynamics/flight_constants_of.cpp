@@ -159,16 +159,6 @@ void set_transport(const ImmersedBody& body, double mass, double length, FlightC
 }
 
 template <class Real>
-void set_wake(const ImmersedBody& body, double mass, double length, FlightConstants<Real>& c) {
-    const DynamicCoefficients& dynamic = body.dynamic;
-    const double reach = dynamic.half_length / length;
-    const double wake = body.fluid_density / (mass * length);
-    c.has_wake = !dynamic.wake_by_velocity.isZero(0.0) || !dynamic.wake_by_turning.isZero(0.0);
-    c.wake_by_velocity = symmetric<Real>(wake * dynamic.wake_by_velocity);
-    c.wake_by_turning = symmetric<Real>(wake * reach * reach * dynamic.wake_by_turning);
-}
-
-template <class Real>
 void set_loads(const ImmersedBody& body, FlightConstants<Real>& c) {
     const double mass = static_cast<double>(c.mass_scale);
     const double length = length_scale(body);
@@ -186,7 +176,6 @@ void set_loads(const ImmersedBody& body, FlightConstants<Real>& c) {
     c.rotational_drag_in_spin =
         symmetric<Real>(half_density / (mass * length) * dynamic.rotational_drag_in_spin);
     set_transport(body, mass, length, c);
-    set_wake(body, mass, length, c);
     for (const TowPatch& patch : body.patches) {
         c.patches.push_back({triple<Real>(patch.place / length), static_cast<Real>(patch.share),
                              patch_table<Real>(body, patch)});

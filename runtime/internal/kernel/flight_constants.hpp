@@ -77,9 +77,6 @@ struct FlightConstants {
     bool transports_turning = false;         ///< whether the next two are not zero
     Square<Real> turning_transport{};        ///< t rho_f J / (m* l^2)
     Square<Real> coupling_transport{};       ///< t rho_f C / (m* l)
-    bool has_wake = false;                   ///< whether the next two are not zero
-    Square<Real> wake_by_velocity{};         ///< rho_f N_v / (m* l)
-    Square<Real> wake_by_turning{};          ///< rho_f c^2 N_w / (m* l^3)
     Square<Real> drag_in_motion{};           ///< rho_f l C_m A / (2 m*)
     Square<Real> rotational_drag{};          ///< rho_f C_w D / (2 m* l)
     bool has_side_pressure = false;          ///< whether the next is not zero: of a wake that fluctuates

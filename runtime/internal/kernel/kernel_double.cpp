@@ -221,7 +221,7 @@ void loads_of_one(const FlightConstants<double>& c, const Vector6d& velocity, co
     const Triple<One> moving = One(c.inverse_length) * triple_of(velocity.data() + 3);
     LoadBlocks<One> blocks = relative_load_blocks(c, turning - triple_of(seen_rotation), moving, turning);
     keep_blocks(c, blocks, loads.relative);
-    add_transports(c, turning, moving, blocks);
+    add_transport(c, turning, moving, blocks);
     if (c.has_side_pressure) {
         add_side_pressure(c, moving, One(c.inverse_length) * triple_of(slip), blocks);
     }

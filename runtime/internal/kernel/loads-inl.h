@@ -140,7 +140,8 @@ HWY_INLINE void add_windmill(const Triple<V>& moment_along_force, const Triple<V
 }
 
 /// Adds force omega x p and moment v x p + omega x l of the momenta (l, p) that separated flow lacks:
-/// workless.
+/// workless. It acts on the turning of the body's axes themselves: these momenta belong to those of the
+/// equations' left side. `omega`: the body's own.
 template <class V, class Real>
 HWY_INLINE void add_transport(const FlightConstants<Real>& c, const Triple<V>& omega,
                               const Triple<V>& velocity, LoadBlocks<V>& blocks) {
@@ -167,16 +168,6 @@ HWY_INLINE void add_side_pressure(const FlightConstants<Real>& c, const Triple<V
     const Triple<V> pressed = broadcast_symmetric<V>(c.side_pressure) * slip;
     blocks.force_by_velocity =
         plus_cross(blocks.force_by_velocity, cross(pressed, heading_of(velocity).direction));
-}
-
-/// Adds omega x the wake's angular momentum: workless.
-template <class V, class Real>
-HWY_INLINE void add_wake(const FlightConstants<Real>& c, const Triple<V>& omega, const Triple<V>& velocity,
-                         V combined, LoadBlocks<V>& blocks) {
-    const Triple<V> by_velocity = cross(velocity, broadcast_symmetric<V>(c.wake_by_velocity) * velocity);
-    const Triple<V> by_turning = cross(omega, broadcast_symmetric<V>(c.wake_by_turning) * omega);
-    const V inverse = V(1.0) / larger(V(tiny<V>), combined);
-    blocks.moment_by_turning = plus_cross(blocks.moment_by_turning, inverse * (by_velocity + by_turning));
 }
 
 /// The speed of moving and turning together, in l a second.
@@ -226,15 +217,6 @@ HWY_INLINE LoadBlocks<V> relative_load_blocks(const FlightConstants<Real>& c, co
             blocks.force_by_velocity + in_spin * broadcast_symmetric<V>(c.drag_in_spin);
     }
     return blocks;
-}
-
-/// Adds the part of D that acts on the turning of the body's axes themselves: momenta that turn with them,
-/// which belong to those of the equations' left side. `omega`: the body's own.
-template <class V, class Real>
-HWY_INLINE void add_transports(const FlightConstants<Real>& c, const Triple<V>& omega,
-                               const Triple<V>& velocity, LoadBlocks<V>& blocks) {
-    add_transport(c, omega, velocity, blocks);
-    if (c.has_wake) add_wake(c, omega, velocity, combined_speed(c, omega, velocity), blocks);
 }
 
 }  // namespace samara::HWY_NAMESPACE

@@ -190,7 +190,7 @@ HWY_INLINE void improve(const FlightConstants<Real>& c, const StepStart<V>& star
         } else {
             loads = relative_load_blocks(c, middle.omega, middle.velocity, middle.omega);
         }
-        add_transports(c, middle.omega, middle.velocity, loads);
+        add_transport(c, middle.omega, middle.velocity, loads);
         if (c.has_side_pressure) add_side_pressure(c, middle.velocity, under_body(start.slip), loads);
         const Stiffness<V> stiff = stiffness(c, loads, start.h);
         const V z = larger(stiff.turning, stiff.moving);

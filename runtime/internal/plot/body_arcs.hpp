@@ -33,7 +33,7 @@ struct ArcValues {
 ArcValues values_on(const LoadTables& tables, const BodyArc& arc, double angle, double reynolds_number);
 ArcValues errors_on(const LoadTables& tables, const BodyArc& arc, double angle, double reynolds_number);
 
-/// The body's arcs, up to three: one whose loads are another's, to 2 % of the largest force, is left out. The
+/// The body's arcs, up to three: one whose loads are another's, to 3 % of the largest force, is left out. The
 /// body has tables.
 std::vector<BodyArc> arcs_of(const Body& body, double reynolds_number);
 

@@ -37,11 +37,6 @@ struct DynamicCoefficients {
     /// C_r D (m^4), likewise, of a body that turns fast: the moment -rho/2 H s C_r D omega with the
     /// same s.
     Matrix3d rotational_drag_in_spin = Matrix3d::Zero();
-    /// N_v (m^4), symmetric: the angular momentum of the wake turns with the body, the moment
-    /// rho omega x (v x (N_v v))/H, which does no work.
-    Matrix3d wake_by_velocity = Matrix3d::Zero();
-    /// N_w (m^4), symmetric: likewise, rho omega x (c^2 omega x (N_w omega))/H.
-    Matrix3d wake_by_turning = Matrix3d::Zero();
     /// E (m^5), symmetric: the fluid behind the body that turns with it, the moment rho omega x (E omega),
     /// which does no work.
     Matrix3d entrained_inertia = Matrix3d::Zero();
@@ -69,10 +64,6 @@ inline constexpr TensorOfMotion tensors_of_motion[] = {
      "C_w D about the centroid, body axes", true},
     {&DynamicCoefficients::rotational_drag_in_spin, "rotational_drag_in_spin", "rotational drag in spin",
      "m^4", "C_r D about the centroid, body axes", true},
-    {&DynamicCoefficients::wake_by_velocity, "wake_by_velocity", "wake by velocity", "m^4", "N_v, body axes",
-     false},
-    {&DynamicCoefficients::wake_by_turning, "wake_by_turning", "wake by turning", "m^4", "N_w, body axes",
-     false},
     {&DynamicCoefficients::entrained_inertia, "entrained_inertia", "entrained inertia", "m^5",
      "E about the centroid, body axes", false, true},
 };

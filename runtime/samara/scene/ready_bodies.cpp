@@ -31,7 +31,9 @@ BodiesByName read_index(const fs::path& file) {
         body.fluid = table.text("fluid").value_or("");
         body.density = table.number("density", positive_number);
         body.purpose = table.text("purpose").value_or("");
-        for (const char* key : {"shape", "quality", "loads", "falls", "mass", "center_of_mass", "inertia"}) {
+        table.number("density_to", positive_number);
+        table.number("fall_step", positive_number);
+        for (const char* key : {"shape", "quality", "falls", "mass", "center_of_mass", "inertia"}) {
             table.text(key);
         }
         table.finish();

@@ -78,8 +78,6 @@ TEST(MotionParameters, ExpectTheTransportThatTakesThePotentialFlowsOwnAway) {
     const Matrix3d areas = projected_area_tensor(body);
     EXPECT_LT((expected.drag_in_motion - usual_drag_in_motion * areas).norm(), 1e-12 * areas.norm());
     EXPECT_LT((expected.drag_in_spin - usual_drag_in_spin * areas).norm(), 1e-12 * areas.norm());
-    EXPECT_EQ(expected.wake_by_velocity, Matrix3d::Zero());
-    EXPECT_EQ(expected.wake_by_turning, Matrix3d::Zero());
     EXPECT_EQ(expected.half_length, default_dynamic_coefficients(body).half_length);
     EXPECT_EQ(fault_of(expected), "");
 }

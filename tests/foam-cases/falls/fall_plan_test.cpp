@@ -355,6 +355,20 @@ TEST(IdentificationFalls, OfTwoDensitiesHaveThemInTurnEachInItsOwnTime) {
     EXPECT_NEAR(heavy.speed / light.speed, faster, 0.3 * faster);
 }
 
+TEST(IdentificationFalls, HaveStepsOfTheirOwnTimesTheFactorThatIsAskedFor) {
+    const Body body = test::ellipsoid({0.01, 0.02, 0.04});
+    BakeQuality quality = bake_quality("standard");
+    const BakePlan plan = bake_with_falls(body, quality);
+    quality.fall_step = 0.5;
+    const BakePlan halved = bake_with_falls(body, quality);
+    ASSERT_EQ(halved.falls.size(), plan.falls.size());
+    for (std::size_t i = 0; i < plan.falls.size(); ++i) {
+        EXPECT_EQ(halved.falls[i].time_step, 0.5 * plan.falls[i].time_step);
+        EXPECT_EQ(halved.falls[i].acceleration_relaxation, plan.falls[i].acceleration_relaxation);
+    }
+    EXPECT_GT(halved.cpu_seconds, plan.cpu_seconds);
+}
+
 TEST(IdentificationFalls, ByAnotherClosureHaveAMeshOfTheirOwnOfAsManyCells) {
     const Body body = test::ellipsoid({0.01, 0.02, 0.04});
     const BakePlan plan =

@@ -363,6 +363,32 @@ TEST(BodyFile, DynamicCoefficientsOfAnEarlierFormAreRefusedWithARemedy) {
     EXPECT_EQ(fault.find('\n'), std::string::npos);
 }
 
+TEST(BodyFile, DynamicCoefficientsWithAWakeThatIsCarriedAlongAreRefusedButWhereItIsNone) {
+    const test::TemporaryFolder folder;
+    const std::string path = (folder / "a.body.h5").string();
+    const Body body = test::full_body();
+    for (const double value : {0.0, 1e-7}) {
+        write_body_file(path, body);
+        {
+            H5::H5File file(path, H5F_ACC_RDWR);
+            const hsize_t shape[] = {3, 3};
+            const std::vector<double> numbers(9, value);
+            for (const char* name : {"wake_by_velocity", "wake_by_turning"}) {
+                file.openGroup("/dynamic_coefficients")
+                    .createDataSet(name, H5::PredType::NATIVE_DOUBLE, H5::DataSpace(2, shape))
+                    .write(numbers.data(), H5::PredType::NATIVE_DOUBLE);
+            }
+        }
+        if (value == 0.0) {
+            expect_equal(read_body_file(path), body);
+        } else {
+            EXPECT_THAT(fault_of(path),
+                        AllOf(HasSubstr("a.body.h5: /dynamic_coefficients is of an earlier form"),
+                              HasSubstr("bake the body again")));
+        }
+    }
+}
+
 TEST(BodyFile, DynamicCoefficientsFromBeforeThereWasEntrainedInertiaAndUnsteadyFactorHaveNeither) {
     const test::TemporaryFolder folder;
     Body body = test::full_body();
@@ -401,7 +427,6 @@ TEST(BodyFile, DynamicCoefficientsOfRankOneAndZeroAndIndefiniteWhereTheyMayAreAl
     body.dynamic->values.rotational_drag.setZero();
     body.dynamic->values.transport = Vector3d(-0.1, 0.2, 0.0).asDiagonal();
     body.dynamic->values.rotational_transport = -0.3;
-    body.dynamic->values.wake_by_velocity = Vector3d(1.0, -2.0, 0.0).asDiagonal();
     write_body_file(folder / "a.body.h5", body);
     expect_equal(read_body_file(folder / "a.body.h5"), body);
 }

@@ -79,15 +79,6 @@ inline Vector6d rotational_transport(const Motion& m) {
     return m.body.dynamic.rotational_transport *
            motion_of(m.v.cross(momentum) + m.omega.cross(angular), m.omega.cross(momentum));
 }
-inline Vector6d wake_by_velocity(const Motion& m) {
-    const Vector3d wake = m.v.cross(m.body.dynamic.wake_by_velocity * m.v);
-    return motion_of(m.body.fluid_density / m.combined * m.omega.cross(wake), Vector3d::Zero());
-}
-inline Vector6d wake_by_turning(const Motion& m) {
-    const double reach = std::pow(m.body.dynamic.half_length, 2);
-    const Vector3d wake = reach * m.omega.cross(m.body.dynamic.wake_by_turning * m.omega);
-    return motion_of(m.body.fluid_density / m.combined * m.omega.cross(wake), Vector3d::Zero());
-}
 inline Vector6d entrained_inertia(const Motion& m) {
     const Vector3d angular = m.body.dynamic.entrained_inertia * m.omega;
     return motion_of(m.body.fluid_density * m.omega.cross(angular), Vector3d::Zero());

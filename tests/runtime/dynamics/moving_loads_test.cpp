@@ -58,8 +58,6 @@ const std::vector<Term>& terms() {
              to.rotational_transport = from.rotational_transport;
          },
          rotational_transport, true},
-        {"wake by velocity", keeping(&Coefficients::wake_by_velocity), wake_by_velocity, true},
-        {"wake by turning", keeping(&Coefficients::wake_by_turning), wake_by_turning, true},
         {"entrained inertia", keeping(&Coefficients::entrained_inertia), entrained_inertia, true},
         {"drag in motion", keeping(&Coefficients::drag_in_motion), drag_in_motion, false},
         {"drag in spin", keeping(&Coefficients::drag_in_spin), drag_in_spin, false},
@@ -166,8 +164,6 @@ TEST(MovingLoads, LeaveASteadyTowAsItIsTabulatedTimesTheUnsteadyFactorWhateverTh
         ImmersedBody body = lopsided;
         body.dynamic.transport = random_symmetric(generator, 4e-5);
         body.dynamic.rotational_transport = random_vector(generator).x();
-        body.dynamic.wake_by_velocity = random_symmetric(generator, 1e-6);
-        body.dynamic.wake_by_turning = random_symmetric(generator, 1e-6);
         body.dynamic.entrained_inertia = random_symmetric(generator, 1e-8);
         body.dynamic.unsteady_factor = std::pow(2.0, i % 3 - 1);
         body.dynamic.drag_in_motion *= std::pow(10.0, i % 5 - 2);
