@@ -26,6 +26,7 @@ struct IdentifyOptions {
     std::string falls;
     std::string output;
     std::string without;
+    int without_stretch = 0;
     std::string hold;
 };
 
@@ -44,7 +45,7 @@ std::vector<FallRecord> records_of(const std::string& list) {
     return records;
 }
 
-nlohmann::json identify(const IdentifyOptions& options, bool quiet) {
+nlohmann::json identify(const IdentifyOptions& options, bool leaves_stretch_out, bool quiet) {
     if (!options.output.empty() && !is_body_file_name(options.output)) {
         throw Error(fmt::format("{}: the name of a body file ends in .body.h5", options.output));
     }
@@ -53,8 +54,10 @@ nlohmann::json identify(const IdentifyOptions& options, bool quiet) {
         throw Error(fmt::format("{}: holds no Kirchhoff tensor or no tables; bake it first", options.body));
     }
     Progress progress("identifying", "%");
+    LeftOutOfFalls left_out{.terms = words_of(options.without)};
+    if (leaves_stretch_out) left_out.stretch = options.without_stretch;
     const Identification identification =
-        identify_motion(body, records_of(options.falls), words_of(options.without),
+        identify_motion(body, records_of(options.falls), left_out,
                         [&](double done) { progress.update(100.0 * done, 100.0); });
     body.dynamic = identification.coefficients;
     nlohmann::json json = identification_as_json(identification);
@@ -80,13 +83,19 @@ int run(int argc, const char* const* argv) {
     arguments.option(
         "--without", options.without,
         fmt::format("terms to leave out, by commas: {}", fmt::join(MotionParameters::names(), ", ")));
+    arguments.option("--without-stretch", options.without_stretch,
+                     fmt::format("leave out one of the {} stretches of each fall, to see what chance does",
+                                 identification_stretches),
+                     0, identification_stretches - 1);
     arguments.option("--hold", options.hold,
                      "folders of other falls to hold the flown body against, by commas");
     arguments.footer(
         "samara bake does this at the qualities standard and high; this program does it anew, from other "
         "falls, or\n"
         "without some of the terms (docs/falls.md).\n");
-    return run_program(argc, argv, arguments, [&] { return identify(options, arguments.json()); });
+    return run_program(argc, argv, arguments, [&] {
+        return identify(options, arguments.given("--without-stretch"), arguments.json());
+    });
 }
 
 }  // namespace

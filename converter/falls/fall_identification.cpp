@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -36,9 +37,9 @@ constexpr double expected_miss = 0.1;        // as far as expectations weigh
 // coefficients are found").
 constexpr Eigen::Index figures_of_fall = fitted_figures.size();
 constexpr double count_of_figure = 40.0;
-constexpr double least_count = 1e-3;           // of them, to begin with
-constexpr double farthest_figure = 10.0;       // over those
-constexpr int stretches = 6;                   // of the jackknife
+constexpr double least_count = 1e-3;      // of them, to begin with
+constexpr double farthest_figure = 10.0;  // over those
+constexpr int stretches = identification_stretches;
 constexpr int least_segments = 2 * stretches;  // of each fall
 // No number of a miss counts more: coefficients with which a body flies off are bad, but no worse than that.
 constexpr double farthest_flight = 10.0;
@@ -270,22 +271,26 @@ LeastSquaresProblem problem_of(const Body& body, const std::vector<ReadyFall>& f
 // out.
 VectorXd standard_errors_of(const Body& body, const std::vector<ReadyFall>& falls,
                             const std::vector<Segment>& segments, const MotionParameters& parameters,
-                            const VectorXd& solution, const std::function<void(double)>& progress) {
+                            const VectorXd& solution, const std::optional<int>& left_out,
+                            const std::function<void(double)>& progress) {
+    double count = 0.0;
     VectorXd sum = VectorXd::Zero(solution.size());
     VectorXd squares = VectorXd::Zero(solution.size());
     for (int stretch = 0; stretch < stretches; ++stretch) {
+        if (stretch == left_out) continue;
         std::vector<Segment> others = segments;
         std::erase_if(others, [&](const Segment& segment) { return segment.stretch == stretch; });
         LeastSquaresProblem problem = problem_of(body, falls, others, parameters);
         problem.start = solution;
         problem.most_iterations = 8;
         const VectorXd x = solve_least_squares(problem).x;
+        count += 1.0;
         sum += x;
         squares += x.cwiseAbs2();
         if (progress) progress((2.0 + stretch) / (1.0 + stretches));
     }
-    const VectorXd mean = sum / stretches;
-    const VectorXd variance = (stretches - 1.0) * (squares / stretches - mean.cwiseAbs2()).cwiseMax(0.0);
+    const VectorXd mean = sum / count;
+    const VectorXd variance = (count - 1.0) * (squares / count - mean.cwiseAbs2()).cwiseMax(0.0);
     const VectorXd of_expectation =
         errors_by_expectation(problem_of(body, falls, segments, parameters), solution);
     return (variance + of_expectation.cwiseAbs2()).cwiseSqrt();
@@ -344,16 +349,16 @@ FallMotions fall_motions(const Body& body, const FallRecord& record) {
 }
 
 Identification identify_motion(const Body& body, const std::vector<FallRecord>& records,
-                               const std::vector<std::string>& without,
-                               const std::function<void(double)>& progress) {
+                               const LeftOutOfFalls& left_out, const std::function<void(double)>& progress) {
     if (records.empty())
         throw Error(fmt::format("{}: there is no fall to identify coefficients from", body.name));
     if (progress) progress(0.0);
     std::vector<ReadyFall> falls;
     falls.reserve(records.size());
     for (const FallRecord& record : records) falls.push_back(ready(body, record));
-    const std::vector<Segment> segments = segments_of(falls);
-    const MotionParameters parameters(body, without);
+    std::vector<Segment> segments = segments_of(falls);
+    std::erase_if(segments, [&](const Segment& segment) { return segment.stretch == left_out.stretch; });
+    const MotionParameters parameters(body, left_out.terms);
     // The figures are rough functions of the coefficients far from the solution, the segments' flights
     // smooth.
     LeastSquaresProblem problem = problem_of(body, falls, segments, parameters);
@@ -368,7 +373,7 @@ Identification identify_motion(const Body& body, const std::vector<FallRecord>& 
     result.segments = static_cast<int>(segments.size());
     result.coefficients.values = parameters.coefficients(solution.x);
     result.coefficients.standard_errors = parameters.standard_errors(
-        standard_errors_of(body, falls, segments, parameters, solution.x, progress));
+        standard_errors_of(body, falls, segments, parameters, solution.x, left_out.stretch, progress));
     result.coefficients.values.origin = origin_of(records, result.prediction_error);
     result.coefficients.densities = densities_of(records);
     for (const ReadyFall& fall : falls) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,15 @@ struct Identification {
     std::vector<FlownFall> falls;  ///< those that the coefficients are from
 };
 
+/// Into how many stretches each fall is cut, one of which is left out at a time.
+inline constexpr int identification_stretches = 6;
+
+/// What an identification does without.
+struct LeftOutOfFalls {
+    std::vector<std::string> terms = {};        ///< motion_parameters.hpp: to see what they do
+    std::optional<int> stretch = std::nullopt;  ///< of each fall, from 0: to see what chance does
+};
+
 /// Identifies a body's dynamic coefficients from full-CFD falls of it.
 ///
 /// The runtime's own step flies the body from many moments of each fall over a short horizon, and each fall
@@ -42,12 +52,11 @@ struct Identification {
 /// coefficients are found"), near what is expected of any body where the falls do not say
 /// (motion_parameters.hpp), and positive where the loads would else make energy. Their standard errors come
 /// from leaving out one of six stretches of the falls at a time (jackknife), and from how far what is
-/// expected may be off. `body` must have its Kirchhoff tensor and its tables. `without`: terms to leave out
-/// (motion_parameters.hpp), to see what they do. `progress` is told the share done, from 0 to 1. Throws Error
-/// where there is no fall, or, with its name, where one is of another body, too short (9 L/U), or of steps
-/// that are not of one length.
+/// expected may be off. `body` must have its Kirchhoff tensor and its tables. `progress` is told the share
+/// done, from 0 to 1. Throws Error where there is no fall, or, with its name, where one is of another body,
+/// too short (9 L/U), or of steps that are not of one length.
 Identification identify_motion(const Body& body, const std::vector<FallRecord>& falls,
-                               const std::vector<std::string>& without = {},
+                               const LeftOutOfFalls& left_out = {},
                                const std::function<void(double)>& progress = {});
 
 /// The figures of a body with its coefficients on a solved fall, whether or not they are from it. Throws

@@ -16,7 +16,7 @@ from report_tables import mark, write_tables
 
 ROWS, PAGE = f"{FALLS}/bodies.csv", "docs/shapes.md"
 # The falls of each body, and the folder that holds them.
-FALLS_OF = {"airplane": ("airplane", FALLS), "cube": ("cube", FALLS), "disc": ("disc-3000", "docs/test-falls"),
+FALLS_OF = {"airplane": ("airplane", FALLS), "cube": ("cube", FALLS), "disc": ("disc-4500", "docs/test-falls"),
             "ellipsoid": ("ellipsoid-tilted", FALLS), "leaf": ("leaf", FALLS), "samara": ("samara", FALLS),
             "sheet": ("sheet", FALLS), "sphere": ("sphere", FALLS)}
 

@@ -5,18 +5,21 @@
                                   anew without each term, and holds the falls again
     falls_report.py BIN BODIES FALL...
                                   bakes, flies and compares these falls alone; the rows of others stay as they are. As FALL,
-                                  `range` is all those with bodies that are baked for a range of densities, `terms` and
-                                  `fewer` all with bodies identified anew without each term, and from fewer falls
+                                  `range` is all those with bodies that are baked for a range of densities, `terms`,
+                                  `fewer` and `repeats` all with bodies identified anew without each term, from fewer
+                                  falls, and without each stretch of them
     falls_report.py               writes the tables again from the rows of the last run
 
-Writes docs/falls/falls.csv, range.csv, terms.csv and fewer.csv, and the tables of docs/falls.md. BIN: the folder
+Writes docs/falls/falls.csv, range.csv, terms.csv, fewer.csv and repeats.csv, and the tables of docs/falls.md. BIN: the folder
 of the programs; BODIES: a folder for baked bodies. Run from the project's folder.
 """
 
 import csv
 import json
+import math
 import os
 import re
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -49,9 +52,10 @@ TERMS = ("transport", "turning transport", "drag in motion", "drag in spin", "ro
          "rotational drag in spin", "entrained inertia", "unsteady factor")
 # As users fly them, with noise; and without.
 RUNS = {"on": 20, "off": 1}
-RANGE_ROWS = f"{FALLS}/range.csv"
+RANGE_ROWS, REPEATS = f"{FALLS}/range.csv", f"{FALLS}/repeats.csv"
 # What bodies are identified from.
 FEWER = {"the gentle fall": ["fall_00"], "the oblique fall": ["fall_01"], "both": None}
+STRETCHES = 6  # of a fall; identified is from all of them, and without each
 # Narrower limits than those of `samara compare`: of descent, frequency, amplitude and rms angular speed.
 NARROW = (0.05, 0.15, 0.25, 0.25)
 FIGURES = ("descent_speed", "frequency", "inclination_amplitude", "rms_angular_speed")
@@ -237,10 +241,10 @@ def table_of_falls(rows, who="runtime"):
     return "\n".join(lines) + "\n"
 
 
-def fly_anew(programs, folder, words=(), falls=None):
+def fly_anew(programs, folder, words=(), falls=None, noises=("off",)):
     """Every body but the sphere identified anew, with other options or from some of its falls alone:
-    how well they predict those, what the bodies' falls cost in CPU seconds, and the comparisons of their scenes, both in the mean
-    over the bodies."""
+    how well they predict those and what the bodies' falls cost in CPU seconds, both in the mean over the bodies, and for each
+    noise the comparisons of their scenes."""
     scenes = {scene: body for scene, body in SCENES.items() if scene != "sphere"}
     files, errors, costs = {}, [], []
     with tempfile.TemporaryDirectory() as work:
@@ -251,8 +255,9 @@ def fly_anew(programs, folder, words=(), falls=None):
             command = [f"{programs}/samara", "identify", file, ",".join(chosen), "-o", files[body], "--json"]
             errors.append(run(command + list(words))["prediction_error"])
             costs.append(sum(cpu_seconds_of(fall) for fall in chosen))
-        comparisons = {scene: compared(programs, files[body], scene, work) for scene, body in scenes.items()}
-    return sum(errors) / len(errors), sum(costs) / len(costs), comparisons
+        comparisons = [{scene: compared(programs, files[body], scene, work, noise) for scene, body in scenes.items()}
+                       for noise in noises]
+    return sum(errors) / len(errors), sum(costs) / len(costs), *comparisons
 
 
 def cpu_seconds_of(fall):
@@ -274,17 +279,54 @@ def fly_without_terms(programs, folder):
     written(f"{FALLS}/terms.csv", [["without", "prediction_error", *comparisons, "agree"]] + rows)
 
 
+def summary_of(comparisons):
+    """Of falls by the same identification: the worst figure in the mean, how many have the regime and agree, and by how much the
+    descents are off in the mean."""
+    falls = comparisons.values()
+    descents = [abs(comparison["measures"]["descent_speed"]["relative_difference"]) for comparison in falls]
+    return [sum(worst_figure(comparison) for comparison in falls) / len(falls),
+            sum(comparison["regimes_agree"] for comparison in falls),
+            sum(comparison["agrees"] for comparison in falls), sum(descents) / len(descents)]
+
+
 def fly_fewer(programs, folder):
     """Writes fewer.csv: what bodies that are identified from fewer falls miss of the references."""
     rows = [["falls", "cpu_seconds", "prediction_error", "mean_worst_figure", "regimes", "agree", "references"]]
     for what, falls in FEWER.items():
         error, cost, comparisons = fly_anew(programs, folder, falls=falls)
-        worst = [worst_figure(comparison) for comparison in comparisons.values()]
-        rows.append([what, cost, error, sum(worst) / len(worst),
-                     sum(comparison["regimes_agree"] for comparison in comparisons.values()),
-                     sum(comparison["agrees"] for comparison in comparisons.values()), len(worst)])
+        rows.append([what, cost, error, *summary_of(comparisons)[:3], len(comparisons)])
         print(*rows[-1])
     written(f"{FALLS}/fewer.csv", rows)
+
+
+def fly_repeats(programs, folder):
+    """Writes repeats.csv: what bodies identified from all of their falls, and without each stretch of them, miss of the
+    references."""
+    rows = [["without_stretch", "noise", "mean_worst_figure", "regimes", "agree", "descent", "references"]]
+    for stretch in ("", *range(STRETCHES)):
+        words = [] if stretch == "" else ["--without-stretch", str(stretch)]
+        _, _, *by_noise = fly_anew(programs, folder, words, noises=RUNS)
+        for noise, comparisons in zip(RUNS, by_noise):
+            rows.append([stretch, noise, *summary_of(comparisons), len(comparisons)])
+            print(*rows[-1])
+    written(REPEATS, rows)
+
+
+def table_of_repeats():
+    """The table of docs/falls.md, of repeats.csv."""
+    with open(REPEATS, newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    lines = ["| noise | worst figure | regimes | within 10, 20, 30 % | descent |", "|---" * 5 + "|"]
+    for noise in ("off", "on"):
+        of_noise = [row for row in rows if row["noise"] == noise]
+        cells = []
+        for column, scale, unit in (("mean_worst_figure", 100, " %"), ("regimes", 1, f" of {of_noise[0]['references']}"),
+                                    ("agree", 1, f" of {of_noise[0]['references']}"), ("descent", 100, " %")):
+            numbers = [scale * float(row[column]) for row in of_noise]
+            error = statistics.stdev(numbers) / math.sqrt(len(numbers))
+            cells.append(f"{statistics.mean(numbers):.1f} +- {error:.1f}{unit}")
+        lines.append(f"| {noise} | " + " | ".join(cells) + " |")
+    return "\n".join(lines) + "\n"
 
 
 def table_of_fewer():
@@ -312,7 +354,7 @@ def table_of_terms():
 
 def main(words):
     names = words[3:]
-    if len(words) == 2 or not set(names) <= {*SCENES, "range", "terms", "fewer"}:
+    if len(words) == 2 or not set(names) <= {*SCENES, "range", "terms", "fewer", "repeats"}:
         sys.stderr.write(__doc__)
         return 2
     if len(words) >= 3:
@@ -325,7 +367,9 @@ def main(words):
             fly_without_terms(programs, folder)
         if not names or "fewer" in names:
             fly_fewer(programs, folder)
-    write_tables("docs/falls.md", [*tables_of_falls(), table_of_terms(), table_of_fewer()], mark("falls"))
+        if not names or "repeats" in names:
+            fly_repeats(programs, folder)
+    write_tables("docs/falls.md", [*tables_of_falls(), table_of_terms(), table_of_fewer(), table_of_repeats()], mark("falls"))
     return 0
 
 

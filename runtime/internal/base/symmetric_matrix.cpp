@@ -21,4 +21,11 @@ Vector6d eigenvalues_of(const Matrix6d& symmetric, const Matrix6d& metric) {
     return Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6d>(symmetric, metric).eigenvalues();
 }
 
+Matrix6d nearest_semidefinite(const Matrix6d& symmetric) {
+    const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(symmetric);
+    if (solver.eigenvalues().minCoeff() >= 0.0) return symmetric;
+    return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).asDiagonal() *
+           solver.eigenvectors().transpose();
+}
+
 }  // namespace samara

@@ -20,4 +20,8 @@ Vector6d eigenvalues_of(const Matrix6d& symmetric);
 /// definite.
 Vector6d eigenvalues_of(const Matrix6d& symmetric, const Matrix6d& metric);
 
+/// The nearest that is positive semidefinite: the same with its negative eigenvalues made zero, and untouched
+/// where it has none.
+Matrix6d nearest_semidefinite(const Matrix6d& symmetric);
+
 }  // namespace samara

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "internal/base/symmetric_matrix.hpp"
 #include "internal/body/curved_surface.hpp"
 #include "internal/body/surface_check.hpp"
 #include "internal/body/welded_surface.hpp"
@@ -219,14 +220,28 @@ class Solver {
             judgement.error = carried_on(fine, solved[solved.size() - 2], order_of(method));
         }
         KirchhoffTensor result;
-        result.matrix = 0.5 * (judgement.tensor + judgement.tensor.transpose());
         result.asymmetry = fine.asymmetry;
         // Also where it is not a number.
         result.error_estimate = judgement.error < 1.0 ? std::max(judgement.error, fine.asymmetry) : 1.0;
+        result.matrix = with_positive_energy(0.5 * (judgement.tensor + judgement.tensor.transpose()),
+                                             result.error_estimate);
         result.triangles = static_cast<int>(fine.triangles);
         result.method = is_curved ? "direct boundary elements, quadratic on curved triangles"
                                   : "Galerkin boundary elements, hypersingular, linear on flat triangles";
         return result;
+    }
+
+    /// No motion has negative kinetic energy: where extrapolation and quadrature say so of one that moves no
+    /// fluid, as a disc's about its axis, it is nothing. `share`: of the largest, by how much they may.
+    [[nodiscard]] Matrix6d with_positive_energy(const Matrix6d& tensor, double share) const {
+        Vector6d lengths;
+        lengths << Vector3d::Constant(length_), Vector3d::Ones();
+        const Matrix6d unscaled =
+            lengths.cwiseInverse().asDiagonal() * tensor * lengths.cwiseInverse().asDiagonal();
+        const Vector6d energies = eigenvalues_of(unscaled);
+        if (energies[0] >= 0.0 || energies[0] < -share * energies[5]) return tensor;
+        const Matrix6d nearest = nearest_semidefinite(unscaled);
+        return lengths.asDiagonal() * (0.5 * (nearest + nearest.transpose())) * lengths.asDiagonal();
     }
 
     [[nodiscard]] double order_of(KirchhoffMethod method) const {

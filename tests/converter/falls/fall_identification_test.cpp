@@ -219,18 +219,28 @@ TEST_F(FallIdentification, ShowsAFallAndItsFlightWithGravityDownwards) {
 }
 
 TEST_F(FallIdentification, LeavesOutTheTermsThatItIsToldTo) {
-    const Identification without = identify_motion(body_, {record_}, {"entrained inertia", "drag in spin"});
+    const Identification without =
+        identify_motion(body_, {record_}, {.terms = {"entrained inertia", "drag in spin"}});
     EXPECT_EQ(without.coefficients.values.drag_in_spin, Matrix3d::Zero());
     EXPECT_EQ(without.coefficients.values.entrained_inertia, Matrix3d::Zero());
     EXPECT_EQ(without.coefficients.standard_errors.entrained_inertia, Matrix3d::Zero());
     EXPECT_GT(without.prediction_error, 3.0 * found_.prediction_error);
-    EXPECT_THAT(test::error_of([&] { static_cast<void>(identify_motion(body_, {record_}, {"wake"})); }),
-                HasSubstr("there is no term 'wake'; the terms are transport, "));
+    EXPECT_THAT(
+        test::error_of([&] { static_cast<void>(identify_motion(body_, {record_}, {.terms = {"wake"}})); }),
+        HasSubstr("there is no term 'wake'; the terms are transport, "));
+}
+
+TEST_F(FallIdentification, LeavesOutAStretchOfTheFallAndFindsTheSame) {
+    const Identification without = identify_motion(body_, {record_}, {.stretch = 2});
+    const double share = static_cast<double>(without.segments) / found_.segments;
+    EXPECT_NEAR(share, 1.0 - 1.0 / identification_stretches, 0.02);
+    const Matrix3d difference = without.coefficients.values.transport - true_.transport;
+    EXPECT_LT(difference.norm(), 0.01 * true_.transport.norm());
 }
 
 // Fitted to its segments alone the body falls 8 % too slowly here, and swings a tenth too little.
 TEST_F(FallIdentification, KeepsTheFiguresOfTheWholeFallWhereTheModelCannotFollowIt) {
-    const Identification without = identify_motion(body_, {record_}, {"entrained inertia"});
+    const Identification without = identify_motion(body_, {record_}, {.terms = {"entrained inertia"}});
     EXPECT_GT(without.prediction_error, 5.0 * found_.prediction_error);
     const auto& [name, solved, flown, balance] = without.falls.front();
     EXPECT_NEAR(flown.descent_speed, solved.descent_speed, 0.03 * solved.descent_speed);

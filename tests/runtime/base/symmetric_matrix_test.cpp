@@ -2,6 +2,7 @@
 
 #include "internal/base/symmetric_matrix.hpp"
 
+#include <Eigen/QR>
 #include <gtest/gtest.h>
 
 namespace samara {
@@ -28,6 +29,17 @@ TEST(SymmetricMatrix, AgainstAMetricTheyAreTheFactorsOfIt) {
                0.5 * entries.reverse())
                   .norm(),
               1e-14);
+}
+
+TEST(SymmetricMatrix, NearestSemidefiniteHasNothingOfNegativeEigenvaluesAndAllOfTheOthers) {
+    const Vector6d entries = (Vector6d() << 5.0, -0.3, 3.0, 2.0, -0.1, 0.5).finished();
+    Matrix6d turn = Matrix6d::Random();
+    turn = Eigen::HouseholderQR<Matrix6d>(turn).householderQ();
+    const Matrix6d mixed = turn * entries.asDiagonal() * turn.transpose();
+    const Matrix6d expected = turn * entries.cwiseMax(0.0).asDiagonal() * turn.transpose();
+    EXPECT_LT((nearest_semidefinite(mixed) - expected).norm(), 1e-13);
+    const Matrix6d sound = expected + Matrix6d::Identity();
+    EXPECT_EQ(nearest_semidefinite(sound), sound);
 }
 
 }  // namespace
