@@ -306,6 +306,7 @@ FlownFall flown_fall(const Body& body, const ReadyFall& fall, const DynamicCoeff
 
 IdentifiedDensities densities_of(const std::vector<FallRecord>& falls) {
     std::vector<double> densities;
+    densities.reserve(falls.size());
     for (const FallRecord& record : falls) densities.push_back(record.fall.mass / record.fall.volume);
     const auto [lowest, highest] = std::ranges::minmax(densities);
     return {lowest, highest};
