@@ -64,16 +64,18 @@ Inflow inflow_of(const BakeOptions& options) {
     return options.inflow == "paper" ? paper_inflow() : Inflow();
 }
 
-void require_falls_at(const BakeOptions& options, bool density_is_given) {
-    if (!density_is_given) {
+void require_falls(const BakeOptions& options, const Arguments& arguments) {
+    if (arguments.given("--density-to") && !arguments.given("--density")) {
         throw Error(
             fmt::format("{}: --density-to is the other end of a range; give --density too", options.input));
     }
-    if (quality_of(options).falls == 0) {
-        throw Error(fmt::format(
-            "{}: --density-to is of the falls that coefficients are identified from, and this bake "
-            "has none; bake at standard or high, without --falls none",
-            options.input));
+    if (quality_of(options).falls > 0) return;
+    for (const char* option : {"--density-to", "--fall-step"}) {
+        if (!arguments.given(option)) continue;
+        throw Error(
+            fmt::format("{}: {} is of the falls that coefficients are identified from, and this bake has "
+                        "none; bake at standard or high, without --falls none",
+                        options.input, option));
     }
 }
 
@@ -113,7 +115,7 @@ std::vector<BakeRequest> requests_for(const BakeOptions& options, const Argument
                                         options.input, option));
             }
         }
-        if (arguments.given("--density-to")) require_falls_at(options, arguments.given("--density"));
+        require_falls(options, arguments);
         return {request_for_shape(options, arguments.given("--density"))};
     }
     for (const char* option : {"--fluid", "--density", "--density-to", "--scale"}) {
@@ -131,6 +133,7 @@ std::vector<BakeRequest> requests_for(const BakeOptions& options, const Argument
             fmt::format("{}: the output for a scene is a folder, for it gets one body file for each body",
                         options.output));
     }
+    require_falls(options, arguments);
     SceneBakeOptions scene{.quality = quality_of(options),
                            .inflow = inflow_of(options),
                            .whole_grid = options.whole_grid,

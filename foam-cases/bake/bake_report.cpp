@@ -231,9 +231,8 @@ void warn_of_unbalanced_falls(const BakeRequest& request, const BakeResult& resu
     for (const FlownFall& fall : result.conversion->identification->falls) {
         if (!is_doubtful(fall.balance)) continue;
         print_note(
-            "samara bake: note: {}: the momenta of {} do not balance the loads (force {:.0f} %, moment "
-            "{:.0f} "
-            "%), and the coefficients are from it; halve its step with --fall-step {:.3g}\n",
+            "samara bake: note: {}: the momenta of {} do not balance the loads (force {:.0f} %, "
+            "moment {:.0f} %), and the coefficients are from it; halve its step with --fall-step {:.3g}\n",
             request.output.string(), fall.name, 100.0 * fall.balance.force, 100.0 * fall.balance.moment,
             0.5 * request.quality.fall_step);
     }

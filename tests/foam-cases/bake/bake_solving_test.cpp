@@ -257,6 +257,10 @@ TEST_F(Bake, OfARangeOfDensitiesNeedsItsOtherEndAndFalls) {
         "{} -o out.body.h5 --quality standard --density 1200 --density-to 8000 --falls none", shape));
     EXPECT_EQ(left_out.status, 1);
     EXPECT_THAT(left_out.fault, HasSubstr("this bake has none"));
+    const test::ProgramRun step =
+        bake(fmt::format("{} -o out.body.h5 --quality smoke --fall-step 0.5", shape));
+    EXPECT_EQ(step.status, 1);
+    EXPECT_THAT(step.fault, HasSubstr("--fall-step is of the falls"));
     EXPECT_FALSE(fs::exists(cases_));
 }
 
