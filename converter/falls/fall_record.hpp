@@ -42,7 +42,7 @@ struct FallBalance {
 };
 FallBalance balance_of(const FallRecord& record);
 
-/// Above these the momenta of a fall are said not to balance: twice what the worst of ten reference falls has
+/// Above these the momenta of a fall are said not to balance: twice the worst of ten falls by kEpsilon
 /// (docs/validate.md).
 inline constexpr FallBalance doubtful_balance = {0.05, 0.15};
 
