@@ -9,6 +9,7 @@
 #include "converter/falls/falling_body.hpp"
 #include "converter/falls/motion_parameters.hpp"
 #include "converter/tables/least_squares.hpp"
+#include "internal/dynamics/loads.hpp"
 #include "internal/figures/figure_catalogue.hpp"
 #include "samara/base/error.hpp"
 
@@ -164,6 +165,16 @@ std::vector<BodyState> solved_states(const ReadyFall& fall) {
     return solved;
 }
 
+// The wake that had formed at each of a fall's states, by the way to it.
+void set_wake_formation(const ImmersedBody& body, double time_step, std::vector<BodyState>& states) {
+    double missing = 1.0;
+    for (std::size_t i = 1; i < states.size(); ++i) {
+        const Vector6d velocity = body.to_centroid * (0.5 * (states[i - 1].velocity + states[i].velocity));
+        missing *= std::exp(-time_step * wake_formation_rate(body, velocity));
+        states[i].wake_formation = 1.0 - missing;
+    }
+}
+
 ReadyFall ready(const Body& body, const FallRecord& record) {
     if (record.samples.empty()) throw too_short(record);
     require_even_steps(record);
@@ -171,6 +182,7 @@ ReadyFall ready(const Body& body, const FallRecord& record) {
                    {}};
     const double step = record.samples.front().time;
     fall.stride = static_cast<std::size_t>(std::max(1.0, std::round(flown_step / step)));
+    set_wake_formation(fall.body, step_of(fall), fall.states);
     fall.measures = measures_of(motion_of(body, fall, solved_states(fall)));
     return fall;
 }

@@ -14,8 +14,8 @@
 namespace samara::test {
 
 /// All numbers of a state.
-inline std::array<double, 25> numbers_of(const BodyState& state) {
-    std::array<double, 25> numbers{};
+inline std::array<double, 26> numbers_of(const BodyState& state) {
+    std::array<double, 26> numbers{};
     std::size_t next = 0;
     const auto add = [&](const auto& part) {
         for (const double number : part) numbers[next++] = number;
@@ -26,6 +26,7 @@ inline std::array<double, 25> numbers_of(const BodyState& state) {
     add(state.seen_fluid.velocity);
     add(state.seen_fluid.angular_velocity);
     add(state.acceleration);
+    numbers[next] = state.wake_formation;
     return numbers;
 }
 

@@ -17,7 +17,7 @@ class RandomBodies {
     explicit RandomBodies(unsigned seed) : generator_(seed) {}
 
     ImmersedBody body();
-    /// Speeds from 1e-4 to 1e3 m/s and rad/s, any orientation.
+    /// Speeds from 1e-4 to 1e3 m/s and rad/s, any orientation, any wake.
     BodyState state();
     /// Logarithmically even between the bounds.
     double magnitude(double lowest, double highest);

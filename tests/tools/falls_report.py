@@ -3,6 +3,9 @@
 
     falls_report.py BIN BODIES    bakes what is missing in BODIES, flies every scene and compares; then identifies
                                   anew without each term, and holds the falls again
+    falls_report.py BIN BODIES keep
+                                  identifies every body anew from its falls, those of BODIES or else those that are kept, and
+                                  keeps both in docs/falls/bodies: due where the form of the loads has changed
     falls_report.py BIN BODIES FALL...
                                   bakes, flies and compares these falls alone; the rows of others stay as they are. As FALL,
                                   `range` is all those with bodies that are baked for a range of densities, `terms`,
@@ -15,6 +18,8 @@ of the programs; BODIES: a folder for baked bodies. Run from the project's folde
 """
 
 import csv
+import glob
+import io
 import json
 import math
 import os
@@ -22,11 +27,13 @@ import re
 import statistics
 import subprocess
 import sys
+import tarfile
 import tempfile
 
 from report_tables import mark, write_tables
 
 FALLS = "docs/falls"
+KEPT = f"{FALLS}/bodies"  # baked bodies and their falls
 # The body of each scene: its shape, and what it is baked for. No body is baked from a reference fall.
 BODIES = {
     "sphere": ("meshes/shapes/sphere.geo", ["--density", "1300"]),
@@ -38,6 +45,9 @@ BODIES = {
     "sheet": ("meshes/shapes/sheet.geo", ["--fluid", "air", "--density", "800"]),
     "disc-range": (f"{FALLS}/disc.geo", ["--density", "1497.3", "--density-to", "11340"]),
     "ellipsoid-range": ("meshes/shapes/ellipsoid.geo", ["--density", "1200", "--density-to", "2700"]),
+    # Of the test falls.
+    "box": ("docs/test-falls/box.geo", ["--density", "1200", "--density-to", "7850"]),
+    "thick-disc": ("docs/test-falls/thick-disc.geo", ["--density", "1200", "--density-to", "7850"]),
 }
 SCENES = {
     "sphere": "sphere", "ellipsoid-tilted": "ellipsoid", "ellipsoid-compound": "ellipsoid",
@@ -70,17 +80,48 @@ def baked_file(folder, body):
     return os.path.join(folder, f"{body}.body.h5")
 
 
+def kept_falls(body):
+    """The archive of what was solved of a body's falls, which is kept so that a form of the loads costs no CFD to try."""
+    return f"{KEPT}/{body}.falls.tar.xz"
+
+
 def baked(programs, folder, body):
-    """The baked body's file and its falls, separated by commas: none of those files that are kept in docs/falls/bodies."""
+    """The baked body's file and its falls, separated by commas: in the folder, those of docs/falls/bodies where it has none."""
     shape, options = BODIES[body]
-    file, kept = baked_file(folder, body), baked_file(f"{FALLS}/bodies", body)
+    file, kept = baked_file(folder, body), baked_file(KEPT, body)
+    cases = os.path.join(folder, f"{body}.cases")
     if not os.path.exists(file) and os.path.exists(kept):
-        return kept, ""
+        file = kept
+        if not os.path.isdir(cases):
+            with tarfile.open(kept_falls(body)) as archive:
+                archive.extractall(cases)
     if not os.path.exists(file):
         run([f"{programs}/samara", "bake", shape, "-o", file, "--quality", "standard", "--json"] + options)
-    cases = os.path.join(folder, f"{body}.cases")
-    falls = sorted(name for name in os.listdir(cases) if name.startswith("fall_")) if os.path.isdir(cases) else []
+    falls = sorted(name for name in os.listdir(cases) if name.startswith("fall_"))
     return file, ",".join(os.path.join(cases, name) for name in falls)
+
+
+def rounded(text):
+    """A history of OpenFOAM's with its numbers to eight digits."""
+    return re.sub(r"-?\d+\.\d+(e[-+]\d+)?", lambda number: f"{float(number.group()):.8g}", text)
+
+
+def keep(programs, folder):
+    """Identifies each body of the folder anew, and writes it and what was solved of its falls into docs/falls/bodies."""
+    for body in BODIES:
+        file, falls = baked(programs, folder, body)
+        target = baked_file(KEPT, body)
+        run([f"{programs}/samara", "identify", file, falls, "-o", target, "--json"])
+        with tarfile.open(kept_falls(body), "w:xz", preset=9) as archive:
+            for fall in falls.split(","):
+                histories = glob.glob("postProcessing/*/*/*.dat", root_dir=fall)
+                for name in ["fall.json", "attempts.json", *sorted(histories)]:
+                    with open(os.path.join(fall, name), encoding="utf-8") as opened:
+                        content = rounded(opened.read()) if name in histories else opened.read()
+                    entry = tarfile.TarInfo(f"{os.path.basename(fall)}/{name}")
+                    entry.size = len(content.encode())
+                    archive.addfile(entry, io.BytesIO(content.encode()))
+        print(f"Written: {target}, {kept_falls(body)}")
 
 
 def scene_with(scene, keys, folder, steps=1, falls=FALLS):
@@ -354,12 +395,14 @@ def table_of_terms():
 
 def main(words):
     names = words[3:]
-    if len(words) == 2 or not set(names) <= {*SCENES, "range", "terms", "fewer", "repeats"}:
+    if len(words) == 2 or not set(names) <= {*SCENES, "range", "terms", "fewer", "repeats", "keep"}:
         sys.stderr.write(__doc__)
         return 2
     if len(words) >= 3:
         programs, folder = words[1:3]
         os.makedirs(folder, exist_ok=True)
+        if "keep" in names:
+            keep(programs, folder)
         fly(programs, folder, [name for name in names if name in SCENES] if names else SCENES)
         if not names or "range" in names:
             fly_ranges(programs, folder)

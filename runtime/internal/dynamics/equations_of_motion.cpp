@@ -29,7 +29,8 @@ Eigen::Vector4d quaternion_rate(const Eigen::Vector4d& q, const Vector3d& omega)
 
 MotionVector motion_vector(const BodyState& state) noexcept {
     MotionVector motion;
-    motion << state.velocity, state.orientation.w(), state.orientation.vec(), state.position;
+    motion << state.velocity, state.orientation.w(), state.orientation.vec(), state.position,
+        state.wake_formation;
     return motion;
 }
 
@@ -37,7 +38,8 @@ BodyState body_state(const MotionVector& motion, const SeenFluid& seen_fluid) no
     BodyState state;
     state.velocity = motion.head<6>();
     state.orientation = Quaterniond(motion[6], motion[7], motion[8], motion[9]).normalized();
-    state.position = motion.tail<3>();
+    state.position = motion.segment<3>(10);
+    state.wake_formation = motion[13];
     state.seen_fluid = seen_fluid;
     return state;
 }
@@ -49,10 +51,12 @@ EquationsOfMotion::EquationsOfMotion(const ImmersedBody& body, const Vector3d& g
       gravity_(gravity),
       seen_fluid_(seen_fluid) {}
 
-Vector6d EquationsOfMotion::load(const Vector6d& velocity, const Matrix3d& to_world) const noexcept {
+Vector6d EquationsOfMotion::load(const Vector6d& velocity, const Matrix3d& to_world,
+                                 double wake_formation) const noexcept {
     const Vector6d of_centroid = body_->to_centroid * velocity;
     const Vector3d seen_rotation = to_world.transpose() * seen_fluid_.angular_velocity;
-    const LoadMatrices loads = load_matrices(*body_, of_centroid, seen_rotation);
+    const LoadMatrices loads =
+        load_matrices(*body_, of_centroid, seen_rotation, Vector3d::Zero(), wake_formation);
     return loads.relative.leftCols<3>() * seen_rotation - loads.whole * of_centroid;
 }
 
@@ -73,13 +77,14 @@ MotionVector EquationsOfMotion::rate(const MotionVector& motion) const noexcept 
                          displaced * body_->center_of_buoyancy.cross(gravity_in_body),
         linear.cross(omega) + (body_->mass - displaced) * gravity_in_body;
     if (body_->loads != Loads::none) {
-        momentum_rate += body_->to_centroid.transpose() * load(relative, to_world);
+        momentum_rate += body_->to_centroid.transpose() * load(relative, to_world, motion[13]);
     }
 
     Vector6d acceleration = mobility_ * momentum_rate;
     acceleration.tail<3>() -= omega.cross(seen_velocity);  // the seen fluid turns past the body's axes
     MotionVector result;
-    result << acceleration, quaternion_rate(motion.segment<4>(6), omega), to_world * motion.segment<3>(3);
+    result << acceleration, quaternion_rate(motion.segment<4>(6), omega), to_world * motion.segment<3>(3),
+        wake_formation_rate(*body_, body_->to_centroid * relative) * (1.0 - motion[13]);
     return result;
 }
 
@@ -99,7 +104,7 @@ Matrix6d EquationsOfMotion::acceleration_gradient(const MotionVector& motion) co
     Matrix6d gradient = by_velocity + by_momentum * body_->inertia;
 
     if (body_->loads != Loads::none) {
-        const Vector6d load_here = load(relative, to_world);
+        const Vector6d load_here = load(relative, to_world, motion[13]);
         // Differences of a millionth of the speeds that are there; any will do for a body at rest.
         const double turning = relative.head<3>().norm() + seen_fluid_.angular_velocity.norm();
         const double speed = relative.tail<3>().norm() + body_->length * turning;
@@ -108,7 +113,8 @@ Matrix6d EquationsOfMotion::acceleration_gradient(const MotionVector& motion) co
         for (int i = 0; i < 6; ++i) {
             Vector6d moved = relative;
             moved[i] += i < 3 ? difference / body_->length : difference;
-            by_relative_velocity.col(i) = (load(moved, to_world) - load_here) / (moved[i] - relative[i]);
+            by_relative_velocity.col(i) =
+                (load(moved, to_world, motion[13]) - load_here) / (moved[i] - relative[i]);
         }
         gradient += body_->to_centroid.transpose() * by_relative_velocity;
     }

@@ -169,6 +169,9 @@ void set_loads(const ImmersedBody& body, FlightConstants<Real>& c) {
     c.tow_factor = static_cast<Real>(tow);
     c.reynolds_factor = reynolds_factor<Real>(body);
     c.half_length = static_cast<Real>(dynamic.half_length / length);
+    // The numbers of the loads of the surface were chosen on whole falls, without a start of their own.
+    c.wake_forms = body.loads != Loads::coefficients && !body.tables->stokes_throughout;
+    c.wake_formation = symmetric<Real>(body.wake_formation / (length * length));
     c.drag_in_motion = symmetric<Real>(half_density * length / mass * dynamic.drag_in_motion);
     c.has_spin = !dynamic.drag_in_spin.isZero(0.0) || !dynamic.rotational_drag_in_spin.isZero(0.0);
     c.drag_in_spin = symmetric<Real>(half_density * length / mass * dynamic.drag_in_spin);

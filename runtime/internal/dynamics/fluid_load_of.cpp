@@ -104,7 +104,8 @@ FluidLoad fluid_load_of(const ImmersedBody& body, double size, const Surrounding
     if (body.loads != Loads::none) {
         const Vector6d of_centroid = body.to_centroid * relative;
         const Vector3d seen_rotation = to_body * stream.rotation;
-        const LoadMatrices loads = load_matrices(body, of_centroid, seen_rotation, to_body * stream.slip);
+        const LoadMatrices loads =
+            load_matrices(body, of_centroid, seen_rotation, to_body * stream.slip, state.wake_formation);
         wrench += body.to_centroid.transpose() *
                   (loads.relative.leftCols<3>() * seen_rotation - loads.whole * of_centroid);
         damping = body.to_centroid.transpose() * loads.whole * body.to_centroid;

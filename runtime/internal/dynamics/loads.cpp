@@ -1,5 +1,7 @@
 #include "internal/dynamics/loads.hpp"
 
+#include <cmath>
+
 #include "internal/kernel/kernel.hpp"
 
 namespace samara {
@@ -9,9 +11,17 @@ Matrix6d load_matrix(const ImmersedBody& body, const Vector6d& relative_velocity
 }
 
 LoadMatrices load_matrices(const ImmersedBody& body, const Vector6d& velocity, const Vector3d& seen_rotation,
-                           const Vector3d& slip) noexcept {
+                           const Vector3d& slip, double wake_formation) noexcept {
     if (body.loads == Loads::none) return {};
-    return kernel::load_matrices(body.constants, velocity, seen_rotation, slip);
+    return kernel::load_matrices(body.constants, velocity, seen_rotation, slip, wake_formation);
+}
+
+double wake_formation_rate(const ImmersedBody& body, const Vector6d& relative_velocity) noexcept {
+    const Vector3d velocity = relative_velocity.tail<3>();
+    if (!body.constants.wake_forms || velocity.isZero(0.0)) return 0.0;
+    const double combined =
+        std::hypot(velocity.norm(), body.dynamic.half_length * relative_velocity.head<3>().norm());
+    return combined * velocity.norm() / std::sqrt(velocity.dot(body.wake_formation * velocity));
 }
 
 double reynolds_number(const ImmersedBody& body, double speed) noexcept {

@@ -349,7 +349,9 @@ void FlightKind::set_pose(std::size_t index, const Pose& pose, double time) {
     if (is_removed(index)) {
         set_removed(index, false);
     } else {
-        state.seen_fluid = batch_.state(index).seen_fluid;
+        const BodyState now = batch_.state(index);
+        state.seen_fluid = now.seen_fluid;
+        state.wake_formation = now.wake_formation;
     }
     before_[index] = in_flow_now;
     before_time_[index] = begin;

@@ -11,7 +11,7 @@ namespace samara {
 namespace {
 
 constexpr std::string_view mark = "samara state\n\x1a";
-constexpr std::uint32_t state_version = 5;
+constexpr std::uint32_t state_version = 6;
 constexpr std::uint32_t byte_order = 0x01020304;
 constexpr std::size_t hash_size = 32;  // of content_hash
 
@@ -35,6 +35,7 @@ void visit_state(State& state, const Visit& visit) {
     for (auto& number : state.seen_fluid.velocity) visit(number);
     for (auto& number : state.seen_fluid.angular_velocity) visit(number);
     for (auto& number : state.acceleration) visit(number);
+    visit(state.wake_formation);
 }
 
 template <typename AnyPose, typename Visit>
@@ -57,7 +58,7 @@ void visit_key(Key& key, const Visit& visit) {
 bool is_sound(const BodyState& state) {
     return state.position.allFinite() && is_unit(state.orientation) && state.velocity.allFinite() &&
            state.seen_fluid.velocity.allFinite() && state.seen_fluid.angular_velocity.allFinite() &&
-           state.acceleration.allFinite();
+           state.acceleration.allFinite() && state.wake_formation >= 0.0 && state.wake_formation <= 1.0;
 }
 
 bool is_sound(const Pose& pose) {

@@ -26,8 +26,11 @@ HWY_INLINE Flight<Lanes<Tag>> load_flight(Tag tag, const BlockOf<Tag>& block, st
     const auto triple = [&](std::size_t i) HWY_ATTR {
         return Triple<Lanes<Tag>>{field(i), field(i + 1), field(i + 2)};
     };
-    return {triple(0), {field(3), triple(4)}, triple(7), triple(10), triple(13), triple(16), triple(19),
-            triple(22)};
+    return {triple(0),  {field(3), triple(4)},
+            triple(7),  triple(10),
+            triple(13), triple(16),
+            triple(19), triple(22),
+            field(25)};
 }
 template <class Tag>
 HWY_INLINE void store_flight(Tag tag, const Flight<Lanes<Tag>>& flight, BlockOf<Tag>& block,
@@ -48,6 +51,7 @@ HWY_INLINE void store_flight(Tag tag, const Flight<Lanes<Tag>>& flight, BlockOf<
     keep_triple(16, flight.seen_rotation);
     keep_triple(19, flight.angular_acceleration);
     keep_triple(22, flight.acceleration);
+    keep(25, flight.wake_formation);
 }
 
 template <class Tag>
@@ -61,7 +65,8 @@ HWY_INLINE Flight<Lanes<Tag>> select_flight(hn::Mask<Tag> condition, const Fligh
             a.seen_velocity,
             a.seen_rotation,
             select(condition, a.angular_acceleration, b.angular_acceleration),
-            select(condition, a.acceleration, b.acceleration)};
+            select(condition, a.acceleration, b.acceleration),
+            select(condition, a.wake_formation, b.wake_formation)};
 }
 
 /// What random numbers Noise::normals would give each lane.

@@ -72,7 +72,8 @@ HWY_INLINE Flight<One> flight_of(const BodyState& state) {
             triple_of(state.seen_fluid.velocity),
             triple_of(state.seen_fluid.angular_velocity),
             triple_of(state.acceleration.data()),
-            triple_of(state.acceleration.data() + 3)};
+            triple_of(state.acceleration.data() + 3),
+            One(state.wake_formation)};
 }
 HWY_INLINE void keep(const Flight<One>& flight, BodyState& state) {
     keep(flight.position, state.position.data());
@@ -84,6 +85,7 @@ HWY_INLINE void keep(const Flight<One>& flight, BodyState& state) {
     keep(flight.seen_rotation, state.seen_fluid.angular_velocity.data());
     keep(flight.angular_acceleration, state.acceleration.data());
     keep(flight.acceleration, state.acceleration.data() + 3);
+    state.wake_formation = lane(flight.wake_formation);
 }
 
 /// The random numbers of one body.
@@ -216,12 +218,14 @@ HWY_INLINE void keep_blocks(const FlightConstants<double>& c, const LoadBlocks<O
 }
 
 void loads_of_one(const FlightConstants<double>& c, const Vector6d& velocity, const Vector3d& seen_rotation,
-                  const Vector3d& slip, LoadMatrices& loads) {
+                  const Vector3d& slip, double formed, LoadMatrices& loads) {
     const Triple<One> turning = triple_of(velocity.data());
     const Triple<One> moving = One(c.inverse_length) * triple_of(velocity.data() + 3);
-    LoadBlocks<One> blocks = relative_load_blocks(c, turning - triple_of(seen_rotation), moving, turning);
+    const One share(c.wake_forms ? formed : 1.0);
+    LoadBlocks<One> blocks =
+        relative_load_blocks(c, turning - triple_of(seen_rotation), moving, turning, share);
     keep_blocks(c, blocks, loads.relative);
-    add_transport(c, turning, moving, blocks);
+    add_transport(c, turning, moving, share, blocks);
     if (c.has_side_pressure) {
         add_side_pressure(c, moving, One(c.inverse_length) * triple_of(slip), blocks);
     }
@@ -297,9 +301,10 @@ BatchReport advance_one(const FlightConstants<double>& constants, const BlockSte
 }
 
 LoadMatrices load_matrices(const FlightConstants<double>& constants, const Vector6d& velocity,
-                           const Vector3d& seen_rotation, const Vector3d& slip) noexcept {
+                           const Vector3d& seen_rotation, const Vector3d& slip,
+                           double wake_formation) noexcept {
     LoadMatrices loads;
-    HWY_DYNAMIC_DISPATCH(loads_of_one)(constants, velocity, seen_rotation, slip, loads);
+    HWY_DYNAMIC_DISPATCH(loads_of_one)(constants, velocity, seen_rotation, slip, wake_formation, loads);
     return loads;
 }
 

@@ -21,6 +21,7 @@ struct Flight {
     Triple<V> angular_velocity, velocity;
     Triple<V> seen_velocity, seen_rotation;
     Triple<V> angular_acceleration, acceleration;
+    V wake_formation;
 };
 
 /// The velocity (or acceleration) of the centroid from that of the centre of mass: l is taken out of it.
@@ -80,6 +81,7 @@ struct StepStart {
     V h;
     Triple<V> omega, velocity;
     Triple<V> gravity, seen_rotation, slip;  // body axes
+    V wake_formation;
     bool fluid_turns;
     bool is_pushed;
     Push<V> push;  // body axes, about the centroid
@@ -144,6 +146,19 @@ struct HalfTurn {
     HWY_INLINE Triple<V> operator()(const Triple<V>& a) const { return turned_back(half_turn, a); }
 };
 
+/// The share of the wake that has formed when the body has moved at these velocities over a time: what is
+/// missing of it goes as exp(-x), x the way over that in which a wake forms, here to the second order and
+/// never below zero (docs/theory, "A wake that forms").
+template <class V, class Real>
+HWY_INLINE V formed_after(const FlightConstants<Real>& c, V formed, V time, const Triple<V>& omega,
+                          const Triple<V>& velocity) {
+    const V speed_square = dot(velocity, velocity);
+    const V reach_square = dot(velocity, broadcast_symmetric<V>(c.wake_formation) * velocity);
+    const V rate = combined_speed(c, omega, velocity) * root(speed_square / larger(V(tiny<V>), reach_square));
+    const V x = time * rate;
+    return V(1.0) - (V(1.0) - formed) / (V(1.0) + x * (V(1.0) + V(0.5) * x));
+}
+
 /// Solves the step's system with the loads and the transport taken at the middle that was found or guessed
 /// before. Its unknowns are the velocities' changes: solving for the velocities themselves would drift by a
 /// rounding error a step.
@@ -181,16 +196,20 @@ HWY_INLINE void improve(const FlightConstants<Real>& c, const StepStart<V>& star
     V step = V(0.5) * start.h;
     middle.theta = V(0.5);
     if (c.loads != Loads::none) {
+        const V formed = c.wake_forms ? formed_after(c, start.wake_formation, V(0.5) * start.h, middle.omega,
+                                                     middle.velocity)
+                                      : V(1.0);
         LoadBlocks<V> loads;
         if (start.fluid_turns) {
             const Triple<V> fluid_turning = under_body(start.seen_rotation);
-            loads = relative_load_blocks(c, middle.omega - fluid_turning, middle.velocity, middle.omega);
+            loads =
+                relative_load_blocks(c, middle.omega - fluid_turning, middle.velocity, middle.omega, formed);
             moment = moment + loads.moment_by_turning * fluid_turning;
             force = force + loads.force_by_turning * fluid_turning;
         } else {
-            loads = relative_load_blocks(c, middle.omega, middle.velocity, middle.omega);
+            loads = relative_load_blocks(c, middle.omega, middle.velocity, middle.omega, formed);
         }
-        add_transport(c, middle.omega, middle.velocity, loads);
+        add_transport(c, middle.omega, middle.velocity, formed, loads);
         if (c.has_side_pressure) add_side_pressure(c, middle.velocity, under_body(start.slip), loads);
         const Stiffness<V> stiff = stiffness(c, loads, start.h);
         const V z = larger(stiff.turning, stiff.moving);
@@ -303,6 +322,7 @@ HWY_INLINE StepStart<V> step_start(const FlightConstants<Real>& c, const Square<
     start.omega = flight.angular_velocity;
     start.velocity = to_centroid(c, flight.angular_velocity, velocity);
     start.gravity = transposed_times(to_world, gravity);
+    start.wake_formation = flight.wake_formation;
     start.fluid_turns = fluid_turns;
     start.seen_rotation = fluid_turns ? transposed_times(to_world, seen_rotation) : no_vector<V>();
     const V munk_rate(c.munk_rate);
@@ -366,6 +386,9 @@ HWY_INLINE void implicit_step(const FlightConstants<Real>& c, const Triple<V>& g
         c, start,
         {start.omega + half * flight.angular_acceleration,
          start.velocity + half * to_centroid(c, flight.angular_acceleration, guess_acceleration)});
+    if (c.wake_forms) {
+        flight.wake_formation = formed_after(c, flight.wake_formation, h, found.omega, found.velocity);
+    }
 
     // The same turn that carried gravity: what gravity works is then what the height gives.
     const Triple<V> middle_velocity = from_centroid(c, found.omega, found.velocity);

@@ -9,7 +9,7 @@
 namespace samara {
 namespace {
 
-constexpr double step = 5.0;  // degrees between the directions that are compared
+constexpr int step = 5;  // degrees between the directions that are compared
 // Of the largest force: closer, it is interpolation that differs, which between the nodes of a usual map
 // takes up to 2.2 % from the force on a sphere and turns 2.6 % of it aside.
 constexpr double same_share = 0.03;
@@ -27,7 +27,8 @@ double largest_drag(const LoadTables& tables, double reynolds_number) {
 template <typename OtherAngle>
 bool alike(const LoadTables& tables, const BodyArc& one, const BodyArc& other, double reynolds_number,
            double tolerance, const OtherAngle& other_angle) {
-    for (double angle = 0.0; angle < 360.0; angle += step) {
+    for (int i = 0; i < 360; i += step) {
+        const double angle = i;
         const ArcValues here = values_on(tables, one, angle / degrees, reynolds_number);
         const ArcValues there = values_on(tables, other, other_angle(angle) / degrees, reynolds_number);
         if (here.largest_difference(there) > tolerance) return false;
