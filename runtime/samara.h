@@ -254,9 +254,9 @@ SAMARA_API samara_status samara_get_poses(const samara_simulation* simulation, s
                                           samara_pose* poses, size_t stride, char* error, size_t error_size);
 
 /* Puts bodies elsewhere at the simulation's time; orientations are normalised. A body keeps the turbulence
- * that it feels. Inside a step the body moves on steadily to the step's end, where its flight goes on: the
- * grid stays. Before the body's start it is where it will start from. What is below the ground is lifted
- * onto it in the next step. */
+ * that it feels and the wake that it has, but one that was removed starts anew. Inside a step the body moves
+ * on steadily to the step's end, where its flight goes on: the grid stays. Before the body's start it is
+ * where it will start from. What is below the ground is lifted onto it in the next step. */
 SAMARA_API samara_status samara_set_poses(samara_simulation* simulation, size_t first, size_t count,
                                           const samara_pose* poses, size_t stride, char* error,
                                           size_t error_size);

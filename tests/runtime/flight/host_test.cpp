@@ -235,6 +235,32 @@ TEST(RemovedBody, StaysWhereItIsCostsNoStepsAndComesBackWhereItIsPut) {
     EXPECT_NEAR((flight.pose(1).position - place.position).norm(), 0.0, 0.1);
 }
 
+TEST(RemovedBody, HasNoWakeWhereItIsPutBackAsOneThatIsSetHas) {
+    Body shape = test::rubber_ellipsoid();
+    shape.tables = test::blunt_tables(shape, 4);
+    BodyPhysics physics = ideal();
+    physics.loads = Loads::table;
+    const auto flown = [&](const auto& change) {
+        Flight flight;
+        flight.add({shape, "ellipsoid"}, physics,
+                   {.orientation = Quaterniond(0.9, 0.3, 0.3, 0.0).normalized()});
+        flight.advance_to(0.2);
+        change(flight, flight.pose(0));
+        flight.advance_to(0.25);
+        return flight.pose(0);
+    };
+    const Pose undisturbed = flown([](Flight&, const Pose&) {});
+    const auto apart = [&](const Pose& pose) {
+        return pose.orientation.angularDistance(undisturbed.orientation);
+    };
+    EXPECT_LT(apart(flown([](Flight& flight, const Pose& now) { flight.set_pose(0, now); })), 1e-6);
+    EXPECT_GT(apart(flown([](Flight& flight, const Pose& now) {
+                  flight.remove(0);
+                  flight.set_pose(0, now);
+              })),
+              1e-3);
+}
+
 TEST(RemovedBody, IsPartOfTheState) {
     const auto made = [] {
         Flight flight;
