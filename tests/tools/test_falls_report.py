@@ -29,11 +29,11 @@ SCENES = {
 }
 # Test sets of before, which have been looked at.
 SEEN = {
+    "disc-2000": "disc-range", "disc-3000": "disc-range", "disc-6000": "disc-range", "ellipsoid-3000": "ellipsoid-range",
+    "sheet-steep": "samara:sheet", "sphere-light": "samara:sphere", "plate-steep": "plate", "spheroid-steep": "spheroid",
     "box-1500": "box", "box-6000": "box", "thick-disc-1400": "thick-disc", "thick-disc-5000": "thick-disc",
     "cube-1050": "samara:cube", "cube-2400": "samara:cube", "ellipsoid-1600": "ellipsoid-range", "sheet-1000": "samara:sheet",
     "disc-4500": "samara:disc",
-    "disc-2000": "disc-range", "disc-3000": "disc-range", "disc-6000": "disc-range", "ellipsoid-3000": "ellipsoid-range",
-    "sheet-steep": "samara:sheet", "sphere-light": "samara:sphere", "plate-steep": "plate", "spheroid-steep": "spheroid",
 }
 REFERENCES, ROWS = f"{FOLDER}/references.csv", f"{FOLDER}/falls.csv"
 
