@@ -119,7 +119,8 @@ class Flight {
     [[nodiscard]] Pose pose(std::size_t index) const;
     /// Those of `count` bodies from number `first` on, `poses[i]` each.
     void poses(std::size_t first, std::size_t count, Pose* poses) const;
-    /// Puts a body elsewhere, from time() on; it keeps the wake that it has. Needs finite numbers and an orientation of length one.
+    /// Puts a body elsewhere, from time() on; it keeps the wake that it has. Needs finite numbers and an
+    /// orientation of length one.
     void set_pose(std::size_t index, const Pose& pose);
     /// Pushes a body, besides fluid, gravity and what it touches, in all steps of the next advance_to to a
     /// later time; several add up, and a body that waits for its start feels none. Calls that take no step
