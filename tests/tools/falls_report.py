@@ -4,8 +4,8 @@
     falls_report.py BIN BODIES    bakes what is missing in BODIES, flies every scene and compares; then identifies
                                   anew without each term, and holds the falls again
     falls_report.py BIN BODIES keep
-                                  identifies every body anew from its falls, those of BODIES or else those that are kept, and
-                                  keeps both in docs/falls/bodies: due where the form of the loads has changed
+                                  identifies every body that was baked in BODIES anew from its falls, and keeps both in
+                                  docs/falls/bodies: with these the form of the loads can be changed without CFD
     falls_report.py BIN BODIES FALL...
                                   bakes, flies and compares these falls alone; the rows of others stay as they are. As FALL,
                                   `range` is all those with bodies that are baked for a range of densities, `terms`,
@@ -24,6 +24,7 @@ import json
 import math
 import os
 import re
+import shutil
 import statistics
 import subprocess
 import sys
@@ -92,12 +93,12 @@ def baked(programs, folder, body):
     cases = os.path.join(folder, f"{body}.cases")
     if not os.path.exists(file) and os.path.exists(kept):
         file = kept
-        if not os.path.isdir(cases):
+        if not os.path.isdir(cases) and os.path.exists(kept_falls(body)):
             with tarfile.open(kept_falls(body)) as archive:
                 archive.extractall(cases)
     if not os.path.exists(file):
         run([f"{programs}/samara", "bake", shape, "-o", file, "--quality", "standard", "--json"] + options)
-    falls = sorted(name for name in os.listdir(cases) if name.startswith("fall_"))
+    falls = sorted(name for name in os.listdir(cases) if name.startswith("fall_")) if os.path.isdir(cases) else []
     return file, ",".join(os.path.join(cases, name) for name in falls)
 
 
@@ -109,9 +110,12 @@ def rounded(text):
 def keep(programs, folder):
     """Identifies each body of the folder anew, and writes it and what was solved of its falls into docs/falls/bodies."""
     for body in BODIES:
+        if not os.path.exists(baked_file(folder, body)):
+            continue
         file, falls = baked(programs, folder, body)
         target = baked_file(KEPT, body)
         run([f"{programs}/samara", "identify", file, falls, "-o", target, "--json"])
+        shutil.copyfile(target, file)
         with tarfile.open(kept_falls(body), "w:xz", preset=9) as archive:
             for fall in falls.split(","):
                 histories = glob.glob("postProcessing/*/*/*.dat", root_dir=fall)
