@@ -27,13 +27,13 @@ struct ShippedFall {
 
 /// Without noise, as the bodies of runtime/bodies fell when this was written.
 constexpr ShippedFall falls[] = {
-    {"falls/ellipsoid-tilted", "ellipsoid", Regime::fluttering, 0.2221, 0.8328, 2.940},
-    {"falls/ellipsoid-heavy", "ellipsoid", Regime::fluttering, 0.4901, 1.826, 4.609},
+    {"falls/ellipsoid-tilted", "ellipsoid", Regime::fluttering, 0.221, 0.8343, 2.962},
+    {"falls/ellipsoid-heavy", "ellipsoid", Regime::fluttering, 0.4895, 1.794, 4.805},
     {"falls/sphere", "sphere", Regime::steady, 0.5469, {}, {}},
-    {"falls/cube", "cube", Regime::chaotic, 0.2469, 1.196, 4.020},
-    {"falls/disc-light", "disc", Regime::fluttering, 0.06860, 1.306, 3.363},
-    {"falls/disc-heavy", "disc", Regime::tumbling, 0.4189, 2.572, 17.53},
-    {"falls/sheet", "sheet", Regime::chaotic, 0.5592, 1.850, 14.30},
+    {"falls/cube", "cube", Regime::chaotic, 0.248, 1.103, 3.902},
+    {"falls/disc-light", "disc", Regime::fluttering, 0.06853, 1.302, 3.366},
+    {"falls/disc-heavy", "disc", Regime::tumbling, 0.4054, 2.566, 17.51},
+    {"falls/sheet", "sheet", Regime::tumbling, 0.7652, 1.875, 14.6},
     {"falls/samara", "samara", Regime::autorotating, 1.332, {}, 107.5},
     {"scenes/samara", "samara", Regime::autorotating, 1.016, {}, 116.2},
 };
