@@ -293,7 +293,7 @@ def table_of_falls(rows, who="runtime"):
 
 
 def fly_anew(programs, folder, words=(), falls=None, noises=("off",)):
-    """Every body but the sphere identified anew, with other options or from some of its falls alone:
+    """Every body but the sphere whose falls are there identified anew, with other options or from some of its falls alone:
     how well they predict those and what the bodies' falls cost in CPU seconds, both in the mean over the bodies, and for each
     noise the comparisons of their scenes."""
     scenes = {scene: body for scene, body in SCENES.items() if scene != "sphere"}
@@ -301,6 +301,9 @@ def fly_anew(programs, folder, words=(), falls=None, noises=("off",)):
     with tempfile.TemporaryDirectory() as work:
         for body in sorted(set(scenes.values())):
             file, solved = baked(programs, folder, body)
+            if not solved:
+                scenes = {scene: of for scene, of in scenes.items() if of != body}
+                continue
             chosen = [fall for fall in solved.split(",") if falls is None or os.path.basename(fall) in falls]
             files[body] = os.path.join(work, f"{body}.body.h5")
             command = [f"{programs}/samara", "identify", file, ",".join(chosen), "-o", files[body], "--json"]
