@@ -2,6 +2,7 @@
 """Other models of falling bodies and the runtime against the reference falls.
 
     peers_report.py BIN WORK FOLDER [SAMPLES]
+    peers_report.py FOLDER    takes the other models' rows as they stand, and the runtime's from falls.csv
 
 BIN: the folder of the programs; FOLDER: of peers.csv, peers.gp and peers.md, whose tables it writes. SAMPLES: how many sets of
 coefficients are drawn in the search for each model's best, 2000 by default; what was found is kept in WORK and used again. The
@@ -16,7 +17,7 @@ import subprocess
 import sys
 import tempfile
 
-from falls_report import BODIES, FALLS, SCENES, compared, differences_of, has_the_regime, rows_of_falls, run, worst_figure
+from falls_report import BODIES, FALLS, SCENES, compared, differences_of, has_the_regime, rows_of_falls, run, worst_figure, worst_of
 from falls_report import FIGURES as MEASURES
 from report_tables import mark, table, write_tables
 from surface_report import plain
@@ -94,15 +95,16 @@ def by_equations(programs, folder, samples):
 
 def reported(who, noise):
     """The runtime's rows as docs/falls/falls.csv has them."""
-    for row in rows_of_falls(noise):
-        differences = differences_of(row)
-        judged = differences[:1] if row["fall"] == "sphere" else differences
-        misses = [abs(difference) for difference in judged if difference is not None]
-        if row["fall"] != "sphere" and not has_the_regime(row):
-            misses.append(1.0)
-        yield {"fall": row["fall"], "model": who, "regime_cfd": row["regime_cfd"], "regime": row["regime_runtime"],
-               **dict(zip(FIGURES, differences)), "worst": max(misses),
-               "agrees": agreement(row["fall"], row["agrees"] == "yes", has_the_regime(row))}
+    return [{"fall": row["fall"], "model": who, "regime_cfd": row["regime_cfd"], "regime": row["regime_runtime"],
+             **dict(zip(FIGURES, differences_of(row))), "worst": worst_of(row),
+             "agrees": agreement(row["fall"], row["agrees"] == "yes", has_the_regime(row))} for row in rows_of_falls(noise)]
+
+
+def kept_rows(folder):
+    """The rows of the last run but for the runtime's by tables."""
+    with open(os.path.join(folder, "peers.csv"), newline="", encoding="utf-8") as file:
+        rows = [row for row in csv.DictReader(file) if row["model"] not in OURS]
+    return [row | {name: float(row[name]) if row[name] else None for name in (*FIGURES, "worst")} for row in rows]
 
 
 def by_surface(programs):
@@ -172,10 +174,31 @@ def coefficients_table(search, default):
     return "\n".join(lines) + "\n"
 
 
+def write_report(folder, rows, coefficients):
+    """peers.csv, the tables of peers.md (that of coefficients: None leaves it as it stands) and the picture."""
+    rows = rows + [row for who, noise in OURS.items() for row in reported(who, noise)]
+    equations = [row["model"] for row in rows if row["model"].startswith(tuple(name for name, *_ in EQUATIONS))]
+    columns = ["fall", "model", "regime_cfd", "regime"] + list(FIGURES) + ["worst", "agrees"]
+    with open(os.path.join(folder, "peers.csv"), "w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, columns, lineterminator="\n")
+        writer.writeheader()
+        for row in rows:
+            writer.writerow({key: f"{value:.4g}" if isinstance(value, float) else value for key, value in row.items()})
+    write_tables(os.path.join(folder, "peers.md"), [
+        summary_table(rows), coefficients, errors_table(rows, (DEFAULT, BEST, SHAPE, ALONE)),
+        errors_table(rows, tuple(dict.fromkeys(equations))), errors_table(rows, [SURFACE, *OURS])], mark("falls"))
+    subprocess.run(["gnuplot", "-e", f"rows='{folder}/peers.csv'; picture='{folder}/peers.png'", f"{folder}/peers.gp"],
+                   check=True)
+    print(f"Written: peers.csv, peers.md and peers.png in {folder}")
+
+
 def main(words):
-    if len(words) not in (4, 5):
+    if len(words) not in (2, 4, 5):
         sys.stderr.write(__doc__)
         return 2
+    if len(words) == 2:
+        write_report(words[1], kept_rows(words[1]), None)
+        return 0
     programs, work, folder = words[1:4]
     default = (0.5, 0.25, 1.5, 1.0, 1.0)
     scenes = list(SCENES)
@@ -187,21 +210,8 @@ def main(words):
         rows += peer(programs, found["falls"], SHAPE, found["coefficients"])
     for scene in scenes:
         rows += peer(programs, [scene], ALONE, search["best_alone"][scene]["coefficients"])
-    equations = by_equations(programs, work, samples)
-    rows += equations + by_surface(programs) + [row for who, noise in OURS.items() for row in reported(who, noise)]
-    own = [SURFACE, *OURS]
-    columns = ["fall", "model", "regime_cfd", "regime"] + list(FIGURES) + ["worst", "agrees"]
-    with open(os.path.join(folder, "peers.csv"), "w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, columns, lineterminator="\n")
-        writer.writeheader()
-        for row in rows:
-            writer.writerow({key: f"{value:.4g}" if isinstance(value, float) else value for key, value in row.items()})
-    write_tables(os.path.join(folder, "peers.md"), [
-        summary_table(rows), coefficients_table(search, default), errors_table(rows, (DEFAULT, BEST, SHAPE, ALONE)),
-        errors_table(rows, tuple(dict.fromkeys(row["model"] for row in equations))), errors_table(rows, own)], mark("falls"))
-    subprocess.run(["gnuplot", "-e", f"rows='{folder}/peers.csv'; picture='{folder}/peers.png'", f"{folder}/peers.gp"],
-                   check=True)
-    print(f"Written: peers.csv, peers.md and peers.png in {folder}")
+    rows += by_equations(programs, work, samples) + by_surface(programs)
+    write_report(folder, rows, coefficients_table(search, default))
     return 0
 
 

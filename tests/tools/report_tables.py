@@ -17,11 +17,14 @@ def table(head, lines):
 
 
 def write_tables(document, tables, begin):
-    """Puts the tables between the document's marks, in their order."""
+    """Puts the tables between the document's marks, in their order; None leaves one as it stands."""
     with open(document, encoding="utf-8") as file:
         parts = file.read().split(begin)
     if len(parts) != len(tables) + 1:
         sys.exit(f"{document}: has not the {len(tables)} marks that hold its tables")
-    text = parts[0] + "".join(begin + table + END + part.split(END, 1)[1] for table, part in zip(tables, parts[1:]))
+    text = parts[0]
+    for table_now, part in zip(tables, parts[1:]):
+        before, after = part.split(END, 1)
+        text += begin + (before if table_now is None else table_now) + END + after
     with open(document, "w", encoding="utf-8") as file:
         file.write(text)
