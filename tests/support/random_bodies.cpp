@@ -140,7 +140,7 @@ BodyState RandomBodies::state() {
     const double turning = magnitude(1e-4, 1e3);
     const double speed = magnitude(1e-4, 1e3);
     result.velocity << turning * vector(), speed * vector();
-    result.wake_formation = uniform(0.0, 1.0);
+    result.wake_formation = std::uniform_real_distribution<double>(0.0, 1.0)(wakes_);
     return result;
 }
 

@@ -14,7 +14,7 @@ namespace samara::test {
 /// dynamic coefficients of any size and sign, drags positive semidefinite.
 class RandomBodies {
   public:
-    explicit RandomBodies(unsigned seed) : generator_(seed) {}
+    explicit RandomBodies(unsigned seed) : generator_(seed), wakes_(seed) {}
 
     ImmersedBody body();
     /// Speeds from 1e-4 to 1e3 m/s and rad/s, any orientation, any wake.
@@ -36,6 +36,7 @@ class RandomBodies {
     LoadTables tables(double length);
 
     std::mt19937_64 generator_;
+    std::mt19937_64 wakes_;  // on their own, so that the bodies stay those of before
 };
 
 }  // namespace samara::test
