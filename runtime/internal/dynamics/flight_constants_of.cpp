@@ -171,7 +171,7 @@ void set_loads(const ImmersedBody& body, FlightConstants<Real>& c) {
     c.half_length = static_cast<Real>(dynamic.half_length / length);
     // The numbers of the loads of the surface were chosen on whole falls, without a start of their own.
     c.wake_forms = body.loads != Loads::coefficients && !body.tables->stokes_throughout;
-    c.wake_formation = symmetric<Real>(body.wake_formation / (length * length));
+    c.squared_formation_way = symmetric<Real>(body.squared_formation_way / (length * length));
     c.drag_in_motion = symmetric<Real>(half_density * length / mass * dynamic.drag_in_motion);
     c.has_spin = !dynamic.drag_in_spin.isZero(0.0) || !dynamic.rotational_drag_in_spin.isZero(0.0);
     c.drag_in_spin = symmetric<Real>(half_density * length / mass * dynamic.drag_in_spin);

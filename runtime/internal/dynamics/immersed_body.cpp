@@ -82,9 +82,9 @@ std::vector<double> projected_areas(const Surface& surface) {
 /// projected_area() along the principal axes, as a matrix that has these areas along them.
 // The square of wake_formation_ways times the geometric mean of the extent along a direction and the
 // shortest: those of the ellipsoid with the body's second moments.
-Matrix3d wake_formation(const VolumeMoments& moments) {
+Matrix3d squared_formation_way(const VolumeMoments& moments) {
     const PrincipalValues principal = principal_values(moments.second_moments);
-    const Vector3d extents = (20.0 / moments.volume * principal.values).cwiseSqrt();
+    const Vector3d extents = (20.0 / moments.volume * principal.values).cwiseMax(0.0).cwiseSqrt();
     const Vector3d squares = wake_formation_ways * wake_formation_ways * extents[0] * extents;
     return principal.directions * squares.asDiagonal() * principal.directions.transpose();
 }
@@ -169,7 +169,7 @@ ImmersedBody make_immersed_body(const Body& body, const BodyPhysics& physics, co
     result.length = reference_length(body.moments.surface_area);
     result.reference_area = std::numbers::pi * result.length * result.length / 4.0;
     result.shadows = shadows(body);
-    result.wake_formation = wake_formation(body.moments);
+    result.squared_formation_way = squared_formation_way(body.moments);
 
     result.loads = physics.loads;
     result.coefficients = physics.coefficients;

@@ -36,9 +36,9 @@ struct ImmersedBody {
     double length = 1.0;                  ///< L = sqrt(S/pi) (m)
     double reference_area = 0.0;          ///< A = pi L^2/4 (m^2)
     Matrix3d shadows = Matrix3d::Zero();  ///< m^2, body axes: projected areas along the principal axes
-    /// m^2, body axes: d.(wake_formation d) is the square of the way in which a wake forms behind a body that
-    /// goes in the direction d (docs/theory, "A wake that forms").
-    Matrix3d wake_formation = Matrix3d::Zero();
+    /// m^2, body axes: d.(squared_formation_way d) is the square of the way in which a wake forms behind a
+    /// body that goes in the direction d (docs/theory, "A wake that forms").
+    Matrix3d squared_formation_way = Matrix3d::Zero();
     double turning_scale = 0.0;  ///< sqrt of the largest ratio of added-mass difference to inertia (1/m):
                                  ///< with |v| the rate at which the Munk moment turns the body
 

@@ -21,7 +21,7 @@ double wake_formation_rate(const ImmersedBody& body, const Vector6d& relative_ve
     if (!body.constants.wake_forms || velocity.isZero(0.0)) return 0.0;
     const double combined =
         std::hypot(velocity.norm(), body.dynamic.half_length * relative_velocity.head<3>().norm());
-    return combined * velocity.norm() / std::sqrt(velocity.dot(body.wake_formation * velocity));
+    return combined * velocity.norm() / std::sqrt(velocity.dot(body.squared_formation_way * velocity));
 }
 
 double reynolds_number(const ImmersedBody& body, double speed) noexcept {

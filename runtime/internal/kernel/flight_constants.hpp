@@ -72,7 +72,7 @@ struct FlightConstants {
     Triple<Real> center_of_pressure{};  ///< over l, from the centroid
 
     bool wake_forms = false;                 ///< whether the loads wait for the wake to form
-    Square<Real> wake_formation{};           ///< ImmersedBody's, over l^2
+    Square<Real> squared_formation_way{};    ///< ImmersedBody's, over l^2
     Square<Real> potential_transport{};      ///< rho_f (M - T) / m* over tow_factor, less its isotropic part
     Square<Real> directed_transport{};       ///< rho_f T / m* less its isotropic part
     Real isotropic_transport = 0;            ///< a third of the trace of rho_f T / m*

@@ -153,7 +153,7 @@ template <class V, class Real>
 HWY_INLINE V formed_after(const FlightConstants<Real>& c, V formed, V time, const Triple<V>& omega,
                           const Triple<V>& velocity) {
     const V speed_square = dot(velocity, velocity);
-    const V reach_square = dot(velocity, broadcast_symmetric<V>(c.wake_formation) * velocity);
+    const V reach_square = dot(velocity, broadcast_symmetric<V>(c.squared_formation_way) * velocity);
     const V rate = combined_speed(c, omega, velocity) * root(speed_square / larger(V(tiny<V>), reach_square));
     const V x = time * rate;
     return V(1.0) - (V(1.0) - formed) / (V(1.0) + x * (V(1.0) + V(0.5) * x));
