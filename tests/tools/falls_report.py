@@ -87,12 +87,12 @@ def kept_falls(body):
 
 
 def baked(programs, folder, body):
-    """The baked body's file and its falls, separated by commas: in the folder, those of docs/falls/bodies where it has none."""
+    """The baked body's file in the folder and its falls, separated by commas: those of docs/falls/bodies where it has none."""
     shape, options = BODIES[body]
     file, kept = baked_file(folder, body), baked_file(KEPT, body)
     cases = os.path.join(folder, f"{body}.cases")
     if not os.path.exists(file) and os.path.exists(kept):
-        file = kept
+        shutil.copyfile(kept, file)  # where other reports look for it
         if not os.path.isdir(cases) and os.path.exists(kept_falls(body)):
             with tarfile.open(kept_falls(body)) as archive:
                 archive.extractall(cases)
@@ -113,6 +113,8 @@ def keep(programs, folder):
         if not os.path.exists(baked_file(folder, body)):
             continue
         file, falls = baked(programs, folder, body)
+        if not falls:
+            continue
         target = baked_file(KEPT, body)
         run([f"{programs}/samara", "identify", file, falls, "-o", target, "--json"])
         shutil.copyfile(target, file)
@@ -169,17 +171,20 @@ def row_of(scene, noise, comparison):
                   "yes" if comparison["agrees"] else "no"]
 
 
+def largest_miss(differences, wrong_regime):
+    """Of figures that one of two falls has at least, their differences: one that the other has not, None, counts as all of
+    itself, another regime as no less."""
+    return max([1.0 if wrong_regime else 0.0] + [1.0 if difference is None else abs(difference) for difference in differences])
+
+
 def worst_figure(comparison):
-    """What a fall misses of its reference: the largest difference of its figures, none of them divided. A figure that one of
-    the two has alone counts as all of itself, another regime as no less; a sphere has its descent alone."""
-    figures = FIGURES if comparison["judges_inclination"] else FIGURES[:1]
-    misses = [0.0 if comparison["regimes_agree"] or not comparison["judges_inclination"] else 1.0]
-    for figure in figures:
-        measure = comparison["measures"].get(figure) or {}
-        if measure.get("motion") or measure.get("reference"):
-            difference = measure.get("relative_difference")
-            misses.append(1.0 if difference is None else abs(difference))
-    return max(misses)
+    """What a fall misses of its reference: the largest_miss() of its figures, none of them divided; of a sphere that of its
+    descent alone."""
+    is_judged = comparison["judges_inclination"]
+    measures = [comparison["measures"].get(figure) or {} for figure in (FIGURES if is_judged else FIGURES[:1])]
+    return largest_miss([measure.get("relative_difference") for measure in measures
+                         if measure.get("motion") or measure.get("reference")],
+                        is_judged and not comparison["regimes_agree"])
 
 
 def percent(difference):
@@ -197,13 +202,10 @@ def differences_of(row):
 
 def worst_of(row):
     """worst_figure() of a row of falls.csv."""
-    is_round = row["fall"].startswith("sphere")
-    misses = [0.0 if has_the_regime(row) or is_round else 1.0]
-    for figure in FIGURES[:1] if is_round else FIGURES:
-        if row[f"{figure}_runtime"] or row[f"{figure}_cfd"]:
-            difference = row[f"{figure}_difference"]
-            misses.append(abs(float(difference)) if difference else 1.0)
-    return max(misses)
+    is_judged = not row["fall"].startswith("sphere")
+    figures = [figure for figure in (FIGURES if is_judged else FIGURES[:1]) if row[f"{figure}_runtime"] or row[f"{figure}_cfd"]]
+    return largest_miss([float(row[f"{figure}_difference"]) if row[f"{figure}_difference"] else None for figure in figures],
+                        is_judged and not has_the_regime(row))
 
 
 def has_the_regime(row):

@@ -9,6 +9,9 @@
 namespace samara {
 namespace {
 
+// Where a MotionVector has the wake's formation.
+constexpr Eigen::Index formation = 13;
+
 /// |q|^2 times the rotation of q, for q = (w, x, y, z) of any length.
 Matrix3d homogeneous_rotation(const Eigen::Vector4d& q) {
     const double w = q[0];
@@ -39,7 +42,7 @@ BodyState body_state(const MotionVector& motion, const SeenFluid& seen_fluid) no
     state.velocity = motion.head<6>();
     state.orientation = Quaterniond(motion[6], motion[7], motion[8], motion[9]).normalized();
     state.position = motion.segment<3>(10);
-    state.wake_formation = motion[13];
+    state.wake_formation = motion[formation];
     state.seen_fluid = seen_fluid;
     return state;
 }
@@ -77,14 +80,14 @@ MotionVector EquationsOfMotion::rate(const MotionVector& motion) const noexcept 
                          displaced * body_->center_of_buoyancy.cross(gravity_in_body),
         linear.cross(omega) + (body_->mass - displaced) * gravity_in_body;
     if (body_->loads != Loads::none) {
-        momentum_rate += body_->to_centroid.transpose() * load(relative, to_world, motion[13]);
+        momentum_rate += body_->to_centroid.transpose() * load(relative, to_world, motion[formation]);
     }
 
     Vector6d acceleration = mobility_ * momentum_rate;
     acceleration.tail<3>() -= omega.cross(seen_velocity);  // the seen fluid turns past the body's axes
     MotionVector result;
     result << acceleration, quaternion_rate(motion.segment<4>(6), omega), to_world * motion.segment<3>(3),
-        wake_formation_rate(*body_, body_->to_centroid * relative) * (1.0 - motion[13]);
+        wake_formation_rate(*body_, body_->to_centroid * relative) * (1.0 - motion[formation]);
     return result;
 }
 
@@ -104,7 +107,7 @@ Matrix6d EquationsOfMotion::acceleration_gradient(const MotionVector& motion) co
     Matrix6d gradient = by_velocity + by_momentum * body_->inertia;
 
     if (body_->loads != Loads::none) {
-        const Vector6d load_here = load(relative, to_world, motion[13]);
+        const Vector6d load_here = load(relative, to_world, motion[formation]);
         // Differences of a millionth of the speeds that are there; any will do for a body at rest.
         const double turning = relative.head<3>().norm() + seen_fluid_.angular_velocity.norm();
         const double speed = relative.tail<3>().norm() + body_->length * turning;
@@ -114,7 +117,7 @@ Matrix6d EquationsOfMotion::acceleration_gradient(const MotionVector& motion) co
             Vector6d moved = relative;
             moved[i] += i < 3 ? difference / body_->length : difference;
             by_relative_velocity.col(i) =
-                (load(moved, to_world, motion[13]) - load_here) / (moved[i] - relative[i]);
+                (load(moved, to_world, motion[formation]) - load_here) / (moved[i] - relative[i]);
         }
         gradient += body_->to_centroid.transpose() * by_relative_velocity;
     }

@@ -79,7 +79,6 @@ std::vector<double> projected_areas(const Surface& surface) {
     return areas;
 }
 
-/// projected_area() along the principal axes, as a matrix that has these areas along them.
 // The square of wake_formation_ways times the geometric mean of the extent along a direction and the
 // shortest: those of the ellipsoid with the body's second moments.
 Matrix3d squared_formation_way(const VolumeMoments& moments) {
@@ -89,6 +88,7 @@ Matrix3d squared_formation_way(const VolumeMoments& moments) {
     return principal.directions * squares.asDiagonal() * principal.directions.transpose();
 }
 
+/// projected_area() along the principal axes, as a matrix that has these areas along them.
 Matrix3d shadows(const Body& body) {
     const Matrix3d axes = principal_axes(body.moments);
     Vector3d areas;

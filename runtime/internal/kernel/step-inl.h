@@ -81,7 +81,7 @@ struct StepStart {
     V h;
     Triple<V> omega, velocity;
     Triple<V> gravity, seen_rotation, slip;  // body axes
-    V wake_formation;
+    V wake_formation;                        // when the step begins
     bool fluid_turns;
     bool is_pushed;
     Push<V> push;  // body axes, about the centroid
