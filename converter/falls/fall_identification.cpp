@@ -166,12 +166,15 @@ std::vector<BodyState> solved_states(const ReadyFall& fall) {
 }
 
 // The wake that had formed at each of a fall's states, by the way to it.
-void set_wake_formation(const ImmersedBody& body, double time_step, std::vector<BodyState>& states) {
-    double missing = 1.0;
+void set_formed_wakes(const ImmersedBody& body, double time_step, std::vector<BodyState>& states) {
     for (std::size_t i = 1; i < states.size(); ++i) {
         const Vector6d velocity = body.to_centroid * (0.5 * (states[i - 1].velocity + states[i].velocity));
-        missing *= std::exp(-time_step * wake_formation_rate(body, velocity));
-        states[i].wake_formation = 1.0 - missing;
+        const auto of_centroid = [&](const BodyState& state) -> Vector3d {
+            return state.orientation * (body.to_centroid * state.velocity).tail<3>();
+        };
+        const Vector3d direction = (of_centroid(states[i - 1]) + of_centroid(states[i])).stableNormalized();
+        const double kept = std::exp(-time_step * wake_formation_rate(body, velocity));
+        states[i].formed_wake = direction + kept * (states[i - 1].formed_wake - direction);
     }
 }
 
@@ -182,7 +185,7 @@ ReadyFall ready(const Body& body, const FallRecord& record) {
                    {}};
     const double step = record.samples.front().time;
     fall.stride = static_cast<std::size_t>(std::max(1.0, std::round(flown_step / step)));
-    set_wake_formation(fall.body, step_of(fall), fall.states);
+    set_formed_wakes(fall.body, step_of(fall), fall.states);
     fall.measures = measures_of(motion_of(body, fall, solved_states(fall)));
     return fall;
 }

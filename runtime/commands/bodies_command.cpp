@@ -95,7 +95,7 @@ std::string size_in_words(const nlohmann::json& extents) {
 }
 
 void print_list(const nlohmann::json& result) {
-    constexpr const char* row = "{:<11}{:<15}{:<20}{:<7}{:<28}{:<10}{:>6}  {}\n";
+    constexpr const char* row = "{:<11}{:<15}{:<20}{:<7}{:<37}{:<10}{:>6}  {}\n";
     print_result(fmt::runtime(row), "name", "shape", "size (mm)", "fluid", "Reynolds numbers", "quality",
                  "force", "for");
     for (const nlohmann::json& body : result["bodies"]) {

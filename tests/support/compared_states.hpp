@@ -14,8 +14,8 @@
 namespace samara::test {
 
 /// All numbers of a state.
-inline std::array<double, 26> numbers_of(const BodyState& state) {
-    std::array<double, 26> numbers{};
+inline std::array<double, 28> numbers_of(const BodyState& state) {
+    std::array<double, 28> numbers{};
     std::size_t next = 0;
     const auto add = [&](const auto& part) {
         for (const double number : part) numbers[next++] = number;
@@ -26,7 +26,7 @@ inline std::array<double, 26> numbers_of(const BodyState& state) {
     add(state.seen_fluid.velocity);
     add(state.seen_fluid.angular_velocity);
     add(state.acceleration);
-    numbers[next] = state.wake_formation;
+    add(state.formed_wake);
     return numbers;
 }
 

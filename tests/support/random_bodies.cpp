@@ -140,7 +140,8 @@ BodyState RandomBodies::state() {
     const double turning = magnitude(1e-4, 1e3);
     const double speed = magnitude(1e-4, 1e3);
     result.velocity << turning * vector(), speed * vector();
-    result.wake_formation = std::uniform_real_distribution<double>(0.0, 1.0)(wakes_);
+    std::uniform_real_distribution<double> component(-1.0, 1.0);
+    result.formed_wake = Vector3d(component(wakes_), component(wakes_), component(wakes_)) / std::sqrt(3.0);
     return result;
 }
 

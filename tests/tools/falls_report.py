@@ -6,6 +6,9 @@
     falls_report.py BIN BODIES keep
                                   identifies every body that was baked in BODIES anew from its falls, and keeps both in
                                   docs/falls/bodies: with these the form of the loads can be changed without CFD
+    falls_report.py BIN BODIES ready
+                                  likewise the ready-baked bodies that `./dev bodies` has baked in BODIES, into runtime/bodies
+                                  and docs/falls/bodies/ready, from where it takes the falls where BODIES has none
     falls_report.py BIN BODIES FALL...
                                   bakes, flies and compares these falls alone; the rows of others stay as they are. As FALL,
                                   `range` is all those with bodies that are baked for a range of densities, `terms`,
@@ -35,6 +38,7 @@ from report_tables import mark, write_tables
 
 FALLS = "docs/falls"
 KEPT = f"{FALLS}/bodies"  # baked bodies and their falls
+READY, READY_FALLS = "runtime/bodies", f"{KEPT}/ready"
 # The body of each scene: its shape, and what it is baked for. No body is baked from a reference fall.
 BODIES = {
     "sphere": ("meshes/shapes/sphere.geo", ["--density", "1300"]),
@@ -81,9 +85,18 @@ def baked_file(folder, body):
     return os.path.join(folder, f"{body}.body.h5")
 
 
-def kept_falls(body):
+def kept_falls(body, folder=KEPT):
     """The archive of what was solved of a body's falls, which is kept so that a form of the loads costs no CFD to try."""
-    return f"{KEPT}/{body}.falls.tar.xz"
+    return f"{folder}/{body}.falls.tar.xz"
+
+
+def falls_of(body, cases, archives=KEPT):
+    """The folders of the body's falls in its cases, separated by commas; they are unpacked where there are no cases."""
+    if not os.path.isdir(cases) and os.path.exists(kept_falls(body, archives)):
+        with tarfile.open(kept_falls(body, archives)) as archive:
+            archive.extractall(cases)
+    names = sorted(name for name in os.listdir(cases) if name.startswith("fall_")) if os.path.isdir(cases) else []
+    return ",".join(os.path.join(cases, name) for name in names)
 
 
 def baked(programs, folder, body):
@@ -93,18 +106,27 @@ def baked(programs, folder, body):
     cases = os.path.join(folder, f"{body}.cases")
     if not os.path.exists(file) and os.path.exists(kept):
         shutil.copyfile(kept, file)  # where other reports look for it
-        if not os.path.isdir(cases) and os.path.exists(kept_falls(body)):
-            with tarfile.open(kept_falls(body)) as archive:
-                archive.extractall(cases)
-    if not os.path.exists(file):
+    elif not os.path.exists(file):
         run([f"{programs}/samara", "bake", shape, "-o", file, "--quality", "standard", "--json"] + options)
-    falls = sorted(name for name in os.listdir(cases) if name.startswith("fall_")) if os.path.isdir(cases) else []
-    return file, ",".join(os.path.join(cases, name) for name in falls)
+    return file, falls_of(body, cases)
 
 
 def rounded(text):
     """A history of OpenFOAM's with its numbers to eight digits."""
     return re.sub(r"-?\d+\.\d+(e[-+]\d+)?", lambda number: f"{float(number.group()):.8g}", text)
+
+
+def pack(falls, target):
+    """Writes what was solved of the falls into the archive."""
+    with tarfile.open(target, "w:xz", preset=9) as archive:
+        for fall in falls.split(","):
+            histories = glob.glob("postProcessing/*/*/*.dat", root_dir=fall)
+            for name in ["fall.json", "attempts.json", *sorted(histories)]:
+                with open(os.path.join(fall, name), encoding="utf-8") as opened:
+                    content = rounded(opened.read()) if name in histories else opened.read()
+                entry = tarfile.TarInfo(f"{os.path.basename(fall)}/{name}")
+                entry.size = len(content.encode())
+                archive.addfile(entry, io.BytesIO(content.encode()))
 
 
 def keep(programs, folder):
@@ -118,16 +140,27 @@ def keep(programs, folder):
         target = baked_file(KEPT, body)
         run([f"{programs}/samara", "identify", file, falls, "-o", target, "--json"])
         shutil.copyfile(target, file)
-        with tarfile.open(kept_falls(body), "w:xz", preset=9) as archive:
-            for fall in falls.split(","):
-                histories = glob.glob("postProcessing/*/*/*.dat", root_dir=fall)
-                for name in ["fall.json", "attempts.json", *sorted(histories)]:
-                    with open(os.path.join(fall, name), encoding="utf-8") as opened:
-                        content = rounded(opened.read()) if name in histories else opened.read()
-                    entry = tarfile.TarInfo(f"{os.path.basename(fall)}/{name}")
-                    entry.size = len(content.encode())
-                    archive.addfile(entry, io.BytesIO(content.encode()))
+        pack(falls, kept_falls(body))
         print(f"Written: {target}, {kept_falls(body)}")
+
+
+def keep_ready(programs, folder):
+    """Likewise each ready-baked body; those without falls of their own are only copied."""
+    os.makedirs(READY_FALLS, exist_ok=True)
+    for target in sorted(glob.glob(f"{READY}/*.body.h5")):
+        body = os.path.basename(target).removesuffix(".body.h5")
+        file = baked_file(folder, body) if os.path.exists(baked_file(folder, body)) else target
+        falls = falls_of(body, os.path.join(folder, f"{body}.cases"), READY_FALLS)
+        if falls:
+            identified = os.path.join(folder, f"{body}.identified.body.h5")
+            run([f"{programs}/samara", "identify", file, falls, "-o", identified, "--json"])
+            os.replace(identified, target)
+            pack(falls, kept_falls(body, READY_FALLS))
+        elif file != target:
+            shutil.copyfile(file, target)
+        else:
+            continue
+        print(f"Written: {target}")
 
 
 def scene_with(scene, keys, folder, steps=1, falls=FALLS):
@@ -410,7 +443,7 @@ def table_of_terms():
 
 def main(words):
     names = words[3:]
-    if len(words) == 2 or not set(names) <= {*SCENES, "range", "terms", "fewer", "repeats", "keep"}:
+    if len(words) == 2 or not set(names) <= {*SCENES, "range", "terms", "fewer", "repeats", "keep", "ready"}:
         sys.stderr.write(__doc__)
         return 2
     if len(words) >= 3:
@@ -418,6 +451,8 @@ def main(words):
         os.makedirs(folder, exist_ok=True)
         if "keep" in names:
             keep(programs, folder)
+        if "ready" in names:
+            keep_ready(programs, folder)
         fly(programs, folder, [name for name in names if name in SCENES] if names else SCENES)
         if not names or "range" in names:
             fly_ranges(programs, folder)

@@ -23,9 +23,8 @@ from report_tables import mark, write_tables
 FOLDER = "docs/test-falls"
 # With which body each fall is flown: one of falls_report.py, or a ready-baked one.
 SCENES = {
-    "box-2500": "box", "box-4000": "box", "thick-disc-2500": "thick-disc", "thick-disc-7000": "thick-disc",
-    "cube-1400": "samara:cube", "ellipsoid-2200": "ellipsoid-range", "sheet-800-edge": "samara:sheet",
-    "disc-7800": "samara:disc",
+    "box-2000": "box", "box-7000": "box", "thick-disc-1800": "thick-disc", "thick-disc-4000": "thick-disc",
+    "plate-end": "plate", "spheroid-spin": "spheroid", "disc-1500-edge": "disc-light", "ellipsoid-1300": "ellipsoid",
 }
 # Test sets of before, which have been looked at.
 SEEN = {
@@ -34,6 +33,9 @@ SEEN = {
     "box-1500": "box", "box-6000": "box", "thick-disc-1400": "thick-disc", "thick-disc-5000": "thick-disc",
     "cube-1050": "samara:cube", "cube-2400": "samara:cube", "ellipsoid-1600": "ellipsoid-range", "sheet-1000": "samara:sheet",
     "disc-4500": "samara:disc",
+    "box-2500": "box", "box-4000": "box", "thick-disc-2500": "thick-disc", "thick-disc-7000": "thick-disc",
+    "cube-1400": "samara:cube", "ellipsoid-2200": "ellipsoid-range", "sheet-800-edge": "samara:sheet",
+    "disc-7800": "samara:disc",
 }
 REFERENCES, ROWS = f"{FOLDER}/references.csv", f"{FOLDER}/falls.csv"
 

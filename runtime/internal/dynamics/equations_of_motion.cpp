@@ -9,9 +9,6 @@
 namespace samara {
 namespace {
 
-// Where a MotionVector has the wake's formation.
-constexpr Eigen::Index formation = 13;
-
 /// |q|^2 times the rotation of q, for q = (w, x, y, z) of any length.
 Matrix3d homogeneous_rotation(const Eigen::Vector4d& q) {
     const double w = q[0];
@@ -33,7 +30,7 @@ Eigen::Vector4d quaternion_rate(const Eigen::Vector4d& q, const Vector3d& omega)
 MotionVector motion_vector(const BodyState& state) noexcept {
     MotionVector motion;
     motion << state.velocity, state.orientation.w(), state.orientation.vec(), state.position,
-        state.wake_formation;
+        state.formed_wake;
     return motion;
 }
 
@@ -42,7 +39,7 @@ BodyState body_state(const MotionVector& motion, const SeenFluid& seen_fluid) no
     state.velocity = motion.head<6>();
     state.orientation = Quaterniond(motion[6], motion[7], motion[8], motion[9]).normalized();
     state.position = motion.segment<3>(10);
-    state.wake_formation = motion[formation];
+    state.formed_wake = motion.tail<3>();
     state.seen_fluid = seen_fluid;
     return state;
 }
@@ -55,11 +52,10 @@ EquationsOfMotion::EquationsOfMotion(const ImmersedBody& body, const Vector3d& g
       seen_fluid_(seen_fluid) {}
 
 Vector6d EquationsOfMotion::load(const Vector6d& velocity, const Matrix3d& to_world,
-                                 double wake_formation) const noexcept {
+                                 double formed) const noexcept {
     const Vector6d of_centroid = body_->to_centroid * velocity;
     const Vector3d seen_rotation = to_world.transpose() * seen_fluid_.angular_velocity;
-    const LoadMatrices loads =
-        load_matrices(*body_, of_centroid, seen_rotation, Vector3d::Zero(), wake_formation);
+    const LoadMatrices loads = load_matrices(*body_, of_centroid, seen_rotation, Vector3d::Zero(), formed);
     return loads.relative.leftCols<3>() * seen_rotation - loads.whole * of_centroid;
 }
 
@@ -80,14 +76,16 @@ MotionVector EquationsOfMotion::rate(const MotionVector& motion) const noexcept 
                          displaced * body_->center_of_buoyancy.cross(gravity_in_body),
         linear.cross(omega) + (body_->mass - displaced) * gravity_in_body;
     if (body_->loads != Loads::none) {
-        momentum_rate += body_->to_centroid.transpose() * load(relative, to_world, motion[formation]);
+        momentum_rate += body_->to_centroid.transpose() * load(relative, to_world, motion.tail<3>().norm());
     }
 
     Vector6d acceleration = mobility_ * momentum_rate;
     acceleration.tail<3>() -= omega.cross(seen_velocity);  // the seen fluid turns past the body's axes
     MotionVector result;
+    const Vector6d of_centroid = body_->to_centroid * relative;
+    const Vector3d direction = to_world * of_centroid.tail<3>().stableNormalized();
     result << acceleration, quaternion_rate(motion.segment<4>(6), omega), to_world * motion.segment<3>(3),
-        wake_formation_rate(*body_, body_->to_centroid * relative) * (1.0 - motion[formation]);
+        wake_formation_rate(*body_, of_centroid) * (direction - motion.tail<3>());
     return result;
 }
 
@@ -107,7 +105,8 @@ Matrix6d EquationsOfMotion::acceleration_gradient(const MotionVector& motion) co
     Matrix6d gradient = by_velocity + by_momentum * body_->inertia;
 
     if (body_->loads != Loads::none) {
-        const Vector6d load_here = load(relative, to_world, motion[formation]);
+        const double formed = motion.tail<3>().norm();
+        const Vector6d load_here = load(relative, to_world, formed);
         // Differences of a millionth of the speeds that are there; any will do for a body at rest.
         const double turning = relative.head<3>().norm() + seen_fluid_.angular_velocity.norm();
         const double speed = relative.tail<3>().norm() + body_->length * turning;
@@ -117,7 +116,7 @@ Matrix6d EquationsOfMotion::acceleration_gradient(const MotionVector& motion) co
             Vector6d moved = relative;
             moved[i] += i < 3 ? difference / body_->length : difference;
             by_relative_velocity.col(i) =
-                (load(moved, to_world, motion[formation]) - load_here) / (moved[i] - relative[i]);
+                (load(moved, to_world, formed) - load_here) / (moved[i] - relative[i]);
         }
         gradient += body_->to_centroid.transpose() * by_relative_velocity;
     }

@@ -79,12 +79,12 @@ std::vector<double> projected_areas(const Surface& surface) {
     return areas;
 }
 
-// The square of wake_formation_ways times the geometric mean of the extent along a direction and the
-// shortest: those of the ellipsoid with the body's second moments.
+// The square of wake_formation_ways times the extent along a direction: that of the ellipsoid with the body's
+// second moments.
 Matrix3d squared_formation_way(const VolumeMoments& moments) {
     const PrincipalValues principal = principal_values(moments.second_moments);
-    const Vector3d extents = (20.0 / moments.volume * principal.values).cwiseMax(0.0).cwiseSqrt();
-    const Vector3d squares = wake_formation_ways * wake_formation_ways * extents[0] * extents;
+    const Vector3d squared_extents = (20.0 / moments.volume * principal.values).cwiseMax(0.0);
+    const Vector3d squares = wake_formation_ways * wake_formation_ways * squared_extents;
     return principal.directions * squares.asDiagonal() * principal.directions.transpose();
 }
 

@@ -11,9 +11,9 @@ Matrix6d load_matrix(const ImmersedBody& body, const Vector6d& relative_velocity
 }
 
 LoadMatrices load_matrices(const ImmersedBody& body, const Vector6d& velocity, const Vector3d& seen_rotation,
-                           const Vector3d& slip, double wake_formation) noexcept {
+                           const Vector3d& slip, double formed) noexcept {
     if (body.loads == Loads::none) return {};
-    return kernel::load_matrices(body.constants, velocity, seen_rotation, slip, wake_formation);
+    return kernel::load_matrices(body.constants, velocity, seen_rotation, slip, formed);
 }
 
 double wake_formation_rate(const ImmersedBody& body, const Vector6d& relative_velocity) noexcept {

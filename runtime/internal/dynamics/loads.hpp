@@ -16,12 +16,12 @@ Matrix6d load_matrix(const ImmersedBody& body, const Vector6d& relative_velocity
 /// D in a fluid that turns with `seen_rotation` (rad/s, body axes): the loads are
 /// -whole u + relative (seen_rotation, 0), where u holds the body's own angular velocity and the velocity of
 /// its centroid relative to the fluid, of which `slip` (m/s, body axes) is that of the wake, and
-/// `wake_formation` the share of the wake that has formed. Never throws.
+/// `formed` the share of the wake that has formed. Never throws.
 LoadMatrices load_matrices(const ImmersedBody& body, const Vector6d& velocity, const Vector3d& seen_rotation,
-                           const Vector3d& slip = Vector3d::Zero(), double wake_formation = 1.0) noexcept;
+                           const Vector3d& slip = Vector3d::Zero(), double formed = 1.0) noexcept;
 
-/// The rate (1/s) at which what is missing of the wake goes, at the velocity u of load_matrix(). Zero where
-/// the loads do not wait for one to form: their wake always has.
+/// The rate (1/s) at which BodyState::formed_wake tends to the direction of the body's way, at the velocity u
+/// of load_matrix(). Zero where the loads do not wait for one to form: their wake always has.
 double wake_formation_rate(const ImmersedBody& body, const Vector6d& relative_velocity) noexcept;
 
 /// U L / nu of a speed (m/s).

@@ -30,7 +30,7 @@ HWY_INLINE Flight<Lanes<Tag>> load_flight(Tag tag, const BlockOf<Tag>& block, st
             triple(7),  triple(10),
             triple(13), triple(16),
             triple(19), triple(22),
-            field(25)};
+            triple(25)};
 }
 template <class Tag>
 HWY_INLINE void store_flight(Tag tag, const Flight<Lanes<Tag>>& flight, BlockOf<Tag>& block,
@@ -51,7 +51,7 @@ HWY_INLINE void store_flight(Tag tag, const Flight<Lanes<Tag>>& flight, BlockOf<
     keep_triple(16, flight.seen_rotation);
     keep_triple(19, flight.angular_acceleration);
     keep_triple(22, flight.acceleration);
-    keep(25, flight.wake_formation);
+    keep_triple(25, flight.formed_wake);
 }
 
 template <class Tag>
@@ -66,7 +66,7 @@ HWY_INLINE Flight<Lanes<Tag>> select_flight(hn::Mask<Tag> condition, const Fligh
             a.seen_rotation,
             select(condition, a.angular_acceleration, b.angular_acceleration),
             select(condition, a.acceleration, b.acceleration),
-            select(condition, a.wake_formation, b.wake_formation)};
+            select(condition, a.formed_wake, b.formed_wake)};
 }
 
 /// What random numbers Noise::normals would give each lane.

@@ -21,8 +21,10 @@ struct BodyState {
     /// The velocity's mean rate of change in the step before (rad/s^2, m/s^2), zero where there was none: it
     /// only helps the next step to guess its middle.
     Vector6d acceleration = Vector6d::Zero();
-    /// Share of a steady tow's wake that has formed behind the body, from 0 in fluid that was at rest to 1.
-    double wake_formation = 0.0;
+    /// The wake that has formed behind the body: the mean direction (world axes) of its way through the
+    /// fluid, of which what is long past counts less. Its length is the share of a steady tow's wake that is
+    /// there, from 0 in fluid that was at rest to 1.
+    Vector3d formed_wake = Vector3d::Zero();
     /// Whether the body rests on the ground (ground_contact.hpp), which the step found: where the
     /// surroundings change, but for their gust, it must be taken back.
     bool at_rest = false;

@@ -73,7 +73,7 @@ HWY_INLINE Flight<One> flight_of(const BodyState& state) {
             triple_of(state.seen_fluid.angular_velocity),
             triple_of(state.acceleration.data()),
             triple_of(state.acceleration.data() + 3),
-            One(state.wake_formation)};
+            triple_of(state.formed_wake)};
 }
 HWY_INLINE void keep(const Flight<One>& flight, BodyState& state) {
     keep(flight.position, state.position.data());
@@ -85,7 +85,7 @@ HWY_INLINE void keep(const Flight<One>& flight, BodyState& state) {
     keep(flight.seen_rotation, state.seen_fluid.angular_velocity.data());
     keep(flight.angular_acceleration, state.acceleration.data());
     keep(flight.acceleration, state.acceleration.data() + 3);
-    state.wake_formation = lane(flight.wake_formation);
+    keep(flight.formed_wake, state.formed_wake.data());
 }
 
 /// The random numbers of one body.
@@ -301,10 +301,9 @@ BatchReport advance_one(const FlightConstants<double>& constants, const BlockSte
 }
 
 LoadMatrices load_matrices(const FlightConstants<double>& constants, const Vector6d& velocity,
-                           const Vector3d& seen_rotation, const Vector3d& slip,
-                           double wake_formation) noexcept {
+                           const Vector3d& seen_rotation, const Vector3d& slip, double formed) noexcept {
     LoadMatrices loads;
-    HWY_DYNAMIC_DISPATCH(loads_of_one)(constants, velocity, seen_rotation, slip, wake_formation, loads);
+    HWY_DYNAMIC_DISPATCH(loads_of_one)(constants, velocity, seen_rotation, slip, formed, loads);
     return loads;
 }
 

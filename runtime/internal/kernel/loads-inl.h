@@ -141,15 +141,14 @@ HWY_INLINE void add_windmill(const Triple<V>& moment_along_force, const Triple<V
 
 /// Adds force omega x p and moment v x p + omega x l of the momenta (l, p) that separated flow lacks:
 /// workless. It acts on the turning of the body's axes themselves: these momenta belong to those of the
-/// equations' left side. `omega`: the body's own. `formed`: of the wake; before, the flow is potential and
-/// lacks nothing.
+/// equations' left side. `omega`: the body's own. `formed`: of the wake; before, the moment is the potential
+/// flow's and lacks nothing.
 template <class V, class Real>
 HWY_INLINE void add_transport(const FlightConstants<Real>& c, const Triple<V>& omega,
                               const Triple<V>& velocity, V formed, LoadBlocks<V>& blocks) {
-    // The isotropic part of T acts as a force alone: its moment v x v is none, and must not be made where D
-    // acts on another v than the one it was made with.
-    blocks.force_by_velocity =
-        plus_cross(blocks.force_by_velocity, -(formed * V(c.isotropic_transport)) * omega);
+    // The isotropic part of T acts as a force alone, and as the tow's force from the first: its moment v x v
+    // is none, and must not be made where D acts on another v than the one it was made with.
+    blocks.force_by_velocity = plus_cross(blocks.force_by_velocity, -V(c.isotropic_transport) * omega);
     Triple<V> momentum = broadcast_symmetric<V>(c.directed_transport) * velocity;
     if (c.transports_turning) {
         const Square<V> coupling = broadcast<V>(c.coupling_transport);

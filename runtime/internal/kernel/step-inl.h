@@ -21,7 +21,7 @@ struct Flight {
     Triple<V> angular_velocity, velocity;
     Triple<V> seen_velocity, seen_rotation;
     Triple<V> angular_acceleration, acceleration;
-    V wake_formation;
+    Triple<V> formed_wake;
 };
 
 /// The velocity (or acceleration) of the centroid from that of the centre of mass: l is taken out of it.
@@ -81,7 +81,7 @@ struct StepStart {
     V h;
     Triple<V> omega, velocity;
     Triple<V> gravity, seen_rotation, slip;  // body axes
-    V wake_formation;                        // when the step begins
+    Triple<V> formed_wake;                   // likewise, when the step begins
     bool fluid_turns;
     bool is_pushed;
     Push<V> push;  // body axes, about the centroid
@@ -146,17 +146,20 @@ struct HalfTurn {
     HWY_INLINE Triple<V> operator()(const Triple<V>& a) const { return turned_back(half_turn, a); }
 };
 
-/// The share of the wake that has formed when the body has moved at these velocities over a time: what is
-/// missing of it goes as exp(-x), x the way over that in which a wake forms, here to the second order and
-/// never below zero (docs/theory, "A wake that forms").
+/// The wake that has formed when the body has moved at these velocities over a time: it tends to the
+/// `direction` of the way, what differs from it going as exp(-x), x the way over that in which a wake forms,
+/// here to the second order and never below zero (docs/theory, "A wake that forms"). `formed` and
+/// `direction`: in the same axes.
 template <class V, class Real>
-HWY_INLINE V formed_after(const FlightConstants<Real>& c, V formed, V time, const Triple<V>& omega,
-                          const Triple<V>& velocity) {
+HWY_INLINE Triple<V> wake_after(const FlightConstants<Real>& c, const Triple<V>& formed, V time,
+                                const Triple<V>& omega, const Triple<V>& velocity,
+                                const Triple<V>& direction) {
     const V speed_square = dot(velocity, velocity);
     const V reach_square = dot(velocity, broadcast_symmetric<V>(c.squared_formation_way) * velocity);
     const V rate = combined_speed(c, omega, velocity) * root(speed_square / larger(V(tiny<V>), reach_square));
     const V x = time * rate;
-    return V(1.0) - (V(1.0) - formed) / (V(1.0) + x * (V(1.0) + V(0.5) * x));
+    const V kept = V(1.0) / (V(1.0) + x * (V(1.0) + V(0.5) * x));
+    return direction + kept * (formed - direction);
 }
 
 /// Solves the step's system with the loads and the transport taken at the middle that was found or guessed
@@ -196,9 +199,12 @@ HWY_INLINE void improve(const FlightConstants<Real>& c, const StepStart<V>& star
     V step = V(0.5) * start.h;
     middle.theta = V(0.5);
     if (c.loads != Loads::none) {
-        const V formed = c.wake_forms ? formed_after(c, start.wake_formation, V(0.5) * start.h, middle.omega,
-                                                     middle.velocity)
-                                      : V(1.0);
+        const V formed =
+            c.wake_forms
+                ? heading_of(wake_after(c, under_body(start.formed_wake), V(0.5) * start.h, middle.omega,
+                                        middle.velocity, heading_of(middle.velocity).direction))
+                      .speed
+                : V(1.0);
         LoadBlocks<V> loads;
         if (start.fluid_turns) {
             const Triple<V> fluid_turning = under_body(start.seen_rotation);
@@ -322,7 +328,7 @@ HWY_INLINE StepStart<V> step_start(const FlightConstants<Real>& c, const Square<
     start.omega = flight.angular_velocity;
     start.velocity = to_centroid(c, flight.angular_velocity, velocity);
     start.gravity = transposed_times(to_world, gravity);
-    start.wake_formation = flight.wake_formation;
+    start.formed_wake = c.wake_forms ? transposed_times(to_world, flight.formed_wake) : no_vector<V>();
     start.fluid_turns = fluid_turns;
     start.seen_rotation = fluid_turns ? transposed_times(to_world, seen_rotation) : no_vector<V>();
     const V munk_rate(c.munk_rate);
@@ -387,7 +393,9 @@ HWY_INLINE void implicit_step(const FlightConstants<Real>& c, const Triple<V>& g
         {start.omega + half * flight.angular_acceleration,
          start.velocity + half * to_centroid(c, flight.angular_acceleration, guess_acceleration)});
     if (c.wake_forms) {
-        flight.wake_formation = formed_after(c, flight.wake_formation, h, found.omega, found.velocity);
+        const Triple<V> direction = turned_back(-found.half_turn, heading_of(found.velocity).direction);
+        flight.formed_wake =
+            wake_after(c, flight.formed_wake, h, found.omega, found.velocity, to_world * direction);
     }
 
     // The same turn that carried gravity: what gravity works is then what the height gives.

@@ -11,10 +11,10 @@ namespace samara {
 /// 0.1. Where |v| and Q have changed places, half of the tow's moment is gone.
 inline constexpr double motion_onset = 0.03;
 
-/// How long the way is in which a wake forms behind a body that starts in fluid at rest, over the geometric
-/// mean of the body's extent along it and its shortest extent (docs/theory, "A wake that forms"). Chosen by
-/// the first swings of falls by full CFD (docs/falls.md, "The start").
-inline constexpr double wake_formation_ways = 1.3;
+/// How long the way is in which a wake forms behind a body that starts in fluid at rest, over the body's
+/// extent along it (docs/theory, "A wake that forms"): the median of tows from rest (docs/falls.md, "The
+/// start").
+inline constexpr double wake_formation_ways = 2.3;
 
 /// What a free body feels beyond the tabulated loads of a steady tow (docs/theory, "Loads of a moving body");
 /// but for f none of it changes a steady tow without rotation. Body axes about the centroid of the volume;

@@ -27,13 +27,13 @@ struct ShippedFall {
 
 /// Without noise, as the bodies of runtime/bodies fell when this was written.
 constexpr ShippedFall falls[] = {
-    {"falls/ellipsoid-tilted", "ellipsoid", Regime::fluttering, 0.221, 0.8343, 2.962},
-    {"falls/ellipsoid-heavy", "ellipsoid", Regime::fluttering, 0.4895, 1.794, 4.805},
-    {"falls/sphere", "sphere", Regime::steady, 0.5469, {}, {}},
-    {"falls/cube", "cube", Regime::chaotic, 0.248, 1.103, 3.902},
-    {"falls/disc-light", "disc", Regime::fluttering, 0.06853, 1.302, 3.366},
-    {"falls/disc-heavy", "disc", Regime::tumbling, 0.4054, 2.566, 17.51},
-    {"falls/sheet", "sheet", Regime::tumbling, 0.7652, 1.875, 14.6},
+    {"falls/ellipsoid-tilted", "ellipsoid", Regime::fluttering, 0.2069, 0.8294, 3.075},
+    {"falls/ellipsoid-heavy", "ellipsoid", Regime::fluttering, 0.4829, 1.942, 4.182},
+    {"falls/sphere", "sphere", Regime::steady, 0.5497, {}, {}},
+    {"falls/cube", "cube", Regime::chaotic, 0.2461, 1.141, 3.919},
+    {"falls/disc-light", "disc", Regime::fluttering, 0.08137, 1.348, 3.968},
+    {"falls/disc-heavy", "disc", Regime::tumbling, 0.4123, 2.61, 17.6},
+    {"falls/sheet", "sheet", Regime::chaotic, 0.7932, 2.315, 15.76},
     {"falls/samara", "samara", Regime::autorotating, 1.332, {}, 107.5},
     {"scenes/samara", "samara", Regime::autorotating, 1.016, {}, 116.2},
 };
