@@ -62,7 +62,8 @@ inline void expect_same_poses(const nlohmann::json& is, const nlohmann::json& sh
     ASSERT_EQ(is.size(), shall.size());
     for (std::size_t i = 0; i < is.size(); ++i) {
         EXPECT_LT(distance(pose_of(is[i]), pose_of(shall[i])), 1e-6) << "pose " << i;
-        EXPECT_LT(angle(pose_of(is[i]), pose_of(shall[i])), 1e-5) << "pose " << i;
+        // A hit makes more of what rounding the keys to single precision did before it.
+        EXPECT_LT(angle(pose_of(is[i]), pose_of(shall[i])), 3e-5) << "pose " << i;
     }
 }
 
