@@ -167,11 +167,11 @@ std::vector<BodyState> solved_states(const ReadyFall& fall) {
 
 // The wake that had formed at each of a fall's states, by the way to it.
 void set_formed_wakes(const ImmersedBody& body, double time_step, std::vector<BodyState>& states) {
+    const auto of_centroid = [&](const BodyState& state) -> Vector3d {
+        return state.orientation * (body.to_centroid * state.velocity).tail<3>();
+    };
     for (std::size_t i = 1; i < states.size(); ++i) {
         const Vector6d velocity = body.to_centroid * (0.5 * (states[i - 1].velocity + states[i].velocity));
-        const auto of_centroid = [&](const BodyState& state) -> Vector3d {
-            return state.orientation * (body.to_centroid * state.velocity).tail<3>();
-        };
         const Vector3d direction = (of_centroid(states[i - 1]) + of_centroid(states[i])).stableNormalized();
         const double kept = std::exp(-time_step * wake_formation_rate(body, velocity));
         states[i].formed_wake = direction + kept * (states[i - 1].formed_wake - direction);

@@ -8,7 +8,8 @@
                                   docs/falls/bodies: with these the form of the loads can be changed without CFD
     falls_report.py BIN BODIES ready
                                   likewise the ready-baked bodies that `./dev bodies` has baked in BODIES, into runtime/bodies
-                                  and docs/falls/bodies/ready, from where it takes the falls where BODIES has none
+                                  and docs/falls/bodies/ready, from where it takes the falls where BODIES has none; the
+                                  ellipsoid and the sheet are those of the references
     falls_report.py BIN BODIES FALL...
                                   bakes, flies and compares these falls alone; the rows of others stay as they are. As FALL,
                                   `range` is all those with bodies that are baked for a range of densities, `terms`,
@@ -39,6 +40,7 @@ from report_tables import mark, write_tables
 FALLS = "docs/falls"
 KEPT = f"{FALLS}/bodies"  # baked bodies and their falls
 READY, READY_FALLS = "runtime/bodies", f"{KEPT}/ready"
+READY_AS_KEPT = ("ellipsoid", "sheet")  # whose bake is that of BODIES
 # The body of each scene: its shape, and what it is baked for. No body is baked from a reference fall.
 BODIES = {
     "sphere": ("meshes/shapes/sphere.geo", ["--density", "1300"]),
@@ -149,6 +151,9 @@ def keep_ready(programs, folder):
     os.makedirs(READY_FALLS, exist_ok=True)
     for target in sorted(glob.glob(f"{READY}/*.body.h5")):
         body = os.path.basename(target).removesuffix(".body.h5")
+        if body in READY_AS_KEPT:
+            shutil.copyfile(baked_file(KEPT, body), target)
+            continue
         file = baked_file(folder, body) if os.path.exists(baked_file(folder, body)) else target
         falls = falls_of(body, os.path.join(folder, f"{body}.cases"), READY_FALLS)
         if falls:

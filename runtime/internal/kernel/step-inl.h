@@ -199,12 +199,13 @@ HWY_INLINE void improve(const FlightConstants<Real>& c, const StepStart<V>& star
     V step = V(0.5) * start.h;
     middle.theta = V(0.5);
     if (c.loads != Loads::none) {
-        const V formed =
-            c.wake_forms
-                ? heading_of(wake_after(c, under_body(start.formed_wake), V(0.5) * start.h, middle.omega,
-                                        middle.velocity, heading_of(middle.velocity).direction))
-                      .speed
-                : V(1.0);
+        V formed(1.0);
+        if (c.wake_forms) {
+            const Triple<V> wake =
+                wake_after(c, under_body(start.formed_wake), V(0.5) * start.h, middle.omega, middle.velocity,
+                           heading_of(middle.velocity).direction);
+            formed = root(dot(wake, wake));
+        }
         LoadBlocks<V> loads;
         if (start.fluid_turns) {
             const Triple<V> fluid_turning = under_body(start.seen_rotation);

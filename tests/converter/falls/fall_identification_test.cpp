@@ -172,7 +172,7 @@ TEST_F(FallIdentification, GivesCoefficientsThatABodyFileTakes) {
 TEST_F(FallIdentification, IsLessCertainOfANoisyFall) {
     const Identification noisy = identify_motion(body_, {with_noise(record_, noise)});
     EXPECT_GT(noisy.prediction_error, noise);
-    // Noise in the states that flights of a segment begin with grows on their way.
+    // It is in the states that flights begin with, and in the wake that is counted along them.
     EXPECT_LT(noisy.prediction_error, 3.0 * noise);
     EXPECT_GT(noisy.coefficients.standard_errors.entrained_inertia.norm(),
               1.2 * found_.coefficients.standard_errors.entrained_inertia.norm());

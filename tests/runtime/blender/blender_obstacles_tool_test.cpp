@@ -85,8 +85,8 @@ TEST(BlenderObstacles, AreMetLiveAsByTheKeysAndFollowedWhereTheyAreMovedOrUntick
     EXPECT_THAT(found["live_errors"].get<std::vector<std::string>>(), Each(""));
     for (const auto& [name, matrices] : found["matrices"].items()) {
         const auto last = pose_of(matrices.back());
-        expect_same_poses(found["live"][name], matrices);
-        expect_same_poses(found["roof_back"][name], matrices);
+        expect_same_poses(found["live"][name], matrices, 3e-5);
+        expect_same_poses(found["roof_back"][name], matrices, 3e-5);
         EXPECT_GT(distance(pose_of(found["roof_far"][name][0]), last), 0.1);
         EXPECT_GT(distance(pose_of(found["no_roof"][name][0]), last), 0.1);
     }
