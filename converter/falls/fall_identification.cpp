@@ -42,6 +42,8 @@ constexpr double least_count = 1e-3;      // of them, to begin with
 constexpr double farthest_figure = 10.0;  // over those
 constexpr int stretches = identification_stretches;
 constexpr int least_segments = 2 * stretches;  // of each fall
+constexpr int excursion = 12;                  // iterations, to where another descent starts
+constexpr double of_descents = 0.8;            // of the work that progress tells of
 // No number of a miss counts more: coefficients with which a body flies off are bad, but no worse than that.
 constexpr double farthest_flight = 10.0;
 // A sample's time may be off by this share of its step: the flights take steps of one length.
@@ -281,6 +283,29 @@ LeastSquaresProblem problem_of(const Body& body, const std::vector<ReadyFall>& f
     return problem;
 }
 
+std::vector<Segment> without_stretch(std::vector<Segment> segments, int stretch) {
+    std::erase_if(segments, [&](const Segment& segment) { return segment.stretch == stretch; });
+    return segments;
+}
+
+// The whole flights' figures are rough functions of the coefficients, the segments' flights smooth ones: the
+// cost has many valleys, and in which of them one descent ends turns on the last digits of the falls. So it
+// is descended from several starts: the segments' solution, where that moves in a few iterations without one
+// of the stretches, and what is expected.
+std::vector<VectorXd> starts_of(const Body& body, const std::vector<ReadyFall>& falls,
+                                const std::vector<Segment>& segments, const MotionParameters& parameters) {
+    LeastSquaresProblem of_segments = problem_of(body, falls, segments, parameters);
+    of_segments.counts.tail(figures_of(falls)).setConstant(least_count);
+    std::vector<VectorXd> starts = {solve_least_squares(of_segments).x, parameters.expected()};
+    for (int stretch = 0; stretch < stretches; ++stretch) {
+        LeastSquaresProblem without = problem_of(body, falls, without_stretch(segments, stretch), parameters);
+        without.start = starts.front();
+        without.most_iterations = excursion;
+        starts.push_back(solve_least_squares(without).x);
+    }
+    return starts;
+}
+
 // They come from leaving out one stretch at a time (Efron & Tibshirani, An Introduction to the Bootstrap,
 // 1993, section 11.2), which knows nothing of the pull of what is expected: that is the same whatever is left
 // out.
@@ -293,16 +318,14 @@ VectorXd standard_errors_of(const Body& body, const std::vector<ReadyFall>& fall
     VectorXd squares = VectorXd::Zero(solution.size());
     for (int stretch = 0; stretch < stretches; ++stretch) {
         if (stretch == left_out) continue;
-        std::vector<Segment> others = segments;
-        std::erase_if(others, [&](const Segment& segment) { return segment.stretch == stretch; });
-        LeastSquaresProblem problem = problem_of(body, falls, others, parameters);
+        LeastSquaresProblem problem = problem_of(body, falls, without_stretch(segments, stretch), parameters);
         problem.start = solution;
         problem.most_iterations = 8;
         const VectorXd x = solve_least_squares(problem).x;
         count += 1.0;
         sum += x;
         squares += x.cwiseAbs2();
-        if (progress) progress((2.0 + stretch) / (1.0 + stretches));
+        if (progress) progress(of_descents + (1.0 - of_descents) * (1.0 + stretch) / stretches);
     }
     const VectorXd mean = sum / count;
     const VectorXd variance = (count - 1.0) * (squares / count - mean.cwiseAbs2()).cwiseMax(0.0);
@@ -373,16 +396,13 @@ Identification identify_motion(const Body& body, const std::vector<FallRecord>& 
     falls.reserve(records.size());
     for (const FallRecord& record : records) falls.push_back(ready(body, record));
     std::vector<Segment> segments = segments_of(falls);
-    std::erase_if(segments, [&](const Segment& segment) { return segment.stretch == left_out.stretch; });
+    if (left_out.stretch) segments = without_stretch(std::move(segments), *left_out.stretch);
     const MotionParameters parameters(body, left_out.terms);
-    // The figures are rough functions of the coefficients far from the solution, the segments' flights
-    // smooth.
-    LeastSquaresProblem problem = problem_of(body, falls, segments, parameters);
-    LeastSquaresProblem of_segments = problem;
-    of_segments.counts.tail(figures_of(falls)).setConstant(least_count);
-    problem.start = solve_least_squares(of_segments).x;
-    const LeastSquaresSolution solution = solve_least_squares(problem);
-    if (progress) progress(1.0 / (1.0 + stretches));
+    const LeastSquaresSolution solution =
+        lowest_solution(problem_of(body, falls, segments, parameters),
+                        starts_of(body, falls, segments, parameters), [&](double solved) {
+                            if (progress) progress(of_descents * solved);
+                        });
     Identification result;
     const VectorXd missed = solution.residuals.head(count(segments));
     result.prediction_error = std::sqrt(missed.squaredNorm() / static_cast<double>(missed.size()));

@@ -118,7 +118,20 @@ LeastSquaresSolution solve_least_squares(const LeastSquaresProblem& problem) {
     }
     solution.x = point.x;
     solution.residuals = point.residuals;
+    solution.cost = point.cost;
     return solution;
+}
+
+LeastSquaresSolution lowest_solution(LeastSquaresProblem problem, const std::vector<VectorXd>& starts,
+                                     const std::function<void(double)>& solved) {
+    LeastSquaresSolution lowest;
+    for (std::size_t i = 0; i < starts.size(); ++i) {
+        problem.start = starts[i];
+        LeastSquaresSolution found = solve_least_squares(problem);
+        if (i == 0 || found.cost < lowest.cost) lowest = std::move(found);
+        solved(static_cast<double>(i + 1) / static_cast<double>(starts.size()));
+    }
+    return lowest;
 }
 
 VectorXd errors_by_expectation(const LeastSquaresProblem& problem, const VectorXd& x) {

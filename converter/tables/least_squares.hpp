@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -29,6 +30,7 @@ struct LeastSquaresProblem {
 struct LeastSquaresSolution {
     Eigen::VectorXd x;
     Eigen::VectorXd residuals;  ///< at x
+    double cost = 0.0;          ///< at x: what is the smallest
     int iterations = 0;
     bool converged = false;  ///< false: the iterations ran out
 };
@@ -37,6 +39,12 @@ struct LeastSquaresSolution {
 /// gradient pushes beyond it are held there (Nocedal & Wright, Numerical Optimization, 2nd ed., sections 10.3
 /// and 16.7).
 LeastSquaresSolution solve_least_squares(const LeastSquaresProblem& problem);
+
+/// The lowest of the solutions that are found from these starts, at least one, in place of the problem's own:
+/// of a cost with several valleys a descent finds the one it starts in. `solved` is told after each start the
+/// share that is done.
+LeastSquaresSolution lowest_solution(LeastSquaresProblem problem, const std::vector<Eigen::VectorXd>& starts,
+                                     const std::function<void(double)>& solved);
 
 /// The standard errors that the solution x has since what is expected is itself known to its deviations
 /// alone: the deviation of a parameter that the residuals say nothing of, little of one that they determine,

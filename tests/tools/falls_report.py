@@ -131,6 +131,17 @@ def pack(falls, target):
                 archive.addfile(entry, io.BytesIO(content.encode()))
 
 
+def identify_from_kept(programs, file, falls, body, folder, target, archives=KEPT):
+    """Packs what was solved of the falls and writes the body identified from that, to the last bit as it is from the archive
+    later: the solution may turn on its rounding."""
+    pack(falls, kept_falls(body, archives))
+    with tempfile.TemporaryDirectory(dir=folder) as work:
+        falls = falls_of(body, os.path.join(work, f"{body}.cases"), archives)
+        identified = os.path.join(work, f"{body}.body.h5")
+        run([f"{programs}/samara", "identify", file, falls, "-o", identified, "--json"])
+        shutil.copyfile(identified, target)
+
+
 def keep(programs, folder):
     """Identifies each body of the folder anew, and writes it and what was solved of its falls into docs/falls/bodies."""
     for body in BODIES:
@@ -140,9 +151,8 @@ def keep(programs, folder):
         if not falls:
             continue
         target = baked_file(KEPT, body)
-        run([f"{programs}/samara", "identify", file, falls, "-o", target, "--json"])
+        identify_from_kept(programs, file, falls, body, folder, target)
         shutil.copyfile(target, file)
-        pack(falls, kept_falls(body))
         print(f"Written: {target}, {kept_falls(body)}")
 
 
@@ -157,10 +167,7 @@ def keep_ready(programs, folder):
         file = baked_file(folder, body) if os.path.exists(baked_file(folder, body)) else target
         falls = falls_of(body, os.path.join(folder, f"{body}.cases"), READY_FALLS)
         if falls:
-            identified = os.path.join(folder, f"{body}.identified.body.h5")
-            run([f"{programs}/samara", "identify", file, falls, "-o", identified, "--json"])
-            os.replace(identified, target)
-            pack(falls, kept_falls(body, READY_FALLS))
+            identify_from_kept(programs, file, falls, body, folder, target, READY_FALLS)
         elif file != target:
             shutil.copyfile(file, target)
         else:

@@ -76,7 +76,7 @@ def solved(work, case):
 
 def bake_words(programs, work, case):
     return [f"{programs}/samara", "bake", case.scene, "-o", os.path.join(work, "bodies"), "--quality", case.quality,
-            "--loads", "kEpsilon", "--jobs", "1", "--json"]
+            "--jobs", "1", "--json"]
 
 
 def fall_words(programs, work, case):
@@ -173,8 +173,9 @@ def motions_of(programs, work, case, folder):
     """(model, motion file) of what can be flown with a bake, and of what is solved."""
     bodies = None
     if case.ready:
-        shutil.copy(f"runtime/bodies/{case.ready}.body.h5", os.path.join(folder, f"{case.name}.body.h5"))
-        bodies = folder
+        bodies = os.path.join(folder, "ready")
+        os.makedirs(bodies, exist_ok=True)
+        shutil.copy(case.ready, os.path.join(bodies, f"{case.name}.body.h5"))
     elif case.quality and baked(work, case).is_there():
         bodies = os.path.join(work, "bodies")
     motion = flown(programs, case, folder, bodies) if bodies or case.without_loads else None

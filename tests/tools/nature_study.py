@@ -9,7 +9,7 @@ REGIME = "regime"
 # `scene`: of docs/nature, or a path from the project's folder. `quality`: of the bake; None where there is none to make.
 # `without_loads`: the body flies by its added mass alone. `measures`: the quantities, as published.csv names them. `scales`: what a
 # dimensionless unit is in SI units. `reference`: a motion by full CFD that the project has. `cells`, `step`: of `samara validate`.
-# `ready`: a body of runtime/bodies that the case flies with, unbaked. `group`: the table on the page.
+# `ready`: a body file of the project that the case flies with, unbaked. `group`: the table on the page.
 Case = collections.namedtuple("Case", "name group text scene quality measures scales reference cells step ready "
                               "without_loads")
 
@@ -120,26 +120,27 @@ CASES = [
     *(case(name, "acceleration", name.removeprefix("acceleration-").replace("-", ", "), None, ("first acceleration",),
            step=ACCELERATION_STEPS.get(name, 1), without_loads=True)
       for name in ACCELERATIONS),
-    *(case(f"sphere-ga-{galileo}", "spheres", f"sphere at Ga {galileo}", "preview",
+    *(case(f"sphere-ga-{galileo}", "spheres", f"sphere at Ga {galileo}", "standard",
            ("descent speed",) + (("horizontal speed", "drift") if galileo == 178 else ("drift",)), {"u_g": SPHERE_SPEED})
       for galileo in SPHERES),
-    *(case(tank_name(reynolds), "spheres", f"sphere in a tank, Re {reynolds}", "preview",
+    *(case(tank_name(reynolds), "spheres", f"sphere in a tank, Re {reynolds}", "standard",
            ("peak speed", "speed without walls")) for reynolds in TANK_LIQUIDS),
-    case("sphere", "spheres", "sphere of density 1.3, Re 2.3e4", "preview", ("descent speed", "drift"), scene="docs/falls/sphere.toml",
-         reference="docs/falls/sphere.h5"),
+    case("sphere", "spheres", "sphere of density 1.3, Re 2.3e4", None, ("descent speed", "drift"), scene="docs/falls/sphere.toml",
+         reference="docs/falls/sphere.h5", ready="runtime/bodies/sphere.body.h5"),
     case("plate", "plates", "tumbling plate", "standard", ("horizontal speed", "descent speed", "turning rate", REGIME),
          cells=200000),
     *(case(strip_name(froude), "plates", f"strip at Fr {froude:g}", "standard", (REGIME,), cells=60000)
       for froude in STRIP_FROUDE_NUMBERS),
     *(case(card_name(*card), "plates", f"card of {card[0]} mm, {card[1]:g} mm thick", "standard", ("turning rate", REGIME), cells=60000)
       for card in CARDS),
-    case("disc-light", "discs", "disc, I* 0.0074, Re 5,800", "standard", (REGIME,), scene="docs/falls/disc-light.toml",
-         reference="docs/falls/disc-light.h5"),
-    case("disc-heavy", "discs", "disc, I* 0.056, Re 23,500", "standard", (REGIME,), scene="docs/falls/disc-heavy.toml",
-         reference="docs/falls/disc-heavy.h5"),
+    case("disc-light", "discs", "disc, I* 0.0074, Re 5,800", None, (REGIME,), scene="docs/falls/disc-light.toml",
+         reference="docs/falls/disc-light.h5", ready="docs/falls/bodies/disc-light.body.h5"),
+    case("disc-heavy", "discs", "disc, I* 0.056, Re 23,500", None, (REGIME,), scene="docs/falls/disc-heavy.toml",
+         reference="docs/falls/disc-heavy.h5", ready="docs/falls/bodies/disc-heavy.body.h5"),
     *(case(disc_name(*disc), "discs", f"disc, I* {disc[0]:g}, Re {disc[1]:,} aimed at", "standard", (REGIME,)) for disc in DISCS),
     *(case(fruit_name(*fruit), "fruits", f"fruit, {fruit[0]} degrees, "
            + (f"R {fruit[1]} mm" if fruit[1] < 10000 else "straight") + f", {fruit[2]:g} g", "preview",
            ("descent speed", "spin")) for fruit in FRUITS),
-    case("maple", "fruits", "maple seed", None, ("descent speed", "spin", "coning"), cells=60000, ready="samara"),
+    case("maple", "fruits", "maple seed", None, ("descent speed", "spin", "coning"), cells=60000,
+         ready="runtime/bodies/samara.body.h5"),
 ]

@@ -1,6 +1,7 @@
 #include "converter/tables/least_squares.hpp"
 
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -150,6 +151,37 @@ TEST(LeastSquares, WeighsWhatIsExpectedAgainstTheResiduals) {
     problem.prior_weight = 3.0;
     // (x - 4)^2 + 3 (x/2)^2 is least at 4/(1 + 3/4).
     EXPECT_NEAR(solve_least_squares(problem).x[0], 16.0 / 7.0, 1e-3);
+}
+
+// Two valleys, one at 1 and a higher one near -1.
+LeastSquaresProblem two_valleys(double start) {
+    LeastSquaresProblem problem = plain_problem(VectorXd::Constant(1, start));
+    problem.residuals = [](const VectorXd& x) {
+        return VectorXd(Vector2d(x[0] * x[0] - 1.0, 0.3 * (x[0] - 1.0)));
+    };
+    return problem;
+}
+
+TEST(LeastSquares, FindsTheValleyThatItStartsIn) {
+    const LeastSquaresSolution low = solve_least_squares(two_valleys(2.0));
+    const LeastSquaresSolution high = solve_least_squares(two_valleys(-2.0));
+    EXPECT_NEAR(low.x[0], 1.0, 1e-3);
+    EXPECT_NEAR(low.cost, 0.0, 1e-6);
+    EXPECT_LT(high.x[0], -0.9);
+    EXPECT_NEAR(high.cost, high.residuals.squaredNorm(), 1e-6);
+    EXPECT_GT(high.cost, 0.3);
+}
+
+TEST(LowestSolution, IsThatOfTheStartThatLeadsLowest) {
+    const auto start = [](double x) { return VectorXd(VectorXd::Constant(1, x)); };
+    std::vector<double> shares;
+    const LeastSquaresSolution lowest =
+        lowest_solution(two_valleys(-2.0), {start(-2.0), start(2.0), start(-3.0)},
+                        [&](double share) { shares.push_back(share); });
+    EXPECT_EQ(lowest.x, solve_least_squares(two_valleys(2.0)).x);
+    ASSERT_EQ(shares.size(), 3u);
+    EXPECT_EQ(shares[0], 1.0 / 3.0);
+    EXPECT_EQ(shares[2], 1.0);
 }
 
 TEST(ErrorsByExpectation, AreTheDeviationsWhereTheResidualsSayNothing) {
