@@ -167,16 +167,18 @@ std::vector<BodyState> solved_states(const ReadyFall& fall) {
     return solved;
 }
 
-// The wake that had formed at each of a fall's states, by the way to it.
-void set_formed_wakes(const ImmersedBody& body, double time_step, std::vector<BodyState>& states) {
-    const auto of_centroid = [&](const BodyState& state) -> Vector3d {
-        return state.orientation * (body.to_centroid * state.velocity).tail<3>();
-    };
+// The wake at each of a fall's states, by the way to it, as bodies have it that are identified from falls.
+void set_wakes(const ImmersedBody& body, double time_step, std::vector<BodyState>& states) {
     for (std::size_t i = 1; i < states.size(); ++i) {
         const Vector6d velocity = body.to_centroid * (0.5 * (states[i - 1].velocity + states[i].velocity));
-        const Vector3d direction = (of_centroid(states[i - 1]) + of_centroid(states[i])).stableNormalized();
-        const double kept = std::exp(-time_step * wake_formation_rate(body, velocity));
-        states[i].formed_wake = direction + kept * (states[i - 1].formed_wake - direction);
+        const WakeRates rates = wake_rates(body, velocity);
+        const Vector3d direction = velocity.tail<3>().stableNormalized();
+        const Vector3d& unseen = rates.unseen_turning;
+        const Eigen::AngleAxisd back(-time_step * unseen.norm(), unseen.stableNormalized());
+        const auto [formed, heading] = states[i - 1].wake;
+        const double settling = rates.formation * wake_formation_ways / settling_ways_of_falls;
+        states[i].wake.formed = 1.0 + std::exp(-time_step * rates.formation) * (formed - 1.0);
+        states[i].wake.heading = direction + std::exp(-time_step * settling) * (back * heading - direction);
     }
 }
 
@@ -187,7 +189,7 @@ ReadyFall ready(const Body& body, const FallRecord& record) {
                    {}};
     const double step = record.samples.front().time;
     fall.stride = static_cast<std::size_t>(std::max(1.0, std::round(flown_step / step)));
-    set_formed_wakes(fall.body, step_of(fall), fall.states);
+    set_wakes(fall.body, step_of(fall), fall.states);
     fall.measures = measures_of(motion_of(body, fall, solved_states(fall)));
     return fall;
 }

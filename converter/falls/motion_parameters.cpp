@@ -12,7 +12,6 @@
 namespace samara {
 namespace {
 
-constexpr const char* entrained_inertia = "entrained inertia";
 constexpr const char* unsteady_factor = "unsteady factor";
 // Of these every body has what bodies have in common.
 constexpr const char* drag_in_motion = "drag in motion";
@@ -31,10 +30,7 @@ constexpr Expectation expectations[] = {
     {&DynamicCoefficients::rotational_drag, "rotational drag", usual_rotational_drag, 0.7, 0.0, 6.0},
     {&DynamicCoefficients::rotational_drag_in_spin, "rotational drag in spin", usual_rotational_drag_in_spin,
      0.7, 0.0, 6.0},
-    {&DynamicCoefficients::entrained_inertia, entrained_inertia, 0.0, 1.0, -6.0, 6.0},
 };
-
-constexpr int nowhere = -1;
 
 // Axes along which the body moves alike: within this, relative.
 constexpr double alike = 0.01;
@@ -76,6 +72,7 @@ MotionParameters::MotionParameters(const Body& body, const std::vector<std::stri
     axes_ = principal_axes(body.moments);
     shared_ = default_dynamic_coefficients(body);
     shared_.origin.clear();
+    shared_.settling_ways = settling_ways_of_falls;
     // Whole, where the defaults' fade towards a sphere: so they follow the falls better (docs/falls.md).
     const Matrix3d areas = projected_area_tensor(body);
     shared_.drag_in_motion = 0.5 * usual_drag_in_motion * (areas + areas.transpose());
@@ -86,21 +83,15 @@ MotionParameters::MotionParameters(const Body& body, const std::vector<std::stri
     const Vector3d turning =
         (axes_.transpose() * rotational_drag_tensor(body.surface, body.moments.centroid) * axes_).diagonal();
     const Vector3d none = Vector3d::Zero();
-    const Vector3d of_entrained = Vector3d::Constant(
-        (axes_.transpose() * body.kirchhoff->matrix.topLeftCorner<3, 3>() * axes_).diagonal().maxCoeff());
-    const Vector3d offsets[] = {added_mass.diagonal(), none, none, none};
+    const Vector3d offsets[] = {added_mass.diagonal(), none, none};
     // A body of revolution has no rotational drag about its axis by its pressure: friction is a small share.
     const Vector3d of_turning = turning.cwiseMax(0.02 * turning.maxCoeff());
-    const Vector3d units[] = {Vector3d::Constant(0.25 * largest), of_turning, of_turning, of_entrained};
+    const Vector3d units[] = {Vector3d::Constant(0.25 * largest), of_turning, of_turning};
     for (std::size_t t = 0; t < std::size(expectations); ++t) {
         const Expectation& expectation = expectations[t];
         Tensor tensor{expectation.member, offsets[t], units[t], {}};
-        // E acts as omega x (E omega): what is alike about all axes does nothing, so the first has none.
-        const bool is_relative = expectation.member == &DynamicCoefficients::entrained_inertia;
         for (int i = 0; i < 3; ++i) {
-            if (is_relative && tied_[i] == 0) {
-                tensor.place[i] = nowhere;
-            } else if (tied_[i] == i) {
+            if (tied_[i] == i) {
                 tensor.place[i] = static_cast<int>(parameters_.size());
                 parameters_.push_back({fmt::format("{} {}", expectation.name, i + 1), expectation.expected,
                                        expectation.deviation, expectation.lower, expectation.upper});
@@ -147,7 +138,7 @@ Eigen::Vector3d MotionParameters::principal_values(const Tensor& tensor,
                                                    const Eigen::VectorXd& numbers) const {
     Vector3d values;
     for (int i = 0; i < 3; ++i) {
-        values[i] = tensor.place[i] == nowhere ? 0.0 : tensor.unit[i] * numbers[tensor.place[i]];
+        values[i] = tensor.unit[i] * numbers[tensor.place[i]];
     }
     return values;
 }
@@ -165,6 +156,7 @@ DynamicCoefficients MotionParameters::coefficients(const Eigen::VectorXd& number
 
 DynamicCoefficients MotionParameters::standard_errors(const Eigen::VectorXd& errors) const {
     DynamicCoefficients coefficients;
+    coefficients.settling_ways = 0.0;
     for (const Tensor& tensor : tensors_) {
         const Vector3d values = principal_values(tensor, errors);
         // Each entry is a sum of the values times squares or products of the axes' components.

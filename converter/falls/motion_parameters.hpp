@@ -44,7 +44,7 @@ class MotionParameters {
         Matrix3d DynamicCoefficients::*member;
         Vector3d offset;        // what the numbers are added to
         Vector3d unit;          // of the numbers
-        Eigen::Vector3i place;  // among the numbers, or nowhere
+        Eigen::Vector3i place;  // among the numbers
     };
     void leave_out(const std::string& name);
     [[nodiscard]] Eigen::Vector3d principal_values(const Tensor& tensor,

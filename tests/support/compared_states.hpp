@@ -14,8 +14,8 @@
 namespace samara::test {
 
 /// All numbers of a state.
-inline std::array<double, 28> numbers_of(const BodyState& state) {
-    std::array<double, 28> numbers{};
+inline std::array<double, 29> numbers_of(const BodyState& state) {
+    std::array<double, 29> numbers{};
     std::size_t next = 0;
     const auto add = [&](const auto& part) {
         for (const double number : part) numbers[next++] = number;
@@ -26,7 +26,8 @@ inline std::array<double, 28> numbers_of(const BodyState& state) {
     add(state.seen_fluid.velocity);
     add(state.seen_fluid.angular_velocity);
     add(state.acceleration);
-    add(state.formed_wake);
+    numbers[next++] = state.wake.formed;
+    add(state.wake.heading);
     return numbers;
 }
 

@@ -100,8 +100,6 @@ Body lopsided_shape() {
     dynamic.drag_in_motion *= 1e-3;
     dynamic.rotational_drag << 0.5, 0.1, 0.0, 0.1, 1.5, -0.2, 0.0, -0.2, 0.3;
     dynamic.rotational_drag *= 1e-6;
-    dynamic.entrained_inertia << 2.0, 0.3, -0.4, 0.3, -1.0, 0.2, -0.4, 0.2, 3.0;
-    dynamic.entrained_inertia *= 1e-8;
     dynamic.drag_in_spin << 1.0, -0.2, 0.3, -0.2, 2.0, 0.5, 0.3, 0.5, 1.5;
     dynamic.drag_in_spin *= 1e-3;
     dynamic.rotational_drag_in_spin << 0.9, 0.2, -0.1, 0.2, 0.4, 0.1, -0.1, 0.1, 0.6;

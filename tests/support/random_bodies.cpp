@@ -57,8 +57,8 @@ DynamicCoefficients RandomBodies::coefficients(double size) {
     result.rotational_transport = uniform(-2.0, 2.0);
     result.drag_in_motion = semidefinite(area * magnitude(0.01, 100.0));
     result.rotational_drag = semidefinite(area * area * magnitude(0.01, 100.0));
-    result.entrained_inertia = symmetric(area * area * size * magnitude(0.01, 100.0));
     result.unsteady_factor = magnitude(0.3, 3.0);
+    result.settling_ways = 0.8 + 20.0 * result.unsteady_factor;
     result.drag_in_spin = semidefinite(area * magnitude(0.01, 100.0));
     result.rotational_drag_in_spin = semidefinite(area * area * magnitude(0.01, 100.0));
     result.half_length = size * magnitude(0.1, 10.0);
@@ -141,7 +141,8 @@ BodyState RandomBodies::state() {
     const double speed = magnitude(1e-4, 1e3);
     result.velocity << turning * vector(), speed * vector();
     std::uniform_real_distribution<double> component(-1.0, 1.0);
-    result.formed_wake = Vector3d(component(wakes_), component(wakes_), component(wakes_)) / std::sqrt(3.0);
+    result.wake.heading = Vector3d(component(wakes_), component(wakes_), component(wakes_)) / std::sqrt(3.0);
+    result.wake.formed = std::abs(component(wakes_));
     return result;
 }
 

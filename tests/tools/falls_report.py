@@ -9,7 +9,7 @@
     falls_report.py BIN BODIES ready
                                   likewise the ready-baked bodies that `./dev bodies` has baked in BODIES, into runtime/bodies
                                   and docs/falls/bodies/ready, from where it takes the falls where BODIES has none; the
-                                  ellipsoid and the sheet are those of the references
+                                  sheet is that of the references
     falls_report.py BIN BODIES FALL...
                                   bakes, flies and compares these falls alone; the rows of others stay as they are. As FALL,
                                   `range` is all those with bodies that are baked for a range of densities, `terms`,
@@ -40,7 +40,7 @@ from report_tables import mark, write_tables
 FALLS = "docs/falls"
 KEPT = f"{FALLS}/bodies"  # baked bodies and their falls
 READY, READY_FALLS = "runtime/bodies", f"{KEPT}/ready"
-READY_AS_KEPT = ("ellipsoid", "sheet")  # whose bake is that of BODIES
+READY_AS_KEPT = ("sheet",)  # whose bake is that of BODIES
 # The body of each scene: its shape, and what it is baked for. No body is baked from a reference fall.
 BODIES = {
     "sphere": ("meshes/shapes/sphere.geo", ["--density", "1300"]),
@@ -66,7 +66,7 @@ OF_A_RANGE = {"disc-light": "disc-range", "disc-heavy": "disc-range", "ellipsoid
               "ellipsoid-compound": "ellipsoid-range", "ellipsoid-edgewise": "ellipsoid-range",
               "ellipsoid-heavy": "ellipsoid-range"}
 TERMS = ("transport", "turning transport", "drag in motion", "drag in spin", "rotational drag",
-         "rotational drag in spin", "entrained inertia", "unsteady factor")
+         "rotational drag in spin", "unsteady factor")
 # As users fly them, with noise; and without.
 RUNS = {"on": 20, "off": 1}
 RANGE_ROWS, REPEATS = f"{FALLS}/range.csv", f"{FALLS}/repeats.csv"

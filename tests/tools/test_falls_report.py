@@ -23,8 +23,8 @@ from report_tables import mark, write_tables
 FOLDER = "docs/test-falls"
 # With which body each fall is flown: one of falls_report.py, or a ready-baked one.
 SCENES = {
-    "box-3000": "box", "thick-disc-3000": "thick-disc", "cube-1800": "samara:cube", "plate-turned": "plate",
-    "sheet-900": "samara:sheet", "ellipsoid-1400": "ellipsoid", "spheroid-1400": "spheroid", "disc-9500": "disc-heavy",
+    "box-5000": "box", "thick-disc-6000": "thick-disc", "cube-2000": "samara:cube", "plate-edge": "plate",
+    "sheet-700": "samara:sheet", "ellipsoid-2000": "ellipsoid", "spheroid-1500": "spheroid", "disc-10400": "disc-heavy",
 }
 # Test sets of before, which have been looked at.
 SEEN = {
@@ -38,6 +38,8 @@ SEEN = {
     "disc-7800": "samara:disc",
     "box-2000": "box", "box-7000": "box", "thick-disc-1800": "thick-disc", "thick-disc-4000": "thick-disc",
     "plate-end": "plate", "spheroid-spin": "spheroid", "disc-1500-edge": "disc-light", "ellipsoid-1300": "ellipsoid",
+    "box-3000": "box", "thick-disc-3000": "thick-disc", "cube-1800": "samara:cube", "plate-turned": "plate",
+    "sheet-900": "samara:sheet", "ellipsoid-1400": "ellipsoid", "spheroid-1400": "spheroid", "disc-9500": "disc-heavy",
 }
 REFERENCES, ROWS = f"{FOLDER}/references.csv", f"{FOLDER}/falls.csv"
 

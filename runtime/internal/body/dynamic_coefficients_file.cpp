@@ -15,8 +15,8 @@ namespace {
 constexpr const char* group = "/dynamic_coefficients";
 constexpr const char* lowest_density = "lowest_density";
 constexpr const char* highest_density = "highest_density";
-/// Of an angular momentum that the wake carried along.
-constexpr const char* former_tensors[] = {"wake_by_velocity", "wake_by_turning"};
+/// Of an angular momentum that the wake carried along, and of fluid that turned with the body.
+constexpr const char* former_tensors[] = {"wake_by_velocity", "wake_by_turning", "entrained_inertia"};
 
 std::string place(const char* name, const char* name_end = "") {
     return fmt::format("{}/{}{}", group, name, name_end);
@@ -38,7 +38,6 @@ DynamicCoefficients read_numbers(const Hdf5Reader& file, const char* name_end) {
         }
     }
     for (const TensorOfMotion& tensor : tensors_of_motion) {
-        if (tensor.is_late && !file.has(place(tensor.name, name_end))) continue;
         numbers.*tensor.member = read_tensor(file, tensor.name, name_end);
     }
     return numbers;

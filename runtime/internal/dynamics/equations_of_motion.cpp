@@ -25,12 +25,16 @@ Eigen::Vector4d quaternion_rate(const Eigen::Vector4d& q, const Vector3d& omega)
     return rate;
 }
 
+Wake wake_of(const MotionVector& motion) {
+    return {motion[13], motion.tail<3>()};
+}
+
 }  // namespace
 
 MotionVector motion_vector(const BodyState& state) noexcept {
     MotionVector motion;
     motion << state.velocity, state.orientation.w(), state.orientation.vec(), state.position,
-        state.formed_wake;
+        state.wake.formed, state.wake.heading;
     return motion;
 }
 
@@ -39,7 +43,7 @@ BodyState body_state(const MotionVector& motion, const SeenFluid& seen_fluid) no
     state.velocity = motion.head<6>();
     state.orientation = Quaterniond(motion[6], motion[7], motion[8], motion[9]).normalized();
     state.position = motion.segment<3>(10);
-    state.formed_wake = motion.tail<3>();
+    state.wake = wake_of(motion);
     state.seen_fluid = seen_fluid;
     return state;
 }
@@ -52,10 +56,10 @@ EquationsOfMotion::EquationsOfMotion(const ImmersedBody& body, const Vector3d& g
       seen_fluid_(seen_fluid) {}
 
 Vector6d EquationsOfMotion::load(const Vector6d& velocity, const Matrix3d& to_world,
-                                 double formed) const noexcept {
+                                 const WakeShares& shares) const noexcept {
     const Vector6d of_centroid = body_->to_centroid * velocity;
     const Vector3d seen_rotation = to_world.transpose() * seen_fluid_.angular_velocity;
-    const LoadMatrices loads = load_matrices(*body_, of_centroid, seen_rotation, Vector3d::Zero(), formed);
+    const LoadMatrices loads = load_matrices(*body_, of_centroid, seen_rotation, Vector3d::Zero(), shares);
     return loads.relative.leftCols<3>() * seen_rotation - loads.whole * of_centroid;
 }
 
@@ -76,16 +80,20 @@ MotionVector EquationsOfMotion::rate(const MotionVector& motion) const noexcept 
                          displaced * body_->center_of_buoyancy.cross(gravity_in_body),
         linear.cross(omega) + (body_->mass - displaced) * gravity_in_body;
     if (body_->loads != Loads::none) {
-        momentum_rate += body_->to_centroid.transpose() * load(relative, to_world, motion.tail<3>().norm());
+        momentum_rate +=
+            body_->to_centroid.transpose() * load(relative, to_world, shares_of(wake_of(motion)));
     }
 
     Vector6d acceleration = mobility_ * momentum_rate;
     acceleration.tail<3>() -= omega.cross(seen_velocity);  // the seen fluid turns past the body's axes
     MotionVector result;
     const Vector6d of_centroid = body_->to_centroid * relative;
-    const Vector3d direction = to_world * of_centroid.tail<3>().stableNormalized();
+    const auto [formed, heading] = wake_of(motion);
+    const WakeRates rates = wake_rates(*body_, of_centroid);
     result << acceleration, quaternion_rate(motion.segment<4>(6), omega), to_world * motion.segment<3>(3),
-        wake_formation_rate(*body_, of_centroid) * (direction - motion.tail<3>());
+        rates.formation * (1.0 - formed),
+        rates.settling * (of_centroid.tail<3>().stableNormalized() - heading) +
+            heading.cross(rates.unseen_turning);
     return result;
 }
 
@@ -105,8 +113,8 @@ Matrix6d EquationsOfMotion::acceleration_gradient(const MotionVector& motion) co
     Matrix6d gradient = by_velocity + by_momentum * body_->inertia;
 
     if (body_->loads != Loads::none) {
-        const double formed = motion.tail<3>().norm();
-        const Vector6d load_here = load(relative, to_world, formed);
+        const WakeShares shares = shares_of(wake_of(motion));
+        const Vector6d load_here = load(relative, to_world, shares);
         // Differences of a millionth of the speeds that are there; any will do for a body at rest.
         const double turning = relative.head<3>().norm() + seen_fluid_.angular_velocity.norm();
         const double speed = relative.tail<3>().norm() + body_->length * turning;
@@ -116,7 +124,7 @@ Matrix6d EquationsOfMotion::acceleration_gradient(const MotionVector& motion) co
             Vector6d moved = relative;
             moved[i] += i < 3 ? difference / body_->length : difference;
             by_relative_velocity.col(i) =
-                (load(moved, to_world, formed) - load_here) / (moved[i] - relative[i]);
+                (load(moved, to_world, shares) - load_here) / (moved[i] - relative[i]);
         }
         gradient += body_->to_centroid.transpose() * by_relative_velocity;
     }

@@ -6,9 +6,9 @@
 
 namespace samara {
 
-/// (omega, v, q, x, m): the velocities as in BodyState, the quaternion (w, x, y, z), the position of the
-/// centre of mass and the formed wake; or the rates at which these change.
-using MotionVector = Eigen::Matrix<double, 16, 1>;
+/// (omega, v, q, x, s, m): the velocities as in BodyState, the quaternion (w, x, y, z), the position of the
+/// centre of mass and the wake's share and heading; or the rates at which these change.
+using MotionVector = Eigen::Matrix<double, 17, 1>;
 
 MotionVector motion_vector(const BodyState& state) noexcept;
 /// The state with these motions, its quaternion made a unit one; `seen_fluid` is passed on.
@@ -35,9 +35,9 @@ class EquationsOfMotion {
 
   private:
     /// The loads, moment and force about the centroid, at a velocity (omega, v) of the centre of mass of
-    /// which v is relative to the seen fluid, with so much of the wake formed.
+    /// which v is relative to the seen fluid.
     [[nodiscard]] Vector6d load(const Vector6d& velocity, const Matrix3d& to_world,
-                                double formed) const noexcept;
+                                const WakeShares& shares) const noexcept;
 
     const ImmersedBody* body_;
     Matrix6d mobility_;  // the inverse of the inertia

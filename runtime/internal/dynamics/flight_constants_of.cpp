@@ -151,10 +151,8 @@ void set_transport(const ImmersedBody& body, double mass, double length, FlightC
     c.isotropic_transport = static_cast<Real>(transport.trace() / 3.0);
     c.directed_transport = symmetric<Real>(directed(transport));
     const double share = body.dynamic.rotational_transport / mass;
-    const Matrix3d& entrained = body.dynamic.entrained_inertia;
-    c.transports_turning = share != 0.0 || !entrained.isZero(0.0);
-    c.turning_transport = symmetric<Real>(
-        (share * body.added_inertia + body.fluid_density / mass * entrained) / (length * length));
+    c.transports_turning = share != 0.0;
+    c.turning_transport = symmetric<Real>(share / (length * length) * body.added_inertia);
     c.coupling_transport = square<Real>(share / length * body.added_coupling);
 }
 
@@ -172,6 +170,9 @@ void set_loads(const ImmersedBody& body, FlightConstants<Real>& c) {
     // The numbers of the loads of the surface were chosen on whole falls, without a start of their own.
     c.wake_forms = body.loads != Loads::coefficients && !body.tables->stokes_throughout;
     c.squared_formation_way = symmetric<Real>(body.squared_formation_way / (length * length));
+    c.settling_over_formation = static_cast<Real>(wake_formation_ways / dynamic.settling_ways);
+    c.has_unseen_turning = !body.unseen_turning.isZero(0.0);
+    c.unseen_turning = symmetric<Real>(body.unseen_turning);
     c.drag_in_motion = symmetric<Real>(half_density * length / mass * dynamic.drag_in_motion);
     c.has_spin = !dynamic.drag_in_spin.isZero(0.0) || !dynamic.rotational_drag_in_spin.isZero(0.0);
     c.drag_in_spin = symmetric<Real>(half_density * length / mass * dynamic.drag_in_spin);

@@ -105,7 +105,7 @@ FluidLoad fluid_load_of(const ImmersedBody& body, double size, const Surrounding
         const Vector6d of_centroid = body.to_centroid * relative;
         const Vector3d seen_rotation = to_body * stream.rotation;
         const LoadMatrices loads =
-            load_matrices(body, of_centroid, seen_rotation, to_body * stream.slip, state.formed_wake.norm());
+            load_matrices(body, of_centroid, seen_rotation, to_body * stream.slip, shares_of(state.wake));
         wrench += body.to_centroid.transpose() *
                   (loads.relative.leftCols<3>() * seen_rotation - loads.whole * of_centroid);
         damping = body.to_centroid.transpose() * loads.whole * body.to_centroid;

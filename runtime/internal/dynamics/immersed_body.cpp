@@ -88,6 +88,21 @@ Matrix3d squared_formation_way(const VolumeMoments& moments) {
     return principal.directions * squares.asDiagonal() * principal.directions.transpose();
 }
 
+// Second moments are alike within this, relative to the larger.
+constexpr double alike = 0.02;
+
+// ImmersedBody's: about the principal axes across which the other two moments are alike.
+Matrix3d unseen_turning(const VolumeMoments& moments) {
+    const PrincipalValues principal = principal_values(moments.second_moments);
+    Vector3d unseen;
+    for (Eigen::Index i = 0; i < 3; ++i) {
+        const double a = principal.values[(i + 1) % 3];
+        const double b = principal.values[(i + 2) % 3];
+        unseen[i] = std::abs(a - b) <= alike * std::max(a, b) ? 1.0 : 0.0;
+    }
+    return principal.directions * unseen.asDiagonal() * principal.directions.transpose();
+}
+
 /// projected_area() along the principal axes, as a matrix that has these areas along them.
 Matrix3d shadows(const Body& body) {
     const Matrix3d axes = principal_axes(body.moments);
@@ -101,7 +116,6 @@ DynamicCoefficients without_momentum(DynamicCoefficients coefficients, const Bod
     if (physics.added_mass) return coefficients;
     coefficients.transport.setZero();
     coefficients.rotational_transport = 0.0;
-    coefficients.entrained_inertia.setZero();
     return coefficients;
 }
 
@@ -170,6 +184,7 @@ ImmersedBody make_immersed_body(const Body& body, const BodyPhysics& physics, co
     result.reference_area = std::numbers::pi * result.length * result.length / 4.0;
     result.shadows = shadows(body);
     result.squared_formation_way = squared_formation_way(body.moments);
+    result.unseen_turning = unseen_turning(body.moments);
 
     result.loads = physics.loads;
     result.coefficients = physics.coefficients;

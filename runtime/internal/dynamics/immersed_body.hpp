@@ -39,6 +39,9 @@ struct ImmersedBody {
     /// m^2, body axes: d.(squared_formation_way d) is the square of the way in which a wake forms behind a
     /// body that goes in the direction d (docs/theory, "A wake that forms").
     Matrix3d squared_formation_way = Matrix3d::Zero();
+    /// The part of an angular velocity that the flow does not see: about axes across which the body reaches
+    /// equally far, as a body of revolution's own.
+    Matrix3d unseen_turning = Matrix3d::Zero();
     double turning_scale = 0.0;  ///< sqrt of the largest ratio of added-mass difference to inertia (1/m):
                                  ///< with |v| the rate at which the Munk moment turns the body
 

@@ -15,14 +15,22 @@ Matrix6d load_matrix(const ImmersedBody& body, const Vector6d& relative_velocity
 
 /// D in a fluid that turns with `seen_rotation` (rad/s, body axes): the loads are
 /// -whole u + relative (seen_rotation, 0), where u holds the body's own angular velocity and the velocity of
-/// its centroid relative to the fluid, of which `slip` (m/s, body axes) is that of the wake, and
-/// `formed` the share of the wake that has formed. Never throws.
+/// its centroid relative to the fluid, of which `slip` (m/s, body axes) is that of the wake. Never throws.
 LoadMatrices load_matrices(const ImmersedBody& body, const Vector6d& velocity, const Vector3d& seen_rotation,
-                           const Vector3d& slip = Vector3d::Zero(), double formed = 1.0) noexcept;
+                           const Vector3d& slip = Vector3d::Zero(), const WakeShares& shares = {}) noexcept;
 
-/// The rate (1/s) at which BodyState::formed_wake tends to the direction of the body's way, at the velocity u
-/// of load_matrix(). Zero where the loads do not wait for one to form: their wake always has.
-double wake_formation_rate(const ImmersedBody& body, const Vector6d& relative_velocity) noexcept;
+/// The share that has formed, and the length of the heading to the eighth power (docs/theory, "A wake that
+/// forms").
+WakeShares shares_of(const Wake& wake) noexcept;
+
+/// How fast a wake changes, at the velocity u of load_matrix(). Zero where the loads do not wait for one to
+/// form: their wake always has.
+struct WakeRates {
+    double formation = 0.0;  ///< 1/s, at which Wake::formed tends to one
+    double settling = 0.0;   ///< 1/s, at which Wake::heading tends to the velocity's direction
+    Vector3d unseen_turning = Vector3d::Zero();  ///< rad/s: that of the body under its heading
+};
+WakeRates wake_rates(const ImmersedBody& body, const Vector6d& relative_velocity) noexcept;
 
 /// U L / nu of a speed (m/s).
 double reynolds_number(const ImmersedBody& body, double speed) noexcept;

@@ -43,8 +43,8 @@ Matrix12d newton_matrix(const Matrix6d& gradient, double h) {
 }
 
 /// Iterates the stages until nothing but rounding changes them, and gives the rates there; nothing where that
-/// is not reached. Newton in the velocities, where drag is stiff; the quaternions, on which less depends, and
-/// the positions, on which nothing does, by substitution.
+/// is not reached. Newton in the velocities, where drag is stiff; the quaternions and the wake, on which less
+/// depends, and the positions, on which nothing does, by substitution.
 std::optional<Stages> solved_rates(const ImmersedBody& body, const EquationsOfMotion& equations,
                                    const MotionVector& start, double h, Stages stages) noexcept {
     const Matrix6d gradient = equations.acceleration_gradient(0.5 * (stages[0] + stages[1]));
@@ -67,7 +67,8 @@ std::optional<Stages> solved_rates(const ImmersedBody& body, const EquationsOfMo
             const Vector6d moved = step.segment<6>(6 * static_cast<Eigen::Index>(i));
             next[i].head<6>() = stages[i].head<6>() + moved;
             change = std::max(change, energy_norm(body.inertia, moved));
-            turned = std::max(turned, (next[i] - stages[i]).segment<4>(6).norm());
+            const MotionVector difference = next[i] - stages[i];
+            turned = std::max({turned, difference.segment<4>(6).norm(), difference.tail<4>().norm()});
             scale = std::max(scale, energy_norm(body.inertia, next[i].head<6>()));
         }
         change = std::max(scale > 0.0 ? change / scale : 0.0, turned);

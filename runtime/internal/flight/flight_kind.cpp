@@ -351,7 +351,7 @@ void FlightKind::set_pose(std::size_t index, const Pose& pose, double time) {
     } else {
         const BodyState now = batch_.state(index);
         state.seen_fluid = now.seen_fluid;
-        state.formed_wake = now.formed_wake;
+        state.wake = now.wake;
     }
     before_[index] = in_flow_now;
     before_time_[index] = begin;

@@ -11,12 +11,12 @@ namespace samara {
 namespace {
 
 constexpr std::string_view mark = "samara state\n\x1a";
-constexpr std::uint32_t state_version = 7;
+constexpr std::uint32_t state_version = 8;
 constexpr std::uint32_t byte_order = 0x01020304;
 constexpr std::size_t hash_size = 32;  // of content_hash
 
 // A member more would be lost: write it, and raise state_version.
-static_assert(sizeof(BodyState) == 240 && sizeof(SeenFluid) == 48);
+static_assert(sizeof(BodyState) == 256 && sizeof(SeenFluid) == 48);
 
 [[noreturn]] void refuse(const std::string& why) {
     throw FlightError(FlightError::Kind::foreign_state, why);
@@ -35,7 +35,8 @@ void visit_state(State& state, const Visit& visit) {
     for (auto& number : state.seen_fluid.velocity) visit(number);
     for (auto& number : state.seen_fluid.angular_velocity) visit(number);
     for (auto& number : state.acceleration) visit(number);
-    for (auto& number : state.formed_wake) visit(number);
+    visit(state.wake.formed);
+    for (auto& number : state.wake.heading) visit(number);
 }
 
 template <typename AnyPose, typename Visit>
@@ -53,12 +54,16 @@ void visit_key(Key& key, const Visit& visit) {
     for (auto& number : key.orientation.coeffs()) visit(number);
 }
 
+bool is_sound(const Wake& wake) {
+    return wake.formed >= -1e-6 && wake.formed <= 1.0 + 1e-6 && wake.heading.norm() <= 1.0 + 1e-6;
+}
+
 }  // namespace
 
 bool is_sound(const BodyState& state) {
     return state.position.allFinite() && is_unit(state.orientation) && state.velocity.allFinite() &&
            state.seen_fluid.velocity.allFinite() && state.seen_fluid.angular_velocity.allFinite() &&
-           state.acceleration.allFinite() && state.formed_wake.norm() <= 1.0 + 1e-6;
+           state.acceleration.allFinite() && is_sound(state.wake);
 }
 
 bool is_sound(const Pose& pose) {

@@ -56,7 +56,7 @@ bool is_sound(const BodyState& state);
 bool is_sound(const Pose& pose);
 
 /// How many bytes a body state and a pose take.
-inline constexpr std::size_t body_state_bytes = 28 * sizeof(double) + sizeof(std::uint8_t);
+inline constexpr std::size_t body_state_bytes = 29 * sizeof(double) + sizeof(std::uint8_t);
 inline constexpr std::size_t pose_bytes = 13 * sizeof(double);
 
 /// How many bytes the keys of an obstacle take.

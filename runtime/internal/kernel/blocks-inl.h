@@ -26,11 +26,8 @@ HWY_INLINE Flight<Lanes<Tag>> load_flight(Tag tag, const BlockOf<Tag>& block, st
     const auto triple = [&](std::size_t i) HWY_ATTR {
         return Triple<Lanes<Tag>>{field(i), field(i + 1), field(i + 2)};
     };
-    return {triple(0),  {field(3), triple(4)},
-            triple(7),  triple(10),
-            triple(13), triple(16),
-            triple(19), triple(22),
-            triple(25)};
+    return {triple(0),  {field(3), triple(4)},  triple(7), triple(10), triple(13), triple(16), triple(19),
+            triple(22), {field(25), triple(26)}};
 }
 template <class Tag>
 HWY_INLINE void store_flight(Tag tag, const Flight<Lanes<Tag>>& flight, BlockOf<Tag>& block,
@@ -51,7 +48,8 @@ HWY_INLINE void store_flight(Tag tag, const Flight<Lanes<Tag>>& flight, BlockOf<
     keep_triple(16, flight.seen_rotation);
     keep_triple(19, flight.angular_acceleration);
     keep_triple(22, flight.acceleration);
-    keep_triple(25, flight.formed_wake);
+    keep(25, flight.wake.formed);
+    keep_triple(26, flight.wake.heading);
 }
 
 template <class Tag>
@@ -66,7 +64,7 @@ HWY_INLINE Flight<Lanes<Tag>> select_flight(hn::Mask<Tag> condition, const Fligh
             a.seen_rotation,
             select(condition, a.angular_acceleration, b.angular_acceleration),
             select(condition, a.acceleration, b.acceleration),
-            select(condition, a.formed_wake, b.formed_wake)};
+            select(condition, a.wake, b.wake)};
 }
 
 /// What random numbers Noise::normals would give each lane.

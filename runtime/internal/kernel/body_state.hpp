@@ -12,6 +12,16 @@ struct SeenFluid {
     Vector3d angular_velocity = Vector3d::Zero();
 };
 
+/// What a body has behind it in the fluid (docs/theory, "A wake that forms").
+struct Wake {
+    /// The share of separated flow's transport that is there: from 0 in fluid that was at rest to 1.
+    double formed = 0.0;
+    /// The mean direction of the way through the fluid in the body's axes, of which what is long past counts
+    /// less: of length one where the fluid has long met the body from one side, shorter where the body
+    /// swings or has just begun.
+    Vector3d heading = Vector3d::Zero();
+};
+
 /// A body's state in the frame that moves with the undisturbed flow (surroundings.hpp).
 struct BodyState {
     Vector3d position = Vector3d::Zero();               ///< of the centre of mass (m)
@@ -21,10 +31,7 @@ struct BodyState {
     /// The velocity's mean rate of change in the step before (rad/s^2, m/s^2), zero where there was none: it
     /// only helps the next step to guess its middle.
     Vector6d acceleration = Vector6d::Zero();
-    /// The wake that has formed behind the body: the mean direction (world axes) of its way through the
-    /// fluid, of which what is long past counts less. Its length is the share of a steady tow's wake that is
-    /// there, from 0 in fluid that was at rest to 1.
-    Vector3d formed_wake = Vector3d::Zero();
+    Wake wake;
     /// Whether the body rests on the ground (ground_contact.hpp), which the step found: where the
     /// surroundings change, but for their gust, it must be taken back.
     bool at_rest = false;
@@ -37,6 +44,13 @@ inline constexpr int most_substeps = 64;
 struct TurbulenceLevel {
     double turbulent_kinetic_energy = 0.0;
     double dissipation_rate = 0.0;
+};
+
+/// The shares of what separation brings (docs/theory, "A wake that forms"): of the transport, by the wake
+/// that has formed, and of the tow's own moment, which is there where the body does not swing.
+struct WakeShares {
+    double transport = 1.0;
+    double moment = 1.0;
 };
 
 /// The loads' matrix D, and the part of it that acts on what the body does relative to the fluid. The rest,

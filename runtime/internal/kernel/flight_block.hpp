@@ -33,10 +33,10 @@ struct BatchReport {
 template <class Real>
 struct alignas(64) FlightBlock {
     static constexpr std::size_t size = 16;
-    static constexpr std::size_t fields = 28;
+    static constexpr std::size_t fields = 29;
 
     /// Position, orientation (w, x, y, z), angular velocity, velocity, seen velocity, seen rotation,
-    /// acceleration (angular, linear), formed wake.
+    /// acceleration (angular, linear), formed wake, heading.
     Real numbers[fields][size];
     /// Of each body, over the shape's. The numbers of a body of another size are those of the shape's own
     /// that moves alike (body_size.hpp).
@@ -59,7 +59,7 @@ BodyState state_of(const FlightBlock<Real>& block, std::size_t lane) noexcept {
     state.seen_fluid.velocity = {number(13), number(14), number(15)};
     state.seen_fluid.angular_velocity = {number(16), number(17), number(18)};
     for (std::size_t i = 0; i < 6; ++i) state.acceleration[static_cast<Eigen::Index>(i)] = number(19 + i);
-    state.formed_wake = {number(25), number(26), number(27)};
+    state.wake = {number(25), {number(26), number(27), number(28)}};
     state.at_rest = block.at_rest[lane] != 0;
     return state;
 }
@@ -83,8 +83,9 @@ void keep_state(const BodyState& state, FlightBlock<Real>& block, std::size_t la
         keep(16 + i, state.seen_fluid.angular_velocity[axis]);
         keep(19 + i, state.acceleration[axis]);
         keep(22 + i, state.acceleration[axis + 3]);
-        keep(25 + i, state.formed_wake[axis]);
+        keep(26 + i, state.wake.heading[axis]);
     }
+    keep(25, state.wake.formed);
     block.at_rest[lane] = state.at_rest ? 1 : 0;
 }
 

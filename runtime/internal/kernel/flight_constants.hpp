@@ -73,6 +73,9 @@ struct FlightConstants {
 
     bool wake_forms = false;                 ///< whether the loads wait for the wake to form
     Square<Real> squared_formation_way{};    ///< ImmersedBody's, over l^2
+    Real settling_over_formation = 1;        ///< the way of forming over that of settling
+    bool has_unseen_turning = false;         ///< whether the next is not zero
+    Square<Real> unseen_turning{};           ///< ImmersedBody's
     Square<Real> potential_transport{};      ///< rho_f (M - T) / m* over tow_factor, less its isotropic part
     Square<Real> directed_transport{};       ///< rho_f T / m* less its isotropic part
     Real isotropic_transport = 0;            ///< a third of the trace of rho_f T / m*

@@ -109,7 +109,8 @@ BatchReport advance_one(const FlightConstants<double>& constants, const BlockSte
 
 /// load_matrices() of loads.hpp.
 LoadMatrices load_matrices(const FlightConstants<double>& constants, const Vector6d& velocity,
-                           const Vector3d& seen_rotation, const Vector3d& slip, double formed) noexcept;
+                           const Vector3d& seen_rotation, const Vector3d& slip,
+                           const WakeShares& shares) noexcept;
 
 /// The functions of langevin.hpp; the velocities are the state's.
 TurbulenceLevel turbulence_level(const FlightConstants<double>& constants, const Vector3d& velocity) noexcept;

@@ -73,7 +73,7 @@ HWY_INLINE Flight<One> flight_of(const BodyState& state) {
             triple_of(state.seen_fluid.angular_velocity),
             triple_of(state.acceleration.data()),
             triple_of(state.acceleration.data() + 3),
-            triple_of(state.formed_wake)};
+            {One(state.wake.formed), triple_of(state.wake.heading)}};
 }
 HWY_INLINE void keep(const Flight<One>& flight, BodyState& state) {
     keep(flight.position, state.position.data());
@@ -85,7 +85,8 @@ HWY_INLINE void keep(const Flight<One>& flight, BodyState& state) {
     keep(flight.seen_rotation, state.seen_fluid.angular_velocity.data());
     keep(flight.angular_acceleration, state.acceleration.data());
     keep(flight.acceleration, state.acceleration.data() + 3);
-    keep(flight.formed_wake, state.formed_wake.data());
+    state.wake.formed = lane(flight.wake.formed);
+    keep(flight.wake.heading, state.wake.heading.data());
 }
 
 /// The random numbers of one body.
@@ -218,14 +219,14 @@ HWY_INLINE void keep_blocks(const FlightConstants<double>& c, const LoadBlocks<O
 }
 
 void loads_of_one(const FlightConstants<double>& c, const Vector6d& velocity, const Vector3d& seen_rotation,
-                  const Vector3d& slip, double formed, LoadMatrices& loads) {
+                  const Vector3d& slip, const WakeShares& shares, LoadMatrices& loads) {
     const Triple<One> turning = triple_of(velocity.data());
     const Triple<One> moving = One(c.inverse_length) * triple_of(velocity.data() + 3);
-    const One share(c.wake_forms ? formed : 1.0);
+    const WakeShares there = c.wake_forms ? shares : WakeShares{};
     LoadBlocks<One> blocks =
-        relative_load_blocks(c, turning - triple_of(seen_rotation), moving, turning, share);
+        relative_load_blocks(c, turning - triple_of(seen_rotation), moving, turning, One(there.moment));
     keep_blocks(c, blocks, loads.relative);
-    add_transport(c, turning, moving, share, blocks);
+    add_transport(c, turning, moving, One(there.transport), blocks);
     if (c.has_side_pressure) {
         add_side_pressure(c, moving, One(c.inverse_length) * triple_of(slip), blocks);
     }
@@ -301,9 +302,10 @@ BatchReport advance_one(const FlightConstants<double>& constants, const BlockSte
 }
 
 LoadMatrices load_matrices(const FlightConstants<double>& constants, const Vector6d& velocity,
-                           const Vector3d& seen_rotation, const Vector3d& slip, double formed) noexcept {
+                           const Vector3d& seen_rotation, const Vector3d& slip,
+                           const WakeShares& shares) noexcept {
     LoadMatrices loads;
-    HWY_DYNAMIC_DISPATCH(loads_of_one)(constants, velocity, seen_rotation, slip, formed, loads);
+    HWY_DYNAMIC_DISPATCH(loads_of_one)(constants, velocity, seen_rotation, slip, shares, loads);
     return loads;
 }
 

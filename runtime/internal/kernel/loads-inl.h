@@ -40,6 +40,12 @@ HWY_INLINE Triple<V> coefficient_force(const FlightConstants<Real>& c, const Tri
     return -area * (V(c.drag_coefficient) * direction + lift);
 }
 
+/// WakeShares of loads.hpp.
+template <class V>
+struct Shares {
+    V transport, moment;
+};
+
 /// The force of a steady tow over rho A U^2 / 2, and its moment over rho A L U^2 / 2 about the centroid.
 template <class V>
 struct TowCoefficients {
@@ -141,11 +147,11 @@ HWY_INLINE void add_windmill(const Triple<V>& moment_along_force, const Triple<V
 
 /// Adds force omega x p and moment v x p + omega x l of the momenta (l, p) that separated flow lacks:
 /// workless. It acts on the turning of the body's axes themselves: these momenta belong to those of the
-/// equations' left side. `omega`: the body's own. `formed`: of the wake; before, the moment is the potential
-/// flow's and lacks nothing.
+/// equations' left side. `omega`: the body's own. `share`: that of the wake which has formed; before, the
+/// moment is the potential flow's and lacks nothing.
 template <class V, class Real>
 HWY_INLINE void add_transport(const FlightConstants<Real>& c, const Triple<V>& omega,
-                              const Triple<V>& velocity, V formed, LoadBlocks<V>& blocks) {
+                              const Triple<V>& velocity, V share, LoadBlocks<V>& blocks) {
     // The isotropic part of T acts as a force alone, and as the tow's force from the first: its moment v x v
     // is none, and must not be made where D acts on another v than the one it was made with.
     blocks.force_by_velocity = plus_cross(blocks.force_by_velocity, -V(c.isotropic_transport) * omega);
@@ -155,9 +161,9 @@ HWY_INLINE void add_transport(const FlightConstants<Real>& c, const Triple<V>& o
         momentum = momentum + transposed_times(coupling, omega);
         const Triple<V> angular_momentum =
             broadcast_symmetric<V>(c.turning_transport) * omega + coupling * velocity;
-        blocks.moment_by_turning = plus_cross(blocks.moment_by_turning, formed * angular_momentum);
+        blocks.moment_by_turning = plus_cross(blocks.moment_by_turning, share * angular_momentum);
     }
-    momentum = formed * momentum;
+    momentum = share * momentum;
     blocks.moment_by_velocity = plus_cross(blocks.moment_by_velocity, momentum);
     blocks.force_by_turning = plus_cross(blocks.force_by_turning, momentum);
 }
@@ -187,11 +193,11 @@ HWY_INLINE V share_of(V a, V b) {
 
 /// The part of D that acts on what the body does relative to the fluid. `omega` and `velocity`: its angular
 /// velocity and that of its centroid, relative to the fluid. `turning`: the angular velocity itself, by which
-/// the flow ceases to be that of a tow; what turbulence turns is in the table already. `formed`: the share of
-/// the wake that has formed, without which the tow's force has no arm.
+/// the flow ceases to be that of a tow; what turbulence turns is in the table already. `share`: that of the
+/// tow's moment which is there, without which its force has no arm.
 template <class V, class Real>
 HWY_INLINE LoadBlocks<V> relative_load_blocks(const FlightConstants<Real>& c, const Triple<V>& omega,
-                                              const Triple<V>& velocity, const Triple<V>& turning, V formed) {
+                                              const Triple<V>& velocity, const Triple<V>& turning, V share) {
     const Heading<V> heading = heading_of(velocity);
     const V speed_square = dot(velocity, velocity);
     const V reach_square(c.half_length * c.half_length);
@@ -200,7 +206,7 @@ HWY_INLINE LoadBlocks<V> relative_load_blocks(const FlightConstants<Real>& c, co
 
     // The tow's moment stays until the body does little but turn: a steady tow keeps it whole.
     const PressurePoint<V> point =
-        pressure_point(c, velocity, heading, formed * share_of(speed_square, V(motion_onset) * tip_square));
+        pressure_point(c, velocity, heading, share * share_of(speed_square, V(motion_onset) * tip_square));
     LoadBlocks<V> blocks = tow_blocks(c, omega, velocity, point.arm);
     add_windmill(point.moment_along_force, velocity, blocks);
 

@@ -8,7 +8,7 @@
 #endif
 
 #include "internal/kernel/body_state.hpp"
-#include "internal/kernel/loads-inl.h"
+#include "internal/kernel/wake-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace samara::HWY_NAMESPACE {
@@ -21,7 +21,7 @@ struct Flight {
     Triple<V> angular_velocity, velocity;
     Triple<V> seen_velocity, seen_rotation;
     Triple<V> angular_acceleration, acceleration;
-    Triple<V> formed_wake;
+    FlightWake<V> wake;
 };
 
 /// The velocity (or acceleration) of the centroid from that of the centre of mass: l is taken out of it.
@@ -81,7 +81,7 @@ struct StepStart {
     V h;
     Triple<V> omega, velocity;
     Triple<V> gravity, seen_rotation, slip;  // body axes
-    Triple<V> formed_wake;                   // likewise, when the step begins
+    FlightWake<V> wake;                      // when the step begins
     bool fluid_turns;
     bool is_pushed;
     Push<V> push;  // body axes, about the centroid
@@ -146,22 +146,6 @@ struct HalfTurn {
     HWY_INLINE Triple<V> operator()(const Triple<V>& a) const { return turned_back(half_turn, a); }
 };
 
-/// The wake that has formed when the body has moved at these velocities over a time: it tends to the
-/// `direction` of the way, what differs from it going as exp(-x), x the way over that in which a wake forms,
-/// here to the second order and never below zero (docs/theory, "A wake that forms"). `formed` and
-/// `direction`: in the same axes.
-template <class V, class Real>
-HWY_INLINE Triple<V> wake_after(const FlightConstants<Real>& c, const Triple<V>& formed, V time,
-                                const Triple<V>& omega, const Triple<V>& velocity,
-                                const Triple<V>& direction) {
-    const V speed_square = dot(velocity, velocity);
-    const V reach_square = dot(velocity, broadcast_symmetric<V>(c.squared_formation_way) * velocity);
-    const V rate = combined_speed(c, omega, velocity) * root(speed_square / larger(V(tiny<V>), reach_square));
-    const V x = time * rate;
-    const V kept = V(1.0) / (V(1.0) + x * (V(1.0) + V(0.5) * x));
-    return direction + kept * (formed - direction);
-}
-
 /// Solves the step's system with the loads and the transport taken at the middle that was found or guessed
 /// before. Its unknowns are the velocities' changes: solving for the velocities themselves would drift by a
 /// rounding error a step.
@@ -199,24 +183,22 @@ HWY_INLINE void improve(const FlightConstants<Real>& c, const StepStart<V>& star
     V step = V(0.5) * start.h;
     middle.theta = V(0.5);
     if (c.loads != Loads::none) {
-        V formed(1.0);
+        Shares<V> shares{V(1.0), V(1.0)};
         if (c.wake_forms) {
-            const Triple<V> wake =
-                wake_after(c, under_body(start.formed_wake), V(0.5) * start.h, middle.omega, middle.velocity,
-                           heading_of(middle.velocity).direction);
-            formed = root(dot(wake, wake));
+            shares = shares_of(
+                wake_in_the_middle(c, start.wake, start.h, middle.omega, middle.velocity, middle.half_turn));
         }
         LoadBlocks<V> loads;
         if (start.fluid_turns) {
             const Triple<V> fluid_turning = under_body(start.seen_rotation);
-            loads =
-                relative_load_blocks(c, middle.omega - fluid_turning, middle.velocity, middle.omega, formed);
+            loads = relative_load_blocks(c, middle.omega - fluid_turning, middle.velocity, middle.omega,
+                                         shares.moment);
             moment = moment + loads.moment_by_turning * fluid_turning;
             force = force + loads.force_by_turning * fluid_turning;
         } else {
-            loads = relative_load_blocks(c, middle.omega, middle.velocity, middle.omega, formed);
+            loads = relative_load_blocks(c, middle.omega, middle.velocity, middle.omega, shares.moment);
         }
-        add_transport(c, middle.omega, middle.velocity, formed, loads);
+        add_transport(c, middle.omega, middle.velocity, shares.transport, loads);
         if (c.has_side_pressure) add_side_pressure(c, middle.velocity, under_body(start.slip), loads);
         const Stiffness<V> stiff = stiffness(c, loads, start.h);
         const V z = larger(stiff.turning, stiff.moving);
@@ -329,7 +311,7 @@ HWY_INLINE StepStart<V> step_start(const FlightConstants<Real>& c, const Square<
     start.omega = flight.angular_velocity;
     start.velocity = to_centroid(c, flight.angular_velocity, velocity);
     start.gravity = transposed_times(to_world, gravity);
-    start.formed_wake = c.wake_forms ? transposed_times(to_world, flight.formed_wake) : no_vector<V>();
+    start.wake = flight.wake;
     start.fluid_turns = fluid_turns;
     start.seen_rotation = fluid_turns ? transposed_times(to_world, seen_rotation) : no_vector<V>();
     const V munk_rate(c.munk_rate);
@@ -394,9 +376,7 @@ HWY_INLINE void implicit_step(const FlightConstants<Real>& c, const Triple<V>& g
         {start.omega + half * flight.angular_acceleration,
          start.velocity + half * to_centroid(c, flight.angular_acceleration, guess_acceleration)});
     if (c.wake_forms) {
-        const Triple<V> direction = turned_back(-found.half_turn, heading_of(found.velocity).direction);
-        flight.formed_wake =
-            wake_after(c, flight.formed_wake, h, found.omega, found.velocity, to_world * direction);
+        flight.wake = wake_in_the_end(c, flight.wake, h, found.omega, found.velocity, found.half_turn);
     }
 
     // The same turn that carried gravity: what gravity works is then what the height gives.

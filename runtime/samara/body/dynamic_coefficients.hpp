@@ -11,10 +11,16 @@ namespace samara {
 /// 0.1. Where |v| and Q have changed places, half of the tow's moment is gone.
 inline constexpr double motion_onset = 0.03;
 
-/// How long the way is in which a wake forms behind a body that starts in fluid at rest, over the body's
-/// extent along it (docs/theory, "A wake that forms"): the median of tows from rest (docs/falls.md, "The
-/// start").
-inline constexpr double wake_formation_ways = 2.3;
+/// Over how long a way transport forms behind a body that starts in fluid at rest, over the body's extent
+/// along it (docs/theory, "A wake that forms"; chosen in docs/falls.md, "The start").
+inline constexpr double wake_formation_ways = 1.0;
+
+/// Over how long a way the tow's own moment comes back behind a body that no longer swings, over its extent
+/// along it. Usual: so that from rest it is there after the 2.3 extents that tows by full CFD have in the
+/// median. Of bodies whose transport was identified from falls: these lack the tow's moment (docs/falls.md,
+/// "The start").
+inline constexpr double usual_settling_ways = 0.8;
+inline constexpr double settling_ways_of_falls = 20.0;
 
 /// What a free body feels beyond the tabulated loads of a steady tow (docs/theory, "Loads of a moving body");
 /// but for f none of it changes a steady tow without rotation. Body axes about the centroid of the volume;
@@ -31,6 +37,9 @@ struct DynamicCoefficients {
     /// f: what the steady solution of a tow misses of the flow around a free body, which is never steady: the
     /// tabulated force and moment are taken times f.
     double unsteady_factor = 1.0;
+    /// Over how long a way, over the body's extent along it, the direction from which the fluid meets the
+    /// body counts in its mean: as far as that is steady the tow's moment is there.
+    double settling_ways = usual_settling_ways;
     /// C_m A (m^2), symmetric and positive semidefinite: drag in motion, the force -rho/2 H s C_m A v with s
     /// = Q^2/(motion_onset |v|^2 + Q^2).
     Matrix3d drag_in_motion = Matrix3d::Zero();
@@ -42,9 +51,6 @@ struct DynamicCoefficients {
     /// C_r D (m^4), likewise, of a body that turns fast: the moment -rho/2 H s C_r D omega with the
     /// same s.
     Matrix3d rotational_drag_in_spin = Matrix3d::Zero();
-    /// E (m^5), symmetric: the fluid behind the body that turns with it, the moment rho omega x (E omega),
-    /// which does no work.
-    Matrix3d entrained_inertia = Matrix3d::Zero();
     /// c (m): the body's half-length.
     double half_length = 0.0;
     std::string origin;  ///< where they come from, in words, for reports
@@ -58,7 +64,6 @@ struct TensorOfMotion {
     const char* unit;                       ///< of its entries
     const char* meaning;                    ///< the formula's symbol
     bool is_drag;                           ///< and so positive semidefinite
-    bool is_late = false;                   ///< absent in files from before, which were identified without it
 };
 inline constexpr TensorOfMotion tensors_of_motion[] = {
     {&DynamicCoefficients::transport, "transport", "transport", "m^3", "T, body axes", false},
@@ -69,8 +74,6 @@ inline constexpr TensorOfMotion tensors_of_motion[] = {
      "C_w D about the centroid, body axes", true},
     {&DynamicCoefficients::rotational_drag_in_spin, "rotational_drag_in_spin", "rotational drag in spin",
      "m^4", "C_r D about the centroid, body axes", true},
-    {&DynamicCoefficients::entrained_inertia, "entrained_inertia", "entrained inertia", "m^5",
-     "E about the centroid, body axes", false, true},
 };
 
 /// Likewise of the plain numbers.
@@ -84,6 +87,7 @@ struct NumberOfMotion {
 inline constexpr NumberOfMotion numbers_of_motion[] = {
     {&DynamicCoefficients::rotational_transport, "rotational_transport", "turning transport", false, false},
     {&DynamicCoefficients::unsteady_factor, "unsteady_factor", "unsteady factor", true, true},
+    {&DynamicCoefficients::settling_ways, "settling_ways", "settling ways", true, true},
 };
 
 /// Of which densities the falls were that coefficients come from, over the fluid's; zero: not known.

@@ -54,7 +54,7 @@ double relative_difference(const Matrix3d& found, const Matrix3d& expected) {
     return (found - expected).norm() / expected.norm();
 }
 
-// Of what was wrong with the expectation (of entrained inertia: all), which pulls: what one fall may leave.
+// Of what was wrong with the expectation, which pulls: what one fall may leave.
 constexpr double remaining = 0.15;
 
 constexpr double noise = 0.05;  // over U, and U/L
@@ -78,7 +78,6 @@ class FallIdentification : public testing::Test {
 TEST_F(FallIdentification, FindsTheCoefficientsThatAFallWasFlownWith) {
     const DynamicCoefficients& found = found_.coefficients.values;
     EXPECT_LT(relative_difference(found.transport, true_.transport), 0.03);
-    EXPECT_LT(relative_difference(found.entrained_inertia, true_.entrained_inertia), remaining);
     EXPECT_EQ(found.half_length, true_.half_length);
 }
 
@@ -174,8 +173,8 @@ TEST_F(FallIdentification, IsLessCertainOfANoisyFall) {
     EXPECT_GT(noisy.prediction_error, noise);
     // It is in the states that flights begin with, and in the wake that is counted along them.
     EXPECT_LT(noisy.prediction_error, 3.0 * noise);
-    EXPECT_GT(noisy.coefficients.standard_errors.entrained_inertia.norm(),
-              1.2 * found_.coefficients.standard_errors.entrained_inertia.norm());
+    EXPECT_GT(noisy.coefficients.standard_errors.rotational_drag.norm(),
+              1.2 * found_.coefficients.standard_errors.rotational_drag.norm());
     EXPECT_LT(relative_difference(noisy.coefficients.values.transport, true_.transport), 0.1);
 }
 
@@ -233,10 +232,10 @@ TEST_F(FallIdentification, ShowsAFallAndItsFlightWithGravityDownwards) {
 
 TEST_F(FallIdentification, LeavesOutTheTermsThatItIsToldTo) {
     const Identification without =
-        identify_motion(body_, {record_}, {.terms = {"entrained inertia", "drag in spin"}});
+        identify_motion(body_, {record_}, {.terms = {"rotational drag", "drag in spin"}});
     EXPECT_EQ(without.coefficients.values.drag_in_spin, Matrix3d::Zero());
-    EXPECT_EQ(without.coefficients.values.entrained_inertia, Matrix3d::Zero());
-    EXPECT_EQ(without.coefficients.standard_errors.entrained_inertia, Matrix3d::Zero());
+    EXPECT_EQ(without.coefficients.values.rotational_drag, Matrix3d::Zero());
+    EXPECT_EQ(without.coefficients.standard_errors.rotational_drag, Matrix3d::Zero());
     EXPECT_GT(without.prediction_error, 3.0 * found_.prediction_error);
     EXPECT_THAT(
         test::error_of([&] { static_cast<void>(identify_motion(body_, {record_}, {.terms = {"wake"}})); }),
@@ -253,7 +252,7 @@ TEST_F(FallIdentification, LeavesOutAStretchOfTheFallAndFindsTheSame) {
 
 // Fitted to its segments alone the body falls 8 % too slowly here, and swings a tenth too little.
 TEST_F(FallIdentification, KeepsTheFiguresOfTheWholeFallWhereTheModelCannotFollowIt) {
-    const Identification without = identify_motion(body_, {record_}, {.terms = {"entrained inertia"}});
+    const Identification without = identify_motion(body_, {record_}, {.terms = {"rotational drag"}});
     EXPECT_GT(without.prediction_error, 5.0 * found_.prediction_error);
     const auto& [name, solved, flown, balance] = without.falls.front();
     // Of the descent within what the fit counts as off, of the others within half of it.

@@ -74,7 +74,7 @@ TEST(MotionParameters, ExpectTheTransportThatTakesThePotentialFlowsOwnAway) {
     EXPECT_LT((expected.transport - added_mass).norm(), 1e-12 * added_mass.norm());
     EXPECT_EQ(expected.rotational_transport, 1.0);
     EXPECT_EQ(expected.unsteady_factor, 1.0);
-    EXPECT_EQ(expected.entrained_inertia, Matrix3d::Zero());
+    EXPECT_EQ(expected.settling_ways, settling_ways_of_falls);
     const Matrix3d areas = projected_area_tensor(body);
     EXPECT_LT((expected.drag_in_motion - usual_drag_in_motion * areas).norm(), 1e-12 * areas.norm());
     EXPECT_LT((expected.drag_in_spin - usual_drag_in_spin * areas).norm(), 1e-12 * areas.norm());
@@ -93,15 +93,14 @@ TEST(MotionParameters, GiveSymmetricTensorsAndNoNegativeDragAnywhereWithinTheBou
 
 TEST(MotionParameters, OfABodyWithoutEqualAxesHaveANumberForEach) {
     const MotionParameters parameters(ellipsoid_of(uneven));
-    EXPECT_EQ(parameters.all().size(), 3u * 3u + 2u + 1u);
+    EXPECT_EQ(parameters.all().size(), 3u * 3u + 1u);
     EXPECT_EQ(count_named(parameters, "transport"), 3);
-    EXPECT_EQ(count_named(parameters, "entrained inertia"), 2);  // over that about the shortest extent
 }
 
 TEST(MotionParameters, OfASpheroidHaveOneNumberForBothEqualAxes) {
     for (const Vector3d& semi_axes : {Vector3d(1.0, 4.0, 4.0), Vector3d(1.0, 1.0, 4.0)}) {
         const MotionParameters parameters(ellipsoid_of(semi_axes));
-        EXPECT_EQ(parameters.all().size(), 3u * 2u + 1u + 1u);
+        EXPECT_EQ(parameters.all().size(), 3u * 2u + 1u);
         EXPECT_EQ(count_named(parameters, "rotational drag"), 2 + 2);  // and that in spin
         const int other = semi_axes.y() == semi_axes.z() ? 1 : 0;      // y and z are equal, or x and y
         const DynamicCoefficients coefficients =
@@ -131,7 +130,7 @@ TEST(MotionParameters, OfASphereHaveOneNumberForAllAxes) {
 TEST(MotionParameters, TieNoAxesThatMassAloneMakesEqual) {
     Body body = ellipsoid_of(Vector3d(1.0, 4.0, 4.0));
     body.moments.second_moments(2, 2) *= 1.1;
-    EXPECT_EQ(MotionParameters(body).all().size(), 3u * 3u + 2u + 1u);
+    EXPECT_EQ(MotionParameters(body).all().size(), 3u * 3u + 1u);
 }
 
 TEST(MotionParameters, AreNothingWhereTheTermIsLeftOut) {
@@ -143,19 +142,13 @@ TEST(MotionParameters, AreNothingWhereTheTermIsLeftOut) {
         for (const MotionParameter& one : parameters.all()) fixed += one.lower == one.upper ? 1 : 0;
         const bool is_shared =
             name == "turning transport" || name == "drag in spin" || name == "drag in motion";
-        EXPECT_EQ(fixed, is_shared                     ? 0
-                         : name == "unsteady factor"   ? 1
-                         : name == "entrained inertia" ? 2
-                                                       : 3)
-            << name;
+        EXPECT_EQ(fixed, is_shared ? 0 : name == "unsteady factor" ? 1 : 3) << name;
         EXPECT_EQ(coefficients.unsteady_factor, 1.0) << name;
         const bool of_turning = name == "turning transport";
         EXPECT_EQ(coefficients.rotational_transport, of_turning ? 0.0 : 1.0) << name;
         for (const TensorOfMotion& tensor : tensors_of_motion) {
-            const bool is_wake = std::string(tensor.title).starts_with("wake") ||
-                                 tensor.member == &DynamicCoefficients::entrained_inertia;
             const bool is_none = coefficients.*tensor.member == Matrix3d::Zero();
-            EXPECT_EQ(is_none, is_wake || name == tensor.title) << name << ", " << tensor.title;
+            EXPECT_EQ(is_none, name == tensor.title) << name << ", " << tensor.title;
         }
     }
     EXPECT_THROW(MotionParameters(body, {"transports"}), Error);
@@ -200,6 +193,7 @@ TEST(MotionParameters, GiveTheErrorOfEachEntryAlongPrincipalAxes) {
         EXPECT_LE((standard_errors.*tensor.member - change).norm(), 1e-9 * change.norm()) << tensor.name;
     }
     EXPECT_EQ(standard_errors.rotational_transport, 0.0);
+    EXPECT_EQ(standard_errors.settling_ways, 0.0);
     EXPECT_EQ(standard_errors.drag_in_spin, Matrix3d::Zero());
     EXPECT_EQ(standard_errors.drag_in_motion, Matrix3d::Zero());
     EXPECT_NEAR(standard_errors.unsteady_factor, errors[errors.size() - 1], 1e-15);

@@ -145,7 +145,7 @@ TEST(StepAdvice, GivesSmallCopiesShorterStepsThanLargeOnes) {
         scene.step_tolerance = 1e-4;
         return advise_step(scene, {lopsided()}, 1).step;
     };
-    EXPECT_LT(longest(0.05), longest(1.0));
+    EXPECT_LT(longest(0.02), longest(1.0));
 }
 
 }  // namespace

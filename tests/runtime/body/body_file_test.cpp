@@ -363,7 +363,7 @@ TEST(BodyFile, DynamicCoefficientsOfAnEarlierFormAreRefusedWithARemedy) {
     EXPECT_EQ(fault.find('\n'), std::string::npos);
 }
 
-TEST(BodyFile, DynamicCoefficientsWithAWakeThatIsCarriedAlongAreRefusedButWhereItIsNone) {
+TEST(BodyFile, DynamicCoefficientsWithTermsOfBeforeAreRefusedButWhereTheyAreNone) {
     const test::TemporaryFolder folder;
     const std::string path = (folder / "a.body.h5").string();
     const Body body = test::full_body();
@@ -373,7 +373,7 @@ TEST(BodyFile, DynamicCoefficientsWithAWakeThatIsCarriedAlongAreRefusedButWhereI
             H5::H5File file(path, H5F_ACC_RDWR);
             const hsize_t shape[] = {3, 3};
             const std::vector<double> numbers(9, value);
-            for (const char* name : {"wake_by_velocity", "wake_by_turning"}) {
+            for (const char* name : {"wake_by_velocity", "wake_by_turning", "entrained_inertia"}) {
                 file.openGroup("/dynamic_coefficients")
                     .createDataSet(name, H5::PredType::NATIVE_DOUBLE, H5::DataSpace(2, shape))
                     .write(numbers.data(), H5::PredType::NATIVE_DOUBLE);
@@ -389,20 +389,22 @@ TEST(BodyFile, DynamicCoefficientsWithAWakeThatIsCarriedAlongAreRefusedButWhereI
     }
 }
 
-TEST(BodyFile, DynamicCoefficientsFromBeforeThereWasEntrainedInertiaAndUnsteadyFactorHaveNeither) {
+TEST(BodyFile, DynamicCoefficientsFromBeforeThereWereTheirLaterNumbersHaveThoseOfNoEffect) {
     const test::TemporaryFolder folder;
     Body body = test::full_body();
     write_body_file(folder / "a.body.h5", body);
     {
         H5::H5File file((folder / "a.body.h5").string(), H5F_ACC_RDWR);
         H5::Group group = file.openGroup("/dynamic_coefficients");
-        for (const char* name : {"entrained_inertia", "entrained_inertia_error"}) group.unlink(name);
-        for (const char* name : {"unsteady_factor", "unsteady_factor_error"}) group.removeAttr(name);
+        for (const char* name :
+             {"unsteady_factor", "unsteady_factor_error", "settling_ways", "settling_ways_error"}) {
+            group.removeAttr(name);
+        }
     }
-    body.dynamic->values.entrained_inertia.setZero();
-    body.dynamic->standard_errors.entrained_inertia.setZero();
     body.dynamic->values.unsteady_factor = 1.0;
     body.dynamic->standard_errors.unsteady_factor = 0.0;
+    body.dynamic->values.settling_ways = usual_settling_ways;
+    body.dynamic->standard_errors.settling_ways = 0.0;
     expect_equal(read_body_file(folder / "a.body.h5"), body);
 }
 

@@ -78,7 +78,7 @@ std::vector<std::size_t> first(std::size_t count) {
 }
 
 bool same_bits(const BodyState& a, const BodyState& b) {
-    using Bits = std::array<std::uint64_t, 28>;
+    using Bits = std::array<std::uint64_t, 29>;
     return std::bit_cast<Bits>(test::numbers_of(a)) == std::bit_cast<Bits>(test::numbers_of(b));
 }
 

@@ -79,10 +79,6 @@ inline Vector6d rotational_transport(const Motion& m) {
     return m.body.dynamic.rotational_transport *
            motion_of(m.v.cross(momentum) + m.omega.cross(angular), m.omega.cross(momentum));
 }
-inline Vector6d entrained_inertia(const Motion& m) {
-    const Vector3d angular = m.body.dynamic.entrained_inertia * m.omega;
-    return motion_of(m.body.fluid_density * m.omega.cross(angular), Vector3d::Zero());
-}
 inline Vector6d drag_in_motion(const Motion& m) {
     const double tip = m.tip * m.tip;
     const double share = tip / (motion_onset * m.v.squaredNorm() + tip);

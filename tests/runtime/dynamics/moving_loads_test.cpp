@@ -58,7 +58,6 @@ const std::vector<Term>& terms() {
              to.rotational_transport = from.rotational_transport;
          },
          rotational_transport, true},
-        {"entrained inertia", keeping(&Coefficients::entrained_inertia), entrained_inertia, true},
         {"drag in motion", keeping(&Coefficients::drag_in_motion), drag_in_motion, false},
         {"drag in spin", keeping(&Coefficients::drag_in_spin), drag_in_spin, false},
         {"rotational drag", keeping(&Coefficients::rotational_drag), rotational_drag, false},
@@ -141,7 +140,6 @@ TEST(MovingLoads, TransportOfTheWholeAddedMassTakesThePotentialFlowsOwnAway) {
     ImmersedBody body = bare(test::lopsided_body(), false);
     body.dynamic.transport = body.added_mass / body.fluid_density;
     body.dynamic.rotational_transport = 1.0;
-    body.dynamic.entrained_inertia.setZero();
     prepare(body);
     std::mt19937 generator(4);
     for (int i = 0; i < 300; ++i) {
@@ -164,7 +162,6 @@ TEST(MovingLoads, LeaveASteadyTowAsItIsTabulatedTimesTheUnsteadyFactorWhateverTh
         ImmersedBody body = lopsided;
         body.dynamic.transport = random_symmetric(generator, 4e-5);
         body.dynamic.rotational_transport = random_vector(generator).x();
-        body.dynamic.entrained_inertia = random_symmetric(generator, 1e-8);
         body.dynamic.unsteady_factor = std::pow(2.0, i % 3 - 1);
         body.dynamic.drag_in_motion *= std::pow(10.0, i % 5 - 2);
         prepare(body);

@@ -96,7 +96,7 @@ TEST(WakeNoise, PushesByTheLoadsAtTheSlipAndNotByItsChange) {
     const Noise noise(12, "wake", 0, 0);
     const double h = 0.01;
     BodyState state = moving_at({0.2, 0.0, 0.1});
-    state.formed_wake = Vector3d(0.2, 0.0, 0.1).normalized();
+    state.wake = {1.0, Vector3d(0.2, 0.0, 0.1).normalized()};
     for (std::uint64_t step = 0; step < 20; ++step) {
         const BodyState after = advance(body, weightless, 0.0, h, state, noise, step).state;
         // The same step in the stream that stands between the two slips.

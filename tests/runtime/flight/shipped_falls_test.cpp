@@ -27,13 +27,13 @@ struct ShippedFall {
 
 /// Without noise, as the bodies of runtime/bodies fell when this was written.
 constexpr ShippedFall falls[] = {
-    {"falls/ellipsoid-tilted", "ellipsoid", Regime::fluttering, 0.2011, 0.846, 3.078},
-    {"falls/ellipsoid-heavy", "ellipsoid", Regime::fluttering, 0.464, 1.777, 5.146},
+    {"falls/ellipsoid-tilted", "ellipsoid", Regime::fluttering, 0.2125, 0.6994, 2.965},
+    {"falls/ellipsoid-heavy", "ellipsoid", Regime::fluttering, 0.4769, 1.987, 7.517},
     {"falls/sphere", "sphere", Regime::steady, 0.5496, {}, {}},
-    {"falls/cube", "cube", Regime::chaotic, 0.2623, 0.8625, 4.333},
-    {"falls/disc-light", "disc", Regime::fluttering, 0.08137, 1.348, 3.968},
-    {"falls/disc-heavy", "disc", Regime::tumbling, 0.4123, 2.61, 17.6},
-    {"falls/sheet", "sheet", Regime::tumbling, 0.7087, 2.102, 14.08},
+    {"falls/cube", "cube", Regime::chaotic, 0.2676, 0.7355, 2.074},
+    {"falls/disc-light", "disc", Regime::fluttering, 0.2521, 0.4884, 2.268},
+    {"falls/disc-heavy", "disc", Regime::tumbling, 0.6096, 1.943, 12.19},
+    {"falls/sheet", "sheet", Regime::chaotic, 0.6919, 1.886, 11.04},
     {"falls/samara", "samara", Regime::autorotating, 1.332, {}, 107.5},
     {"scenes/samara", "samara", Regime::autorotating, 1.016, {}, 116.2},
 };
