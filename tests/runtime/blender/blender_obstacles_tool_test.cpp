@@ -85,9 +85,10 @@ TEST(BlenderObstacles, AreMetLiveAsByTheKeysAndFollowedWhereTheyAreMovedOrUntick
     EXPECT_THAT(found["live_errors"].get<std::vector<std::string>>(), Each(""));
     for (const auto& [name, matrices] : found["matrices"].items()) {
         const auto last = pose_of(matrices.back());
-        // From the hit on: what single precision leaves of a key's turn goes on as a spin.
-        expect_same_poses(found["live"][name], matrices, 1e-4);
-        expect_same_poses(found["roof_back"][name], matrices, 1e-4);
+        // Where single precision holds the start as it is, the last bit; else the hit makes 5e-5 of 6e-8.
+        const double largest_angle = name == "rubber" ? 1e-12 : 1e-4;
+        expect_same_poses(found["live"][name], matrices, largest_angle);
+        expect_same_poses(found["roof_back"][name], matrices, largest_angle);
         EXPECT_GT(distance(pose_of(found["roof_far"][name][0]), last), 0.1);
         EXPECT_GT(distance(pose_of(found["no_roof"][name][0]), last), 0.1);
     }
