@@ -167,7 +167,7 @@ std::vector<BodyState> solved_states(const ReadyFall& fall) {
     return solved;
 }
 
-// The wake at each of a fall's states, by the way to it, as bodies have it that are identified from falls.
+// The wake at each of a fall's states, by the way to it.
 void set_wakes(const ImmersedBody& body, double time_step, std::vector<BodyState>& states) {
     for (std::size_t i = 1; i < states.size(); ++i) {
         const Vector6d velocity = body.to_centroid * (0.5 * (states[i - 1].velocity + states[i].velocity));
@@ -176,19 +176,21 @@ void set_wakes(const ImmersedBody& body, double time_step, std::vector<BodyState
         const Vector3d& unseen = rates.unseen_turning;
         const Eigen::AngleAxisd back(-time_step * unseen.norm(), unseen.stableNormalized());
         const auto [formed, heading] = states[i - 1].wake;
-        const double settling = rates.formation * wake_formation_ways / settling_ways_of_falls;
         states[i].wake.formed = 1.0 + std::exp(-time_step * rates.formation) * (formed - 1.0);
-        states[i].wake.heading = direction + std::exp(-time_step * settling) * (back * heading - direction);
+        states[i].wake.heading =
+            direction + std::exp(-time_step * rates.settling) * (back * heading - direction);
     }
 }
 
-ReadyFall ready(const Body& body, const FallRecord& record) {
+// `settling_ways`: of the coefficients that are sought; without, the body's own.
+ReadyFall ready(const Body& body, const FallRecord& record, const std::optional<double>& settling_ways = {}) {
     if (record.samples.empty()) throw too_short(record);
     require_even_steps(record);
     ReadyFall fall{record, falling_body(body, record.fall), states_of(record), gravity_of(record.fall), 1,
                    {}};
     const double step = record.samples.front().time;
     fall.stride = static_cast<std::size_t>(std::max(1.0, std::round(flown_step / step)));
+    if (settling_ways) fall.body.dynamic.settling_ways = *settling_ways;
     set_wakes(fall.body, step_of(fall), fall.states);
     fall.measures = measures_of(motion_of(body, fall, solved_states(fall)));
     return fall;
@@ -396,10 +398,12 @@ Identification identify_motion(const Body& body, const std::vector<FallRecord>& 
     if (progress) progress(0.0);
     std::vector<ReadyFall> falls;
     falls.reserve(records.size());
-    for (const FallRecord& record : records) falls.push_back(ready(body, record));
+    const MotionParameters parameters(body, left_out.terms);
+    for (const FallRecord& record : records) {
+        falls.push_back(ready(body, record, parameters.settling_ways()));
+    }
     std::vector<Segment> segments = segments_of(falls);
     if (left_out.stretch) segments = without_stretch(std::move(segments), *left_out.stretch);
-    const MotionParameters parameters(body, left_out.terms);
     const LeastSquaresSolution solution =
         lowest_solution(problem_of(body, falls, segments, parameters),
                         starts_of(body, falls, segments, parameters), [&](double solved) {

@@ -72,12 +72,12 @@ MotionParameters::MotionParameters(const Body& body, const std::vector<std::stri
     axes_ = principal_axes(body.moments);
     shared_ = default_dynamic_coefficients(body);
     shared_.origin.clear();
-    shared_.settling_ways = settling_ways_of_falls;
     // Whole, where the defaults' fade towards a sphere: so they follow the falls better (docs/falls.md).
     const Matrix3d areas = projected_area_tensor(body);
     shared_.drag_in_motion = 0.5 * usual_drag_in_motion * (areas + areas.transpose());
     shared_.drag_in_spin = 0.5 * usual_drag_in_spin * (areas + areas.transpose());
     tied_ = tied_axes(axes_, body, shared_.half_length);
+    shared_.settling_ways = tied_.isZero() ? settling_ways_of_alike_axes : settling_ways_of_falls;
     const Matrix3d added_mass = axes_.transpose() * body.kirchhoff->matrix.bottomRightCorner<3, 3>() * axes_;
     const double largest = added_mass.diagonal().maxCoeff();
     const Vector3d turning =

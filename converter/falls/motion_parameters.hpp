@@ -36,6 +36,8 @@ class MotionParameters {
     [[nodiscard]] DynamicCoefficients coefficients(const Eigen::VectorXd& numbers) const;
     /// Of the numbers' standard errors, which are taken as independent: each entry's.
     [[nodiscard]] DynamicCoefficients standard_errors(const Eigen::VectorXd& errors) const;
+    /// That of DynamicCoefficients, which the body's symmetry decides.
+    [[nodiscard]] double settling_ways() const { return shared_.settling_ways; }
     /// The numbers that are expected.
     [[nodiscard]] Eigen::VectorXd expected() const;
 

@@ -23,8 +23,9 @@ from report_tables import mark, write_tables
 FOLDER = "docs/test-falls"
 # With which body each fall is flown: one of falls_report.py, or a ready-baked one.
 SCENES = {
-    "box-5000": "box", "thick-disc-6000": "thick-disc", "cube-2000": "samara:cube", "plate-edge": "plate",
+    "box-5000": "box", "thick-disc-6000": "thick-disc", "plate-edge": "plate",
     "sheet-700": "samara:sheet", "ellipsoid-2000": "ellipsoid", "spheroid-1500": "spheroid", "disc-10400": "disc-heavy",
+    "cube-1150": "samara:cube", "cube-3200": "samara:cube",
 }
 # Test sets of before, which have been looked at.
 SEEN = {
@@ -40,6 +41,7 @@ SEEN = {
     "plate-end": "plate", "spheroid-spin": "spheroid", "disc-1500-edge": "disc-light", "ellipsoid-1300": "ellipsoid",
     "box-3000": "box", "thick-disc-3000": "thick-disc", "cube-1800": "samara:cube", "plate-turned": "plate",
     "sheet-900": "samara:sheet", "ellipsoid-1400": "ellipsoid", "spheroid-1400": "spheroid", "disc-9500": "disc-heavy",
+    "cube-2000": "samara:cube",
 }
 REFERENCES, ROWS = f"{FOLDER}/references.csv", f"{FOLDER}/falls.csv"
 

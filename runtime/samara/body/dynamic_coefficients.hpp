@@ -18,9 +18,11 @@ inline constexpr double wake_formation_ways = 1.0;
 /// Over how long a way the tow's own moment comes back behind a body that no longer swings, over its extent
 /// along it. Usual: so that from rest it is there after the 2.3 extents that tows by full CFD have in the
 /// median. Of bodies whose transport was identified from falls: these lack the tow's moment (docs/falls.md,
-/// "The start").
+/// "The start"); where all axes are alike, as a cube's, transport turns nothing and the tow's moment is all
+/// there is.
 inline constexpr double usual_settling_ways = 0.8;
 inline constexpr double settling_ways_of_falls = 20.0;
+inline constexpr double settling_ways_of_alike_axes = 5.0;
 
 /// What a free body feels beyond the tabulated loads of a steady tow (docs/theory, "Loads of a moving body");
 /// but for f none of it changes a steady tow without rotation. Body axes about the centroid of the volume;

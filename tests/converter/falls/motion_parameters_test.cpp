@@ -127,6 +127,13 @@ TEST(MotionParameters, OfASphereHaveOneNumberForAllAxes) {
     }
 }
 
+TEST(MotionParameters, LeaveABodyWhoseAxesAreAllAlikeTheTowsMomentThatAloneTurnsIt) {
+    EXPECT_EQ(MotionParameters(ellipsoid_of(Vector3d::Ones())).settling_ways(), settling_ways_of_alike_axes);
+    for (const Vector3d& semi_axes : {Vector3d(1.0, 4.0, 4.0), Vector3d(1.0, 1.0, 4.0), uneven}) {
+        EXPECT_EQ(MotionParameters(ellipsoid_of(semi_axes)).settling_ways(), settling_ways_of_falls);
+    }
+}
+
 TEST(MotionParameters, TieNoAxesThatMassAloneMakesEqual) {
     Body body = ellipsoid_of(Vector3d(1.0, 4.0, 4.0));
     body.moments.second_moments(2, 2) *= 1.1;
