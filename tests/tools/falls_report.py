@@ -8,8 +8,8 @@
                                   docs/falls/bodies: with these the form of the loads can be changed without CFD
     falls_report.py BIN BODIES ready
                                   likewise the ready-baked bodies that `./dev bodies` has baked in BODIES, into runtime/bodies
-                                  and docs/falls/bodies/ready, from where it takes the falls where BODIES has none; the
-                                  sheet is that of the references
+                                  and docs/falls/bodies/ready, from where it takes the falls where BODIES has none; ellipsoid
+                                  and sheet from the falls of the references' bodies
     falls_report.py BIN BODIES FALL...
                                   bakes, flies and compares these falls alone; the rows of others stay as they are. As FALL,
                                   `range` is all those with bodies that are baked for a range of densities, `terms`,
@@ -40,7 +40,7 @@ from report_tables import mark, write_tables
 FALLS = "docs/falls"
 KEPT = f"{FALLS}/bodies"  # baked bodies and their falls
 READY, READY_FALLS = "runtime/bodies", f"{KEPT}/ready"
-READY_AS_KEPT = ("sheet",)  # whose bake is that of BODIES
+READY_FROM_KEPT = ("ellipsoid", "sheet")  # their falls are those of BODIES
 # The body of each scene: its shape, and what it is baked for. No body is baked from a reference fall.
 BODIES = {
     "sphere": ("meshes/shapes/sphere.geo", ["--density", "1300"]),
@@ -131,10 +131,8 @@ def pack(falls, target):
                 archive.addfile(entry, io.BytesIO(content.encode()))
 
 
-def identify_from_kept(programs, file, falls, body, folder, target, archives=KEPT):
-    """Packs what was solved of the falls and writes the body identified from that, to the last bit as it is from the archive
-    later: the solution may turn on its rounding."""
-    pack(falls, kept_falls(body, archives))
+def identify_from_kept(programs, file, body, folder, target, archives=KEPT):
+    """Writes the body identified from the falls of its archive."""
     with tempfile.TemporaryDirectory(dir=folder) as work:
         falls = falls_of(body, os.path.join(work, f"{body}.cases"), archives)
         identified = os.path.join(work, f"{body}.body.h5")
@@ -151,7 +149,9 @@ def keep(programs, folder):
         if not falls:
             continue
         target = baked_file(KEPT, body)
-        identify_from_kept(programs, file, falls, body, folder, target)
+        pack(falls, kept_falls(body))
+        # From the archive, to the last bit as it is from there later: the solution may turn on its rounding.
+        identify_from_kept(programs, file, body, folder, target)
         shutil.copyfile(target, file)
         print(f"Written: {target}, {kept_falls(body)}")
 
@@ -161,13 +161,13 @@ def keep_ready(programs, folder):
     os.makedirs(READY_FALLS, exist_ok=True)
     for target in sorted(glob.glob(f"{READY}/*.body.h5")):
         body = os.path.basename(target).removesuffix(".body.h5")
-        if body in READY_AS_KEPT:
-            shutil.copyfile(baked_file(KEPT, body), target)
-            continue
         file = baked_file(folder, body) if os.path.exists(baked_file(folder, body)) else target
         falls = falls_of(body, os.path.join(folder, f"{body}.cases"), READY_FALLS)
-        if falls:
-            identify_from_kept(programs, file, falls, body, folder, target, READY_FALLS)
+        if body in READY_FROM_KEPT:
+            identify_from_kept(programs, file, body, folder, target)
+        elif falls:
+            pack(falls, kept_falls(body, READY_FALLS))
+            identify_from_kept(programs, file, body, folder, target, READY_FALLS)
         elif file != target:
             shutil.copyfile(file, target)
         else:
