@@ -24,23 +24,23 @@ FOLDER = "docs/test-falls"
 # With which body each fall is flown: one of falls_report.py, or a ready-baked one.
 SCENES = {
     "box-5000": "box", "thick-disc-6000": "thick-disc", "plate-edge": "plate",
-    "sheet-700": "samara:sheet", "ellipsoid-2000": "ellipsoid", "spheroid-1500": "spheroid", "disc-10400": "disc-heavy",
+    "sheet-700": "sheet", "ellipsoid-2000": "ellipsoid", "spheroid-1500": "spheroid", "disc-10400": "disc-heavy",
     "cube-1150": "samara:cube", "cube-3200": "samara:cube",
 }
 # Test sets of before, which have been looked at.
 SEEN = {
     "disc-2000": "disc-range", "disc-3000": "disc-range", "disc-6000": "disc-range", "ellipsoid-3000": "ellipsoid-range",
-    "sheet-steep": "samara:sheet", "sphere-light": "samara:sphere", "plate-steep": "plate", "spheroid-steep": "spheroid",
+    "sheet-steep": "sheet", "sphere-light": "samara:sphere", "plate-steep": "plate", "spheroid-steep": "spheroid",
     "box-1500": "box", "box-6000": "box", "thick-disc-1400": "thick-disc", "thick-disc-5000": "thick-disc",
-    "cube-1050": "samara:cube", "cube-2400": "samara:cube", "ellipsoid-1600": "ellipsoid-range", "sheet-1000": "samara:sheet",
+    "cube-1050": "samara:cube", "cube-2400": "samara:cube", "ellipsoid-1600": "ellipsoid-range", "sheet-1000": "sheet",
     "disc-4500": "samara:disc",
     "box-2500": "box", "box-4000": "box", "thick-disc-2500": "thick-disc", "thick-disc-7000": "thick-disc",
-    "cube-1400": "samara:cube", "ellipsoid-2200": "ellipsoid-range", "sheet-800-edge": "samara:sheet",
+    "cube-1400": "samara:cube", "ellipsoid-2200": "ellipsoid-range", "sheet-800-edge": "sheet",
     "disc-7800": "samara:disc",
     "box-2000": "box", "box-7000": "box", "thick-disc-1800": "thick-disc", "thick-disc-4000": "thick-disc",
     "plate-end": "plate", "spheroid-spin": "spheroid", "disc-1500-edge": "disc-light", "ellipsoid-1300": "ellipsoid",
     "box-3000": "box", "thick-disc-3000": "thick-disc", "cube-1800": "samara:cube", "plate-turned": "plate",
-    "sheet-900": "samara:sheet", "ellipsoid-1400": "ellipsoid", "spheroid-1400": "spheroid", "disc-9500": "disc-heavy",
+    "sheet-900": "sheet", "ellipsoid-1400": "ellipsoid", "spheroid-1400": "spheroid", "disc-9500": "disc-heavy",
     "cube-2000": "samara:cube",
 }
 REFERENCES, ROWS = f"{FOLDER}/references.csv", f"{FOLDER}/falls.csv"
