@@ -62,13 +62,13 @@ INSTANTIATE_TEST_SUITE_P(All, BodyPictures,
 TEST(CaseRecords, AreThoseOfTheBake) {
     const Body leaf = shipped_body("leaf");
     const std::vector<CaseRecord> records = case_records(*leaf.tables);
-    ASSERT_EQ(records.size(), 44U);
-    EXPECT_EQ(records.back().name, "direction_12_medium_re_996");
+    ASSERT_EQ(records.size(), 84U);
+    EXPECT_EQ(records.back().name, "direction_12_wake_laminar");
     EXPECT_NEAR((records.back().direction - leaf.tables->axes * -Vector3d::UnitX()).norm(), 0.0, 1e-12);
-    EXPECT_EQ(records.back().cells, 19956.0);
-    EXPECT_EQ(records.back().closure, "kOmegaSSTLM");
-    EXPECT_NEAR(records.back().drag, 0.24094, 1e-5);
-    EXPECT_NEAR(records.back().k.value(), 0.0035579, 1e-7);
+    EXPECT_EQ(records.back().cells, 39192.0);
+    EXPECT_EQ(records.back().closure, "laminar");
+    EXPECT_NEAR(records.back().drag, 0.18046, 1e-5);
+    EXPECT_NEAR(records.back().k.value(), 0.0072382, 1e-7);
     EXPECT_EQ(records.front().mesh_remedy, "as planned");
     EXPECT_EQ(main_reynolds_number(*leaf.tables, records), 3320.0);
     LoadTables other = *leaf.tables;
@@ -149,9 +149,9 @@ TEST_F(PlotOfBodies, DrawsPolarsUnlessAskedForAnotherKind) {
     const ProgramRun convergence =
         plot({"leaf.body.h5", "-o", "picture.svg", "--kind", "convergence", "--json"});
     ASSERT_EQ(convergence.status, 0) << convergence.fault;
-    EXPECT_EQ(convergence.json()["directions"], 5);  // of six on the last mesh one failed on that before
+    EXPECT_EQ(convergence.json()["directions"], 6);
     EXPECT_EQ(convergence.json()["meshes"], 2);
-    EXPECT_EQ(convergence.json()["sources"], 4);
+    EXPECT_EQ(convergence.json()["sources"], 5);
 }
 
 TEST_F(PlotOfBodies, RefusesWhatTheFileDoesNotHold) {
