@@ -8,10 +8,10 @@ set grid ytics lc rgb "#e4e4e4" lt 1 lw 0.8
 set key off
 
 falls = "sphere ellipsoid-tilted ellipsoid-compound ellipsoid-edgewise ellipsoid-heavy spheroid disc-light disc-heavy plate sheet"
-models = "'MuJoCo default' 'MuJoCo best' 'MuJoCo best for each shape' 'MuJoCo best for each fall' 'samara by the surface' 'samara by tables with noise'"
-names = "'MuJoCo, default' 'MuJoCo, best for all falls' 'MuJoCo, best for the shape' 'MuJoCo, best for the fall' 'samara, surface' 'samara, tables'"
-array color[6] = ["#9a9a9a", "#c0392b", "#d98c1f", "#dcb878", "#3a9d5d", "#2a6f97"]
-array mark[6] = [4, 7, 9, 6, 13, 5]
+models = "'MuJoCo default' 'MuJoCo best' 'MuJoCo best for each shape' 'MuJoCo best for each shape on other falls' 'MuJoCo best for each fall' 'samara by the surface' 'samara by tables with noise'"
+names = "'MuJoCo, default' 'MuJoCo, best for all falls' 'MuJoCo, best for the shape' 'MuJoCo, the shape on other falls' 'MuJoCo, best for the fall' 'samara, surface' 'samara, tables'"
+array color[7] = ["#9a9a9a", "#c0392b", "#d98c1f", "#7d3c98", "#dcb878", "#3a9d5d", "#2a6f97"]
+array mark[7] = [4, 7, 9, 11, 6, 13, 5]
 figures = "'descent speed' 'frequency' 'amplitude'"
 array limit[3] = [10, 20, 30]
 
@@ -38,8 +38,8 @@ do for [p = 1:3] {
   } else {
     unset xtics
   }
-  plot for [m = 1:6] rows using \
-    (strcol(2) eq word(models, m) && strcol(4 + p) ne "" && (p == 1 || strcol(1) ne "sphere") ? place(strcol(1)) + 0.13 * (m - 3.5) : NaN): \
+  plot for [m = 1:7] rows using \
+    (strcol(2) eq word(models, m) && strcol(4 + p) ne "" && (p == 1 || strcol(1) ne "sphere") ? place(strcol(1)) + 0.115 * (m - 4) : NaN): \
     (held(100 * column(4 + p))) with points pt mark[m] ps 1.9 lc rgb color[m] title word(names, m)
 }
 unset multiplot

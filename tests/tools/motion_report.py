@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Error of the motion against time, from inertia alone to full CFD, on the reference falls of docs/falls.
+"""Error of the motion against time, from inertia alone to full CFD, on the reference falls and on those three times as long.
 
-    motion_report.py BIN BODIES FOLDER    flies the falls whose bodies are in BODIES, writes FOLDER/motion.{csv,md,png}
+    motion_report.py BIN BODIES FOLDER    flies the falls whose bodies are in BODIES, writes FOLDER/motion.{csv,png}, motion-long.csv
+                                          and the tables of motion.md
 
 BODIES: as falls_report.py leaves it, NAME.body.h5 at quality standard, and NAME-preview.body.h5, which is baked here
 if it is missing. Bodies that are not there are left out. Run from the project's folder.
@@ -16,6 +17,7 @@ import tempfile
 
 from falls_report import BODIES as SHAPES
 from falls_report import FALLS, SCENES, baked_file, run, scene_with, worst_figure
+from long_falls_report import FOLDER as LONG
 from report_tables import mark, write_tables
 
 # The models, cheapest first: the keys that the body of a scene is given, the body file that it needs, how many steps of
@@ -40,34 +42,32 @@ def preview_of(programs, folder, body):
     return file
 
 
-def flown(programs, scene, keys, file, steps, runs, folder):
+def flown(programs, scene, keys, file, steps, runs, folder, falls):
     """The comparison of a scene with other keys with its reference, and the seconds for a simulated second."""
-    changed = scene_with(scene, {"shape": os.path.abspath(file)} | keys, folder, steps)
+    changed = scene_with(scene, {"shape": os.path.abspath(file)} | keys, folder, steps, falls)
     motion = os.path.join(folder, "motion.h5")
     words = [f"{programs}/samara", "simulate", changed, "-o", motion, "--threads", "1", "--runs", str(runs), "--json"]
     seconds = min(run(words)["seconds"] for _ in range(5))
     with open(changed) as opened:
         duration = float(re.search(r"duration = ([0-9.]+)", opened.read()).group(1))
-    return run([f"{programs}/samara", "compare", motion, f"{FALLS}/{scene}.h5", "--json"]), seconds / duration / runs
+    return run([f"{programs}/samara", "compare", motion, f"{falls}/{scene}.h5", "--json"]), seconds / duration / runs
 
 
-def cpu_seconds():
-    """CPU seconds and duration of the reference falls, by docs/falls.md and the scenes."""
+def cpu_seconds(falls):
+    """CPU seconds that a simulated second of each fall of a folder took by full CFD."""
     costs = {}
-    with open("docs/falls.md") as document:
-        for line in document:
-            cells = [cell.strip() for cell in line.split("|")]
-            name = re.match(r"\[([a-z-]+)\]\(falls/", cells[1]) if len(cells) > 5 else None
-            if name:
-                with open(f"{FALLS}/{name.group(1)}.toml") as scene:
-                    duration = float(re.search(r"duration = ([0-9.]+)", scene.read()).group(1))
-                costs[name.group(1)] = float(cells[4].replace(",", "")) / duration
+    with open(f"{falls}/references.csv", newline="") as file:
+        for row in csv.DictReader(file):
+            with open(f"{falls}/{row['fall']}.toml") as scene:
+                duration = float(re.search(r"duration = ([0-9.]+)", scene.read()).group(1))
+            costs[row["fall"]] = float(row["cpu_seconds"]) / duration
     return costs
 
 
-def report(programs, bodies, target):
+def fly(programs, bodies, falls, target):
+    """Flies every fall of a folder by every model, and writes the rows."""
     rows = []
-    costs = cpu_seconds()
+    costs = cpu_seconds(falls)
     with tempfile.TemporaryDirectory() as work:
         for scene, body in SCENES.items():
             if not os.path.exists(baked_file(bodies, body)):
@@ -75,7 +75,7 @@ def report(programs, bodies, target):
                 continue
             for model, keys, quality, steps, runs in MODELS:
                 file = baked_file(bodies, body) if quality == "standard" else preview_of(programs, bodies, body)
-                comparison, seconds = flown(programs, scene, keys, file, steps, runs, work)
+                comparison, seconds = flown(programs, scene, keys, file, steps, runs, work, falls)
                 agrees = comparison["motion"]["regime"] == comparison["reference"]["regime"]
                 rows.append([scene, model, seconds, worst_figure(comparison), comparison["motion"]["regime"],
                              "yes" if agrees else "no"])
@@ -85,12 +85,11 @@ def report(programs, bodies, target):
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["fall", "model", "seconds_per_simulated_second", "error", "regime", "regime_agrees"])
         writer.writerows([[f"{cell:.4g}" if isinstance(cell, float) else cell for cell in row] for row in rows])
-    write(target)
 
 
-def write(target):
-    """The table of motion.md beside the rows, and its picture."""
-    with open(target, newline="") as file:
+def table_of(rows_file):
+    """A table of motion.md."""
+    with open(rows_file, newline="") as file:
         rows = list(csv.DictReader(file))
     falls = list(dict.fromkeys(row["fall"] for row in rows))
     lines = ["| model | s for a simulated second | faster than full CFD | " + " | ".join(falls) + " | mean | regimes right |",
@@ -105,16 +104,21 @@ def write(target):
                      " | ".join(f"{100 * error:.0f} %" for error in errors) +
                      f" | {100 * sum(errors) / len(errors):.0f} % | "
                      f"{sum(row['regime_agrees'] == 'yes' for row in of_model)} of {len(of_model)} |")
-    write_tables(target.replace(".csv", ".md"), ["\n".join(lines) + "\n"], mark("falls"))
-    picture = target.replace(".csv", "")
-    subprocess.run(["gnuplot", "-e", f"rows='{target}'; picture='{picture}.png'", f"{picture}.gp"], check=True)
-    print(f"Written: {target}, its table and picture")
+    return "\n".join(lines) + "\n"
 
 
 def main():
     if len(sys.argv) != 4:
         sys.exit(__doc__.strip())
-    report(sys.argv[1], sys.argv[2], os.path.join(sys.argv[3], "motion.csv"))
+    programs, bodies, folder = sys.argv[1:]
+    tables = []
+    for falls, name in ((FALLS, "motion.csv"), (LONG, "motion-long.csv")):
+        fly(programs, bodies, falls, f"{folder}/{name}")
+        tables.append(table_of(f"{folder}/{name}"))
+    write_tables(f"{folder}/motion.md", tables, mark("falls"))
+    picture = f"{folder}/motion"
+    subprocess.run(["gnuplot", "-e", f"rows='{picture}.csv'; picture='{picture}.png'", f"{picture}.gp"], check=True)
+    print(f"Written: motion.csv, motion-long.csv, motion.md and motion.png in {folder}")
 
 
 if __name__ == "__main__":

@@ -12,7 +12,8 @@ ROOT = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", ".."))
 # Which write their tables again from the rows of the last run.
 REWRITING = {"falls_report.py": "docs/falls.md", "tows_report.py": "docs/falls.md", "references_report.py": "docs/falls.md",
              "step_auto.py": "docs/speed-against-error/step.md", "noise_report.py": "docs/noise.md", "surface_report.py": "docs/surface-loads.md",
-             "test_falls_report.py": "docs/test-falls.md", "ensembles_report.py": "docs/noise.md"}
+             "test_falls_report.py": "docs/test-falls.md", "long_falls_report.py": "docs/falls.md",
+             "ensembles_report.py": "docs/noise.md"}
 
 
 class Reports(unittest.TestCase):

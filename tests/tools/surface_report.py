@@ -14,6 +14,7 @@ import tempfile
 
 import falls_report
 from falls_report import BODIES, FALLS, SCENES, compared, row_of, run, table_of_falls, worst_figure, written
+from long_falls_report import FOLDER as LONG
 from report_tables import mark, write_tables
 from test_falls_report import FOLDER as TEST_FALLS
 from test_falls_report import SEEN
@@ -49,6 +50,7 @@ def fly(programs):
     with tempfile.TemporaryDirectory() as folder:
         for name in CHOSEN:
             rows.append(["chosen"] + flown(programs, name, SHAPES[SCENES.get(name, name)], folder, FALLS))
+        rows += [["long"] + flown(programs, name, SHAPES[body], folder, LONG) for name, body in SCENES.items()]
         rows.append(["test"] + flown(programs, "samara", SHAPES["samara"], folder, FALLS))
         for name, body in SEEN.items():
             rows.append(["test"] + flown(programs, name, shape_of(body), folder, TEST_FALLS))
@@ -63,7 +65,7 @@ def main(words):
         fly(words[1])
     with open(ROWS, newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
-    tables = [table_of_falls([row for row in rows if row["set"] == kind]) for kind in ("chosen", "test")]
+    tables = [table_of_falls([row for row in rows if row["set"] == kind]) for kind in ("chosen", "test", "long")]
     write_tables("docs/surface-loads.md", tables, mark("surface"))
     return 0
 

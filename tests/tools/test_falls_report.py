@@ -43,7 +43,7 @@ SEEN = {
     "sheet-900": "sheet", "ellipsoid-1400": "ellipsoid", "spheroid-1400": "spheroid", "disc-9500": "disc-heavy",
     "cube-2000": "samara:cube",
 }
-REFERENCES, ROWS = f"{FOLDER}/references.csv", f"{FOLDER}/falls.csv"
+ROWS = f"{FOLDER}/falls.csv"
 
 
 def file_of(programs, bodies, body):
@@ -52,52 +52,57 @@ def file_of(programs, bodies, body):
     return baked(programs, bodies, body)[0]
 
 
-def rows_of_references():
-    with open(REFERENCES, newline="", encoding="utf-8") as file:
+def rows_of_references(folder=FOLDER):
+    """Those of references.csv of a folder of falls; none where there is no such file."""
+    if not os.path.exists(f"{folder}/references.csv"):
+        return []
+    with open(f"{folder}/references.csv", newline="", encoding="utf-8") as file:
         return list(csv.DictReader(file))
 
 
-def solve_references(programs, work):
-    """Solves the falls and writes them with their uncertainty, and the rows of references.csv."""
+def solve_references(programs, work, folder, names, seen=(), cells_of=None):
+    """Solves the named falls of a folder that references.csv there has no row of and writes them with their uncertainty, and its
+    rows; those of falls that were `seen` stay. `cells_of`: cells of the mesh and of the coarser one, where not the usual ones."""
     heads = (["fall", "cells", "cpu_seconds", "balance_force", "balance_moment", "regime", "regime_coarse"] + list(FIGURES)
              + [f"{figure}_by_mesh" for figure in FIGURES])
-    rows = {row["fall"]: [row[head] for head in heads] for row in rows_of_references()}
-    for name in SCENES:
+    rows = {row["fall"]: [row[head] for head in heads] for row in rows_of_references(folder)}
+    for name in names:
         if name in rows:
             continue
-        cells, coarse_cells = CELLS
-        coarse, _ = solved(programs, work, name, coarse_cells, CLOSURE, falls=FOLDER)
-        file, result = solved(programs, work, name, cells, CLOSURE, ["--other-mesh", coarse], falls=FOLDER)
-        shutil.copyfile(file, f"{FOLDER}/{name}.h5")
+        cells, coarse_cells = (cells_of or {}).get(name, CELLS)
+        coarse, _ = solved(programs, work, name, coarse_cells, CLOSURE, falls=folder)
+        file, result = solved(programs, work, name, cells, CLOSURE, ["--other-mesh", coarse], falls=folder)
+        shutil.copyfile(file, f"{folder}/{name}.h5")
         by_mesh, regime_by_mesh = differences(programs, coarse, file)
         body, balance = result["body"], result["balance"]
         rows[name] = [name, result["cells"], result["cpu_seconds"], balance["force"], balance["moment"], body["regime"],
                       regime_by_mesh] + [body.get(figure) for figure in FIGURES] + by_mesh
-    written(REFERENCES, [heads] + [rows[name] for name in SCENES | SEEN if name in rows])
+        written(f"{folder}/references.csv", [heads] + [rows[known] for known in (*names, *seen) if known in rows])
 
 
-def flown(programs, bodies):
-    """Flies every scene with its bodies, and writes the rows of falls.csv."""
+def fly(programs, bodies, folder, scenes):
+    """Flies the scenes of a folder whose fall is solved with their bodies, and writes the rows of falls.csv there."""
     rows = []
     with tempfile.TemporaryDirectory() as work:
-        solved_falls = {row["fall"] for row in rows_of_references()}
+        solved_falls = {row["fall"] for row in rows_of_references(folder)}
         for noise in RUNS:
-            for scene, body in (SCENES | SEEN).items():
+            for scene, body in scenes.items():
                 if scene not in solved_falls:
                     continue
-                comparison = compared(programs, file_of(programs, bodies, body), scene, work, noise, FOLDER)
+                comparison = compared(programs, file_of(programs, bodies, body), scene, work, noise, folder)
                 rows.append(falls_report.row_of(scene, noise, comparison))
                 print(*rows[-1])
-    written(ROWS, [falls_report.heading()] + rows)
+    written(f"{folder}/falls.csv", [falls_report.heading()] + rows)
 
 
-def table_of_references():
+def table_of_references(folder=FOLDER):
     lines = ["| fall | cells | CPU s | momenta balance (force / moment) | descent | frequency | amplitude | rms angular speed "
              "| regime | coarser mesh: descent | frequency | amplitude | rms angular speed | regime |", "|---" * 14 + "|"]
-    for row in rows_of_references():
+    for row in rows_of_references(folder):
         changes = [percent(float(row[f"{figure}_by_mesh"])) if row[f"{figure}_by_mesh"] else "-" for figure in FIGURES]
         lines.append("| " + " | ".join(
-            [f"[{row['fall']}](test-falls/{row['fall']}.toml)", f"{int(row['cells']):,}", f"{float(row['cpu_seconds']):.0f}",
+            [f"[{row['fall']}]({folder.removeprefix('docs/')}/{row['fall']}.toml)", f"{int(row['cells']):,}",
+             f"{float(row['cpu_seconds']):.0f}",
              f"{100 * float(row['balance_force']):.1f} / {100 * float(row['balance_moment']):.1f} %",
              number(row["descent_speed"], 1, 3, " m/s"), number(row["frequency"], 1, 3, " Hz"),
              number(row["inclination_amplitude"], 57.29578, 2, " degrees"), number(row["rms_angular_speed"], 1, 3, " rad/s"),
@@ -119,8 +124,8 @@ def main(words):
         programs, bodies, work = words[1:]
         os.makedirs(bodies, exist_ok=True)
         os.makedirs(work, exist_ok=True)
-        solve_references(programs, work)
-        flown(programs, bodies)
+        solve_references(programs, work, FOLDER, SCENES, SEEN)
+        fly(programs, bodies, FOLDER, SCENES | SEEN)
     write_tables("docs/test-falls.md", tables(), mark("test-falls"))
     return 0
 
