@@ -8,7 +8,6 @@
 BODIES as falls_report.py leaves it. Run from the project's folder.
 """
 
-import os
 import sys
 
 from falls_report import FALLS, SCENES, rows_of_falls, table_of_falls
@@ -27,7 +26,6 @@ def main(words):
         return 2
     if len(words) == 4:
         programs, bodies, work = words[1:]
-        os.makedirs(work, exist_ok=True)
         solve_references(programs, work, FOLDER, SCENES, cells_of=CELLS_OF)
         fly(programs, bodies, FOLDER, SCENES)
     tables = [table_of_references(FOLDER)] + [table_of_falls(rows_of_falls(noise, f"{FOLDER}/falls.csv")) for noise in ("off", "on")]

@@ -92,11 +92,14 @@ def peer(programs, scenes, who, coefficients, model="mujoco", falls=FALLS):
     return rows
 
 
-def by_mujoco(programs, folder, falls):
-    """MuJoCo's rows, with its defaults and with the best sets for all falls, for a shape and for a fall."""
+def by_mujoco(programs, folder, falls, scenes):
+    """MuJoCo's rows, with its defaults and with the best sets for all falls, for a shape and for a fall; the last two where
+    the falls are of the references' bodies."""
     search = searched(programs, folder)
-    rows = peer(programs, SCENES, DEFAULT, DEFAULT_COEFFICIENTS, falls=falls)
-    rows += peer(programs, SCENES, BEST, search["best"]["coefficients"], falls=falls)
+    rows = peer(programs, scenes, DEFAULT, DEFAULT_COEFFICIENTS, falls=falls)
+    rows += peer(programs, scenes, BEST, search["best"]["coefficients"], falls=falls)
+    if scenes is not SCENES:
+        return rows
     for found in search["best_by_shape"].values():
         rows += peer(programs, found["falls"], SHAPE, found["coefficients"], falls=falls)
     for scene in SCENES:
@@ -152,19 +155,11 @@ def by_surface(programs, falls, scenes):
                 for scene, body in scenes.items()]
 
 
-def flown(programs, folder, falls, scenes):
-    """The rows of all that is flown here on a set of falls; the sets that were found on the references do not know the test
-    falls' bodies."""
-    if falls == TEST:
-        search = searched(programs, folder)
-        rows = peer(programs, scenes, DEFAULT, DEFAULT_COEFFICIENTS, falls=falls)
-        rows += peer(programs, scenes, BEST, search["best"]["coefficients"], falls=falls)
-    else:
-        rows = by_mujoco(programs, folder, falls)
-    rows += by_other_falls(programs, folder, falls, scenes)
-    if falls != TEST:
-        rows += by_equations(programs, folder, falls)
-    return rows + by_surface(programs, falls, scenes)
+def fly(programs, folder, falls, scenes):
+    """The rows of all that is flown here on a set of falls; the equations' sets know the references' bodies alone."""
+    equations = by_equations(programs, folder, falls) if scenes is SCENES else []
+    return (by_mujoco(programs, folder, falls, scenes) + by_other_falls(programs, folder, falls, scenes) + equations
+            + by_surface(programs, falls, scenes))
 
 
 def percent(value):
@@ -261,7 +256,7 @@ def main(words):
         return 2
     folder, rows_of = words[-1], {}
     for name, (falls, scenes) in SETS.items():
-        rows_of[name] = flown(words[1], folder, falls, scenes) if len(words) == 3 else kept_rows(folder, name)
+        rows_of[name] = fly(words[1], folder, falls, scenes) if len(words) == 3 else kept_rows(folder, name)
         rows_of[name] += [row for who, noise in OURS.items() for row in reported(who, noise, falls, scenes)]
     write_report(folder, rows_of)
     return 0

@@ -66,6 +66,7 @@ def solve_references(programs, work, folder, names, seen=(), cells_of=None):
     heads = (["fall", "cells", "cpu_seconds", "balance_force", "balance_moment", "regime", "regime_coarse"] + list(FIGURES)
              + [f"{figure}_by_mesh" for figure in FIGURES])
     rows = {row["fall"]: [row[head] for head in heads] for row in rows_of_references(folder)}
+    os.makedirs(work, exist_ok=True)
     for name in names:
         if name in rows:
             continue
@@ -83,6 +84,7 @@ def solve_references(programs, work, folder, names, seen=(), cells_of=None):
 def fly(programs, bodies, folder, scenes):
     """Flies the scenes of a folder whose fall is solved with their bodies, and writes the rows of falls.csv there."""
     rows = []
+    os.makedirs(bodies, exist_ok=True)
     with tempfile.TemporaryDirectory() as work:
         solved_falls = {row["fall"] for row in rows_of_references(folder)}
         for noise in RUNS:
@@ -122,8 +124,6 @@ def main(words):
         return 2
     if len(words) == 4:
         programs, bodies, work = words[1:]
-        os.makedirs(bodies, exist_ok=True)
-        os.makedirs(work, exist_ok=True)
         solve_references(programs, work, FOLDER, SCENES, SEEN)
         fly(programs, bodies, FOLDER, SCENES | SEEN)
     write_tables("docs/test-falls.md", tables(), mark("test-falls"))
