@@ -13,6 +13,7 @@
 
 #include "internal/base/content_hash.hpp"
 #include "internal/body/look_image.hpp"
+#include "internal/body/unit_normal.hpp"
 #include "samara/base/error.hpp"
 
 namespace samara {
@@ -238,7 +239,7 @@ class GlbReader {
             const std::vector<float> values = floats(*normals, TINYGLTF_TYPE_VEC3, 3);
             for (std::size_t i = 0; i < values.size(); i += 3) {
                 const Vector3d normal = turn * Vector3d(values[i], values[i + 1], values[i + 2]);
-                look_.normals.push_back(normal.norm() > 0.0 ? z_up(normal.normalized()) : Vector3d::UnitZ());
+                look_.normals.push_back(unit_normal(z_up(normal)));
             }
         } else {
             has_normals_ = false;

@@ -15,6 +15,7 @@
 #include "internal/base/content_hash.hpp"
 #include "internal/body/look_image.hpp"
 #include "internal/body/polygon_triangles.hpp"
+#include "internal/body/unit_normal.hpp"
 #include "samara/base/error.hpp"
 
 namespace samara {
@@ -194,12 +195,9 @@ class ObjReader {
                                                 : texture_[index_of(texture, texture_.size(), "texture")]);
         const std::string_view normal = part(2);
         all_have_normals_ = all_have_normals_ && !normal.empty();
-        Vector3d direction = Vector3d::UnitZ();
-        if (!normal.empty()) {
-            const Vector3d& given = normals_[index_of(normal, normals_.size(), "normal")];
-            if (given.norm() > 0.0) direction = given.normalized();
-        }
-        look_.normals.push_back(direction);
+        look_.normals.push_back(
+            normal.empty() ? Vector3d::UnitZ()
+                           : unit_normal(normals_[index_of(normal, normals_.size(), "normal")]));
         return static_cast<std::int32_t>(look_.positions.size()) - 1;
     }
 

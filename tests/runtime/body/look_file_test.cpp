@@ -78,6 +78,18 @@ TEST(LookFile, KeepsTextureCoordinatesNormalsAndMaterialsOfAnObj) {
     for (const Vector3d& normal : look.normals) EXPECT_EQ(normal, Vector3d::UnitZ());
 }
 
+TEST(LookFile, TakesNormalsOfAnyLengthForTheirDirection) {
+    const TemporaryFolder folder;
+    for (const char* length : {"1e300", "1e308", "1e-300"}) {
+        const std::string normals = std::string("vn 0 ") + length + " " + length + "\n";
+        const LookMesh look = read_look_file(folder.file(
+            "leaf.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + normals + "vn 0 0 0\nf 1//1 2//1 3//2\n"));
+        ASSERT_EQ(look.normals.size(), 3U) << length;
+        EXPECT_LT((look.normals[0] - Vector3d(0.0, 1.0, 1.0).normalized()).norm(), 1e-12) << length;
+        EXPECT_EQ(look.normals[2], Vector3d::UnitZ()) << "what has no direction";
+    }
+}
+
 TEST(LookFile, CarriesTheImageThatLiesBesideAnObj) {
     const TemporaryFolder folder;
     const LookMesh look = painted(folder);
