@@ -292,18 +292,35 @@ std::vector<Segment> without_stretch(std::vector<Segment> segments, int stretch)
     return segments;
 }
 
+// From `problem.start`, with figures, the last of its residuals, that count next to nothing.
+VectorXd solution_of_segments(LeastSquaresProblem problem, Eigen::Index figures) {
+    problem.counts.tail(figures).setConstant(least_count);
+    return solve_least_squares(problem).x;
+}
+
+// Where the segments' solution moves as the figures count more and more, nearly as much as they do.
+VectorXd followed(LeastSquaresProblem problem, Eigen::Index figures, const VectorXd& of_segments) {
+    problem.start = of_segments;
+    for (double count = 10.0 * least_count; count < count_of_figure; count *= 10.0) {
+        problem.counts.tail(figures).setConstant(count);
+        problem.start = solve_least_squares(problem).x;
+    }
+    return problem.start;
+}
+
 // The whole flights' figures are rough functions of the coefficients, the segments' flights smooth ones: the
 // cost has many valleys, and in which of them one descent ends turns on the last digits of the falls. So it
-// is descended from several starts: the segments' solution, where that moves in a few iterations without one
-// of the stretches, and what is expected.
+// is descended from several starts: the segments' solution, where that moves as the figures count more and
+// more, where it moves in a few iterations without one of the stretches, and what is expected.
 std::vector<VectorXd> starts_of(const Body& body, const std::vector<ReadyFall>& falls,
                                 const std::vector<Segment>& segments, const MotionParameters& parameters) {
-    LeastSquaresProblem of_segments = problem_of(body, falls, segments, parameters);
-    of_segments.counts.tail(figures_of(falls)).setConstant(least_count);
-    std::vector<VectorXd> starts = {solve_least_squares(of_segments).x, parameters.expected()};
+    const LeastSquaresProblem whole = problem_of(body, falls, segments, parameters);
+    const VectorXd of_segments = solution_of_segments(whole, figures_of(falls));
+    std::vector<VectorXd> starts = {of_segments, parameters.expected(),
+                                    followed(whole, figures_of(falls), of_segments)};
     for (int stretch = 0; stretch < stretches; ++stretch) {
         LeastSquaresProblem without = problem_of(body, falls, without_stretch(segments, stretch), parameters);
-        without.start = starts.front();
+        without.start = of_segments;
         without.most_iterations = excursion;
         starts.push_back(solve_least_squares(without).x);
     }
@@ -312,7 +329,8 @@ std::vector<VectorXd> starts_of(const Body& body, const std::vector<ReadyFall>& 
 
 // They come from leaving out one stretch at a time (Efron & Tibshirani, An Introduction to the Bootstrap,
 // 1993, section 11.2), which knows nothing of the pull of what is expected: that is the same whatever is left
-// out.
+// out. Without a stretch the figures' valleys move too: a descent from the solution alone stays in its own,
+// and tells a third of the error that there is with noise in the falls.
 VectorXd standard_errors_of(const Body& body, const std::vector<ReadyFall>& falls,
                             const std::vector<Segment>& segments, const MotionParameters& parameters,
                             const VectorXd& solution, const std::optional<int>& left_out,
@@ -324,8 +342,10 @@ VectorXd standard_errors_of(const Body& body, const std::vector<ReadyFall>& fall
         if (stretch == left_out) continue;
         LeastSquaresProblem problem = problem_of(body, falls, without_stretch(segments, stretch), parameters);
         problem.start = solution;
+        const Eigen::Index figures = figures_of(falls);
+        const VectorXd moved = followed(problem, figures, solution_of_segments(problem, figures));
         problem.most_iterations = 8;
-        const VectorXd x = solve_least_squares(problem).x;
+        const VectorXd x = lowest_solution(problem, {solution, moved}).x;
         count += 1.0;
         sum += x;
         squares += x.cwiseAbs2();

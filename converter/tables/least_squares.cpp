@@ -129,7 +129,7 @@ LeastSquaresSolution lowest_solution(LeastSquaresProblem problem, const std::vec
         problem.start = starts[i];
         LeastSquaresSolution found = solve_least_squares(problem);
         if (i == 0 || found.cost < lowest.cost) lowest = std::move(found);
-        solved(static_cast<double>(i + 1) / static_cast<double>(starts.size()));
+        if (solved) solved(static_cast<double>(i + 1) / static_cast<double>(starts.size()));
     }
     return lowest;
 }

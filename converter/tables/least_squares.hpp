@@ -42,9 +42,9 @@ LeastSquaresSolution solve_least_squares(const LeastSquaresProblem& problem);
 
 /// The lowest of the solutions that are found from these starts, at least one, in place of the problem's own:
 /// of a cost with several valleys a descent finds the one it starts in. `solved` is told after each start the
-/// share that is done.
+/// share that is done, if it is given.
 LeastSquaresSolution lowest_solution(LeastSquaresProblem problem, const std::vector<Eigen::VectorXd>& starts,
-                                     const std::function<void(double)>& solved);
+                                     const std::function<void(double)>& solved = {});
 
 /// The standard errors that the solution x has since what is expected is itself known to its deviations
 /// alone: the deviation of a parameter that the residuals say nothing of, little of one that they determine,

@@ -102,12 +102,14 @@ def falls_of(body, cases, archives=KEPT):
 
 
 def baked(programs, folder, body):
-    """The baked body's file in the folder and its falls, separated by commas: those of docs/falls/bodies where it has none."""
+    """The baked body's file in the folder and its falls, separated by commas: where it has none those of docs/falls/bodies, or
+    the ready-baked one."""
     shape, options = BODIES[body]
-    file, kept = baked_file(folder, body), baked_file(KEPT, body)
+    file = baked_file(folder, body)
+    kept = [baked_file(place, body) for place in (KEPT, READY) if os.path.exists(baked_file(place, body))]
     cases = os.path.join(folder, f"{body}.cases")
-    if not os.path.exists(file) and os.path.exists(kept):
-        shutil.copyfile(kept, file)  # where other reports look for it
+    if not os.path.exists(file) and kept:
+        shutil.copyfile(kept[0], file)  # where other reports look for it
     elif not os.path.exists(file):
         run([f"{programs}/samara", "bake", shape, "-o", file, "--quality", "standard", "--json"] + options)
     return file, falls_of(body, cases)

@@ -156,6 +156,13 @@ void set_transport(const ImmersedBody& body, double mass, double length, FlightC
     c.coupling_transport = square<Real>(share / length * body.added_coupling);
 }
 
+/// What the rotational drag of falls, in the mean over the axes, lacks of the least about the way (m^4).
+Matrix3d lacking_roll_drag(const ImmersedBody& body) {
+    if (body.roll_drag.isZero(0.0)) return Matrix3d::Zero();
+    const double share = body.dynamic.rotational_drag.trace() / body.roll_drag.trace();
+    return std::max(0.0, 1.0 - share) * body.roll_drag;
+}
+
 template <class Real>
 void set_loads(const ImmersedBody& body, FlightConstants<Real>& c) {
     const double mass = static_cast<double>(c.mass_scale);
@@ -177,6 +184,9 @@ void set_loads(const ImmersedBody& body, FlightConstants<Real>& c) {
     c.has_spin = !dynamic.drag_in_spin.isZero(0.0) || !dynamic.rotational_drag_in_spin.isZero(0.0);
     c.drag_in_spin = symmetric<Real>(half_density * length / mass * dynamic.drag_in_spin);
     c.rotational_drag = symmetric<Real>(half_density / (mass * length) * dynamic.rotational_drag);
+    const Matrix3d lacking = lacking_roll_drag(body);
+    c.has_roll_drag = !lacking.isZero(0.0);
+    c.lacking_roll_drag = symmetric<Real>(half_density / (mass * length) * lacking);
     c.rotational_drag_in_spin =
         symmetric<Real>(half_density / (mass * length) * dynamic.rotational_drag_in_spin);
     set_transport(body, mass, length, c);

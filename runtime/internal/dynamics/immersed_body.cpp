@@ -130,6 +130,12 @@ DynamicCoefficients dynamic_coefficients_of(const Body& body, const BodyPhysics&
     return without_momentum(std::move(coefficients), physics);
 }
 
+/// ImmersedBody's.
+Matrix3d roll_drag_of(const Body& body, const BodyPhysics& physics) {
+    if (physics.loads != Loads::table || physics.dynamic == Dynamic::none) return Matrix3d::Zero();
+    return usual_rotational_drag * rotational_drag_tensor(body.surface, body.moments.centroid);
+}
+
 /// rho_f K_fluid; zero where the scene leaves it out.
 Matrix6d fluid_inertia_of(const Body& body, const BodyPhysics& physics, const Fluid& fluid,
                           const std::string& name) {
@@ -193,6 +199,7 @@ ImmersedBody make_immersed_body(const Body& body, const BodyPhysics& physics, co
         result.projected_areas = projected_areas(body.surface);
     }
     result.dynamic = dynamic_coefficients_of(body, physics);
+    result.roll_drag = roll_drag_of(body, physics);
     result.turbulence = physics.turbulence;
     result.turbulent_kinetic_energy = physics.turbulent_kinetic_energy;
     result.dissipation_rate = physics.dissipation_rate;
@@ -203,6 +210,7 @@ ImmersedBody make_immersed_body(const Body& body, const BodyPhysics& physics, co
         DividedSurface divided = tabled ? divided_surface(body, *result.tables, physics.patches)
                                         : divided_surface(body, physics.patches);
         result.dynamic = within_patches(std::move(result.dynamic), divided);
+        result.roll_drag = within_patches(result.roll_drag, divided);
         result.patches = std::move(divided.patches);
     }
     prepare(result);

@@ -52,6 +52,9 @@ struct ImmersedBody {
     std::vector<double> projected_areas;
     std::optional<LoadTables> tables;  ///< where loads or turbulence are from tables
     DynamicCoefficients dynamic;
+    /// m^4, body axes: what the rotational drag of `dynamic` is at least about the way (docs/theory, "Turning
+    /// about the way"); zero beside loads that know no such term.
+    Matrix3d roll_drag = Matrix3d::Zero();
     std::vector<TowPatch> patches{TowPatch()};  ///< of the surface; one stands for the whole
 
     Turbulence turbulence = Turbulence::none;

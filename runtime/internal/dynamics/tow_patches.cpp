@@ -161,11 +161,13 @@ DividedSurface divided_surface(const Body& body, const LoadTables& tables, int c
     return divided;
 }
 
+Matrix3d within_patches(const Matrix3d& rotational_drag, const DividedSurface& divided) {
+    return divided.turning_within * rotational_drag * divided.turning_within.transpose();
+}
+
 DynamicCoefficients within_patches(DynamicCoefficients coefficients, const DividedSurface& divided) {
-    const Matrix3d& left = divided.turning_within;
-    const auto within = [&](const Matrix3d& drag) { return Matrix3d(left * drag * left.transpose()); };
-    coefficients.rotational_drag = within(coefficients.rotational_drag);
-    coefficients.rotational_drag_in_spin = within(coefficients.rotational_drag_in_spin);
+    coefficients.rotational_drag = within_patches(coefficients.rotational_drag, divided);
+    coefficients.rotational_drag_in_spin = within_patches(coefficients.rotational_drag_in_spin, divided);
     coefficients.half_length *= divided.reach_within;
     return coefficients;
 }

@@ -34,6 +34,9 @@ DividedSurface divided_surface(const Body& body, int count);
 /// surface loads. Together the forces are the tables'; each has a drag.
 DividedSurface divided_surface(const Body& body, const LoadTables& tables, int count);
 
+/// A rotational drag (m^4) of which what turns within the patches is left.
+Matrix3d within_patches(const Matrix3d& rotational_drag, const DividedSurface& divided);
+
 /// The coefficients of a body in patches: of its turning they know what is left within the patches.
 DynamicCoefficients within_patches(DynamicCoefficients coefficients, const DividedSurface& divided);
 

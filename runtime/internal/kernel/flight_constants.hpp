@@ -84,6 +84,8 @@ struct FlightConstants {
     Square<Real> coupling_transport{};       ///< t rho_f C / (m* l)
     Square<Real> drag_in_motion{};           ///< rho_f l C_m A / (2 m*)
     Square<Real> rotational_drag{};          ///< rho_f C_w D / (2 m* l)
+    bool has_roll_drag = false;              ///< whether the next is asked for
+    Square<Real> lacking_roll_drag{};        ///< rho_f R / (2 m* l)
     bool has_side_pressure = false;          ///< whether the next is not zero: of a wake that fluctuates
     Square<Real> side_pressure{};            ///< wake_side_pressure S/A tow_factor, S the shadows (m^2)
     bool has_spin = false;                   ///< whether the next two are not zero

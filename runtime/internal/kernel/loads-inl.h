@@ -191,6 +191,15 @@ HWY_INLINE V share_of(V a, V b) {
     return a / larger(V(tiny<V>), a + b);
 }
 
+/// Adds what the rotational drag of falls lacks about the way (docs/theory, "Turning about the way").
+template <class V, class Real>
+HWY_INLINE void add_roll_drag(const FlightConstants<Real>& c, const Heading<V>& heading,
+                              LoadBlocks<V>& blocks) {
+    const Triple<V>& way = heading.direction;
+    const V lacking = dot(way, broadcast_symmetric<V>(c.lacking_roll_drag) * way);
+    blocks.moment_by_turning = blocks.moment_by_turning + outer((heading.speed * lacking) * way, way);
+}
+
 /// The part of D that acts on what the body does relative to the fluid. `omega` and `velocity`: its angular
 /// velocity and that of its centroid, relative to the fluid. `turning`: the angular velocity itself, by which
 /// the flow ceases to be that of a tow; what turbulence turns is in the table already. `share`: that of the
@@ -218,6 +227,7 @@ HWY_INLINE LoadBlocks<V> relative_load_blocks(const FlightConstants<Real>& c, co
         blocks.moment_by_turning + combined * broadcast_symmetric<V>(c.rotational_drag), V(c.creeping_turn));
     blocks.force_by_velocity = plus_diagonal(
         blocks.force_by_velocity + in_motion * broadcast_symmetric<V>(c.drag_in_motion), creeping_drag);
+    if (c.has_roll_drag) add_roll_drag(c, heading, blocks);
     if (c.has_spin) {
         const V in_spin = combined * share_of(tip_square, speed_square);
         blocks.moment_by_turning =

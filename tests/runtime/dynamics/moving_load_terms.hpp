@@ -45,6 +45,7 @@ inline ImmersedBody bare(ImmersedBody body, bool table) {
     const double half_length = body.dynamic.half_length;
     body.dynamic = {};
     body.dynamic.half_length = half_length;
+    body.roll_drag.setZero();
     if (!table) {
         body.loads = Loads::coefficients;
         body.coefficients.drag_coefficient = 0.0;

@@ -177,6 +177,7 @@ TEST(SeenFluid, ThatOnlyTurnsDoesNotPushABodyAside) {
     body.dynamic.rotational_drag.setZero();
     body.dynamic.rotational_drag_in_spin.setZero();
     body.dynamic.drag_in_spin.setZero();
+    body.roll_drag.setZero();
     body.viscosity = 1e-300;
     for (LoadEntry& entry : body.tables->entries) entry.force = entry.moment = Vector3d::Zero();
     prepare(body);
