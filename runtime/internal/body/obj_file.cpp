@@ -195,9 +195,9 @@ class ObjReader {
                                                 : texture_[index_of(texture, texture_.size(), "texture")]);
         const std::string_view normal = part(2);
         all_have_normals_ = all_have_normals_ && !normal.empty();
-        look_.normals.push_back(
-            normal.empty() ? Vector3d::UnitZ()
-                           : unit_normal(normals_[index_of(normal, normals_.size(), "normal")]));
+        look_.normals.push_back(normal.empty()
+                                    ? Vector3d::UnitZ()
+                                    : unit_normal(normals_[index_of(normal, normals_.size(), "normal")]));
         return static_cast<std::int32_t>(look_.positions.size()) - 1;
     }
 
