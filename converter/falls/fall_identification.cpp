@@ -1,6 +1,7 @@
 #include "converter/falls/fall_identification.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -38,7 +39,8 @@ constexpr double expected_miss = 0.1;        // as far as expectations weigh
 // coefficients are found").
 constexpr Eigen::Index figures_of_fall = fitted_figures.size();
 constexpr double count_of_figure = 40.0;
-constexpr double least_count = 1e-3;      // of them, to begin with
+constexpr double least_count = 1e-3;  // of them, to begin with
+constexpr std::array growing_counts = {1e-2, 0.1, 1.0, 10.0};
 constexpr double farthest_figure = 10.0;  // over those
 constexpr int stretches = identification_stretches;
 constexpr int least_segments = 2 * stretches;  // of each fall
@@ -301,7 +303,7 @@ VectorXd solution_of_segments(LeastSquaresProblem problem, Eigen::Index figures)
 // Where the segments' solution moves as the figures count more and more, nearly as much as they do.
 VectorXd followed(LeastSquaresProblem problem, Eigen::Index figures, const VectorXd& of_segments) {
     problem.start = of_segments;
-    for (double count = 10.0 * least_count; count < count_of_figure; count *= 10.0) {
+    for (const double count : growing_counts) {
         problem.counts.tail(figures).setConstant(count);
         problem.start = solve_least_squares(problem).x;
     }
