@@ -294,7 +294,7 @@ std::vector<Segment> without_stretch(std::vector<Segment> segments, int stretch)
     return segments;
 }
 
-// From `problem.start`, with figures, the last of its residuals, that count next to nothing.
+// Of the problem where the whole falls' `figures`, its last residuals, count next to nothing.
 VectorXd solution_of_segments(LeastSquaresProblem problem, Eigen::Index figures) {
     problem.counts.tail(figures).setConstant(least_count);
     return solve_least_squares(problem).x;
@@ -332,7 +332,7 @@ std::vector<VectorXd> starts_of(const Body& body, const std::vector<ReadyFall>& 
 // They come from leaving out one stretch at a time (Efron & Tibshirani, An Introduction to the Bootstrap,
 // 1993, section 11.2), which knows nothing of the pull of what is expected: that is the same whatever is left
 // out. Without a stretch the figures' valleys move too: a descent from the solution alone stays in its own,
-// and tells a third of the error that there is with noise in the falls.
+// and tells too small an error of falls with noise.
 VectorXd standard_errors_of(const Body& body, const std::vector<ReadyFall>& falls,
                             const std::vector<Segment>& segments, const MotionParameters& parameters,
                             const VectorXd& solution, const std::optional<int>& left_out,
