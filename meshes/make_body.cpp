@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -10,6 +11,7 @@
 #include "internal/body/curved_surface.hpp"
 #include "internal/body/surface_edges.hpp"
 #include "internal/body/welded_surface.hpp"
+#include "meshes/checks/shape_error.hpp"
 #include "meshes/checks/sound_surface.hpp"
 #include "meshes/checks/volume_moments.hpp"
 #include "meshes/reading/gmsh_session.hpp"
@@ -79,9 +81,15 @@ void mesh_triangles(Body& body, const std::filesystem::path& shape, const MeshOp
     const auto meshing = [&](double share) {
         tell(progress, triangles_checked + share * (triangles_meshed - triangles_checked));
     };
-    body.surface = options.sizing == MeshOptions::Sizing::keep
-                       ? in_order(original, options.order)
-                       : remesh(original, options, shape.string(), meshing);
+    if (options.sizing == MeshOptions::Sizing::keep) {
+        body.surface = in_order(original, options.order);
+        body.shape_error = shape_error(original, body.surface);
+        body.shape_error->faceting = original.order() == 1 ? smoothing_of(original).between : 0.0;
+    } else {
+        MeshedShape meshed = remesh(original, options, shape.string(), meshing);
+        body.surface = std::move(meshed.surface);
+        body.shape_error = meshed.error;
+    }
     body.moments = volume_moments(body.surface);
     // New triangles lie on the facets of the old ones and cut their corners.
     const double tolerance =
@@ -95,8 +103,10 @@ void mesh_exact_geometry(Body& body, const std::filesystem::path& shape, const M
         throw Error(
             fmt::format("{}: geometry is turned outwards by itself; leave --flip out", shape.string()));
     }
-    body.surface =
+    MeshedShape meshed =
         mesh_geometry(shape, options, [&](double share) { tell(progress, geometry_meshed * share); });
+    body.surface = std::move(meshed.surface);
+    body.shape_error = meshed.error;
     body.moments = volume_moments(body.surface);
     body.symmetry = find_symmetry(body.surface, body.moments);
 }

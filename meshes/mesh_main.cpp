@@ -111,6 +111,7 @@ int main(int argc, char** argv) {
     return samara::run_program(argc, argv, arguments, [&] {
         const auto start = std::chrono::steady_clock::now();
         options.sizing = sizing_of(arguments, keep);
+        options.as_many_as_needed = !arguments.given("--triangles") && !arguments.given("--size");
         options.order = order == "automatic" ? samara::automatic_order : std::stoi(order);
         if (!samara::is_body_file_name(output)) {
             throw samara::Error(fmt::format("{}: the name of a body file ends in .body.h5", output));

@@ -50,6 +50,10 @@ class TriangleFans {
         return around_.data() + first_around_[v + 1];
     }
 
+    /// Whether so many triangles meet at v, as in the middle of a fan, that trying to draw it somewhere takes
+    /// long.
+    [[nodiscard]] bool is_hub(std::size_t v) const { return end_around(v) - begin_around(v) > 32; }
+
     [[nodiscard]] bool is_locked(std::int32_t v) const { return locked_[static_cast<std::size_t>(v)]; }
     void lock(std::int32_t v) { locked_[static_cast<std::size_t>(v)] = true; }
 

@@ -1,6 +1,7 @@
 #include "meshes/checks/triangle_tree.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -9,6 +10,9 @@ namespace {
 
 constexpr std::uint32_t triangles_of_a_leaf = 4;
 constexpr std::size_t deepest_stack = 128;  // the tree halves at each level: 2^32 triangles need 32
+// Long triangles, aslant in a box, have one box for each piece of them.
+constexpr std::size_t most_pieces = 32;
+constexpr std::size_t pieces_of_all = 4'000'000;
 
 }  // namespace
 
@@ -41,11 +45,63 @@ Vector3d closest_point_of_triangle(const Vector3d& p, const Vector3d& a, const V
 }
 
 TriangleTree::TriangleTree(std::vector<Vector3d> vertices, std::vector<Triangle> triangles)
-    : vertices_(std::move(vertices)), triangles_(std::move(triangles)), order_(triangles_.size()) {
-    std::iota(order_.begin(), order_.end(), 0U);
-    std::vector<Vector3d> centres(triangles_.size());
-    for (std::size_t t = 0; t < triangles_.size(); ++t) centres[t] = box_of(t).center();
-    if (!triangles_.empty()) build(0, static_cast<std::uint32_t>(triangles_.size()), centres);
+    : vertices_(std::move(vertices)), triangles_(std::move(triangles)) {
+    std::vector<Box> boxes;
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+        add_pieces(t, boxes);
+        order_.resize(boxes.size(), static_cast<std::uint32_t>(t));
+    }
+    std::vector<std::uint32_t> pieces(boxes.size());
+    std::iota(pieces.begin(), pieces.end(), 0U);
+    if (!pieces.empty()) build(0, static_cast<std::uint32_t>(pieces.size()), boxes, pieces);
+    for (std::uint32_t& piece : pieces) piece = order_[piece];
+    order_ = std::move(pieces);
+}
+
+void TriangleTree::add_pieces(std::size_t triangle, std::vector<Box>& boxes) const {
+    const std::size_t most = std::min<std::size_t>(most_pieces, 1 + pieces_of_all / triangles_.size());
+    // Longest edge from a to b, with c across.
+    int from = 0;
+    double longest = 0.0;
+    for (int i = 0; i < 3; ++i) {
+        const double square = (corner(triangle, (i + 1) % 3) - corner(triangle, i)).squaredNorm();
+        if (square <= longest) continue;
+        longest = square;
+        from = i;
+    }
+    const Vector3d& a = corner(triangle, from);
+    const Vector3d& b = corner(triangle, (from + 1) % 3);
+    const Vector3d& c = corner(triangle, (from + 2) % 3);
+    const double area = (b - a).cross(c - a).norm();
+    const double slenderness = longest / (2.0 * area);  // 0.6: equilateral
+    const std::size_t count =
+        area > 0.0 && slenderness > 1.0
+            ? static_cast<std::size_t>(std::min(2.0 * std::sqrt(slenderness), static_cast<double>(most)))
+            : 1;
+    if (count <= 1) {
+        boxes.push_back(box_of(triangle));
+        return;
+    }
+    // Slabs across the longest edge: between two of them the triangle reaches from that edge to the other
+    // two.
+    const double place_of_c = (c - a).dot(b - a) / longest;
+    const auto across = [&](double place) -> Vector3d {
+        return place <= place_of_c && place_of_c > 0.0
+                   ? Vector3d(a + place / place_of_c * (c - a))
+                   : Vector3d(b + (1.0 - place) / (1.0 - place_of_c) * (c - b));
+    };
+    for (std::size_t i = 0; i < count; ++i) {
+        const double begin = static_cast<double>(i) / static_cast<double>(count);
+        const double end = static_cast<double>(i + 1) / static_cast<double>(count);
+        Box box(a + begin * (b - a));
+        box.extend(a + end * (b - a));
+        box.extend(across(begin));
+        box.extend(across(end));
+        if (begin <= place_of_c && place_of_c <= end) box.extend(c);
+        // Rounding may not leave a part of the triangle outside.
+        const Vector3d margin = Vector3d::Constant(1e-12 * std::sqrt(longest));
+        boxes.emplace_back(box.min() - margin, box.max() + margin);
+    }
 }
 
 TriangleTree::Box TriangleTree::box_of(std::size_t triangle) const {
@@ -55,14 +111,15 @@ TriangleTree::Box TriangleTree::box_of(std::size_t triangle) const {
     return box;
 }
 
-void TriangleTree::build(std::uint32_t first, std::uint32_t count, const std::vector<Vector3d>& centres) {
+void TriangleTree::build(std::uint32_t first, std::uint32_t count, const std::vector<Box>& boxes,
+                         std::vector<std::uint32_t>& pieces) {
     const std::size_t self = nodes_.size();
     nodes_.emplace_back();
     Box box;
     Box box_of_centres;
     for (std::uint32_t i = first; i < first + count; ++i) {
-        box.extend(box_of(order_[i]));
-        box_of_centres.extend(centres[order_[i]]);
+        box.extend(boxes[pieces[i]]);
+        box_of_centres.extend(boxes[pieces[i]].center());
     }
     nodes_[self].box = box;
     nodes_[self].first = first;
@@ -73,13 +130,16 @@ void TriangleTree::build(std::uint32_t first, std::uint32_t count, const std::ve
     Eigen::Index axis = 0;
     box_of_centres.sizes().maxCoeff(&axis);
     const std::uint32_t half = count / 2;
-    const auto begin = order_.begin() + first;
+    const auto begin = pieces.begin() + first;
+    const auto place = [&](std::uint32_t piece) {
+        return boxes[piece].min()[axis] + boxes[piece].max()[axis];
+    };
     std::nth_element(begin, begin + half, begin + count, [&](std::uint32_t a, std::uint32_t b) {
-        return std::pair(centres[a][axis], a) < std::pair(centres[b][axis], b);
+        return std::pair(place(a), a) < std::pair(place(b), b);
     });
-    build(first, half, centres);
+    build(first, half, boxes, pieces);
     nodes_[self].right = static_cast<std::uint32_t>(nodes_.size());
-    build(first + half, count - half, centres);
+    build(first + half, count - half, boxes, pieces);
 }
 
 TriangleTree::Nearest TriangleTree::search(const Vector3d& p, double bound, double good_enough) const {

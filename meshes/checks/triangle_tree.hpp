@@ -39,7 +39,8 @@ class TriangleTree {
     /// Whether the surface has a point within `bound` of p: stops at the first one it finds.
     [[nodiscard]] bool is_within(const Vector3d& p, double bound) const;
 
-    /// Calls `visit` with each triangle whose box meets `box`, until `visit` returns false.
+    /// Calls `visit` with each triangle whose box meets `box`, with a long one maybe more than once, until
+    /// `visit` returns false.
     void visit_overlaps(const Box& box, const std::function<bool(std::size_t)>& visit) const;
 
     [[nodiscard]] const std::vector<Vector3d>& vertices() const { return vertices_; }
@@ -53,17 +54,19 @@ class TriangleTree {
   private:
     struct Node {
         Box box;
-        std::uint32_t first = 0;  // of its triangles in order_
+        std::uint32_t first = 0;  // of its pieces in order_
         std::uint32_t count = 0;  // 0: an inner node
         std::uint32_t right = 0;  // an inner node's second child; the first follows the node itself
     };
 
-    void build(std::uint32_t first, std::uint32_t count, const std::vector<Vector3d>& centres);
+    void add_pieces(std::size_t triangle, std::vector<Box>& boxes) const;
+    void build(std::uint32_t first, std::uint32_t count, const std::vector<Box>& boxes,
+               std::vector<std::uint32_t>& pieces);
     [[nodiscard]] Nearest search(const Vector3d& p, double bound, double good_enough) const;
 
     std::vector<Vector3d> vertices_;
     std::vector<Triangle> triangles_;
-    std::vector<std::uint32_t> order_;
+    std::vector<std::uint32_t> order_;  // the triangle of each piece
     std::vector<Node> nodes_;
 };
 

@@ -18,7 +18,7 @@
 namespace samara {
 namespace {
 
-// A message is a share of the work or, the last one, the surface: the lists one after the other, each
+// A message is a share of the work or, of the last ones, a surface: the lists one after the other, each
 // with its length.
 constexpr char share_tag = 'p';
 constexpr char surface_tag = 's';
@@ -60,9 +60,10 @@ Surface unpacked(std::string_view bytes, const std::string& label) {
 
 }  // namespace
 
-Surface confined_surface(const std::filesystem::path& shape, double time_limit,
-                         const std::function<Surface(const std::function<void(double)>& progress)>& read,
-                         const std::function<void(double)>& progress) {
+std::vector<Surface> confined_surfaces(
+    const std::filesystem::path& shape, std::size_t count, double time_limit,
+    const std::function<std::vector<Surface>(const std::function<void(double)>& progress)>& read,
+    const std::function<void(double)>& progress) {
     ConfinedLimits limits;
     limits.cpu_seconds = time_limit;
     // Of the name and, where that is a link, of the file.
@@ -70,30 +71,46 @@ Surface confined_surface(const std::filesystem::path& shape, double time_limit,
          {std::filesystem::absolute(shape), std::filesystem::canonical(shape)}) {
         limits.readable.push_back(file.parent_path());
     }
-    Surface surface;
+    std::vector<Surface> surfaces;
     run_confined(
         shape.string(), limits,
         [&](const SendBytes& send) {
-            const Surface result = read([&](double share) {
+            const std::vector<Surface> results = read([&](double share) {
                 std::string bytes(1, share_tag);
                 send(bytes.append(reinterpret_cast<const char*>(&share), sizeof share));
             });
-            std::string bytes(1, surface_tag);
-            append(bytes, result.vertices);
-            append(bytes, result.corners);
-            append(bytes, result.edge_nodes);
-            send(bytes);
+            for (const Surface& result : results) {
+                std::string bytes(1, surface_tag);
+                append(bytes, result.vertices);
+                append(bytes, result.corners);
+                append(bytes, result.edge_nodes);
+                send(bytes);
+            }
         },
         [&](std::string_view bytes) {
             double share = 0.0;
-            if (bytes.starts_with(surface_tag)) {
-                surface = unpacked(bytes.substr(1), shape.string());
+            if (bytes.starts_with(surface_tag) && surfaces.size() < count) {
+                surfaces.push_back(unpacked(bytes.substr(1), shape.string()));
             } else if (progress && bytes.size() == 1 + sizeof share) {
                 std::memcpy(&share, bytes.data() + 1, sizeof share);
                 progress(share);
             }
         });
-    return surface;
+    if (surfaces.size() != count) {
+        throw Error(
+            fmt::format("{}: its surface came damaged from the process that reads it", shape.string()));
+    }
+    return surfaces;
+}
+
+Surface confined_surface(const std::filesystem::path& shape, double time_limit,
+                         const std::function<Surface(const std::function<void(double)>& progress)>& read,
+                         const std::function<void(double)>& progress) {
+    return confined_surfaces(
+               shape, 1, time_limit,
+               [&](const std::function<void(double)>& tell) { return std::vector<Surface>{read(tell)}; },
+               progress)
+        .front();
 }
 
 }  // namespace samara

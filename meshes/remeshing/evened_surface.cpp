@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -21,6 +22,7 @@ constexpr double shortest = 4.0 / 5.0;  // shorter ones are drawn together
 constexpr double least_cosine = 0.3;    // between a triangle's normals before and after a change
 constexpr double least_quality = 0.15;  // 1: equilateral
 constexpr double good_count = 0.03;     // relative: nearer to the wanted count needs no further round
+constexpr double coarsest = 1.2;        // over the size by which the count would be met without edges
 constexpr int least_rounds = 8;
 constexpr int most_rounds = 24;
 constexpr int most_passes = 12;
@@ -38,21 +40,23 @@ class Evening {
         refresh();
     }
 
-    void scale_size(double factor) { size_ *= factor; }
+    // Up to `most`: triangles that follow edges and rims count too, and must not use up those of the rest.
+    void scale_size(double factor, double most) { size_ = std::min(size_ * factor, most); }
     [[nodiscard]] std::size_t triangle_count() const { return fans_.triangles.size(); }
 
-    // Splits sides that do not touch; whether there were any.
+    // Splits sides of different triangles; whether there were any.
     bool split_long_sides() {
         std::vector<std::pair<double, std::size_t>> order;
         for (std::size_t e = 0; e < edges_.size(); ++e) {
             if (edges_[e].ratio > longest) order.emplace_back(-edges_[e].ratio, e);
         }
         std::sort(order.begin(), order.end());
+        std::vector<bool> split(fans_.triangles.size(), false);
         for (const auto& [ratio, e] : order) {
             const Edge& edge = edges_[e];
-            if (is_locked(edge)) continue;
+            if (split[as_index(edge.triangles[0])] || split[as_index(edge.triangles[1])]) continue;
             const auto middle = static_cast<std::int32_t>(fans_.vertices.size());
-            fans_.vertices.push_back(middle_of(edge));
+            fans_.vertices.push_back(middle_for_split(edge));
             sizes_.push_back(0.5 * (sizes_[as_index(edge.a)] + sizes_[as_index(edge.b)]));
             for (std::size_t i = 0; i < 2; ++i) {
                 TriangleFans::Triangle& one = fans_.triangles[as_index(edge.triangles[i])];
@@ -60,8 +64,8 @@ class Evening {
                 one[as_index(edge.sides[i] + 1) % 3] = middle;
                 two[as_index(edge.sides[i])] = middle;
                 fans_.triangles.push_back(two);
+                split[as_index(edge.triangles[i])] = true;
             }
-            lock_around(edge);
         }
         refresh();
         return !order.empty();
@@ -142,8 +146,16 @@ class Evening {
     };
 
     void measure_sizes() {
+        constexpr double moved = 0.05;  // over the wanted length: the size hardly changes
+        const std::size_t known = measured_at_.size();
         sizes_.resize(fans_.vertices.size());
-        for (std::size_t v = 0; v < sizes_.size(); ++v) sizes_[v] = field_(fans_.vertices[v]);
+        measured_at_.resize(fans_.vertices.size());
+        for (std::size_t v = 0; v < sizes_.size(); ++v) {
+            const Vector3d& place = fans_.vertices[v];
+            if (v < known && (place - measured_at_[v]).norm() < moved * size_ * sizes_[v]) continue;
+            sizes_[v] = field_(place);
+            measured_at_[v] = place;
+        }
     }
 
     void refresh() {
@@ -196,6 +208,25 @@ class Evening {
         return place && (*place - middle).norm() < most_bent * along.norm() ? *place : middle;
     }
 
+    // The middle on the shape, unless a half of a triangle would turn over: then that of the straight edge.
+    [[nodiscard]] Vector3d middle_for_split(const Edge& edge) const {
+        const Vector3d middle = middle_of(edge);
+        for (std::size_t i = 0; i < 2; ++i) {
+            const TriangleFans::Triangle& triangle = fans_.triangles[as_index(edge.triangles[i])];
+            const Vector3d before = fans_.area_vector_of(triangle);
+            const Vector3d& start = fans_.vertex(triangle[as_index(edge.sides[i])]);
+            const Vector3d& end = fans_.vertex(triangle[as_index(edge.sides[i] + 1) % 3]);
+            const Vector3d& across = fans_.vertex(triangle[as_index(edge.sides[i] + 2) % 3]);
+            for (const Vector3d& after : {Vector3d((middle - start).cross(across - start)),
+                                          Vector3d((end - middle).cross(across - middle))}) {
+                if (!(before.dot(after) > least_cosine * before.norm() * after.norm())) {
+                    return 0.5 * (fans_.vertex(edge.a) + fans_.vertex(edge.b));
+                }
+            }
+        }
+        return middle;
+    }
+
     // On a crease that runs on through the vertex.
     [[nodiscard]] bool is_along_crease(std::size_t v) const {
         const CreaseEnds& ends = creases_[v];
@@ -207,6 +238,7 @@ class Evening {
 
     [[nodiscard]] bool can_draw(const Edge& edge, std::int32_t v, std::int32_t target) {
         const std::size_t from = as_index(v);
+        if (fans_.is_hub(from)) return false;
         if (creases_[from].count > 0 && (!edge.crease || !is_along_crease(from))) return false;
         fans_.gather_ring(from, ring_);
         fans_.gather_ring(as_index(target), other_);
@@ -328,6 +360,7 @@ class Evening {
     double size_;
     double crease_cosine_;
     std::vector<double> sizes_;  // relative, at each vertex
+    std::vector<Vector3d> measured_at_;
     std::vector<Edge> edges_;
     std::vector<CreaseEnds> creases_;
     std::vector<std::int32_t> ring_;
@@ -341,12 +374,14 @@ Surface evened(const Surface& start, const SmoothShape& shape, const MeshSizeFie
     const bool by_count = options.sizing == MeshOptions::Sizing::triangles;
     const double size =
         by_count ? std::sqrt(1.1 * field.triangle_count(1.0) / options.triangles) : options.size;
+    const double most_size =
+        options.as_many_as_needed ? coarsest * size : std::numeric_limits<double>::infinity();
     Evening evening(start, shape, field, size, crease_angle);
     for (int round = 0; round < most_rounds; ++round) {
         const double ratio = static_cast<double>(evening.triangle_count()) / options.triangles;
         const bool good = !by_count || std::abs(ratio - 1.0) < good_count;
         if (round >= least_rounds && good) break;
-        if (by_count && round >= 2) evening.scale_size(std::pow(ratio, round < 8 ? 0.5 : 0.25));
+        if (by_count && round >= 2) evening.scale_size(std::pow(ratio, round < 8 ? 0.5 : 0.25), most_size);
         for (int pass = 0; pass < most_passes && evening.split_long_sides(); ++pass) {
         }
         for (int pass = 0; pass < most_passes && evening.draw_short_sides_together(); ++pass) {

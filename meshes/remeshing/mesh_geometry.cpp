@@ -1,7 +1,9 @@
 #include "meshes/remeshing/mesh_geometry.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -10,6 +12,7 @@
 #include "internal/base/content_hash.hpp"
 #include "internal/base/labelled.hpp"
 #include "internal/body/curved_surface.hpp"
+#include "meshes/checks/shape_error.hpp"
 #include "meshes/checks/sound_surface.hpp"
 #include "meshes/reading/confined_surface.hpp"
 #include "meshes/reading/gmsh_session.hpp"
@@ -23,6 +26,9 @@ namespace samara {
 namespace {
 
 using ProgressCall = std::function<void(double)>;
+
+// Asked for a number or a size of triangles, a mesh is no longer the shape from here on: 15 % of the volume.
+constexpr double most_missed_where_asked = 30.0;
 
 // Tags of the surfaces between matter and fluid.
 std::vector<int> outer_surfaces(const std::string& label) {
@@ -45,22 +51,37 @@ std::vector<int> outer_surfaces(const std::string& label) {
     return tags;
 }
 
-// What the sizes are measured on: fine enough to see curvature, coarse enough to be quick.
-Surface reference_of_geometry(const std::string& label, const std::vector<int>& tags) {
+// Fine enough to see curvature, coarse enough to be quick, with `across` triangles across the body: what
+// sizes are measured on.
+Surface reference_of_geometry(const std::string& label, const std::vector<int>& tags, double finest) {
     double low[3];
     double high[3];
     gmsh::model::getBoundingBox(-1, -1, low[0], low[1], low[2], high[0], high[1], high[2]);
     const double diagonal = std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
     gmsh::option::setNumber("Mesh.MeshSizeMax", diagonal / 25);
-    gmsh::option::setNumber("Mesh.MeshSizeMin", diagonal / 1000);
+    gmsh::option::setNumber("Mesh.MeshSizeMin", diagonal / finest);
     gmsh::option::setNumber("Mesh.MeshSizeFromCurvature", 24);
     Surface reference = generated(label, tags);
     forget_sizes_of_file();
     return reference;
 }
 
-Surface meshed_by_gmsh(const std::string& label, ShapeFormat format, const MeshOptions& options,
-                       const ProgressCall& tell) {
+// The mesh that gmsh holds, of the order that is asked for; curved triangles that turn over are made
+// straight.
+Surface held_in_order(const std::string& label, const std::vector<int>& tags, int order) {
+    Surface surface = mesh_held(label, tags, order == 1 ? 1 : 2);
+    if (order == automatic_order) straighten_overturned(surface);
+    const bool flat = order == 1 || (order == automatic_order && has_straight_edges(surface));
+    return flat && surface.order() == 2 ? without_edge_nodes(surface) : surface;
+}
+
+// The mesh, and the finer one of order 2 that it was held against.
+std::vector<Surface> meshed_by_gmsh(const std::string& label, ShapeFormat format, const MeshOptions& options,
+                                    const ProgressCall& tell) {
+    constexpr double finest = 1000.0;  // triangles across the body
+    constexpr int most_times_finer = 8;
+    constexpr double equilateral_ones = 1.0 / 1.17;
+    constexpr double most_needed = 20000.0;
     const GmshSession session;
     gmsh::option::setString("Geometry.OCCTargetUnit", "M");
     if (format == ShapeFormat::script) {
@@ -69,40 +90,66 @@ Surface meshed_by_gmsh(const std::string& label, ShapeFormat format, const MeshO
         GmshSession::import_shapes(label, format == ShapeFormat::step ? "step" : "brep");
     }
     Surface surface;
+    Surface shape;
     GmshSession::run(label, "gmsh cannot mesh it", [&] {
         const std::vector<int> tags = outer_surfaces(label);
         if (options.sizing == MeshOptions::Sizing::keep) {
             GmshSession::generate_surface_mesh();
-        } else {
-            forget_sizes_of_file();
-            const Surface reference = reference_of_geometry(label, tags);
-            labelled(label, [&] { require_sound_surface(reference); });
-            tell(0.2);
-            mesh_model(MeshSizeField(reference), options, options.size / options.scale, tags);
+            surface = held_in_order(label, tags, options.order);
+            tell(0.4);
         }
-        tell(0.8);
-        surface = mesh_held(label, tags, options.order == 1 ? 1 : 2);
+        forget_sizes_of_file();
+        const Surface reference = reference_of_geometry(label, tags, finest);
+        labelled(label, [&] { require_sound_surface(reference); });
+        shape = mesh_held(label, tags, 2);
+        straighten_overturned(shape);
+        tell(0.5);
+        if (options.sizing == MeshOptions::Sizing::keep) return;
+        const MeshSizeField field(reference);
+        MeshOptions sizes = options;
+        sizes.size /= options.scale;
+        if (options.as_many_as_needed) {
+            // gmsh takes long, so that the number that the curvature needs is asked for at once.
+            const double needed = equilateral_ones * field.triangle_count(field.size_for_curvature());
+            sizes.triangles = static_cast<int>(std::clamp(needed, 1.0 * options.triangles, most_needed));
+        }
+        for (int finer = 1; finer <= most_times_finer; finer *= 2) {
+            mesh_model(field, sizes, sizes.size, tags);
+            surface = held_in_order(label, tags, options.order);
+            tell(0.5 + 0.5 * finer / most_times_finer);
+            if (!options.as_many_as_needed || miss_of(shape_error(shape, surface)) <= 1.0) break;
+            sizes.triangles *= 2;
+        }
     });
-    return surface;
+    return {std::move(surface), std::move(shape)};
 }
 
 }  // namespace
 
-Surface mesh_geometry(const std::filesystem::path& file, const MeshOptions& options,
-                      const ProgressCall& progress) {
+MeshedShape mesh_geometry(const std::filesystem::path& file, const MeshOptions& options,
+                          const ProgressCall& progress) {
     const std::string label = file.string();
     const ShapeFormat format = shape_format(file);
     require_beginning(file, format);
     if (format == ShapeFormat::script) require_shape_script(read_bytes(file), label);
-    Surface surface = confined_surface(
-        file, options.time_limit,
+    std::vector<Surface> surfaces = confined_surfaces(
+        file, 2, options.time_limit,
         [&](const ProgressCall& tell) { return meshed_by_gmsh(label, format, options, tell); }, progress);
-    if (options.order == automatic_order) straighten_overturned(surface);
-    const bool flat = options.order == 1 || (options.order == automatic_order && has_straight_edges(surface));
-    if (flat && surface.order() == 2) surface = without_edge_nodes(surface);
-    labelled(label, [&] { require_sound_surface(surface); });
-    for (Vector3d& vertex : surface.vertices) vertex *= options.scale;
-    return surface;
+    MeshedShape meshed{std::move(surfaces.front()), {}};
+    labelled(label, [&] { require_sound_surface(meshed.surface); });
+    for (Surface* const surface : {&meshed.surface, &surfaces.back()}) {
+        for (Vector3d& vertex : surface->vertices) vertex *= options.scale;
+    }
+    meshed.error = shape_error(surfaces.back(), meshed.surface);
+    const bool asked = !options.as_many_as_needed || options.sizing == MeshOptions::Sizing::keep;
+    if (miss_of(meshed.error) > (asked ? most_missed_where_asked : 1.0)) {
+        throw Error(
+            fmt::format("{}: its mesh of {} triangles has another volume by {:.2g} % and another surface by "
+                        "{:.2g} % of its size; use more triangles, such as --triangles {}",
+                        label, meshed.surface.triangle_count(), 100.0 * meshed.error.volume,
+                        100.0 * meshed.error.distance, 4 * meshed.surface.triangle_count()));
+    }
+    return meshed;
 }
 
 }  // namespace samara

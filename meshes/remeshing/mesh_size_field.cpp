@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <queue>
 #include <span>
 #include <utility>
@@ -85,6 +86,8 @@ class Curvature {
         return eigenvalues_of(tensor).cwiseAbs().maxCoeff() / area;
     }
 
+    [[nodiscard]] double area(std::size_t vertex) const { return areas_[vertex]; }
+
     // Lowers values so that they differ by at most `slope` times the distance along the surface's edges:
     // Dijkstra.
     void spread(std::vector<double>& values, double slope) const {
@@ -128,24 +131,43 @@ class Curvature {
     std::vector<std::vector<std::pair<std::size_t, double>>> neighbours_;
 };
 
-std::vector<double> sizes_by_curvature(const Surface& surface, double reach) {
-    const Curvature curvature(surface);
-    std::vector<double> sizes(surface.vertices.size());
-    for (std::size_t i = 0; i < sizes.size(); ++i) {
-        const double bent = std::max(1.0, curvature.strongest(i) * reach);
-        sizes[i] = std::max(smallest, std::pow(bent, -curvature_power));
-    }
-    curvature.spread(sizes, steepest / reach);
-    return sizes;
-}
-
 }  // namespace
 
 MeshSizeField::MeshSizeField(const Surface& reference)
     : reach_(reach_of(reference)),
       tree_(reference.vertices, reference.corners),
-      edges_(reference.vertices, sharp_edges(reference)),
-      by_curvature_(sizes_by_curvature(reference, reach_)) {}
+      edges_(reference.vertices, sharp_edges(reference)) {
+    const Curvature curvature(reference);
+    for (std::size_t i = 0; i < reference.vertices.size(); ++i) {
+        const double strongest = curvature.strongest(i);
+        radii_.push_back(1.0 / strongest);
+        areas_.push_back(curvature.area(i));
+        const double bent = std::max(1.0, strongest * reach_);
+        by_curvature_.push_back(std::max(smallest, std::pow(bent, -curvature_power)));
+    }
+    curvature.spread(by_curvature_, steepest / reach_);
+}
+
+double MeshSizeField::size_for_curvature() const {
+    constexpr double side = 0.9;                   // over the radius
+    constexpr double smallest_radius = 0.01;       // over the reach
+    constexpr double left_out = 0.02;              // of the area
+    std::vector<std::pair<double, double>> sizes;  // with the area at each
+    double whole = 0.0;
+    for (std::size_t i = 0; i < radii_.size(); ++i) {
+        whole += areas_[i];
+        if (radii_[i] < smallest_radius * reach_) continue;
+        const double relative = std::min(by_curvature_[i], by_edges(tree_.vertices()[i]));
+        sizes.emplace_back(side * radii_[i] / relative, areas_[i]);
+    }
+    std::sort(sizes.begin(), sizes.end());
+    double below = 0.0;
+    for (const auto& [size, area] : sizes) {
+        below += area;
+        if (below > left_out * whole) return size;
+    }
+    return std::numeric_limits<double>::infinity();
+}
 
 double MeshSizeField::by_edges(const Vector3d& point) const {
     const TriangleTree::Nearest nearest = edges_.nearest(point, edge_reach * reach_);

@@ -24,12 +24,19 @@ class MeshSizeField {
     /// sides of the length `size` (m).
     [[nodiscard]] double triangle_count(double size) const;
 
+    /// The size (m) with which sides are no longer than 0.9 times the least radius of curvature on all but 2
+    /// % of the surface: quadratic triangles then follow it. Radii below a hundredth of the reach are left
+    /// out.
+    [[nodiscard]] double size_for_curvature() const;
+
   private:
     [[nodiscard]] double by_edges(const Vector3d& point) const;
 
     double reach_;
     TriangleTree tree_;
-    TriangleTree edges_;                // triangles without width
+    TriangleTree edges_;         // triangles without width
+    std::vector<double> radii_;  // the least radius of curvature (m) at each vertex, and the area there
+    std::vector<double> areas_;
     std::vector<double> by_curvature_;  // at each vertex
 };
 

@@ -160,7 +160,7 @@ class Reduction {
     // The neighbour that v is drawn into at the least cost.
     void choose_target(std::size_t v, Ring& ring, Ring& other) {
         fans_.gather_ring(v, ring);
-        if (ring.empty()) return;
+        if (ring.empty() || fans_.is_hub(v)) return;
         const Sharpness sharpness = sharpness_at(v);
         if (sharpness.edges != 0 && sharpness.edges != 2) return;
         const double least = std::min(least_quality, 0.5 * fans_.worst_quality(v));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "internal/body/curved_surface.hpp"
 #include "internal/body/surface_edges.hpp"
 #include "internal/body/welded_surface.hpp"
+#include "meshes/checks/shape_error.hpp"
 #include "meshes/checks/sound_surface.hpp"
 #include "meshes/checks/triangle_tree.hpp"
 #include "meshes/checks/volume_moments.hpp"
@@ -28,27 +30,13 @@
 namespace samara {
 namespace {
 
-// What a reduced surface may lose, before the new vertices are drawn back onto the shape.
-constexpr double most_volume_lost = 0.01;
-constexpr double most_distance = 0.01;  // over the body's extent
-
-// The relative change of the volume: coarse chords lose some of a curved body, a lost crease or part more.
-double volume_change(const Surface& before, const Surface& after) {
-    const double volume = volume_moments(before).volume;
-    return std::abs(volume_moments(after).volume - volume) / volume;
-}
-
-// The greatest distance of the vertices, or of some 20,000 of them, from the other surface.
-double distance_between(const Surface& original, const Surface& other) {
-    constexpr std::size_t most_points = 20000;
-    const TriangleTree tree(other.vertices, other.corners);
-    double squared = 0.0;
-    const std::size_t step = 1 + original.vertices.size() / most_points;
-    for (std::size_t i = 0; i < original.vertices.size(); i += step) {
-        squared = std::max(squared, tree.nearest(original.vertices[i]).squared_distance);
-    }
-    return std::sqrt(squared);
-}
+// The smooth shape through coarse facets may have this much more volume than they, and more is no more
+// believed.
+constexpr double most_faceting = 0.03;
+// Asked for a number of triangles, a mesh is no longer the shape from this change of volume on.
+constexpr double most_change = 0.15;
+// Triangles that turn by more (radians) where those of the shape do not lie on each other.
+constexpr double fold = 2.9;
 
 std::size_t wanted_triangles(const Surface& surface, const MeshOptions& options) {
     if (options.sizing == MeshOptions::Sizing::triangles) return static_cast<std::size_t>(options.triangles);
@@ -66,74 +54,143 @@ bool is_sound(const Surface& surface) {
     }
 }
 
-// The surface that meshing starts from: reduced as far as the shape stays.
+// The surface that meshing starts from: reduced, step by step, as far as the shape stays.
 Surface base_of(const Surface& flat, const MeshOptions& options,
                 const std::function<void(double)>& progress) {
-    const double extent = bounding_box(flat).diagonal().norm();
-    for (std::size_t count = 4000 + 2 * wanted_triangles(flat, options); count < flat.triangle_count();
-         count *= 2) {
-        Surface base = reduced(flat, count, progress);
-        if (volume_change(flat, base) < most_volume_lost &&
-            distance_between(flat, base) < most_distance * extent && is_sound(base)) {
-            return base;
-        }
+    constexpr double most_missed = 0.5;
+    constexpr std::size_t step = 4;
+    const std::size_t wanted = 4000 + 2 * wanted_triangles(flat, options);
+    const auto whole = static_cast<double>(flat.triangle_count());
+    Surface base = flat;
+    Surface last_sound = flat;
+    while (base.triangle_count() > wanted) {
+        const std::size_t count = std::max(wanted, base.triangle_count() / step);
+        const double from = 1.0 - static_cast<double>(base.triangle_count()) / whole;
+        const double to = 1.0 - static_cast<double>(count) / whole;
+        Surface next = reduced(base, count, [&](double share) { progress(from + share * (to - from)); });
+        if (next.triangle_count() >= base.triangle_count() || miss_of(shape_error(flat, next)) > most_missed)
+            break;
+        base = std::move(next);
+        if (is_sound(base)) last_sound = base;
     }
-    return flat;
+    return last_sound;
 }
 
-// The surface of order 1 with edge nodes on the shape, where its order asks for them. A triangle that would
-// turn over keeps straight edges.
+// The surface of order 1 with edge nodes on the shape, where its order asks for them. Where a triangle turns
+// over, its nodes are put over the middles of their edges; where that does not help, its edges stay straight.
 Surface with_nodes_on(const SmoothShape& shape, const Surface& surface, int order) {
     if (order == 1) return surface;
     constexpr double most_bent = 0.3;  // over the edge's length
     Surface result = with_straight_edge_nodes(surface);
     const std::vector<EdgeUse> uses = edge_uses(surface);
-    for (const auto& edge : edges_of(uses)) {
+    const auto edges = edges_of(uses);
+    const auto vertex = [&](std::int32_t index) -> const Vector3d& {
+        return surface.vertices[static_cast<std::size_t>(index)];
+    };
+    const auto across = [&](const EdgeUse& one) -> const Vector3d& {
+        return vertex(surface.corners[static_cast<std::size_t>(one.triangle)]
+                                     [static_cast<std::size_t>(one.side + 2) % 3]);
+    };
+    const auto place_node = [&](std::span<const EdgeUse> edge, bool by_normals) {
         const EdgeUse& use = edge.front();
         const auto triangle = static_cast<std::size_t>(use.triangle);
         const Vector3d first = area_vector(surface, triangle);
         const Vector3d second = area_vector(surface, static_cast<std::size_t>(edge.back().triangle));
-        const auto vertex = [&](std::int32_t index) -> const Vector3d& {
-            return surface.vertices[static_cast<std::size_t>(index)];
-        };
-        const auto across = [&](const EdgeUse& one) -> const Vector3d& {
-            return vertex(surface.corners[static_cast<std::size_t>(one.triangle)]
-                                         [static_cast<std::size_t>(one.side + 2) % 3]);
-        };
         const double length = (vertex(use.high) - vertex(use.low)).norm();
-        const std::int32_t index = result.edge_nodes[triangle][static_cast<std::size_t>(use.side)];
-        Vector3d& node = result.vertices[static_cast<std::size_t>(index)];
+        const Vector3d middle = 0.5 * (vertex(use.low) + vertex(use.high));
         std::optional<Vector3d> moved;
         if (first.dot(second) < std::cos(shape.crease_angle()) * first.norm() * second.norm()) {
-            moved = shape.on_crease(node, most_bent * length);
+            moved = shape.on_crease(middle, most_bent * length);
         }
         const auto lifted = [&](const Vector3d& point) { return shape.on_surface(point, first + second); };
-        if (!moved) {
+        if (!moved && by_normals) {
             moved = middle_on_surface({vertex(use.low), vertex(use.high)},
                                       {across(edge.front()), across(edge.back())}, lifted);
         }
-        if (!moved) moved = lifted(node);
-        if (moved && (*moved - node).norm() < most_bent * length) node = *moved;
+        if (!moved) moved = lifted(middle);
+        const bool believed = moved && (*moved - middle).norm() < most_bent * length;
+        const std::int32_t index = result.edge_nodes[triangle][static_cast<std::size_t>(use.side)];
+        result.vertices[static_cast<std::size_t>(index)] = believed ? *moved : middle;
+    };
+    for (const auto& edge : edges) place_node(edge, true);
+    std::vector<bool> overturned(surface.triangle_count(), false);
+    for (const std::int32_t t : overturned_triangles(result)) overturned[static_cast<std::size_t>(t)] = true;
+    for (const auto& edge : edges) {
+        const bool any = std::any_of(edge.begin(), edge.end(), [&](const EdgeUse& use) {
+            return overturned[static_cast<std::size_t>(use.triangle)];
+        });
+        if (any) place_node(edge, false);
     }
     straighten_overturned(result);
     return order == automatic_order && has_straight_edges(result) ? surface : result;
 }
 
-void require_sound_result(const Surface& surface, const std::string& label) {
-    try {
-        require_sound_surface(surface);
-    } catch (const Error& fault) {
-        // The remedies for a file's own faults do not help here.
-        const std::string text = fault.what();
-        throw Error(fmt::format("{}: {} after remeshing; use more triangles, or --keep", label,
-                                text.substr(0, text.rfind("; "))));
+// The largest angle (radians) by which two flat triangles turn at an edge.
+double sharpest_turn(const Surface& surface) {
+    double sharpest = 0.0;
+    const std::vector<EdgeUse> uses = edge_uses(surface);
+    for (const auto& edge : edges_of(uses)) {
+        const Vector3d one = area_vector(surface, static_cast<std::size_t>(edge.front().triangle));
+        const Vector3d two = area_vector(surface, static_cast<std::size_t>(edge.back().triangle));
+        sharpest = std::max(sharpest, std::atan2(one.cross(two).norm(), one.dot(two)));
     }
+    return sharpest;
 }
+
+// Attempts at one shape, and the best of them.
+class Attempts {
+  public:
+    Attempts(const Surface& flat, const Smoothing& smoothing, const std::string& label)
+        : flat_(flat), smoothing_(smoothing), label_(label), sharpest_turn_(1.01 * sharpest_turn(flat)) {}
+
+    // Whether the surface is sound and holds the shape. One of a higher rank is taken in any case only where
+    // nothing better is found.
+    bool holds(Surface result) {
+        try {
+            require_sound_surface(result);
+        } catch (const Error& reason) {
+            if (fault_.empty()) fault_ = reason.what();
+            return false;
+        }
+        if (sharpest_turn(result) > std::max(fold, sharpest_turn_)) {
+            if (fault_.empty()) fault_ = "the surface folds onto itself; ";
+            return false;
+        }
+        ShapeError error = shape_error(flat_, result);
+        error.faceting = smoothing_.between;
+        const double meant = smoothing_.between < most_faceting ? smoothing_.volume : 0.0;
+        const double miss = miss_of(error, meant);
+        if (miss < smallest_miss_) {
+            smallest_miss_ = miss;
+            best_ = MeshedShape{std::move(result), error};
+        }
+        return miss <= 1.0;
+    }
+
+    [[nodiscard]] bool any() const { return best_.has_value(); }
+    [[nodiscard]] bool any_holds() const { return smallest_miss_ <= 1.0; }
+    [[nodiscard]] const MeshedShape& best() const { return *best_; }
+
+    // What nothing sound was found for: the remedies for a file's own faults do not help here.
+    [[nodiscard]] Error unsound(const char* remedy) const {
+        return Error(
+            fmt::format("{}: {} after remeshing; {}", label_, fault_.substr(0, fault_.rfind("; ")), remedy));
+    }
+
+  private:
+    const Surface& flat_;
+    Smoothing smoothing_;
+    const std::string& label_;
+    double sharpest_turn_;
+    std::optional<MeshedShape> best_;
+    std::string fault_;
+    double smallest_miss_ = std::numeric_limits<double>::infinity();
+};
 
 }  // namespace
 
-Surface remesh(const Surface& surface, const MeshOptions& options, const std::string& label,
-               const std::function<void(double)>& progress) {
+MeshedShape remesh(const Surface& surface, const MeshOptions& options, const std::string& label,
+                   const std::function<void(double)>& progress) {
     constexpr double share_of_reduction = 0.7;
     // Attempts that are made anew do not take the work back.
     double told = 0.0;
@@ -145,52 +202,47 @@ Surface remesh(const Surface& surface, const MeshOptions& options, const std::st
         surface.order() == 1 ? surface : labelled(label, [&] { return welded(flattened(surface, 2)); });
     const Surface base = base_of(flat, options, [&](double share) { tell(share_of_reduction * share); });
     const MeshSizeField field(base);
-    // Thin bodies with shallow folds need these as edges; on coarse curved ones that would keep every facet.
-    constexpr std::array<double, 2> cutting_angles = {sharp_angle, sharp_angle / 4.0};
-    // These changes of the volume are in docs/shapes.md: below the one no further attempt is made, above the
-    // other it is no longer the shape.
-    constexpr double good_change = 0.03;
-    constexpr double most_change = 0.15;
-    std::optional<Surface> best;
-    std::optional<Error> fault;
-    double smallest_change = std::numeric_limits<double>::infinity();
-    for (const double angle : cutting_angles) {
-        try {
+    Attempts attempts(flat, smoothing_of(flat), label);
+    // Thin bodies with shallow folds need the second as edges; on coarse curved ones it keeps every facet.
+    constexpr std::array<double, 2> crease_angles = {sharp_angle, sharp_angle / 4.0};
+    const bool may_be_flat = options.order == automatic_order;
+    const auto attempt = [&](int finer) {
+        MeshOptions sizes = options;
+        sizes.triangles *= finer;
+        sizes.size /= std::sqrt(finer);
+        std::vector<Surface> flat_results;
+        for (const double angle : crease_angles) {
             const SmoothShape shape(flat, angle);
-            const Surface flat_result = evened(base, shape, field, options, angle, [&](double share) {
+            Surface flat_result = evened(base, shape, field, sizes, angle, [&](double share) {
                 tell(share_of_reduction + (1.0 - share_of_reduction) * share);
             });
-            Surface result = with_nodes_on(shape, flat_result, options.order);
-            require_sound_result(result, label);
-            const double change = volume_change(flat, result);
-            // Cut at every shallow fold, a coarse mesh may need many times the triangles that were asked for.
-            const bool too_many = options.sizing == MeshOptions::Sizing::triangles && best &&
-                                  static_cast<double>(result.triangle_count()) > 1.5 * options.triangles;
-            if (change < smallest_change && !too_many) {
-                smallest_change = change;
-                best = std::move(result);
-            }
-        } catch (const Error& reason) {
-            if (!fault) fault = reason;
+            if (attempts.holds(with_nodes_on(shape, flat_result, options.order))) return true;
+            if (may_be_flat) flat_results.push_back(std::move(flat_result));
         }
-        if (smallest_change < good_change) break;
-    }
-    if (smallest_change > good_change) {
         // Long triangles along a needle or around a rim show the shape where even ones cannot.
         const SmoothShape shape(flat, sharp_angle);
-        Surface result = with_nodes_on(shape, reduced(flat, wanted_triangles(flat, options)), options.order);
-        const double change = volume_change(flat, result);
-        if (change < smallest_change && is_sound(result)) {
-            smallest_change = change;
-            best = std::move(result);
-        }
+        Surface long_ones = reduced(flat, wanted_triangles(flat, sizes));
+        if (attempts.holds(with_nodes_on(shape, long_ones, options.order))) return true;
+        if (may_be_flat) flat_results.push_back(std::move(long_ones));
+        return std::any_of(flat_results.begin(), flat_results.end(),
+                           [&](Surface& result) { return attempts.holds(std::move(result)); });
+    };
+    constexpr std::array<int, 3> finer = {1, 2, 4};
+    for (const int factor : finer) {
+        if (attempt(factor) || !options.as_many_as_needed) break;
     }
-    if (!best) throw *fault;
-    if (smallest_change > most_change) {
-        throw Error(fmt::format("{}: remeshing changed the volume by {:.0f} %; use more triangles, or --keep",
-                                label, 100.0 * smallest_change));
+    if (!attempts.any_holds() && options.as_many_as_needed && may_be_flat) attempts.holds(base);
+    const char* remedy = options.order == 2 ? "leave out --order 2, use more triangles, or --keep"
+                                            : "use more triangles, or --keep";
+    if (!attempts.any()) throw attempts.unsound(remedy);
+    const ShapeError& error = attempts.best().error;
+    if (std::abs(error.volume) > most_change || (options.as_many_as_needed && !attempts.any_holds())) {
+        throw Error(fmt::format(
+            "{}: remeshing changed the volume by {:.2g} %, and moved the surface by {:.2g} % of its "
+            "size; {}",
+            label, 100.0 * error.volume, 100.0 * error.distance, remedy));
     }
-    return *best;
+    return attempts.best();
 }
 
 }  // namespace samara

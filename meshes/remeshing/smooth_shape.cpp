@@ -49,7 +49,9 @@ SmoothShape::SmoothShape(const Surface& flat, double crease_angle)
       crease_angle_(crease_angle),
       least_smooth_cosine_(std::cos(0.5 * crease_angle)),
       triangles_(flat.vertices, flat.corners),
-      creases_(flat.vertices, crease_segments(flat, crease_angle)) {
+      creases_(flat.vertices, crease_segments(flat, crease_angle)),
+      normals_(3 * flat.corners.size()),
+      has_normals_(flat.vertices.size(), false) {
     gather_triangles_around();
     gather_crease_neighbours();
 }
@@ -85,37 +87,85 @@ void SmoothShape::gather_crease_neighbours() {
 }
 
 // The unit normal of the smooth side of the triangle's corner.
-Vector3d SmoothShape::normal_at(std::size_t triangle, std::size_t corner) const {
+const Vector3d& SmoothShape::normal_at(std::size_t triangle, std::size_t corner) const {
     const std::size_t vertex = as_index(flat_.corners[triangle][corner]);
-    const auto begin = around_.begin() + first_around_[vertex];
-    const auto end = around_.begin() + first_around_[vertex + 1];
-    std::vector<std::size_t> side = {triangle};
-    const auto joins = [&](std::size_t one, std::size_t two) {
-        const Triangle& a = flat_.corners[one];
-        const auto shared =
-            std::count_if(flat_.corners[two].begin(), flat_.corners[two].end(),
-                          [&](auto index) { return std::find(a.begin(), a.end(), index) != a.end(); });
-        const Vector3d first = area_vector(flat_, one);
-        const Vector3d second = area_vector(flat_, two);
-        return shared == 2 && first.dot(second) >= least_smooth_cosine_ * first.norm() * second.norm();
+    if (!has_normals_[vertex]) find_normals(vertex);
+    return normals_[3 * triangle + corner];
+}
+
+// Finds the normals of all corners at the vertex at once: the triangles around it, in their order, fall into
+// sides between creases.
+void SmoothShape::find_normals(std::size_t vertex) const {
+    struct Corner {
+        std::size_t triangle;
+        std::size_t place;  // of the vertex among the triangle's corners
+        std::int32_t next;  // the vertex after it
+        std::int32_t last;
+        Vector3d area;
     };
-    Vector3d sum = Vector3d::Zero();
-    for (std::size_t next = 0; next < side.size(); ++next) {
-        const Triangle& corners = flat_.corners[side[next]];
-        const auto at = static_cast<std::size_t>(
+    std::vector<Corner> fan;
+    for (std::uint32_t i = first_around_[vertex]; i < first_around_[vertex + 1]; ++i) {
+        const Triangle& corners = flat_.corners[around_[i]];
+        const auto place = static_cast<std::size_t>(
             std::find(corners.begin(), corners.end(), static_cast<std::int32_t>(vertex)) - corners.begin());
-        const Vector3d one = flat_.vertices[as_index(corners[(at + 1) % 3])] - flat_.vertices[vertex];
-        const Vector3d two = flat_.vertices[as_index(corners[(at + 2) % 3])] - flat_.vertices[vertex];
-        sum += one.cross(two) / (one.squaredNorm() * two.squaredNorm());
-        for (auto other = begin; other != end; ++other) {
-            if (std::find(side.begin(), side.end(), *other) == side.end() && joins(side[next], *other)) {
-                side.push_back(*other);
-            }
+        fan.push_back({around_[i], place, corners[(place + 1) % 3], corners[(place + 2) % 3],
+                       area_vector(flat_, around_[i])});
+    }
+    std::sort(fan.begin(), fan.end(), [](const Corner& a, const Corner& b) { return a.next < b.next; });
+    const auto after = [&](std::size_t i) {
+        const auto found = std::lower_bound(fan.begin(), fan.end(), fan[i].last,
+                                            [](const Corner& a, std::int32_t next) { return a.next < next; });
+        return found != fan.end() && found->next == fan[i].last
+                   ? static_cast<std::size_t>(found - fan.begin())
+                   : fan.size();
+    };
+    const auto is_smooth = [&](std::size_t one, std::size_t two) {
+        const Vector3d& first = fan[one].area;
+        const Vector3d& second = fan[two].area;
+        return first.dot(second) >= least_smooth_cosine_ * first.norm() * second.norm();
+    };
+    // The order around the vertex; from behind a crease, where there is one.
+    std::vector<std::size_t> order;
+    std::vector<bool> begins_side;
+    std::size_t start = 0;
+    std::vector<bool> seen(fan.size(), false);
+    const auto walk = [&](std::size_t from) {
+        order.clear();
+        std::fill(seen.begin(), seen.end(), false);
+        for (std::size_t i = from; i < fan.size() && !seen[i]; i = after(i)) {
+            seen[i] = true;
+            order.push_back(i);
+        }
+    };
+    walk(start);
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        const std::size_t next = order[(k + 1) % order.size()];
+        if (!is_smooth(order[k], next)) {
+            start = next;
+            break;
         }
     }
-    const Vector3d normal = sum.normalized();
-    const bool whole = side.size() == static_cast<std::size_t>(end - begin);
-    return whole && side.size() >= 5 ? fitted_normal(side, vertex, normal) : normal;
+    walk(start);
+    for (std::size_t begin = 0; begin < order.size();) {
+        std::size_t end = begin + 1;
+        while (end < order.size() && is_smooth(order[end - 1], order[end])) ++end;
+        std::vector<std::size_t> side;
+        Vector3d sum = Vector3d::Zero();
+        for (std::size_t k = begin; k < end; ++k) {
+            const Corner& corner = fan[order[k]];
+            const Vector3d one = flat_.vertices[as_index(corner.next)] - flat_.vertices[vertex];
+            const Vector3d two = flat_.vertices[as_index(corner.last)] - flat_.vertices[vertex];
+            sum += one.cross(two) / (one.squaredNorm() * two.squaredNorm());
+            side.push_back(corner.triangle);
+        }
+        Vector3d normal = sum.normalized();
+        if (side.size() == fan.size() && side.size() >= 5) normal = fitted_normal(side, vertex, normal);
+        for (std::size_t k = begin; k < end; ++k) {
+            normals_[3 * fan[order[k]].triangle + fan[order[k]].place] = normal;
+        }
+        begin = end;
+    }
+    has_normals_[vertex] = true;
 }
 
 // The normal of the quadratic surface through the vertex that fits its neighbours best; `normal` is near it.
@@ -165,7 +215,7 @@ std::optional<Vector3d> SmoothShape::on_surface(const Vector3d& point, const Vec
     const Vector3d weights = weights_in(triangles_, t, nearest.point);
     Vector3d lifted = nearest.point;
     for (std::size_t i = 0; i < 3; ++i) {
-        const Vector3d plane = normal_at(t, i);
+        const Vector3d& plane = normal_at(t, i);
         const Vector3d from_corner = nearest.point - triangles_.corner(t, static_cast<int>(i));
         lifted -= 0.5 * weights[static_cast<Eigen::Index>(i)] * from_corner.dot(plane) * plane;
     }

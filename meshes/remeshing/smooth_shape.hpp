@@ -43,7 +43,8 @@ class SmoothShape {
   private:
     void gather_triangles_around();
     void gather_crease_neighbours();
-    [[nodiscard]] Vector3d normal_at(std::size_t triangle, std::size_t corner) const;
+    [[nodiscard]] const Vector3d& normal_at(std::size_t triangle, std::size_t corner) const;
+    void find_normals(std::size_t vertex) const;
     [[nodiscard]] Vector3d fitted_normal(const std::vector<std::size_t>& around, std::size_t vertex,
                                          const Vector3d& normal) const;
     [[nodiscard]] Vector3d tangent_at(std::size_t segment, int end) const;
@@ -57,6 +58,9 @@ class SmoothShape {
     std::vector<std::uint32_t> around_;  // triangles, vertex after vertex
     std::vector<std::array<std::int32_t, 2>>
         crease_neighbours_;  // of each vertex; -1: fewer, -2: more than 2
+    // Of each corner, found when one at the vertex is first asked for: a shape is asked by one thread.
+    mutable std::vector<Vector3d> normals_;
+    mutable std::vector<bool> has_normals_;
 };
 
 }  // namespace samara

@@ -66,7 +66,7 @@ KirchhoffTensor solve(const Body& body, const Request& request) {
     options.threads = request.threads;
     options.tolerance = request.tolerance;
     options.progress = [&](double share) { progress.update(100.0 * share, 100.0); };
-    return labelled(request.file, [&] { return kirchhoff_tensor(body.surface, body.moments, options); });
+    return labelled(request.file, [&] { return kirchhoff_tensor(body, options); });
 }
 
 bool within_tolerance(const Body& body, const Request& request) {

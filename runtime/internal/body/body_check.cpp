@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "internal/base/symmetric_matrix.hpp"
+#include "internal/body/curved_surface.hpp"
 #include "internal/body/mass_check.hpp"
 
 namespace samara {
@@ -27,28 +28,6 @@ double radius_about(const Surface& surface, const Vector3d& point) {
     double square = 0.0;
     for (const Vector3d& vertex : surface.vertices) square = std::max(square, (vertex - point).squaredNorm());
     return std::sqrt(square);
-}
-
-/// The volume (m^3) under the triangles, the curved ones as four flat ones each.
-double enclosed_volume(const Surface& surface) {
-    const Vector3d origin = surface.vertices.front();
-    const auto under = [&](std::int32_t a, std::int32_t b, std::int32_t c) {
-        const auto at = [&](std::int32_t i) -> Vector3d {
-            return surface.vertices[static_cast<std::size_t>(i)] - origin;
-        };
-        return at(a).dot(at(b).cross(at(c))) / 6.0;
-    };
-    double volume = 0.0;
-    for (std::size_t t = 0; t < surface.corners.size(); ++t) {
-        const auto& [a, b, c] = surface.corners[t];
-        if (surface.order() == 1) {
-            volume += under(a, b, c);
-            continue;
-        }
-        const auto& [ab, bc, ca] = surface.edge_nodes[t];
-        volume += under(a, ab, ca) + under(ab, b, bc) + under(ca, bc, c) + under(ab, bc, ca);
-    }
-    return volume;
 }
 
 bool is_symmetric(const Eigen::Ref<const Eigen::MatrixXd>& matrix) {
@@ -99,6 +78,16 @@ std::string fault_of(const Symmetry& symmetry) {
         return "the symmetry's tolerance is negative or not finite";
     }
     return {};
+}
+
+std::string fault_of(const ShapeError& error) {
+    for (const double figure : {error.distance, error.mean_distance, error.faceting}) {
+        if (!(figure >= 0.0) || !std::isfinite(figure)) {
+            return "/surface has a distance from its shape that is negative or not finite";
+        }
+    }
+    const bool finite = std::isfinite(error.volume) && std::isfinite(error.area);
+    return finite ? "" : "/surface has a change of volume or area that is not finite";
 }
 
 std::string fault_of(const KirchhoffTensor& kirchhoff, double radius) {
@@ -189,6 +178,7 @@ std::string fault_of(const Body& body) {
     }
     std::string fault = fault_of_moments(body, radius);
     if (fault.empty()) fault = fault_of(body.symmetry);
+    if (fault.empty() && body.shape_error) fault = fault_of(*body.shape_error);
     if (fault.empty() && body.kirchhoff) fault = fault_of(*body.kirchhoff, radius);
     if (fault.empty() && body.tables) fault = fault_of(*body.tables, body.moments.surface_area);
     if (fault.empty() && body.dynamic) fault = fault_of(body.dynamic->values, radius);

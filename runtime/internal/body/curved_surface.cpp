@@ -55,6 +55,27 @@ Vector3d normal_of_triangle(const Surface& surface, std::size_t triangle, double
     return normal_at(nodes_of(surface, triangle), u, v);
 }
 
+double enclosed_volume(const Surface& surface) {
+    const Vector3d origin = surface.vertices.front();
+    const auto under = [&](std::int32_t a, std::int32_t b, std::int32_t c) {
+        const auto at = [&](std::int32_t i) -> Vector3d {
+            return surface.vertices[static_cast<std::size_t>(i)] - origin;
+        };
+        return at(a).dot(at(b).cross(at(c))) / 6.0;
+    };
+    double volume = 0.0;
+    for (std::size_t t = 0; t < surface.corners.size(); ++t) {
+        const auto& [a, b, c] = surface.corners[t];
+        if (surface.order() == 1) {
+            volume += under(a, b, c);
+            continue;
+        }
+        const auto& [ab, bc, ca] = surface.edge_nodes[t];
+        volume += under(a, ab, ca) + under(ab, b, bc) + under(ca, bc, c) + under(ab, bc, ca);
+    }
+    return volume;
+}
+
 Surface flattened(const Surface& surface, int subdivisions) {
     if (surface.order() == 1) return surface;
     Surface flat;

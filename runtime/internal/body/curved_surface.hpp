@@ -12,6 +12,10 @@ Vector3d point_of_triangle(const Surface& surface, std::size_t triangle, double 
 /// product of the derivatives of its point by u and v.
 Vector3d normal_of_triangle(const Surface& surface, std::size_t triangle, double u, double v);
 
+/// The volume (m^3) under the triangles, the curved ones as four flat ones each; negative where they are
+/// inside out.
+double enclosed_volume(const Surface& surface);
+
 /// Flat triangles that follow the curved ones: each is cut into subdivisions^2, with three vertices of its
 /// own. A surface of order 1 is returned as it is.
 Surface flattened(const Surface& surface, int subdivisions);

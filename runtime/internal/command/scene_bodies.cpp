@@ -62,7 +62,7 @@ class LoadedBodies {
         Body body = load_body(file, scale);
         if (added_mass && !body.kirchhoff) {
             body.kirchhoff =
-                labelled(file.string(), [&] { return kirchhoff_tensor(body.surface, body.moments); });
+                labelled(file.string(), [&] { return kirchhoff_tensor(body); });
         }
         if (surface_loads && !body.surface_loads) {
             body.surface_loads =

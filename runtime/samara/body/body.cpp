@@ -1,5 +1,8 @@
 #include "samara/body/body.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "internal/base/symmetric_matrix.hpp"
 
 namespace samara {
@@ -38,6 +41,14 @@ Matrix6d in_rotated_axes(const Matrix6d& tensor, const Matrix3d& rotation) {
     turn.block<3, 3>(0, 0) = rotation;
     turn.block<3, 3>(3, 3) = rotation;
     return turn * tensor * turn.transpose();
+}
+
+double tensor_error_of(const ShapeError& error, const VolumeMoments& moments, const Matrix6d& tensor) {
+    // A surface that lies further out by d carries d times its area more fluid where it is blunt; a thin
+    // body, whose added mass is far above its volume, is told by its rim.
+    const double carried = moments.volume + tensor.bottomRightCorner<3, 3>().trace() / 3.0;
+    return std::max(
+        {std::abs(error.volume), error.faceting, error.mean_distance * moments.surface_area / carried});
 }
 
 MassSpecification mass_asked_or_own(const MassSpecification& asked, const Body& body) {

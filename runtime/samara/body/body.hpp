@@ -68,7 +68,22 @@ Matrix6d about_point(const Matrix6d& tensor, const Vector3d& old_point, const Ve
 /// The same tensor in axes turned by `rotation`: a vector a of the old axes is rotation * a in the new ones.
 Matrix6d in_rotated_axes(const Matrix6d& tensor, const Matrix3d& rotation);
 
-/// All that a body file holds. Each stage adds a part: mesh the first five, kirchhoff two, and
+/// How far a body's surface is from the shape file that it was made of.
+struct ShapeError {
+    double distance = 0.0;  ///< the greatest between the two, over the diagonal of the shape's bounding box
+    double mean_distance = 0.0;  ///< between the two, over the area (m)
+    double volume = 0.0;         ///< relative change
+    double area = 0.0;           ///< relative change
+    double faceting = 0.0;  ///< of a shape of triangles: the volume between its facets and the smooth shape
+                            ///< through their vertices, over the whole, at most 1
+};
+
+/// The relative error of the added mass that `error` may bring about: that of the volume, of the faceting, or
+/// of the mean distance over the whole surface, set against the displaced volume and the mean of the added
+/// masses `tensor`, whichever is greatest.
+double tensor_error_of(const ShapeError& error, const VolumeMoments& moments, const Matrix6d& tensor);
+
+/// All that a body file holds. Each stage adds a part: mesh the first six, kirchhoff two, and
 /// convert one.
 struct Body {
     std::string name;    ///< of the file it came from, or of the scene
@@ -76,6 +91,7 @@ struct Body {
     Surface surface;     ///< in shape axes
     VolumeMoments moments;                          ///< of the volume within the surface
     Symmetry symmetry;                              ///< of the surface
+    std::optional<ShapeError> shape_error;          ///< of the surface; none where it is not known
     std::optional<KirchhoffTensor> kirchhoff;       ///< none before `samara kirchhoff`
     std::optional<SurfaceLoads> surface_loads;      ///< none before `samara kirchhoff`
     std::optional<LoadTables> tables;               ///< none before `samara bake`

@@ -89,6 +89,20 @@ KirchhoffTensor read_kirchhoff(const Hdf5Reader& file) {
     return kirchhoff;
 }
 
+void write_shape_error(Hdf5Writer& file, const ShapeError& error) {
+    file.attribute("/surface", "shape_distance", error.distance);
+    file.attribute("/surface", "shape_mean_distance", error.mean_distance);
+    file.attribute("/surface", "shape_volume", error.volume);
+    file.attribute("/surface", "shape_area", error.area);
+    file.attribute("/surface", "shape_faceting", error.faceting);
+}
+
+ShapeError read_shape_error(const Hdf5Reader& file) {
+    const auto number = [&](const char* name) { return file.number_attribute("/surface", name); };
+    return {number("shape_distance"), number("shape_mean_distance"), number("shape_volume"),
+            number("shape_area"), number("shape_faceting")};
+}
+
 struct TableColumn {
     const char* name;
     int components;
@@ -224,6 +238,7 @@ Body read_body_file(const std::filesystem::path& path) {
     body.moments.second_moments =
         from_row_major<Matrix3d>(file.finite_doubles("/moments/second_moments", {3, 3}));
     body.symmetry = read_symmetry(file);
+    if (file.has_attribute("/surface", "shape_distance")) body.shape_error = read_shape_error(file);
     if (file.has("/kirchhoff")) body.kirchhoff = read_kirchhoff(file);
     if (has_surface_loads(file)) body.surface_loads = read_surface_loads(file);
     if (file.has("/tables")) body.tables = read_tables(file);
@@ -247,6 +262,7 @@ void write_body_file(const std::filesystem::path& path, const Body& body) {
         file.attribute("/", "name", std::string_view(body.name));
         write_surface(file, "/surface", body.surface);
         file.attribute("/surface", "source", std::string_view(body.source));
+        if (body.shape_error) write_shape_error(file, *body.shape_error);
         file.attribute("/moments", "volume", body.moments.volume);
         file.attribute("/moments", "surface_area", body.moments.surface_area);
         file.write("/moments/centroid", row_major(body.moments.centroid), {3}, "m",

@@ -60,12 +60,33 @@ Surface in_units(Surface surface, const Vector3d& reference_point, double length
     return surface;
 }
 
+/// The surface's solid angles do not sum up: it overlaps or touches itself.
+struct OverlapError : Error {
+    using Error::Error;
+};
+
 struct Solved {
     Matrix6d tensor;  // SI
     double asymmetry = 0.0;
     std::size_t triangles = 0;
     int rung = 0;  // of the ladder: above 0 its triangles cut those of the rung below
+    double unresolved = 0.0;
 };
+
+/// The relative error that triangles too long to resolve the flow may hide from all coarser surfaces, which
+/// keep them: that of a potential taken for linear along them.
+double unresolved_by_long_triangles(const Surface& surface) {
+    constexpr double long_edge = 0.3;  // over L; those of 100 equal triangles
+    constexpr double share = 0.4;      // a disc whose caps are fans about their centres is off by this
+    const double whole = surface_area(surface);
+    const double length = reference_length(whole);
+    double sum = 0.0;
+    for (std::size_t t = 0; t < surface.triangle_count(); ++t) {
+        const double edge = longest_edge(surface, t) / length;
+        if (edge > long_edge) sum += area_vector(surface, t).norm() * edge * edge;
+    }
+    return share * sum / whole;
+}
 
 /// One body, in units of its own size about the reference point, and all that is solved for it.
 class Solver {
@@ -193,10 +214,10 @@ class Solver {
                                                 ? solve_curved_collocation(surface, options)
                                                 : solve_hypersingular(without_edge_nodes(surface), options);
         if (found.closure_fault > most_closure_fault) {
-            throw Error(
-                fmt::format("the surface overlaps or touches itself: its solid angle is off by {:.1g}; "
-                            "mesh the shape again with 'samara mesh'",
-                            found.closure_fault));
+            throw OverlapError(fmt::format(
+                "the surface overlaps or touches itself: its solid angle is off by {:.1g}; join what "
+                "touches into one solid, or mesh a thin part with more triangles",
+                found.closure_fault));
         }
         Vector6d powers;
         powers << Vector3d::Constant(length_), Vector3d::Ones();
@@ -206,6 +227,7 @@ class Solver {
             relative_tensor_error(solved.tensor, solved.tensor.transpose(), scale_, zero_block);
         solved.triangles = surface.triangle_count();
         solved.rung = rung;
+        solved.unresolved = unresolved_by_long_triangles(surface);
         return solved;
     }
 
@@ -222,7 +244,8 @@ class Solver {
         KirchhoffTensor result;
         result.asymmetry = fine.asymmetry;
         // Also where it is not a number.
-        result.error_estimate = judgement.error < 1.0 ? std::max(judgement.error, fine.asymmetry) : 1.0;
+        const double error = std::max({judgement.error, fine.asymmetry, fine.unresolved});
+        result.error_estimate = judgement.error < 1.0 ? std::min(error, 1.0) : 1.0;
         result.matrix = with_positive_energy(0.5 * (judgement.tensor + judgement.tensor.transpose()),
                                              result.error_estimate);
         result.triangles = static_cast<int>(fine.triangles);
@@ -310,7 +333,26 @@ KirchhoffTensor kirchhoff_tensor(const Surface& given, const VolumeMoments& mome
                                  const KirchhoffOptions& options) {
     const Surface surface = welded(given);
     require_bounding_surface(surface);
-    return Solver(surface, moments, options).run();
+    try {
+        return Solver(surface, moments, options).run();
+    } catch (const OverlapError&) {
+        const Surface flat = with_straight_edge_nodes(surface);
+        KirchhoffTensor tensor = Solver(flat, moments, options).run();
+        if (surface.order() == 2) {
+            const double change = std::abs(enclosed_volume(flat) / moments.volume - 1.0);
+            tensor.error_estimate = std::min(1.0, tensor.error_estimate + change);
+        }
+        return tensor;
+    }
+}
+
+KirchhoffTensor kirchhoff_tensor(const Body& body, const KirchhoffOptions& options) {
+    KirchhoffTensor tensor = kirchhoff_tensor(body.surface, body.moments, options);
+    if (body.shape_error) {
+        tensor.error_estimate = std::min(
+            1.0, tensor.error_estimate + tensor_error_of(*body.shape_error, body.moments, tensor.matrix));
+    }
+    return tensor;
 }
 
 }  // namespace samara

@@ -31,6 +31,9 @@ struct KirchhoffOptions {
 /// solved with the hypersingular operator, on each triangle cut in four towards the creases, and extrapolated
 /// to triangles of no size.
 ///
+/// Where curved triangles, given or rebuilt, fold into each other, the surface is solved with straight edges,
+/// and the difference of the volumes is among the errors.
+///
 /// error_estimate comes from the difference between two surfaces of different fineness, so that it covers
 /// the elements and the surface's curvature; it cannot see details that the given triangles leave out of the
 /// body. 1: nothing is known.
@@ -40,5 +43,9 @@ struct KirchhoffOptions {
 /// the surface's triangles shows in error_estimate alone.
 KirchhoffTensor kirchhoff_tensor(const Surface& surface, const VolumeMoments& moments,
                                  const KirchhoffOptions& options = {});
+
+/// The Kirchhoff tensor of the body's surface. Its error_estimate has the error of that surface against the
+/// shape in it, where the body knows it (tensor_error_of).
+KirchhoffTensor kirchhoff_tensor(const Body& body, const KirchhoffOptions& options = {});
 
 }  // namespace samara

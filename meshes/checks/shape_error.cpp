@@ -1,0 +1,118 @@
+#include "meshes/checks/shape_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "internal/base/as_index.hpp"
+#include "internal/body/creases.hpp"
+#include "internal/body/curved_surface.hpp"
+#include "internal/body/surface_edges.hpp"
+#include "internal/body/welded_surface.hpp"
+#include "meshes/checks/triangle_tree.hpp"
+#include "meshes/checks/volume_moments.hpp"
+
+namespace samara {
+namespace {
+
+constexpr double most_volume = 0.005;
+constexpr double most_distance = 0.005;
+constexpr double most_area = 0.02;
+
+// Chords of a curved triangle's cuts lie within a thousandth of its size of it.
+constexpr int cuts_of_curved_triangle = 4;
+constexpr double points_over_the_area = 4000.0;
+constexpr std::size_t most_triangles = 20000;  // those beyond are left out evenly
+constexpr std::size_t most_vertices = 20000;
+
+struct Distances {
+    double greatest = 0.0;  // m
+    double mean = 0.0;      // over the area
+};
+
+// The distances of points spread over the flat triangles, and of their vertices, from the other surface.
+Distances distances(const Surface& from, const TriangleTree& to) {
+    Distances found;
+    double squared = 0.0;
+    double weighted = 0.0;
+    double weights = 0.0;
+    const double whole = surface_area(from);
+    const std::size_t stride = 1 + from.triangle_count() / most_triangles;
+    for (std::size_t t = 0; t < from.triangle_count(); t += stride) {
+        const double area = area_vector(from, t).norm();
+        const auto corner = [&](std::size_t i) -> const Vector3d& {
+            return from.vertices[static_cast<std::size_t>(from.corners[t][i])];
+        };
+        // The middles of n^2 equal parts.
+        const int n = 1 + static_cast<int>(std::sqrt(area / whole * points_over_the_area));
+        for (int i = 0; i < n; ++i) {
+            for (int j = 0; j < 2 * (n - i) - 1; ++j) {
+                const double third = (j % 2 == 0 ? 1.0 : 2.0) / 3.0;
+                const double u = (i + third) / n;
+                const double v = (static_cast<double>(j / 2) + third) / n;
+                const Vector3d point = (1.0 - u - v) * corner(0) + u * corner(1) + v * corner(2);
+                const double distance = to.nearest(point).squared_distance;
+                squared = std::max(squared, distance);
+                weighted += area / (n * n) * std::sqrt(distance);
+                weights += area / (n * n);
+            }
+        }
+    }
+    const std::size_t step = 1 + from.vertices.size() / most_vertices;
+    for (std::size_t i = 0; i < from.vertices.size(); i += step) {
+        squared = std::max(squared, to.nearest(from.vertices[i]).squared_distance);
+    }
+    found.greatest = std::sqrt(squared);
+    found.mean = weights > 0.0 ? weighted / weights : 0.0;
+    return found;
+}
+
+}  // namespace
+
+ShapeError shape_error(const Surface& shape, const Surface& mesh) {
+    const Surface flat_shape = flattened(shape, cuts_of_curved_triangle);
+    const Surface flat_mesh = flattened(mesh, cuts_of_curved_triangle);
+    const Distances outward = distances(flat_mesh, TriangleTree(flat_shape.vertices, flat_shape.corners));
+    const Distances inward = distances(flat_shape, TriangleTree(flat_mesh.vertices, flat_mesh.corners));
+    const VolumeMoments before = volume_moments(shape);
+    const VolumeMoments after = volume_moments(mesh);
+    ShapeError error;
+    error.distance = std::max(outward.greatest, inward.greatest) / bounding_box(flat_shape).diagonal().norm();
+    error.mean_distance = std::max(outward.mean, inward.mean);
+    error.volume = after.volume / before.volume - 1.0;
+    error.area = after.surface_area / before.surface_area - 1.0;
+    return error;
+}
+
+Smoothing smoothing_of(const Surface& flat) {
+    double lost = 0.0;
+    double between = 0.0;
+    const std::vector<EdgeUse> uses = edge_uses(flat);
+    for (const auto& edge : edges_of(uses)) {
+        const EdgeUse& use = edge.front();
+        const Vector3d along = flat.vertices[as_index(use.high)] - flat.vertices[as_index(use.low)];
+        const Vector3d one = area_vector(flat, as_index(use.triangle));
+        const Vector3d two = area_vector(flat, as_index(edge.back().triangle));
+        const double turn = std::atan2(one.cross(two).norm(), one.dot(two));
+        if (turn > sharp_angle) continue;
+        const double length = along.norm();
+        const double width = 2.0 * std::min(one.norm(), two.norm()) / length;
+        // The segment of a circle over a chord of this width, whose next one turns by this angle.
+        const double volume = length * width * width * turn / 12.0;
+        const bool hollow = one.cross(two).dot(along) * (use.forward ? 1.0 : -1.0) < 0.0;
+        lost += hollow ? -volume : volume;
+        between += volume;
+    }
+    const double whole = enclosed_volume(flat);
+    return {lost / whole, std::min(1.0, between / whole)};
+}
+
+double miss_of(const ShapeError& error, double smoothing) {
+    const auto beyond = [&](double change) {
+        return change - std::clamp(change, std::min(0.0, smoothing), std::max(0.0, smoothing));
+    };
+    return std::max({std::abs(beyond(error.volume)) / most_volume, error.distance / most_distance,
+                     std::abs(beyond(error.area)) / most_area});
+}
+
+}  // namespace samara
