@@ -42,6 +42,11 @@ nlohmann::json summary(const Body& body, const std::string& output, double secon
              {{"kind", samara::name_of(body.symmetry.kind)},
               {"elements", body.symmetry.elements.size()},
               {"tolerance", body.symmetry.tolerance}}},
+            {"shape_error",
+             {{"distance", body.shape_error->distance},
+              {"volume", body.shape_error->volume},
+              {"area", body.shape_error->area},
+              {"faceting", body.shape_error->faceting}}},
             {"seconds", seconds}};
 }
 
@@ -61,6 +66,9 @@ void print_for_people(const Body& body, const MeshOptions& options, const std::s
     }
     samara::print_result("  extent    {:.5g} x {:.5g} x {:.5g} m\n", size.x(), size.y(), size.z());
     samara::print_result("  volume    {:.6g} m^3 (of this surface)\n", moments.volume);
+    samara::print_result(
+        "  shape     {:+.2f} % of volume, at most {:.2f} % of the size away (mesh against file)\n",
+        100.0 * body.shape_error->volume, 100.0 * body.shape_error->distance);
     samara::print_result("  area      {:.6g} m^2\n", moments.surface_area);
     samara::print_result("  centroid  ({:.5g}, {:.5g}, {:.5g}) m\n", moments.centroid.x(),
                          moments.centroid.y(), moments.centroid.z());
@@ -124,6 +132,7 @@ int main(int argc, char** argv) {
         samara::write_body_file(output, body);
         samara::BodyNotes notes("samara mesh");
         notes.add("units", body.name, 0.0, samara::size_doubts(body, samara::ScaleRemedy::option));
+        notes.add("shape", body.name, 0.0, samara::shape_warning(body));
         notes.print();
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
         if (!arguments.json()) print_for_people(body, options, output, elapsed.count());

@@ -70,7 +70,7 @@ Surface reference_of_geometry(const std::string& label, const std::vector<int>& 
 // straight.
 Surface held_in_order(const std::string& label, const std::vector<int>& tags, int order) {
     Surface surface = mesh_held(label, tags, order == 1 ? 1 : 2);
-    if (order == automatic_order) straighten_overturned(surface);
+    if (order != 1) straighten_overturned(surface);
     const bool flat = order == 1 || (order == automatic_order && has_straight_edges(surface));
     return flat && surface.order() == 2 ? without_edge_nodes(surface) : surface;
 }

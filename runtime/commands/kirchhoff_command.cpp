@@ -10,9 +10,11 @@
 
 #include "commands/commands.hpp"
 #include "commands/vector_words.hpp"
+#include "internal/advice/unit_doubts.hpp"
 #include "internal/base/labelled.hpp"
 #include "internal/base/vector_json.hpp"
 #include "internal/command/arguments.hpp"
+#include "internal/command/body_notes.hpp"
 #include "internal/command/load_body.hpp"
 #include "internal/command/print.hpp"
 #include "internal/command/progress.hpp"
@@ -130,6 +132,9 @@ nlohmann::json run(const Request& request, bool json) {
     }
     const auto start = std::chrono::steady_clock::now();
     const Body body = solved_body(request);
+    BodyNotes notes("samara kirchhoff");
+    notes.add("shape", body.name, 0.0, shape_warning(body));
+    notes.print();
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     if (!request.output.empty()) write_body_file(request.output, body);
 

@@ -29,6 +29,7 @@
 #include "internal/kernel/body_state.hpp"
 #include "internal/motion/motion_writer.hpp"
 #include "samara/base/error.hpp"
+#include "samara/body/body_file.hpp"
 #include "samara/flight/simulation.hpp"
 #include "samara/motion/motion_file.hpp"
 #include "samara/scene/scene_file.hpp"
@@ -91,6 +92,8 @@ void note_doubtful_bodies(const Scene& scene, const std::vector<LoadedBody>& loa
         const std::string units = unit_doubts(*loaded[i].body, body.mass, scene.fluid, scene.gravity.norm(),
                                               scale_remedy_in_scene(body.shape));
         notes.add(units, body.name, 0.0, units);
+        notes.add("shape", body.name, 0.0,
+                  is_body_file_name(body.shape) ? "" : shape_warning(*loaded[i].body));
         if (body.loads == Loads::surface && body.loads_by_default) {
             notes.add("surface", body.name, 0.0,
                       "has no tables, and flies by the pressure that potential flow tells of its surface "

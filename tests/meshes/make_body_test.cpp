@@ -32,6 +32,7 @@ constexpr double ellipsoid_volume = 4.0 / 3.0 * pi * 0.01 * 0.02 * 0.04;
 MeshOptions with_triangles(int count, int order = automatic_order) {
     MeshOptions options;
     options.triangles = count;
+    options.as_many_as_needed = false;
     options.order = order;
     return options;
 }

@@ -20,6 +20,7 @@ using std::numbers::pi;
 MeshOptions with_triangles(int count) {
     MeshOptions options;
     options.triangles = count;
+    options.as_many_as_needed = false;
     options.order = 1;
     return options;
 }
