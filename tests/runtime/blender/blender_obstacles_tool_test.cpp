@@ -191,7 +191,7 @@ TEST(BlenderAddon, AppliesDeltaTransformsOnce) {
     const json found = use_addon({"deltas", rubber_file(folder)});
     for (const json& fault : found["faults"]) EXPECT_EQ(fault, "");
     const json& own = found["own"];
-    EXPECT_GT(distance(pose_of(own["keyed"][2]), pose_of(own["begin"])), 0.3) << "it falls";
+    EXPECT_GT(distance(pose_of(own["keyed"][2]), pose_of(own["begin"])), 0.01) << "it falls";
     for (const char* name : {"own", "euler", "quaternion"}) {
         const json& body = found[name];
         expect_same_poses(body["keyed"], own["keyed"]);

@@ -2,6 +2,7 @@
 #include "internal/flight/encounters.hpp"
 
 #include <cmath>
+#include <ctime>
 #include <string>
 #include <vector>
 
@@ -235,6 +236,26 @@ TEST(Encounters, NothingPassesThroughAThinCardAtFilmSteps) {
             EXPECT_LT(flight.pose(0).position.z(), -0.1);  // it was taken along
         }
     }
+}
+
+TEST(Encounters, BesideAVortexWithACoreOfNoSizeAStepTakesBoundedWork) {
+    FlightSettings settings = on_ground(0.002);
+    settings.fluid = *fluid_preset("air");
+    settings.wind.vortices = {{.position = {0.01, 0.0, 0.0}, .circulation = 10.0, .core = 1e-12}};
+    BodyPhysics physics;
+    physics.mass.density = 600.0;
+    physics.added_mass = false;
+    physics.loads = Loads::coefficients;
+    physics.turbulence = Turbulence::none;
+    Flight flight(settings);
+    flight.add(
+        card(), physics,
+        {.position = {0, 0, 0.3}, .count = 60, .spread_position = {0.04, 0.04, 0.1}, .spread_angle = 3.1},
+        "card");
+    const std::clock_t begin = std::clock();
+    flight.advance_to(0.01);
+    EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 5.0);
+    for (std::size_t i = 0; i < flight.size(); ++i) EXPECT_TRUE(flight.pose(i).position.allFinite());
 }
 
 TEST(Encounters, WhatIsMetIsNotedOfBoth) {

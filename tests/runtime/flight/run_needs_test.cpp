@@ -45,6 +45,8 @@ TEST(RunNeeds, CountWhatCopiesOfManySizesTouchWith) {
     Scene scene = scene_of(61.0, 1'000'000);
     SceneBody& body = scene.bodies[0];
     static_cast<BodyPhysics&>(body) = test::scene_body(1200.0);
+    body.loads = Loads::none;
+    body.turbulence = Turbulence::none;
     const std::vector<LoadedBody> loaded = {LoadedBody(test::rubber_ellipsoid(), "hash")};
     const double plain = needs_of(scene, 1, loaded).memory;
     EXPECT_EQ(plain, needs_of(scene, 1).memory);
