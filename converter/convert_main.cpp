@@ -253,8 +253,8 @@ int run(int argc, const char* const* argv) {
     Arguments arguments("samara convert",
                         "Turns solved OpenFOAM cases into the load and turbulence tables of a body file");
     arguments.positional("CASES", cases, "the folder NAME.cases that 'samara bake' made, or one of your own");
-    arguments.required_option("-o,--output", output,
-                              "the body file to write, NAME.body.h5; or NAME.csv for the cases one by one");
+    arguments.required_output_option(
+        "-o,--output", output, "the body file to write, NAME.body.h5; or NAME.csv for the cases one by one");
     arguments.flag("--fluctuations", fluctuations,
                    "of cases that were solved in time: mean, rms, correlation time and spectrum of each "
                    "component of force and moment, to NAME.csv and NAME.spectra.csv");

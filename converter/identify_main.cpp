@@ -79,7 +79,8 @@ int run(int argc, const char* const* argv) {
     arguments.positional(
         "FALLS", options.falls,
         "folders of solved falls, as NAME.cases/fall_00 of samara bake or samara validate, by commas");
-    arguments.option("-o,--output", options.output, "body file to write, with the coefficients (.body.h5)");
+    arguments.output_option("-o,--output", options.output,
+                            "body file to write, with the coefficients (.body.h5)");
     arguments.option(
         "--without", options.without,
         fmt::format("terms to leave out, by commas: {}", fmt::join(MotionParameters::names(), ", ")));

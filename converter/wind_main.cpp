@@ -126,7 +126,7 @@ int main(int argc, char** argv) {
     arguments.positionals(
         "INPUT", request.inputs,
         ".vdb files in the order of time, one alone for a steady wind; or the folder of a solved case");
-    arguments.required_option("-o,--output", request.output, "wind file to write (.h5)");
+    arguments.required_output_option("-o,--output", request.output, "wind file to write (.h5)");
     arguments.option(
         "--grid", request.vdb.grid,
         "name of the velocity grid, or of three grids NAME.x, NAME.y, NAME.z; by default velocity, vel or v, "

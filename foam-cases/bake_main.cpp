@@ -14,6 +14,7 @@
 #include "foam-cases/farm/cluster_jobs.hpp"
 #include "foam-cases/scene/scene_requests.hpp"
 #include "internal/command/arguments.hpp"
+#include "internal/files/replace_file.hpp"
 #include "internal/flight/terminal_speed.hpp"
 #include "samara/base/error.hpp"
 #include "samara/body/body_file.hpp"
@@ -108,6 +109,10 @@ bool is_scene(const std::string& input) {
 }
 
 std::vector<BakeRequest> requests_for(const BakeOptions& options, const Arguments& arguments) {
+    if (!options.dry_run) {
+        const fs::path output = options.output;
+        require_folder_to_make(is_scene(options.input) ? output : output.parent_path());
+    }
     if (!is_scene(options.input)) {
         for (const char* option : {"--tolerance", "--budget", "--rounds", "--whole-grid"}) {
             if (arguments.given(option)) {

@@ -15,6 +15,7 @@
 #include "internal/command/motion_output.hpp"
 #include "internal/command/print.hpp"
 #include "internal/figures/description.hpp"
+#include "internal/files/replace_file.hpp"
 #include "samara/base/error.hpp"
 #include "samara/motion/motion_file.hpp"
 #include "samara/scene/scene_file.hpp"
@@ -127,6 +128,9 @@ nlohmann::json judge_again(const ValidateOptions& options, bool quiet) {
 
 nlohmann::json run_validation(const ValidateOptions& options, bool quiet) {
     require_motion_file_name(options.output);
+    if (!options.dry_run) {
+        require_folder_to_make(std::filesystem::path(options.output).parent_path());
+    }
     if (is_motion_file(options.scene)) return judge_again(options, quiet);
     ValidationRequest request;
     request.scene = read_scene_file(options.scene);

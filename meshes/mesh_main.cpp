@@ -99,7 +99,7 @@ int main(int argc, char** argv) {
                                 "Makes a body file of a shape: its checked surface, volume, symmetry.");
     arguments.positional("SHAPE", shape,
                          "geometry (.geo .step .stp .brep) or triangles (.stl .obj .msh .body.h5)");
-    arguments.required_option("-o,--output", output, "the body file to write, NAME.body.h5");
+    arguments.required_output_option("-o,--output", output, "the body file to write, NAME.body.h5");
     arguments.option("--triangles", options.triangles, "about this many triangles", 4, 10'000'000);
     arguments.option("--size", options.size,
                      "sides of this length (m) where the body is flat; smaller elsewhere", 1e-12, 1e12);

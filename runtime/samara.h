@@ -406,7 +406,7 @@ SAMARA_API samara_status samara_watch_contacts(samara_simulation* simulation, in
                                                size_t error_size);
 
 /* What the bodies first ... first + count - 1 met since they were last asked. `stride` as in
- * samara_get_poses. */
+ * samara_get_poses. SAMARA_INVALID_ARGUMENT while they are not watched (samara_watch_contacts). */
 SAMARA_API samara_status samara_take_contacts(samara_simulation* simulation, size_t first, size_t count,
                                               samara_contact* contacts, size_t stride, char* error,
                                               size_t error_size);

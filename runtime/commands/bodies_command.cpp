@@ -156,7 +156,7 @@ int bodies_command(int argc, const char* const* argv) {
     std::string output;
     Arguments arguments("samara bodies", "The ready-baked bodies that come with samara.");
     arguments.optional_positional("NAME", name, "one of them: what its file holds");
-    arguments.option("-o,--output", output, "NAME.body.h5: copies that body's file there");
+    arguments.output_option("-o,--output", output, "NAME.body.h5: copies that body's file there");
     arguments.footer(footer);
     return run_program(argc, argv, arguments, [&] {
         if (arguments.given("--output")) {

@@ -127,8 +127,9 @@ int compare_command(int argc, const char* const* argv) {
     constexpr int most = 1'000'000'000;
     arguments.positional("MOTION", request.motion, "motion file, from 'samara simulate'");
     arguments.positional("REFERENCE", request.reference, "motion file that it is held against");
-    arguments.option("-o,--output", request.output,
-                     "picture to write: .png (2000 x 1300 pixels) or .svg; none where it is not given");
+    arguments.output_option(
+        "-o,--output", request.output,
+        "picture to write: .png (2000 x 1300 pixels) or .svg; none where it is not given");
     arguments.option("--body", request.body,
                      "the body to compare; by default the only one in each file, or of the same name");
     arguments.option("--window", request.window,

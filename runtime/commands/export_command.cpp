@@ -176,7 +176,8 @@ int export_command(int argc, const char* const* argv) {
     Arguments arguments("samara export", "Writes a motion file for animation tools and spreadsheets.");
     ExportOptions options;
     arguments.positional("MOTION", options.input, "motion file, from 'samara simulate'");
-    arguments.required_option("-o,--output", options.output, "file to write; its ending gives the format");
+    arguments.required_output_option("-o,--output", options.output,
+                                     "file to write; its ending gives the format");
     arguments.option("--run", options.run, "the run to write, counted from 0 (default: 0; .csv: all)", 0,
                      1'000'000'000);
     arguments.option("--frame-rate", options.frame_rate,

@@ -79,7 +79,8 @@ int mass_command(int argc, const char* const* argv) {
     Arguments arguments("samara mass",
                         "Writes into a body file what the body weighs where a scene does not say.");
     arguments.positional("FILE", request.file, "body file (.body.h5)");
-    arguments.option("-o,--output", request.output, "another body file; else FILE itself is written anew");
+    arguments.output_option("-o,--output", request.output,
+                            "another body file; else FILE itself is written anew");
     arguments.option("--density", request.density, "kg/m^3, uniform", 1e-3, 1e6);
     arguments.option("--mass", request.mass, "kg, in place of a density", 1e-15, 1e15);
     arguments.option("--center-of-mass", request.center_of_mass,

@@ -180,8 +180,8 @@ int plot_command(int argc, const char* const* argv) {
     constexpr int most = 1'000'000'000;
     arguments.positional("FILE", options.input,
                          "motion file (.h5), from 'samara simulate', or body file (.body.h5) with tables");
-    arguments.required_option("-o,--output", options.output,
-                              "picture to write: .png (2000 x 1300 pixels) or .svg");
+    arguments.required_output_option("-o,--output", options.output,
+                                     "picture to write: .png (2000 x 1300 pixels) or .svg");
     arguments.choice("--kind", options.kind, {"strip", "phase", "landing", "polars", "sphere", "convergence"},
                      "what to draw; the last three of a body file, polars by default");
     arguments.option("--body", options.body, "the body to draw; the first where it is not given");

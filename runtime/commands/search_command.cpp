@@ -54,8 +54,8 @@ std::vector<double> numbers_of(const std::string& option, const std::string& wor
         if (after != end && at == end) break;  // a comma at the end
     }
     if (at != end || numbers.size() != count || words.ends_with(',')) {
-        throw Error(
-            fmt::format("{} must be {}, {} numbers between commas, not '{}'", option, form, count, words));
+        throw Error(fmt::format("{} must be {} in metres, {} numbers between commas, not '{}'", option, form,
+                                count, words));
     }
     return numbers;
 }
@@ -114,6 +114,13 @@ nlohmann::json run(const Request& request, const Arguments& arguments) {
     for (std::size_t i = 0; i < loaded.size(); ++i) {
         require_sizes_in_tables(scene, scene.bodies[i], loaded[i]);
     }
+    if (request.tries > 1 && !depends_on_seed(scene, body)) {
+        throw Error(fmt::format(
+            "{}: nothing of the fall of '{}' is drawn from the seed, so that all seeds give the same; give "
+            "the body a count with a spread, an emitter or turbulence, or the wind gusts without a seed, or "
+            "fly it with 'samara simulate'",
+            request.scene, scene.bodies[body].name));
+    }
     std::vector<TargetMiss> misses;
     {
         Progress progress("searching", "tries");
@@ -167,14 +174,16 @@ int search_command(int argc, const char* const* argv) {
     arguments.option("--body", request.body, "which body; needed where the scene has several");
     arguments.option("--tries", request.tries, "seeds to try, the scene's and those after it", 1, 10'000'000);
     arguments.option("--seed", request.seed, "first seed, instead of the scene's");
-    arguments.option("-o,--output", request.output, "motion file (.h5) of the best try");
+    arguments.output_option("-o,--output", request.output, "motion file (.h5) of the best try");
     arguments.option("--bodies", request.bodies, "folder of baked bodies, NAME.body.h5 for each body");
     arguments.option("--threads", request.threads,
                      "threads, 0: all cores; the result is the same for any number", 0, 4096);
     arguments.footer(
         "A seed draws the noise and, of bodies with a count above 1, starts, sizes and release times; of "
         "any\n"
-        "with an emitter the point. The copy that comes nearest counts. --json: body, reached (how many), "
+        "with an emitter the point; and gusts of the wind without a seed. Where nothing is drawn, all seeds\n"
+        "give the same, and the search is refused. The copy that comes nearest counts. --json: body, reached "
+        "(how many), "
         "tries\n(seed, copy, distance, time, reached; the nearest first).\n");
     return run_program(argc, argv, arguments, [&] { return run(request, arguments); });
 }

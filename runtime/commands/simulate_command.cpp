@@ -150,12 +150,10 @@ std::optional<ModelAdvice> choose_with_progress(Scene& scene, const std::vector<
 }
 
 /// Says what a large run will take, and refuses one that the machine has not the room for.
-RunNeeds judged_needs(const Scene& scene, const Request& request) {
+void judge_needs(const RunNeeds& needs, const Request& request) {
     constexpr double large = 1e9;
-    const RunNeeds needs = needs_of(scene, request.runs);
     if (std::max(needs.memory, needs.disk) > large) note("takes about " + in_words(needs));
     require_room(needs, request.scene, request.output);
-    return needs;
 }
 
 /// Flies the scene into the motion file.
@@ -217,7 +215,7 @@ nlohmann::json run(const Request& request, const Arguments& arguments) {
         scene.step_auto = false;
     }
 
-    const RunNeeds needs = judged_needs(scene, request);
+    judge_needs(needs_of(scene, request.runs), request);
 
     const std::vector<LoadedBody> loaded = load_scene_bodies(scene, request.bodies);
     const std::optional<ModelAdvice> advice = choose_with_progress(scene, loaded, request.threads);
@@ -228,6 +226,8 @@ nlohmann::json run(const Request& request, const Arguments& arguments) {
     for (std::size_t i = 0; i < loaded.size(); ++i) {
         require_sizes_in_tables(scene, scene.bodies[i], loaded[i]);
     }
+    const RunNeeds needs = needs_of(scene, request.runs, loaded);
+    require_room(needs, request.scene, request.output);
     note_doubtful_bodies(scene, loaded);
     const SimulationReport report = fly(scene, loaded, request);
     BodyNotes notes(program);
@@ -281,7 +281,7 @@ int simulate_command(int argc, const char* const* argv) {
     Request request;
     Arguments arguments(program, "Simulates a scene and writes the motion of its bodies.");
     arguments.positional("SCENE", request.scene, "scene file (.toml; docs/scene-file.md lists its keys)");
-    arguments.required_option("-o,--output", request.output, "motion file to write (.h5)");
+    arguments.required_output_option("-o,--output", request.output, "motion file to write (.h5)");
     arguments.option(
         "--bodies", request.bodies,
         "folder of baked bodies, NAME.body.h5 for each body of the scene ('samara bake SCENE -o DIR')");

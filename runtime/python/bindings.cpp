@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "internal/command/scene_bodies.hpp"
 #include "samara/base/error.hpp"
 
 namespace samara::python {
@@ -45,6 +46,20 @@ py::array pose_view(const Pose* poses, std::vector<py::ssize_t> leading, PoseMem
     py::array array(py::dtype::of<double>(), std::move(leading), std::move(strides), first, owner);
     array.attr("setflags")(py::arg("write") = false);
     return array;
+}
+
+void require_runs_and_threads(int runs, int threads) {
+    if (runs < 1 || runs > 1'000'000) throw InputFault("runs: give 1 to 1000000");
+    if (threads < 0 || threads > 4096) throw InputFault("threads: give 0 for all cores, or up to 4096");
+}
+
+std::vector<LoadedBody> bodies_of(Scene& scene, const std::filesystem::path& folder) {
+    std::filesystem::path unreadable;
+    for (const SceneBody& body : scene.bodies) {
+        const std::filesystem::path file = folder.empty() ? body.shape : folder / (body.name + ".body.h5");
+        if (unreadable.empty() && !reading_fault(file).empty()) unreadable = file;
+    }
+    return on_input([&] { return load_scene_bodies(scene, folder.string()); }, unreadable);
 }
 
 py::object as_python(const nlohmann::json& value) {

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -18,13 +19,53 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include "internal/files/input_file.hpp"
 #include "samara/base/error.hpp"
+#include "samara/flight/flight.hpp"
 #include "samara/flight/simulation.hpp"
 #include "samara/motion/motion.hpp"
 
 namespace samara::python {
 
 namespace py = pybind11;
+
+/// A fault of what a caller gave: samara.InputError, which is a ValueError too.
+class InputFault : public Error {
+    using Error::Error;
+};
+
+/// A fault of a file that cannot be read or written: samara.FileError, which is an OSError too.
+class FileFault : public Error {
+    using Error::Error;
+};
+
+/// What `work` returns; its Error as the fault of a file where `file` cannot be read, else of what was given.
+template <typename Work>
+auto on_input(const Work& work, const std::filesystem::path& file = {}) {
+    try {
+        return work();
+    } catch (const InputFault&) {
+        throw;
+    } catch (const FileFault&) {
+        throw;
+    } catch (const FlightError&) {
+        throw;
+    } catch (const Error& fault) {
+        if (!file.empty() && !reading_fault(file).empty()) throw FileFault(fault.what());
+        throw InputFault(fault.what());
+    }
+}
+
+/// A class of the module. An object that Python made by __new__ alone, without __init__, holds nothing: asked
+/// for anything it throws TypeError.
+template <typename Type, typename... Options>
+py::class_<Type, Options...> class_of(py::module_& module, const char* name, const char* purpose) {
+    py::class_<Type, Options...> made(module, name, purpose);
+    py::detail::get_type_info(typeid(Type))->operator_new = [](std::size_t) -> void* {
+        throw py::type_error("the object is empty: it was made by __new__ alone; call the class");
+    };
+    return made;
+}
 
 /// A body of a motion, which it keeps alive.
 struct BodyOfMotion {
@@ -69,12 +110,14 @@ std::array<double, count> numbers_of(const py::handle& given, const char* name) 
                              " real numbers, shape (" + std::to_string(count) + ",)");
     }
     const auto numbers = py::array_t<double, py::array::forcecast>::ensure(array);
+    if (!numbers) throw py::error_already_set();
     std::array<double, count> result{};
     for (std::size_t i = 0; i < count; ++i) result[i] = numbers.at(static_cast<py::ssize_t>(i));
     return result;
 }
 
-/// A dict as TOML. `place`: what it is called where a value is none of TOML's, which throws Error.
+/// A dict as TOML. `place`: what it is called where a value is none of TOML's, or nests without end, which
+/// throws InputFault.
 std::string toml_text(const py::dict& values, const std::string& place);
 
 /// Reads such a text by read(); its faults do not name the lines, which nobody wrote.
@@ -87,9 +130,15 @@ auto read_dict(const std::string& place, const Read& read) {
         const std::size_t end = text.find_first_not_of("0123456789", place.size() + 1);
         if (text.starts_with(place + ":") && end > place.size() + 1)
             text.erase(place.size(), end - place.size());
-        throw Error(text);
+        throw InputFault(text);
     }
 }
+
+/// Throws InputFault where there are none or too many.
+void require_runs_and_threads(int runs, int threads);
+
+/// The bodies of a scene, as load_scene_bodies() gives them. The caller holds hdf5_mutex().
+std::vector<LoadedBody> bodies_of(Scene& scene, const std::filesystem::path& folder);
 
 /// A JSON value as Python's own: dict, list, float, int, str, bool, None.
 py::object as_python(const nlohmann::json& value);

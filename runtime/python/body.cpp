@@ -1,5 +1,6 @@
 // samara.Body: what a body file holds.
 
+#include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -19,7 +20,7 @@ using SharedBody = std::shared_ptr<Body>;
 SharedBody read(const std::filesystem::path& file) {
     const py::gil_scoped_release others_go_on;
     const std::lock_guard lock(hdf5_mutex());
-    return std::make_shared<Body>(read_body_file(file));
+    return on_input([&] { return std::make_shared<Body>(read_body_file(file)); }, file);
 }
 
 py::ssize_t length(std::size_t size) {
@@ -60,8 +61,8 @@ auto table_of(Member member, const std::vector<LoadEntry> LoadTables::*entries =
 }  // namespace
 
 void bind_body(py::module_& module) {
-    py::class_<Body, SharedBody>(module, "Body",
-                                 "What a body file holds. Arrays are views that cannot be written to.")
+    class_of<Body, SharedBody>(module, "Body",
+                               "What a body file holds. Arrays are views that cannot be written to.")
         .def_static("read", &read, py::arg("file"), "Reads a body file (.body.h5).")
         .def_readonly("name", &Body::name, "Of the file it came from, or of the scene.")
         .def_readonly("source", &Body::source, "How the surface was made, one line.")
@@ -135,12 +136,17 @@ void bind_body(py::module_& module) {
             [](const Body& body, const py::object& given, double reynolds_number) {
                 const Vector3d direction(numbers_of<3>(given, "direction").data());
                 if (!body.tables)
-                    throw Error(fmt::format("{}: has no tables; make them with 'samara bake'", body.name));
-                if (!(direction.norm() > 0.0) || !direction.allFinite()) {
-                    throw Error("direction: give three finite numbers, not all zero");
+                    throw InputFault(
+                        fmt::format("{}: has no tables; make them with 'samara bake'", body.name));
+                if (direction.isZero(0.0) || !direction.allFinite()) {
+                    throw InputFault("direction: give three finite numbers, not all zero");
                 }
-                if (!(reynolds_number > 0.0)) throw Error("reynolds_number: give a number above 0");
-                const LoadEntry entry = look_up(*body.tables, direction.normalized(), reynolds_number);
+                if (!(reynolds_number > 0.0 && std::isfinite(reynolds_number))) {
+                    throw InputFault("reynolds_number: give a finite number above 0");
+                }
+                // In two steps, since the squares of its numbers may leave the range of numbers.
+                const Vector3d scaled = direction / direction.cwiseAbs().maxCoeff();
+                const LoadEntry entry = look_up(*body.tables, scaled.normalized(), reynolds_number);
                 return std::make_pair(entry.force, entry.moment);
             },
             py::arg("direction"), py::arg("reynolds_number"),

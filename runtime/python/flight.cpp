@@ -18,6 +18,7 @@
 #include "bindings.hpp"
 #include "internal/command/scene_bodies.hpp"
 #include "internal/flight/flight_surroundings.hpp"
+#include "internal/scene/number_limits.hpp"
 #include "internal/scene/toml_table.hpp"
 #include "internal/scene/wind_table.hpp"
 #include "samara/base/error.hpp"
@@ -39,43 +40,35 @@ class LiveFlight {
     LiveFlight(Scene scene, int runs, std::optional<std::uint64_t> seed, int threads,
                const std::filesystem::path& bodies)
         : runs_(runs) {
-        if (runs < 1 || runs > 1'000'000) throw Error("runs: give 1 to 1000000");
-        if (threads < 0 || threads > 4096) throw Error("threads: give 0 for all cores, or up to 4096");
+        require_runs_and_threads(runs, threads);
         if (seed) scene.seed = *seed;
         const py::gil_scoped_release others_go_on;
-        std::vector<LoadedBody> loaded;
-        {
-            const std::lock_guard lock(hdf5_mutex());
-            loaded = load_scene_bodies(scene, bodies.string());
-        }
-        choose_models(scene, loaded, threads, [](double, double) {});
-        choose_step(scene, loaded, threads);
-        step_ = scene.step;
-        flight_.emplace(flight_settings(scene, runs, threads));
-        for (std::size_t i = 0; i < loaded.size(); ++i) {
-            const SceneBody& body = scene.bodies[i];
-            kinds_.push_back({body.name, body.count, flight_->add(loaded[i], body, body, body.name)});
-        }
+        on_input([&] { put(scene, bodies, threads); });
     }
 
     void advance(double time, py::object progress) {
-        if (!std::isfinite(time)) throw Error("time: give a finite number of seconds");
+        if (!std::isfinite(time)) throw InputFault("time: give a finite number of seconds");
         LongWork work(std::move(progress));
         work([&] {
             const std::lock_guard lock(mutex_);
             require_no_advance();
             const Advancing in_progress(advancing_);
-            // In pieces, so that Ctrl-C and progress come through; the motion does not depend on them.
             const double begin = flight_->time();
+            flight_->require_time(time);
+            if (time == begin) {
+                flight_->advance_to(time);
+                return work.tell(0.0, 0.0);
+            }
+            // In pieces, so that Ctrl-C and progress come through; the motion does not depend on them.
             for (double now = begin; work.tell(now - begin, time - begin);) {
                 now = std::min(time, now + pieces_of_ * step_);
                 for (const auto& [index, wrench] : pushes_) flight_->add_wrench(index, wrench);
                 flight_->advance_to(now);
                 if (now < time) continue;
+                pushes_.clear();
                 work.tell(time - begin, time - begin);
                 break;
             }
-            if (time > begin) pushes_.clear();
             return true;
         });
     }
@@ -123,7 +116,9 @@ class LiveFlight {
     }
 
     void set_ground(std::optional<double> height) {
-        if (height && !std::isfinite(*height)) throw Error("height: give a finite number of metres, or None");
+        if (height && !(std::abs(*height) <= largest_number)) {
+            throw InputFault("height: give a finite number of metres, 1e30 at most, or None");
+        }
         change_flight([&] { flight_->set_ground(height); });
     }
 
@@ -200,7 +195,9 @@ class LiveFlight {
         with_flight([&] { pose = flight_->pose(index); });
         const auto assign = [](Vector3d& target, const py::object& given, const char* what) {
             target = vector_of(given, what).value_or(target);
-            if (!target.allFinite()) throw Error(fmt::format("{}: give three finite numbers", what));
+            if (!(target.cwiseAbs().maxCoeff() <= largest_number) || !target.allFinite()) {
+                throw InputFault(fmt::format("{}: give three finite numbers, 1e30 at most", what));
+            }
         };
         assign(pose.position, position, "position");
         assign(pose.velocity, velocity, "velocity");
@@ -208,7 +205,7 @@ class LiveFlight {
         if (!orientation.is_none()) {
             pose.orientation = Quaterniond(numbers_of<4>(orientation, "orientation").data());
             if (!(std::abs(pose.orientation.norm() - 1.0) < 1e-6)) {
-                throw Error("orientation: give a quaternion x, y, z, w of length one");
+                throw InputFault("orientation: give a quaternion x, y, z, w of length one");
             }
             pose.orientation.normalize();
         }
@@ -247,6 +244,22 @@ class LiveFlight {
     };
     static constexpr double pieces_of_ = 256.0;  // steps
 
+    void put(Scene& scene, const std::filesystem::path& bodies, int threads) {
+        std::vector<LoadedBody> loaded;
+        {
+            const std::lock_guard lock(hdf5_mutex());
+            loaded = bodies_of(scene, bodies);
+        }
+        choose_models(scene, loaded, threads, [](double, double) {});
+        choose_step(scene, loaded, threads);
+        step_ = scene.step;
+        flight_.emplace(flight_settings(scene, runs_, threads));
+        for (std::size_t i = 0; i < loaded.size(); ++i) {
+            const SceneBody& body = scene.bodies[i];
+            kinds_.push_back({body.name, body.count, flight_->add(loaded[i], body, body, body.name)});
+        }
+    }
+
     [[nodiscard]] std::size_t index_of(const std::string& name, int run, int copy) const {
         const Kind& kind = kind_named(name);
         if (run < 0 || run >= runs_) {
@@ -259,7 +272,7 @@ class LiveFlight {
     }
 
     void require_there(std::size_t index) const {
-        if (flight_->is_removed(index)) throw Error("the body is removed; put it back by set_pose");
+        if (flight_->is_removed(index)) throw InputFault("the body is removed; put it back by set_pose");
     }
 
     /// A force, or impulse, as it is given.
@@ -279,8 +292,8 @@ class LiveFlight {
         Wrench wrench{given.force, given.moment.value_or(Vector3d::Zero())};
         if (given.point) wrench.moment += (*given.point - flight_->pose(index).position).cross(wrench.force);
         const bool sound = wrench.force.allFinite() && wrench.moment.allFinite() &&
-                           std::max(wrench.force.norm(), wrench.moment.norm()) <= 1e30;
-        if (!sound) throw Error(fmt::format("{}: give finite numbers, 1e30 at most", given.name));
+                           std::max(wrench.force.norm(), wrench.moment.norm()) <= largest_number;
+        if (!sound) throw InputFault(fmt::format("{}: give finite numbers, 1e30 at most", given.name));
         return wrench;
     }
 
@@ -341,8 +354,8 @@ py::array member_of(const py::object& self) {
 }  // namespace
 
 void bind_flight(py::module_& module) {
-    py::class_<Poses>(module, "Poses",
-                      "Poses of all runs and copies of a body at one time; arrays that cannot be written to.")
+    class_of<Poses>(module, "Poses",
+                    "Poses of all runs and copies of a body at one time; arrays that cannot be written to.")
         .def_property_readonly("position", &member_of<PoseMember::position>,
                                "Of the centre of mass: m, world axes (z up), shape (runs, copies, 3).")
         .def_property_readonly("orientation", &member_of<PoseMember::orientation>,
@@ -351,10 +364,10 @@ void bind_flight(py::module_& module) {
                                "m/s, world axes, shape (runs, copies, 3).")
         .def_property_readonly("angular_velocity", &member_of<PoseMember::angular_velocity>,
                                "rad/s, world axes, shape (runs, copies, 3).");
-    py::class_<LiveFlight>(module, "Flight",
-                           "Bodies of a scene that fall call by call: any time may be asked for, poses read "
-                           "and set, all of it saved "
-                           "and restored. The motion does not depend on how the times are cut into calls.")
+    class_of<LiveFlight>(module, "Flight",
+                         "Bodies of a scene that fall call by call: any time may be asked for, poses read "
+                         "and set, all of it saved "
+                         "and restored. The motion does not depend on how the times are cut into calls.")
         .def(py::init<const Scene&, int, std::optional<std::uint64_t>, int, const std::filesystem::path&>(),
              py::arg("scene"), py::kw_only(), py::arg("runs") = 1, py::arg("seed") = py::none(),
              py::arg("threads") = 1, py::arg("bodies") = "",

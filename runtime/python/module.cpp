@@ -3,11 +3,54 @@
 #include "samara/base/version.hpp"
 
 namespace samara::python {
+namespace {
+
+py::handle error;
+py::handle input_error;
+py::handle file_error;
+
+/// An exception class of the module that lasts as long as the interpreter.
+py::handle exception(py::module_& module, const char* name, const py::tuple& bases, const char* purpose) {
+    const std::string full = std::string("samara.") + name;
+    PyObject* made = PyErr_NewExceptionWithDoc(full.c_str(), purpose, bases.ptr(), nullptr);
+    if (made == nullptr) throw py::error_already_set();
+    module.attr(name) = py::handle(made);
+    return made;
+}
+
+void set_error(const py::handle& kind, const Error& fault) {
+    PyErr_SetString(kind.ptr(), fault.what());
+}
+
+void bind_errors(py::module_& module) {
+    error = exception(module, "Error", py::make_tuple(py::handle(PyExc_RuntimeError)),
+                      "What is wrong with a file, a scene or a request, in one line that names the place and "
+                      "the remedy.");
+    input_error = exception(module, "InputError", py::make_tuple(error, py::handle(PyExc_ValueError)),
+                            "An Error of what was given: a scene, a file's content, an argument.");
+    file_error = exception(module, "FileError", py::make_tuple(error, py::handle(PyExc_OSError)),
+                           "An Error of a file that cannot be read or written.");
+    py::register_exception_translator([](std::exception_ptr thrown) {
+        try {
+            if (thrown) std::rethrow_exception(thrown);
+        } catch (const FileFault& fault) {
+            set_error(file_error, fault);
+        } catch (const InputFault& fault) {
+            set_error(input_error, fault);
+        } catch (const FlightError& fault) {
+            const bool is_lost = fault.kind() == FlightError::Kind::out_of_range;
+            set_error(is_lost ? error : input_error, fault);
+        } catch (const Error& fault) {
+            set_error(error, fault);
+        }
+    });
+}
+
+}  // namespace
 
 PYBIND11_MODULE(_samara, module) {
     module.doc() = "The compiled part of samara.";
-    py::register_exception<Error>(module, "Error", PyExc_RuntimeError).doc() =
-        "What is wrong with a file, a scene or a request, in one line that names the place and the remedy.";
+    bind_errors(module);
     module.attr("__version__") = version;
     bind_scene(module);
     bind_body(module);

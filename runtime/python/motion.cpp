@@ -34,31 +34,44 @@ py::ssize_t length(std::size_t size) {
 FlownMotion read(const std::filesystem::path& file) {
     const py::gil_scoped_release others_go_on;
     const std::lock_guard lock(hdf5_mutex());
-    return {std::make_shared<const Motion>(read_motion_file(file)), nullptr};
+    return on_input(
+        [&] {
+            return FlownMotion{std::make_shared<const Motion>(read_motion_file(file)), nullptr};
+        },
+        file);
+}
+
+/// Does what writes a file; its Error is a fault of the file.
+template <typename Work>
+void to_file(const Work& work) {
+    try {
+        work();
+    } catch (const Error& fault) {
+        throw FileFault(fault.what());
+    }
 }
 
 void write(const FlownMotion& motion, const std::filesystem::path& file) {
     const py::gil_scoped_release others_go_on;
     const std::lock_guard lock(hdf5_mutex());
-    write_motion_file(file, *motion.motion);
+    to_file([&] { write_motion_file(file, *motion.motion); });
 }
 
 FlownMotion fly(Scene scene, int runs, std::optional<std::uint64_t> seed, std::optional<double> step,
                 int threads, const std::filesystem::path& bodies, py::object progress) {
-    if (runs < 1 || runs > 1'000'000) throw Error("runs: give 1 to 1000000");
-    if (threads < 0 || threads > 4096) throw Error("threads: give 0 for all cores, or up to 4096");
-    if (step && !(*step >= 1e-9 && *step <= 1e3)) throw Error("step: give seconds, from 1e-9 to 1000");
+    require_runs_and_threads(runs, threads);
+    if (step && !(*step >= 1e-9 && *step <= 1e3)) throw InputFault("step: give seconds, from 1e-9 to 1000");
     if (seed) scene.seed = *seed;
     if (step) {
         scene.step = *step;
         scene.step_auto = false;
     }
     LongWork work(std::move(progress));
-    return work([&]() -> FlownMotion {
+    const auto flown = [&]() -> FlownMotion {
         std::vector<LoadedBody> loaded;
         {
             const std::lock_guard lock(hdf5_mutex());
-            loaded = load_scene_bodies(scene, bodies.string());
+            loaded = bodies_of(scene, bodies);
         }
         // Judging models flies as well, and is ended by tell() as soon as the flight itself begins.
         choose_models(scene, loaded, threads, [&](double, double) {});
@@ -67,7 +80,8 @@ FlownMotion fly(Scene scene, int runs, std::optional<std::uint64_t> seed, std::o
             scene, loaded, runs, [&](double done, double total) { return work.tell(done, total); }, threads);
         return {std::make_shared<const Motion>(std::move(result.motion)),
                 std::make_shared<const SimulationReport>(std::move(result.report))};
-    });
+    };
+    return work([&] { return on_input(flown); });
 }
 
 py::object report_of(const FlownMotion& motion) {
@@ -127,7 +141,7 @@ py::object measured(const BodyOfMotion& body, int run, int copy,
     nlohmann::json measures;
     {
         const py::gil_scoped_release others_go_on;
-        measures = as_json(measure(*body.motion, body.body(), run, copy, times));
+        measures = as_json(on_input([&] { return measure(*body.motion, body.body(), run, copy, times); }));
     }
     return as_python(measures);
 }
@@ -157,7 +171,7 @@ FallChoice choice_of(const MotionReader& file, const std::string& name,
     for (std::size_t i = 0; body && i < bodies.size(); ++i) {
         if (bodies[i].name == *body) return {name, &file, i, {}, {}};
     }
-    throw Error(
+    throw InputFault(
         fmt::format("{}: holds the bodies {}; give one of these as body", name, names_of(file.motion())));
 }
 
@@ -170,17 +184,17 @@ py::object comparison(const py::object& motion, const py::object& reference,
     ComparisonSettings settings;
     if (window) settings.window = TimeWindow{window->first, window->second};
     LongWork work(std::move(progress));
-    const nlohmann::json result = work([&] {
+    const auto compared = [&] {
         const std::lock_guard lock(hdf5_mutex());
         const MotionReader first(motion_file);
         const MotionReader second(reference_file);
-        const Comparison compared =
-            compare(choice_of(first, "the motion", body), choice_of(second, "the reference", body), settings,
-                    [&](double done, double total) {
-                        if (!work.tell(done, total)) throw Error("the comparison was ended");
-                    });
-        return as_json(compared);
-    });
+        return as_json(compare(choice_of(first, "the motion", body), choice_of(second, "the reference", body),
+                               settings, [&](double done, double total) {
+                                   if (!work.tell(done, total)) throw Error("the comparison was ended");
+                               }));
+    };
+    const std::filesystem::path& doubted = reading_fault(motion_file).empty() ? reference_file : motion_file;
+    const nlohmann::json result = work([&] { return on_input(compared, doubted); });
     return as_python(result);
 }
 
@@ -195,18 +209,20 @@ void export_to(const FlownMotion& motion, const std::filesystem::path& file, int
     const Motion& written = *motion.motion;
     const py::gil_scoped_release others_go_on;
     if (format == ".glb") {
-        write_glb(file, written, run);
+        to_file([&] { write_glb(file, written, run); });
     } else if (format == ".usda") {
-        write_usda(file, written, run);
+        to_file([&] { write_usda(file, written, run); });
     } else if (format == ".chan") {
-        write_chan(file, written, run);
+        to_file([&] { write_chan(file, written, run); });
     } else if (format == ".csv") {
-        write_csv(file, written, run);
+        to_file([&] { write_csv(file, written, run); });
     } else if (format == ".html") {
-        write_page(file, written, run, file.stem().string(),
-                   fmt::format("{} frames per second", written.frame_rate));
+        to_file([&] {
+            write_page(file, written, run, file.stem().string(),
+                       fmt::format("{} frames per second", written.frame_rate));
+        });
     } else {
-        throw Error(
+        throw InputFault(
             fmt::format("{}: the format '{}' is unknown; end the name in .glb, .usda, .chan, .html or .csv",
                         file.string(), format));
     }
@@ -221,10 +237,10 @@ std::string page(const FlownMotion& motion, int run) {
 }
 
 void bind_body_motion(py::module_& module) {
-    py::class_<BodyOfMotion>(module, "BodyMotion",
-                             "A body of a motion with all its copies, runs and frames. Arrays are views that "
-                             "cannot be written to; "
-                             "they keep the motion alive.")
+    class_of<BodyOfMotion>(module, "BodyMotion",
+                           "A body of a motion with all its copies, runs and frames. Arrays are views that "
+                           "cannot be written to; "
+                           "they keep the motion alive.")
         .def_property_readonly(
             "name", [](const BodyOfMotion& body) { return body.body().name; }, "In the scene.")
         .def_property_readonly(
@@ -287,8 +303,8 @@ void bind_body_motion(py::module_& module) {
 
 void bind_motion(py::module_& module) {
     bind_body_motion(module);
-    py::class_<FlownMotion>(module, "Motion",
-                            "What bodies did: poses at even times, in runs that differ by their noise alone.")
+    class_of<FlownMotion>(module, "Motion",
+                          "What bodies did: poses at even times, in runs that differ by their noise alone.")
         .def_static("read", &read, py::arg("file"), "Reads a motion file (.h5).")
         .def("write", &write, py::arg("file"),
              "Writes a motion file (.h5): the file stands whole, or not at all.")

@@ -17,58 +17,103 @@
 namespace samara::python {
 namespace {
 
-Error no_toml(const std::string& place, const py::handle& value) {
-    return Error(fmt::format("{} is of the type {}; a scene holds numbers, texts, booleans, lists and dicts",
-                             place, py::str(py::type::of(value).attr("__name__")).cast<std::string>()));
+constexpr int most_levels = 32;  // of lists and dicts within each other; scenes need six
+
+InputFault no_toml(const std::string& place, const py::handle& value) {
+    return InputFault(
+        fmt::format("{} is of the type {}; a scene holds numbers, texts, booleans, lists and dicts", place,
+                    py::str(py::type::of(value).attr("__name__")).cast<std::string>()));
 }
 
-toml::array as_toml_array(const py::handle& values, const std::string& place);
-toml::table as_toml_table(const py::dict& values, const std::string& place);
+/// What `place` is called from, whatever a scene that nests without end adds to it.
+void require_levels(const std::string& place, int level) {
+    if (level <= most_levels) return;
+    throw InputFault(
+        fmt::format("{}...: lists and dicts lie more than {} deep within each other; does one hold "
+                    "itself?",
+                    place.substr(0, place.find('[', place.find('[') + 1)), most_levels));
+}
 
-/// Calls `put` with the value as TOML knows it. `place`: for messages, as in scene['body'][0].
+std::string text_of(const py::handle& text, const std::string& place) {
+    try {
+        return text.cast<std::string>();
+    } catch (const py::cast_error&) {
+        throw InputFault(fmt::format("{} holds a text that is no Unicode", place));
+    }
+}
+
+std::int64_t whole_number(const py::handle& value, const std::string& place) {
+    const auto number = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
+    if (!number) throw py::error_already_set();
+    int overflow = 0;
+    const long long result = PyLong_AsLongLongAndOverflow(number.ptr(), &overflow);
+    if (overflow != 0) throw InputFault(fmt::format("{} is a whole number beyond 64 bits", place));
+    return result;
+}
+
+double real_number(const py::handle& value, const std::string& place) {
+    const double number = PyFloat_AsDouble(value.ptr());
+    if (PyErr_Occurred() == nullptr) return number;
+    if (PyErr_ExceptionMatches(PyExc_OverflowError) == 0) throw py::error_already_set();
+    PyErr_Clear();
+    throw InputFault(fmt::format("{} is beyond the range of numbers", place));
+}
+
+/// Whether it is a number of numpy's or an array: numpy.bool_, numpy.float32(1), numpy.zeros(3).
+bool is_numpys(const py::handle& value) {
+    return py::hasattr(value, "dtype") && py::hasattr(value, "tolist");
+}
+
+toml::array as_toml_array(const py::handle& values, const std::string& place, int level);
+toml::table as_toml_table(const py::dict& values, const std::string& place, int level);
+
+/// Calls `put` with the value as TOML knows it. `place`: for messages, as in scene['body'][0]. `level`: in so
+/// many lists and dicts.
 template <typename Put>
-void put_as_toml(const py::handle& value, const std::string& place, const Put& put) {
-    if (py::isinstance<py::array>(value)) {  // and numpy's numbers with it
-        put_as_toml(value.attr("tolist")(), place, put);
+void put_as_toml(const py::handle& value, const std::string& place, int level, const Put& put) {
+    require_levels(place, level);
+    const py::object plain = is_numpys(value) ? py::object(value.attr("tolist")()) : py::object();
+    if (plain && !is_numpys(plain)) {  // a longdouble stays one
+        put_as_toml(plain, place, level, put);
     } else if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) {
-        put(as_toml_array(value, place));
+        put(as_toml_array(value, place, level));
     } else if (py::isinstance<py::dict>(value)) {
-        put(as_toml_table(py::reinterpret_borrow<py::dict>(value), place));
+        put(as_toml_table(py::reinterpret_borrow<py::dict>(value), place, level));
     } else if (py::isinstance<py::bool_>(value)) {
         put(value.cast<bool>());
     } else if (py::isinstance<py::str>(value)) {
-        put(value.cast<std::string>());
+        put(text_of(value, place));
     } else if (py::hasattr(value, "__fspath__")) {
         put(value.cast<std::filesystem::path>().string());
     } else if (py::hasattr(value, "__index__")) {
-        put(py::int_(py::reinterpret_borrow<py::object>(value)).cast<std::int64_t>());
+        put(whole_number(value, place));
     } else if (py::hasattr(value, "__float__")) {
-        put(py::float_(py::reinterpret_borrow<py::object>(value)).cast<double>());
+        put(real_number(value, place));
     } else {
         throw no_toml(place, value);
     }
 }
 
-toml::array as_toml_array(const py::handle& values, const std::string& place) {
+toml::array as_toml_array(const py::handle& values, const std::string& place, int level) {
     toml::array array;
     std::size_t index = 0;
     for (const py::handle value : py::iter(values)) {
-        put_as_toml(value, fmt::format("{}[{}]", place, index++),
+        put_as_toml(value, fmt::format("{}[{}]", place, index++), level + 1,
                     [&](auto&& as_toml) { array.push_back(std::forward<decltype(as_toml)>(as_toml)); });
     }
     return array;
 }
 
-toml::table as_toml_table(const py::dict& values, const std::string& place) {
+toml::table as_toml_table(const py::dict& values, const std::string& place, int level) {
     toml::table table;
     for (const auto& [key, value] : values) {
         if (!py::isinstance<py::str>(key)) {
-            throw Error(
+            throw InputFault(
                 fmt::format("{} has the key {}; keys are texts", place, py::repr(key).cast<std::string>()));
         }
-        const auto name = key.cast<std::string>();
+        const std::string name = text_of(key, place);
         if (value.is_none()) continue;
-        put_as_toml(value, fmt::format("{}['{}']", place, name),
+        put_as_toml(value, fmt::format("{}['{}']", place, name), level + 1,
                     [&](auto&& as_toml) { table.insert(name, std::forward<decltype(as_toml)>(as_toml)); });
     }
     return table;
@@ -89,12 +134,12 @@ std::vector<std::string> names_of(const Scene& scene) {
 
 std::string toml_text(const py::dict& values, const std::string& place) {
     std::ostringstream text;
-    text << as_toml_table(values, place) << '\n';
+    text << as_toml_table(values, place, 0) << '\n';
     return text.str();
 }
 
 void bind_scene(py::module_& module) {
-    py::class_<Scene, std::shared_ptr<Scene>>(
+    class_of<Scene, std::shared_ptr<Scene>>(
         module, "Scene",
         "What falls in what, and how it starts: a scene file, checked. It does not change; make another for "
         "other values.")
@@ -102,12 +147,15 @@ void bind_scene(py::module_& module) {
              "A scene from a dict with the keys of a scene file: {'scene': {'duration': 2}, 'fluid': {...}, "
              "'body': [{...}, ...]}. Keys that are None are left out. Paths in it are taken from `folder`.")
         .def_static(
-            "read", [](const std::filesystem::path& file) { return read_scene_file(file); }, py::arg("file"),
-            "Reads a scene file (.toml). Paths in it are taken from its folder.")
+            "read",
+            [](const std::filesystem::path& file) {
+                return on_input([&] { return read_scene_file(file); }, file);
+            },
+            py::arg("file"), "Reads a scene file (.toml). Paths in it are taken from its folder.")
         .def_static(
             "from_text",
             [](const std::string& text, const std::filesystem::path& folder) {
-                return read_scene_text(text, "scene", folder);
+                return on_input([&] { return read_scene_text(text, "scene", folder); });
             },
             py::arg("text"), py::arg("folder") = ".", "A scene from the text of a scene file.")
         .def_readonly("duration", &Scene::duration, "s")

@@ -32,13 +32,35 @@ if "$work/consumer/fall" "$work/missing.body.h5" 2> "$work/fault"; then
   exit 1
 fi
 grep -q '^fall: .*missing.body.h5' "$work/fault"
-# Programs in C, by pkg-config.
+# A project in C alone finds the C interface without any other package, and says what the C++ library lacks.
+without=()
+for package in Eigen3 HDF5 TinyGLTF fmt nlohmann_json tomlplusplus; do without+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON"); done
+for parts in "" "COMPONENTS;c"; do
+  cmake -S "$source_folder/tests/end-to-end/consumer-c" -B "$work/consumer-c" -G Ninja "${without[@]}" \
+    -DCMAKE_PREFIX_PATH="$work/installed" -DEXAMPLES="$source_folder/docs/examples" -DPARTS="$parts"
+  cmake --build "$work/consumer-c"
+  "$work/consumer-c/fall" "$source_folder/runtime/bodies/leaf.body.h5" | grep -q '^1.0000 s  body 2'
+  rm -rf "$work/consumer-c"
+done
+if cmake -S "$source_folder/tests/end-to-end/consumer" -B "$work/consumer" -DCMAKE_DISABLE_FIND_PACKAGE_fmt=ON --fresh \
+  -DCMAKE_PREFIX_PATH="$work/installed" -DEXAMPLES="$source_folder/docs/examples" >"$work/said" 2>&1; then
+  echo "the C++ library was found without fmt" >&2
+  exit 1
+fi
+tr -s ' \n' ' ' <"$work/said" | grep -q 'samara::runtime needs fmt'
+# Programs in C, by the lines of the documentation, run from elsewhere.
 library=$(dirname "$(find "$work/installed" -name samara.pc)")
 PKG_CONFIG_PATH=$library pkg-config --modversion samara | grep -q '^[0-9]'
-# shellcheck disable=SC2046
-cc -std=c99 "$source_folder/docs/examples/fall.c" $(PKG_CONFIG_PATH=$library pkg-config --cflags --libs samara) \
-  -Wl,-rpath,"$(dirname "$library")" -o "$work/fall"
-"$work/fall" "$source_folder/runtime/bodies/leaf.body.h5" | grep -q '^1.0000 s  body 2'
+ln -s "$source_folder/docs" "$work/docs"
+ln -s installed "$work/DIR"
+ln -s installed "$work/samara"
+grep -hE '^    cc ' "$source_folder/docs/c-interface.md" "$source_folder/docs/tutorials/c-interface.md" >"$work/lines"
+[ "$(wc -l <"$work/lines")" = 3 ]
+while read -r line; do
+  rm -f "$work/fall"
+  (cd "$work" && bash -c "$line")
+  (cd / && env -u LD_LIBRARY_PATH "$work/fall" "$source_folder/runtime/bodies/leaf.body.h5") | grep -q '^1.0000 s  body 2'
+done <"$work/lines"
 # The wheel, by the same build folder, where its backend is installed (./dev test does so).
 if /usr/bin/python3 -c 'import scikit_build_core, pip' 2>/dev/null; then
   settings=()

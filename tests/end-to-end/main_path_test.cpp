@@ -70,6 +70,24 @@ void expect_refusal(const test::TemporaryFolder& folder, const std::vector<std::
     EXPECT_FALSE(std::filesystem::exists(folder / "out.body.h5"));
 }
 
+TEST(MainPath, AShapeIsMeshedOnceForAllRunsOfAScene) {
+    const test::TemporaryFolder folder;
+    write_scene(folder, shapes + "ellipsoid.geo");
+    const auto flown = [&](const char* environment) {
+        const auto run =
+            run_program_in(folder, {"samara", "simulate", "scene.toml", "-o", "out.h5"}, environment);
+        EXPECT_EQ(run.status, 0) << run.fault;
+        return file_content_hash(folder / "out.h5");
+    };
+    const std::string first = flown("SAMARA_CACHE=cache");
+    // Where no temporary folder can be made nothing is meshed.
+    EXPECT_EQ(flown("SAMARA_CACHE=cache TMPDIR=/nowhere"), first);
+    EXPECT_EQ(flown("SAMARA_CACHE=off"), first);
+    const auto off =
+        run_program_in(folder, {"samara", "simulate", "scene.toml", "-o", "out.h5"}, "TMPDIR=/nowhere");
+    EXPECT_EQ(off.status, 1);
+}
+
 TEST(MainPath, AShapeBecomesABakedBodyThatFallsAndLeavesForOtherTools) {
     const test::TemporaryFolder folder;
     write_scene(folder, shapes + "ellipsoid.geo");

@@ -77,8 +77,10 @@ inline samara_kind rubber_kind(std::uint32_t count = 1) {
     kind.count = count;
     kind.orientation[0] = 0.8;
     kind.orientation[2] = -0.6;
-    kind.spread_angle = 1.0;
-    kind.spread_position[0] = 0.1;
+    if (count > 1) {
+        kind.spread_angle = 1.0;
+        kind.spread_position[0] = 0.1;
+    }
     return kind;
 }
 

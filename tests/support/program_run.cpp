@@ -1,6 +1,7 @@
 #include "support/program_run.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include <fmt/format.h>
 
@@ -9,6 +10,12 @@
 #include "paths.hpp"
 
 namespace samara::test {
+namespace {
+
+/// Before any test: what it meshes stays out of the user's cache, and is meshed each time.
+[[maybe_unused]] const int cache_is_off = ::setenv("SAMARA_CACHE", "off", 1);
+
+}  // namespace
 
 ProgramRun run_program_in(const TemporaryFolder& folder, const std::vector<std::string>& words,
                           const std::string& environment) {

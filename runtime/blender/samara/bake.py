@@ -11,18 +11,18 @@ from .bake_job import BakeJob, bake_command, find_program, write_stl
 from .conventions import metres_per_unit, noise_name
 from .job_operator import JobOperator
 from .meshes import evaluated_mesh
-from .objects import fluid_of
+from .objects import fluid_of, scale_of
 from .samara_library import SamaraError
 
 
 def mesh_corners(context, o):
     """The triangles (n, 3 corners, 3) of the object with modifiers and scale, in metres about its origin."""
-    if any(s < 0.0 for s in o.scale):
+    if any(s < 0.0 for s in scale_of(o)):
         raise SamaraError(f"{o.name}: has a negative scale, which turns its faces; apply it (Ctrl A, Scale)")
-    if any(s == 0.0 for s in o.scale):
+    if any(s == 0.0 for s in scale_of(o)):
         raise SamaraError(f"{o.name}: has a scale of 0; it has no volume")
     vertices, triangles = evaluated_mesh(o, context.evaluated_depsgraph_get())
-    return (vertices * numpy.array(o.scale) * metres_per_unit(context.scene))[triangles]
+    return (vertices * numpy.array(scale_of(o)) * metres_per_unit(context.scene))[triangles]
 
 
 def output_folder():
@@ -71,7 +71,7 @@ class SAMARA_OT_bake(JobOperator, bpy.types.Operator):
             command = bake_command(program, folder, name, self.quality, o.samara.density, fluid_of(context.scene))
         except OSError as fault:
             raise SamaraError(f"{fault.filename}: {fault.strerror}") from None
-        self._name, self._scale = o.name, tuple(o.scale)
+        self._name, self._scale = o.name, scale_of(o)
         self._file = os.path.join(folder, f"{name}.body.h5")
         return BakeJob(command)
 

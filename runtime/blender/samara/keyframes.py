@@ -3,6 +3,8 @@
 import bpy
 import numpy
 
+from .objects import own_channels, turn_by_quaternions
+
 _LINEAR = 1  # 'LINEAR' among the interpolations of a key
 
 
@@ -31,8 +33,10 @@ def _insert_channel(action, path, index, frames, values):
 
 
 def insert_poses(o, first_frame, locations, rotations):
-    """Linear keys of location (n, 3) and rotation_quaternion (n, 4) at n frames on end, in place of any before."""
-    o.rotation_mode = "QUATERNION"
+    """Linear keys of location and rotation_quaternion at n frames on end, in place of any before, that give the poses (n, 3)
+    and (n, 4) together with the object's delta transform."""
+    turn_by_quaternions(o)
+    locations, rotations = own_channels(o, locations, rotations)
     action = _own_action(o)
     frames = numpy.arange(first_frame, first_frame + len(locations))
     for path, values in (("location", locations), ("rotation_quaternion", rotations)):

@@ -9,7 +9,7 @@ from bpy.app.handlers import persistent
 
 from . import pose_cache
 from .flight import fleets_of, together
-from .objects import has_keys, request_of, surroundings_of
+from .objects import has_keys, own_channels, request_of, surroundings_of, turn_by_quaternions
 from .obstacles import ObstaclesOfScene
 from .samara_library import SamaraError
 
@@ -57,28 +57,34 @@ def _known_obstacles(scene):
     return _obstacles[scene.name][1]
 
 
+def _drop(keys):
+    """Forgets flights, and ends the fleets that fly on for none."""
+    left = {_flights.pop(key).fleet for key in keys if key in _flights}
+    for fleet in left - {None} - {flight.fleet for flight in _flights.values()}:
+        fleet.cancelled.set()
+
+
 def _fly(requests, scene, refused):
     """Flights for what has changed: from the disk where they lie there, else in a few fleets."""
-    missing, left = [], set()
+    live = {o.name for o in live_objects(scene)} | {request.name for request in requests}
+    _drop([key for key in _flights if key[0] == scene.name and key[1] not in live])
+    missing, changed, read = [], [], {}
     folder = pose_cache.folder_of_file()
     for request in requests:
         key = (scene.name, request.name)
         if key in _flights and _flights[key].request == request:
             continue
-        if key in _flights:
-            left.add(_flights.pop(key).fleet)
+        changed.append(key)
         flight = pose_cache.read(request, folder)
         if flight is None:
             missing.append(request)
         else:
-            _flights[key] = flight
+            read[key] = flight
     if missing and missing[0].company:  # those that meet fly together or not at all
-        missing = requests
-        for request in requests:
-            flight = _flights.pop((scene.name, request.name), None)
-            left.add(flight.fleet if flight else None)
-    for fleet in left - {None} - {flight.fleet for flight in _flights.values()}:
-        fleet.cancelled.set()
+        missing, read = requests, {}
+        changed = [(scene.name, request.name) for request in requests]
+    _drop(changed)
+    _flights.update(read)
     for fleet in fleets_of(missing, refused, os.cpu_count() or 1):
         for flight in fleet.flights:
             _flights[(scene.name, flight.request.name)] = flight
@@ -111,6 +117,11 @@ def _may_wait():
     return bpy.app.background or _renders
 
 
+def _put(o, location, rotation):
+    """Where the pose is, whatever the object's delta transform."""
+    (o.location,), (o.rotation_quaternion,) = own_channels(o, [location], [rotation])
+
+
 def _show_object(o, scene, deadline):
     """Returns whether the object is where it will be: else it waits at the last frame that is flown."""
     flight = _flights[(scene.name, o.name)]
@@ -122,7 +133,7 @@ def _show_object(o, scene, deadline):
             frame = min(frame, max(0.0, flight.flown - 1.0))
             if flight.flown == 0:
                 return False
-    o.location, o.rotation_quaternion = flight.pose_at(frame)
+    _put(o, *flight.pose_at(frame))
     return frame >= scene.frame_current_final - scene.frame_start or not flight.is_flying()
 
 
@@ -191,7 +202,7 @@ def go_live(objects, context):
         body.start_location = [x / surroundings.metres_per_unit for x in request.position]
         body.start_rotation = request.orientation
         body.start_rotation_mode = o.rotation_mode
-        o.rotation_mode = "QUATERNION"
+        turn_by_quaternions(o)
         body.live_error = ""
         body.live = True
     show(scene)
@@ -201,11 +212,11 @@ def go_off(o):
     """Back to where the object started from."""
     body = o.samara
     body.live = False
-    o.location = body.start_location
-    o.rotation_quaternion = body.start_rotation
-    o.rotation_mode = body.start_rotation_mode
-    for key in [key for key in _flights if key[1] == o.name]:
-        del _flights[key]
+    _put(o, body.start_location, body.start_rotation)
+    if body.start_rotation_mode != "QUATERNION":
+        o.delta_rotation_quaternion = (1.0, 0.0, 0.0, 0.0)  # that mode has a delta of its own
+        o.rotation_mode = body.start_rotation_mode
+    _drop([key for key in _flights if key[1] == o.name])
 
 
 # Before the change is evaluated, so that the frame, in the view or rendered, has the poses set here.

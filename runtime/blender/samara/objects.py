@@ -3,6 +3,8 @@
 import os
 
 import bpy
+import numpy
+from mathutils import Quaternion
 
 from .conventions import frame_count, metres_per_unit, seconds_per_frame, size_of
 from .flight import Request, Surroundings
@@ -40,10 +42,49 @@ def has_keys(o):
     return any(curve.data_path == "location" or curve.data_path.startswith("rotation") for curve in curves)
 
 
+def delta_turn(o):
+    """The rotation of the object's delta transform, as a quaternion; that of the mode axis and angle is not reached by Python."""
+    if o.rotation_mode == "QUATERNION":
+        return o.delta_rotation_quaternion.normalized()
+    return Quaternion() if o.rotation_mode == "AXIS_ANGLE" else o.delta_rotation_euler.to_quaternion()
+
+
+def turn_by_quaternions(o):
+    """Changes the rotation mode; the delta transform stays what it is."""
+    turn = delta_turn(o)
+    o.rotation_mode = "QUATERNION"
+    o.delta_rotation_quaternion = turn
+
+
+def own_channels(o, locations, rotations):
+    """What the object's location and quaternion have to be for poses (n, 3) and (n, 4), since Blender adds its delta
+    transform to them."""
+    turn = delta_turn(o)
+    locations = numpy.asarray(locations) - numpy.array(o.delta_location)
+    if turn != Quaternion():
+        back = turn.conjugated()
+        rotations = numpy.array([back @ Quaternion(rotation) for rotation in rotations])
+    return locations, rotations
+
+
+def scale_of(o):
+    """That of the delta transform included."""
+    return tuple(a * b for a, b in zip(o.scale, o.delta_scale))
+
+
+def _require_steady_deltas(o):
+    """Refuses keys and drivers of the delta transform, which would move the object besides."""
+    data = o.animation_data
+    curves = [] if data is None else list(data.drivers) + (list(data.action.fcurves) if data.action else [])
+    if any(curve.data_path.startswith("delta_") for curve in curves):
+        raise SamaraError(f"{o.name}: its delta transform has keys or drivers; clear them, or key location and rotation")
+
+
 def start_pose(o):
     """Location (Blender units) and quaternion from which the object starts: that of now, or of when it went live."""
     if o.samara.live:
         return tuple(o.samara.start_location), tuple(o.samara.start_rotation)
+    _require_steady_deltas(o)
     if o.parent is not None:
         raise SamaraError(f"{o.name}: has a parent; clear it (Alt P, Keep Transformation)")
     location, rotation, scale = o.matrix_world.decompose()
@@ -51,7 +92,7 @@ def start_pose(o):
     if (location - own_location).length > 1e-5 * max(1.0, location.length) or (
         rotation.rotation_difference(own_rotation).angle % 6.28318 > 1e-3
     ):
-        raise SamaraError(f"{o.name}: is moved by constraints or delta transforms; apply them first")
+        raise SamaraError(f"{o.name}: is moved by constraints; apply them first")
     rotation.normalize()
     return tuple(location), tuple(rotation)
 
@@ -123,7 +164,7 @@ def request_of(o, surroundings, let_go=None):
     body, unit = o.samara, surroundings.metres_per_unit
     if body.is_obstacle:
         raise SamaraError(f"{o.name}: is an obstacle, and does not fly; untick Obstacle, or leave it out")
-    size = size_of(o.name, o.scale, body.body_scale)
+    size = size_of(o.name, scale_of(o), body.body_scale)
     location, rotation = start_pose(o)
     file = body_file_of(o)
     return Request(

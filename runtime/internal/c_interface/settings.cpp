@@ -119,6 +119,10 @@ void read_start(const samara_kind& kind, GivenKind& body) {
     if (body.count == 1 && body.largest_size != body.smallest_size) {
         refuse("largest_size", "differs from smallest_size, but count is 1: give both the size of that body");
     }
+    if (body.count == 1 && body.spreads()) {
+        refuse("count",
+               "is 1, but spread_position, spread_angle or spread_start is not 0: they are of several");
+    }
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "internal/base/nearest_word.hpp"
 #include "internal/command/guarded_program.hpp"
 #include "internal/command/print.hpp"
+#include "internal/files/replace_file.hpp"
 #include "samara/base/version.hpp"
 
 namespace samara {
@@ -23,6 +24,7 @@ struct Arguments::Parser {
     std::string program;
     bool json = false;
     std::map<std::string, std::vector<std::string>> choices;  ///< by the option's name with its dashes
+    std::vector<const std::string*> outputs;                  ///< files to write; empty where none is given
 };
 
 namespace {
@@ -65,6 +67,16 @@ std::string fault_in_words(const CLI::App& app, const CLI::ParseError& fault) {
                                          : std::string(fault.what())) +
            see_help;
 }
+
+/// Refuses "3mm" and "fast" where a number is due.
+const CLI::Validator plain_number(
+    [](const std::string& word) {
+        double number = 0.0;
+        if (CLI::detail::lexical_cast(word, number)) return std::string();
+        return fmt::format("'{}' is no number; numbers stand without a unit, in SI units: m, kg, s, rad",
+                           word);
+    },
+    "");
 
 /// Whether the words ask for JSON, whatever else is wrong with them.
 bool asks_for_json(int argc, const char* const* argv) {
@@ -111,24 +123,40 @@ void Arguments::required_option(const std::string& name, std::string& value, con
     parser_->app.add_option(name, value, help)->required();
 }
 
+void Arguments::output_option(const std::string& name, std::string& value, const std::string& help) {
+    option(name, value, help);
+    parser_->outputs.push_back(&value);
+}
+
+void Arguments::required_output_option(const std::string& name, std::string& value, const std::string& help) {
+    required_option(name, value, help);
+    parser_->outputs.push_back(&value);
+}
+
 void Arguments::option(const std::string& name, double& value, const std::string& help, double lowest,
                        double highest) {
-    parser_->app.add_option(name, value, help)->check(CLI::Range(lowest, highest))->capture_default_str();
+    parser_->app.add_option(name, value, help)
+        ->check(plain_number)
+        ->check(CLI::Range(lowest, highest))
+        ->capture_default_str();
 }
 
 void Arguments::option(const std::string& name, int& value, const std::string& help, int lowest,
                        int highest) {
-    parser_->app.add_option(name, value, help)->check(CLI::Range(lowest, highest))->capture_default_str();
+    parser_->app.add_option(name, value, help)
+        ->check(plain_number)
+        ->check(CLI::Range(lowest, highest))
+        ->capture_default_str();
 }
 
 void Arguments::option(const std::string& name, std::optional<int>& value, const std::string& help,
                        int lowest, int highest) {
-    parser_->app.add_option(name, value, help)->check(CLI::Range(lowest, highest));
+    parser_->app.add_option(name, value, help)->check(plain_number)->check(CLI::Range(lowest, highest));
 }
 
 void Arguments::option(const std::string& name, std::optional<double>& value, const std::string& help,
                        double lowest, double highest) {
-    parser_->app.add_option(name, value, help)->check(CLI::Range(lowest, highest));
+    parser_->app.add_option(name, value, help)->check(plain_number)->check(CLI::Range(lowest, highest));
 }
 
 void Arguments::option(const std::string& name, std::uint64_t& value, const std::string& help) {
@@ -171,6 +199,9 @@ int run_program(int argc, const char* const* argv, Arguments& arguments,
             return;
         } catch (const CLI::ParseError& fault) {
             throw std::runtime_error(fault_in_words(parser.app, fault));
+        }
+        for (const std::string* output : parser.outputs) {
+            if (!output->empty()) require_writable(*output);
         }
         const nlohmann::json result = body();
         if (parser.json) print_json(result);

@@ -33,6 +33,9 @@ class Arguments {
     /// Numbers that do not parse, and values outside [lowest, highest], are refused with the option's name.
     void option(const std::string& name, std::string& value, const std::string& help);
     void required_option(const std::string& name, std::string& value, const std::string& help);
+    /// An option that names a file to write: run_program refuses one that cannot be written before the work.
+    void output_option(const std::string& name, std::string& value, const std::string& help);
+    void required_output_option(const std::string& name, std::string& value, const std::string& help);
     void option(const std::string& name, double& value, const std::string& help, double lowest,
                 double highest);
     void option(const std::string& name, int& value, const std::string& help, int lowest, int highest);

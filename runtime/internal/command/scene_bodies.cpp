@@ -1,14 +1,15 @@
 #include "internal/command/scene_bodies.hpp"
 
+#include <algorithm>
 #include <filesystem>
-#include <map>
-#include <tuple>
+#include <mutex>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "internal/base/content_hash.hpp"
 #include "internal/base/labelled.hpp"
+#include "internal/command/body_cache.hpp"
 #include "internal/command/load_body.hpp"
 #include "internal/dynamics/immersed_body.hpp"
 #include "internal/files/input_file.hpp"
@@ -39,41 +40,93 @@ void require_same_shape(const std::filesystem::path& file, const Body& body, con
                             file.string(), scene_body.shape.string()));
 }
 
-/// The bodies of a scene: what several have in common is read, meshed and solved once.
+/// What a scene asks of the body of a file.
+struct Wanted {
+    std::filesystem::path file;
+    double scale = 1.0;
+    bool added_mass = false;
+    bool surface_loads = false;
+
+    bool operator==(const Wanted&) const = default;
+};
+
+/// Solves what lacks of the body.
+void complete(Body& body, const Wanted& wanted) {
+    const std::string label = wanted.file.string();
+    if (wanted.added_mass && !body.kirchhoff) {
+        body.kirchhoff = labelled(label, [&] { return kirchhoff_tensor(body); });
+    }
+    if (wanted.surface_loads && !body.surface_loads) {
+        body.surface_loads =
+            labelled(label, [&] { return samara::surface_loads(body.surface, body.moments); });
+    }
+}
+
+/// What is not in the file itself is made once for good, where the file tells all that it depends on.
+Body loaded_body(const Wanted& wanted, const std::optional<std::string>& key) {
+    std::optional<Body> body;
+    if (is_body_file_name(wanted.file) || is_hdf5(wanted.file)) {
+        body = load_body(wanted.file, wanted.scale);
+        const bool is_complete =
+            (body->kirchhoff || !wanted.added_mass) && (body->surface_loads || !wanted.surface_loads);
+        if (is_complete) return *std::move(body);
+    }
+    const BodyCache cache;
+    const std::string entry =
+        fmt::format("{}\n{} {} {}", key.value_or(""), wanted.scale, wanted.added_mass, wanted.surface_loads);
+    if (key) {
+        if (auto kept = cache.find(entry)) return *std::move(kept);
+    }
+    if (!body) body = load_body(wanted.file, wanted.scale);
+    complete(*body, wanted);
+    // A file that was written meanwhile may be another than the key's.
+    if (key && body_key(wanted.file) == key) cache.keep(entry, *body);
+    return *std::move(body);
+}
+
+/// The bodies that scenes of this process asked for last, with what was made of them for the steps: a program
+/// that flies one scene after the other reads and prepares each body once. Safe to call from several threads.
 class LoadedBodies {
   public:
-    explicit LoadedBodies(std::string folder) : folder_(std::move(folder)) {}
-
-    LoadedBody operator()(const SceneBody& scene_body) {
-        const std::filesystem::path file = file_of(scene_body, folder_);
-        // A baked body is in metres already: the scene's scale went into it.
-        const double scale = folder_.empty() ? scene_body.scale : 1.0;
-        const bool asked = scene_body.loads == Loads::surface;
-        const bool surface_loads = asked || scene_body.loads_by_default;
-        const auto [place, is_new] = known_.try_emplace({file, scale, scene_body.added_mass, surface_loads});
-        if (is_new) place->second = load(file, scale, scene_body.added_mass, surface_loads);
-        if (!folder_.empty()) require_same_shape(file, *place->second->body, scene_body);
-        return *place->second;
+    LoadedBody operator()(const Wanted& wanted) {
+        static_cast<void>(InputFile(wanted.file));  // which says what is wrong with it
+        const std::optional<std::string> key = body_key(wanted.file);
+        const std::lock_guard lock(mutex_);
+        const auto known = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
+            return entry.key == key && entry.wanted == wanted;
+        });
+        if (key && known != entries_.end()) {
+            std::rotate(known, known + 1, entries_.end());
+            return entries_.back().body;
+        }
+        LoadedBody body(loaded_body(wanted, key), file_content_hash(wanted.file));
+        if (!key) return body;
+        if (entries_.size() == most) entries_.erase(entries_.begin());
+        entries_.push_back({*key, wanted, body});
+        return body;
     }
 
   private:
-    static LoadedBody load(const std::filesystem::path& file, double scale, bool added_mass,
-                           bool surface_loads) {
-        Body body = load_body(file, scale);
-        if (added_mass && !body.kirchhoff) {
-            body.kirchhoff =
-                labelled(file.string(), [&] { return kirchhoff_tensor(body); });
-        }
-        if (surface_loads && !body.surface_loads) {
-            body.surface_loads =
-                labelled(file.string(), [&] { return samara::surface_loads(body.surface, body.moments); });
-        }
-        return {std::move(body), file_content_hash(file)};
-    }
+    static constexpr std::size_t most = 8;
+    struct Entry {
+        std::string key;
+        Wanted wanted;
+        LoadedBody body;
+    };
 
-    std::string folder_;
-    std::map<std::tuple<std::filesystem::path, double, bool, bool>, std::optional<LoadedBody>> known_;
+    std::mutex mutex_;
+    std::vector<Entry> entries_;  ///< the one that was asked for last at the end
 };
+
+/// `folder`: of baked bodies, or empty.
+Wanted wanted_of(const SceneBody& scene_body, const std::string& folder) {
+    const bool asked = scene_body.loads == Loads::surface;
+    return {.file = file_of(scene_body, folder),
+            // A baked body is in metres already: the scene's scale went into it.
+            .scale = folder.empty() ? scene_body.scale : 1.0,
+            .added_mass = scene_body.added_mass,
+            .surface_loads = asked || scene_body.loads_by_default};
+}
 
 /// Whether a body that the scene leaves to what its file holds is without the tables for it.
 bool flies_by_surface(const SceneBody& scene_body, const Body& body) {
@@ -87,16 +140,23 @@ bool flies_by_surface(const SceneBody& scene_body, const Body& body) {
 }  // namespace
 
 std::vector<LoadedBody> load_scene_bodies(Scene& scene, const std::string& folder) {
-    std::vector<LoadedBody> loaded;
-    LoadedBodies load(folder);
+    static LoadedBodies kept;
+    std::vector<LoadedBody> bodies;
+    std::vector<Wanted> all_wanted;
     for (SceneBody& body : scene.bodies) {
-        loaded.push_back(load(body));
-        if (flies_by_surface(body, *loaded.back().body)) {
+        const Wanted wanted = wanted_of(body, folder);
+        const auto same = std::find(all_wanted.begin(), all_wanted.end(), wanted);
+        bodies.push_back(same == all_wanted.end()
+                             ? kept(wanted)
+                             : bodies[static_cast<std::size_t>(same - all_wanted.begin())]);
+        all_wanted.push_back(wanted);
+        if (!folder.empty()) require_same_shape(wanted.file, *bodies.back().body, body);
+        if (flies_by_surface(body, *bodies.back().body)) {
             body.loads = Loads::surface;
             if (body.turbulence_by_default) body.turbulence = Turbulence::none;
         }
     }
-    return loaded;
+    return bodies;
 }
 
 std::optional<ModelAdvice> choose_models(Scene& scene, const std::vector<LoadedBody>& loaded, int threads,

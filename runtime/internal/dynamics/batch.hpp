@@ -44,8 +44,8 @@ class BasicBatch {
         return sizes_.empty() ? 1.0 : sizes_[index];
     }
     /// What body number `index` touches with.
-    [[nodiscard]] const ImmersedBody& touching(std::size_t index) const noexcept {
-        return touching_.empty() ? *body_ : touching_[index];
+    [[nodiscard]] const TouchingBody& touching(std::size_t index) const noexcept {
+        return touching_.empty() ? static_cast<const TouchingBody&>(*body_) : touching_[index];
     }
     /// The source of the body's random numbers; without it, that of seed 0, no name, run 0 and copy 0.
     void set_noise(std::size_t index, const Noise& noise) noexcept;
@@ -83,7 +83,7 @@ class BasicBatch {
     FlightConstants<Real> constants_;
     std::vector<FlightBlock<Real>> blocks_;
     std::vector<double> sizes_;                    ///< none where all are the shape's
-    std::vector<ImmersedBody> touching_;           ///< of each size, where there is something to touch
+    std::vector<TouchingBody> touching_;           ///< of each size, where there is something to touch
     std::vector<kernel::ExternalLoads> external_;  ///< of each block; none where nothing is pushed
     std::vector<ContactRecord> met_;               ///< of each body; none where it is not noted
     std::vector<std::uint8_t> left_;  ///< of each body 1 or 0; none where all touch by themselves

@@ -36,9 +36,9 @@ Pose in_own_units(const Pose& pose, double size) noexcept {
     return result;
 }
 
-ImmersedBody touching_body(const ImmersedBody& body, double size) {
+TouchingBody touching_body(const TouchingBody& body, double size) {
     const double volume = size * size * size;
-    ImmersedBody result;
+    TouchingBody result;
     result.contact_points = body.contact_points;
     ContactPoints& points = result.contact_points;
     for (Vector3d& corner : points.corners) corner *= size;

@@ -17,8 +17,7 @@ BodyState in_world_units(const BodyState& state, double size) noexcept;
 /// The pose of a body of that size in the shape's own lengths and times.
 Pose in_own_units(const Pose& pose, double size) noexcept;
 
-/// What a body of that size touches with: contact points, inertia and its inverse, in metres and kilograms;
-/// nothing else is set.
-ImmersedBody touching_body(const ImmersedBody& body, double size);
+/// What a body of that size touches with, in metres and kilograms.
+TouchingBody touching_body(const TouchingBody& body, double size);
 
 }  // namespace samara

@@ -18,10 +18,15 @@ constexpr int most_attempts = 6;    // to find where bodies meet within a part
 constexpr double held_back = 0.25;  // of its kinetic energy, that one which stays keeps
 constexpr int most_stops =
     24;  // in a step, times bodies: parts that end sooner, where some hit or would be held
-constexpr int most_tries = 6;         // of a part
-constexpr int most_rounds = 60;       // in which bodies are moved apart
-constexpr double resting_way = 2e-4;  // in a step, over the radius, that counts as none
-constexpr double no_way = 2e-5;       // the same, which what rests is taken back by
+constexpr int most_tries = 6;  // of a part
+// In a step, times bodies. Heaps whose motion the parts can follow take up to 9,000, also at a step of 1/24
+// s.
+constexpr std::size_t most_work = 50000;
+constexpr std::size_t most_work_unfollowed = 500;  // where even the most parts are too few
+constexpr std::size_t work_of_point = 20;          // of an impulse found at a point, over a look at two hulls
+constexpr int most_rounds = 60;                    // in which bodies are moved apart
+constexpr double resting_way = 2e-4;               // in a step, over the radius, that counts as none
+constexpr double no_way = 2e-5;                    // the same, which what rests is taken back by
 constexpr double still = 1e-2;  // speed that counts as none, over what the step would give without contact
 constexpr double ground_touching = 1e-5;  // gap to the ground that counts as none, over the radius
 constexpr std::size_t most_ground_points = 12;
@@ -72,7 +77,7 @@ double CompanyStep::energy_of(std::size_t i, const BodyPlace& place, const Vecto
     return 0.5 * own.dot(companions_[i].body->inertia * own);
 }
 
-int CompanyStep::parts_of(std::span<const Pair> pairs, double time_step) const {
+double CompanyStep::parts_wanted(std::span<const Pair> pairs, double time_step) const {
     double parts = 1.0;
     const auto at_both = [&](std::size_t i, const auto& function) {
         return std::max(function(companions_[i].begin_velocity), function(companions_[i].end_velocity));
@@ -93,7 +98,7 @@ int CompanyStep::parts_of(std::span<const Pair> pairs, double time_step) const {
             std::min(first.body->contact_points.bounding_radius, second.body->contact_points.bounding_radius);
         parts = std::max(parts, time_step * past / (most_way * radius));
     }
-    return static_cast<int>(std::ceil(std::min(parts, static_cast<double>(most_parts))));
+    return parts;
 }
 
 void CompanyStep::start(double time_step) {
@@ -148,7 +153,7 @@ Vector6d CompanyStep::fed(const Mover& mover, double time) {
 void CompanyStep::begin_part(double time_step) {
     for (std::size_t i = 0; i < companions_.size(); ++i) {
         Mover& mover = movers_[i];
-        const ImmersedBody& body = *companions_[i].body;
+        const TouchingBody& body = *companions_[i].body;
         mover.velocity_before = mover.velocity;
         mover.before = mover.place;
         bodies_[i] = {.velocity = fed(mover, time_step),
@@ -354,6 +359,11 @@ void CompanyStep::settle(double time_step) {
     }
 }
 
+/// Whether the step has done all the work that it does.
+bool CompanyStep::is_spent() const {
+    return work_ > most_work_;
+}
+
 /// Whether impulses turned a body by so much in a part that its ends say little of what is between.
 bool CompanyStep::turned_far(double time_step) const {
     return std::any_of(movers_.begin(), movers_.end(), [&](const Mover& mover) {
@@ -367,19 +377,21 @@ void CompanyStep::try_part(std::span<const Pair> pairs, const CompanyGround& gro
     begin_part(part);
     points_.clear();
     find_pairs(pairs, part, may_stop);
+    if (is_spent()) points_.clear();  // those that may meet are held back
     find_ground(ground, time, part);
     std::size_t known = 0;
     for (int attempt = 0; attempt < most_attempts; ++attempt) {
         push(part, known);
         known = points_.size();
+        work_ += work_of_point * known;
         move(part, ends_step);
-        if ((may_stop && free_of_hits() < 1.0) || !find_passages(part)) return;
+        if (is_spent() || (may_stop && free_of_hits() < 1.0) || !find_passages(part)) return;
     }
 }
 
 void CompanyStep::part_all(const CompanyGround& ground, double time, double part) {
     bool moved = true;
-    for (int round = 0; round < most_rounds && moved; ++round) {
+    for (int round = 0; round < most_rounds && moved && (round == 0 || !is_spent()); ++round) {
         moved = false;
         part_pairs(part, round, moved);
         part_from_ground(ground, time, part, moved);
@@ -402,16 +414,18 @@ bool CompanyStep::take_parts(std::span<const Pair> pairs, const CompanyGround& g
     for (double begun = 0.0; begun < time_step;) {
         const double time = ground.time + begun;
         const double rest = time_step - begun;
+        if (is_spent()) longest = rest;
         // Not a sliver at the end.
         double part = rest <= longest * (1.0 + 1e-9) ? rest : longest;
         for (int tries = 1;; ++tries) {
-            const bool may_stop = tries < most_tries && stops * static_cast<int>(movers_.size()) < most_stops;
+            const bool may_stop =
+                tries < most_tries && stops * static_cast<int>(movers_.size()) < most_stops && !is_spent();
             try_part(pairs, ground, time, part, part == rest, may_stop);
             const double free = may_stop ? free_of_hits() : 1.0;
             if (free == 1.0) {
-                if (2 * parts <= most_parts && turned_far(part)) return false;
+                if (2 * parts <= most_parts && !is_spent() && turned_far(part)) return false;
                 part_all(ground, time, part);
-                if (!may_stop || all_come_through()) break;
+                if (!may_stop || is_spent() || all_come_through()) break;
                 longest = 0.5 * part;
             }
             part *= free < 1.0 ? free : 0.5;
@@ -431,7 +445,11 @@ void CompanyStep::take(std::span<Companion> companions, std::span<const Pair> pa
                        const CompanyGround& ground, double time_step) {
     companions_ = companions;
     flow_ = ground.flow;
-    for (int parts = parts_of(pairs, time_step); !take_parts(pairs, ground, time_step, parts);) parts *= 2;
+    const double wanted = parts_wanted(pairs, time_step);
+    work_ = 0;
+    most_work_ = companions.size() * (wanted > most_parts ? most_work_unfollowed : most_work);
+    int parts = static_cast<int>(std::ceil(std::min(wanted, static_cast<double>(most_parts))));
+    while (!take_parts(pairs, ground, time_step, parts)) parts *= 2;
     settle(time_step);
 }
 

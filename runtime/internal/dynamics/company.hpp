@@ -18,7 +18,7 @@ namespace samara {
 /// A body among others that it may touch. Velocities are (omega, v) of the centre of mass, in world axes and
 /// relative to the ground.
 struct Companion {
-    const ImmersedBody* body;  ///< what it touches with, at its size
+    const TouchingBody* body;  ///< what it touches with, at its size
     const std::vector<HullFace>* faces;
     int number;                    ///< of the flight: what records of contacts call it
     BodyPlace begin;               ///< before the step
@@ -70,6 +70,10 @@ inline Matrix6d in_world(const Matrix6d& of_body, const Quaterniond& orientation
 /// impulses found anew. What turning still brings too close is moved apart, and where that does not keep two
 /// from passing through each other the part is halved, or both stop on their way; what they win by it is paid
 /// for in kinetic energy.
+///
+/// A step does so much work for each body and no more: several times what heaps take, and little where even
+/// the most parts are too few to follow the motion, as beside a vortex that throws bodies about by many of
+/// their sizes. Where it is spent, those that may meet stay for the rest of the step where they have come to.
 class CompanyStep {
   public:
     using Pair = std::pair<std::size_t, std::size_t>;
@@ -110,9 +114,10 @@ class CompanyStep {
 
     void find_overlaps();
     void keep_angular_momentum(const Near& near, const Vector3d& first_shift, const Vector3d& second_shift);
-    [[nodiscard]] int parts_of(std::span<const Pair> pairs, double time_step) const;
+    [[nodiscard]] double parts_wanted(std::span<const Pair> pairs, double time_step) const;
     bool take_parts(std::span<const Pair> pairs, const CompanyGround& ground, double time_step, int parts);
     [[nodiscard]] bool turned_far(double time_step) const;
+    [[nodiscard]] bool is_spent() const;
     void start(double time_step);
     void begin_part(double time_step);
     void try_part(std::span<const Pair> pairs, const CompanyGround& ground, double time, double part,
@@ -151,6 +156,8 @@ class CompanyStep {
     std::vector<JointPoint> points_;
     std::vector<Near> near_;
     JointImpulses impulses_;
+    mutable std::size_t work_ = 0;  ///< done in the step: pairs of hulls looked at, points pushed at
+    std::size_t most_work_ = 0;
 };
 
 }  // namespace samara

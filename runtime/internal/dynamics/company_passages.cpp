@@ -42,6 +42,7 @@ void CompanyStep::find_pairs(std::span<const Pair> pairs, double time_step, bool
         const MeetingHull first = hull(a, movers_[a].place);
         const MeetingHull second = hull(b, movers_[b].place);
         const Parting now = parting(first, second, reach_if_struck);
+        ++work_;
         if (now.gap > reach_if_struck) continue;
         const double way = time_step * (fastest(a) + fastest(b));
         const bool waits =
@@ -107,6 +108,7 @@ bool CompanyStep::passes_by(const Near& near) const {
     const MeetingHull second = hull(near.second, movers_[near.second].alone);
     if (gap_along(first.hull, second.hull, near.normal) >= 0.0) return false;  // it may come to, otherwise
     const Parting later = parting(first, second, near.apart);
+    ++work_;
     return !later.overlap && parted_before(near, later.normal, near.apart) && later.gap >= near.apart;
 }
 
@@ -117,8 +119,10 @@ bool CompanyStep::parted_before(const Near& near, const Vector3d& normal, double
 }
 
 /// How much of their ways, up to 1, two surely come by without passing through each other: at both ends of
-/// each piece of it one plane leaves them a gap.
+/// each piece of it one plane leaves them a gap. Where all work is spent, none.
 double CompanyStep::free_share(const Near& near) const {
+    if (is_spent()) return 0.0;
+    ++work_;
     const double least = near.least();
     const auto hulls = [&](double share) {
         return std::pair(hull(near.first, on_the_way(near.first, share)),
@@ -129,6 +133,7 @@ double CompanyStep::free_share(const Near& near) const {
     double share = 0.0;
     double piece = 1.0;
     while (share < 1.0 && piece >= finest_piece) {
+        ++work_;
         const double next_share = std::min(1.0, share + piece);
         const auto [next_first, next_second] = hulls(next_share);
         if (gap_along(next_first.hull, next_second.hull, normal) < least) {
@@ -192,6 +197,7 @@ void CompanyStep::part_pairs(double time_step, int round, bool& moved) {
         const double free = began_parted ? free_share(near) : 1.0;
         if (began_parted && free >= 1.0) continue;
         if (!began_parted && round > 0) continue;
+        ++work_;
         const Parting there = parting(hull(near.first, on_the_way(near.first, free)),
                                       hull(near.second, on_the_way(near.second, free)), near.apart);
         const Vector3d normal = began_parted && there.overlap ? near.normal : there.normal;

@@ -156,7 +156,7 @@ Matrix3d axes_of(const NearPoint& near, const Matrix3d& to_world) noexcept {
 class ImpulseSolver {
   public:
     /// `surfaces_move`: whether what bodies meet has its velocity, or stands still.
-    ImpulseSolver(const ImmersedBody& body, const Matrix3d& to_world, bool surfaces_move,
+    ImpulseSolver(const TouchingBody& body, const Matrix3d& to_world, bool surfaces_move,
                   const Vector6d& velocity) noexcept
         : body_(body), to_world_(to_world), surfaces_move_(surfaces_move), velocity_(velocity) {}
 
@@ -334,7 +334,7 @@ class ImpulseSolver {
         largest_ = std::max(largest_, size * std::sqrt(mobility));
     }
 
-    const ImmersedBody& body_;
+    const TouchingBody& body_;
     const Matrix3d& to_world_;
     bool surfaces_move_;
     std::array<Contact, most_contacts> contacts_;
@@ -346,7 +346,7 @@ class ImpulseSolver {
 
 /// The share of the change that was found which adds no energy beyond the `work` (J) of surfaces that move:
 /// friction that was bounded by a normal impulse which later fell may add a little.
-double passive_share(const ImmersedBody& body, const Vector6d& velocity, const Vector6d& change,
+double passive_share(const TouchingBody& body, const Vector6d& velocity, const Vector6d& change,
                      double work) {
     const Vector6d momentum = body.inertia * change;
     const double gain = velocity.dot(momentum) - work;
@@ -357,7 +357,7 @@ double passive_share(const ImmersedBody& body, const Vector6d& velocity, const V
 
 }  // namespace
 
-Vector6d after_impulses(const ImmersedBody& body, const ContactSet& near, const Approach& approach,
+Vector6d after_impulses(const TouchingBody& body, const ContactSet& near, const Approach& approach,
                         const Vector6d& velocity, ContactRecord* met) noexcept {
     Candidates candidates(near, approach);
     ImpulseSolver solver(body, near.to_world(), !approach.drift, velocity);

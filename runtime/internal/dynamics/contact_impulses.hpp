@@ -28,7 +28,7 @@ struct Approach {
 /// Projected Gauss-Seidel on the impulses: Erleben, Velocity-based shock propagation for multibody dynamics
 /// animation, ACM Transactions on Graphics 26(2), 2007, section 3; the inertia here is K, the fluid's
 /// included.
-Vector6d after_impulses(const ImmersedBody& body, const ContactSet& near, const Approach& approach,
+Vector6d after_impulses(const TouchingBody& body, const ContactSet& near, const Approach& approach,
                         const Vector6d& velocity, ContactRecord* met = nullptr) noexcept;
 
 /// How far the load of a contact point stands off it, over the bounding radius: what stops a ball that rolls

@@ -20,7 +20,7 @@ Vector6d relative_to(const Vector3d& ground_velocity, const BodyState& state) {
 
 /// Whether a body comes to rest or stays at rest where it stood before a step. `velocity`: before it;
 /// `change`: in it, without what it stands on.
-bool rests(const ImmersedBody& body, const ContactSet& stood, double time_step, const Vector6d& velocity,
+bool rests(const TouchingBody& body, const ContactSet& stood, double time_step, const Vector6d& velocity,
            const Vector6d& change) noexcept {
     const auto energy = [&](const Vector6d& u) { return 0.5 * u.dot(body.inertia * u); };
     const double radius = body.contact_points.bounding_radius;
@@ -39,7 +39,7 @@ bool rests(const ImmersedBody& body, const ContactSet& stood, double time_step, 
 
 /// Takes back what the load moved the body by in a step, as far as what it stood on was in its way. Else it
 /// would turn a little in each step that it lies, and never lie still.
-void hold_against_load(const ImmersedBody& body, const ContactSet& stood, const Approach& approach,
+void hold_against_load(const TouchingBody& body, const ContactSet& stood, const Approach& approach,
                        const Vector6d& change, BodyState& state) noexcept {
     const Vector6d moved = 0.5 * change;
     const Vector6d held = approach.time_step * (after_impulses(body, stood, approach, moved) - moved);
@@ -51,7 +51,7 @@ void hold_against_load(const ImmersedBody& body, const ContactSet& stood, const 
 }
 
 /// Keeps a body out of the obstacles on its way since before the step.
-void keep_out_of_obstacles(const ImmersedBody& body, const Ground& ground, double time_step,
+void keep_out_of_obstacles(const TouchingBody& body, const Ground& ground, double time_step,
                            const BodyState& before, BodyState& state) noexcept {
     const BodyPlace reached = ground.in_world(state);
     BodyPlace mended = reached;
@@ -91,7 +91,7 @@ bool has_ground(const Surroundings& surroundings) noexcept {
     return surroundings.ground || surroundings.obstacles != nullptr;
 }
 
-void touch_ground(const ImmersedBody& body, const Ground& ground, double time_step, const BodyState& before,
+void touch_ground(const TouchingBody& body, const Ground& ground, double time_step, const BodyState& before,
                   BodyState& state, ContactRecord* met) noexcept {
     state.at_rest = false;
     const double radius = body.contact_points.bounding_radius;

@@ -14,10 +14,17 @@
 
 namespace samara {
 
+/// What of a body in a fluid its contacts ask for; body axes about the centre of mass, SI units.
+struct TouchingBody {
+    ContactPoints contact_points;
+    Matrix6d inertia = Matrix6d::Identity();          ///< K = K_body + rho_f K_fluid, order (omega, v)
+    Matrix6d inverse_inertia = Matrix6d::Identity();  ///< K^-1: of an ImmersedBody by prepare()
+};
+
 /// A body in a fluid, made ready for the time steps: constant while it moves. Body axes are the shape file's,
 /// about the centre of mass unless said otherwise; SI units. Where a member is set by hand, prepare() must
 /// follow.
-struct ImmersedBody {
+struct ImmersedBody : TouchingBody {
     std::string name;
     double mass = 0.0;                           ///< kg
     double volume = 0.0;                         ///< m^3
@@ -27,14 +34,12 @@ struct ImmersedBody {
     Vector3d center_of_buoyancy =
         Vector3d::Zero();  ///< m, from the centre of mass to the centroid of the volume
     Matrix3d own_inertia = Matrix3d::Identity();  ///< of the body alone about the centre of mass (kg m^2)
-    Matrix6d inertia = Matrix6d::Identity();      ///< K = K_body + rho_f K_fluid, order (omega, v)
     Matrix6d to_centroid = Matrix6d::Identity();  ///< X: (omega, v) at the centre of mass -> at the centroid
     Matrix3d added_mass = Matrix3d::Zero();       ///< rho_f M (kg)
     Matrix3d added_inertia = Matrix3d::Zero();    ///< rho_f J, K_fluid's block of (omega, omega) (kg m^2)
     Matrix3d added_coupling = Matrix3d::Zero();   ///< rho_f C, its block of (omega, v) (kg m)
-    ContactPoints contact_points;
-    double length = 1.0;                  ///< L = sqrt(S/pi) (m)
-    double reference_area = 0.0;          ///< A = pi L^2/4 (m^2)
+    double length = 1.0;                          ///< L = sqrt(S/pi) (m)
+    double reference_area = 0.0;                  ///< A = pi L^2/4 (m^2)
     Matrix3d shadows = Matrix3d::Zero();  ///< m^2, body axes: projected areas along the principal axes
     /// m^2, body axes: d.(squared_formation_way d) is the square of the way in which a wake forms behind a
     /// body that goes in the direction d (docs/theory, "A wake that forms").
@@ -62,8 +67,7 @@ struct ImmersedBody {
     double dissipation_rate = 0.0;          ///< m^2/s^3, likewise
     Langevin langevin = Langevin::wake;
 
-    // Of all the above, by prepare().
-    Matrix6d inverse_inertia = Matrix6d::Identity();  ///< K^-1
+    // Of all the above, as inverse_inertia, by prepare().
     FlightConstants<double> constants;
 };
 inline constexpr int shadow_subdivisions = 16;

@@ -112,6 +112,15 @@ class TemporaryFile {
 
 void replace(const std::filesystem::path& target,
              const std::function<void(const std::filesystem::path&)>& write, bool named) {
+    require_writable(target);
+    TemporaryFile temporary(target, named);
+    write(temporary.path());
+    temporary.become_target();
+}
+
+}  // namespace
+
+void require_writable(const std::filesystem::path& target) {
     const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
     std::error_code unknown;  // what cannot be looked at fails to be written, with its reason
     if (!std::filesystem::exists(folder, unknown) && !unknown) {
@@ -123,12 +132,21 @@ void replace(const std::filesystem::path& target,
     if (std::filesystem::is_directory(target, unknown)) {
         throw Error(fmt::format("{}: is a folder; give the name of a file", target.string()));
     }
-    TemporaryFile temporary(target, named);
-    write(temporary.path());
-    temporary.become_target();
+    if (::access(folder.c_str(), W_OK | X_OK) != 0) throw cannot_be_written(target);
 }
 
-}  // namespace
+void require_folder_to_make(const std::filesystem::path& folder) {
+    std::error_code unknown;
+    std::filesystem::path there = folder.empty() ? "." : folder;
+    while (!there.empty() && !std::filesystem::exists(there, unknown)) {
+        there = there.has_parent_path() && there != there.parent_path() ? there.parent_path() : ".";
+    }
+    if (!std::filesystem::is_directory(there, unknown)) {
+        throw Error(fmt::format("{}: cannot be made, since {} is a file; give another folder",
+                                folder.string(), there.string()));
+    }
+    if (::access(there.c_str(), W_OK | X_OK) != 0) throw cannot_be_written(folder);
+}
 
 void replace_file(const std::filesystem::path& target,
                   const std::function<void(const std::filesystem::path&)>& write) {

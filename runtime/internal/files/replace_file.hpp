@@ -7,6 +7,13 @@
 
 namespace samara {
 
+/// Throws Error where the file could not be written, as far as can be told before: its folder is not there or
+/// takes no files, or it is a folder itself.
+void require_writable(const std::filesystem::path& target);
+
+/// Throws Error where a folder takes no files or, where it is not there, cannot be made with those above it.
+void require_folder_to_make(const std::filesystem::path& folder);
+
 /// Writes a file so that a reader never sees it half-written: `write` fills an empty temporary file on the
 /// same disk, which is then synced to the disk and put in the place of `target`. If `write` throws, `target`
 /// stays as it was, and the exception passes on. The temporary file has no name in the folder, where the file

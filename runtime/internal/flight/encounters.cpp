@@ -13,6 +13,9 @@ namespace {
 // taken anew.
 constexpr double surplus = 1.25;
 constexpr int most_guesses = 16;
+// Over the radius: what comes farther in a step is past all others between two looks, and meets none. All
+// would be near it else.
+constexpr double farthest_reach = 1e6;
 
 bool sees_turbulence(const BodyState& state) {
     return !state.seen_fluid.velocity.isZero(0.0) || !state.seen_fluid.angular_velocity.isZero(0.0);
@@ -108,6 +111,7 @@ void Encounters::find_near(Run& run) {
     run.near.clear();
     const auto reach_of = [&](std::size_t i) { return run.members[i].radius + run.members[i].reach; };
     for (std::size_t i = 0; i < run.members.size(); ++i) {
+        if (!(run.members[i].reach <= farthest_reach * run.members[i].radius)) continue;
         run.order.emplace_back(run.members[i].place.position.x() - reach_of(i), i);
     }
     std::sort(run.order.begin(), run.order.end());
@@ -130,15 +134,18 @@ double Encounters::gap_between(Run& run, std::size_t a, std::size_t b) {
     const Member& second = run.members[b];
     const double enough = first.reach + second.reach;
     const auto known = run.gaps.find(key);
-    // A gap that was enough then is a lower bound.
-    if (known != run.gaps.end() && known->second <= enough) return known->second;
+    if (known != run.gaps.end() && (known->second.is_whole || known->second.gap > enough)) {
+        return known->second.gap;
+    }
     const auto hull = [&](const Member& member) {
         return MeetingHull{
             {&member.kind->batch().touching(member.index).contact_points,
              member.place.orientation.toRotationMatrix(), member.place.position - first.place.position},
             &member.kind->faces()};
     };
-    return run.gaps[key] = parting(hull(first), hull(second), enough).gap;
+    const double gap = parting(hull(first), hull(second), enough).gap;
+    run.gaps[key] = {gap, gap <= enough};  // where it is more than enough, it may be wider still
+    return gap;
 }
 
 void Encounters::find_companies(Run& run) {

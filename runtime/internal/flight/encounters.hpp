@@ -42,13 +42,18 @@ class Encounters {
         bool is_awake;                           ///< moves, or may
         std::size_t company = JointPoint::none;  ///< number of the first of those that it is with
     };
+    /// A gap (m) between two hulls, or what it is at least.
+    struct KnownGap {
+        double gap;
+        bool is_whole;  ///< whether it is the gap, not a bound
+    };
     /// The bodies of one run, and what is thought of them in a step.
     struct Run {
         std::vector<Member> members;
         std::vector<std::pair<double, std::size_t>> order;  ///< by where they begin along x
         std::vector<CompanyStep::Pair> near;                ///< whose spheres may meet
         std::vector<CompanyStep::Pair> pairs;               ///< of companies
-        std::unordered_map<std::uint64_t, double> gaps;     ///< between hulls before the step
+        std::unordered_map<std::uint64_t, KnownGap> gaps;   ///< between hulls before the step
         std::vector<Companion> companions;
         std::vector<std::size_t> numbers;
         CompanyStep step;

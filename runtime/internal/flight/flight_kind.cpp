@@ -99,7 +99,7 @@ void FlightKind::draw_starts(const FlightSettings& settings) {
             throw FlightError(FlightError::Kind::invalid_argument,
                               fmt::format("body {} of '{}' starts beyond the range of numbers", i, name_));
         }
-        const ImmersedBody& touching = batch_.touching(i);
+        const TouchingBody& touching = batch_.touching(i);
         require_above_ground(touching, name_, surroundings_, start(i), state, i % copies, copies);
         require_outside_obstacles(touching, name_, surroundings_, start(i), state, i % copies, copies);
         batch_.set_state(i, state);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "internal/base/machine_memory.hpp"
+#include "internal/dynamics/prepared_bodies.hpp"
 #include "internal/kernel/flight_block.hpp"
 #include "samara/base/error.hpp"
 #include "samara/flight/table_errors_met.hpp"
@@ -25,15 +26,31 @@ constexpr double bytes_in_block = 64U << 20U;
 constexpr double bytes_of_a_measured_frame = 170.0;
 constexpr double bytes_of_all_else = 60e6;
 
+/// Of what a copy of another size than the shape's touches ground, obstacles and others with.
+double bytes_of_a_touching_body(const Scene& scene, const SceneBody& body, const LoadedBody& loaded) {
+    const bool touches = scene.ground || !scene.obstacles.empty() || scene.bodies_meet;
+    if (!touches || !body.spreads_size()) return 0.0;
+    const auto made = loaded.prepared->get(*loaded.body, body, scene.fluid, body.name);
+    const ContactPoints& points = made->contact_points;
+    return sizeof(TouchingBody) +
+           static_cast<double>(points.corners.size() + points.round.size()) * sizeof(Vector3d);
+}
+
 }  // namespace
 
-RunNeeds needs_of(const Scene& scene, int runs) {
+RunNeeds needs_of(const Scene& scene, int runs, const std::vector<LoadedBody>& loaded) {
     const double frames = std::floor(scene.duration * scene.frame_rate) + 1.0;
     double samples = 0.0;
-    for (const SceneBody& body : scene.bodies) samples += static_cast<double>(body.count) * runs;
+    double touching = 0.0;
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        const SceneBody& body = scene.bodies[i];
+        const double copies = static_cast<double>(body.count) * runs;
+        samples += copies;
+        if (!loaded.empty()) touching += copies * bytes_of_a_touching_body(scene, body, loaded[i]);
+    }
     const double block = std::min(frames * samples, std::max(samples, bytes_in_block / bytes_in_file));
-    const double flight =
-        samples * bytes_of_a_flight + block * bytes_of_a_written_pose + frames * 2.0 * sizeof(double);
+    const double flight = samples * bytes_of_a_flight + touching + block * bytes_of_a_written_pose +
+                          frames * 2.0 * sizeof(double);
     const double measuring =
         frames * bytes_of_a_measured_frame + std::min(frames * samples * sizeof(Pose), bytes_in_block);
     RunNeeds needs;

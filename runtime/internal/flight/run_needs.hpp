@@ -2,7 +2,9 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include "samara/flight/loaded_body.hpp"
 #include "samara/scene/scene.hpp"
 
 namespace samara {
@@ -14,8 +16,9 @@ struct RunNeeds {
     bool memory_for_copies = false;  ///< whether most of the memory is for copies and runs, not for frames
 };
 
-/// The needs of a scene in `runs` runs, by its sizes alone: nothing is made for it.
-RunNeeds needs_of(const Scene& scene, int runs);
+/// The needs of a scene in `runs` runs, by its sizes alone: nothing is made for it. With its bodies, where
+/// they are loaded, also what copies of many sizes touch with.
+RunNeeds needs_of(const Scene& scene, int runs, const std::vector<LoadedBody>& loaded = {});
 
 /// "5.2 GB of memory and 5.4 GB of disk".
 std::string in_words(const RunNeeds& needs);

@@ -122,7 +122,7 @@ BodyState initial_state(const Release& release, const Vector3d& center_of_mass,
                          release.start);
 }
 
-void require_above_ground(const ImmersedBody& body, const std::string& name, const Surroundings& surroundings,
+void require_above_ground(const TouchingBody& body, const std::string& name, const Surroundings& surroundings,
                           double start, const BodyState& state, std::size_t copy, std::size_t copies) {
     if (!surroundings.ground) return;
     const Vector3d down = state.orientation.conjugate() * -Vector3d::UnitZ();
@@ -135,7 +135,7 @@ void require_above_ground(const ImmersedBody& body, const std::string& name, con
                     copy_in_words(name, copy, copies), depth, *surroundings.ground));
 }
 
-void require_outside_obstacles(const ImmersedBody& body, const std::string& name,
+void require_outside_obstacles(const TouchingBody& body, const std::string& name,
                                const Surroundings& surroundings, double start, const BodyState& state,
                                std::size_t copy, std::size_t copies) {
     if (surroundings.obstacles == nullptr) return;

@@ -56,11 +56,11 @@ BodyState initial_state(const Release& release, const Vector3d& center_of_mass,
 
 /// Throws Error, which calls the body by `name` and says how deep, where the lowest point of copy number
 /// `copy` (of `copies`) starts below the ground of the surroundings. `start`: s.
-void require_above_ground(const ImmersedBody& body, const std::string& name, const Surroundings& surroundings,
+void require_above_ground(const TouchingBody& body, const std::string& name, const Surroundings& surroundings,
                           double start, const BodyState& state, std::size_t copy, std::size_t copies);
 
 /// The same where copy number `copy` starts inside an obstacle of the surroundings, or across a face of it.
-void require_outside_obstacles(const ImmersedBody& body, const std::string& name,
+void require_outside_obstacles(const TouchingBody& body, const std::string& name,
                                const Surroundings& surroundings, double start, const BodyState& state,
                                std::size_t copy, std::size_t copies);
 

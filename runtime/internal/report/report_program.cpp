@@ -122,7 +122,7 @@ int run_report(int argc, const char* const* argv, const CasesReader& read_cases)
     Arguments arguments("samara report", "Judges a bake, and shows why, in one page.");
     ReportOptions options;
     arguments.positional("BODY", options.input, "body file with tables (.body.h5), from 'samara bake'");
-    arguments.required_option("-o,--output", options.output, "page to write, NAME.html");
+    arguments.required_output_option("-o,--output", options.output, "page to write, NAME.html");
     arguments.option("--cases", options.cases,
                      "the folder of the bake's cases; NAME.cases beside the body file");
     arguments.footer(footer);

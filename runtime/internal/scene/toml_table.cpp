@@ -55,6 +55,11 @@ double TomlTable::finite_number(std::string_view key, const toml::node& node,
     const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
     const bool fits =
         value && ((*value >= range.lowest && *value <= range.highest) || (range.or_zero && *value == 0.0));
+    if (!fits && node.is_string()) {
+        throw fault(key,
+                    fmt::format("must be a number without a unit, in SI units (m, kg, s, rad), not \"{}\"",
+                                node.ref<std::string>()));
+    }
     if (!fits) throw fault(key, range.words);
     return *value;
 }

@@ -36,7 +36,20 @@ TargetMiss miss_of(const Scene& scene, const std::vector<LoadedBody>& loaded, st
     return miss;
 }
 
+bool is_drawn(const SceneBody& body) {
+    const bool is_still = body.turbulence == Turbulence::none ||
+                          (body.turbulence == Turbulence::constant && body.turbulent_kinetic_energy == 0.0);
+    return body.emitter != nullptr || (body.count > 1 && body.spreads()) || !is_still;
+}
+
 }  // namespace
+
+bool depends_on_seed(const Scene& scene, std::size_t body) {
+    const auto& gusts = scene.wind.gusts;
+    if (gusts && !gusts->seed && gusts->rms > 0.0) return true;
+    if (!scene.bodies_meet) return is_drawn(scene.bodies[body]);
+    return std::any_of(scene.bodies.begin(), scene.bodies.end(), is_drawn);
+}
 
 TargetWatch::TargetWatch(const Target& target, int copies)
     : target_(target), passages_(static_cast<std::size_t>(copies)) {}

@@ -49,6 +49,10 @@ class TargetWatch {
     std::vector<Passage> passages_;
 };
 
+/// Whether another seed may give a body another fall: it is drawn where it starts or leaves an emitter, what
+/// turbulence does to it, gusts without a seed of their own, or any of these of a body that it may meet.
+bool depends_on_seed(const Scene& scene, std::size_t body);
+
 /// Flies a scene with `tries` seeds, its own and those after it, and returns how near each comes, the nearest
 /// first, of equals the first seed: the same for any number of threads (0: all cores). Throws Error where a
 /// flight does. `progress`: the share done.

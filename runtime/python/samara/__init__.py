@@ -8,17 +8,18 @@
     motion["leaf"].ensemble()        # descent speed, frequency, regimes, landing, ... with their errors
 
 Lengths are in metres, times in seconds, angles in radians, all else in SI units; world axes have z up. Faults are samara.Error,
-whose text is one line that names the place and the remedy.
+whose text is one line that names the place and the remedy; of what was given InputError, a ValueError too; of files that cannot be
+read or written FileError, an OSError too.
 """
 
 import os as _os
 from typing import Any, Callable, Optional, Union
 
-from ._samara import Body, BodyMotion, Error, Flight, Motion, Poses, Scene, __version__, compare, fly as _fly, ready_bodies
+from ._samara import Body, BodyMotion, Error, FileError, Flight, InputError, Motion, Poses, Scene, __version__, compare, fly as _fly, ready_bodies
 from .programs import bake, plan
 
-__all__ = ["Body", "BodyMotion", "Error", "Flight", "Motion", "Poses", "Scene", "bake", "compare", "plan", "ready_bodies",
-           "simulate", "__version__"]
+__all__ = ["Body", "BodyMotion", "Error", "FileError", "Flight", "InputError", "Motion", "Poses", "Scene", "bake", "compare",
+           "plan", "ready_bodies", "simulate", "__version__"]
 
 
 def simulate(scene: Union[Scene, dict[str, Any], str, "_os.PathLike[str]"], *, runs: int = 1, seed: Optional[int] = None,
@@ -44,6 +45,6 @@ def _show_in_notebook(motion: Motion) -> str:
 
 
 Motion._repr_html_ = _show_in_notebook  # type: ignore[attr-defined]
-for _public in (Body, BodyMotion, Error, Flight, Motion, Poses, Scene):
+for _public in (Body, BodyMotion, Error, FileError, Flight, InputError, Motion, Poses, Scene):
     _public.__module__ = __name__
 del _public

@@ -49,6 +49,8 @@ def _run(command: str, arguments: Iterable[_Path], progress: _Progress) -> dict[
 def _options(options: dict[str, Any]) -> list[str]:
     words: list[str] = []
     for key, value in options.items():
+        if hasattr(value, "tolist"):
+            value = value.tolist()  # of numpy
         if value is None or value is False:
             continue
         words.append("--" + key.replace("_", "-"))

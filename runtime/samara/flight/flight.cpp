@@ -222,7 +222,7 @@ void Flight::require_running() const {
     if (!parts_->stopped.empty()) refuse(FlightError::Kind::out_of_range, parts_->stopped);
 }
 
-void Flight::advance_to(double time) {
+void Flight::require_time(double time) const {
     require_running();
     if (!std::isfinite(time)) refuse(FlightError::Kind::invalid_argument, "time is not a finite number");
     if (time < parts_->time) {
@@ -236,6 +236,10 @@ void Flight::advance_to(double time) {
             FlightError::Kind::invalid_argument,
             fmt::format("time {} s is more than {:.0e} steps off; is a unit wrong?", time, most_steps_off));
     }
+}
+
+void Flight::advance_to(double time) {
+    require_time(time);
     if (time == parts_->time && parts_->has_begun) return;
     parts_->has_begun = true;
     try {
@@ -330,6 +334,10 @@ void Flight::watch_contacts(bool watch) {
 }
 
 ContactRecord Flight::take_contacts(std::size_t index) {
+    if (!parts_->watches_contacts) {
+        refuse(FlightError::Kind::invalid_argument,
+               "contacts are not noted; call watch_contacts before they happen");
+    }
     FlightKind& kind = kind_of(index);
     return kind.take_contacts(index - kind.first());
 }

@@ -115,6 +115,9 @@ class Flight {
     /// off, and where a body's motion leaves the range of numbers: then, and from then on.
     void advance_to(double time);
 
+    /// Throws FlightError where advance_to() could not go to that time: then nothing has changed.
+    void require_time(double time) const;
+
     /// The pose of a body's centre of mass at time(). Needs index < size().
     [[nodiscard]] Pose pose(std::size_t index) const;
     /// Those of `count` bodies from number `first` on, `poses[i]` each.
@@ -136,7 +139,7 @@ class Flight {
     [[nodiscard]] bool is_at_rest(std::size_t index) const;
     /// Notes from now on what bodies meet of ground and obstacles, or no longer.
     void watch_contacts(bool watch);
-    /// What a body met since it was last asked; nothing where it is not noted.
+    /// What a body met since it was last asked. Throws FlightError where watch_contacts() does not hold.
     ContactRecord take_contacts(std::size_t index);
     /// What the fluid does to a body in its next step, for a host that integrates it itself: it puts the body
     /// where it has come to by set_pose(), asks, and advances by a step. Throws FlightError where time() lies

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -73,7 +74,10 @@ double steps_of(const Scene& scene, const FlightKind& kind) {
 }  // namespace
 
 Simulation::Simulation(const Scene& scene, const std::vector<LoadedBody>& loaded, int runs, int threads)
-    : threads_(threads), flight_(flight_settings(scene, runs, threads)) {
+    : threads_(threads),
+      // Steps of bodies that meet may be slow, and are taken one by one anyway.
+      piece_(scene.bodies_meet ? scene.step : std::numeric_limits<double>::infinity()),
+      flight_(flight_settings(scene, runs, threads)) {
     motion_.times = frame_times(scene);
     motion_.runs = runs;
     motion_.frame_rate = scene.frame_rate;
@@ -117,6 +121,15 @@ void Simulation::take_frame(std::size_t index, double time, Pose* poses, std::si
     });
 }
 
+bool Simulation::advance_to(double time, const Progress& progress) {
+    while (flight_.time() + piece_ < time) {
+        flight_.advance_to(flight_.time() + piece_);
+        if (!progress(static_cast<double>(flight_.steps()), total_steps_)) return false;
+    }
+    flight_.advance_to(time);
+    return true;
+}
+
 SimulationReport Simulation::fly(const Sink& sink, const Progress& progress) {
     SimulationReport report;
     const auto runs = static_cast<std::size_t>(motion_.runs);
@@ -132,7 +145,10 @@ SimulationReport Simulation::fly(const Sink& sink, const Progress& progress) {
         while (flown < planned && !report.interrupted) {
             const auto start = std::chrono::steady_clock::now();
             const double time = motion_.times[report.frames + flown];
-            flight_.advance_to(time);
+            if (!advance_to(time, progress)) {
+                report.interrupted = true;
+                break;
+            }
             for (std::size_t i = 0; i < motion_.bodies.size(); ++i) {
                 const auto copies = static_cast<std::size_t>(motion_.bodies[i].copies);
                 take_frame(i, time, &poses[i][flown * copies], planned * copies);
@@ -142,7 +158,7 @@ SimulationReport Simulation::fly(const Sink& sink, const Progress& progress) {
             report.interrupted =
                 !progress(static_cast<double>(flight_.steps()), total_steps_) && report.frames + flown < all;
         }
-        for (std::size_t i = 0; i < motion_.bodies.size(); ++i) {
+        for (std::size_t i = 0; i < motion_.bodies.size() && flown > 0; ++i) {
             if (flown < planned) {  // the runs stand closer together
                 const auto copies = static_cast<std::size_t>(motion_.bodies[i].copies);
                 for (std::size_t run = 1; run < runs; ++run) {

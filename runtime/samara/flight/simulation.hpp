@@ -32,7 +32,8 @@ class Simulation {
     /// row-major order.
     using Sink =
         std::function<void(std::size_t body, std::size_t first_frame, const std::vector<Pose>& poses)>;
-    /// Told of (done, total) copies x runs x steps at every frame; false ends the flight at this frame.
+    /// Told of (done, total) copies x runs x steps at every frame and, where bodies meet, every step; false
+    /// ends the flight at this frame, or with the one before.
     using Progress = std::function<bool(double done, double total)>;
 
     /// `loaded[i]` is the body of scene.bodies[i]. `threads`: 0 for all cores; the poses are the same for any
@@ -53,9 +54,11 @@ class Simulation {
         std::vector<TableErrorsMet> table_errors;
     };
     void take_frame(std::size_t kind, double time, Pose* poses, std::size_t run_stride);
+    bool advance_to(double time, const Progress& progress);
 
     Motion motion_;
     int threads_;
+    double piece_;  ///< s, after which progress is told at the latest; infinite: by frames alone
     Flight flight_;
     std::vector<Frames> frames_;
     double total_steps_ = 0.0;

@@ -25,6 +25,11 @@ struct Release {
     /// Where copies start instead of `position`, in its axes and with its motion; null where there is none.
     std::shared_ptr<const Emitter> emitter = nullptr;
 
+    /// Whether copies start unlike each other: drawn from the seed, or, where there is one alone, in vain.
+    [[nodiscard]] bool spreads() const noexcept {
+        return !spread_position.isZero(0.0) || spread_angle > 0.0 || spread_start > 0.0 ||
+               smallest_size != largest_size;
+    }
     /// Whether any copy has another size than the shape's.
     [[nodiscard]] bool spreads_size() const noexcept {
         return (count > 1 || smallest_size == largest_size) && (smallest_size != 1.0 || largest_size != 1.0);

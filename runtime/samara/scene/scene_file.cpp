@@ -219,6 +219,9 @@ void read_start(TomlTable& table, const std::filesystem::path& folder, SceneBody
                                     "0.001 and 1000, as [0.8, 1.25]");
             }
         }
+        if (body.count == 1 && body.spreads()) {
+            throw table.fault("spread", "is of copies, and there is one; give a count above 1, or remove it");
+        }
         spread->finish();
     }
 }

@@ -186,6 +186,29 @@ TEST(BlenderAddon, FliesObjectsAtTheirScaleAndReleasesThemOneByOne) {
     EXPECT_GT((origin - place(start)).norm(), 0.05);
 }
 
+TEST(BlenderAddon, AppliesDeltaTransformsOnce) {
+    const TemporaryFolder folder;
+    const json found = use_addon({"deltas", rubber_file(folder)});
+    for (const json& fault : found["faults"]) EXPECT_EQ(fault, "");
+    const json& own = found["own"];
+    EXPECT_GT(distance(pose_of(own["keyed"][2]), pose_of(own["begin"])), 0.01) << "it falls";
+    for (const char* name : {"own", "euler", "quaternion"}) {
+        const json& body = found[name];
+        expect_same_poses(body["keyed"], own["keyed"]);
+        expect_same_poses(body["live"], own["keyed"]);
+        expect_same_poses(json::array({body["begin"], body["end"]}),
+                          json::array({own["begin"], own["begin"]}));
+    }
+    EXPECT_THAT(found["animated"].get<std::string>(), HasSubstr("its delta transform has keys"));
+}
+
+TEST(BlenderLive, EndsFlightsThatNoObjectShowsAnyMore) {
+    const TemporaryFolder folder;
+    const json found = use_addon({"ended", rubber_file(folder)});
+    EXPECT_EQ(found["off"], 0);
+    EXPECT_EQ(found["removed"], 1) << "the one that stays";
+}
+
 TEST(BlenderAddon, LetsGoOfAnObjectWhereItsKeysHaveItWithTheirVelocity) {
     const TemporaryFolder folder;
     const json found = use_addon({"led", rubber_file(folder)});

@@ -249,6 +249,7 @@ TEST(CHost, RefusesWhatIsNoForceBodyOrPlace) {
     expect_refused(CALL(samara_take_contacts, s, 0, 1, nullptr, 0), "contacts");
     samara_contact contact;
     expect_refused(CALL(samara_take_contacts, s, 0, 1, &contact, 50), "stride is 50");
+    expect_refused(CALL(samara_take_contacts, s, 0, 1, &contact, 0), "call watch_contacts");
     expect_refused(CALL(samara_get_mass_properties, s, 0, nullptr), "properties");
     expect_refused(CALL(samara_get_fluid_load, s, 0, nullptr), "load");
     samara_kind kind = rubber_kind(2);

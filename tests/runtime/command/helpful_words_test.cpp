@@ -64,6 +64,15 @@ TEST_F(HelpfulWords, NameTheMisspeltOptionRatherThanTheOneThatItLeavesMissing) {
     expect_refusal({"simulate", "scene.toml"}, "--output is required");
 }
 
+TEST_F(HelpfulWords, OfANumberWithAUnitSayInWhichUnitsNumbersAre) {
+    expect_refusal({"export", "x.h5", "-o", "x.glb", "--tolerance", "3mm"},
+                   "'3mm' is no number; numbers stand without a unit, in SI units: m, kg, s, rad");
+    expect_refusal({"search", "scene.toml", "--target", "0,0,0,5cm"}, "x,y,z,radius in metres");
+    (void)folder_.file("units.toml", "[scene]\nduration = \"2 s\"\n");
+    expect_refusal({"simulate", "units.toml", "-o", "x.h5"},
+                   "must be a number without a unit, in SI units (m, kg, s, rad), not \"2 s\"");
+}
+
 TEST_F(HelpfulWords, OfAMotionInAnotherFormatNameTheCommandThatWritesIt) {
     expect_refusal({"simulate", "scene.toml", "-o", "x.glb"},
                    "x.glb: the output is a motion file; write x.h5, then 'samara export x.h5 -o x.glb'");
@@ -71,6 +80,12 @@ TEST_F(HelpfulWords, OfAMotionInAnotherFormatNameTheCommandThatWritesIt) {
     expect_refusal({"simulate", "scene.toml", "-o", "x.body.h5"}, "is the name of a body file");
     expect_refusal({"simulate", "scene.toml", "-o", "x"}, "the name of a motion file ends in .h5");
     EXPECT_FALSE(std::filesystem::exists(folder_ / "x.glb"));
+}
+
+TEST_F(HelpfulWords, OfASearchWhereNothingIsDrawnComeAtOnceAndSayWhatToAdd) {
+    expect_refusal({"search", "scene.toml", "--target", "0,0,0,1", "--body", "a", "--tries", "10000000"},
+                   "all seeds give the same; give the body a count with a spread");
+    EXPECT_EQ(run({"search", "scene.toml", "--target", "0,0,0,1", "--body", "a", "--tries", "1"}).status, 0);
 }
 
 TEST_F(HelpfulWords, OfOneKindComeOnceInOneLine) {

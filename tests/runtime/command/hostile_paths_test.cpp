@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "paths.hpp"
 #include "samara/body/body_file.hpp"
 #include "support/known_bodies.hpp"
 #include "support/program_run.hpp"
@@ -91,6 +92,33 @@ TEST(HostilePaths, ThatCannotBeWrittenAreRefusedWithTheReason) {
         expect_refusal(folder, {"samara", "kirchhoff", "rubber.body.h5", "-o", out + ".body.h5"}, ": ");
     }
     EXPECT_LE(folder.file_count(), before + 2) << "beside what the programs said";
+}
+
+TEST(HostilePaths, OfOutputsAreSeenBeforeTheWork) {
+    const test::TemporaryFolder folder;
+    (void)folder.file("not-read", "and no file of samara's");
+    for (const Words& words :
+         {Words{"export", "not-read", "-o", "none/out.glb"}, Words{"plot", "not-read", "-o", "none/out.png"},
+          Words{"compare", "not-read", "not-read", "-o", "none/out.png"},
+          Words{"simulate", "not-read", "-o", "none/out.h5"},
+          Words{"search", "not-read", "--target", "0,0,0,1", "-o", "none/out.h5"},
+          Words{"kirchhoff", "not-read", "-o", "none/out.body.h5"},
+          Words{"mass", "not-read", "-o", "none/out.body.h5"},
+          Words{"report", "not-read", "-o", "none/out.html"}}) {
+        Words command = words;
+        command.insert(command.begin(), "samara");
+        expect_refusal(folder, command, "the folder none does not exist; create it first");
+    }
+    for (const Words& words : {Words{"bake", "not-read.toml", "-o", "not-read/out"},
+                               Words{"bake", "not-read", "-o", "not-read/below/out.body.h5"},
+                               Words{"validate", "not-read", "-o", "not-read/out.h5"}}) {
+        if (!std::filesystem::exists(SAMARA_PROGRAMS "/samara-" + words.front())) continue;  // a baking tool
+        Words command = words;
+        command.insert(command.begin(), "samara");
+        expect_refusal(folder, command, "since not-read is a file; give another folder");
+    }
+    std::filesystem::create_directory(folder / "out.h5");
+    expect_refusal(folder, {"samara", "simulate", "not-read", "-o", "out.h5"}, "out.h5: is a folder");
 }
 
 TEST(HostilePaths, OfTemporaryFoldersNameTheVariable) {

@@ -2,12 +2,14 @@
 #include "internal/flight/encounters.hpp"
 
 #include <cmath>
+#include <ctime>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "samara/kirchhoff/kirchhoff_solver.hpp"
+#include "samara/scene/ready_bodies.hpp"
 #include "support/compared_states.hpp"
 #include "support/ground_bodies.hpp"
 #include "support/known_bodies.hpp"
@@ -235,6 +237,23 @@ TEST(Encounters, NothingPassesThroughAThinCardAtFilmSteps) {
             EXPECT_LT(flight.pose(0).position.z(), -0.1);  // it was taken along
         }
     }
+}
+
+TEST(Encounters, BesideAVortexWithACoreOfNoSizeAStepTakesBoundedWork) {
+    FlightSettings settings;
+    settings.fluid = *fluid_preset("air");
+    settings.ground = 0.0;
+    settings.bodies_meet = true;
+    settings.wind.vortices = {{.position = {0.01, 0.0, 0.0}, .circulation = 1e6, .core = 1e-12}};
+    Flight flight(settings);
+    flight.add(
+        load_body_file(ready_body_file("leaf")), BodyPhysics(),
+        {.position = {0.0, 0.0, 0.3}, .count = 60, .spread_position = {0.04, 0.04, 0.1}, .spread_angle = 3.1},
+        "leaf");
+    const std::clock_t begin = std::clock();
+    flight.advance_to(0.02);
+    EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 20.0) << "minutes without a bound";
+    for (std::size_t i = 0; i < flight.size(); ++i) EXPECT_TRUE(flight.pose(i).position.allFinite());
 }
 
 TEST(Encounters, WhatIsMetIsNotedOfBoth) {

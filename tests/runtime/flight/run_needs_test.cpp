@@ -5,6 +5,7 @@
 
 #include "internal/base/content_hash.hpp"
 #include "internal/command/subprocess.hpp"
+#include "internal/dynamics/prepared_bodies.hpp"
 #include "paths.hpp"
 #include "samara/body/body_file.hpp"
 #include "support/expect_error.hpp"
@@ -38,6 +39,24 @@ TEST(RunNeeds, GrowWithCopiesAndFramesAndRuns) {
     EXPECT_GT(film.memory, 5e7 * 160.0);
     EXPECT_FALSE(film.memory_for_copies);
     EXPECT_NEAR(film.disk, 5e7 * 112.0, 1e6);
+}
+
+TEST(RunNeeds, CountWhatCopiesOfManySizesTouchWith) {
+    Scene scene = scene_of(61.0, 1'000'000);
+    SceneBody& body = scene.bodies[0];
+    static_cast<BodyPhysics&>(body) = test::scene_body(1200.0);
+    body.loads = Loads::none;
+    body.turbulence = Turbulence::none;
+    const std::vector<LoadedBody> loaded = {LoadedBody(test::rubber_ellipsoid(), "hash")};
+    const double plain = needs_of(scene, 1, loaded).memory;
+    EXPECT_EQ(plain, needs_of(scene, 1).memory);
+    body.largest_size = 2.0;
+    EXPECT_EQ(needs_of(scene, 1, loaded).memory, plain) << "nothing is there to touch";
+    scene.ground = -1.0;
+    const auto made = loaded[0].prepared->get(*loaded[0].body, body, scene.fluid, "rubber");
+    const double points =
+        static_cast<double>(made->contact_points.corners.size() + made->contact_points.round.size());
+    EXPECT_GE(needs_of(scene, 1, loaded).memory, plain + 1e6 * points * sizeof(Vector3d));
 }
 
 TEST(RunNeeds, OfNumbersBeyondAnyMachineAreRefusedWithTheNumberToLower) {

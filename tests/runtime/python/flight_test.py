@@ -10,7 +10,7 @@ import unittest
 import numpy
 
 import samara
-from leaves import ended_in_the_middle, leaves, long_flight
+from leaves import ended_in_the_middle, endless, leaves, long_flight
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 
@@ -73,6 +73,21 @@ class LiveFlights(unittest.TestCase):
         numpy.testing.assert_array_equal(pushed, in_parts.poses("leaf").position[0])
         self.assertGreater(pushed[1, 0], unpushed[1, 0] + 0.1)
         numpy.testing.assert_array_equal(pushed[0], unpushed[0])
+
+    def test_a_force_counts_once_whatever_call_comes_before(self):
+        once, held, refused = (samara.Flight(self.scene) for _ in range(3))
+        for flight in (once, held, refused):
+            flight.advance(0.1)
+            flight.add_force("leaf", (0.01, 0.0, 0.0), copy=1)
+        held.advance(0.1)
+        for time in (0.05, 1e300):
+            with self.assertRaises(samara.Error):
+                refused.advance(time)
+        for flight in (once, held, refused):
+            flight.advance(0.5)
+        expected = once.poses("leaf").position
+        numpy.testing.assert_array_equal(held.poses("leaf").position, expected)
+        numpy.testing.assert_array_equal(refused.poses("leaf").position, expected)
 
     def test_an_impulse_changes_the_velocity_and_a_point_makes_it_spin(self):
         self.flight.advance(0.1)
@@ -178,6 +193,12 @@ class LiveFlights(unittest.TestCase):
         self.assertLess(height.max(), 4e-3)
         self.assertTrue((met["time"] > 0).all())
 
+    def test_contacts_that_are_not_watched_are_no_zeros(self):
+        with self.assertRaisesRegex(samara.InputError, "call watch_contacts"):
+            self.flight.take_contacts("leaf")
+        self.flight.watch_contacts(numpy.bool_(True))
+        self.assertEqual(self.flight.take_contacts("leaf")["strongest"].max(), 0.0)
+
     def test_wrong_forces_are_refused(self):
         for name, wrong in (("force", {"force": (1, 2)}), ("point", {"force": (1, 0, 0), "point": numpy.zeros((3, 1))}),
                             ("moment", {"force": (1, 0, 0), "moment": "up"}), ("force", {"force": None})):
@@ -196,11 +217,18 @@ class LiveFlights(unittest.TestCase):
         for wrong in ({"position": (1, 2)}, {"position": "here"}, {"orientation": numpy.zeros((2, 2))}):
             with self.subTest(wrong), self.assertRaises(TypeError):
                 self.flight.set_pose("leaf", **wrong)
-        for wrong in ({"position": (1, 2, math.inf)}, {"orientation": (0, 0, 0, 2)}, {"velocity": (math.nan, 0, 0)}):
+        for wrong in ({"position": (1, 2, math.inf)}, {"orientation": (0, 0, 0, 2)}, {"velocity": (math.nan, 0, 0)},
+                      {"position": (1e300, 0, 0)}, {"orientation": (1e300, 0, 0, 0)}):
             with self.subTest(wrong), self.assertRaises(samara.Error):
                 self.flight.set_pose("leaf", **wrong)
         with self.assertRaisesRegex(samara.Error, "finite"):
             self.flight.advance(math.nan)
+        with self.assertRaisesRegex(samara.Error, "steps off"):
+            self.flight.advance(1e300)
+        with self.assertRaises(samara.Error):
+            self.flight.set_ground(1e300)
+        with self.assertRaisesRegex(samara.Error, "does one hold itself"):
+            self.flight.set_wind(endless())
         self.flight.advance(0.2)
         with self.assertRaises(samara.Error):
             self.flight.advance(0.1)

@@ -10,6 +10,13 @@ def leaves(**more):
     return {"scene": {"duration": 0.5, "step": 0.002, "frame_rate": 50}, "fluid": {"preset": "air"}, "body": [body | more]}
 
 
+def endless():
+    """A dict that holds itself."""
+    values = {}
+    values["self"] = values
+    return values
+
+
 # So many, for so long, that a flight can be stopped on its way.
 long_flight = leaves(count=200) | {"scene": {"duration": 60.0}}
 

@@ -12,12 +12,13 @@ import subprocess
 import sys
 import tempfile
 import threading
+import time
 import unittest
 
 import numpy
 
 import samara
-from leaves import ended_in_the_middle, leaves, long_flight
+from leaves import ended_in_the_middle, endless, leaves, long_flight
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 
@@ -61,6 +62,101 @@ class Scenes(unittest.TestCase):
             self.assertNotIn("\n", str(caught.exception))
         with self.assertRaisesRegex(samara.Error, "nowhere.toml"):
             samara.simulate("nowhere.toml")
+
+    def test_what_holds_itself_or_lies_too_deep_is_refused(self):
+        ring = [0, 0]
+        ring[1] = ring
+        deep, deep_list = {}, []
+        for _ in range(100000):
+            deep, deep_list = {"a": deep}, [deep_list]
+        array = numpy.empty(1, dtype=object)
+        array[0] = array
+        for values in (endless(), deep, {"scene": endless()}, {"scene": ring}, {"scene": deep_list}, leaves(position=ring),
+                       leaves(position=array), leaves(position=(ring, ring))):
+            with self.assertRaisesRegex(samara.InputError, "does one hold itself") as caught:
+                samara.Scene(values)
+            self.assertLess(len(str(caught.exception)), 200)
+
+    def test_numbers_beyond_all_range_and_texts_that_are_none_are_refused(self):
+        for fault, scene in {"beyond 64 bits": leaves(count=10**400), "finite": leaves(position=[0, 0, 1e999]),
+                             "no Unicode": leaves(name="\ud800"), "holds a text": {"\ud800": 1}}.items():
+            with self.subTest(fault), self.assertRaisesRegex(samara.InputError, fault):
+                samara.Scene(scene)
+
+        class Huge:
+            def __float__(self):
+                return float(10**400)
+
+        class Broken:
+            def __index__(self):
+                raise ZeroDivisionError("broken")
+
+        with self.assertRaisesRegex(samara.InputError, "beyond the range"):
+            samara.Scene(leaves(density=Huge()))
+        with self.assertRaisesRegex(ZeroDivisionError, "broken"):
+            samara.Scene(leaves(count=Broken()))
+
+    def test_numbers_of_numpy_are_taken_wherever_numbers_are(self):
+        scene = leaves(added_mass=numpy.bool_(False), density=numpy.longdouble(600), count=numpy.uint8(2), start=numpy.float16(0.5),
+                       velocity=(numpy.float32(1), numpy.int64(2), numpy.bool_(True) + 2), spread={"angle": numpy.array(0.5)})
+        text = samara.Scene(scene).text
+        for line in ("added_mass = false", "density = 600.0", "count = 2", "start = 0.5"):
+            self.assertIn(line, text)
+        motion = samara.simulate(leaves(), runs=numpy.int16(2), seed=numpy.uint64(5), step=numpy.float32(0.004), threads=numpy.int8(1))
+        self.assertEqual(motion.runs, 2)
+        self.assertGreater(motion["leaf"].measure(run=numpy.int64(1), copy=numpy.uint8(2))["descent_speed"], 0.0)
+
+
+class Errors(unittest.TestCase):
+    def test_are_of_pythons_kinds_too(self):
+        for kind, call in (
+            (samara.FileError, lambda: samara.Scene.read("nowhere.toml")),
+            (samara.FileError, lambda: samara.Body.read("nowhere.body.h5")),
+            (samara.FileError, lambda: samara.Motion.read("nowhere.h5")),
+            (samara.FileError, lambda: samara.simulate(leaves(), bodies="nowhere")),
+            (samara.FileError, lambda: samara.simulate(leaves()).write("nowhere/motion.h5")),
+            (samara.FileError, lambda: samara.simulate(leaves()).export("nowhere/motion.csv")),
+            (samara.InputError, lambda: samara.simulate(leaves()).export("motion.fbx")),
+            (samara.InputError, lambda: samara.Scene(leaves(densty=600))),
+            (samara.InputError, lambda: samara.Scene.from_text("nonsense")),
+            (samara.InputError, lambda: samara.Scene.read(ROOT / "README.md")),
+            (samara.InputError, lambda: samara.Motion.read(ROOT / "README.md")),
+            (samara.InputError, lambda: samara.simulate(leaves(), runs=0)),
+            (samara.InputError, lambda: samara.simulate(leaves(position=[0, 0, -1]) | {"scene": {"duration": 1, "ground": 0}})),
+            (samara.InputError, lambda: samara.Flight(samara.Scene(leaves())).advance(-1.0)),
+            (samara.InputError, lambda: samara.Flight(samara.Scene(leaves())).set_state(b"nonsense")),
+        ):
+            with self.assertRaises(kind) as caught:
+                call()
+            self.assertIsInstance(caught.exception, samara.Error)
+            self.assertIsInstance(caught.exception, OSError if kind is samara.FileError else ValueError)
+
+    def test_objects_made_without_init_are_empty_and_no_crash(self):
+        classes = (samara.Scene, samara.Body, samara.Motion, samara.BodyMotion, samara.Flight, samara.Poses)
+        for kind in classes:
+            empty = kind.__new__(kind)
+            for name in dir(kind):
+                if name.startswith("__") and name not in ("__len__", "__getitem__"):
+                    continue
+                with self.subTest(kind=kind, name=name), self.assertRaises((TypeError, AttributeError)):
+                    getattr(empty, name)()
+            try:
+                repr(empty)
+            except TypeError:
+                pass
+        with self.assertRaises(TypeError):
+            samara.simulate(samara.Scene.__new__(samara.Scene))
+        with self.assertRaises(TypeError):
+            samara.Flight(samara.Scene.__new__(samara.Scene))
+        with self.assertRaises(TypeError):
+            samara.compare(samara.Motion.__new__(samara.Motion), "reference.h5")
+
+        class Careless(samara.Scene):
+            def __init__(self):
+                pass
+
+        with self.assertRaises(TypeError):
+            Careless()
 
 
 class ReadyBodies(unittest.TestCase):
@@ -196,6 +292,26 @@ class Motions(unittest.TestCase):
         self.assertIn("&lt;html", shown.lower())
 
 
+class Repeats(unittest.TestCase):
+    def test_a_body_is_prepared_once(self):
+        scene = samara.Scene(leaves(turbulence="none") | {"scene": {"duration": 0.01}})
+        samara.simulate(scene, threads=1)
+        begin = time.perf_counter()
+        for _ in range(10):
+            samara.simulate(scene, threads=1)
+        self.assertLess((time.perf_counter() - begin) / 10, 0.01)
+
+    def test_a_file_that_changes_is_read_again(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "some.body.h5"
+            shapes = []
+            for name in ("leaf", "sphere", "leaf"):
+                shutil.copy(ROOT / f"runtime/bodies/{name}.body.h5", file)
+                shapes.append(len(samara.simulate(leaves(shape=file))["leaf"].vertices))
+        self.assertEqual(shapes[0], shapes[2])
+        self.assertNotEqual(shapes[0], shapes[1])
+
+
 class LongFlights(unittest.TestCase):
     def test_progress_is_told_and_what_it_raises_ends_the_flight(self):
         told = []
@@ -268,9 +384,17 @@ class Bodies(unittest.TestCase):
         # A node of the map lies in the direction z: what is looked up there stands in the table.
         force, _ = body.loads([0, 0, 1], body.reynolds_numbers[-1])
         self.assertLess(numpy.abs(body.force_table[-1].reshape(-1, 3) - force).max(axis=1).min(), 1e-9)
-        for direction, reynolds_number in (([0, 0, 0], 1000), ([0, 0, math.nan], 1000), ([0, 0, 1], math.nan), ([0, 0, 1], -1)):
+        for direction, reynolds_number in (([0, 0, 0], 1000), ([0, 0, math.nan], 1000), ([0, 0, 1], math.nan), ([0, 0, 1], -1), ([0, 0, 1], math.inf),
+                                           ([math.inf, 0, 0], 1000)):
             with self.subTest(direction), self.assertRaises(samara.Error):
                 body.loads(direction, reynolds_number)
+        usual, _ = body.loads([1, 0, 0], 1000)
+        for scale in (1e300, 1e-300):
+            numpy.testing.assert_allclose(body.loads([scale, 0, 0], 1000)[0], usual, rtol=1e-12)
+        ring = [0, 0, 0]
+        ring[2] = ring
+        with self.assertRaises(TypeError):
+            body.loads(ring, 1000)
         for direction in ([0, 1], [[0, 1], [2, 3]], "up", numpy.zeros(4)):
             with self.subTest(direction), self.assertRaises(TypeError):
                 body.loads(direction, 1000)

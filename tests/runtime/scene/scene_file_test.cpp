@@ -103,6 +103,17 @@ TEST_F(SceneFile, ASpreadOfSizesIsTwoNumbersInOrder) {
     }
 }
 
+TEST_F(SceneFile, ASpreadOfOneCopyIsRefused) {
+    for (const char* spread : {"position = [0, 0, 0.1]", "angle = 0.5", "start = 1", "size = [0.5, 2]"}) {
+        const std::string keys = std::string("spread = { ") + spread + " }\n";
+        EXPECT_THAT(refusal(with_body("density = 1\n" + keys)),
+                    AllOf(HasSubstr("spread"), HasSubstr("give a count above 1")));
+        EXPECT_NO_THROW(read(with_body("density = 1\ncount = 2\n" + keys)));
+    }
+    EXPECT_NO_THROW(read(with_body("density = 1\nspread = { size = [2, 2], angle = 0 }\n")))
+        << "it has that size";
+}
+
 TEST_F(SceneFile, AnEmitterHasTheKeysOfAnObstacleAndTakesThePlaceOfAPosition) {
     std::ofstream(folder_ / "tree.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     const std::string emitter =

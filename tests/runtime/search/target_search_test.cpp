@@ -73,6 +73,25 @@ TEST(TargetSearch, TheOrderIsThatOfTheDistancesForAnyNumberOfThreads) {
     for (std::size_t i = 1; i < one.size(); ++i) EXPECT_LE(one[i - 1].distance, one[i].distance);
 }
 
+TEST(TargetSearch, TheSeedCountsWhereStartsNoiseGustsOrOthersAreDrawnFromIt) {
+    const auto depends = [](const auto& change) {
+        Scene scene = falling_sphere(1);
+        scene.bodies.push_back(scene.bodies[0]);
+        change(scene);
+        return depends_on_seed(scene, 0);
+    };
+    EXPECT_FALSE(depends([](Scene&) {}));
+    EXPECT_FALSE(depends([](Scene& s) { s.bodies[0].count = 3; }));
+    EXPECT_TRUE(depends([](Scene& s) { s.bodies[0].count = 3, s.bodies[0].spread_start = 1.0; }));
+    EXPECT_TRUE(depends([](Scene& s) { s.bodies[0].turbulence = Turbulence::table; }));
+    EXPECT_FALSE(depends([](Scene& s) { s.bodies[0].turbulence = Turbulence::constant; })) << "of no energy";
+    EXPECT_TRUE(depends([](Scene& s) { s.wind.gusts = WindGusts{.rms = 1.0}; }));
+    EXPECT_FALSE(depends([](Scene& s) { s.wind.gusts = WindGusts{.rms = 1.0, .seed = 3}; }));
+    EXPECT_FALSE(depends([](Scene& s) { s.bodies[1].turbulence = Turbulence::table; }));
+    EXPECT_TRUE(depends([](Scene& s) { s.bodies[1].turbulence = Turbulence::table, s.bodies_meet = true; }));
+    EXPECT_TRUE(depends([](Scene& s) { s.bodies[0].emitter = std::make_shared<const Emitter>(); }));
+}
+
 TEST(TargetSearch, TheSeedFliesAgainToTheSamePlace) {
     Scene scene = falling_sphere(3);
     scene.bodies[0].spread_position = Vector3d(0.2, 0.2, 0.0);

@@ -4,6 +4,7 @@ import os
 import time
 
 import bpy
+import mathutils
 
 from .steps import add_bodies, clear_keys, empty_scene, matrices, run, scene, select, starts, three_bodies
 
@@ -127,6 +128,65 @@ def sizes(file):
     found["start"] = [list(row) for row in o.matrix_basis]
     assert run(bpy.ops.samara.simulate) == ""
     found["twice"] = matrices([o], [25])[o.name][0]
+    return found
+
+
+def deltas(file):
+    """A body whose pose and size are its own, or partly of a delta transform: by keys, live, and back at its start."""
+    empty_scene()
+    (o,) = add_bodies(file, 1, density=1600.0)
+    scene.frame_end = 25
+    o.samara.noise = False
+    place, turn = mathutils.Vector((0.5, -1.0, 2.0)), mathutils.Euler((0.3, -0.5, 1.1)).to_quaternion()
+    found = {"faults": []}
+    for name, shift, mode, delta in (
+        ("own", (0.0, 0.0, 0.0), "XYZ", mathutils.Quaternion()),
+        ("euler", (1.0, 2.0, 3.0), "XYZ", mathutils.Euler((0.2, 0.9, -0.4)).to_quaternion()),
+        ("quaternion", (-1.0, 0.0, 0.5), "QUATERNION", mathutils.Euler((0.2, 0.9, -0.4)).to_quaternion()),
+    ):
+        clear_keys([o])
+        o.rotation_mode = mode
+        o.delta_location, o.location = shift, place - mathutils.Vector(shift)
+        o.delta_rotation_euler, o.delta_rotation_quaternion = (0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0)
+        own = delta.conjugated() @ turn
+        if mode == "XYZ":
+            o.delta_rotation_euler, o.rotation_euler = delta.to_euler(), own.to_euler()
+        else:
+            o.delta_rotation_quaternion, o.rotation_quaternion = delta, own
+        o.delta_scale, o.scale = ((1.0, 1.0, 1.0), (2.0, 2.0, 2.0)) if name == "own" else ((4.0, 4.0, 4.0), (0.5, 0.5, 0.5))
+        bpy.context.view_layer.update()
+        begin = [list(row) for row in o.matrix_basis]
+        found["faults"].append(run(bpy.ops.samara.live))
+        live_way = matrices([o], (1, 13, 25))[o.name]
+        scene.frame_set(1)
+        found["faults"].append(run(bpy.ops.samara.live))
+        end = [list(row) for row in o.matrix_basis]
+        assert o.rotation_mode == mode
+        found["faults"].append(run(bpy.ops.samara.simulate))
+        found[name] = {"begin": begin, "live": live_way, "end": end, "keyed": matrices([o], (1, 13, 25))[o.name]}
+    o.keyframe_insert("delta_location", frame=1)
+    found["animated"] = run(bpy.ops.samara.simulate)
+    return found
+
+
+def ended(file):
+    """How many flights go on for a body that went off Live, and for one that was removed."""
+    from samara import live
+
+    empty_scene()
+    scene.frame_end = 100000
+    found = {}
+    for name, leave in (("off", lambda: run(bpy.ops.samara.live)), ("removed", bpy.ops.object.delete)):
+        add_bodies(file, 1)
+        (other,) = add_bodies(file, 1) if name == "removed" else (None,)
+        if other:
+            assert run(bpy.ops.samara.live) == ""
+            select([o for o in bpy.context.scene.objects if o != other])
+        assert run(bpy.ops.samara.live) == ""
+        leave()
+        scene.frame_set(2)
+        time.sleep(0.5)
+        found[name] = sum(thread.is_alive() for thread in live._ahead)
     return found
 
 
@@ -328,4 +388,4 @@ def scrub(file, count, frames, folder):
     return found
 
 
-TASKS = (keys, live, masses, sizes, led, returned, meeting, cache, errors, scrub)
+TASKS = (keys, live, masses, sizes, deltas, ended, led, returned, meeting, cache, errors, scrub)
