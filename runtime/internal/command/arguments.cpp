@@ -14,6 +14,7 @@
 #include "internal/base/nearest_word.hpp"
 #include "internal/command/guarded_program.hpp"
 #include "internal/command/print.hpp"
+#include "internal/motion/file_check.hpp"
 #include "samara/base/version.hpp"
 
 namespace samara {
@@ -172,6 +173,7 @@ int run_program(int argc, const char* const* argv, Arguments& arguments,
         } catch (const CLI::ParseError& fault) {
             throw std::runtime_error(fault_in_words(parser.app, fault));
         }
+        check_files_before_reading();
         const nlohmann::json result = body();
         if (parser.json) print_json(result);
     };

@@ -32,6 +32,11 @@ struct StorageClaim {
 /// stored.
 StorageClaim storage_claim(const H5::DataSet& dataset);
 
+/// Whether each chunk takes as many bytes in the file as its values and its checksum, of a dataset whose
+/// storage_claim() is sound; true where it has no chunks. HDF5 believes what a file says of a chunk's size,
+/// and reads past the end of a shorter one.
+bool has_whole_chunks(const H5::DataSet& dataset);
+
 /// What is wrong with an attribute that must be one plain number, or one text of fixed length that takes at
 /// most `most_bytes`; empty where nothing is.
 std::string fault_of_number(const H5::Attribute& attribute, bool integer);

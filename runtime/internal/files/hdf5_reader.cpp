@@ -7,16 +7,28 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "internal/base/json_text.hpp"
 #include "internal/files/file_digest.hpp"
 #include "internal/files/hdf5_checks.hpp"
 
 namespace samara {
 namespace {
 
+void (*check_first)(const std::filesystem::path&) = nullptr;
+
+const std::filesystem::path& checked(const std::filesystem::path& file) {
+    if (check_first != nullptr) check_first(file);
+    return file;
+}
+
 H5::H5File open_for_reading(const InputFile& input) {
     H5::Exception::dontPrint();
     try {
-        return {input.name(), H5F_ACC_RDONLY};
+        // Without a cache of chunks HDF5 reads values without checksums from where they stand, whatever size
+        // the file gives a chunk of them.
+        H5::FileAccPropList access;
+        access.setCache(0, 0, 0, 0.0);
+        return {input.name(), H5F_ACC_RDONLY, H5::FileCreatPropList::DEFAULT, access};
     } catch (const H5::Exception&) {
         throw Error(
             fmt::format("{}: is not an HDF5 file, or was cut short; make it again", input.path().string()));
@@ -35,8 +47,12 @@ constexpr const char* damaged = "is damaged (its checksum is wrong or it was cut
 
 }  // namespace
 
+void Hdf5Reader::set_check(void (*check)(const std::filesystem::path& file)) {
+    check_first = check;
+}
+
 Hdf5Reader::Hdf5Reader(const std::filesystem::path& file)
-    : input_(file), has_digest_(verify_digest(input_)), file_(open_for_reading(input_)) {
+    : input_(checked(file)), has_digest_(verify_digest(input_)), file_(open_for_reading(input_)) {
     haddr_t end = 0;
     if (!has_digest_ && (H5Fget_eoa(file_.getId(), &end) < 0 || end < input_.size())) {
         throw Error(
@@ -85,6 +101,9 @@ void Hdf5Reader::charge(const std::string& name, const H5::DataSet& dataset) con
     const StorageClaim claim = storage_claim(dataset);
     if (!claim.fault.empty()) throw fault(name, claim.fault);
     if (claim.bytes > input_.size() - claimed_) throw fault(name, "claims more bytes than the file has");
+    if (claim.bytes > 0 && !has_whole_chunks(dataset)) {
+        throw fault(name, "has a chunk of another size than its values take");
+    }
     claimed_ += claim.bytes;
     judged_.insert(name);
 }
@@ -174,6 +193,12 @@ std::string Hdf5Reader::text(const std::string& name) const {
     const H5::DataSet dataset = open(name, {0});
     const std::vector<char> bytes = values<char>(name, dataset, dataset.getSpace(), dataset.getSpace());
     return {bytes.begin(), bytes.end()};
+}
+
+std::string Hdf5Reader::json_text(const std::string& name) const {
+    std::string bytes = text(name);
+    if (const std::string wrong = fault_of_json_size(bytes); !wrong.empty()) throw fault(name, wrong);
+    return bytes;
 }
 
 std::vector<std::string> Hdf5Reader::children(const std::string& group) const {
