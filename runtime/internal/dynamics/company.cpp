@@ -18,6 +18,7 @@ constexpr int most_attempts = 6;    // to find where bodies meet within a part
 constexpr double held_back = 0.25;  // of its kinetic energy, that one which stays keeps
 constexpr int most_stops =
     24;  // in a step, times bodies: parts that end sooner, where some hit or would be held
+constexpr int most_pieces = 4096;     // of a step, however early its parts end
 constexpr int most_tries = 6;         // of a part
 constexpr int most_rounds = 60;       // in which bodies are moved apart
 constexpr double resting_way = 2e-4;  // in a step, over the radius, that counts as none
@@ -412,7 +413,7 @@ bool CompanyStep::take_parts(std::span<const Pair> pairs, const CompanyGround& g
                 if (2 * parts <= most_parts && turned_far(part)) return false;
                 part_all(ground, time, part);
                 if (!may_stop || all_come_through()) break;
-                longest = 0.5 * part;
+                longest = std::max(0.5 * part, time_step / most_pieces);
             }
             part *= free < 1.0 ? free : 0.5;
             ++stops;

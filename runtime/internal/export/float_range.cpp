@@ -1,6 +1,7 @@
 #include "internal/export/float_range.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -33,6 +34,7 @@ void require_body(const std::filesystem::path& file, const Motion& motion, const
             "vertices");
     if (body.look != nullptr) {
         require(size * reach_of(body.look->positions) <= farthest, file, body.name, "vertices of the look");
+        require(reach_of(body.look->normals) <= farthest, file, body.name, "normals of the look");
         for (const Eigen::Vector2d& place : body.look->texture) {
             require(place.cwiseAbs().maxCoeff() <= farthest, file, body.name, "texture coordinates");
         }
@@ -51,6 +53,9 @@ void require_body(const std::filesystem::path& file, const Motion& motion, const
 }  // namespace
 
 void require_float_range(const std::filesystem::path& file, const Motion& motion, int run) {
+    for (const double time : motion.times) {
+        require(std::abs(time) * std::max(1.0, motion.frame_rate) <= farthest, file, "motion", "times");
+    }
     for (const BodyMotion& body : motion.bodies) require_body(file, motion, body, run);
     for (const Obstacle& obstacle : motion.obstacles) {
         require(reach_of(obstacle.surface.vertices) <= farthest, file, obstacle.name, "vertices");

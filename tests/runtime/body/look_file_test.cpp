@@ -126,7 +126,7 @@ TEST(LookFile, TakesNothingThroughALinkOutOfTheFolderOrFromAPipe) {
         std::filesystem::remove(folder / name);
         std::filesystem::create_symlink(std::filesystem::path("below") / name, folder / name);
         (void)folder.file(std::filesystem::path("below") / name, inside);
-        EXPECT_EQ(refusal(), "") << "a link within the folder";
+        EXPECT_NO_THROW((void)read_look_file(folder / "leaf.obj")) << "a link within the folder";
     }
     EXPECT_EQ(read_look_file(folder / "leaf.obj").images.size(), 1U);
 }

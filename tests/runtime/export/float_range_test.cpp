@@ -73,6 +73,13 @@ TEST_F(FloatRange, EndsForPlacesAndVelocities) {
     expect_refusal(motion_, "velocities of 'ellipsoid' lie beyond");
 }
 
+TEST_F(FloatRange, EndsForTimes) {
+    motion_.frame_rate = 1.0;
+    for (std::size_t i = 0; i < motion_.times.size(); ++i) motion_.times[i] = static_cast<double>(i);
+    motion_.times.back() = 1e300;
+    expect_refusal(motion_, "lie beyond 1e+37");
+}
+
 TEST_F(FloatRange, EndsForObstacles) {
     Obstacle table;
     table.name = "table";
