@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdlib>
 #include <sstream>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <hdf5.h>
@@ -224,9 +225,8 @@ void spoil_chunks(hid_t dataset, const std::vector<hsize_t>& shape, std::size_t 
 }
 
 /// Stores a dataset of plain numbers anew in chunks.
-void rechunk(hid_t file, const Place& place, std::istringstream& words) {
+void rechunk(hid_t file, const Place& place, const Item& item, std::istringstream& words) {
     constexpr hsize_t checksum_bytes = 4;
-    const Item item = read_item(file, place);
     std::string kind;
     hsize_t rows = 0;
     hsize_t bytes = 0;
@@ -320,8 +320,6 @@ void apply_line(hid_t file, const std::string& line) {
         remove(file, place);
         H5Lcreate_external(target.c_str(), other.c_str(), file, place.object.c_str(), H5P_DEFAULT,
                            H5P_DEFAULT);
-    } else if (verb == "chunk") {
-        rechunk(file, place, words);
     } else {
         edit_item(file, verb, place, words);
     }
@@ -358,9 +356,23 @@ void apply_recipe(std::string_view recipe, const std::filesystem::path& file) {
     const Handle opened(H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
     std::istringstream lines{std::string(recipe)};
     std::string line;
+    std::vector<std::string> chunks;  // last, since HDF5 reads past the end of crafted ones
     for (std::size_t i = 0; i < most_lines && std::getline(lines, line); ++i) {
-        if (line.find('\0') == std::string::npos) apply_line(opened.get(), line);
+        if (line.find('\0') != std::string::npos) continue;
+        if (line.starts_with("chunk ")) {
+            chunks.push_back(line);
+        } else {
+            apply_line(opened.get(), line);
+        }
     }
+    std::vector<std::tuple<Place, Item, std::istringstream>> crafted;
+    for (const std::string& chunk : chunks) {
+        std::istringstream words(chunk);
+        std::string name;
+        words >> name >> name;
+        crafted.emplace_back(name, read_item(opened.get(), Place(name)), std::move(words));
+    }
+    for (auto& [place, item, words] : crafted) rechunk(opened.get(), place, item, words);
 }
 
 }  // namespace samara::fuzz
