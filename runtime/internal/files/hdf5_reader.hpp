@@ -24,9 +24,12 @@ class Hdf5Reader {
     /// without a digest, as earlier versions and other programs write it, is read too.
     explicit Hdf5Reader(const std::filesystem::path& file);
 
-    /// Has every reader that this process makes from now on call `check` with its file first, which throws
-    /// Error where the file is not to be opened here; nullptr: none does, as in libraries.
-    static void set_check(void (*check)(const std::filesystem::path& file));
+    /// Has every reader that this process makes from now on call `check` with its file first, once for each
+    /// state of a file, which throws Error where the file is not to be opened here; nullptr: none does, as in
+    /// libraries.
+    static void set_check(void (*check)(const InputFile& file));
+    /// The file as it is now needs no check: this process wrote it.
+    static void trust(const std::filesystem::path& file);
 
     /// Whether there is such a group or dataset.
     [[nodiscard]] bool has(const std::string& name) const;

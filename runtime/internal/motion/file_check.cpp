@@ -1,8 +1,6 @@
 #include "internal/motion/file_check.hpp"
 
 #include <cerrno>
-#include <mutex>
-#include <set>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -79,18 +77,6 @@ CheckedFile check(const InputFile& input, bool poses) {
     return {kind, has_digest(input)};
 }
 
-/// Files that have not changed since this process checked them are not checked again.
-void check_once(const std::filesystem::path& file) {
-    static std::set<FileState> known;
-    static std::mutex mutex;
-    const InputFile input(file);
-    const std::lock_guard lock(mutex);
-    const FileState state = state_of(input);
-    if (known.contains(state)) return;
-    (void)check(input, false);
-    known.insert(state);
-}
-
 }  // namespace
 
 CheckedFile check_file(const std::filesystem::path& file) {
@@ -98,7 +84,7 @@ CheckedFile check_file(const std::filesystem::path& file) {
 }
 
 void check_files_before_reading() {
-    if (offers_confinement()) Hdf5Reader::set_check(check_once);
+    if (offers_confinement()) Hdf5Reader::set_check([](const InputFile& file) { (void)check(file, false); });
 }
 
 }  // namespace samara

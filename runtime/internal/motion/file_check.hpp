@@ -17,7 +17,7 @@ struct CheckedFile {
 /// process.
 CheckedFile check_file(const std::filesystem::path& file);
 
-/// Has this process do the same, once, with every HDF5 file before it opens it itself
+/// Has this process do the same, once, with every HDF5 file that it did not write before it opens it itself
 /// (Hdf5Reader::set_check), without the values of a motion's poses, which take the most time. Nothing where
 /// the system offers no such process. For programs, not for libraries: whoever calls these has a process of
 /// its own to look after.

@@ -286,6 +286,25 @@ TEST_F(Hdf5ReaderTest, JsonThatNestsTooDeepIsRefused) {
     EXPECT_EQ(Hdf5Reader(file_).json_text("/a/text"), text);
 }
 
+TEST_F(Hdf5ReaderTest, HasEachFileCheckedOnceThatThisProcessDidNotWrite) {
+    std::filesystem::copy_file(file_, other_);
+    static int checks = 0;
+    Hdf5Reader::set_check([](const InputFile& file) {
+        ++checks;
+        if (file.size() < 100) throw Error("checked");
+    });
+    const Hdf5Reader own(file_);
+    EXPECT_EQ(checks, 0);
+    const Hdf5Reader first(other_);
+    const Hdf5Reader second(other_);
+    EXPECT_EQ(checks, 1);
+    (void)folder_.file("other.h5", "text");
+    EXPECT_EQ(error_of([&] { const Hdf5Reader third(other_); }), "checked");
+    EXPECT_EQ(checks, 2);
+    Hdf5Reader::set_check(nullptr);
+    EXPECT_THAT(error_of([&] { const Hdf5Reader fourth(other_); }), HasSubstr("is not an HDF5 file"));
+}
+
 TEST_F(Hdf5ReaderTest, WhatIsNoFileIsRefusedWithoutWaiting) {
     ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
     const auto fault = [](const std::filesystem::path& path) {
