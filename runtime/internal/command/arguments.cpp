@@ -173,7 +173,7 @@ int run_program(int argc, const char* const* argv, Arguments& arguments,
         } catch (const CLI::ParseError& fault) {
             throw std::runtime_error(fault_in_words(parser.app, fault));
         }
-        check_files_before_reading();
+        const CheckBeforeReading check;
         const nlohmann::json result = body();
         if (parser.json) print_json(result);
     };

@@ -83,8 +83,12 @@ CheckedFile check_file(const std::filesystem::path& file) {
     return check(InputFile(file), true);
 }
 
-void check_files_before_reading() {
+CheckBeforeReading::CheckBeforeReading() {
     if (offers_confinement()) Hdf5Reader::set_check([](const InputFile& file) { (void)check(file, false); });
+}
+
+CheckBeforeReading::~CheckBeforeReading() {
+    Hdf5Reader::set_check(nullptr);
 }
 
 }  // namespace samara
