@@ -293,10 +293,10 @@ TEST_F(Hdf5ReaderTest, HasEachFileCheckedOnceThatThisProcessDidNotWrite) {
         ++checks;
         if (file.size() < 100) throw Error("checked");
     });
-    const Hdf5Reader own(file_);
+    { const Hdf5Reader own(file_); }
     EXPECT_EQ(checks, 0);
-    const Hdf5Reader first(other_);
-    const Hdf5Reader second(other_);
+    { const Hdf5Reader first(other_); }
+    { const Hdf5Reader second(other_); }
     EXPECT_EQ(checks, 1);
     (void)folder_.file("other.h5", "text");
     EXPECT_EQ(error_of([&] { const Hdf5Reader third(other_); }), "checked");
