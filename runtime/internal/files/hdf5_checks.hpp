@@ -32,10 +32,10 @@ struct StorageClaim {
 /// stored.
 StorageClaim storage_claim(const H5::DataSet& dataset);
 
-/// Whether each chunk takes as many bytes in the file as its values and its checksum, of a dataset whose
-/// storage_claim() is sound; true where it has no chunks. HDF5 believes what a file says of a chunk's size,
-/// and reads past the end of a shorter one.
-bool has_whole_chunks(const H5::DataSet& dataset);
+/// What is wrong with a chunk of a dataset whose storage_claim() is sound, such as "has a chunk of another
+/// size than its values take"; empty where each is as long as its values and its checksum, which is not
+/// passed over. HDF5 believes what a file says of a chunk's size, and reads past the end of a shorter one.
+std::string fault_of_chunks(const H5::DataSet& dataset);
 
 /// What is wrong with an attribute that must be one plain number, or one text of fixed length that takes at
 /// most `most_bytes`; empty where nothing is.

@@ -124,9 +124,8 @@ void Hdf5Reader::charge(const std::string& name, const H5::DataSet& dataset) con
     const StorageClaim claim = storage_claim(dataset);
     if (!claim.fault.empty()) throw fault(name, claim.fault);
     if (claim.bytes > input_.size() - claimed_) throw fault(name, "claims more bytes than the file has");
-    if (claim.bytes > 0 && !has_whole_chunks(dataset)) {
-        throw fault(name, "has a chunk of another size than its values take");
-    }
+    const std::string wrong = claim.bytes > 0 ? fault_of_chunks(dataset) : "";
+    if (!wrong.empty()) throw fault(name, wrong);
     claimed_ += claim.bytes;
     judged_.insert(name);
 }
