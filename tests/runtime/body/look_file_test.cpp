@@ -162,7 +162,7 @@ TEST(LookFile, ThatNestsOrRepeatsWithoutMeasureIsRefused) {
                 HasSubstr("a.glb: its JSON nests more than 100 lists and objects"));
     // Each node holds the next one twice.
     std::string nodes = R"({"name": "last"})";
-    for (int i = 0; i < 60; ++i) nodes = fmt::format(R"({{"children": [{0}, {0}]}}, )", 60 - i) + nodes;
+    for (int i = 60; i > 0; --i) nodes = fmt::format(R"({{"children": [{0}, {0}]}}, {1})", i, nodes);
     EXPECT_THAT(
         refusal(R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [)" +
                 nodes + "]}"),
