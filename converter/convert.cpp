@@ -8,6 +8,7 @@
 #include "converter/cases/case_folder_reduction.hpp"
 #include "converter/cases/plan_coverage.hpp"
 #include "converter/tables/table_filling.hpp"
+#include "internal/base/json_text.hpp"
 #include "samara/base/error.hpp"
 #include "samara/body/body_file.hpp"
 
@@ -29,7 +30,7 @@ void require_plan_of_body(const std::filesystem::path& folder, const CasePlan& p
 std::string provenance_of(const std::vector<SolvedCase>& cases) {
     nlohmann::json list = nlohmann::json::array();
     for (const SolvedCase& solved : cases) {
-        nlohmann::json entry = nlohmann::json::parse(solved.provenance);
+        nlohmann::json entry = parse_json(solved.provenance);
         const Vector3d& direction = solved.sample.direction;
         entry["name"] = solved.name;
         entry["purpose"] = name_of(solved.purpose);

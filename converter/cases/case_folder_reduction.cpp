@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "internal/base/content_hash.hpp"
+#include "internal/base/json_text.hpp"
 #include "samara/base/error.hpp"
 
 namespace samara {
@@ -17,7 +18,7 @@ std::optional<std::string> failure_reason(const std::filesystem::path& folder) {
     const std::filesystem::path file = folder / "failed.json";
     if (!std::filesystem::exists(file)) return std::nullopt;
     try {
-        return nlohmann::json::parse(read_bytes(file)).at("reason").get<std::string>();
+        return parse_json_or_discard(read_bytes(file)).at("reason").get<std::string>();
     } catch (const nlohmann::json::exception& reason) {
         throw Error(fmt::format("{}: has no text 'reason' ({}); remove it and run 'samara bake' again",
                                 file.string(), reason.what()));

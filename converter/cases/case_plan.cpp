@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "internal/base/content_hash.hpp"
+#include "internal/base/json_text.hpp"
 #include "internal/base/vector_json.hpp"
 #include "samara/base/error.hpp"
 #include "samara/body/body_file.hpp"
@@ -24,10 +25,11 @@ Error fault(const std::filesystem::path& file, const std::string& what) {
 }
 
 nlohmann::json read_json(const std::filesystem::path& file) {
+    const std::string bytes = read_bytes(file);
     try {
-        return nlohmann::json::parse(read_bytes(file));
-    } catch (const nlohmann::json::exception& reason) {
-        throw fault(file, fmt::format("is no JSON ({})", reason.what()));
+        return parse_json(bytes);
+    } catch (const Error& reason) {
+        throw fault(file, reason.what());
     }
 }
 

@@ -15,6 +15,7 @@
 #include "converter/openfoam/foam_history.hpp"
 #include "converter/tables/standard_error.hpp"
 #include "internal/base/content_hash.hpp"
+#include "internal/base/json_text.hpp"
 #include "samara/base/error.hpp"
 
 namespace samara {
@@ -252,7 +253,7 @@ void require_sane(const CaseSource& source, const DirectionSample& sample, bool 
 nlohmann::json read_provenance(const CaseSource& source) {
     const fs::path file = source.folder() / "provenance.json";
     if (source.plan.solved_by_user && !fs::exists(file)) return {{"solved_by", "user"}};
-    nlohmann::json provenance = nlohmann::json::parse(read_bytes(file), nullptr, false);
+    nlohmann::json provenance = parse_json_or_discard(read_bytes(file));
     if (!provenance.is_object()) {
         throw Error(
             fmt::format("{}: is no JSON object; remove it and run 'samara bake' again", file.string()));
@@ -287,8 +288,8 @@ void take_turbulence(const fs::path& folder, const CasePlan& plan, const Planned
     solved.sample.error.turbulent_kinetic_energy = turbulence.sample.error.turbulent_kinetic_energy;
     solved.sample.entry.dissipation_rate = turbulence.sample.entry.dissipation_rate;
     solved.sample.error.dissipation_rate = turbulence.sample.error.dissipation_rate;
-    nlohmann::json provenance = nlohmann::json::parse(solved.provenance);
-    provenance["turbulence"] = nlohmann::json::parse(turbulence.provenance);
+    nlohmann::json provenance = parse_json(solved.provenance);
+    provenance["turbulence"] = parse_json(turbulence.provenance);
     solved.provenance = provenance.dump();
 }
 

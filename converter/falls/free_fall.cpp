@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "internal/base/content_hash.hpp"
+#include "internal/base/json_text.hpp"
 #include "internal/base/vector_json.hpp"
 #include "samara/base/error.hpp"
 
@@ -81,7 +82,7 @@ FreeFall read_free_fall(const std::filesystem::path& folder) {
     const std::filesystem::path file = folder / "fall.json";
     try {
         if (!std::filesystem::exists(file)) throw Error("is not there");
-        FreeFall fall = as_fall(nlohmann::json::parse(read_bytes(file)));
+        FreeFall fall = as_fall(parse_json(read_bytes(file)));
         check(fall);
         return fall;
     } catch (const nlohmann::json::exception& reason) {

@@ -15,6 +15,8 @@
 #include "converter/falls/fall_identification.hpp"
 #include "converter/report/case_history.hpp"
 #include "internal/base/angles.hpp"
+#include "internal/base/content_hash.hpp"
+#include "internal/base/json_text.hpp"
 #include "internal/comparison/comparison.hpp"
 #include "internal/files/temporary_folder.hpp"
 #include "internal/plot/comparison_plot.hpp"
@@ -67,8 +69,8 @@ std::string number_of(const Json& record, const char* key) {
 }
 
 Json record_in(const fs::path& file) {
-    std::ifstream stream(file);
-    Json record = Json::parse(stream, nullptr, false);
+    if (!fs::is_regular_file(file)) return Json::object();
+    Json record = parse_json_or_discard(read_bytes(file));
     return record.is_object() ? record : Json::object();
 }
 

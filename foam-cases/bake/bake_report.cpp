@@ -13,6 +13,7 @@
 #include "foam-cases/farm/disk_need.hpp"
 #include "foam-cases/scene/scene_plan_report.hpp"
 #include "internal/advice/unit_doubts.hpp"
+#include "internal/base/json_text.hpp"
 #include "internal/base/vector_json.hpp"
 #include "internal/command/print.hpp"
 #include "samara/body/body_file.hpp"
@@ -21,7 +22,7 @@ namespace samara {
 namespace {
 
 nlohmann::json provenance_of(const SolvedCase& solved) {
-    return nlohmann::json::parse(solved.provenance, nullptr, false);
+    return parse_json_or_discard(solved.provenance);
 }
 
 double drag_coefficient(const SolvedCase& solved) {

@@ -16,6 +16,7 @@
 #include "foam-cases/farm/cpu_account.hpp"
 #include "foam-cases/farm/folder_lock.hpp"
 #include "internal/base/content_hash.hpp"
+#include "internal/base/json_text.hpp"
 #include "internal/comparison/reference_uncertainty.hpp"
 #include "internal/files/temporary_folder.hpp"
 #include "internal/flight/flight_surroundings.hpp"
@@ -95,7 +96,7 @@ BakePlan plan_of(const ValidationRequest& request, const Falling& falling) {
 FallSolution read_solution(const fs::path& fall_folder) {
     const fs::path file = fall_folder / "provenance.json";
     try {
-        const auto json = nlohmann::json::parse(read_bytes(file));
+        const auto json = parse_json_or_discard(read_bytes(file));
         FallSolution solution;
         for (const auto& attempt : json.at("attempts")) solution.attempts.push_back(attempt.at("what"));
         solution.time_step = json.at("time_step");

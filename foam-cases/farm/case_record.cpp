@@ -1,12 +1,13 @@
 #include "foam-cases/farm/case_record.hpp"
 
 #include "internal/base/content_hash.hpp"
+#include "internal/base/json_text.hpp"
 
 namespace samara {
 
 nlohmann::json read_record(const std::filesystem::path& file) {
     if (!std::filesystem::is_regular_file(file)) return nlohmann::json::object();
-    nlohmann::json record = nlohmann::json::parse(read_bytes(file), nullptr, false);
+    nlohmann::json record = parse_json_or_discard(read_bytes(file));
     return record.is_object() ? record : nlohmann::json::object();
 }
 

@@ -11,6 +11,7 @@
 #include "commands/provenance_summary.hpp"
 #include "commands/table_errors_report.hpp"
 #include "internal/advice/density_doubt.hpp"
+#include "internal/base/json_text.hpp"
 #include "internal/base/symmetric_matrix.hpp"
 #include "internal/base/vector_json.hpp"
 #include "internal/body/principal_extents.hpp"
@@ -209,7 +210,7 @@ nlohmann::json tables_as_json(const LoadTables& tables) {
     for (const LeftOutCase& one : tables.left_out) {
         result["left_out"].push_back({{"name", one.name}, {"reason", one.reason}});
     }
-    result["provenance"] = nlohmann::json::parse(tables.provenance, nullptr, false);
+    result["provenance"] = parse_json_or_discard(tables.provenance);
     if (result["provenance"].is_discarded()) result["provenance"] = nullptr;
     result["cases"] = summarise_provenance(tables.provenance).cases;
     return result;

@@ -11,7 +11,6 @@
 #include "internal/command/print.hpp"
 #include "internal/command/progress.hpp"
 #include "internal/comparison/comparison_report.hpp"
-#include "internal/motion/file_check.hpp"
 #include "internal/plot/comparison_plot.hpp"
 #include "internal/plot/gnuplot.hpp"
 #include "samara/base/error.hpp"
@@ -95,8 +94,6 @@ nlohmann::json run(const Request& request, const Arguments& arguments) {
     ComparisonSettings settings = request.settings;
     settings.window = window_of_words(request.window);
     if (!request.output.empty()) require_picture_format(request.output);
-    check_before_reading(request.motion);
-    check_before_reading(request.reference);
     const MotionReader motion(request.motion);
     const MotionReader reference(request.reference);
     const std::string body = common_body(request, motion.motion(), reference.motion());

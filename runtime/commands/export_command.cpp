@@ -16,7 +16,6 @@
 #include "internal/command/progress.hpp"
 #include "internal/export/fast_turn.hpp"
 #include "internal/export/loop.hpp"
-#include "internal/motion/file_check.hpp"
 #include "internal/motion/resample.hpp"
 #include "samara/base/error.hpp"
 #include "samara/export/chan_file.hpp"
@@ -126,7 +125,6 @@ nlohmann::json export_motion(ExportOptions options) {
         throw Error(fmt::format("{}: --tolerance is for .glb and .usda; other formats have every frame",
                                 options.output));
     }
-    check_before_reading(options.input);
     Motion motion = read_motion_file(options.input);
     require_run(options.input, motion, options.run.value_or(0));
     if (options.frame_rate) motion = resampled(motion, *options.frame_rate);

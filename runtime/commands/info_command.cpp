@@ -17,7 +17,6 @@
 #include "internal/command/progress.hpp"
 #include "internal/figures/description.hpp"
 #include "internal/files/hdf5_reader.hpp"
-#include "internal/motion/file_check.hpp"
 #include "samara/base/error.hpp"
 #include "samara/body/body_file.hpp"
 #include "samara/motion/motion_file.hpp"
@@ -68,7 +67,6 @@ nlohmann::json report_wind(const std::string& path, bool json) {
 }
 
 nlohmann::json report(const std::string& path, bool json) {
-    check_before_reading(path);
     const Hdf5Reader file(path);
     nlohmann::json result = file.has("/surface")  ? report_body(path, json)
                             : file.has("/bodies") ? report_motion(path, json)
@@ -89,7 +87,6 @@ Vector3d parse_direction(const std::string& text) {
 nlohmann::json report_lookup(const std::string& path, const std::string& words, double reynolds_number,
                              bool json) {
     const Vector3d direction = parse_direction(words);
-    check_before_reading(path);
     const Body body = read_body_file(path);
     if (!body.tables) throw Error(fmt::format("{}: has no tables; make them with 'samara bake'", path));
     const double at = reynolds_number > 0.0 ? reynolds_number : body.tables->reynolds_numbers.back();

@@ -11,7 +11,6 @@
 #include "commands/vector_words.hpp"
 #include "internal/body/mass_check.hpp"
 #include "internal/command/arguments.hpp"
-#include "internal/motion/file_check.hpp"
 #include "samara/base/error.hpp"
 #include "samara/body/body_file.hpp"
 
@@ -59,7 +58,6 @@ nlohmann::json run(const Request& request, bool json) {
     if (!is_body_file_name(output)) {
         throw Error(fmt::format("{}: the name of a body file must end in .body.h5", output));
     }
-    check_before_reading(request.file);
     Body body = read_body_file(request.file);
     if (const std::string fault = fault_of(mass, body.surface); !fault.empty()) {
         throw Error(fmt::format("{}: {}", request.file, fault));

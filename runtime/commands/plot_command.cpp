@@ -10,7 +10,6 @@
 #include "internal/command/print.hpp"
 #include "internal/figures/description.hpp"
 #include "internal/files/hdf5_reader.hpp"
-#include "internal/motion/file_check.hpp"
 #include "internal/plot/convergence_plot.hpp"
 #include "internal/plot/gnuplot.hpp"
 #include "internal/plot/landing_plot.hpp"
@@ -128,7 +127,6 @@ nlohmann::json plot_motion_file(const PlotOptions& options) {
 /// The kind of picture is of the kind of file; without --kind the file's first.
 nlohmann::json plot(PlotOptions options, const Arguments& arguments) {
     require_picture_format(options.output);
-    check_before_reading(options.input);
     const bool of_body = Hdf5Reader(options.input).has("/surface");
     if (of_body && !arguments.given("--kind")) options.kind = "polars";
     if (of_body != is_body_kind(options.kind)) {

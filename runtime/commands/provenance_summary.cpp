@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "internal/base/json_text.hpp"
+
 namespace samara {
 namespace {
 
@@ -28,7 +30,7 @@ std::string in_words(const Values& values) {
 }  // namespace
 
 ProvenanceSummary summarise_provenance(std::string_view json) {
-    const nlohmann::json cases = nlohmann::json::parse(json, nullptr, false);
+    const nlohmann::json cases = parse_json_or_discard(json);
     ProvenanceSummary summary;
     if (!cases.is_array()) return summary;
     std::map<std::string, Values> values;

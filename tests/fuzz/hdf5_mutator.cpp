@@ -22,8 +22,13 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-constexpr std::array<const char*, 11> verbs = {"delete", "rename", "link",   "external", "group", "type",
-                                               "shape",  "number", "number", "fill",     "text"};
+constexpr std::array<const char*, 13> verbs = {"delete", "rename", "link",   "external", "group",
+                                               "type",   "shape",  "number", "number",   "fill",
+                                               "text",   "chunk",  "chunk"};
+constexpr std::array<const char*, 5> layouts = {"checked", "plain", "growing", "deflated", "edges"};
+/// Of chunks: whole ones hold the values and 4 bytes.
+constexpr std::array<const char*, 12> chunk_sizes = {"0",  "1",  "2",  "3",  "4",   "5",
+                                                     "16", "24", "28", "72", "100", "4096"};
 constexpr std::array<const char*, 13> types = {"f64", "f32",  "i8",    "u8",    "i32",      "u32",   "i64",
                                                "u64", "text", "vtext", "array", "compound", "opaque"};
 constexpr std::array<const char*, 28> numbers = {
@@ -76,6 +81,10 @@ class Mutation {
         if (verb == "text") line += ' ' + one_of(texts);
         if (verb == "number") line += ' ' + std::to_string(below(40));
         if (verb == "number" || verb == "fill") line += ' ' + one_of(numbers);
+        if (verb == "chunk") {
+            line += ' ' + one_of(layouts) + ' ' + std::to_string(1 + below(8)) + ' ' + one_of(chunk_sizes);
+            line += below(2) == 0 ? " 0" : " 1";
+        }
         if (verb == "shape") {
             for (std::size_t i = below(5); i > 0; --i) line += ' ' + one_of(numbers);
         }
@@ -94,6 +103,8 @@ class Mutation {
             word = one_of(places_);
         } else if (words[0] == "type") {
             word = one_of(types);
+        } else if (words[0] == "chunk") {
+            word = at == 2 ? one_of(layouts) : one_of(chunk_sizes);
         } else {
             word = words[0] == "text" ? one_of(texts) : one_of(numbers);
         }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdlib>
 #include <sstream>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <hdf5.h>
@@ -210,6 +211,54 @@ void write_item(hid_t file, const Place& place, const Item& item) {
                  : H5Dwrite(object.get(), values.type(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
 }
 
+/// Stores the first of two chunks as `bytes` zeros, and the second so that both together are as long as whole
+/// ones.
+void spoil_chunks(hid_t dataset, const std::vector<hsize_t>& shape, std::size_t axis, hsize_t rows,
+                  hsize_t whole, hsize_t bytes, std::uint32_t mask) {
+    if (bytes == 0 || bytes > most_written) return;
+    std::vector<hsize_t> place(shape.size(), 0);
+    const std::string zeros(std::max(bytes, 2 * whole), '\0');
+    H5Dwrite_chunk(dataset, H5P_DEFAULT, mask, place.data(), bytes, zeros.data());
+    place[axis] = rows;
+    if (rows >= shape[axis] || bytes >= 2 * whole) return;
+    H5Dwrite_chunk(dataset, H5P_DEFAULT, 1, place.data(), 2 * whole - bytes, zeros.data());
+}
+
+/// Stores a dataset of plain numbers anew in chunks.
+void rechunk(hid_t file, const Place& place, const Item& item, std::istringstream& words) {
+    constexpr hsize_t checksum_bytes = 4;
+    std::string kind;
+    hsize_t rows = 0;
+    hsize_t bytes = 0;
+    std::uint32_t mask = 0;
+    words >> kind >> rows >> bytes >> mask;
+    hsize_t count = 1;
+    for (const hsize_t length : item.shape) count *= length;
+    if (!place.attribute.empty() || item.shape.empty() || item.numbers.size() != count) return;
+    const auto longest = std::max_element(item.shape.begin(), item.shape.end());
+    const auto axis = static_cast<std::size_t>(longest - item.shape.begin());
+    std::vector<hsize_t> chunk = item.shape;
+    chunk[axis] = std::clamp<hsize_t>(rows, 1, *longest);
+    std::vector<hsize_t> most = item.shape;
+    if (kind == "growing") most[axis] = H5S_UNLIMITED;
+    const Handle type(stored_type(item), H5Tclose);
+    const Handle space(H5Screate_simple(static_cast<int>(chunk.size()), item.shape.data(), most.data()),
+                       H5Sclose);
+    const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    H5Pset_chunk(creation.get(), static_cast<int>(chunk.size()), chunk.data());
+    if (kind == "deflated") H5Pset_deflate(creation.get(), 1);
+    if (kind == "edges") H5Pset_chunk_opts(creation.get(), H5D_CHUNK_DONT_FILTER_PARTIAL_CHUNKS);
+    if (kind != "plain") H5Pset_fletcher32(creation.get());
+    remove(file, place);
+    const Handle dataset(H5Dcreate2(file, place.object.c_str(), type.get(), space.get(), H5P_DEFAULT,
+                                    creation.get(), H5P_DEFAULT),
+                         H5Dclose);
+    if (!dataset.is_open()) return;
+    H5Dwrite(dataset.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, item.numbers.data());
+    const hsize_t whole = count / *longest * chunk[axis] * H5Tget_size(type.get()) + checksum_bytes;
+    spoil_chunks(dataset.get(), item.shape, axis, chunk[axis], whole, bytes, mask);
+}
+
 double number_of(const std::string& word) {
     return std::strtod(word.c_str(), nullptr);
 }
@@ -307,9 +356,23 @@ void apply_recipe(std::string_view recipe, const std::filesystem::path& file) {
     const Handle opened(H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
     std::istringstream lines{std::string(recipe)};
     std::string line;
+    std::vector<std::string> chunks;  // last, since HDF5 reads past the end of crafted ones
     for (std::size_t i = 0; i < most_lines && std::getline(lines, line); ++i) {
-        if (line.find('\0') == std::string::npos) apply_line(opened.get(), line);
+        if (line.find('\0') != std::string::npos) continue;
+        if (line.starts_with("chunk ")) {
+            chunks.push_back(line);
+        } else {
+            apply_line(opened.get(), line);
+        }
     }
+    std::vector<std::tuple<Place, Item, std::istringstream>> crafted;
+    for (const std::string& chunk : chunks) {
+        std::istringstream words(chunk);
+        std::string name;
+        words >> name >> name;
+        crafted.emplace_back(name, read_item(opened.get(), Place(name)), std::move(words));
+    }
+    for (auto& [place, item, words] : crafted) rechunk(opened.get(), place, item, words);
 }
 
 }  // namespace samara::fuzz

@@ -29,8 +29,13 @@ const SeedFile& seed_file();
 ///
 ///   delete NAME | rename NAME NAME | link NAME NAME | external NAME FILE NAME | group NAME
 ///   type NAME f64|f32|i8|u8|i32|u32|i64|u64|text|vtext|array|compound|opaque
-///   shape NAME [N ...]          (none: a scalar; values are repeated; what would be too large is not
-///   written) number NAME INDEX NUMBER    (one of the values) fill NAME NUMBER text NAME WORDS
+///   shape NAME [N ...]          (none: a scalar; values are repeated; too many are not written)
+///   number NAME INDEX NUMBER    (one of the values)
+///   fill NAME NUMBER
+///   text NAME WORDS
+///   chunk NAME checked|plain|growing|deflated|edges ROWS [BYTES [MASK]]
+///       (the values in chunks of so many rows of the longest axis; the first is then stored as BYTES zeros
+///       with the filters that MASK leaves, the second as what makes up the sum; after all other lines)
 void apply_recipe(std::string_view recipe, const std::filesystem::path& file);
 
 }  // namespace samara::fuzz

@@ -9,12 +9,28 @@
 #include "internal/files/temporary_folder.hpp"
 #include "samara/export/csv_file.hpp"
 #include "samara/motion/motion_file.hpp"
+#include "support/painted_mesh.hpp"
 #include "support/test_shapes.hpp"
 
 namespace samara::fuzz {
 namespace {
 
-/// Two bodies in two runs over a few frames, above ground.
+/// A triangle with all that a look can have.
+LookMesh small_look() {
+    LookMesh look;
+    look.positions = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
+    look.normals.assign(3, Vector3d::UnitZ());
+    look.texture.assign(3, Eigen::Vector2d(0.5, 0.5));
+    look.corners = {{0, 1, 2}};
+    look.slots = {0};
+    look.images = {{"leaf", test::painted_png()}};
+    look.materials.resize(1);
+    look.materials[0].name = "leaf";
+    look.materials[0].image = 0;
+    return look;
+}
+
+/// Two bodies in two runs over a few frames, above ground and a table; one of several sizes, one with a look.
 Motion small_motion() {
     Motion motion;
     motion.runs = 2;
@@ -38,6 +54,13 @@ Motion small_motion() {
         }
         motion.bodies.push_back(body);
     }
+    motion.bodies[0].sizes = {1.0, 0.5, 2.0, 1.0};
+    motion.bodies[1].look = std::make_shared<const LookMesh>(small_look());
+    Obstacle table;
+    table.name = "table";
+    table.surface = test::box({1.0, 1.0, 0.1}, 1);
+    table.keys = {{{}, 0.0}, {{}, 0.2}};
+    motion.obstacles.push_back(table);
     return motion;
 }
 

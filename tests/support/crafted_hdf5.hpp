@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -21,6 +22,32 @@ void put_dataset(const std::filesystem::path& file, const std::string& name, con
 
 /// Chunks of that shape, which nothing is stored of until they are written.
 H5::DSetCreatPropList in_chunks(const std::vector<hsize_t>& chunk);
+
+/// How a dataset's chunks are stored. HDF5 finds them by another index for each `growing` and each format.
+struct ChunkLayout {
+    std::vector<hsize_t> chunk;  ///< shape of each
+    bool has_checksum = true;    ///< fletcher32 behind each
+    std::size_t growing = 0;     ///< that many of the first axes may grow
+};
+
+/// A new file, in HDF5's latest format or in its oldest, with one dataset /values: doubles from 1 up.
+void make_hdf5(const std::filesystem::path& file, const std::vector<hsize_t>& shape, bool in_latest_format);
+
+/// What stands in the file in place of the chunk that begins at `place`: zeros, written past the filters,
+/// which are said to be passed over where `mask` is 1.
+struct CraftedChunk {
+    std::vector<hsize_t> place;
+    std::size_t bytes = 0;
+    std::uint32_t mask = 0;
+};
+
+/// Stores the values of a dataset of doubles anew in chunks, some of them crafted. False where HDF5 writes no
+/// such thing.
+bool put_in_chunks(const std::filesystem::path& file, const std::string& name, const ChunkLayout& layout,
+                   const std::vector<CraftedChunk>& crafted = {});
+
+/// Stores a text in place of a dataset of bytes.
+void put_text(const std::filesystem::path& file, const std::string& name, const std::string& text);
 
 /// Values in another file, `bytes` of them from its beginning.
 H5::DSetCreatPropList in_other_file(const std::filesystem::path& other, hsize_t bytes);

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "internal/base/json_text.hpp"
 #include "internal/base/vector_json.hpp"
 
 namespace samara {
@@ -70,7 +71,7 @@ std::optional<CaseRecord> record_of(const Json& one, const Matrix3d& axes) {
 }  // namespace
 
 std::vector<CaseRecord> case_records(const LoadTables& tables) {
-    const Json cases = Json::parse(tables.provenance, nullptr, false);
+    const Json cases = parse_json_or_discard(tables.provenance);
     std::vector<CaseRecord> records;
     if (!cases.is_array()) return records;
     for (const Json& one : cases) {

@@ -11,15 +11,17 @@
 #include <fmt/format.h>
 #include <tiny_gltf.h>
 
-#include "internal/base/content_hash.hpp"
+#include "internal/base/json_text.hpp"
 #include "internal/body/look_image.hpp"
 #include "internal/body/unit_normal.hpp"
+#include "internal/files/input_file.hpp"
 #include "samara/base/error.hpp"
 
 namespace samara {
 namespace {
 
 constexpr std::size_t most_nodes_deep = 64;
+constexpr std::size_t most_placed = 1'000'000;  // a node may stand in many others, and these likewise
 constexpr std::size_t most_triangles = 20'000'000;
 
 /// Of glTF's axes (y up) in those where z is up.
@@ -50,8 +52,8 @@ tinygltf::FsCallbacks no_files() {
 class GlbReader {
   public:
     explicit GlbReader(const std::filesystem::path& file) : label_(file.string()) {
-        const std::string bytes = read_bytes(file);
-        if (bytes.size() > std::numeric_limits<unsigned int>::max()) fail("is larger than 4 GB");
+        const std::string bytes = read_at_most(file, most_mesh_bytes);
+        require_shallow(bytes);
         tinygltf::TinyGLTF loader;
         loader.SetImageLoader(keep_image, nullptr);
         loader.SetFsCallbacks(no_files());
@@ -105,6 +107,16 @@ class GlbReader {
         throw Error(fmt::format("{}: {}", label_, what));
     }
 
+    /// Of the JSON at the beginning, behind 20 bytes that end in its length and its kind.
+    void require_shallow(std::string_view bytes) const {
+        constexpr std::size_t header = 20;
+        std::uint32_t length = 0;
+        if (bytes.size() < header) return;
+        std::memcpy(&length, bytes.data() + 12, sizeof length);
+        const std::string fault = fault_of_json_size(bytes.substr(header, length));
+        if (!fault.empty()) fail("its JSON " + fault);
+    }
+
     template <typename Part>
     const Part& at(const std::vector<Part>& parts, int index, const char* what) const {
         if (index < 0 || static_cast<std::size_t>(index) >= parts.size()) {
@@ -123,7 +135,7 @@ class GlbReader {
         const tinygltf::Image& image = at(model_.images, texture.source, "image");
         const std::string_view bytes = bytes_of(image);
         if (image_type(bytes) == nullptr) return -1;
-        look_.images.push_back({image.name, std::string(bytes)});
+        if (!add_image(look_, {image.name, std::string(bytes)})) fail(too_many_images);
         known->second = static_cast<std::int32_t>(look_.images.size()) - 1;
         return known->second;
     }
@@ -142,6 +154,7 @@ class GlbReader {
 
     void add_node(int index, const Eigen::Affine3d& parent, std::size_t depth) {
         if (depth > most_nodes_deep) fail("its nodes stand too deep in each other, or in a circle");
+        if (++placed_ > most_placed) fail("places its nodes more than a million times");
         const tinygltf::Node& node = at(model_.nodes, index, "node");
         Eigen::Affine3d place = Eigen::Affine3d::Identity();
         if (node.matrix.size() == 16) {
@@ -267,6 +280,7 @@ class GlbReader {
         }
         if (corners.size() % 3 != 0) fail("has a triangle without three corners");
         const std::int32_t slot = slot_of(part.material);
+        if (look_.corners.size() + corners.size() / 3 > most_triangles) fail("has too many triangles");
         for (std::size_t i = 0; i < corners.size(); i += 3) {
             std::array<std::int32_t, 3> triangle{};
             for (std::size_t k = 0; k < 3; ++k) {
@@ -295,6 +309,7 @@ class GlbReader {
     tinygltf::Model model_;
     LookMesh look_;
     std::map<int, std::int32_t> images_;  // of the file: their numbers in the look
+    std::size_t placed_ = 0;
     std::int32_t plain_slot_ = -1;
     bool has_normals_ = true;
     bool has_texture_ = false;

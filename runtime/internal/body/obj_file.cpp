@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -12,16 +13,17 @@
 
 #include <fmt/format.h>
 
-#include "internal/base/content_hash.hpp"
 #include "internal/body/look_image.hpp"
 #include "internal/body/polygon_triangles.hpp"
 #include "internal/body/unit_normal.hpp"
+#include "internal/files/input_file.hpp"
 #include "samara/base/error.hpp"
 
 namespace samara {
 namespace {
 
 constexpr std::size_t most_materials = 4096;
+constexpr std::size_t most_material_bytes = 64U << 20U;  // of a file of them
 
 // The words of one line, from the left.
 class Words {
@@ -77,7 +79,7 @@ class ObjReader {
 
     /// What was read besides the surface.
     LookMesh look(const std::filesystem::path& folder) {
-        for (const std::string& library : libraries_) read_materials(folder / library, folder);
+        for (const std::string& library : libraries_) read_materials(place_beneath(folder, library), folder);
         if (!all_have_normals_) look_.normals.clear();
         if (texture_.empty()) look_.texture.clear();
         return std::move(look_);
@@ -93,7 +95,9 @@ class ObjReader {
         if (keyword == "vt") texture_.push_back(numbers<2>("vt", "two", words));
         if (keyword == "vn") normals_.push_back(numbers<3>("vn", "three", words));
         if (keyword == "usemtl") slot_ = slot_named(std::string(words.next()));
-        if (keyword == "mtllib") libraries_.emplace_back(words.next());
+        if (keyword != "mtllib") return;
+        const std::string library(words.next());
+        if (known_libraries_.insert(library).second) libraries_.push_back(library);
     }
 
     template <int N>
@@ -114,16 +118,36 @@ class ObjReader {
     }
 
     std::int32_t slot_named(const std::string& name) {
-        for (std::size_t i = 0; i < look_.materials.size(); ++i) {
-            if (look_.materials[i].name == name) return static_cast<std::int32_t>(i);
-        }
+        const auto [known, is_new] =
+            slots_.try_emplace(name, static_cast<std::int32_t>(look_.materials.size()));
+        if (!is_new) return known->second;
         if (look_.materials.size() == most_materials) fail("too many materials");
         look_.materials.emplace_back().name = name;
-        return static_cast<std::int32_t>(look_.materials.size()) - 1;
+        return known->second;
     }
 
-    /// The image that a line of a file of materials names behind its options: where the file says, unless
-    /// that is outside of the .obj's folder, else beside it; -1 where there is none to carry.
+    /// Where a file that this one names is: where it says, unless that is outside of the folder, else beside
+    /// it; empty where there is none.
+    static std::filesystem::path place_beneath(const std::filesystem::path& folder,
+                                               const std::filesystem::path& name) {
+        const auto is_there = [](const std::filesystem::path& file) {
+            std::error_code unknown;
+            return std::filesystem::exists(file, unknown) && !std::filesystem::is_directory(file, unknown);
+        };
+        const bool leads_out = name.is_absolute() || std::find(name.begin(), name.end(), "..") != name.end();
+        if (!leads_out && is_there(folder / name)) return folder / name;
+        return is_there(folder / name.filename()) ? folder / name.filename() : std::filesystem::path{};
+    }
+
+    /// A link could make any file that its reader may read part of what is shown.
+    void require_beneath(const InputFile& input, const std::filesystem::path& folder) const {
+        if (input.is_beneath(folder)) return;
+        throw Error(fmt::format("{}: {} is a link that leads out of the folder; put the file itself there",
+                                label_, input.path().string()));
+    }
+
+    /// The image that a line of a file of materials names behind its options, at place_beneath(); -1 where
+    /// there is none to carry.
     std::int32_t image_named(std::string_view rest, const std::filesystem::path& folder) {
         constexpr std::string_view blanks = " \t";
         rest.remove_prefix(std::min(rest.find_first_not_of(blanks), rest.size()));
@@ -131,38 +155,34 @@ class ObjReader {
         if (rest.starts_with('-')) rest.remove_prefix(rest.find_last_of(blanks) + 1);
         std::string name(rest);
         std::replace(name.begin(), name.end(), '\\', '/');
-        std::filesystem::path place = name;
-        std::error_code missing;
-        if (place.is_absolute() || name.find("..") != std::string::npos ||
-            !std::filesystem::is_regular_file(folder / place, missing)) {
-            place = place.filename();
-        }
-        const std::filesystem::path file = folder / place;
+        const std::filesystem::path file = place_beneath(folder, name);
         const auto [known, is_new] = images_.try_emplace(file.string(), -1);
-        if (!is_new || !std::filesystem::is_regular_file(file, missing) ||
-            std::filesystem::file_size(file, missing) > most_image_bytes) {
-            return known->second;
-        }
-        std::string bytes = read_bytes(file);
+        if (!is_new || file.empty()) return known->second;
+        const InputFile input(file);
+        require_beneath(input, folder);
+        if (input.size() > most_image_bytes) return -1;
+        std::string bytes = input.bytes(most_image_bytes);
         if (image_type(bytes) == nullptr) return -1;
-        look_.images.push_back({place.stem().string(), std::move(bytes)});
+        if (!add_image(look_, {file.stem().string(), std::move(bytes)})) {
+            throw Error(fmt::format("{}: {}", label_, too_many_images));
+        }
         known->second = static_cast<std::int32_t>(look_.images.size()) - 1;
         return known->second;
     }
 
     /// Of a file of materials, where it can be read.
     void read_materials(const std::filesystem::path& file, const std::filesystem::path& folder) {
-        std::error_code missing;
-        if (!std::filesystem::is_regular_file(file, missing)) return;
+        if (file.empty()) return;
+        const InputFile input(file);
+        require_beneath(input, folder);
         LookMaterial* material = nullptr;
-        visit_lines(read_bytes(file), [&](std::string_view line) {
+        visit_lines(input.bytes(most_material_bytes), [&](std::string_view line) {
             Words words(line);
             const std::string_view keyword = words.next();
             if (keyword == "newmtl") {
-                const std::string_view name = words.next();
-                const auto found = std::find_if(look_.materials.begin(), look_.materials.end(),
-                                                [&](const LookMaterial& m) { return m.name == name; });
-                material = found == look_.materials.end() ? nullptr : &*found;
+                const auto found = slots_.find(std::string(words.next()));
+                material = found == slots_.end() ? nullptr
+                                                 : &look_.materials[static_cast<std::size_t>(found->second)];
             }
             if (material == nullptr) return;
             double number = 0.0;
@@ -286,6 +306,8 @@ class ObjReader {
     std::vector<Eigen::Vector2d> texture_;
     std::vector<Vector3d> normals_;
     std::vector<std::string> libraries_;
+    std::set<std::string> known_libraries_;
+    std::unordered_map<std::string, std::int32_t> slots_;   // by name: the materials of the look
     std::unordered_map<std::string, std::int32_t> images_;  // by file: their numbers in the look
     std::unordered_map<std::string, std::size_t> known_;
 };
@@ -293,12 +315,12 @@ class ObjReader {
 }  // namespace
 
 Surface read_obj_file(const std::filesystem::path& file) {
-    return ObjReader(file.string()).read(read_bytes(file));
+    return ObjReader(file.string()).read(read_at_most(file, most_mesh_bytes));
 }
 
 LookMesh read_obj_look(const std::filesystem::path& file) {
     ObjReader reader(file.string(), true);
-    reader.read(read_bytes(file));
+    reader.read(read_at_most(file, most_mesh_bytes));
     return reader.look(file.parent_path());
 }
 

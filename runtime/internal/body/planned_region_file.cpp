@@ -27,7 +27,7 @@ void write_planned_region(Hdf5Writer& file, const PlannedRegion& region) {
 
 PlannedRegion read_planned_region(const Hdf5Reader& file) {
     PlannedRegion region;
-    if (file.has(report_name)) region.report = file.text(report_name);
+    if (file.has(report_name)) region.report = file.json_text(report_name);
     if (!file.has(region_name)) return region;
     const std::vector<std::int32_t> planned = file.integers(region_name, {0, 0});
     const auto side = static_cast<int>(std::lround(std::sqrt(static_cast<double>(planned.size()))));

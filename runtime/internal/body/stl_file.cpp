@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "internal/base/content_hash.hpp"
+#include "internal/files/input_file.hpp"
 #include "samara/base/error.hpp"
 
 namespace samara {
@@ -114,7 +114,7 @@ Surface read_text(const std::string& bytes, const std::string& name) {
 }  // namespace
 
 Surface read_stl_file(const std::filesystem::path& file) {
-    const std::string bytes = read_bytes(file);
+    const std::string bytes = read_at_most(file, most_mesh_bytes);
     if (bytes.empty()) throw Error(fmt::format("{}: is empty; export it again", file.string()));
     return is_text(bytes) ? read_text(bytes, file.string()) : read_binary(bytes, file.string());
 }

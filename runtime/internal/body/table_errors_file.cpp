@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "internal/base/json_text.hpp"
 #include "samara/base/error.hpp"
 
 namespace samara {
@@ -34,7 +35,9 @@ std::vector<ErrorSource> sources_of(const Hdf5Reader& file) {
 std::vector<LeftOutCase> left_out_of(const Hdf5Reader& file) {
     std::vector<LeftOutCase> cases;
     try {
-        for (const nlohmann::json& one : nlohmann::json::parse(file.text(left_out_name))) {
+        const nlohmann::json list = parse_json_or_discard(file.json_text(left_out_name));
+        if (!list.is_array()) throw fault(file, fmt::format("{} is no JSON list", left_out_name));
+        for (const nlohmann::json& one : list) {
             cases.push_back({one.at("name").get<std::string>(), one.at("reason").get<std::string>()});
         }
     } catch (const nlohmann::json::exception&) {

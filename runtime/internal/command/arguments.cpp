@@ -15,6 +15,7 @@
 #include "internal/command/guarded_program.hpp"
 #include "internal/command/print.hpp"
 #include "internal/files/replace_file.hpp"
+#include "internal/motion/file_check.hpp"
 #include "samara/base/version.hpp"
 
 namespace samara {
@@ -203,6 +204,7 @@ int run_program(int argc, const char* const* argv, Arguments& arguments,
         for (const std::string* output : parser.outputs) {
             if (!output->empty()) require_writable(*output);
         }
+        const CheckBeforeReading check;
         const nlohmann::json result = body();
         if (parser.json) print_json(result);
     };

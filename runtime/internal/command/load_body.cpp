@@ -2,7 +2,6 @@
 
 #include <csignal>
 #include <cstdlib>
-#include <cstring>
 #include <fstream>
 #include <string>
 #include <string_view>
@@ -13,7 +12,6 @@
 #include "internal/command/subprocess.hpp"
 #include "internal/files/input_file.hpp"
 #include "internal/files/temporary_folder.hpp"
-#include "internal/motion/file_check.hpp"
 #include "samara/base/error.hpp"
 #include "samara/body/body_file.hpp"
 
@@ -78,11 +76,14 @@ Body meshed(const std::filesystem::path& shape, double scale, int triangles) {
 }  // namespace
 
 bool is_hdf5(const std::filesystem::path& file) {
-    if (!std::filesystem::is_regular_file(file)) return false;
-    std::ifstream stream(file, std::ios::binary);
-    char start[8] = {};
-    stream.read(start, sizeof start);
-    return stream && std::memcmp(start, "\x89HDF\r\n\x1a\n", sizeof start) == 0;
+    constexpr std::string_view beginning = "\x89HDF\r\n\x1a\n";
+    std::string start(beginning.size(), '\0');
+    try {
+        start.resize(InputFile(file).read_at(0, start.data(), start.size()));
+    } catch (const Error&) {
+        return false;
+    }
+    return start == beginning;
 }
 
 Body load_body(const std::filesystem::path& body_or_shape, double scale, int triangles) {
@@ -97,7 +98,6 @@ Body load_body(const std::filesystem::path& body_or_shape, double scale, int tri
     if (scale != 1.0) {
         throw Error(fmt::format("{}: is in metres already; a scale needs the shape file", name));
     }
-    check_before_reading(body_or_shape);
     return read_body_file(body_or_shape);
 }
 

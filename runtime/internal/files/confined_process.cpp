@@ -166,11 +166,12 @@ class Child {
     pid_t process_;
 };
 
-// Reads messages until the child has closed its end or waits for too long.
+// Reads messages until the child has closed its end. Throws Error where it sends more, waits for longer or
+// takes longer than it may.
 class Messages {
   public:
-    Messages(int pipe, const Child& child, double idle_seconds)
-        : pipe_(pipe), child_(child), idle_seconds_(idle_seconds) {}
+    Messages(int pipe, const Child& child, std::string label, const ConfinedLimits& limits)
+        : pipe_(pipe), child_(child), label_(std::move(label)), limits_(limits) {}
     ~Messages() { ::close(pipe_); }
     Messages(const Messages&) = delete;
     Messages& operator=(const Messages&) = delete;
@@ -182,6 +183,11 @@ class Messages {
         if (!fill(sizeof header)) return false;
         std::memcpy(&header, read_.data(), sizeof header);
         read_.erase(0, sizeof header);
+        if (header.size > may_send_) {
+            throw Error(fmt::format("{}: its reader sends more than {:.3g} MB; is the file damaged?", label_,
+                                    1e-6 * static_cast<double>(limits_.sent_bytes)));
+        }
+        may_send_ -= header.size;
         if (!fill(header.size)) return false;
         kind = header.kind;
         bytes = read_.substr(0, header.size);
@@ -189,13 +195,11 @@ class Messages {
         return true;
     }
 
-    [[nodiscard]] bool is_idle() const { return idle_; }
-
   private:
     bool fill(std::uint64_t size) {
         char block[1U << 16U];
         while (read_.size() < size) {
-            if (!is_ready()) return false;
+            wait();
             const ssize_t count = ::read(pipe_, block, sizeof block);
             if (count < 0 && errno == EINTR) continue;
             if (count <= 0) return false;
@@ -204,34 +208,47 @@ class Messages {
         return true;
     }
 
-    bool is_ready() {
+    // Until there is something to read. Bytes that trickle in are no work, and work that trickles has an end.
+    void wait() {
         using Clock = std::chrono::steady_clock;
         constexpr double least_work = 1e-3;  // s
-        Clock::time_point last = Clock::now();
-        double cpu = child_.cpu_seconds();
-        for (;;) {
+        constexpr double busiest = 20.0;     // processes at work for each processor
+        const double longest = limits_.idle_seconds + busiest * limits_.cpu_seconds;
+        for (bool is_ready = false; !is_ready;) {
             pollfd waiting{pipe_, POLLIN, 0};
-            const int wait = static_cast<int>(std::min(1000.0, 250.0 * idle_seconds_));
-            if (::poll(&waiting, 1, std::max(wait, 1)) > 0) return true;
-            const double now = child_.cpu_seconds();
-            if (now < 0.0 || now > cpu + least_work) {
-                cpu = now;
-                last = Clock::now();
+            const int pause = static_cast<int>(std::min(1000.0, 250.0 * limits_.idle_seconds));
+            const Clock::time_point start = Clock::now();
+            is_ready = ::poll(&waiting, 1, std::max(pause, 1)) > 0;
+            const std::chrono::duration<double> waited = Clock::now() - start;
+            idle_ += waited.count();
+            in_all_ += waited.count();
+            const double cpu = child_.cpu_seconds();
+            if (cpu < 0.0 || cpu > cpu_ + least_work) {
+                cpu_ = cpu;
+                idle_ = 0.0;
             }
-            const std::chrono::duration<double> idle = Clock::now() - last;
-            if (idle.count() > idle_seconds_) {
-                idle_ = true;
-                return false;
+            if (idle_ > limits_.idle_seconds) {
+                throw Error(fmt::format("{}: has waited for {:.0f} s without computing; does it read a pipe?",
+                                        label_, limits_.idle_seconds));
             }
+            if (in_all_ > longest) throw Error(fmt::format("{}: takes more than {:.0f} s", label_, longest));
         }
     }
 
     int pipe_;
     const Child& child_;
-    double idle_seconds_;
-    bool idle_ = false;
+    std::string label_;
+    ConfinedLimits limits_;
+    std::uint64_t may_send_ = limits_.sent_bytes;
+    double cpu_ = 0.0;     // s, when work was last seen
+    double idle_ = 0.0;    // s of waiting since
+    double in_all_ = 0.0;  // s of waiting
     std::string read_;
 };
+
+std::string first_line(const std::string& text) {
+    return text.substr(0, text.find('\n'));
+}
 
 [[noreturn]] void fail_by(int status, const std::string& label, const ConfinedLimits& limits) {
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGSYS) {
@@ -268,16 +285,12 @@ void run_confined(const std::string& label, const ConfinedLimits& limits,
         throw Error(fmt::format("{}: no process to read it in: {}", label, std::strerror(reason)));
     }
     Child child(process);
-    Messages messages(ends[0], child, limits.idle_seconds);
+    Messages messages(ends[0], child, label, limits);
     Kind kind{};
     for (std::string bytes; messages.next(kind, bytes);) {
-        if (kind == Kind::fault) throw Error(bytes);
+        if (kind == Kind::fault) throw Error(first_line(bytes));
         if (kind == Kind::done) return;
         receive(bytes);
-    }
-    if (messages.is_idle()) {
-        throw Error(fmt::format("{}: has waited for {:.0f} s without computing; does it read a pipe?", label,
-                                limits.idle_seconds));
     }
     fail_by(child.wait(), label, limits);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -10,10 +11,11 @@ namespace samara {
 
 /// What a confined process may use.
 struct ConfinedLimits {
-    std::vector<std::filesystem::path> readable;  ///< folders, with all beneath them
-    double cpu_seconds = 300.0;                   ///< of all its threads together
-    double idle_seconds = 60.0;                   ///< waiting, for a pipe say, without computing
-    double memory = 0.75;                         ///< over that of the machine
+    std::vector<std::filesystem::path> readable;         ///< folders, with all beneath them
+    double cpu_seconds = 300.0;                          ///< of all its threads together
+    double idle_seconds = 60.0;                          ///< waiting, for a pipe say, without computing
+    double memory = 0.75;                                ///< over that of the machine
+    std::uint64_t sent_bytes = std::uint64_t{1} << 30U;  ///< of all that it sends
 };
 
 /// Sends bytes from the confined process to the one that waits for it.
@@ -24,7 +26,8 @@ using SendBytes = std::function<void(std::string_view bytes)>;
 /// take this process down. Its standard streams lead nowhere. `receive` is called here with each text that
 /// `work` sends, whole and in order: judge it, since it is no more trusted than what `work` reads. Throws
 /// Error, one line that begins with `label`, where `work` crashed, left the process, wanted more than its
-/// limits or to start a program; an Error of `work` itself passes on as it is. No more than 1 ms is lost.
+/// limits or to start a program; an Error of `work` itself passes on, its first line. No more than 1 ms is
+/// lost.
 void run_confined(const std::string& label, const ConfinedLimits& limits,
                   const std::function<void(const SendBytes& send)>& work,
                   const std::function<void(std::string_view bytes)>& receive);

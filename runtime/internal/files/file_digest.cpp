@@ -1,6 +1,5 @@
 #include "internal/files/file_digest.hpp"
 
-#include <algorithm>
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
@@ -11,15 +10,10 @@
 #include <set>
 #include <string>
 #include <string_view>
-#include <tuple>
-#include <vector>
 
-#define XXH_INLINE_ALL
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
-#include <xxhash.h>
 
+#include "internal/base/content_hash.hpp"
 #include "samara/base/error.hpp"
 
 namespace samara {
@@ -28,48 +22,17 @@ namespace {
 constexpr std::string_view label = "\nsamara xxh128 ";
 constexpr std::size_t digest_bytes = label.size() + 32 + 1;
 
-/// Reads up to `size` bytes at the place; fewer where the file ends.
-std::size_t read_at(const InputFile& file, std::uint64_t place, char* bytes, std::size_t size) {
-    std::size_t done = 0;
-    while (done < size) {
-        const ssize_t count =
-            ::pread(file.descriptor(), bytes + done, size - done, static_cast<off_t>(place + done));
-        if (count < 0 && errno == EINTR) continue;
-        if (count < 0) {
-            throw Error(fmt::format("{}: cannot be read: {}", file.path().string(), std::strerror(errno)));
-        }
-        if (count == 0) break;
-        done += static_cast<std::size_t>(count);
-    }
-    return done;
-}
-
 /// The digest of the first `size` bytes, as it stands in files.
 std::string digest_of(const InputFile& file, std::uint64_t size) {
-    const std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state(XXH3_createState(),
-                                                                                XXH3_freeState);
-    XXH3_128bits_reset(state.get());
-    std::vector<char> part(1U << 20U);
-    for (std::uint64_t place = 0; place < size;) {
-        const auto wanted = static_cast<std::size_t>(std::min<std::uint64_t>(part.size(), size - place));
-        const std::size_t count = read_at(file, place, part.data(), wanted);
-        if (count == 0) break;
-        XXH3_128bits_update(state.get(), part.data(), count);
-        place += count;
-    }
-    const XXH128_hash_t hash = XXH3_128bits_digest(state.get());
-    return fmt::format("{}{:016x}{:016x}\n", label, hash.high64, hash.low64);
+    return fmt::format("{}{}\n", label, content_hash(file, size));
 }
 
 std::string end_of(const InputFile& file) {
     if (file.size() < digest_bytes) return {};
     std::string end(digest_bytes, '\0');
-    end.resize(read_at(file, file.size() - digest_bytes, end.data(), digest_bytes));
+    end.resize(file.read_at(file.size() - digest_bytes, end.data(), digest_bytes));
     return end;
 }
-
-/// What tells one state of a file from another: device, inode, size and the time of the last change.
-using FileState = std::tuple<dev_t, ino_t, off_t, time_t, long>;
 
 /// Files whose digest was right, in this process.
 class KnownFiles {
@@ -91,12 +54,6 @@ class KnownFiles {
 KnownFiles& known_files() {
     static KnownFiles files;
     return files;
-}
-
-FileState state_of(const InputFile& file) {
-    struct stat status = {};
-    ::fstat(file.descriptor(), &status);
-    return {status.st_dev, status.st_ino, status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "internal/files/hdf5_checks.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace samara {
 namespace {
@@ -28,25 +29,49 @@ bool holds_one_value(const H5::Attribute& attribute) {
     return shape && value_count(*shape) == hsize_t{1};
 }
 
-/// The bytes that whole chunks of the dataset take, each with its checksum where it has one.
-std::optional<hsize_t> bytes_of_chunks(const H5::DSetCreatPropList& creation,
-                                       const std::vector<hsize_t>& shape, std::size_t value_bytes) {
-    std::vector<hsize_t> chunk(shape.size());
-    const int rank = creation.getChunk(static_cast<int>(chunk.size()), chunk.data());
+/// How the values of a dataset of the shape are cut into chunks.
+struct Chunks {
+    std::vector<hsize_t> shape;   ///< of each
+    std::vector<hsize_t> counts;  ///< along each axis
+    hsize_t count = 0;
+    hsize_t bytes = 0;  ///< that each takes in the file, with its checksum where it has one
+};
+
+/// Nothing where they do not fit the shape, or are more or larger than HDF5 can have them.
+std::optional<Chunks> chunks_of(const H5::DSetCreatPropList& creation, const std::vector<hsize_t>& shape,
+                                std::size_t value_bytes) {
+    constexpr hsize_t most_bytes = std::numeric_limits<std::uint32_t>::max();
+    Chunks chunks;
+    chunks.shape.resize(shape.size());
+    const int rank = creation.getChunk(static_cast<int>(shape.size()), chunks.shape.data());
     if (rank != static_cast<int>(shape.size())) return std::nullopt;
-    std::vector<hsize_t> chunks(shape.size());
     for (std::size_t i = 0; i < shape.size(); ++i) {
-        if (chunk[i] == 0) return std::nullopt;
-        chunks[i] = shape[i] / chunk[i] + (shape[i] % chunk[i] != 0 ? 1 : 0);
+        const hsize_t length = chunks.shape[i];
+        if (length == 0) return std::nullopt;
+        chunks.counts.push_back(shape[i] / length + (shape[i] % length != 0 ? 1 : 0));
     }
-    const std::optional<hsize_t> count = value_count(chunks);
-    const std::optional<hsize_t> plain = bytes_of(chunk, value_bytes);
-    if (!count || !plain) return std::nullopt;
-    return product(*count, *plain + checksum_bytes * static_cast<hsize_t>(creation.getNfilters()));
+    const std::optional<hsize_t> count = value_count(chunks.counts);
+    const std::optional<hsize_t> bytes = bytes_of(chunks.shape, value_bytes);
+    if (!count || !bytes || *bytes > most_bytes) return std::nullopt;
+    chunks.count = *count;
+    chunks.bytes = *bytes + checksum_bytes * static_cast<hsize_t>(creation.getNfilters());
+    return chunks;
 }
 
-/// A filter that is no checksum.
+/// The bytes that whole chunks of the dataset take together.
+std::optional<hsize_t> bytes_of_chunks(const H5::DSetCreatPropList& creation,
+                                       const std::vector<hsize_t>& shape, std::size_t value_bytes) {
+    const std::optional<Chunks> chunks = chunks_of(creation, shape, value_bytes);
+    return chunks ? product(chunks->count, chunks->bytes) : std::nullopt;
+}
+
+/// A filter that is no checksum, or chunks at the edge without it.
 bool is_encoded(const H5::DSetCreatPropList& creation) {
+    unsigned options = 0;
+    if (creation.getLayout() == H5D_CHUNKED && H5Pget_chunk_opts(creation.getId(), &options) >= 0 &&
+        options != 0) {
+        return true;
+    }
     const int filters = creation.getNfilters();
     for (int i = 0; i < filters; ++i) {
         unsigned flags = 0;
@@ -107,6 +132,37 @@ StorageClaim storage_claim(const H5::DataSet& dataset) {
                                             : *wanted <= stored;
     if (!fits) return {"claims values that are not stored"};
     return {{}, stored};
+}
+
+std::string fault_of_chunks(const H5::DataSet& dataset) {
+    const std::string other_size = "has a chunk of another size than its values take";
+    const H5::DSetCreatPropList creation = dataset.getCreatePlist();
+    if (creation.getLayout() != H5D_CHUNKED) return {};
+    const std::vector<hsize_t> shape = shape_of(dataset.getSpace()).value();
+    const std::optional<Chunks> chunks = chunks_of(creation, shape, dataset.getDataType().getSize());
+    if (!chunks) return other_size;
+    const bool has_checksum = creation.getNfilters() > 0;
+    std::vector<char> stored(has_checksum ? static_cast<std::size_t>(chunks->bytes) : 0);
+    std::vector<hsize_t> place(shape.size(), 0);  // of the chunk's first value
+    for (hsize_t i = 0; i < chunks->count; ++i) {
+        hsize_t bytes = 0;
+        if (H5Dget_chunk_storage_size(dataset.getId(), place.data(), &bytes) < 0 || bytes != chunks->bytes) {
+            return other_size;
+        }
+        // The one call that tells in a time that does not grow with the number of chunks.
+        std::uint32_t passed_over = 0;
+        if (has_checksum &&
+            (H5Dread_chunk(dataset.getId(), H5P_DEFAULT, place.data(), &passed_over, stored.data()) < 0 ||
+             passed_over != 0)) {
+            return "has a chunk without its checksum";
+        }
+        for (std::size_t axis = shape.size(); axis-- > 0;) {
+            place[axis] += chunks->shape[axis];
+            if (place[axis] < shape[axis]) break;
+            place[axis] = 0;
+        }
+    }
+    return {};
 }
 
 std::string fault_of_number(const H5::Attribute& attribute, bool integer) {

@@ -32,6 +32,11 @@ struct StorageClaim {
 /// stored.
 StorageClaim storage_claim(const H5::DataSet& dataset);
 
+/// What is wrong with a chunk of a dataset whose storage_claim() is sound, such as "has a chunk of another
+/// size than its values take"; empty where each is as long as its values and its checksum, which is not
+/// passed over. HDF5 believes what a file says of a chunk's size, and reads past the end of a shorter one.
+std::string fault_of_chunks(const H5::DataSet& dataset);
+
 /// What is wrong with an attribute that must be one plain number, or one text of fixed length that takes at
 /// most `most_bytes`; empty where nothing is.
 std::string fault_of_number(const H5::Attribute& attribute, bool integer);

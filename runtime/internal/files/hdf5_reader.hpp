@@ -24,6 +24,13 @@ class Hdf5Reader {
     /// without a digest, as earlier versions and other programs write it, is read too.
     explicit Hdf5Reader(const std::filesystem::path& file);
 
+    /// Has every reader that this process makes from now on call `check` with its file first, once for each
+    /// state of a file, which throws Error where the file is not to be opened here; nullptr: none does, as in
+    /// libraries.
+    static void set_check(void (*check)(const InputFile& file));
+    /// The file as it is now needs no check: this process wrote it.
+    static void trust(const std::filesystem::path& file);
+
     /// Whether there is such a group or dataset.
     [[nodiscard]] bool has(const std::string& name) const;
     /// The dataset's values, row-major; one that is not finite is an Error. `dimensions`: what its shape must
@@ -37,6 +44,8 @@ class Hdf5Reader {
     [[nodiscard]] std::vector<std::int32_t> integers(const std::string& name,
                                                      const std::vector<hsize_t>& dimensions) const;
     [[nodiscard]] std::string text(const std::string& name) const;
+    /// text() of a size and depth that programs can work on, where it is JSON.
+    [[nodiscard]] std::string json_text(const std::string& name) const;
     [[nodiscard]] std::vector<hsize_t> shape(const std::string& name) const;
     /// The names of the groups and datasets in a group, sorted.
     [[nodiscard]] std::vector<std::string> children(const std::string& group) const;

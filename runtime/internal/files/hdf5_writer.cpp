@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "internal/files/file_digest.hpp"
+#include "internal/files/hdf5_reader.hpp"
 #include "internal/files/replace_file.hpp"
 #include "samara/base/error.hpp"
 
@@ -256,6 +257,7 @@ void write_hdf5(const std::filesystem::path& file, const std::function<void(Hdf5
                             file.string(), failure.getDetailMsg()));
         }
         append_digest(temporary);
+        Hdf5Reader::trust(temporary);
     });
 }
 

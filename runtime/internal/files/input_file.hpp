@@ -2,18 +2,25 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <ctime>
 #include <filesystem>
 #include <string>
+#include <tuple>
+
+#include <sys/types.h>
 
 namespace samara {
 
+/// The most that is read of a mesh, .stl, .obj or .glb (bytes): some 20 million triangles.
+inline constexpr std::size_t most_mesh_bytes = std::size_t{1} << 30U;
+
 /// What keeps a path from being read as a file, for a message behind its name: "there is no such file", "is a
-/// folder; give a file", "cannot be read: Permission denied"; empty where nothing does. Pipes and devices are
-/// files here. Never throws for any path.
+/// folder; give a file", "is a pipe, socket or device; give a file", "cannot be read: Permission denied";
+/// empty where nothing does. Never throws for any path.
 std::string reading_fault(const std::filesystem::path& path);
 
-/// A file's bytes. Throws Error, "PATH: reading_fault()", where it cannot be read, and where it holds more
-/// than `most`, which devices without an end do.
+/// The bytes of a regular file. Throws Error, "PATH: reading_fault()", where it is none or cannot be read,
+/// and where it holds more than `most`.
 std::string read_at_most(const std::filesystem::path& path, std::size_t most);
 
 /// A regular file that is open for reading as long as this lives.
@@ -32,11 +39,22 @@ class InputFile {
     /// A name for libraries that open files themselves: of this very file, whatever has come to stand at its
     /// path since.
     [[nodiscard]] std::string name() const;
+    /// Up to `size` bytes at the place; fewer where the file ends. Throws Error where it cannot be read.
+    std::size_t read_at(std::uint64_t place, char* bytes, std::size_t size) const;
+    /// All that it held when it was opened. Throws Error where it cannot be read or holds more than `most`.
+    [[nodiscard]] std::string bytes(std::size_t most) const;
+    /// Whether the file that is open stands beneath the folder, wherever links lead.
+    [[nodiscard]] bool is_beneath(const std::filesystem::path& folder) const;
 
   private:
     std::filesystem::path path_;
     int descriptor_ = -1;
     std::uint64_t size_ = 0;
 };
+
+/// What tells one state of a file from another: device, inode, size and the time of the last change.
+using FileState = std::tuple<dev_t, ino_t, off_t, std::time_t, long>;
+
+FileState state_of(const InputFile& file);
 
 }  // namespace samara

@@ -13,6 +13,7 @@
 #include <linux/filter.h>
 #include <linux/seccomp.h>
 #include <sched.h>
+#include <sys/file.h>
 #include <sys/ioctl.h>
 #include <sys/prctl.h>
 #include <sys/syscall.h>
@@ -52,8 +53,6 @@ constexpr int allowed_calls[] = {
     SYS_getcwd,
     SYS_dup,
     SYS_dup3,
-    SYS_fcntl,
-    SYS_flock,
     SYS_fstatfs,
     SYS_statfs,
     SYS_mmap,
@@ -134,6 +133,18 @@ constexpr int starting_calls[] = {
 #endif
 };
 
+// What a half of an argument must be, under a mask.
+struct Condition {
+    std::size_t
+        half;  // 2 n: the lower one of argument n, on processors that begin with it; 2 n + 1: the upper
+    std::uint32_t value;
+    std::uint32_t mask = std::numeric_limits<std::uint32_t>::max();
+};
+
+constexpr std::size_t lower_half(std::size_t argument) {
+    return 2 * argument;
+}
+
 // A filter is a program of at most 4096 instructions, which the kernel runs on each system call.
 class Filter {
   public:
@@ -149,15 +160,18 @@ class Filter {
         decide(decision);
     }
 
-    // By the lower half of an argument: `yes` where it equals `value` under the mask, else `no`.
-    void rule_on_argument(int call, std::size_t argument, std::uint32_t mask, std::uint32_t value,
-                          std::uint32_t yes, std::uint32_t no) {
-        add(BPF_JMP | BPF_JEQ | BPF_K, static_cast<std::uint32_t>(call), 0, 5);
-        load(offsetof(seccomp_data, args) + argument * sizeof(std::uint64_t));  // little-endian
-        add(BPF_ALU | BPF_AND | BPF_K, mask);
-        add(BPF_JMP | BPF_JEQ | BPF_K, value, 0, 1);
-        decide(yes);
-        decide(no);
+    // Allows the call where all conditions hold; else the rules that follow decide.
+    void allow_where(int call, std::initializer_list<Condition> conditions) {
+        auto rest = static_cast<std::uint8_t>(3 * conditions.size() + 1);
+        add(BPF_JMP | BPF_JEQ | BPF_K, static_cast<std::uint32_t>(call), 0, rest);
+        for (const Condition& condition : conditions) {
+            rest = static_cast<std::uint8_t>(rest - 3);
+            load(offsetof(seccomp_data, args) + sizeof(std::uint32_t) * condition.half);
+            add(BPF_ALU | BPF_AND | BPF_K, condition.mask);
+            add(BPF_JMP | BPF_JEQ | BPF_K, condition.value, 0, rest);
+        }
+        decide(SECCOMP_RET_ALLOW);
+        load(offsetof(seccomp_data, nr));
     }
 
     void decide(std::uint32_t decision) { add(BPF_RET | BPF_K, decision); }
@@ -180,22 +194,28 @@ class Filter {
 bool allow_computing_and_reading_alone() {
     constexpr std::uint32_t allow = SECCOMP_RET_ALLOW;
     constexpr std::uint32_t refuse = SECCOMP_RET_ERRNO | EPERM;
-    constexpr std::uint32_t every_bit = std::numeric_limits<std::uint32_t>::max();
     constexpr std::uint32_t writing = O_ACCMODE | O_CREAT | O_TRUNC;
     const auto self = static_cast<std::uint32_t>(::getpid());
     Filter filter;
     for (const int call : allowed_calls) filter.rule(call, allow);
     for (const int call : missing_calls) filter.rule(call, SECCOMP_RET_ERRNO | ENOSYS);
     for (const int call : starting_calls) filter.rule(call, SECCOMP_RET_KILL_PROCESS);
-    filter.rule_on_argument(SYS_clone, 0, CLONE_THREAD, CLONE_THREAD, allow, SECCOMP_RET_KILL_PROCESS);
-    filter.rule_on_argument(SYS_openat, 2, writing, O_RDONLY, allow, refuse);
+    filter.allow_where(SYS_clone, {{lower_half(0), CLONE_THREAD, CLONE_THREAD}});
+    filter.rule(SYS_clone, SECCOMP_RET_KILL_PROCESS);
+    filter.allow_where(SYS_openat, {{lower_half(2), O_RDONLY, writing}});
 #if defined(__x86_64__)
-    filter.rule_on_argument(SYS_open, 1, writing, O_RDONLY, allow, refuse);
+    filter.allow_where(SYS_open, {{lower_half(1), O_RDONLY, writing}});
 #endif
-    filter.rule_on_argument(SYS_tgkill, 0, every_bit, self, allow, refuse);
-    filter.rule_on_argument(SYS_prlimit64, 0, every_bit, 0, allow, refuse);
-    filter.rule_on_argument(SYS_prctl, 0, every_bit, PR_SET_NAME, allow, refuse);
-    filter.rule_on_argument(SYS_ioctl, 1, every_bit, TCGETS, allow, refuse);
+    // Not those that have a file signal other processes (F_SETOWN, F_SETSIG, O_ASYNC by F_SETFL).
+    for (const std::uint32_t command : {F_DUPFD, F_DUPFD_CLOEXEC, F_GETFD, F_SETFD, F_GETFL}) {
+        filter.allow_where(SYS_fcntl, {{lower_half(1), command}});
+    }
+    filter.allow_where(SYS_flock, {{lower_half(1), 0, LOCK_EX}});
+    filter.allow_where(SYS_tgkill, {{lower_half(0), self}});
+    // Its limits may be read, not set.
+    filter.allow_where(SYS_prlimit64, {{lower_half(0), 0}, {lower_half(2), 0}, {lower_half(2) + 1, 0}});
+    filter.allow_where(SYS_prctl, {{lower_half(0), PR_SET_NAME}});
+    filter.allow_where(SYS_ioctl, {{lower_half(1), TCGETS}});
     filter.decide(refuse);
     return filter.install();
 }

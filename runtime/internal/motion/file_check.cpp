@@ -19,6 +19,7 @@ namespace samara {
 namespace {
 
 std::string kind_of(const std::filesystem::path& file) {
+    Hdf5Reader::set_check(nullptr);  // this is the process that checks
     const Hdf5Reader reader(file);
     if (reader.has("/surface")) return "body";
     if (reader.has("/bodies")) return "motion";
@@ -55,6 +56,7 @@ ConfinedLimits limits_for(const InputFile& input) {
     limits.cpu_seconds = 10.0 + static_cast<double>(input.size()) / 20e6;
     limits.idle_seconds = 30.0;
     limits.memory = 0.25;
+    limits.sent_bytes = 64U << 10U;  // a kind, or what is wrong
     return limits;
 }
 
@@ -63,8 +65,8 @@ bool offers_confinement() {
     return ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, nullptr, 0, 0) != 0 && errno == EFAULT;
 }
 
-CheckedFile check(const std::filesystem::path& file, bool poses) {
-    const InputFile input(file);
+CheckedFile check(const InputFile& input, bool poses) {
+    const std::filesystem::path& file = input.path();
     std::string kind;
     run_confined(
         file.string(), limits_for(input), [&](const SendBytes& send) { send(read_through(file, poses)); },
@@ -78,11 +80,15 @@ CheckedFile check(const std::filesystem::path& file, bool poses) {
 }  // namespace
 
 CheckedFile check_file(const std::filesystem::path& file) {
-    return check(file, true);
+    return check(InputFile(file), true);
 }
 
-void check_before_reading(const std::filesystem::path& file) {
-    if (offers_confinement()) (void)check(file, false);
+CheckBeforeReading::CheckBeforeReading() {
+    if (offers_confinement()) Hdf5Reader::set_check([](const InputFile& file) { (void)check(file, false); });
+}
+
+CheckBeforeReading::~CheckBeforeReading() {
+    Hdf5Reader::set_check(nullptr);
 }
 
 }  // namespace samara

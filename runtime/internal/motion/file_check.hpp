@@ -17,8 +17,16 @@ struct CheckedFile {
 /// process.
 CheckedFile check_file(const std::filesystem::path& file);
 
-/// The same before this process reads the file itself, without the values of a motion's poses, which take the
-/// most time; nothing where the system offers no such process.
-void check_before_reading(const std::filesystem::path& file);
+/// While it lives, this process does the same, once, with every HDF5 file that it did not write before it
+/// opens it itself (Hdf5Reader::set_check), without the values of a motion's poses, which take the most time.
+/// Nothing where the system offers no such process. For programs, not for libraries: whoever calls these has
+/// a process of its own to look after.
+class CheckBeforeReading {
+  public:
+    CheckBeforeReading();
+    ~CheckBeforeReading();
+    CheckBeforeReading(const CheckBeforeReading&) = delete;
+    CheckBeforeReading& operator=(const CheckBeforeReading&) = delete;
+};
 
 }  // namespace samara

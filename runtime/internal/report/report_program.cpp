@@ -9,7 +9,6 @@
 #include "internal/command/arguments.hpp"
 #include "internal/command/print.hpp"
 #include "internal/command/progress.hpp"
-#include "internal/motion/file_check.hpp"
 #include "internal/report/body_parts.hpp"
 #include "internal/report/html.hpp"
 #include "samara/base/error.hpp"
@@ -41,7 +40,6 @@ struct ReportOptions {
 };
 
 Body read_bake(const std::string& file) {
-    check_before_reading(file);
     Body body = read_body_file(file);
     if (!body.tables) {
         throw Error(

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "internal/motion/file_check.hpp"
 #include "internal/scene/choice.hpp"
 #include "samara/physics/wind_file.hpp"
 
@@ -102,7 +101,6 @@ WindFile read_file(TomlTable& table, const std::filesystem::path& folder, double
     WindFile file;
     const auto path = table.text("path");
     if (!path) throw table.fault("path", "is missing; give a wind file, from 'samara wind'");
-    check_before_reading(folder / *path);
     file.grid = std::make_shared<const WindGrid>(read_wind_file(folder / *path));
     file.position = table.vector("position").value_or(file.position);
     file.start = table.number("start", any_number).value_or(file.start);

@@ -203,7 +203,7 @@ LoadTables read_tables(const Hdf5Reader& file) {
     tables.errors = read_entries(file, tables, "_error");
     read_table_errors(file, tables);
     tables.plan = read_planned_region(file);
-    tables.provenance = file.text("/tables/provenance");
+    tables.provenance = file.json_text("/tables/provenance");
     return tables;
 }
 

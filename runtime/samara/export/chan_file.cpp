@@ -8,6 +8,7 @@
 
 #include "internal/base/angles.hpp"
 #include "internal/base/printable.hpp"
+#include "internal/export/float_range.hpp"
 #include "internal/export/shape_pose.hpp"
 #include "internal/files/replace_file.hpp"
 #include "samara/base/error.hpp"
@@ -77,6 +78,7 @@ void require_whole_frames(const std::filesystem::path& file, const Motion& motio
 std::vector<std::filesystem::path> write_chan(const std::filesystem::path& file, const Motion& motion,
                                               int run, const ExportProgress& progress) {
     require_whole_frames(file, motion);
+    require_float_range(file, motion, run);
     int total = 0;
     for (const BodyMotion& body : motion.bodies) total += body.copies;
     const bool single = total == 1;

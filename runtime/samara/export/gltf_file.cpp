@@ -11,6 +11,7 @@
 
 #include "internal/base/printable.hpp"
 #include "internal/body/look_image.hpp"
+#include "internal/export/float_range.hpp"
 #include "internal/export/key_reduction.hpp"
 #include "internal/export/shaded_mesh.hpp"
 #include "internal/export/shape_pose.hpp"
@@ -321,6 +322,7 @@ class Keys {
 
 std::size_t write_glb(const std::filesystem::path& file, const Motion& motion, int run,
                       const std::optional<double>& tolerance) {
+    require_float_range(file, motion, run);
     Builder builder;
     tinygltf::Model& model = builder.model();
     model.scenes.emplace_back();

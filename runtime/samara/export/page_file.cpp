@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "internal/base/base64.hpp"
+#include "internal/export/float_range.hpp"
 #include "internal/export/page_bytes.hpp"
 #include "internal/export/shaded_mesh.hpp"
 #include "internal/files/replace_file.hpp"
@@ -140,6 +141,7 @@ void write_page(const std::filesystem::path& file, const Motion& motion, int run
                         file.string()));
     }
     require_size(file, motion);
+    require_float_range(file, motion, run);
     replace_file_by_stream(file, [&](std::ostream& stream) {
         stream << page.substr(0, place) << "<script type=\"application/json\" id=\"motion-header\">"
                << header_of(motion, run, title, detail) << "</script>\n";

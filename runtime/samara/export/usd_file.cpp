@@ -10,6 +10,7 @@
 
 #include "internal/base/as_index.hpp"
 #include "internal/body/look_image.hpp"
+#include "internal/export/float_range.hpp"
 #include "internal/export/key_reduction.hpp"
 #include "internal/export/prim_names.hpp"
 #include "internal/export/shape_pose.hpp"
@@ -249,6 +250,7 @@ class Stage {
 
 std::size_t write_usda(const std::filesystem::path& file, const Motion& motion, int run,
                        const std::optional<double>& tolerance) {
+    require_float_range(file, motion, run);
     std::size_t samples = 0;
     const ImageFiles images = write_images(file, motion);
     replace_file_by_stream(

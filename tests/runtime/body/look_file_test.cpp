@@ -1,9 +1,12 @@
 // Meshes that exports show: their UVs, normals and material slots, in .obj and .glb.
 #include "internal/body/look_file.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
+#include "internal/base/content_hash.hpp"
 #include "samara/export/gltf_file.hpp"
 #include "samara/motion/motion_file.hpp"
 #include "samara/scene/scene_file.hpp"
@@ -17,6 +20,7 @@ namespace {
 
 using test::error_of;
 using test::TemporaryFolder;
+using testing::AllOf;
 using testing::HasSubstr;
 
 LookMesh painted(const TemporaryFolder& folder) {
@@ -103,6 +107,66 @@ TEST(LookFile, CarriesTheImageThatLiesBesideAnObj) {
     EXPECT_EQ(read_look_file(folder / "leaf.obj").materials[0].image, -1);
     std::filesystem::remove(folder / "leaf.png");
     EXPECT_TRUE(read_look_file(folder / "leaf.obj").images.empty());
+}
+
+TEST(LookFile, TakesNothingThroughALinkOutOfTheFolderOrFromAPipe) {
+    const TemporaryFolder elsewhere;
+    const TemporaryFolder folder;
+    (void)painted(folder);
+    const auto refusal = [&] { return error_of([&] { (void)read_look_file(folder / "leaf.obj"); }); };
+    for (const char* name : {"leaf.png", "leaf.mtl"}) {
+        const std::string inside = read_bytes(folder / name);
+        std::filesystem::remove(folder / name);
+        std::filesystem::create_symlink(elsewhere.file(name, inside), folder / name);
+        EXPECT_THAT(refusal(), AllOf(HasSubstr("leaf.obj: "), HasSubstr(name),
+                                     HasSubstr("is a link that leads out of the folder")));
+        std::filesystem::remove(folder / name);
+        ASSERT_EQ(::mkfifo((folder / name).c_str(), 0600), 0);
+        EXPECT_THAT(refusal(), AllOf(HasSubstr(name), HasSubstr("is a pipe, socket or device")));
+        std::filesystem::remove(folder / name);
+        std::filesystem::create_symlink(std::filesystem::path("below") / name, folder / name);
+        (void)folder.file(std::filesystem::path("below") / name, inside);
+        EXPECT_NO_THROW((void)read_look_file(folder / "leaf.obj")) << "a link within the folder";
+    }
+    EXPECT_EQ(read_look_file(folder / "leaf.obj").images.size(), 1U);
+}
+
+TEST(LookFile, NamesNoFileOfMaterialsOutsideOfItsFolder) {
+    const TemporaryFolder folder;
+    (void)folder.file("other.mtl", "newmtl a\nKd 0.1 0.2 0.3\n");
+    for (const std::string& name : {(folder / "other.mtl").string(), std::string("../other.mtl")}) {
+        const auto file =
+            folder.file("inner/a.obj", "mtllib " + name + "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n");
+        EXPECT_NE(read_look_file(file).materials.at(0).color[0], 0.1) << name;
+    }
+}
+
+/// A .glb of a JSON text alone.
+std::string glb_of(std::string json) {
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    const auto four_bytes = [](std::size_t number) {
+        std::string bytes;
+        for (int i = 0; i < 4; ++i, number >>= 8) bytes += static_cast<char>(number & 0xff);
+        return bytes;
+    };
+    return "glTF" + four_bytes(2) + four_bytes(20 + json.size()) + four_bytes(json.size()) + "JSON" + json;
+}
+
+TEST(LookFile, ThatNestsOrRepeatsWithoutMeasureIsRefused) {
+    const TemporaryFolder folder;
+    const auto refusal = [&](const std::string& json) {
+        return error_of([&] { (void)read_look_file(folder.file("a.glb", glb_of(json))); });
+    };
+    const std::string deep = std::string(100'000, '[') + std::string(100'000, ']');
+    EXPECT_THAT(refusal(R"({"asset": {"version": "2.0"}, "extras": )" + deep + "}"),
+                HasSubstr("a.glb: its JSON nests more than 100 lists and objects"));
+    // Each node holds the next one twice.
+    std::string nodes = R"({"name": "last"})";
+    for (int i = 60; i > 0; --i) nodes = fmt::format(R"({{"children": [{0}, {0}]}}, {1})", i, nodes);
+    EXPECT_THAT(
+        refusal(R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [)" +
+                nodes + "]}"),
+        HasSubstr("a.glb: places its nodes more than a million times"));
 }
 
 TEST(LookFile, ReadsWhatWasWrittenAsGlbTheSame) {

@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "paths.hpp"
 #include "samara/body/body_file.hpp"
@@ -51,7 +52,8 @@ TEST(HostilePaths, ThatCannotBeReadAreRefusedWithTheReason) {
     for (const auto& words : readings_of("loop")) expect_refusal(folder, words, "levels of symbolic links");
     for (const auto& words : readings_of("folder")) expect_refusal(folder, words, "folder");
     for (const auto& words : readings_of("none")) expect_refusal(folder, words, "none: ");
-    expect_refusal(folder, {"samara", "simulate", "/dev/zero", "-o", "out.h5"}, "/dev/zero: holds more than");
+    expect_refusal(folder, {"samara", "simulate", "/dev/zero", "-o", "out.h5"},
+                   "/dev/zero: is a pipe, socket or device; give a file");
 }
 
 TEST(HostilePaths, OfShapesAndBakedBodiesNameThePlaceInTheScene) {
@@ -71,6 +73,34 @@ TEST(HostilePaths, OfShapesAndBakedBodiesNameThePlaceInTheScene) {
     write_body_file(folder / "rubber.body.h5", test::rubber_ellipsoid());
     simulated("rubber.body.h5", {"--bodies", std::string(5000, 'a')}, "name too long");
     simulated("rubber.body.h5", {"--bodies", "loop"}, "levels of symbolic links");
+}
+
+TEST(HostilePaths, OfPipesAndDevicesInASceneAreRefusedWithoutWaiting) {
+    const test::TemporaryFolder folder;
+    write_body_file(folder / "rubber.body.h5", test::rubber_ellipsoid());
+    for (const char* name : {"pipe.obj", "pipe.stl", "pipe.glb", "pipe.h5", "pipe.body.h5", "pipe.toml"}) {
+        ASSERT_EQ(::mkfifo((folder / name).c_str(), 0600), 0);
+    }
+    std::filesystem::create_symlink("/dev/zero", folder / "zero.obj");
+    const std::string body = "[[body]]\nname = \"a\"\ndensity = 1200\nshape = \"rubber.body.h5\"\n";
+    for (const std::string& rest : {
+             body + "look = \"pipe.obj\"\n",
+             body + "look = \"pipe.glb\"\n",
+             body + "look = \"zero.obj\"\n",
+             body + "[body.emitter]\nshape = \"pipe.stl\"\n",
+             body + "[[obstacle]]\nname = \"o\"\nshape = \"pipe.obj\"\n",
+             body + "[[obstacle]]\nname = \"o\"\nshape = \"zero.obj\"\n",
+             body + "[wind.file]\npath = \"pipe.h5\"\n",
+             std::string("[[body]]\nname = \"a\"\ndensity = 1200\nshape = \"pipe.body.h5\"\n"),
+             std::string("[[body]]\nname = \"a\"\ndensity = 1200\nshape = \"pipe.stl\"\n"),
+         }) {
+        (void)folder.file("scene.toml", "[scene]\nduration = 0.1\n" + rest);
+        expect_refusal(folder, {"samara", "simulate", "scene.toml", "-o", "out.h5"},
+                       "is a pipe, socket or device; give a file");
+    }
+    expect_refusal(folder, {"samara", "simulate", "pipe.toml", "-o", "out.h5"},
+                   "is a pipe, socket or device");
+    for (const auto& words : readings_of("pipe.body.h5")) expect_refusal(folder, words, "is a pipe, socket");
 }
 
 TEST(HostilePaths, ThatCannotBeWrittenAreRefusedWithTheReason) {

@@ -14,6 +14,9 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
+#include <sys/ioctl.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
@@ -109,6 +112,80 @@ TEST(ConfinedProcess, MayNotTouchFilesNetworkOrOtherProcesses) {
     std::getline(std::ifstream(there), text);
     EXPECT_EQ(text, "untouched");
     EXPECT_EQ(folder.file_count(), 1);
+}
+
+TEST(ConfinedProcess, MayHaveNoFileSignalOtherProcesses) {
+    int ends[2];
+    const auto refused = [&](const auto& call) {
+        return errno_of([&] {
+                   if (::pipe(ends) == 0) (void)call(ends[0]);
+               }) == EPERM;
+    };
+    EXPECT_TRUE(refused([](int file) { return ::fcntl(file, F_SETOWN, ::getppid()); }));
+    EXPECT_TRUE(refused([](int file) { return ::fcntl(file, F_SETSIG, SIGTERM); }));
+    EXPECT_TRUE(refused([](int file) { return ::fcntl(file, F_SETFL, O_ASYNC); }));
+    EXPECT_TRUE(refused([](int file) {
+        const f_owner_ex owner = {F_OWNER_PID, ::getppid()};
+        return ::fcntl(file, F_SETOWN_EX, &owner);
+    }));
+    EXPECT_TRUE(refused([](int file) {
+        int on = 1;
+        return ::ioctl(file, FIOASYNC, &on);
+    }));
+    EXPECT_TRUE(refused([](int file) { return ::fcntl(file, F_NOTIFY, DN_ACCESS); }));
+    EXPECT_TRUE(refused([](int file) { return ::fcntl(file, F_SETLEASE, F_RDLCK); }));
+    EXPECT_TRUE(refused([](int) { return ::syscall(SYS_tgkill, ::getppid(), ::getppid(), 0); }));
+    EXPECT_TRUE(refused([](int) { return ::syscall(SYS_io_uring_setup, 1, nullptr); }));
+    EXPECT_TRUE(refused([](int) {
+        timer_t timer{};
+        return ::timer_create(CLOCK_MONOTONIC, nullptr, &timer);
+    }));
+    EXPECT_FALSE(refused([](int file) { return ::fcntl(file, F_GETFD); }));
+    EXPECT_FALSE(refused([](int file) { return ::fcntl(file, F_DUPFD_CLOEXEC, 10); }));
+}
+
+TEST(ConfinedProcess, MayNotRaiseItsLimits) {
+    rlimit limit{};
+    EXPECT_EQ(errno_of([&] { ::getrlimit(RLIMIT_DATA, &limit); }), 0);
+    EXPECT_EQ(errno_of([&] {
+                  limit.rlim_cur = limit.rlim_max = RLIM_INFINITY;
+                  ::setrlimit(RLIMIT_DATA, &limit);
+              }),
+              EPERM);
+}
+
+TEST(ConfinedProcess, SendsNoMoreThanItsShare) {
+    ConfinedLimits limits;
+    limits.sent_bytes = 1000;
+    const auto expected = HasSubstr("sends more than 0.001 MB");
+    EXPECT_THAT(fault_of([](const SendBytes& send) { send(std::string(1001, 'x')); }, limits), expected);
+    EXPECT_THAT(fault_of(
+                    [](const SendBytes& send) {
+                        for (;;) send("some more");
+                    },
+                    limits),
+                expected);
+    EXPECT_THAT(fault_of([](const SendBytes&) { throw Error(std::string(2000, 'x')); }, limits), expected);
+    EXPECT_THAT(received_from([](const SendBytes& send) { send("little"); }, limits), ElementsAre("little"));
+}
+
+TEST(ConfinedProcess, TextsThatTrickleInAreNoWork) {
+    ConfinedLimits limits;
+    limits.idle_seconds = 0.5;
+    EXPECT_THAT(fault_of(
+                    [](const SendBytes& send) {
+                        for (;;) {
+                            send("x");
+                            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+                        }
+                    },
+                    limits),
+                HasSubstr("without computing"));
+}
+
+TEST(ConfinedProcess, AnErrorIsOneLine) {
+    EXPECT_EQ(fault_of([](const SendBytes&) { throw Error("file: a fault\nand more of it"); }),
+              "file: a fault");
 }
 
 TEST(ConfinedProcess, ReadsItsFolderAndWhereTheKernelHasLandlockNoOther) {

@@ -37,12 +37,19 @@ class CraftedBody : public testing::Test {
         test::Text fault;
         EXPECT_EQ(CALL(samara_body_load, file_.c_str(), &loaded), SAMARA_UNREADABLE_FILE);
         EXPECT_THAT(fault.text(), AllOf(HasSubstr(what), Not(HasSubstr("\n"))));
-        for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
-                 {"samara", "info", "a.body.h5"}, {"samara", "simulate", "scene.toml", "-o", "out.h5"}}) {
+        for (const std::vector<std::string>& words :
+             std::vector<std::vector<std::string>>{{"samara", "info", "a.body.h5"},
+                                                   {"samara", "info", "a.body.h5", "--json"},
+                                                   {"samara", "check", "a.body.h5"},
+                                                   {"samara", "mass", "a.body.h5", "--density", "1200"},
+                                                   {"samara", "kirchhoff", "a.body.h5"},
+                                                   {"samara", "plot", "a.body.h5", "-o", "a.svg"},
+                                                   {"samara", "report", "a.body.h5", "-o", "a.html"},
+                                                   {"samara", "simulate", "scene.toml", "-o", "out.h5"}}) {
             const ProgramRun done = run_program_in(folder_, words);
-            EXPECT_EQ(done.status, 1);
+            EXPECT_EQ(done.status, 1) << words[1];
             EXPECT_TRUE(test::is_one_line(done.fault)) << done.fault;
-            EXPECT_THAT(done.fault, HasSubstr(what));
+            EXPECT_THAT(done.fault, HasSubstr(what)) << words[1];
         }
     }
 
@@ -103,6 +110,21 @@ TEST_F(CraftedBody, AnotherFileIsNotReadThroughIt) {
     expect_refusal("/tables/provenance is kept in other files");
 }
 
+TEST_F(CraftedBody, AChunkShorterThanItsValuesIsRefusedEverywhere) {
+    constexpr std::size_t whole = 75 * 8 + 4;
+    ASSERT_TRUE(test::put_in_chunks(file_, "/tables/force", {.chunk = {1, 5, 5, 3}},
+                                    {{{0, 0, 0, 0}, 16, 1}, {{1, 0, 0, 0}, 2 * whole - 16, 1}}));
+    expect_refusal("/tables/force has a chunk of another size than its values take");
+}
+
+TEST_F(CraftedBody, JsonThatNestsTooDeepIsRefusedEverywhere) {
+    for (const char* name : {"/tables/provenance", "/tables/plan", "/tables/left_out"}) {
+        write_body_file(file_, test::full_body());
+        test::put_text(file_, name, "[" + std::string(500'000, '[') + std::string(500'000, ']') + "]");
+        expect_refusal(std::string(name) + " nests more than 100 lists and objects");
+    }
+}
+
 class CraftedMotion : public testing::Test {
   protected:
     void SetUp() override {
@@ -113,6 +135,9 @@ class CraftedMotion : public testing::Test {
         EXPECT_THAT(error_of([&] { (void)read_motion_file(file_); }), HasSubstr(what));
         for (const std::vector<std::string>& words :
              std::vector<std::vector<std::string>>{{"samara", "info", "a.h5"},
+                                                   {"samara", "info", "a.h5", "--json"},
+                                                   {"samara", "check", "a.h5"},
+                                                   {"samara", "export", "a.h5", "-o", "a.glb"},
                                                    {"samara", "export", "a.h5", "-o", "a.csv"},
                                                    {"samara", "plot", "a.h5", "-o", "a.svg"},
                                                    {"samara", "compare", "a.h5", "a.h5"}}) {
@@ -144,6 +169,18 @@ TEST_F(CraftedMotion, AttributesOfManyNumbersAreRefusedEverywhere) {
     expect_refusal("the attribute seed of / is not one value");
     put_attribute(file_, "/", "frame_rate", H5::PredType::IEEE_F64LE, 64);
     expect_refusal("the attribute frame_rate of / is not one value");
+}
+
+TEST_F(CraftedMotion, AChunkOfAnotherSizeThanItsValuesIsRefusedEverywhere) {
+    const std::string name = "/bodies/ellipsoid/position";
+    constexpr std::size_t whole = 31 * 3 * 8 + 4;
+    for (const auto& [bytes, mask] : {std::pair<std::size_t, std::uint32_t>{2, 0}, {16, 1}}) {
+        ASSERT_TRUE(
+            test::put_in_chunks(file_, name, {.chunk = {1, 31, 1, 3}},
+                                {{{0, 0, 0, 0}, bytes, mask}, {{0, 31, 0, 0}, 2 * whole - bytes, 1}}));
+        expect_refusal(name + " has a chunk of another size than its values take");
+        SetUp();
+    }
 }
 
 TEST_F(CraftedMotion, PosesThatAreNotStoredAreRefusedEverywhere) {

@@ -1,6 +1,7 @@
 #include "internal/files/hdf5_reader.hpp"
 
 #include <cstdlib>
+#include <tuple>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -198,6 +199,111 @@ TEST_F(Hdf5ReaderTest, CompressedValuesAreRefused) {
     creation.setDeflate(9);
     put_dataset(file_, "/a/doubles", H5::PredType::IEEE_F64LE, {2, 3}, creation);
     EXPECT_THAT(fault_of_doubles(), HasSubstr("/a/doubles is compressed or encoded"));
+}
+
+TEST_F(Hdf5ReaderTest, EdgesOfChunksWithoutTheirFilterAreRefused) {
+    H5::DSetCreatPropList creation = in_chunks({2, 2});
+    creation.setFletcher32();
+    H5Pset_chunk_opts(creation.getId(), H5D_CHUNK_DONT_FILTER_PARTIAL_CHUNKS);
+    put_dataset(file_, "/a/doubles", H5::PredType::IEEE_F64LE, {2, 3}, creation);
+    EXPECT_THAT(fault_of_doubles(), HasSubstr("/a/doubles is compressed or encoded"));
+}
+
+/// 64 rows of 8 doubles in chunks of 64 or 32, with or without checksums, of which none, one or two axes may
+/// grow, in HDF5's latest format or its oldest.
+class CraftedChunks : public testing::TestWithParam<std::tuple<hsize_t, bool, std::size_t, bool>> {
+  protected:
+    void SetUp() override { ASSERT_TRUE(make({})); }
+
+    [[nodiscard]] bool make(const std::vector<test::CraftedChunk>& crafted) const {
+        test::make_hdf5(file_, {64, 8}, std::get<3>(GetParam()));
+        return test::put_in_chunks(file_, "/values", {{rows(), 8}, has_checksum(), std::get<2>(GetParam())},
+                                   crafted);
+    }
+
+    static hsize_t rows() { return std::get<0>(GetParam()); }
+    static bool has_checksum() { return std::get<1>(GetParam()); }
+    /// What a chunk's values take in the file, without and with their checksum.
+    static std::size_t plain_bytes() { return static_cast<std::size_t>(rows()) * 8 * sizeof(double); }
+    static std::size_t whole_bytes() { return plain_bytes() + (has_checksum() ? 4 : 0); }
+    static bool has_second() { return rows() == 32; }
+
+    [[nodiscard]] std::vector<double> read() const {
+        return Hdf5Reader(file_).finite_doubles("/values", {0, 8});
+    }
+
+    test::TemporaryFolder folder_;
+    std::filesystem::path file_ = folder_ / "a.h5";
+};
+
+INSTANTIATE_TEST_SUITE_P(EachIndex, CraftedChunks,
+                         testing::Combine(testing::Values(64, 32), testing::Bool(), testing::Values(0, 1, 2),
+                                          testing::Bool()));
+
+TEST_P(CraftedChunks, OfTheirOwnSizeAreRead) {
+    const std::vector<double> values = read();
+    ASSERT_EQ(values.size(), 512U);
+    EXPECT_EQ(values.back(), 512.0);
+}
+
+TEST_P(CraftedChunks, OfAnotherSizeAreNeverReadPastTheirEnd) {
+    const std::size_t plain = plain_bytes();
+    const std::size_t whole = whole_bytes();
+    for (const std::size_t bytes : std::vector<std::size_t>{1, 2, 3, 4, 5, 16, plain - 8, plain - 1, plain,
+                                                            whole, plain + 3, plain + 5, 2 * plain}) {
+        for (const std::uint32_t mask : {0U, 1U}) {
+            std::vector<test::CraftedChunk> crafted = {{{0, 0}, bytes, mask}};
+            // So that what is stored is in sum what it should be.
+            if (has_second() && bytes < 2 * whole) crafted.push_back({{32, 0}, 2 * whole - bytes, 1});
+            if (bytes == whole && (mask == 0 || !has_checksum())) continue;
+            if (!make(crafted)) continue;
+            if (has_checksum()) {
+                EXPECT_THAT(error_of([&] { (void)read(); }), HasSubstr("/values"))
+                    << bytes << " bytes, mask " << mask;
+                continue;
+            }
+            try {  // HDF5 may take such values from where they stand
+                EXPECT_EQ(read().size(), 512U);
+            } catch (const Error& fault) {
+                EXPECT_THAT(fault.what(), HasSubstr("/values")) << bytes;
+            }
+        }
+    }
+}
+
+TEST_P(CraftedChunks, ThatWereNeverWrittenAreRefused) {
+    H5::DSetCreatPropList creation = in_chunks({rows(), 8});
+    if (has_checksum()) creation.setFletcher32();
+    put_dataset(file_, "/values", H5::PredType::IEEE_F64LE, {64, 8}, creation);
+    EXPECT_THAT(error_of([&] { (void)read(); }), HasSubstr("/values claims values that are not stored"));
+}
+
+TEST_F(Hdf5ReaderTest, JsonThatNestsTooDeepIsRefused) {
+    test::put_text(file_, "/a/text", std::string(101, '[') + std::string(101, ']'));
+    EXPECT_THAT(error_of([&] { (void)Hdf5Reader(file_).json_text("/a/text"); }),
+                HasSubstr("/a/text nests more than 100 lists and objects"));
+    const std::string text = R"({"text": "[[[[", "list": [1]})";
+    test::put_text(file_, "/a/text", text);
+    EXPECT_EQ(Hdf5Reader(file_).json_text("/a/text"), text);
+}
+
+TEST_F(Hdf5ReaderTest, HasEachFileCheckedOnceThatThisProcessDidNotWrite) {
+    std::filesystem::copy_file(file_, other_);
+    static int checks = 0;
+    Hdf5Reader::set_check([](const InputFile& file) {
+        ++checks;
+        if (file.size() < 100) throw Error("checked");
+    });
+    { const Hdf5Reader own(file_); }
+    EXPECT_EQ(checks, 0);
+    { const Hdf5Reader first(other_); }
+    { const Hdf5Reader second(other_); }
+    EXPECT_EQ(checks, 1);
+    (void)folder_.file("other.h5", "text");
+    EXPECT_EQ(error_of([&] { const Hdf5Reader third(other_); }), "checked");
+    EXPECT_EQ(checks, 2);
+    Hdf5Reader::set_check(nullptr);
+    EXPECT_THAT(error_of([&] { const Hdf5Reader fourth(other_); }), HasSubstr("is not an HDF5 file"));
 }
 
 TEST_F(Hdf5ReaderTest, WhatIsNoFileIsRefusedWithoutWaiting) {

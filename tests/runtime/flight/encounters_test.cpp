@@ -1,11 +1,13 @@
 // Bodies that meet: exact cases, and what a meeting depends on.
 #include "internal/flight/encounters.hpp"
 
+#include <chrono>
 #include <cmath>
 #include <ctime>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "samara/kirchhoff/kirchhoff_solver.hpp"
@@ -14,6 +16,8 @@
 #include "support/ground_bodies.hpp"
 #include "support/known_bodies.hpp"
 #include "support/meeting_flights.hpp"
+#include "support/program_run.hpp"
+#include "support/temporary_folder.hpp"
 #include "support/test_shapes.hpp"
 
 namespace samara {
@@ -318,6 +322,26 @@ Flight pile(int threads, int runs) {
                 .spread_start = 0.2},
                "ball");
     return flight;
+}
+
+TEST(Encounters, AStepBesideAVortexWithoutACoreHasAnEnd) {
+    const test::TemporaryFolder folder;
+    std::string text =
+        "[scene]\nduration = 0.02\nstep = 0.002\nbodies_meet = true\n[fluid]\npreset = \"water\"\n"
+        "[[wind.vortex]]\nkind = \"rankine\"\nposition = [-0.011, 0, 0]\naxis = [0, 0, 1]\n"
+        "circulation = 1.0\ncore = 1e-12\n";
+    for (const char* place : {"-0.011", "0.011"}) {
+        text += fmt::format(
+            "[[body]]\nname = \"at{1}\"\nshape = \"samara:cube\"\ndensity = 1200\n"
+            "position = [{0}, 0, 0]\n",
+            place, place[0] == '-' ? "left" : "right");
+    }
+    (void)folder.file("scene.toml", text);
+    const auto start = std::chrono::steady_clock::now();
+    const test::ProgramRun run = run_program_in(folder, {"samara", "simulate", "scene.toml", "-o", "out.h5"});
+    const std::chrono::duration<double> lasted = std::chrono::steady_clock::now() - start;
+    EXPECT_LT(lasted.count(), 60.0) << "of ten steps";
+    EXPECT_TRUE(run.status == 0 || test::is_one_line(run.fault)) << run.fault;
 }
 
 TEST(Encounters, AreTheSameForAnyThreadsAndCalls) {

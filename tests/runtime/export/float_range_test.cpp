@@ -1,0 +1,94 @@
+#include "internal/export/float_range.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "samara/export/chan_file.hpp"
+#include "samara/export/gltf_file.hpp"
+#include "samara/export/page_file.hpp"
+#include "samara/export/usd_file.hpp"
+#include "support/expect_error.hpp"
+#include "support/temporary_folder.hpp"
+#include "synthetic_motion.hpp"
+
+namespace samara {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+/// What is beyond single precision is refused by every format of floats, and leaves no file.
+void expect_refusal(const Motion& motion, const std::string& what) {
+    const test::TemporaryFolder folder;
+    const auto expected = AllOf(HasSubstr("out."), HasSubstr(what));
+    EXPECT_THAT(test::error_of([&] { write_glb(folder / "out.glb", motion, 0, {}); }), expected);
+    EXPECT_THAT(test::error_of([&] { write_usda(folder / "out.usda", motion, 0, {}); }), expected);
+    EXPECT_THAT(test::error_of([&] { (void)write_chan(folder / "out.chan", motion, 0, {}); }), expected);
+    if (has_page()) {
+        EXPECT_THAT(test::error_of([&] { write_page(folder / "out.html", motion, 0, "", ""); }), expected);
+    }
+    EXPECT_EQ(folder.file_count(), 0);
+}
+
+class FloatRange : public testing::Test {
+  protected:
+    BodyMotion& body() { return motion_.bodies[0]; }
+
+    Motion motion_ = test::motion_of(test::wander, 0.1);
+};
+
+TEST_F(FloatRange, HoldsWhatAMotionIsMadeOf) {
+    EXPECT_NO_THROW(require_float_range("out.glb", motion_, 0));
+}
+
+TEST_F(FloatRange, EndsForSurfaces) {
+    body().surface.vertices[0].x() = 1e39;
+    expect_refusal(motion_, "vertices of 'ellipsoid' lie beyond 1e+37");
+}
+
+TEST_F(FloatRange, EndsForSizes) {
+    body().sizes = {1e300};
+    expect_refusal(motion_, "vertices of 'ellipsoid' lie beyond");
+}
+
+TEST_F(FloatRange, EndsForLooks) {
+    LookMesh look;
+    look.positions = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, -1e300, 0.0}};
+    look.corners = {{0, 1, 2}};
+    look.slots = {0};
+    look.materials.resize(1);
+    body().look = std::make_shared<const LookMesh>(look);
+    expect_refusal(motion_, "vertices of the look of 'ellipsoid' lie beyond");
+    look.positions[2].y() = 1.0;
+    look.texture.assign(3, Eigen::Vector2d(1e300, 0.0));
+    body().look = std::make_shared<const LookMesh>(look);
+    expect_refusal(motion_, "texture coordinates of 'ellipsoid' lie beyond");
+}
+
+TEST_F(FloatRange, EndsForPlacesAndVelocities) {
+    body().poses[1].position.z() = -1e39;
+    expect_refusal(motion_, "places of 'ellipsoid' lie beyond");
+    body().poses[1].position.z() = 0.0;
+    body().poses[2].velocity.x() = 1e300;
+    expect_refusal(motion_, "velocities of 'ellipsoid' lie beyond");
+}
+
+TEST_F(FloatRange, EndsForTimes) {
+    motion_.frame_rate = 1.0;
+    for (std::size_t i = 0; i < motion_.times.size(); ++i) motion_.times[i] = static_cast<double>(i);
+    motion_.times.back() = 1e300;
+    expect_refusal(motion_, "lie beyond 1e+37");
+}
+
+TEST_F(FloatRange, EndsForObstacles) {
+    Obstacle table;
+    table.name = "table";
+    table.surface = test::box({1.0, 1.0, 1.0}, 1);
+    table.keys = {{{}, 0.0}};
+    table.keys[0].position.x() = 1e39;
+    motion_.obstacles = {table};
+    expect_refusal(motion_, "places of 'table' lie beyond");
+}
+
+}  // namespace
+}  // namespace samara
