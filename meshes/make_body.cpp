@@ -10,6 +10,7 @@
 #include "internal/body/curved_surface.hpp"
 #include "internal/body/surface_edges.hpp"
 #include "internal/body/welded_surface.hpp"
+#include "meshes/checks/joined_parts.hpp"
 #include "meshes/checks/sound_surface.hpp"
 #include "meshes/checks/volume_moments.hpp"
 #include "meshes/reading/gmsh_session.hpp"
@@ -67,6 +68,7 @@ Surface sound_triangles(const std::filesystem::path& shape, const MeshOptions& o
         for (std::size_t t = 0; t < surface.triangle_count(); ++t) turn_round(surface, t);
     }
     // Before scaling: errors name places as the file has them.
+    surface = labelled(label, [&] { return with_parts_joined(surface); });
     labelled(label, [&] { require_sound_surface(surface); });
     tell(progress, triangles_checked);
     for (Vector3d& vertex : surface.vertices) vertex *= options.scale;

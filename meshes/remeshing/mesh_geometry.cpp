@@ -62,12 +62,17 @@ Surface reference_of_geometry(const std::string& label, const std::vector<int>& 
 Surface meshed_by_gmsh(const std::string& label, ShapeFormat format, const MeshOptions& options,
                        const ProgressCall& tell) {
     const GmshSession session;
-    gmsh::option::setString("Geometry.OCCTargetUnit", "M");
+    double enlarged = 1.0;
     if (format == ShapeFormat::script) {
+        gmsh::option::setString("Geometry.OCCTargetUnit", "M");  // of the files that it merges
         GmshSession::open(label);
     } else {
-        GmshSession::import_shapes(label, format == ShapeFormat::step ? "step" : "brep");
+        enlarged = GmshSession::import_shapes(label, format == ShapeFormat::step ? "step" : "brep");
     }
+    const auto in_units_of_file = [&](Surface meshed) {
+        for (Vector3d& vertex : meshed.vertices) vertex /= enlarged;
+        return meshed;
+    };
     Surface surface;
     GmshSession::run(label, "gmsh cannot mesh it", [&] {
         const std::vector<int> tags = outer_surfaces(label);
@@ -76,12 +81,12 @@ Surface meshed_by_gmsh(const std::string& label, ShapeFormat format, const MeshO
         } else {
             forget_sizes_of_file();
             const Surface reference = reference_of_geometry(label, tags);
-            labelled(label, [&] { require_sound_surface(reference); });
+            labelled(label, [&] { require_sound_surface(in_units_of_file(reference)); });
             tell(0.2);
-            mesh_model(MeshSizeField(reference), options, options.size / options.scale, tags);
+            mesh_model(MeshSizeField(reference), options, options.size / options.scale * enlarged, tags);
         }
         tell(0.8);
-        surface = mesh_held(label, tags, options.order == 1 ? 1 : 2);
+        surface = in_units_of_file(mesh_held(label, tags, options.order == 1 ? 1 : 2));
     });
     return surface;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "meshes/symmetry/image_comparison.hpp"
@@ -39,6 +40,9 @@ class SymmetryGroup {
     [[nodiscard]] const std::vector<Matrix3d>& elements() const { return elements_; }
 
   private:
+    // The group with the element and all products; none where there is no end of them.
+    [[nodiscard]] std::optional<std::vector<Matrix3d>> grown_by(const Matrix3d& element) const;
+
     const ImageComparison& images_;
     std::vector<Matrix3d> elements_ = {Matrix3d::Identity()};
 };

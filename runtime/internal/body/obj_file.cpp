@@ -14,6 +14,7 @@
 
 #include "internal/base/content_hash.hpp"
 #include "internal/body/look_image.hpp"
+#include "internal/body/mesh_text.hpp"
 #include "internal/body/polygon_triangles.hpp"
 #include "internal/body/unit_normal.hpp"
 #include "samara/base/error.hpp"
@@ -23,43 +24,11 @@ namespace {
 
 constexpr std::size_t most_materials = 4096;
 
-// The words of one line, from the left.
-class Words {
-  public:
-    explicit Words(std::string_view line) : rest_(line) {}
-
-    // Empty after the last one.
-    std::string_view next() {
-        constexpr std::string_view blanks = " \t";
-        rest_.remove_prefix(std::min(rest_.find_first_not_of(blanks), rest_.size()));
-        const std::string_view word = rest_.substr(0, rest_.find_first_of(blanks));
-        rest_.remove_prefix(word.size());
-        return word;
-    }
-
-    /// What was not taken yet.
-    [[nodiscard]] std::string_view rest() const { return rest_; }
-
-  private:
-    std::string_view rest_;
-};
-
-/// A number; false where the word is none.
-bool read_number(std::string_view word, double& number) {
-    if (word.starts_with('+')) word.remove_prefix(1);
-    const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), number);
-    return failure == std::errc{} && end == word.data() + word.size() && std::isfinite(number);
-}
-
-/// Lines end as on Unix, on Windows, or as on Macs of old.
-template <typename Visit>
-void visit_lines(std::string_view text, const Visit& visit) {
-    while (!text.empty()) {
-        const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
-        visit(text.substr(0, end));
-        text.remove_prefix(end);
-        text.remove_prefix(text.starts_with("\r\n") ? 2 : std::min<std::size_t>(1, text.size()));
-    }
+/// A number from 0 to 1, drawn there where it lies outside; false where the word is none.
+bool read_share(std::string_view word, double& number) {
+    if (!read_number(word, number) || !std::isfinite(number)) return false;
+    number = std::clamp(number, 0.0, 1.0);
+    return true;
 }
 
 class ObjReader {
@@ -68,8 +37,9 @@ class ObjReader {
         : label_(std::move(label)), with_look_(with_look) {}
 
     Surface read(std::string_view text) {
-        visit_lines(text, [&](std::string_view line) {
-            ++line_;
+        constexpr bool continued = true;
+        visit_lines(without_byte_order_mark(text, label_), continued, [&](std::string_view line, int number) {
+            line_ = number;
             read_line(line);
         });
         return surface_;
@@ -85,13 +55,16 @@ class ObjReader {
 
   private:
     void read_line(std::string_view line) {
+        // Names may hold the sign of a comment, numbers cannot.
         Words words(line);
-        const std::string_view keyword = words.next();
-        if (keyword == "v") add_vertex(words);
-        if (keyword == "f") add_face(words);
+        const std::string keyword = in_small_letters(words.next());
+        const std::string_view rest = words.rest();
+        Words numbers_alone(rest.substr(0, rest.find('#')));
+        if (keyword == "v") add_vertex(numbers_alone);
+        if (keyword == "f") add_face(numbers_alone);
         if (!with_look_) return;
-        if (keyword == "vt") texture_.push_back(numbers<2>("vt", "two", words));
-        if (keyword == "vn") normals_.push_back(numbers<3>("vn", "three", words));
+        if (keyword == "vt") texture_.push_back(numbers<2>("vt", "two", numbers_alone));
+        if (keyword == "vn") normals_.push_back(numbers<3>("vn", "three", numbers_alone));
         if (keyword == "usemtl") slot_ = slot_named(std::string(words.next()));
         if (keyword == "mtllib") libraries_.emplace_back(words.next());
     }
@@ -101,7 +74,7 @@ class ObjReader {
         Eigen::Matrix<double, N, 1> vector;
         for (double& coordinate : vector) {
             const std::string_view word = words.next();
-            if (!read_number(word, coordinate)) {
+            if (!read_number(word, coordinate) || !std::isfinite(coordinate)) {
                 fail(fmt::format("'{}' needs {} numbers, not '{}'", keyword, how_many, word));
             }
         }
@@ -125,10 +98,9 @@ class ObjReader {
     /// The image that a line of a file of materials names behind its options: where the file says, unless
     /// that is outside of the .obj's folder, else beside it; -1 where there is none to carry.
     std::int32_t image_named(std::string_view rest, const std::filesystem::path& folder) {
-        constexpr std::string_view blanks = " \t";
-        rest.remove_prefix(std::min(rest.find_first_not_of(blanks), rest.size()));
-        rest.remove_suffix(rest.size() - std::min(rest.find_last_not_of(blanks) + 1, rest.size()));
-        if (rest.starts_with('-')) rest.remove_prefix(rest.find_last_of(blanks) + 1);
+        rest.remove_prefix(std::min(rest.find_first_not_of(Words::blanks), rest.size()));
+        rest.remove_suffix(rest.size() - std::min(rest.find_last_not_of(Words::blanks) + 1, rest.size()));
+        if (rest.starts_with('-')) rest.remove_prefix(rest.find_last_of(Words::blanks) + 1);
         std::string name(rest);
         std::replace(name.begin(), name.end(), '\\', '/');
         std::filesystem::path place = name;
@@ -155,9 +127,11 @@ class ObjReader {
         std::error_code missing;
         if (!std::filesystem::is_regular_file(file, missing)) return;
         LookMaterial* material = nullptr;
-        visit_lines(read_bytes(file), [&](std::string_view line) {
+        const std::string text = read_bytes(file);
+        constexpr bool continued = false;
+        visit_lines(without_byte_order_mark(text, file.string()), continued, [&](std::string_view line, int) {
             Words words(line);
-            const std::string_view keyword = words.next();
+            const std::string keyword = in_small_letters(words.next());
             if (keyword == "newmtl") {
                 const std::string_view name = words.next();
                 const auto found = std::find_if(look_.materials.begin(), look_.materials.end(),
@@ -167,11 +141,9 @@ class ObjReader {
             if (material == nullptr) return;
             double number = 0.0;
             for (std::size_t i = 0; keyword == "Kd" && i < 3; ++i) {
-                if (read_number(words.next(), number)) material->color[i] = std::clamp(number, 0.0, 1.0);
+                if (read_share(words.next(), number)) material->color[i] = number;
             }
-            if (keyword == "d" && read_number(words.next(), number)) {
-                material->color[3] = std::clamp(number, 0.0, 1.0);
-            }
+            if (keyword == "d" && read_share(words.next(), number)) material->color[3] = number;
             if (keyword == "map_Kd") material->image = image_named(words.rest(), folder);
             if (keyword == "map_d") material->transparency = LookTransparency::cut_out;
         });
