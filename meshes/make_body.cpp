@@ -7,6 +7,7 @@
 
 #include "internal/base/content_hash.hpp"
 #include "internal/base/labelled.hpp"
+#include "internal/body/body_check.hpp"
 #include "internal/body/curved_surface.hpp"
 #include "internal/body/surface_edges.hpp"
 #include "internal/body/welded_surface.hpp"
@@ -128,6 +129,12 @@ Body make_body(const std::filesystem::path& shape, const MeshOptions& options,
         mesh_triangles(body, shape, options, progress);
     }
     body.source = source_line(shape, options, body.surface.order());
+    if (const std::string fault = fault_of(body); !fault.empty()) {
+        throw Error(
+            fmt::format("{}: {}; give the metres for one unit of the file: 'samara mesh --scale', or scale "
+                        "beside its shape in a scene",
+                        shape.string(), fault));
+    }
     return body;
 }
 

@@ -19,6 +19,7 @@
 #include <fmt/format.h>
 
 #include "internal/base/as_index.hpp"
+#include "internal/base/labelled.hpp"
 #include "internal/body/surface_check.hpp"
 #include "internal/body/surface_edges.hpp"
 #include "internal/body/welded_surface.hpp"
@@ -34,6 +35,8 @@ using Triangle = std::array<std::int32_t, 3>;
 using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
 using ExactMesh = CGAL::Surface_mesh<Exact::Point_3>;
 using Quick = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+constexpr double push = 2.0;  // over the welding tolerance: past what counts as touching
 
 // What the numbers of a union-find structure stand for are one where `root` is the same.
 class Classes {
@@ -172,7 +175,7 @@ class Parts {
         for (std::size_t i = 0; i < parts_.size(); ++i) {
             for (const auto& [vertex, normals] : ways[i]) {
                 for (const Vector3d& normal : normals) {
-                    parts_[i].vertices[as_index(vertex)] -= 2.0 * tolerance_ * normal;
+                    parts_[i].vertices[as_index(vertex)] -= push * tolerance_ * normal;
                 }
             }
         }
@@ -302,15 +305,30 @@ std::optional<Surface> united(const Parts& parts, const std::vector<std::size_t>
     return rounded(meshes[waiting.top().second]);
 }
 
-// The same, if it is a body's surface.
-std::optional<Surface> soundly_united(const Parts& parts, const std::vector<std::size_t>& group) {
-    std::optional<Surface> whole = united(parts, group);
-    if (!whole) return std::nullopt;
+// A union of parts, or why there is none that is a body's surface.
+struct Union {
+    Surface surface;
+    bool is_sound = false;
+    std::string fault;  // empty where it is no surface at all, or faces of it meet
+};
+
+// `part`: of the diagonal, of the vertices that are one.
+Union soundly_united(const Parts& parts, const std::vector<std::size_t>& group, double part) {
+    Union whole;
+    const std::optional<Surface> exact_union = united(parts, group);
+    if (!exact_union) return whole;
     try {
-        whole = welded(*whole);
-        require_sound_surface(*whole);
+        whole.surface = welded(*exact_union, part);
+        require_bounding_surface(whole.surface);
+    } catch (const Error& fault) {
+        whole.fault = fault.what();
+        return whole;
+    }
+    try {
+        require_sound_surface(whole.surface);
+        whole.is_sound = true;
     } catch (const Error&) {
-        return std::nullopt;
+        // Faces of the union, which the file does not have.
     }
     return whole;
 }
@@ -334,20 +352,23 @@ Surface with_parts_joined(const Surface& surface) {
             for (const std::size_t part : group) append(result, parts[part]);
             continue;
         }
-        std::optional<Surface> whole = soundly_united(parts, group);
-        if (!whole) {
+        Union whole = soundly_united(parts, group, welding_tolerance);
+        const std::string fault = whole.fault;
+        if (!whole.is_sound) {
             if (!pushed) pushed.emplace(parts).push_together();
-            whole = soundly_united(*pushed, group);
+            whole = soundly_united(*pushed, group, 2.0 * push * welding_tolerance);
         }
-        if (!whole) {
-            require_sound_surface(surface);  // which may know more
+        if (!whole.is_sound) {
+            const std::string names = parts.names_of_two(group);
+            if (!fault.empty()) throw Error(fmt::format("{} touch or overlap: {}", names, fault));
+            labelled(names + " touch or overlap", [&] { require_bounding_surface(surface); });
             throw Error(fmt::format(
                 "{} touch or overlap so that they cannot be joined, as in an edge or a point alone; "
                 "join them into one solid (in Blender: the Boolean modifier, Union), or move them apart "
                 "by more than {:.2g}",
-                parts.names_of_two(group), tolerance));
+                names, tolerance));
         }
-        append(result, *whole);
+        append(result, whole.surface);
         any = true;
     }
     return any ? welded(result) : surface;

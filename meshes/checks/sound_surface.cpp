@@ -66,6 +66,8 @@ bool share_a_corner(const Triangle& one, const Triangle& two) {
 void require_no_contact(const Surface& surface) {
     const TriangleTree tree(surface.vertices, surface.corners);
     const double tolerance = welding_tolerance * bounding_box(surface).diagonal().norm();
+    // Slivers between neighbours may be turned over by rounding.
+    const double least_fold = 1e6 * tolerance * tolerance;
     const auto corners = [&](std::size_t t) {
         return std::array{tree.corner(t, 0), tree.corner(t, 1), tree.corner(t, 2)};
     };
@@ -83,8 +85,9 @@ void require_no_contact(const Surface& surface) {
                     "solid, or where the body is thin use more triangles",
                     t + 1, other + 1, place(*point)));
             }
-            if (share_a_corner(tree.triangles()[t], tree.triangles()[other])) return true;
-            if (const auto patch = flush_patch(corners(t), corners(other), tolerance)) {
+            const auto patch = flush_patch(corners(t), corners(other), tolerance);
+            const bool neighbours = share_a_corner(tree.triangles()[t], tree.triangles()[other]);
+            if (patch && (!neighbours || patch->area > least_fold)) {
                 throw Error(fmt::format(
                     "the surface touches itself: faces {} and {} lie on each other at {}; join the parts "
                     "there "

@@ -1,9 +1,10 @@
 #include "meshes/reading/polygon_file.hpp"
 
-#include <algorithm>
 #include <iostream>
 #include <sstream>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <CGAL/IO/OFF.h>
@@ -46,7 +47,12 @@ std::string plain(const std::string& bytes, const std::string& label, ShapeForma
     std::string text(without_byte_order_mark(bytes, label));
     const bool is_binary =
         format == ShapeFormat::ply && text.substr(0, 200).find("format binary") != std::string::npos;
-    if (!is_binary) std::replace(text.begin(), text.end(), '\r', '\n');
+    if (!is_binary) {
+        std::string lines;
+        constexpr bool continued = false;
+        visit_lines(text, continued, [&](std::string_view line, int) { lines.append(line) += '\n'; });
+        text = std::move(lines);
+    }
     const std::size_t start = text.find_first_not_of(" \t\n");
     const bool begins_with_counts = start != std::string::npos && text.find_first_of("0123456789") == start;
     if (format == ShapeFormat::off && begins_with_counts) text.insert(0, "OFF\n");

@@ -26,6 +26,9 @@ constexpr double most_astray = 0.15;
 constexpr double most_astray_in_the_mean = 0.1;
 constexpr double astray_after_coarse_steps = 0.02;
 
+// A body that nearly all turns take onto itself within the tolerance is round but for what that hides.
+constexpr int most_endless = 24;
+
 bool is_in(const std::vector<Matrix3d>& elements, const Matrix3d& element) {
     return std::any_of(elements.begin(), elements.end(),
                        [&](const Matrix3d& member) { return is_same_element(member, element); });
@@ -116,16 +119,21 @@ void SymmetryGroup::add(const Matrix3d& element) {
 
 void SymmetryGroup::add_refined(const Operation& operation) {
     const Matrix3d element = operation.matrix();
-    if (contains(element)) return;
+    if (endless_ == most_endless || contains(element)) return;
     const double tolerance = images_.tolerance();
     const double in_the_mean = tolerance + most_astray_in_the_mean;
     if (images_.mean_distance(element, few_points, in_the_mean) > in_the_mean) return;
     if (!images_.is_symmetry(element, std::min(most_tolerances, 1.0 + most_astray / tolerance))) return;
     double best = 0.0;
     const Operation near = refined(operation, images_, few_points, first_step, coarse_halvings, best);
-    if (best > tolerance + astray_after_coarse_steps) return;
+    if (best > tolerance || !images_.is_symmetry(near.matrix(), 1.0 + astray_after_coarse_steps / tolerance))
+        return;
     // Fine steps are the dear ones: not for what is known, or has no end of products.
-    if (contains(near.matrix()) || !grown_by(near.matrix())) return;
+    if (contains(near.matrix())) return;
+    if (!grown_by(near.matrix())) {
+        ++endless_;
+        return;
+    }
     add(refined(near, images_, more_points, std::ldexp(first_step, -coarse_halvings), fine_halvings, best)
             .matrix());
 }

@@ -1,5 +1,6 @@
 #include "internal/body/stl_file.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>
@@ -47,7 +48,14 @@ bool is_text(std::string_view bytes) {
 Surface read_binary(std::string_view bytes, const std::string& name) {
     const std::uint32_t count = triangle_count_in_header(bytes);
     const std::size_t expected = header_size + triangle_size * std::size_t{count};
-    if (bytes.size() < expected || bytes.size() < header_size) {
+    const bool is_text = std::none_of(bytes.begin(), bytes.end(), [](unsigned char c) { return c == 0; });
+    if (bytes.size() < header_size || (is_text && bytes.size() < expected)) {
+        throw Error(
+            fmt::format("{}: is no STL file: one in text begins with 'solid', and {} bytes are none in "
+                        "binary; export it again",
+                        name, bytes.size()));
+    }
+    if (bytes.size() < expected) {
         throw Error(fmt::format(
             "{}: is no STL file, or is cut short: {} bytes, where {} triangles take {}; export it "
             "again",
