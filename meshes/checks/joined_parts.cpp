@@ -181,6 +181,8 @@ class Parts {
         }
     }
 
+    [[nodiscard]] bool any_touch() const { return !touching_.empty(); }
+    [[nodiscard]] double tolerance() const { return tolerance_; }
     [[nodiscard]] const Surface& operator[](std::size_t part) const { return parts_[part]; }
 
     // Of two that touch.
@@ -326,7 +328,8 @@ Union soundly_united(const Parts& parts, const std::vector<std::size_t>& group, 
     }
     try {
         require_sound_surface(whole.surface);
-        whole.is_sound = true;
+        // Those a hair apart may still touch in an edge or a point.
+        whole.is_sound = !Parts(parts_of(whole.surface), parts.tolerance()).any_touch();
     } catch (const Error&) {
         // Faces of the union, which the file does not have.
     }

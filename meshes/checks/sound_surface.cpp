@@ -61,6 +61,23 @@ bool share_a_corner(const Triangle& one, const Triangle& two) {
     return std::any_of(one.begin(), one.end(), [&](std::int32_t vertex) { return has(two, vertex); });
 }
 
+// Whether the corners of a triangle that are not the base's too lie all on one side of the base's plane,
+// farther than the distance: around a corner of many triangles most do.
+bool lies_on_one_side(const TriangleTree& tree, std::size_t triangle, std::size_t base, double distance) {
+    const Vector3d normal =
+        (tree.corner(base, 1) - tree.corner(base, 0)).cross(tree.corner(base, 2) - tree.corner(base, 0));
+    const double limit = distance * normal.norm();
+    bool above = true;
+    bool below = true;
+    for (int i = 0; i < 3; ++i) {
+        if (has(tree.triangles()[base], tree.triangles()[triangle][static_cast<std::size_t>(i)])) continue;
+        const double height = normal.dot(tree.corner(triangle, i) - tree.corner(base, 0));
+        above = above && height > limit;
+        below = below && height < -limit;
+    }
+    return above || below;
+}
+
 // Triangles that share an edge, and those that only touch, do not cross; those that lie on each other do.
 // Takes n log n time.
 void require_no_contact(const Surface& surface) {
@@ -76,7 +93,7 @@ void require_no_contact(const Surface& surface) {
         box.min().array() -= tolerance;
         box.max().array() += tolerance;
         tree.visit_overlaps(box, [&](std::size_t other) {
-            if (other <= t) return true;
+            if (other <= t || lies_on_one_side(tree, other, t, tolerance)) return true;
             auto point = pierce_by_sides(tree, t, other);
             if (!point) point = pierce_by_sides(tree, other, t);
             if (point) {
