@@ -265,6 +265,8 @@ class FaceFlipper {
         const std::int32_t tip = face[(side + 2) % 3];
         const std::vector<std::size_t>& both = faces_at_.at(key(from, to));
         if (both.size() != 2) return;
+        // One at the rim of a sheet bridges nothing, and may be deleted.
+        if (faces_at_.at(key(to, tip)).size() < 2 || faces_at_.at(key(tip, from)).size() < 2) return;
         const std::size_t u = both[0] == t ? both[1] : both[0];
         const Triangle other = surface_.corners[u];
         const auto at = static_cast<std::size_t>(std::find(other.begin(), other.end(), to) - other.begin());

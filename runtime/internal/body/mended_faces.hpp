@@ -13,8 +13,8 @@ void drop_collapsed_faces(Surface& surface);
 void split_at_corners_on_sides(Surface& surface, double tolerance);
 
 /// Turns the common side of a flat triangle without area, a corner of which lies on its longest side within
-/// `tolerance` (m), and its neighbour across that side: the two of them then have area, and the surface is
-/// closed as before.
+/// `tolerance` (m) and whose other sides have neighbours, and its neighbour across that side: the two of them
+/// then have area, and the surface is closed as before.
 void flip_faces_without_area(Surface& surface, double tolerance);
 
 }  // namespace samara

@@ -140,11 +140,11 @@ class ObjReader {
             }
             if (material == nullptr) return;
             double number = 0.0;
-            for (std::size_t i = 0; keyword == "Kd" && i < 3; ++i) {
+            for (std::size_t i = 0; keyword == "kd" && i < 3; ++i) {
                 if (read_share(words.next(), number)) material->color[i] = number;
             }
             if (keyword == "d" && read_share(words.next(), number)) material->color[3] = number;
-            if (keyword == "map_Kd") material->image = image_named(words.rest(), folder);
+            if (keyword == "map_kd") material->image = image_named(words.rest(), folder);
             if (keyword == "map_d") material->transparency = LookTransparency::cut_out;
         });
     }

@@ -64,7 +64,7 @@ TEST(StlFile, SaysWhatATextIsThatIsNone) {
     using namespace std::string_literals;
     EXPECT_THAT(fault_of("\xFF\xFEs\0o\0l\0i\0d\0"s), HasSubstr("UTF-16 or UTF-32; save it as UTF-8"));
     EXPECT_THAT(fault_of(tetrahedron() + "facet\nouter loop\nvertex 0 0 x\n"),
-                HasSubstr("line 31: 'vertex' needs three numbers, not 'x'"));
+                HasSubstr("line 33: 'vertex' needs three numbers, not 'x'"));
     EXPECT_THAT(fault_of(tetrahedron() + "facet\nouter loop\nvertex 0 0 0\n"), HasSubstr("is cut short"));
     EXPECT_THAT(fault_of(std::string(80, 'a') + std::string("\x02\0\0\0", 4) + std::string(50, '\0')),
                 HasSubstr("134 bytes, where 2 triangles take 184"));
