@@ -184,7 +184,7 @@ int run(int argc, const char* const* argv) {
     Arguments arguments("samara bake",
                         "Bakes a body: mesh, Kirchhoff tensor, OpenFOAM cases, load and turbulence tables");
     arguments.positional("INPUT", options.input,
-                         "a scene (.toml), or a shape (.geo .stl .obj .step) or body file (.body.h5)");
+                         "a scene (.toml), or a shape (.geo .stl .obj .step ...) or body file (.body.h5)");
     arguments.required_option("-o,--output", options.output,
                               "NAME.body.h5; for a scene the folder of its body files");
     arguments.choice("--fluid", options.fluid, {"water", "air"}, "that the shape falls in, at 20 C");

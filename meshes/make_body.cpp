@@ -8,9 +8,11 @@
 
 #include "internal/base/content_hash.hpp"
 #include "internal/base/labelled.hpp"
+#include "internal/body/body_check.hpp"
 #include "internal/body/curved_surface.hpp"
 #include "internal/body/surface_edges.hpp"
 #include "internal/body/welded_surface.hpp"
+#include "meshes/checks/joined_parts.hpp"
 #include "meshes/checks/shape_error.hpp"
 #include "meshes/checks/sound_surface.hpp"
 #include "meshes/checks/volume_moments.hpp"
@@ -69,6 +71,7 @@ Surface sound_triangles(const std::filesystem::path& shape, const MeshOptions& o
         for (std::size_t t = 0; t < surface.triangle_count(); ++t) turn_round(surface, t);
     }
     // Before scaling: errors name places as the file has them.
+    surface = labelled(label, [&] { return with_parts_joined(surface); });
     labelled(label, [&] { require_sound_surface(surface); });
     tell(progress, triangles_checked);
     for (Vector3d& vertex : surface.vertices) vertex *= options.scale;
@@ -136,6 +139,12 @@ Body make_body(const std::filesystem::path& shape, const MeshOptions& options,
         mesh_triangles(body, shape, options, progress);
     }
     body.source = source_line(shape, options, body.surface.order());
+    if (const std::string fault = fault_of(body); !fault.empty()) {
+        throw Error(
+            fmt::format("{}: {}; give the metres for one unit of the file: 'samara mesh --scale', or scale "
+                        "beside its shape in a scene",
+                        shape.string(), fault));
+    }
     return body;
 }
 

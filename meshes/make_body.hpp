@@ -8,8 +8,8 @@
 
 namespace samara {
 
-/// Makes a body of a shape file (.geo, .step, .stp, .brep, .stl, .obj, .msh, .body.h5): its surface read,
-/// welded, checked and meshed as the options say, its volume moments and its symmetry. Name and source are
+/// Makes a body of a shape file (shape_format): its surface read, welded, its parts joined where they touch,
+/// checked and meshed as the options say, its volume moments and its symmetry. Name and source are
 /// filled, Kirchhoff tensor and tables are not: those of a .body.h5 belong to another surface. Throws Error,
 /// one line that names the file, the place and the remedy. `progress`: called with the share of the work
 /// done, 0 to 1.

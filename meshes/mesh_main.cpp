@@ -97,8 +97,10 @@ int main(int argc, char** argv) {
     MeshOptions options;
     samara::Arguments arguments("samara mesh",
                                 "Makes a body file of a shape: its checked surface, volume, symmetry.");
-    arguments.positional("SHAPE", shape,
-                         "geometry (.geo .step .stp .brep) or triangles (.stl .obj .msh .body.h5)");
+    arguments.positional(
+        "SHAPE", shape,
+        "geometry (.geo .step .stp .brep) or triangles (.stl .obj .ply .off .glb .gltf .3mf .msh "
+        ".body.h5)");
     arguments.required_output_option("-o,--output", output, "the body file to write, NAME.body.h5");
     arguments.option("--triangles", options.triangles, "about this many triangles", 4, 10'000'000);
     arguments.option("--size", options.size,
@@ -109,9 +111,12 @@ int main(int argc, char** argv) {
                      "1: flat triangles; 2: curved ones with nodes on the edges; automatic: 2 where the body "
                      "has curved faces (--keep: as the file has them)");
     arguments.option("--scale", options.scale,
-                     "metres for one unit of the file (STEP states its unit: left at 1)", 1e-12, 1e12);
-    arguments.option("--time-limit", options.time_limit,
-                     "seconds of computing that gmsh may take to read the shape and mesh it", 1.0, 1e9);
+                     "metres for one unit of the file (STEP and 3MF state their unit: left at 1)", 1e-12,
+                     1e12);
+    arguments.option(
+        "--time-limit", options.time_limit,
+        "seconds of computing that gmsh and other libraries may take to read the shape and mesh it", 1.0,
+        1e9);
     arguments.flag("--flip", options.flip, "turn every triangle round: for a surface that is inside out");
     arguments.footer(
         "The surface must be closed. Triangles are smaller where the body curves and near its edges.\n"

@@ -244,7 +244,7 @@ fs::path case_folder_of(const fs::path& output) {
 BakePreparation prepare_bake(const BakeRequest& request) {
     const TemporaryFolder folder;
     Body body = named_body(request, folder.path());
-    add_kirchhoff_tensor(body, case_folder_of(request.output) / case_body_name, folder.path());
+    add_kirchhoff_tensor(body, request.shape, case_folder_of(request.output) / case_body_name, folder.path());
     return plan_of(request, body);
 }
 
@@ -257,7 +257,7 @@ BakeResult bake_body(const BakeRequest& request, const FarmOptions& farm, const 
     Body body = named_body(request, temporary.path());
     result.mesh_seconds = watch.lap();
     result.account.push_back({"surface", 0, watch.cpu_lap()});
-    add_kirchhoff_tensor(body, folder / case_body_name, temporary.path());
+    add_kirchhoff_tensor(body, request.shape, folder / case_body_name, temporary.path());
     result.kirchhoff_seconds = watch.lap();
     result.account.push_back({"Kirchhoff tensor", 0, watch.cpu_lap()});
     result.preparation = plan_of(request, body);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "internal/base/content_hash.hpp"
+#include "internal/base/labelled.hpp"
 #include "internal/command/subprocess.hpp"
 #include "samara/base/error.hpp"
 #include "samara/body/body_file.hpp"
@@ -54,12 +55,13 @@ Body prepare_body(const fs::path& shape, double scale, const fs::path& folder) {
     std::vector<std::string> words = {require_program("samara-mesh").string(), name, "-o", meshed.string()};
     if (scale != 1.0) words.insert(words.end(), {"--scale", fmt::format("{}", scale)});
     run_stage(words, folder / "log.mesh", "samara mesh");
-    Body body = read_body_file(meshed);
+    Body body = naming(shape.string(), meshed.string(), [&] { return read_body_file(meshed); });
     body.name = body_name_of(shape);
     return body;
 }
 
-void add_kirchhoff_tensor(Body& body, const fs::path& earlier, const fs::path& folder) {
+void add_kirchhoff_tensor(Body& body, const fs::path& shape, const fs::path& earlier,
+                          const fs::path& folder) {
     if (body.kirchhoff && body.surface_loads) return;
     if (fs::exists(earlier)) {
         const Body known = read_body_file(earlier);
@@ -72,8 +74,10 @@ void add_kirchhoff_tensor(Body& body, const fs::path& earlier, const fs::path& f
     }
     const fs::path file = folder / "kirchhoff.body.h5";
     write_body_file(file, body);
-    run_stage({require_program("samara").string(), "kirchhoff", file.string(), "-o", file.string()},
-              folder / "log.kirchhoff", "samara kirchhoff");
+    naming(shape.string(), file.string(), [&] {
+        run_stage({require_program("samara").string(), "kirchhoff", file.string(), "-o", file.string()},
+                  folder / "log.kirchhoff", "samara kirchhoff");
+    });
     const Body solved = read_body_file(file);
     body.kirchhoff = solved.kirchhoff;
     body.surface_loads = solved.surface_loads;

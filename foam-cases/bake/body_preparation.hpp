@@ -13,8 +13,8 @@ Body prepare_body(const std::filesystem::path& shape, double scale, const std::f
 
 /// Gives the body its Kirchhoff tensor where it has none: the one of the body file `earlier` where there is
 /// such a file of the same surface, else by the command `samara kirchhoff`, for which `folder` receives what
-/// is made on the way. Throws Error.
-void add_kirchhoff_tensor(Body& body, const std::filesystem::path& earlier,
-                          const std::filesystem::path& folder);
+/// is made on the way. Throws Error, which names `shape`, the file that the body was made of.
+void add_kirchhoff_tensor(Body& body, const std::filesystem::path& shape,
+                          const std::filesystem::path& earlier, const std::filesystem::path& folder);
 
 }  // namespace samara

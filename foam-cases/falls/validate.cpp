@@ -65,7 +65,7 @@ Falling make_falling(const Scene& scene, const fs::path& earlier, const fs::path
     falling.body.name = scene_body.name;
     falling.body.tables.reset();
     falling.body.dynamic.reset();
-    add_kirchhoff_tensor(falling.body, earlier, temporary);
+    add_kirchhoff_tensor(falling.body, scene_body.shape, earlier, temporary);
     falling.immersed = make_immersed_body(falling.body, scene_body, scene.fluid, scene_body.name);
     const double step = scene.step;
     for (int copy = 0; copy < scene_body.count; ++copy) {

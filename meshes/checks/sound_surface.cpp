@@ -1,12 +1,15 @@
 #include "meshes/checks/sound_surface.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
 #include <fmt/format.h>
 
 #include "internal/body/surface_check.hpp"
+#include "internal/body/welded_surface.hpp"
+#include "meshes/checks/flush_faces.hpp"
 #include "meshes/checks/triangle_tree.hpp"
 #include "samara/base/error.hpp"
 
@@ -54,39 +57,70 @@ std::optional<Vector3d> pierce_by_sides(const TriangleTree& tree, std::size_t si
     return std::nullopt;
 }
 
-// Two flat triangles, and a point where a side of the one goes through the other.
-struct Crossing {
-    std::size_t first = 0;
-    std::size_t second = 0;
-    Vector3d point = Vector3d::Zero();
-};
+bool share_a_corner(const Triangle& one, const Triangle& two) {
+    return std::any_of(one.begin(), one.end(), [&](std::int32_t vertex) { return has(two, vertex); });
+}
 
-// Triangles that share an edge, and those that only touch, do not cross. Takes n log n time.
-std::optional<Crossing> find_crossing(const Surface& surface) {
+// Whether the corners of a triangle that are not the base's too lie all on one side of the base's plane,
+// farther than the distance: around a corner of many triangles most do.
+bool lies_on_one_side(const TriangleTree& tree, std::size_t triangle, std::size_t base, double distance) {
+    const Vector3d normal =
+        (tree.corner(base, 1) - tree.corner(base, 0)).cross(tree.corner(base, 2) - tree.corner(base, 0));
+    const double limit = distance * normal.norm();
+    bool above = true;
+    bool below = true;
+    for (int i = 0; i < 3; ++i) {
+        if (has(tree.triangles()[base], tree.triangles()[triangle][static_cast<std::size_t>(i)])) continue;
+        const double height = normal.dot(tree.corner(triangle, i) - tree.corner(base, 0));
+        above = above && height > limit;
+        below = below && height < -limit;
+    }
+    return above || below;
+}
+
+// Triangles that share an edge, and those that only touch, do not cross; those that lie on each other do.
+// Takes n log n time.
+void require_no_contact(const Surface& surface) {
     const TriangleTree tree(surface.vertices, surface.corners);
-    std::optional<Crossing> crossing;
-    for (std::size_t t = 0; t < surface.triangle_count() && !crossing; ++t) {
-        tree.visit_overlaps(tree.box_of(t), [&](std::size_t other) {
-            if (other <= t) return true;
+    const double tolerance = welding_tolerance * bounding_box(surface).diagonal().norm();
+    // Slivers between neighbours may be turned over by rounding.
+    const double least_fold = 1e6 * tolerance * tolerance;
+    const auto corners = [&](std::size_t t) {
+        return std::array{tree.corner(t, 0), tree.corner(t, 1), tree.corner(t, 2)};
+    };
+    for (std::size_t t = 0; t < surface.triangle_count(); ++t) {
+        TriangleTree::Box box = tree.box_of(t);
+        box.min().array() -= tolerance;
+        box.max().array() += tolerance;
+        tree.visit_overlaps(box, [&](std::size_t other) {
+            if (other <= t || lies_on_one_side(tree, other, t, tolerance)) return true;
             auto point = pierce_by_sides(tree, t, other);
             if (!point) point = pierce_by_sides(tree, other, t);
-            if (point) crossing = Crossing{t, other, *point};
-            return !crossing.has_value();
+            if (point) {
+                throw Error(fmt::format(
+                    "the surface passes through itself: faces {} and {} cross at {}; join the parts into one "
+                    "solid, or where the body is thin use more triangles",
+                    t + 1, other + 1, place(*point)));
+            }
+            const auto patch = flush_patch(corners(t), corners(other), tolerance);
+            const bool neighbours = share_a_corner(tree.triangles()[t], tree.triangles()[other]);
+            if (patch && (!neighbours || patch->area > least_fold)) {
+                throw Error(fmt::format(
+                    "the surface touches itself: faces {} and {} lie on each other at {}; join the parts "
+                    "there "
+                    "into one solid (in Blender: the Boolean modifier, Union), or move them apart",
+                    t + 1, other + 1, place(patch->middle)));
+            }
+            return true;
         });
     }
-    return crossing;
 }
 
 }  // namespace
 
 void require_sound_surface(const Surface& surface) {
     require_bounding_surface(surface);
-    if (const auto crossing = find_crossing(surface)) {
-        throw Error(
-            fmt::format("the surface passes through itself: faces {} and {} cross at {}; join the parts "
-                        "into one solid, or where the body is thin use more triangles",
-                        crossing->first + 1, crossing->second + 1, place(crossing->point)));
-    }
+    require_no_contact(surface);
 }
 
 }  // namespace samara

@@ -1,5 +1,6 @@
 #include "meshes/reading/gmsh_session.hpp"
 
+#include <cmath>
 #include <string_view>
 #include <vector>
 
@@ -28,6 +29,18 @@ std::string one_line(std::string text) {
         if (character == '\n' || character == '\r') character = ' ';
     }
     return text;
+}
+
+// Cuts solids that overlap or touch in pieces that share their walls: the boundary of all of these together
+// is that of the union.
+bool cut_solids() {
+    gmsh::vectorpair solids;
+    gmsh::model::occ::getEntities(solids, 3);
+    if (solids.size() < 2) return false;
+    gmsh::vectorpair pieces;
+    std::vector<gmsh::vectorpair> pieces_of_each;
+    gmsh::model::occ::fragment(solids, {}, pieces, pieces_of_each);
+    return true;
 }
 
 [[noreturn]] void fail(const std::string& label, const std::string& what, const std::string& thrown) {
@@ -72,16 +85,42 @@ void GmshSession::run(const std::string& label, const std::string& what, const s
 }
 
 void GmshSession::open(const std::string& label) {
-    load(label, [&] { gmsh::open(label); });
+    load(label, [&] {
+        gmsh::open(label);
+        if (cut_solids()) gmsh::model::occ::synchronize();
+    });
 }
 
-void GmshSession::import_shapes(const std::string& label, const std::string& format) {
-    load(label, [&] {
+double GmshSession::import_shapes(const std::string& label, const std::string& format) {
+    // Where lengths are small or large beside the tolerances, 1e-7, shapes are read again, larger or smaller.
+    constexpr double least_diagonal = 10.0;
+    constexpr double largest_diagonal = 1000.0;
+    constexpr double usual_diagonal = 100.0;
+    double factor = 1.0;
+    const auto import = [&] {
         gmsh::vectorpair shapes;
         constexpr bool highest_dimension_alone = false;
+        gmsh::option::setNumber("Geometry.OCCScaling", factor);
         gmsh::model::occ::importShapes(label, shapes, highest_dimension_alone, format);
         gmsh::model::occ::synchronize();
+    };
+    gmsh::option::setString("Geometry.OCCTargetUnit", "MM");
+    load(label, [&] {
+        import();
+        double low[3];
+        double high[3];
+        gmsh::model::getBoundingBox(-1, -1, low[0], low[1], low[2], high[0], high[1], high[2]);
+        const double diagonal = std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+        if (diagonal > 0.0 && std::isfinite(diagonal) &&
+            (diagonal < least_diagonal || diagonal > largest_diagonal)) {
+            gmsh::clear();
+            factor = usual_diagonal / diagonal;
+            import();
+        }
+        if (cut_solids()) gmsh::model::occ::synchronize();
     });
+    constexpr double millimetres = 1000.0;
+    return format == "step" ? millimetres * factor : factor;
 }
 
 void GmshSession::load(const std::string& label, const std::function<void()>& calls) {

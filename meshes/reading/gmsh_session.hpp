@@ -20,11 +20,15 @@ class GmshSession {
     static void run(const std::string& label, const std::string& what, const std::function<void()>& calls);
 
     /// Opens a script or a mesh: gmsh takes for a script what does not begin as a mesh, whatever its name.
-    /// Throws Error "LABEL: gmsh cannot read it: <reason>" at gmsh's first error.
+    /// Solids of OpenCASCADE that overlap or touch are cut as by import_shapes. Throws Error "LABEL: gmsh
+    /// cannot read it: <reason>" at gmsh's first error.
     static void open(const std::string& label);
 
-    /// Reads exact geometry of the format "step" or "brep", and never a script. Throws as open does.
-    static void import_shapes(const std::string& label, const std::string& format);
+    /// Reads exact geometry of the format "step" or "brep", and never a script. Solids that overlap or touch
+    /// are cut into pieces that share their walls. The model is made as large as suits the tolerances of gmsh
+    /// and OpenCASCADE, which are lengths: returns its size over that in the file's unit, metres for STEP.
+    /// Throws as open does.
+    static double import_shapes(const std::string& label, const std::string& format);
 
     /// Has gmsh mesh the surfaces of the model anew. It may leave the mesh open where it fails: check it.
     static void generate_surface_mesh();

@@ -38,15 +38,18 @@ bool is_read_by_gmsh(ShapeFormat format) {
 
 ShapeFormat shape_format(const std::filesystem::path& file) {
     static const std::map<std::string_view, ShapeFormat> formats = {
-        {".geo", ShapeFormat::script}, {".step", ShapeFormat::step},   {".stp", ShapeFormat::step},
-        {".brep", ShapeFormat::brep},  {".stl", ShapeFormat::stl},     {".obj", ShapeFormat::obj},
-        {".msh", ShapeFormat::msh},    {".body.h5", ShapeFormat::body}};
+        {".geo", ShapeFormat::script},  {".step", ShapeFormat::step},    {".stp", ShapeFormat::step},
+        {".brep", ShapeFormat::brep},   {".stl", ShapeFormat::stl},      {".obj", ShapeFormat::obj},
+        {".ply", ShapeFormat::ply},     {".off", ShapeFormat::off},      {".glb", ShapeFormat::gltf},
+        {".gltf", ShapeFormat::gltf},   {".3mf", ShapeFormat::three_mf}, {".msh", ShapeFormat::msh},
+        {".body.h5", ShapeFormat::body}};
     const auto found = formats.find(extension_of(file));
     if (found == formats.end()) {
-        throw Error(
-            fmt::format("{}: is of no known kind; give a .geo, .step, .stp, .brep, .stl, .obj, .msh or "
-                        ".body.h5 file",
-                        file.string()));
+        throw Error(fmt::format(
+            "{}: is of no known kind; give a .geo, .step, .stp, .brep, .stl, .obj, .ply, .off, .glb, "
+            ".gltf, .3mf, .msh or .body.h5 file (Blender opens most other meshes and exports .stl, "
+            "FreeCAD most geometry and exports .step)",
+            file.string()));
     }
     std::error_code unknown;
     const std::filesystem::file_status status = std::filesystem::status(file, unknown);

@@ -3,11 +3,15 @@
 #include <functional>
 #include <string>
 
+#include "internal/body/glb_file.hpp"
+#include "internal/body/look_file.hpp"
 #include "internal/body/obj_file.hpp"
 #include "internal/body/stl_file.hpp"
 #include "meshes/reading/confined_surface.hpp"
 #include "meshes/reading/gmsh_session.hpp"
 #include "meshes/reading/gmsh_surface.hpp"
+#include "meshes/reading/polygon_file.hpp"
+#include "meshes/reading/three_mf_file.hpp"
 #include "samara/body/body_file.hpp"
 
 namespace samara {
@@ -28,9 +32,12 @@ Surface read_triangles(const std::filesystem::path& file, ShapeFormat format, do
     if (format == ShapeFormat::body) return read_body_file(file).surface;
     if (format == ShapeFormat::stl) return read_stl_file(file);
     if (format == ShapeFormat::obj) return read_obj_file(file);
+    if (format == ShapeFormat::gltf) return surface_of(read_gltf_file(file));
     require_beginning(file, format);
-    return confined_surface(file, time_limit,
-                            [&](const std::function<void(double)>&) { return read_msh_file(file); });
+    return confined_surface(file, time_limit, [&](const std::function<void(double)>&) {
+        if (format == ShapeFormat::three_mf) return read_3mf_file(file);
+        return format == ShapeFormat::msh ? read_msh_file(file) : read_polygon_file(file, format);
+    });
 }
 
 }  // namespace samara

@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 #include <gmsh.h>
 
-#include "internal/base/content_hash.hpp"
 #include "internal/base/labelled.hpp"
 #include "internal/body/curved_surface.hpp"
+#include "internal/files/input_file.hpp"
 #include "meshes/checks/shape_error.hpp"
 #include "meshes/checks/sound_surface.hpp"
 #include "meshes/reading/confined_surface.hpp"
@@ -83,31 +83,36 @@ std::vector<Surface> meshed_by_gmsh(const std::string& label, ShapeFormat format
     constexpr double equilateral_ones = 1.0 / 1.17;
     constexpr double most_needed = 20000.0;
     const GmshSession session;
-    gmsh::option::setString("Geometry.OCCTargetUnit", "M");
+    double enlarged = 1.0;
     if (format == ShapeFormat::script) {
+        gmsh::option::setString("Geometry.OCCTargetUnit", "M");  // of the files that it merges
         GmshSession::open(label);
     } else {
-        GmshSession::import_shapes(label, format == ShapeFormat::step ? "step" : "brep");
+        enlarged = GmshSession::import_shapes(label, format == ShapeFormat::step ? "step" : "brep");
     }
+    const auto in_units_of_file = [&](Surface meshed) {
+        for (Vector3d& vertex : meshed.vertices) vertex /= enlarged;
+        return meshed;
+    };
     Surface surface;
     Surface shape;
     GmshSession::run(label, "gmsh cannot mesh it", [&] {
         const std::vector<int> tags = outer_surfaces(label);
         if (options.sizing == MeshOptions::Sizing::keep) {
             GmshSession::generate_surface_mesh();
-            surface = held_in_order(label, tags, options.order);
+            surface = in_units_of_file(held_in_order(label, tags, options.order));
             tell(0.4);
         }
         forget_sizes_of_file();
         const Surface reference = reference_of_geometry(label, tags, finest);
-        labelled(label, [&] { require_sound_surface(reference); });
-        shape = mesh_held(label, tags, 2);
+        labelled(label, [&] { require_sound_surface(in_units_of_file(reference)); });
+        shape = in_units_of_file(mesh_held(label, tags, 2));
         straighten_overturned(shape);
         tell(0.5);
         if (options.sizing == MeshOptions::Sizing::keep) return;
         const MeshSizeField field(reference);
         MeshOptions sizes = options;
-        sizes.size /= options.scale;
+        sizes.size *= enlarged / options.scale;
         if (options.as_many_as_needed) {
             // gmsh takes long, so that the number that the curvature needs is asked for at once.
             const double needed = equilateral_ones * field.triangle_count(field.size_for_curvature());
@@ -115,7 +120,7 @@ std::vector<Surface> meshed_by_gmsh(const std::string& label, ShapeFormat format
         }
         for (int finer = 1; finer <= most_times_finer; finer *= 2) {
             mesh_model(field, sizes, sizes.size, tags);
-            surface = held_in_order(label, tags, options.order);
+            surface = in_units_of_file(held_in_order(label, tags, options.order));
             tell(0.5 + 0.5 * finer / most_times_finer);
             if (!options.as_many_as_needed || miss_of(shape_error(shape, surface)) <= 1.0) break;
             sizes.triangles *= 2;
@@ -131,7 +136,7 @@ MeshedShape mesh_geometry(const std::filesystem::path& file, const MeshOptions& 
     const std::string label = file.string();
     const ShapeFormat format = shape_format(file);
     require_beginning(file, format);
-    if (format == ShapeFormat::script) require_shape_script(read_bytes(file), label);
+    if (format == ShapeFormat::script) require_shape_script(read_at_most(file, most_mesh_bytes), label);
     std::vector<Surface> surfaces = confined_surfaces(
         file, 2, options.time_limit,
         [&](const ProgressCall& tell) { return meshed_by_gmsh(label, format, options, tell); }, progress);

@@ -89,7 +89,7 @@ double faceting(const Surface& surface, const Vector3d& centre) {
 
 ImageComparison::ImageComparison(const Surface& surface, const Vector3d& centre, double tolerance)
     : size_(size_of(surface, centre)),
-      tolerance_(std::max(tolerance, faceting(surface, centre))),
+      tolerance_(std::min(coarsest, std::max(tolerance, faceting(surface, centre)))),
       points_(points_of(surface, centre)),
       tree_(tree_of(surface, centre)) {}
 
@@ -99,12 +99,13 @@ bool ImageComparison::is_symmetry(const Matrix3d& element, double slack) const {
     });
 }
 
-double ImageComparison::mean_distance(const Matrix3d& element, std::size_t points) const {
+double ImageComparison::mean_distance(const Matrix3d& element, std::size_t points, double enough) const {
     const std::size_t count = std::min(points, points_.size());
+    const double whole = static_cast<double>(count) * size_;
     double sum = 0.0;
-    for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t i = 0; i < count && sum <= enough * whole; ++i)
         sum += std::sqrt(tree_.nearest(element * points_[i]).squared_distance);
-    return sum / (static_cast<double>(count) * size_);
+    return sum / whole;
 }
 
 }  // namespace samara

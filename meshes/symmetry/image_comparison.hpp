@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "meshes/checks/triangle_tree.hpp"
@@ -16,14 +17,17 @@ double faceting(const Surface& surface, const Vector3d& centre);
 /// the triangles, at most 5000.
 class ImageComparison {
   public:
-    /// `tolerance`: over the body's size, its greatest distance from the centre; raised to the faceting.
+    /// `tolerance`: over the body's size, its greatest distance from the centre; raised to the faceting, and
+    /// at most 0.05.
     ImageComparison(const Surface& surface, const Vector3d& centre, double tolerance);
 
     /// Whether each point of the image lies within `slack` times the tolerance of the surface.
     [[nodiscard]] bool is_symmetry(const Matrix3d& element, double slack = 1.0) const;
 
-    /// The mean distance of the first points of the image from the surface, over the body's size.
-    [[nodiscard]] double mean_distance(const Matrix3d& element, std::size_t points) const;
+    /// The mean distance of the first points of the image from the surface, over the body's size; some number
+    /// above `enough`, and sooner, where it is above that.
+    [[nodiscard]] double mean_distance(const Matrix3d& element, std::size_t points,
+                                       double enough = std::numeric_limits<double>::infinity()) const;
 
     /// The distance over the body's size within which an image counts as the same.
     [[nodiscard]] double tolerance() const { return tolerance_; }

@@ -146,7 +146,10 @@ void add_extremal_directions(std::vector<Vector3d>& directions, const std::vecto
             for (int i = 0; i < iterations; ++i) {
                 Vector3d gradient = Vector3d::Zero();
                 for (const Vector3d& x : points) gradient += integer_power(x.dot(d), power - 1) * x;
-                d = (sign * gradient / scale + 0.3 * d).normalized();
+                const Vector3d next = (sign * gradient / scale + 0.3 * d).normalized();
+                const bool settled = (next - d).norm() < 1e-5;
+                d = next;
+                if (settled) break;
             }
             add_new_direction(directions, d);
         }

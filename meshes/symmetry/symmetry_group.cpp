@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace samara {
 namespace {
@@ -10,21 +12,34 @@ namespace {
 // In the Frobenius norm: a turn by 8 degrees. Elements of a group with axes of order 16 differ by 0.55.
 constexpr double same_element = 0.2;
 constexpr std::size_t largest_group = 240;
-constexpr std::size_t points_to_refine = 400;
-// Images with a point that is further than this many tolerances from the surface are not worth turning.
-constexpr double worth_refining = 6.0;
+// An axis is first turned by steps from 2 to 0.5 degrees, with few points, then to 0.02 with more.
+constexpr std::size_t few_points = 60;
+constexpr int coarse_halvings = 3;
+constexpr std::size_t more_points = 400;
+constexpr int fine_halvings = 4;
+constexpr double first_step = 0.035;
+// Images are not worth turning where a point is further from the surface than this many tolerances, or than
+// the one tolerance and what an axis that is off by some degrees takes it there, or all are so in the mean.
+// Parts of the size.
+constexpr double most_tolerances = 6.0;
+constexpr double most_astray = 0.15;
+constexpr double most_astray_in_the_mean = 0.1;
+constexpr double astray_after_coarse_steps = 0.02;
+
+// A body that nearly all turns take onto itself within the tolerance is round but for what that hides.
+constexpr int most_endless = 24;
 
 bool is_in(const std::vector<Matrix3d>& elements, const Matrix3d& element) {
     return std::any_of(elements.begin(), elements.end(),
                        [&](const Matrix3d& member) { return is_same_element(member, element); });
 }
 
-// Descends by steps of the axis along two directions across it, halved from 2 degrees to 0.02.
-Operation refined(Operation operation, const ImageComparison& images) {
-    double best = images.mean_distance(operation.matrix(), points_to_refine);
-    constexpr int halvings = 7;
-    for (int halving = 0; halving < halvings; ++halving) {
-        const double step = std::ldexp(0.035, -halving);
+// Descends by steps of the axis along two directions across it, from `step` on, halved so many times. `best`:
+// the mean distance there.
+Operation refined(Operation operation, const ImageComparison& images, std::size_t points, double step,
+                  int halvings, double& best) {
+    best = images.mean_distance(operation.matrix(), points);
+    for (int halving = 0; halving < halvings; ++halving, step *= 0.5) {
         bool improved = true;
         for (int round = 0; improved && round < 4; ++round) {
             improved = false;
@@ -33,7 +48,7 @@ Operation refined(Operation operation, const ImageComparison& images) {
             for (const Vector3d& direction : std::array<Vector3d, 4>{across, -across, other, -other}) {
                 Operation turned = operation;
                 turned.axis = (operation.axis + step * direction).normalized();
-                const double distance = images.mean_distance(turned.matrix(), points_to_refine);
+                const double distance = images.mean_distance(turned.matrix(), points, best);
                 if (distance >= best) continue;
                 best = distance;
                 operation = turned;
@@ -74,27 +89,53 @@ bool SymmetryGroup::contains(const Matrix3d& element) const {
     return is_in(elements_, element);
 }
 
-void SymmetryGroup::add(const Matrix3d& element) {
-    if (contains(element) || !images_.is_symmetry(element)) return;
+std::optional<std::vector<Matrix3d>> SymmetryGroup::grown_by(const Matrix3d& element) const {
     std::vector<Matrix3d> grown = elements_;
     grown.push_back(element);
-    constexpr double slack_of_products = 2.0;
     for (std::size_t i = 0; i < grown.size(); ++i) {
         for (std::size_t j = 0; j < grown.size(); ++j) {
             for (const Matrix3d& product : {Matrix3d(grown[i] * grown[j]), Matrix3d(grown[j] * grown[i])}) {
                 if (is_in(grown, product)) continue;
-                if (grown.size() == largest_group || !images_.is_symmetry(product, slack_of_products)) return;
+                if (grown.size() == largest_group) return std::nullopt;
                 grown.push_back(product);
             }
         }
     }
-    elements_ = std::move(grown);
+    return grown;
+}
+
+void SymmetryGroup::add(const Matrix3d& element) {
+    if (contains(element) || !images_.is_symmetry(element)) return;
+    std::optional<std::vector<Matrix3d>> grown = grown_by(element);
+    if (!grown) return;
+    constexpr double slack_of_products = 2.0;
+    const auto first_product = grown->begin() + static_cast<std::ptrdiff_t>(elements_.size()) + 1;
+    if (std::all_of(first_product, grown->end(), [&](const Matrix3d& product) {
+            return images_.is_symmetry(product, slack_of_products);
+        })) {
+        elements_ = *std::move(grown);
+    }
 }
 
 void SymmetryGroup::add_refined(const Operation& operation) {
     const Matrix3d element = operation.matrix();
-    if (contains(element) || !images_.is_symmetry(element, worth_refining)) return;
-    add(refined(operation, images_).matrix());
+    if (endless_ == most_endless || contains(element)) return;
+    const double tolerance = images_.tolerance();
+    const double in_the_mean = tolerance + most_astray_in_the_mean;
+    if (images_.mean_distance(element, few_points, in_the_mean) > in_the_mean) return;
+    if (!images_.is_symmetry(element, std::min(most_tolerances, 1.0 + most_astray / tolerance))) return;
+    double best = 0.0;
+    const Operation near = refined(operation, images_, few_points, first_step, coarse_halvings, best);
+    if (best > tolerance || !images_.is_symmetry(near.matrix(), 1.0 + astray_after_coarse_steps / tolerance))
+        return;
+    // Fine steps are the dear ones: not for what is known, or has no end of products.
+    if (contains(near.matrix())) return;
+    if (!grown_by(near.matrix())) {
+        ++endless_;
+        return;
+    }
+    add(refined(near, images_, more_points, std::ldexp(first_step, -coarse_halvings), fine_halvings, best)
+            .matrix());
 }
 
 }  // namespace samara

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "meshes/symmetry/image_comparison.hpp"
@@ -32,15 +33,20 @@ class SymmetryGroup {
     /// tolerance. Does nothing otherwise, or where the group has it already.
     void add(const Matrix3d& element);
 
-    /// Turns the operation's axis to where the images agree best, if they nearly do, then adds it.
+    /// Turns the operation's axis to where the images agree best, if they nearly do, then adds it. Does
+    /// nothing any more once many operations had no end of products.
     void add_refined(const Operation& operation);
 
     [[nodiscard]] bool contains(const Matrix3d& element) const;
     [[nodiscard]] const std::vector<Matrix3d>& elements() const { return elements_; }
 
   private:
+    // The group with the element and all products; none where there is no end of them.
+    [[nodiscard]] std::optional<std::vector<Matrix3d>> grown_by(const Matrix3d& element) const;
+
     const ImageComparison& images_;
     std::vector<Matrix3d> elements_ = {Matrix3d::Identity()};
+    int endless_ = 0;  // operations that the images agreed with, but that no finite group has
 };
 
 }  // namespace samara

@@ -278,6 +278,61 @@ TEST(MakeBody, HonoursTheUnitOfAStepFile) {
     EXPECT_EQ(body.symmetry.kind, Symmetry::Kind::spherical);
 }
 
+TEST(MakeBody, TheSymmetryOfAStepFileIsTheSameInAnyUnit) {
+    for (const double size : {0.01, 1.0, 10.0, 1e3, 1e5}) {
+        const test::TemporaryFolder folder;
+        test::write_with_gmsh(folder / "cone.step", [&] {
+            gmsh::model::occ::addCone(0.0, 0.0, 0.0, 0.0, 0.0, 2.0 * size, size, 0.0);
+            gmsh::model::occ::synchronize();
+        });
+        const Body body = make_body(folder / "cone.step");
+        const double metres = 1e-3 * size;
+        EXPECT_EQ(body.symmetry.kind, Symmetry::Kind::axial) << size;
+        EXPECT_NEAR(body.moments.volume / (metres * metres * metres), 2.0 / 3.0 * pi, 1e-3) << size;
+    }
+}
+
+TEST(MakeBody, SolidsThatTouchOrOverlapAreOne) {
+    const auto boxes = [](double shift, double size) {
+        return [=] {
+            gmsh::model::occ::addBox(0.0, 0.0, 0.0, 1e3, 1e3, 1e3);
+            gmsh::model::occ::addBox(shift, 0.0, 0.0, 1e3, size, size);
+            gmsh::model::occ::synchronize();
+        };
+    };
+    for (const char* name : {"two.step", "two.brep"}) {
+        const test::TemporaryFolder folder;
+        MeshOptions options = with_triangles(600);
+        options.scale = std::string(name).ends_with("brep") ? 1e-3 : 1.0;
+        test::write_with_gmsh(folder / name, boxes(1e3, 1e3));
+        EXPECT_NEAR(make_body(folder / name, options).moments.volume, 2.0, 1e-9) << "a common side";
+        test::write_with_gmsh(folder / name, boxes(1e3, 500.0));
+        EXPECT_NEAR(make_body(folder / name, options).moments.volume, 1.25, 1e-9) << "a part of a side";
+        test::write_with_gmsh(folder / name, boxes(500.0, 1e3));
+        EXPECT_NEAR(make_body(folder / name, options).moments.volume, 1.5, 1e-9) << "an overlap";
+        test::write_with_gmsh(folder / name, boxes(2e3, 1e3));
+        EXPECT_NEAR(make_body(folder / name, options).moments.volume, 2.0, 1e-9) << "a gap";
+    }
+}
+
+TEST(MakeBody, SolidsOfAScriptThatTouchAreOne) {
+    const test::TemporaryFolder folder;
+    const auto script = folder.file("two.geo",
+                                    "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, 1, 1};\n"
+                                    "Box(2) = {1, 0.2, 0.2, 1, 0.5, 0.5};\n");
+    EXPECT_NEAR(make_body(script).moments.volume, 1.25, 1e-9);
+}
+
+TEST(MakeBody, NamesTheUnitWhereNoBodyIsSoLarge) {
+    const test::TemporaryFolder folder;
+    test::write_stl(folder / "a.stl", test::box(Vector3d::Constant(3e9), 1));
+    EXPECT_THAT(test::error_of([&] { make_body(folder / "a.stl"); }),
+                AllOf(HasSubstr("a.stl: "), HasSubstr("no body's size"), HasSubstr("--scale")));
+    MeshOptions options;
+    options.scale = 1e-9;
+    EXPECT_NEAR(make_body(folder / "a.stl", options).moments.volume, 27.0, 1e-9);
+}
+
 TEST(MakeBody, ReadsBrepAndLeavesInnerWallsOut) {
     const test::TemporaryFolder folder;
     test::write_with_gmsh(folder / "two.brep", [] {

@@ -36,34 +36,70 @@ bool keep_image(tinygltf::Image* image, int /*index*/, std::string* /*error*/, s
     return true;
 }
 
-/// Files beside the .glb are not looked for.
-tinygltf::FsCallbacks no_files() {
+/// Files beneath the folder alone, also behind links, and none where it is empty.
+tinygltf::FsCallbacks files_beneath(std::filesystem::path& folder) {
     tinygltf::FsCallbacks callbacks{};
-    callbacks.FileExists = [](const std::string&, void*) { return false; };
+    callbacks.user_data = &folder;
+    callbacks.FileExists = [](const std::string& name, void* data) {
+        const std::filesystem::path& place = *static_cast<const std::filesystem::path*>(data);
+        std::error_code missing;
+        return !place.empty() && std::filesystem::is_regular_file(name, missing);
+    };
     callbacks.ExpandFilePath = [](const std::string& path, void*) { return path; };
-    callbacks.ReadWholeFile = [](std::vector<unsigned char>*, std::string*, const std::string&, void*) {
-        return false;
+    callbacks.ReadWholeFile = [](std::vector<unsigned char>* bytes, std::string* error,
+                                 const std::string& name, void* data) {
+        const std::filesystem::path& place = *static_cast<const std::filesystem::path*>(data);
+        try {
+            if (place.empty()) return false;
+            const InputFile input(name);
+            if (!input.is_beneath(place)) return false;
+            const std::string read = input.bytes(most_mesh_bytes);
+            bytes->assign(read.begin(), read.end());
+            return true;
+        } catch (const Error& fault) {
+            if (error != nullptr) *error += fault.what();
+            return false;
+        }
     };
     callbacks.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&,
                                   void*) { return false; };
     return callbacks;
 }
 
+/// The corners, three for each triangle, of a strip, or of a fan about the first one.
+std::vector<std::uint32_t> separate_triangles(const std::vector<std::uint32_t>& row, bool fan) {
+    std::vector<std::uint32_t> corners;
+    for (std::size_t i = 0; i + 2 < row.size(); ++i) {
+        const std::size_t odd = i % 2;  // each second one of a strip runs the other way
+        if (fan) {
+            corners.insert(corners.end(), {row[i + 1], row[i + 2], row[0]});
+        } else {
+            corners.insert(corners.end(), {row[i], row[i + 1 + odd], row[i + 2 - odd]});
+        }
+    }
+    return corners;
+}
+
 class GlbReader {
   public:
-    explicit GlbReader(const std::filesystem::path& file) : label_(file.string()) {
+    GlbReader(const std::filesystem::path& file, bool may_be_text) : label_(file.string()) {
         const std::string bytes = read_at_most(file, most_mesh_bytes);
-        require_shallow(bytes);
+        const bool is_text = may_be_text && !bytes.starts_with("glTF");
+        require_shallow(bytes, is_text);
         tinygltf::TinyGLTF loader;
         loader.SetImageLoader(keep_image, nullptr);
-        loader.SetFsCallbacks(no_files());
+        std::filesystem::path folder;  // of the other files, which a .glb has none of
+        if (is_text) folder = std::filesystem::absolute(file).parent_path();
+        loader.SetFsCallbacks(files_beneath(folder));
         std::string error;
         std::string warning;
         const auto* first = reinterpret_cast<const unsigned char*>(bytes.data());
+        const auto size = static_cast<unsigned int>(bytes.size());
         bool read = false;
         try {
-            read = loader.LoadBinaryFromMemory(&model_, &error, &warning, first,
-                                               static_cast<unsigned int>(bytes.size()));
+            read = is_text ? loader.LoadASCIIFromString(&model_, &error, &warning, bytes.data(), size,
+                                                        folder.string())
+                           : loader.LoadBinaryFromMemory(&model_, &error, &warning, first, size);
         } catch (const std::exception&) {  // of what it did not expect, such as an image without bytes
             error.clear();
         }
@@ -71,7 +107,10 @@ class GlbReader {
             while (!error.empty() && std::isspace(static_cast<unsigned char>(error.back())) != 0)
                 error.pop_back();
             std::replace(error.begin(), error.end(), '\n', ' ');
-            fail(error.empty() ? "is no .glb file" : "is no sound .glb file: " + error);
+            const std::string kind = is_text ? ".gltf" : ".glb";
+            fail(error.empty()
+                     ? fmt::format("is no {} file", kind)
+                     : fmt::format("is no sound {} file: {}; export it again as .glb", kind, error));
         }
     }
 
@@ -107,13 +146,16 @@ class GlbReader {
         throw Error(fmt::format("{}: {}", label_, what));
     }
 
-    /// Of the JSON at the beginning, behind 20 bytes that end in its length and its kind.
-    void require_shallow(std::string_view bytes) const {
+    /// The JSON is all of a .gltf; in a .glb it stands behind 20 bytes that end in its length and its kind.
+    void require_shallow(std::string_view bytes, bool is_text) const {
         constexpr std::size_t header = 20;
         std::uint32_t length = 0;
-        if (bytes.size() < header) return;
-        std::memcpy(&length, bytes.data() + 12, sizeof length);
-        const std::string fault = fault_of_json_size(bytes.substr(header, length));
+        if (!is_text) {
+            if (bytes.size() < header) return;
+            std::memcpy(&length, bytes.data() + 12, sizeof length);
+            bytes = bytes.substr(header, length);
+        }
+        const std::string fault = fault_of_json_size(bytes);
         if (!fault.empty()) fail("its JSON " + fault);
     }
 
@@ -233,7 +275,7 @@ class GlbReader {
     }
 
     void add_part(const tinygltf::Primitive& part, const Eigen::Affine3d& place) {
-        if (part.mode != TINYGLTF_MODE_TRIANGLES && part.mode != -1) return;  // points and lines
+        if (part.mode >= 0 && part.mode < TINYGLTF_MODE_TRIANGLES) return;  // points and lines
         const auto attribute = [&](const char* name) -> const tinygltf::Accessor* {
             const auto found = part.attributes.find(name);
             return found == part.attributes.end() ? nullptr : &at(model_.accessors, found->second, "list");
@@ -278,6 +320,9 @@ class GlbReader {
             for (std::size_t i = first; i < end; ++i)
                 corners.push_back(static_cast<std::uint32_t>(i - first));
         }
+        if (part.mode == TINYGLTF_MODE_TRIANGLE_STRIP || part.mode == TINYGLTF_MODE_TRIANGLE_FAN) {
+            corners = separate_triangles(corners, part.mode == TINYGLTF_MODE_TRIANGLE_FAN);
+        }
         if (corners.size() % 3 != 0) fail("has a triangle without three corners");
         const std::int32_t slot = slot_of(part.material);
         if (look_.corners.size() + corners.size() / 3 > most_triangles) fail("has too many triangles");
@@ -318,7 +363,13 @@ class GlbReader {
 }  // namespace
 
 LookMesh read_glb_file(const std::filesystem::path& file) {
-    return GlbReader(file).read();
+    constexpr bool may_be_text = false;
+    return GlbReader(file, may_be_text).read();
+}
+
+LookMesh read_gltf_file(const std::filesystem::path& file) {
+    constexpr bool may_be_text = true;
+    return GlbReader(file, may_be_text).read();
 }
 
 }  // namespace samara

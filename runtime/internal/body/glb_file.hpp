@@ -12,4 +12,8 @@ namespace samara {
 /// change its triangles, or has no place for all of them.
 LookMesh read_glb_file(const std::filesystem::path& file);
 
+/// The same of a .gltf file too, which is text, with the files that it names, where these lie in its folder
+/// or beneath.
+LookMesh read_gltf_file(const std::filesystem::path& file);
+
 }  // namespace samara

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "internal/body/look_image.hpp"
+#include "internal/body/mesh_text.hpp"
 #include "internal/body/polygon_triangles.hpp"
 #include "internal/body/unit_normal.hpp"
 #include "internal/files/input_file.hpp"
@@ -25,43 +26,11 @@ namespace {
 constexpr std::size_t most_materials = 4096;
 constexpr std::size_t most_material_bytes = 64U << 20U;  // of a file of them
 
-// The words of one line, from the left.
-class Words {
-  public:
-    explicit Words(std::string_view line) : rest_(line) {}
-
-    // Empty after the last one.
-    std::string_view next() {
-        constexpr std::string_view blanks = " \t";
-        rest_.remove_prefix(std::min(rest_.find_first_not_of(blanks), rest_.size()));
-        const std::string_view word = rest_.substr(0, rest_.find_first_of(blanks));
-        rest_.remove_prefix(word.size());
-        return word;
-    }
-
-    /// What was not taken yet.
-    [[nodiscard]] std::string_view rest() const { return rest_; }
-
-  private:
-    std::string_view rest_;
-};
-
-/// A number; false where the word is none.
-bool read_number(std::string_view word, double& number) {
-    if (word.starts_with('+')) word.remove_prefix(1);
-    const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), number);
-    return failure == std::errc{} && end == word.data() + word.size() && std::isfinite(number);
-}
-
-/// Lines end as on Unix, on Windows, or as on Macs of old.
-template <typename Visit>
-void visit_lines(std::string_view text, const Visit& visit) {
-    while (!text.empty()) {
-        const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
-        visit(text.substr(0, end));
-        text.remove_prefix(end);
-        text.remove_prefix(text.starts_with("\r\n") ? 2 : std::min<std::size_t>(1, text.size()));
-    }
+/// A number from 0 to 1, drawn there where it lies outside; false where the word is none.
+bool read_share(std::string_view word, double& number) {
+    if (!read_number(word, number) || !std::isfinite(number)) return false;
+    number = std::clamp(number, 0.0, 1.0);
+    return true;
 }
 
 class ObjReader {
@@ -70,8 +39,9 @@ class ObjReader {
         : label_(std::move(label)), with_look_(with_look) {}
 
     Surface read(std::string_view text) {
-        visit_lines(text, [&](std::string_view line) {
-            ++line_;
+        constexpr bool continued = true;
+        visit_lines(without_byte_order_mark(text, label_), continued, [&](std::string_view line, int number) {
+            line_ = number;
             read_line(line);
         });
         return surface_;
@@ -87,13 +57,16 @@ class ObjReader {
 
   private:
     void read_line(std::string_view line) {
+        // Names may hold the sign of a comment, numbers cannot.
         Words words(line);
-        const std::string_view keyword = words.next();
-        if (keyword == "v") add_vertex(words);
-        if (keyword == "f") add_face(words);
+        const std::string keyword = in_small_letters(words.next());
+        const std::string_view rest = words.rest();
+        Words numbers_alone(rest.substr(0, rest.find('#')));
+        if (keyword == "v") add_vertex(numbers_alone);
+        if (keyword == "f") add_face(numbers_alone);
         if (!with_look_) return;
-        if (keyword == "vt") texture_.push_back(numbers<2>("vt", "two", words));
-        if (keyword == "vn") normals_.push_back(numbers<3>("vn", "three", words));
+        if (keyword == "vt") texture_.push_back(numbers<2>("vt", "two", numbers_alone));
+        if (keyword == "vn") normals_.push_back(numbers<3>("vn", "three", numbers_alone));
         if (keyword == "usemtl") slot_ = slot_named(std::string(words.next()));
         if (keyword != "mtllib") return;
         const std::string library(words.next());
@@ -105,7 +78,7 @@ class ObjReader {
         Eigen::Matrix<double, N, 1> vector;
         for (double& coordinate : vector) {
             const std::string_view word = words.next();
-            if (!read_number(word, coordinate)) {
+            if (!read_number(word, coordinate) || !std::isfinite(coordinate)) {
                 fail(fmt::format("'{}' needs {} numbers, not '{}'", keyword, how_many, word));
             }
         }
@@ -149,10 +122,9 @@ class ObjReader {
     /// The image that a line of a file of materials names behind its options, at place_beneath(); -1 where
     /// there is none to carry.
     std::int32_t image_named(std::string_view rest, const std::filesystem::path& folder) {
-        constexpr std::string_view blanks = " \t";
-        rest.remove_prefix(std::min(rest.find_first_not_of(blanks), rest.size()));
-        rest.remove_suffix(rest.size() - std::min(rest.find_last_not_of(blanks) + 1, rest.size()));
-        if (rest.starts_with('-')) rest.remove_prefix(rest.find_last_of(blanks) + 1);
+        rest.remove_prefix(std::min(rest.find_first_not_of(Words::blanks), rest.size()));
+        rest.remove_suffix(rest.size() - std::min(rest.find_last_not_of(Words::blanks) + 1, rest.size()));
+        if (rest.starts_with('-')) rest.remove_prefix(rest.find_last_of(Words::blanks) + 1);
         std::string name(rest);
         std::replace(name.begin(), name.end(), '\\', '/');
         const std::filesystem::path file = place_beneath(folder, name);
@@ -176,9 +148,11 @@ class ObjReader {
         const InputFile input(file);
         require_beneath(input, folder);
         LookMaterial* material = nullptr;
-        visit_lines(input.bytes(most_material_bytes), [&](std::string_view line) {
+        const std::string text = input.bytes(most_material_bytes);
+        constexpr bool continued = false;
+        visit_lines(without_byte_order_mark(text, file.string()), continued, [&](std::string_view line, int) {
             Words words(line);
-            const std::string_view keyword = words.next();
+            const std::string keyword = in_small_letters(words.next());
             if (keyword == "newmtl") {
                 const auto found = slots_.find(std::string(words.next()));
                 material = found == slots_.end() ? nullptr
@@ -186,13 +160,11 @@ class ObjReader {
             }
             if (material == nullptr) return;
             double number = 0.0;
-            for (std::size_t i = 0; keyword == "Kd" && i < 3; ++i) {
-                if (read_number(words.next(), number)) material->color[i] = std::clamp(number, 0.0, 1.0);
+            for (std::size_t i = 0; keyword == "kd" && i < 3; ++i) {
+                if (read_share(words.next(), number)) material->color[i] = number;
             }
-            if (keyword == "d" && read_number(words.next(), number)) {
-                material->color[3] = std::clamp(number, 0.0, 1.0);
-            }
-            if (keyword == "map_Kd") material->image = image_named(words.rest(), folder);
+            if (keyword == "d" && read_share(words.next(), number)) material->color[3] = number;
+            if (keyword == "map_kd") material->image = image_named(words.rest(), folder);
             if (keyword == "map_d") material->transparency = LookTransparency::cut_out;
         });
     }

@@ -1,14 +1,16 @@
 #include "internal/body/stl_file.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>
-#include <sstream>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "internal/body/mesh_text.hpp"
 #include "internal/files/input_file.hpp"
 #include "samara/base/error.hpp"
 
@@ -32,20 +34,28 @@ std::uint32_t triangle_count_in_header(std::string_view bytes) {
     return count;
 }
 
-// Binary files may start with "solid" too, so the size decides; a text file has a facet or its end after the
-// name.
+bool has_size_of_binary(std::string_view bytes) {
+    return bytes.size() == header_size + triangle_size * std::size_t{triangle_count_in_header(bytes)};
+}
+
 bool is_text(std::string_view bytes) {
     const std::size_t start = bytes.find_first_not_of(" \t\r\n");
-    if (start == std::string_view::npos || !bytes.substr(start).starts_with("solid")) return false;
-    if (bytes.size() == header_size + triangle_size * std::size_t{triangle_count_in_header(bytes)})
-        return false;
-    return bytes.find('\0') == std::string_view::npos;
+    if (start == std::string_view::npos || bytes.find('\0') != std::string_view::npos) return false;
+    const std::string first = in_small_letters(bytes.substr(start, 5));
+    return first == "solid" || first == "facet";
 }
 
 Surface read_binary(std::string_view bytes, const std::string& name) {
     const std::uint32_t count = triangle_count_in_header(bytes);
     const std::size_t expected = header_size + triangle_size * std::size_t{count};
-    if (bytes.size() < expected || bytes.size() < header_size) {
+    const bool is_text = std::none_of(bytes.begin(), bytes.end(), [](unsigned char c) { return c == 0; });
+    if (bytes.size() < header_size || (is_text && bytes.size() < expected)) {
+        throw Error(
+            fmt::format("{}: is no STL file: one in text begins with 'solid', and {} bytes are none in "
+                        "binary; export it again",
+                        name, bytes.size()));
+    }
+    if (bytes.size() < expected) {
         throw Error(fmt::format(
             "{}: is no STL file, or is cut short: {} bytes, where {} triangles take {}; export it "
             "again",
@@ -65,58 +75,81 @@ Surface read_binary(std::string_view bytes, const std::string& name) {
     return surface;
 }
 
-double number(std::istringstream& words, const std::string& name, int line) {
-    std::string word;
-    words >> word;
-    char* end = nullptr;
-    const double value = std::strtod(word.c_str(), &end);
-    if (word.empty() || *end != '\0') {
-        throw Error(fmt::format("{}: line {}: 'vertex' needs three numbers, not '{}'", name, line, word));
-    }
-    return value;
-}
+class TextReader {
+  public:
+    explicit TextReader(std::string label) : label_(std::move(label)) {}
 
-Surface read_text(const std::string& bytes, const std::string& name) {
-    Surface surface;
-    std::array<Vector3d, 3> corners;
-    std::size_t count = 0;
-    bool in_loop = false;
-    std::istringstream stream(bytes);
-    int line = 0;
-    for (std::string text; std::getline(stream, text);) {
-        ++line;
-        std::istringstream words(text);
-        std::string keyword;
-        words >> keyword;
-        if (keyword == "outer") {
-            in_loop = true;
-            count = 0;
-        } else if (keyword == "vertex") {
-            if (!in_loop || count == 3) {
-                throw Error(
-                    fmt::format("{}: line {}: a face has three vertices within its loop", name, line));
+    Surface read(std::string_view text) {
+        constexpr bool continued = false;
+        visit_lines(text, continued, [&](std::string_view line, int number) {
+            line_ = number;
+            read_line(line);
+        });
+        if (in_loop_) {
+            throw Error(
+                fmt::format("{}: is cut short within a face at line {}; export it again", label_, line_));
+        }
+        return std::move(surface_);
+    }
+
+  private:
+    // What the name of the solid says is not meant; all else may stand on one line.
+    void read_line(std::string_view line) {
+        Words words(line);
+        std::string keyword = in_small_letters(words.next());
+        if (keyword == "solid" || keyword == "endsolid") {
+            const std::size_t facet = in_small_letters(line).find("facet normal");
+            if (facet == std::string::npos) return;
+            words = Words(line.substr(facet));
+        }
+        for (; !keyword.empty(); keyword = in_small_letters(words.next())) {
+            if (keyword == "outer") {
+                in_loop_ = true;
+                count_ = 0;
+            } else if (keyword == "vertex") {
+                add_corner(words);
+            } else if (keyword == "endloop") {
+                if (count_ != 3) fail(fmt::format("the face has {} vertices", count_));
+                add_triangle(surface_, corners_);
+                in_loop_ = false;
             }
-            const double x = number(words, name, line);
-            const double y = number(words, name, line);
-            corners[count++] = Vector3d(x, y, number(words, name, line));
-        } else if (keyword == "endloop") {
-            if (count != 3)
-                throw Error(fmt::format("{}: line {}: the face has {} vertices", name, line, count));
-            add_triangle(surface, corners);
-            in_loop = false;
         }
     }
-    if (in_loop)
-        throw Error(fmt::format("{}: is cut short within a face at line {}; export it again", name, line));
-    return surface;
-}
+
+    void add_corner(Words& words) {
+        if (!in_loop_ || count_ == 3) fail("a face has three vertices within its loop");
+        for (double& coordinate : corners_[count_++]) {
+            const std::string_view word = words.next();
+            if (!read_number(word, coordinate)) {
+                fail(fmt::format("'vertex' needs three numbers, not '{}'", word));
+            }
+        }
+    }
+
+    [[noreturn]] void fail(const std::string& what) const {
+        throw Error(fmt::format("{}: line {}: {}", label_, line_, what));
+    }
+
+    std::string label_;
+    int line_ = 0;
+    Surface surface_;
+    std::array<Vector3d, 3> corners_;
+    std::size_t count_ = 0;
+    bool in_loop_ = false;
+};
 
 }  // namespace
 
+Surface read_stl(const std::string& bytes, const std::string& label) {
+    if (bytes.empty()) throw Error(fmt::format("{}: is empty; export it again", label));
+    // Binary files may start with "solid" too, so the size decides.
+    if (has_size_of_binary(bytes)) return read_binary(bytes, label);
+    const std::string_view text = without_byte_order_mark(bytes, label);
+    return is_text(text) ? TextReader(label).read(text) : read_binary(bytes, label);
+}
+
 Surface read_stl_file(const std::filesystem::path& file) {
-    const std::string bytes = read_at_most(file, most_mesh_bytes);
-    if (bytes.empty()) throw Error(fmt::format("{}: is empty; export it again", file.string()));
-    return is_text(bytes) ? read_text(bytes, file.string()) : read_binary(bytes, file.string());
+    return read_stl(read_at_most(file, most_mesh_bytes), file.string());
 }
 
 }  // namespace samara

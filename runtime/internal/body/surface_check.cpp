@@ -94,7 +94,8 @@ void require_two_faces_at_each_edge(const Surface& surface,
     }
     if (open > 0) {
         throw Error(fmt::format(
-            "is not closed: {}, the first from {} to {}; fill the hole",
+            "is not closed: {}, the first from {} to {}; fill the hole (in Blender: Mesh > Clean Up > Fill "
+            "Holes), or give a sheet its thickness (in Blender: the Solidify modifier)",
             count_of(open, "edge has a face on one side only", "edges have a face on one side only"),
             place(vertex(surface, first_open->low)), place(vertex(surface, first_open->high))));
     }

@@ -1,10 +1,13 @@
 #include "internal/body/welded_surface.hpp"
 
+#include <algorithm>
+#include <limits>
 #include <unordered_map>
 
 #include <fmt/format.h>
 
 #include "internal/base/as_index.hpp"
+#include "internal/body/mended_faces.hpp"
 #include "internal/body/surface_check.hpp"
 #include "samara/base/error.hpp"
 
@@ -65,6 +68,25 @@ class VertexGrid {
     std::unordered_map<std::uint64_t, std::vector<std::int32_t>> cells_;
 };
 
+// Far from the origin the numbers of a file, most often of 32 bits, are wide apart beside a small body.
+void require_numbers_that_tell_it_apart(const Surface& surface, const Eigen::AlignedBox3d& box) {
+    constexpr double coarsest = 1e-4;  // over the extent
+    const double extent = box.diagonal().norm();
+    const double farthest =
+        std::max(box.min().lpNorm<Eigen::Infinity>(), box.max().lpNorm<Eigen::Infinity>());
+    if (farthest * std::numeric_limits<float>::epsilon() <= coarsest * extent) return;
+    const bool single =
+        std::all_of(surface.vertices.begin(), surface.vertices.end(),
+                    [](const Vector3d& point) { return point == point.cast<float>().cast<double>(); });
+    const double apart =
+        farthest * (single ? std::numeric_limits<float>::epsilon() : std::numeric_limits<double>::epsilon());
+    if (apart <= coarsest * extent) return;
+    throw Error(
+        fmt::format("lies {:.3g} from the origin, where its numbers{} are {:.2g} apart, {:.2g} of its size; "
+                    "move it to the origin before it is exported",
+                    farthest, single ? " of 32 bits" : "", apart, apart / extent));
+}
+
 }  // namespace
 
 void require_usable_numbers(const Surface& surface) {
@@ -102,7 +124,7 @@ Eigen::AlignedBox3d bounding_box(const Surface& surface) {
     return box;
 }
 
-Surface welded(const Surface& surface) {
+Surface welded(const Surface& surface, double part) {
     require_usable_numbers(surface);
     const Eigen::AlignedBox3d box = bounding_box(surface);
     const double extent = box.diagonal().norm();
@@ -110,7 +132,8 @@ Surface welded(const Surface& surface) {
         throw Error(fmt::format("all of its points lie within {:g} of each other; export the file again",
                                 smallest_extent));
     }
-    const double tolerance = welding_tolerance * extent;
+    require_numbers_that_tell_it_apart(surface, box);
+    const double tolerance = part * extent;
     VertexGrid grid(box.min(), tolerance);
     Surface result;
     std::vector<std::int32_t> new_index(surface.vertices.size(), -1);
@@ -124,6 +147,12 @@ Surface welded(const Surface& surface) {
     }
     for (const auto& nodes : surface.edge_nodes) {
         result.edge_nodes.push_back({weld(nodes[0]), weld(nodes[1]), weld(nodes[2])});
+    }
+    drop_collapsed_faces(result);
+    split_at_corners_on_sides(result, tolerance);
+    flip_faces_without_area(result, tolerance);
+    if (result.corners.empty()) {
+        throw Error("none of its triangles has an area; export the surface as triangles");
     }
     return result;
 }

@@ -13,10 +13,11 @@ inline constexpr double welding_tolerance = 1e-6;
 /// is not finite or beyond any body's.
 void require_usable_numbers(const Surface& surface);
 
-/// The surface with vertices that lie within `welding_tolerance` of each other made one, and those that no
-/// triangle uses left out; triangles keep their number and order. Throws as require_usable_numbers does, and
-/// where the surface is smaller than any body.
-Surface welded(const Surface& surface);
+/// The surface with vertices that lie within `part` of the bounding box's diagonal of each other made one,
+/// and those that no triangle uses left out; triangles keep their order. Those with two equal corners are
+/// left out, and the places mended where a corner lies on the side of another triangle (mended_faces.hpp).
+/// Throws as require_usable_numbers does, and where the surface is smaller than any body.
+Surface welded(const Surface& surface, double part = welding_tolerance);
 
 /// The box around the triangles' corners (m).
 Eigen::AlignedBox3d bounding_box(const Surface& surface);

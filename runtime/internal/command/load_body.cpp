@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "internal/base/labelled.hpp"
 #include "internal/command/subprocess.hpp"
 #include "internal/files/input_file.hpp"
 #include "internal/files/temporary_folder.hpp"
@@ -70,7 +71,7 @@ Body meshed(const std::filesystem::path& shape, double scale, int triangles) {
                                                  shape.string(), status)
                                    : reason);
     }
-    return read_body_file(output);
+    return naming(shape.string(), output.string(), [&] { return read_body_file(output); });
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <numbers>
 #include <vector>
 
@@ -216,6 +217,66 @@ TEST(Symmetry, ABumpAboveTheToleranceBreaksIt) {
     Surface sphere = test::icosphere(3);
     sphere.vertices.front() *= 1.1;
     EXPECT_NE(symmetry_of(sphere).kind, Symmetry::Kind::spherical);
+}
+
+// A ball of 12 by 6 quads, each vertex of which `radius` moves in or out.
+template <typename Radius>
+Surface coarse_ball(const Radius& radius) {
+    Surface ball;
+    const auto add = [&](const Vector3d& direction) {
+        ball.vertices.push_back(radius(direction) * direction);
+        return static_cast<std::int32_t>(ball.vertices.size()) - 1;
+    };
+    const std::int32_t south = add(-Vector3d::UnitZ());
+    for (int row = 1; row < 6; ++row) {
+        for (int i = 0; i < 12; ++i) {
+            const double height = pi * row / 6.0;
+            const double azimuth = 2.0 * pi * i / 12.0;
+            add(Vector3d(std::sin(height) * std::cos(azimuth), std::sin(height) * std::sin(azimuth),
+                         -std::cos(height)));
+        }
+    }
+    const std::int32_t north = add(Vector3d::UnitZ());
+    for (std::int32_t i = 0; i < 12; ++i) {
+        const std::int32_t next = (i + 1) % 12;
+        ball.corners.push_back({south, 1 + next, 1 + i});
+        ball.corners.push_back({north, 49 + i, 49 + next});
+        for (std::int32_t row = 0; row < 4; ++row) {
+            const std::int32_t first = 1 + 12 * row;
+            ball.corners.push_back({first + i, first + next, first + 12 + next});
+            ball.corners.push_back({first + i, first + 12 + next, first + 12 + i});
+        }
+    }
+    return ball;
+}
+
+TEST(Symmetry, NoToleranceIsAboveAFiveHundredths) {
+    const Surface ball = coarse_ball([](const Vector3d& at) { return at.x() > 0.999 ? 1.09 : 1.0; });
+    const Symmetry symmetry = find_symmetry(ball, test::moments_of(ball), 0.1);
+    EXPECT_EQ(symmetry.tolerance, 0.05);
+    const bool about_another_axis =
+        symmetry.kind == Symmetry::Kind::axial && std::abs(symmetry.axis.x()) < 0.99;
+    EXPECT_FALSE(symmetry.kind == Symmetry::Kind::spherical || about_another_axis);
+}
+
+TEST(Symmetry, IsFoundSoonWhateverTheShape) {
+    const auto seconds = [](const Surface& surface) {
+        const std::clock_t start = std::clock();
+        (void)symmetry_of(surface);
+        return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    };
+    // Blobs that nearly all turns take near themselves, a skewed cube, and a round one of many triangles.
+    for (const double amount : {0.3, 0.1, 0.05, 0.02}) {
+        EXPECT_LT(seconds(coarse_ball([&](const Vector3d& at) {
+                      return 1.0 + amount * std::sin(37.0 * at.x() + 91.0 * at.y() + 53.0 * at.z());
+                  })),
+                  5.0)
+            << amount;
+    }
+    Matrix3d skew;
+    skew << 1.0, 0.1, 0.02, 0.0, 1.0, 0.13, 0.05, 0.0, 1.0;
+    EXPECT_LT(seconds(test::mapped(test::box(Vector3d::Ones(), 1), skew)), 5.0);
+    EXPECT_LT(seconds(test::lopsided(test::icosphere(4))), 5.0);
 }
 
 TEST(Symmetry, CurvedTrianglesShowTheShapeThatCoarseFlatOnesHide) {

@@ -76,6 +76,18 @@ TEST(ObjFile, ReadsFacesInEachWayOfWriting) {
                 ElementsAre(1.5, -2.0, 0.5));
 }
 
+TEST(ObjFile, ReadsWhatProgramsPutAroundTheNumbers) {
+    EXPECT_NEAR(volume_of("\xEF\xBB\xBF" + vertices + faces), 1.0, 1e-15) << "a byte order mark";
+    EXPECT_NEAR(volume_of(vertices + "f 1 4 \\\n3 2\nf 5 6\\  \r\n 7 8\n" + faces.substr(20)), 1.0, 1e-15);
+    EXPECT_NEAR(volume_of(vertices + "F 1 4 3 2 # the bottom\nf 5 6 7 8# the top\n" + faces.substr(20)), 1.0,
+                1e-15);
+    EXPECT_NEAR(volume_of("V\t0 0 1e-400\n" + vertices.substr(8) + faces), 1.0, 1e-15);
+    EXPECT_EQ(fault_of(vertices + "f 1 4 \\\n3 2\nf 5 6 7 9\n"), "line 11: a face names vertex '9' of 8");
+    EXPECT_EQ(fault_of(vertices + "f 1 4 \\\n3 9\n"), "line 9: a face names vertex '9' of 8");
+    using namespace std::string_literals;
+    EXPECT_THAT(fault_of("\xFF\xFEv\0 \0"s), ::testing::HasSubstr("UTF-16 or UTF-32; save it as UTF-8"));
+}
+
 TEST(ObjFile, NamesTheLineThatIsWrong) {
     EXPECT_EQ(fault_of("v 0 0 0\nv 1 nan 0\n"), "line 2: 'v' needs three numbers, not 'nan'");
     EXPECT_EQ(fault_of("v 0 0 1e999\n"), "line 1: 'v' needs three numbers, not '1e999'");
