@@ -53,7 +53,8 @@ Scene sampling_scene(const Scene& scene, std::size_t index, const Body& body, st
     only.count = sampling.falls;
     const double more = std::max(0.0, sampling.start_angle - only.spread_angle);
     only.spread_angle += more;
-    one.obstacles.clear();  // what a fall is told by comes before it meets one
+    one.obstacles.clear();    // what a fall is told by comes before it meets one
+    one.bodies_meet = false;  // the copies are falls of their own
     // Nothing may start below the ground that would not without this further turn.
     if (one.ground) only.position.z() += sinking(body, more);
     const double duration = sampled_duration(scene, only, sampling);
