@@ -174,14 +174,15 @@ std::size_t next_count(const ScenePlan& plan, const Symmetry& symmetry, double w
 
 /// Throws where the body meets no load within the scene, which so says nothing of what it needs.
 void require_loads(const SceneGoal& goal, const SampledFalls& flight) {
+    const Scene& scene = goal.scene;
+    const SceneBody& body = scene.bodies[goal.body];
     const double mean = mean_reynolds_number(flight.visits);
-    if (mean > 0.0 && std::isfinite(mean)) return;
-    const SceneBody& body = goal.scene.bodies[goal.body];
+    if (scene.step <= scene.duration - body.start && mean > 0.0 && std::isfinite(mean)) return;
     throw Error(
         fmt::format("{}: the body '{}' does not move within the scene, which so says nothing of what it "
-                    "needs: it starts at {:.6g} s, "
-                    "and the scene ends at {:.6g} s, in steps of {:.6g} s; let the scene last longer",
-                    goal.scene.file.string(), body.name, body.start, goal.scene.duration, goal.scene.step));
+                    "needs: it starts at {:.6g} s, and the scene ends at {:.6g} s, in steps of {:.6g} s; let "
+                    "the scene last longer, or take shorter steps",
+                    scene.file.string(), body.name, body.start, scene.duration, scene.step));
 }
 
 }  // namespace

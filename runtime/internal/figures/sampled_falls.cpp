@@ -163,6 +163,11 @@ RegimeCounts SampledFalls::regimes() const {
 
 SampledFalls sample_falls(const Scene& scene, std::size_t body, const LoadedBody& loaded,
                           const FallSampling& sampling, std::uint64_t batch) {
+    if (!(sampled_duration(scene, scene.bodies[body], sampling) > 0.0)) {
+        SampledFalls none;
+        none.falls.resize(static_cast<std::size_t>(sampling.falls));
+        return none;
+    }
     const Scene one = sampling_scene(scene, body, *loaded.body, batch, sampling);
     const SimulationResult flown = simulate(
         one, {loaded}, 1, [](double, double) { return true; }, sampling.threads);

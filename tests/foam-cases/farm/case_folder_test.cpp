@@ -44,7 +44,7 @@ void write(const fs::path& path, const std::string& text) {
 void pretend_solved(const fs::path& folder) {
     const auto plan = nlohmann::json::parse(read_bytes(folder / "plan.json"));
     fs::create_directories(folder / "mesh_coarse/constant/polyMesh");
-    write(folder / "mesh_coarse/constant/polyMesh/cellZones", "zones");
+    write(folder / "mesh_coarse/constant/polyMesh/cellZones", "FoamFile { format ascii; }\n");
     write(folder / "mesh_coarse/mesh.json",
           nlohmann::json({{"inputs_hash", plan["meshes"][0]["inputs_hash"]}}).dump());
     for (const auto& entry : plan["cases"]) {
