@@ -23,8 +23,8 @@ constexpr std::string_view type_of_code = "coded";
 /// Bytes of a value in a binary list: so many labels, or so many scalars.
 struct BinaryValue {
     std::string_view name;
-    int labels;
-    int scalars;
+    std::size_t labels;
+    std::size_t scalars;
 };
 
 constexpr BinaryValue values_of_lists[] = {{"List<label>", 1, 0},      {"List<scalar>", 0, 1},
@@ -139,8 +139,7 @@ class DataScan {
         place_ = static_cast<std::size_t>(end - text_.data());
         if (!skip_blanks() || here() == '{' || (count == 0 && here() != '(')) return;
         if (here() != '(') throw fault("holds a binary list that does not begin");
-        const auto bytes =
-            static_cast<std::size_t>(value.labels * label_bytes_ + value.scalars * scalar_bytes_);
+        const std::size_t bytes = value.labels * label_bytes_ + value.scalars * scalar_bytes_;
         const std::size_t left = text_.size() - place_ - 1;
         if (count > left / bytes) {
             place_ = text_.size();  // cut short
@@ -204,8 +203,8 @@ class DataScan {
     std::size_t place_ = 0;
     bool is_binary_ = false;
     const BinaryValue* of_class_ = nullptr;  // where the file is a list
-    int label_bytes_ = 4;
-    int scalar_bytes_ = 8;
+    std::size_t label_bytes_ = 4;
+    std::size_t scalar_bytes_ = 8;
 };
 
 }  // namespace

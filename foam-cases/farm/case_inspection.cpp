@@ -36,7 +36,8 @@ bool is_one_of(std::string_view name, const auto& names) {
 
 // Of files that are written beside their place, by samara and by its scripts.
 bool is_temporary(const std::string& name) {
-    return (name.starts_with(".samara.") && name.ends_with(".tmp")) || name.ends_with(".json.part");
+    return (name.starts_with(".samara.") && name.ends_with(".tmp")) || name.ends_with(".json.part") ||
+           name.starts_with(".nfs");  // which a network file system keeps until they are closed
 }
 
 bool is_time(const std::string& name) {
