@@ -1,5 +1,6 @@
 #include "converter/convert.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -7,8 +8,10 @@
 
 #include "converter/cases/case_folder_reduction.hpp"
 #include "converter/cases/plan_coverage.hpp"
+#include "converter/tables/direction_sampling.hpp"
 #include "converter/tables/table_filling.hpp"
 #include "internal/base/json_text.hpp"
+#include "internal/body/case_records.hpp"
 #include "samara/base/error.hpp"
 #include "samara/body/body_file.hpp"
 
@@ -24,6 +27,27 @@ void require_plan_of_body(const std::filesystem::path& folder, const CasePlan& p
             fmt::format("{}: plan.json and body.body.h5 are of different bodies; make the cases again "
                         "with 'samara bake'",
                         folder.string()));
+    }
+}
+
+/// Brings the cases to the directions that the table asks for, where they were solved for others that the
+/// body's symmetry makes alike: but not where a case of that flow and purpose is there already.
+void bring_to_required(const Symmetry& symmetry, CasePlan& plan, std::vector<SolvedCase>& cases) {
+    for (PlannedCase& planned : plan.cases) {
+        const Matrix3d element = element_to_required(symmetry, planned.direction);
+        const Vector3d image = element * planned.direction;
+        if ((image - planned.direction).norm() < same_direction) continue;
+        const bool is_there = std::ranges::any_of(plan.cases, [&](const PlannedCase& other) {
+            return other.purpose == planned.purpose && other.reynolds_number == planned.reynolds_number &&
+                   other.mesh == planned.mesh && other.closure == planned.closure &&
+                   (other.direction - image).norm() < same_direction;
+        });
+        if (is_there) continue;
+        planned.direction = image;
+        const auto solved = std::ranges::find(cases, planned.name, &SolvedCase::name);
+        if (solved == cases.end()) continue;
+        DirectionSample& sample = solved->sample;
+        sample = {image, transformed(sample.entry, element), transformed_error(sample.error, element)};
     }
 }
 
@@ -77,18 +101,20 @@ std::vector<FallRecord> solved_falls(const std::filesystem::path& folder, const 
 Conversion convert_folder(const std::filesystem::path& folder,
                           const std::function<void(std::size_t, std::size_t)>& progress,
                           const std::function<void(double)>& identifying) {
-    const CasePlan plan = read_case_plan(folder);
+    CasePlan plan = read_case_plan(folder);
     Conversion conversion;
     conversion.body = read_body_file(folder / "body.body.h5");
     require_plan_of_body(folder, plan, conversion.body);
     FolderReduction reduction = reduce_folder(folder, plan, progress);
+    bring_to_required(conversion.body.symmetry, plan, reduction.cases);
     try {
         require_enough_directions(plan, conversion.body.symmetry, reduction);
         conversion.cases = std::move(reduction.cases);
         conversion.body.tables = make_tables(plan, conversion.body.symmetry, conversion);
     } catch (const Error& fault) {
-        throw Error(
-            fmt::format("{}: {}; run 'samara bake' again", (folder / "plan.json").string(), fault.what()));
+        throw Error(fmt::format(
+            "{}: {}; {}", (folder / "plan.json").string(), fault.what(),
+            plan.solved_by_user ? "solve what is missing and add it to 'cases'" : "run 'samara bake' again"));
     }
     conversion.body.tables->left_out = std::move(reduction.left_out);
     const std::vector<FallRecord> falls = solved_falls(folder, plan, conversion.body.tables->left_out);

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "converter/cases/case_folder_reduction.hpp"
+#include "converter/cases/case_links.hpp"
 #include "converter/cases/load_fluctuations.hpp"
 #include "converter/cases/samples_csv.hpp"
 #include "converter/convert.hpp"
@@ -170,7 +171,10 @@ nlohmann::json write_samples(const std::string& cases, const std::string& output
 
 /// The cases in a folder that were solved in time, or the folder itself where it is a case.
 std::vector<std::filesystem::path> cases_in_time(const std::filesystem::path& folder) {
-    if (std::filesystem::exists(folder / "parameters")) return {folder};
+    // A case by itself is linked to the mesh beside it.
+    const bool is_case = std::filesystem::exists(folder / "parameters");
+    require_links_within(is_case ? folder / "postProcessing" : folder);
+    if (is_case) return {folder};
     std::vector<std::filesystem::path> cases;
     std::error_code unreadable;
     for (const auto& entry : std::filesystem::directory_iterator(folder, unreadable)) {

@@ -9,8 +9,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "converter/cases/case_links.hpp"
 #include "internal/base/content_hash.hpp"
 #include "internal/base/json_text.hpp"
+#include "internal/base/nearest_word.hpp"
+#include "internal/base/printable.hpp"
 #include "internal/base/vector_json.hpp"
 #include "samara/base/error.hpp"
 #include "samara/body/body_file.hpp"
@@ -45,7 +48,29 @@ CaseScales as_scales(const nlohmann::json& values, const CaseScales& defaults) {
             values.value("density", defaults.density)};
 }
 
+/// Throws where the object has a key that is none of the words: a misspelt one would count for nothing.
+void require_known_keys(const nlohmann::json& values, const std::string& where,
+                        const std::vector<std::string>& known) {
+    if (!values.is_object()) return;  // which the entries themselves say
+    for (const auto& [key, value] : values.items()) {
+        if (std::ranges::find(known, key) != known.end()) continue;
+        throw Error(
+            fmt::format("{} has the unknown key '{}'{}", where, printable(key), did_you_mean(key, known)));
+    }
+}
+
+/// Throws where the name of a folder leads out of the folder of cases.
+void require_inside(const std::string& name, const char* what) {
+    const std::filesystem::path path(name);
+    const bool goes_up = std::ranges::find(path, "..") != path.end();
+    if (!name.empty() && path.is_relative() && !goes_up) return;
+    throw Error(fmt::format("the {} '{}' is no name of a folder beside plan.json", what, printable(name)));
+}
+
 PlannedCase as_case(const nlohmann::json& values, const CasePlan& plan, const CaseScales& scales) {
+    require_known_keys(values, "a case",
+                       {"name", "direction", "reynolds_number", "mesh", "purpose", "closure", "start_from",
+                        "turbulence_from", "averaging_start", "length", "speed", "density", "inputs_hash"});
     PlannedCase planned{values.at("name").get<std::string>(), vector_of(values.at("direction")),
                         values.at("reynolds_number").get<double>()};
     planned.direction = plan.to_map_axes() * planned.direction;
@@ -67,6 +92,9 @@ bool solved_by_user(const nlohmann::json& values) {
 }
 
 CasePlan as_plan(const nlohmann::json& values, const std::filesystem::path& folder) {
+    require_known_keys(values, "the plan",
+                       {"solved_by", "quality", "subdivisions", "reference_length", "ranks", "covers", "axes",
+                        "case_axes", "length", "speed", "density", "meshes", "cases", "falls"});
     CasePlan plan;
     plan.solved_by_user = solved_by_user(values);
     plan.quality =
@@ -95,6 +123,8 @@ CasePlan as_plan(const nlohmann::json& values, const std::filesystem::path& fold
 }
 
 void check_case(const PlannedCase& planned) {
+    require_inside(planned.name, "case");
+    require_inside(planned.mesh, "mesh");
     const auto refuse = [&](const char* what) {
         return Error(fmt::format("the {} of case {} is not positive", what, planned.name));
     };
@@ -150,6 +180,8 @@ void check_falls(const CasePlan& plan) {
     std::set<std::string> names;
     for (const PlannedCase& planned : plan.cases) names.insert(planned.name);
     for (const PlannedFall& fall : plan.falls) {
+        require_inside(fall.name, "fall");
+        require_inside(fall.mesh, "mesh");
         if (!names.insert(fall.name).second) throw Error("two cases or falls are named " + fall.name);
     }
 }
@@ -195,6 +227,7 @@ CasePlan read_case_plan(const std::filesystem::path& folder) {
                         "'samara bake' made",
                         folder.string()));
     }
+    require_links_within(folder);
     const nlohmann::json values = read_json(file);
     try {
         CasePlan plan = as_plan(values, folder);

@@ -71,10 +71,11 @@ struct CasePlan {
 };
 
 /// Reads FOLDER/plan.json. Where the user solved the cases, quality, reference_length and axes may be absent:
-/// the last two are then those of FOLDER/body.body.h5. Throws Error where there is no plan, where it is no
-/// JSON, or where an entry is missing or breaks a rule: axes that are no rotation, directions that are no
-/// unit vectors, numbers that are not positive, no cases, two cases or falls of one name, two of the same
-/// flow and purpose, turbulence from a case that has none or is of another flow.
+/// the last two are then those of FOLDER/body.body.h5. Throws Error where there is no plan, where a link in
+/// the folder leads out of it (case_links.hpp), where the plan is no JSON, or where an entry is missing or
+/// breaks a rule: axes that are no rotation, directions that are no unit vectors, numbers that are not
+/// positive, no cases, two cases or falls of one name, two of the same flow and purpose, turbulence from a
+/// case that has none or is of another flow.
 CasePlan read_case_plan(const std::filesystem::path& folder);
 
 }  // namespace samara

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "converter/cases/case_setup.hpp"
 #include "converter/cases/load_history.hpp"
 #include "converter/cases/quantity_history.hpp"
 #include "converter/openfoam/foam_dictionary.hpp"
@@ -29,6 +30,13 @@ constexpr double largest_disagreement = 1e-4;
 
 /// Means of the same numbers, by two programs, of which one wrote its own down in full.
 constexpr double largest_drift = 1e-6;
+
+/// The plan's numbers are as the case has them: rounded, of a direction perhaps to a degree.
+constexpr double largest_difference = 0.02;
+
+/// The body's area in a mesh over its own, which meshes of few cells miss; over that of its length it counts
+/// once.
+constexpr double largest_difference_of_length = 0.15;
 
 /// One case on its way to a sample.
 struct CaseSource {
@@ -74,7 +82,7 @@ Tail tail_of(const CaseSource& source, const QuantityHistory& history, double st
                                 history.files.at(start).string(), window.front().size(), start));
     }
     return {{mean(window[0]), mean(window[1]), mean(window[2])},
-            {standard_error(window[0]), standard_error(window[1]), standard_error(window[2])}};
+            {tail_error(window[0]), tail_error(window[1]), tail_error(window[2])}};
 }
 
 void require_agreement(const CaseSource& source, const std::string& field, double in_fields,
@@ -241,10 +249,71 @@ void require_as_planned(const CaseSource& source) {
     }
 }
 
+std::string in_words(const Vector3d& vector) {
+    return fmt::format("[{:.4g}, {:.4g}, {:.4g}]", vector.x() + 0.0, vector.y() + 0.0, vector.z() + 0.0);
+}
+
+/// A number of the plan beside what the case has. Throws where they differ.
+void require_near(const CaseSource& source, const std::string& of_case, double found, const char* key,
+                  double planned, double tolerance = largest_difference) {
+    if (std::abs(found - planned) <= tolerance * planned) return;
+    throw Error(fmt::format(
+        "{}: {} {:.4g}, but plan.json has the {} {:.4g}; correct the plan, or solve the case for it",
+        source.folder().string(), of_case, found, key, planned));
+}
+
+void require_flow(const CaseSource& source, const Vector3d& flow) {
+    require_near(source, "the speed of the flow far from the body is", flow.norm(), "'speed'",
+                 source.planned.scales.speed);
+    // In axes of the cases, as the plan has it.
+    const Vector3d planned = source.plan.to_map_axes().transpose() * source.planned.direction;
+    const Vector3d moves = -flow.normalized();
+    if ((moves - planned).norm() <= largest_difference) return;
+    const bool is_opposite = (moves + planned).norm() <= largest_difference;
+    throw Error(fmt::format(
+        "{}: {} {}, and so the body along {}, but plan.json has the 'direction' {}, which is that of the "
+        "body's "
+        "velocity; correct it, or solve the case for it",
+        source.folder().string(), is_opposite ? "the flow goes the other way: along" : "the flow goes along",
+        in_words(flow.normalized()), in_words(moves), in_words(planned)));
+}
+
+/// The plan is of the flow that the case's own files set up, as far as they say so plainly.
+void require_as_set_up(const CaseSource& source, Shells& shells) {
+    const CaseSetup setup = read_case_setup(source.folder());
+    const auto& [length, speed, density] = source.planned.scales;
+    if (source.plan.solved_by_user && !setup.patches.empty()) {
+        const auto area = shells.area(mesh_folder(source), setup.patches);
+        if (area) {
+            require_near(source, "sqrt(S/pi) of the body's area S in the mesh is",
+                         std::sqrt(*area / std::numbers::pi), "'length'", length,
+                         largest_difference_of_length);
+        }
+    }
+    if (setup.flow) require_flow(source, *setup.flow);
+    if (setup.density) {
+        require_near(source, "the fluid's density (rhoInf of the function object forces) is", *setup.density,
+                     "'density'", density);
+    }
+    if (!setup.viscosity) return;
+    require_near(
+        source,
+        fmt::format(
+            "with its viscosity of {:.4g}, the length {:.4g} and the speed {:.4g} the Reynolds number is",
+            *setup.viscosity, length, speed),
+        speed * length / *setup.viscosity, "'reynolds_number'", source.planned.reynolds_number);
+}
+
 void require_sane(const CaseSource& source, const DirectionSample& sample, bool has_turbulence) {
     const auto refuse = [&](const std::string& what) { return source.fault("diverged: " + what); };
     const double drag = -sample.entry.force.dot(sample.direction);
-    if (!(drag > 0.0)) throw refuse(fmt::format("the drag coefficient is {:.4g}, not positive", drag));
+    if (!(drag > 0.0)) {
+        throw refuse(fmt::format("the drag coefficient is {:.4g}, not positive{}", drag,
+                                 source.plan.solved_by_user
+                                     ? ", or 'direction' in plan.json, that of the body's "
+                                       "velocity, is the flow's"
+                                     : ""));
+    }
     if (!has_turbulence) return;
     if (!(sample.entry.turbulent_kinetic_energy > 0.0)) throw refuse("k in the shell is not positive");
     if (!(sample.entry.dissipation_rate > 0.0)) throw refuse("epsilon in the shell is not positive");
@@ -305,6 +374,7 @@ SolvedCase reduce_case(const fs::path& folder, const CasePlan& plan, const Plann
     if (!fs::is_directory(source.folder())) throw source.fault("the case's folder is missing");
     const nlohmann::json provenance = read_provenance(source);
     if (!plan.solved_by_user) require_as_planned(source);
+    require_as_set_up(source, shells);
     SolvedCase solved{
         planned.name, planned.reynolds_number, {planned.direction, {}, {}},       provenance.dump(),
         planned.mesh, planned.purpose,         solved_closure(source, provenance)};

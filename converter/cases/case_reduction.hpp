@@ -31,14 +31,16 @@ bool is_solved(const std::filesystem::path& folder);
 ///  - k/U^2 and epsilon L/U^3: means over the same times of the volume means in postProcessing/shell; 0 where
 ///    the closure is laminar; those of another case where the plan says so (turbulence_from), whose
 ///    provenance then stands in this one's as `turbulence`;
-///  - errors: standard_error of the same times.
+///  - errors: tail_error of the same times.
 /// averaging_start is the plan's for this case, else that of provenance.json, else the start of the last
 /// quarter of the times. The volume means are held against the fields written last (mean_over_shell), and all
 /// means against those that provenance.json noted when the case was solved. Throws Error naming case or file
 /// where a file is missing or damaged, where the case was solved for another direction or Reynolds number
-/// than planned, where histories are not whole or plausible (quantity_history.hpp), have changed since the
-/// case was solved, or differ from the fields by more than 1e-4 (they are of different runs), or where the
-/// solution diverged: values that are not finite, drag, k or epsilon not positive.
+/// than planned, by its parameters or by the viscosity, velocity, density and, of a user's case, body area
+/// that its own files set up (case_setup.hpp), where histories are not whole or plausible
+/// (quantity_history.hpp), have changed since the case was solved, or differ from the fields by more than
+/// 1e-4 (they are of different runs), or where the solution diverged: values that are not finite, drag, k or
+/// epsilon not positive.
 SolvedCase reduce_case(const std::filesystem::path& folder, const CasePlan& plan, const PlannedCase& planned,
                        Shells& shells);
 

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "converter/cases/case_setup.hpp"
 #include "converter/openfoam/cell_volumes.hpp"
 #include "converter/openfoam/foam_bytes.hpp"
 #include "converter/openfoam/foam_dictionary.hpp"
@@ -195,6 +196,13 @@ Shell& Shells::of(const fs::path& folder) {
 const std::vector<double>& Shells::volumes(Shell& shell) {
     if (shell.volumes.empty()) shell.volumes = cell_volumes(shell.poly_mesh, shell.cells);
     return shell.volumes;
+}
+
+std::optional<double> Shells::area(const fs::path& folder, const std::vector<std::string>& patches) {
+    const Patches key(folder, patches);
+    const auto found = areas_.find(key);
+    if (found != areas_.end()) return found->second;
+    return areas_.emplace(key, area_of_patches(folder / "constant" / "polyMesh", patches)).first->second;
 }
 
 double last_written_time(const fs::path& folder) {

@@ -3,6 +3,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace samara {
@@ -21,9 +24,14 @@ class Shells {
     Shell& of(const std::filesystem::path& folder);
     /// The volumes of its cells from the mesh itself (cell_volumes).
     static const std::vector<double>& volumes(Shell& shell);
+    /// area_of_patches of FOLDER/constant/polyMesh.
+    std::optional<double> area(const std::filesystem::path& folder, const std::vector<std::string>& patches);
 
   private:
+    using Patches = std::pair<std::filesystem::path, std::vector<std::string>>;
+
     std::map<std::filesystem::path, Shell> shells_;
+    std::map<Patches, std::optional<double>> areas_;
 };
 
 /// The last time whose fields the case wrote, whole or in processors' parts; 0 where it wrote none but those.

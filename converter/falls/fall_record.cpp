@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "converter/cases/case_links.hpp"
 #include "converter/cases/load_history.hpp"
 #include "converter/openfoam/foam_history.hpp"
 #include "samara/base/error.hpp"
@@ -82,6 +83,7 @@ Vector3d rate(const std::vector<FallSample>& samples, std::size_t i, Quantity qu
 
 FallRecord read_fall_record(const std::filesystem::path& folder) {
     FallRecord record;
+    require_links_within(folder / "postProcessing");
     record.fall = read_free_fall(folder);
     const FoamHistory state = read_joined_history(folder / "postProcessing/state", "sixDoFRigidBodyState");
     const LoadHistory loads = read_load_history(folder / "postProcessing/forces");

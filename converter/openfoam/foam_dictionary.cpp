@@ -1,8 +1,7 @@
 #include "converter/openfoam/foam_dictionary.hpp"
 
 #include <charconv>
-#include <optional>
-#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -27,16 +26,30 @@ std::optional<double> take_number(std::string_view& text) {
     return value;
 }
 
+// Dictionaries within dictionaries: no case of OpenFOAM comes near it.
+constexpr int deepest = 100;
+
 }  // namespace
 
 FoamDictionary::FoamDictionary(const std::filesystem::path& file) : path_(file) {
     FoamScanner scanner(file);
-    while (!scanner.at_end()) {
+    read(scanner, 0);
+}
+
+FoamDictionary::FoamDictionary(std::filesystem::path path, FoamScanner& scanner, int depth)
+    : path_(std::move(path)) {
+    read(scanner, depth);
+}
+
+void FoamDictionary::read(FoamScanner& scanner, int depth) {
+    if (depth > deepest) throw scanner.fault("dictionaries are nested too deep");
+    while (depth > 0 ? !scanner.accept('}') : !scanner.at_end()) {
         const std::string name(scanner.word());
         if (name.starts_with('#')) {
-            scanner.word();
+            const std::string_view file = scanner.word();
+            if (name == "#include" || name == "#includeIfPresent") included_.emplace_back(file);
         } else if (scanner.accept('{')) {
-            scanner.text_before('}');
+            dictionaries_.insert_or_assign(name, FoamDictionary(path_, scanner, depth + 1));
         } else {
             entries_[name] = scanner.text_before(';');
         }
@@ -63,21 +76,21 @@ double FoamDictionary::number(const std::string& name) const {
 }
 
 Vector3d FoamDictionary::vector(const std::string& name) const {
-    const auto fault = [&] {
-        return Error(
-            fmt::format("{} should be three numbers in brackets, is '{}'", place_of(name), text(name)));
-    };
-    std::string_view rest = text(name);
-    if (!rest.starts_with('(') || !rest.ends_with(')')) throw fault();
-    rest = rest.substr(1, rest.size() - 2);
+    const std::optional<Vector3d> values = foam_vector(text(name));
+    if (values) return *values;
+    throw Error(fmt::format("{} should be three numbers in brackets, is '{}'", place_of(name), text(name)));
+}
+
+std::optional<Vector3d> foam_vector(std::string_view text) {
+    if (!text.starts_with('(') || !text.ends_with(')')) return std::nullopt;
+    text = text.substr(1, text.size() - 2);
     Vector3d values;
     for (double& value : values) {
-        const std::optional<double> next = take_number(rest);
-        if (!next) throw fault();
+        const std::optional<double> next = take_number(text);
+        if (!next) return std::nullopt;
         value = *next;
     }
-    if (!trimmed(rest).empty()) throw fault();
-    return values;
+    return trimmed(text).empty() ? std::optional(values) : std::nullopt;
 }
 
 }  // namespace samara

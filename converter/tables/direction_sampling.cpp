@@ -6,6 +6,7 @@
 #include <numeric>
 #include <optional>
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "internal/body/octahedral_map.hpp"
@@ -143,6 +144,35 @@ std::vector<NodeImage> node_images(const Symmetry& symmetry, int subdivisions) {
         }
     }
     return result;
+}
+
+Matrix3d element_to_required(const Symmetry& symmetry, const Vector3d& direction) {
+    const auto turn = [](const Vector3d& from, const Vector3d& to) {
+        return Eigen::Quaterniond::FromTwoVectors(from, to).toRotationMatrix();
+    };
+    if (symmetry.kind == Symmetry::Kind::spherical) return turn(direction, Vector3d::UnitX());
+    const double tolerance = direction_tolerance(symmetry);
+    if (symmetry.kind == Symmetry::Kind::axial) {
+        const AxialArc arc = axial_arc(symmetry, 1);
+        const double along = direction.dot(arc.axis);
+        const Vector3d across = direction - along * arc.axis;
+        Matrix3d element = Matrix3d::Identity();
+        if (across.norm() > tolerance) {
+            const double angle = std::atan2(arc.axis.cross(arc.across).dot(across), arc.across.dot(across));
+            element = Eigen::AngleAxisd(-angle, arc.axis).toRotationMatrix();
+        }
+        // A body of revolution whose ends are alike has the mirror between them.
+        const Matrix3d mirror = Matrix3d::Identity() - 2.0 * arc.axis * arc.axis.transpose();
+        return arc.mirrored && along < -tolerance ? Matrix3d(mirror * element) : element;
+    }
+    Matrix3d best = Matrix3d::Identity();
+    for (const Matrix3d& element : elements_in_map_axes(symmetry)) {
+        const Vector3d difference = element * direction - best * direction;
+        const auto first = std::find_if(difference.begin(), difference.end(),
+                                        [&](double value) { return std::abs(value) > tolerance; });
+        if (first != difference.end() && *first > 0.0) best = element;
+    }
+    return best;
 }
 
 std::vector<Vector3d> required_directions(const Symmetry& symmetry, int subdivisions) {

@@ -52,6 +52,11 @@ struct NodeImage {
 /// direction have the same image.
 std::vector<NodeImage> node_images(const Symmetry& symmetry, int subdivisions);
 
+/// The orthogonal matrix (map axes) of the body's symmetry that brings a direction to where
+/// required_directions has those that are alike: of its images the largest in the order of (x, y, z), on the
+/// arc of a body of revolution, the map's first axis for a sphere.
+Matrix3d element_to_required(const Symmetry& symmetry, const Vector3d& direction);
+
 /// The distance between unit vectors below which they are one direction: 1e-6, or the tolerance within which
 /// the symmetry itself was found, up to 1e-3.
 double direction_tolerance(const Symmetry& symmetry);

@@ -26,6 +26,10 @@ double batch_error(const std::vector<double>& series, std::size_t batches) {
     return std::sqrt(squares / (count * (count - 1.0)));
 }
 
+// Iterations. Chosen on ellipsoids that were solved on to twice their length, held against spheres and plates
+// (docs/bake.md).
+constexpr double memory_of_iterations = 100.0;
+
 }  // namespace
 
 double mean(const std::vector<double>& series) {
@@ -37,6 +41,16 @@ double standard_error(const std::vector<double>& series) {
     const auto batches = static_cast<std::size_t>(std::sqrt(static_cast<double>(series.size())));
     // The error by two batches is half the difference of their means.
     return std::hypot(batch_error(series, std::max<std::size_t>(batches, 2)), batch_error(series, 2));
+}
+
+double tail_error(const std::vector<double>& series) {
+    if (series.size() < 2) return 0.0;
+    const double center = mean(series);
+    double squares = 0.0;
+    for (const double value : series) squares += (value - center) * (value - center);
+    const auto count = static_cast<double>(series.size());
+    const double share = std::min(1.0, memory_of_iterations / count);
+    return std::hypot(standard_error(series), std::sqrt(share * squares / count));
 }
 
 }  // namespace samara

@@ -14,4 +14,10 @@ double mean(const std::vector<double>& series);
 /// A series without drift is so given about 1.3 times its standard error. 0 for fewer than two values.
 double standard_error(const std::vector<double>& series);
 
+/// By how much the mean of a solver's last iterations is off from that of a solver that went on:
+/// standard_error(), and in quadrature the series' own standard deviation, by sqrt(100/n) of it where the
+/// series has more than 100 values. What iterations swing and drift by lasts about as long as such a series
+/// does, so that its batches do not tell it. 0 for fewer than two values.
+double tail_error(const std::vector<double>& series);
+
 }  // namespace samara

@@ -20,10 +20,13 @@
 namespace samara {
 namespace {
 
-// Measured with simpleFoam v1912 on meshes of 6,000 to 58,000 cells; snappyHexMesh per cell of the result.
-constexpr double seconds_per_cell_and_iteration = 1.5e-6;
-constexpr double seconds_per_case = 1.0;  // starting programs, reading, writing
-constexpr double seconds_per_cell_of_mesh = 1.2e-4;
+// CPU seconds, measured with simpleFoam v1912 by k-epsilon on two cores that other work shares, on which
+// 6,000 to 19,000 cells take 2.3e-6 to 3.2e-6; a core of its own takes half to two thirds of that.
+// snappyHexMesh per cell of the result.
+constexpr double seconds_per_cell_and_iteration = 2.7e-6;
+constexpr double seconds_per_case = 0.6;  // starting programs, scripts and checks
+constexpr double seconds_of_farm = 2.0;   // Snakemake, to begin with
+constexpr double seconds_per_cell_of_mesh = 1.6e-4;
 
 // What plan.json has in place of a bake's quality where it is of one fall.
 constexpr const char* quality_of_fall = "fall";
@@ -40,8 +43,11 @@ double mean_width(const Surface& surface) {
     constexpr int subdivisions = 4;
     constexpr int nodes = 2 * subdivisions + 1;
     double sum = 0.0;
+    double weights = 0.0;
     for (int row = 0; row < nodes; ++row) {
         for (int column = 0; column < nodes; ++column) {
+            const auto here = static_cast<std::size_t>(row * nodes + column);
+            if (unique_node(subdivisions, row, column) != here) continue;
             const Vector3d direction = octahedral_node(subdivisions, row, column);
             double lowest = direction.dot(surface.vertices.front());
             double highest = lowest;
@@ -50,10 +56,13 @@ double mean_width(const Surface& surface) {
                 lowest = std::min(lowest, height);
                 highest = std::max(highest, height);
             }
-            sum += highest - lowest;
+            // The nodes lie evenly on the octahedron, and so the closer on the sphere the farther off it is.
+            const double weight = std::pow(direction.lpNorm<1>(), 3.0);
+            sum += weight * (highest - lowest);
+            weights += weight;
         }
     }
-    return sum / (nodes * nodes);
+    return sum / weights;
 }
 
 // The second smallest extent in case axes (m): that of a rod's thickness, but of a sheet's width.
@@ -342,7 +351,7 @@ BakePlan plan_of_meshes(const Body& body, const BakeQuality& quality) {
 }
 
 void estimate_cost(BakePlan& plan) {
-    plan.cpu_seconds = 0.0;
+    plan.cpu_seconds = seconds_of_farm;
     for (const double cells : plan.cells) plan.cpu_seconds += seconds_per_cell_of_mesh * cells;
     for (const BakeCase& entry : plan.cases) plan.cpu_seconds += estimated_seconds(plan, entry);
     for (const FreeFall& fall : plan.falls) {
@@ -365,7 +374,7 @@ Closure closure_at(double reynolds_number, Closure turbulent) {
 double estimated_iterations(const BakePlan& plan, const BakeCase& entry) {
     // Means over the bakes in docs/bake.md.
     if (entry.closure == Closure::k_epsilon)
-        return (entry.start_from.empty() ? 1.5 : 0.8) * plan.quality.least_iterations;
+        return (entry.start_from.empty() ? 1.5 : 0.9) * plan.quality.least_iterations;
     return (entry.start_from.empty() ? 0.35 : 0.25) * plan.quality.most_iterations;
 }
 

@@ -63,7 +63,7 @@ Body prepare_body(const fs::path& shape, double scale, const fs::path& folder) {
 void add_kirchhoff_tensor(Body& body, const fs::path& shape, const fs::path& earlier,
                           const fs::path& folder) {
     if (body.kirchhoff && body.surface_loads) return;
-    if (fs::exists(earlier)) {
+    if (fs::is_regular_file(fs::symlink_status(earlier))) {
         const Body known = read_body_file(earlier);
         if (known.kirchhoff && known.surface_loads &&
             surface_hash(known.surface) == surface_hash(body.surface)) {

@@ -29,10 +29,14 @@ constexpr double stable_share = 0.85;
 // A centre of mass that is nearer to the centroid is there but for rounding; over L.
 constexpr double negligible_arm = 1e-9;
 
-// Measured with pimpleFoam v1912, one outer and two pressure correctors: k-epsilon on meshes of 19,000 and
-// 58,000 cells, and kOmegaSSTLM on those of docs/validate.md.
-constexpr double seconds_per_cell_and_step = 2.7e-6;
-constexpr double seconds_per_cell_and_step_of_transition = 5e-6;
+// CPU seconds, measured with pimpleFoam v1912, one outer and two pressure correctors: on a core of its
+// own 2.7e-6 by k-epsilon, 3.7e-6 without a closure and 5e-6 by the others (docs/validate.md). Two cores that
+// other work shares take 1.46 times as long.
+double seconds_per_cell_and_step(Closure closure) {
+    constexpr double shared = 1.46;
+    if (closure == Closure::k_epsilon) return shared * 2.7e-6;
+    return shared * (closure == Closure::laminar ? 3.7e-6 : 5e-6);
+}
 
 // What is left of an error after a step, in the long run, where the fluid answers as `backward` has it (see
 // FallModel::acceleration_relaxation): the largest root of its characteristic polynomial.
@@ -287,9 +291,7 @@ BakePlan plan_falls(const Body& body, double cells, std::vector<FreeFall> falls,
 }
 
 double estimated_fall_seconds(const FreeFall& fall, double cells) {
-    const double seconds = fall.closure == Closure::k_omega_sst_lm ? seconds_per_cell_and_step_of_transition
-                                                                   : seconds_per_cell_and_step;
-    return seconds * cells * fall.duration / fall.time_step;
+    return seconds_per_cell_and_step(fall.closure) * cells * fall.duration / fall.time_step;
 }
 
 }  // namespace samara

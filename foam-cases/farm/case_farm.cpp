@@ -195,6 +195,17 @@ bool waits_for_failed_start(const fs::path& folder, const BakePlan& plan) {
     });
 }
 
+// PYTHONPATH without its relative folders: Python would take modules from the folder of cases.
+std::string absolute_python_path() {
+    const char* given = std::getenv("PYTHONPATH");
+    std::istringstream folders(given == nullptr ? "" : given);
+    std::string absolute;
+    for (std::string folder; std::getline(folders, folder, ':');) {
+        if (fs::path(folder).is_absolute()) absolute += (absolute.empty() ? "" : ":") + folder;
+    }
+    return "PYTHONPATH=" + absolute;
+}
+
 // Runs Snakemake over the cases that are not settled, to its end. Throws Error on an interruption.
 void run_snakemake(const fs::path& folder, const BakePlan& plan, const FarmOptions& options,
                    const fs::path& foam_cases) {
@@ -217,8 +228,13 @@ void run_snakemake(const fs::path& folder, const BakePlan& plan, const FarmOptio
         }
         progress.update(all * done / total, all);
     };
-    // Absolute: a relative path may begin with a dash.
-    std::vector<std::string> words = {"snakemake",
+    // Absolute: a relative path may begin with a dash. What Snakemake noted there is of no use for the next
+    // run, and of a folder from other hands nobody knows what it is.
+    fs::remove_all(folder / ".snakemake");
+    std::vector<std::string> words = {"env",
+                                      "PYTHONSAFEPATH=1",
+                                      absolute_python_path(),
+                                      "snakemake",
                                       "--snakefile",
                                       fs::absolute(foam_cases / "farm/Snakefile").string(),
                                       "--directory",

@@ -1,11 +1,12 @@
 #include "foam-cases/farm/case_folder.hpp"
 
 #include <fstream>
-#include <map>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "foam-cases/farm/case_inspection.hpp"
 #include "foam-cases/farm/case_parameters.hpp"
 #include "foam-cases/farm/case_record.hpp"
 #include "foam-cases/farm/case_surface.hpp"
@@ -42,8 +43,6 @@ constexpr const char* shared_files[] = {"0.orig/k",
                                         "0.orig/nut",
                                         "constant/transportProperties",
                                         "constant/turbulenceProperties"};
-
-using CaseFiles = std::map<fs::path, std::string>;  // content by the path inside a case
 
 // What the mesh depends on beside the parameters of the mesh.
 constexpr const char* mesh_files[] = {"Allrun",
@@ -106,6 +105,7 @@ void write_files(const fs::path& folder, const CaseFiles& files) {
         const fs::path path = folder / name;
         if (!holds(path, bytes)) {
             fs::create_directories(path.parent_path());
+            fs::remove(path);  // where it has another name elsewhere, that stays as it is
             // Not synced one by one: a file that a crash cut short differs, and is written again.
             std::ofstream file(path, std::ios::binary);
             file << bytes;
@@ -155,50 +155,60 @@ void remove_unplanned_cases(const fs::path& folder, const BakePlan& plan) {
     for (const fs::path& path : unplanned) fs::remove_all(path);
 }
 
-std::string write_mesh_case(const fs::path& folder, const CaseFiles& template_files, const std::string& stl,
-                            const FlowMesh& mesh) {
-    CaseFiles files = template_files;
-    files["parameters"] = mesh_case_parameters(files.at("parameters"), mesh);
-    files["constant/triSurface/body.stl"] = stl;
-    const std::string hash = mesh_hash(files);
+void write_mesh_case(const fs::path& folder, const InputFolder& mesh) {
     // A mesh that was removed since is made again.
-    const std::string needed = fs::exists(folder / "constant/polyMesh/cellZones") ? hash : "";
+    const std::string needed = fs::exists(folder / "constant/polyMesh/cellZones") ? mesh.hash : "";
     discard_stale(folder / "mesh.json", needed);
-    discard_stale(folder / "failed.json", hash);
-    write_files(folder, files);
+    discard_stale(folder / "failed.json", mesh.hash);
+    write_files(folder, mesh.files);
     write_foam_file(folder);
-    return hash;
 }
 
-void write_case(const fs::path& folder, const CaseFiles& files, const std::string& mesh,
-                const std::string& hash) {
-    const bool solved_before = discard_stale(folder / "provenance.json", hash);
-    const bool failed_before = discard_stale(folder / "failed.json", hash);
+void write_case(const fs::path& folder, const InputFolder& one) {
+    const bool solved_before = discard_stale(folder / "provenance.json", one.hash);
+    const bool failed_before = discard_stale(folder / "failed.json", one.hash);
     if (solved_before || failed_before) {
         // Its histories would pass for progress, and the record of how they came about is of no use without
         // them.
         for (const char* name : {"postProcessing", "rounds.json", "attempts.json"})
             fs::remove_all(folder / name);
     }
-    write_files(folder, files);
+    write_files(folder, one.files);
     write_foam_file(folder);
-    link_to_mesh(folder, mesh, "polyMesh");
+    link_to_mesh(folder, one.mesh, "polyMesh");
+    if (one.kind == FolderKind::flow) link_to_mesh(folder, one.mesh, "triSurface");
 }
 
-void write_falls(const fs::path& folder, const BakePlan& plan, const CaseFiles& body_flow,
-                 const fs::path& foam_cases, const std::map<std::string, std::string>& mesh_hashes,
-                 nlohmann::json& json) {
+// The folders of all that is planned, without the body file and the plan beside them.
+InputFolders input_folders(const Body& body, const BakePlan& plan, const fs::path& foam_cases) {
+    const CaseFiles body_flow = read_template(foam_cases / "templates/body-flow");
+    const std::string stl = case_surface_stl(body, plan);
+    InputFolders folders;
+    for (const FlowMesh& mesh : plan.all_meshes()) {
+        CaseFiles files = body_flow;
+        files["parameters"] = mesh_case_parameters(files.at("parameters"), mesh);
+        files["constant/triSurface/body.stl"] = stl;
+        const std::string hash = mesh_hash(files);
+        folders[mesh.name] = {FolderKind::mesh, std::move(files), "", hash};
+    }
+    for (const BakeCase& entry : plan.cases) {
+        CaseFiles files = body_flow;
+        files["parameters"] = case_parameters(files.at("parameters"), plan, entry);
+        const std::string start = entry.start_from.empty() ? "" : folders.at(entry.start_from).hash;
+        const std::string hash = content_hash(folders.at(entry.mesh).hash + start + hash_of(files));
+        folders[entry.name] = {FolderKind::flow, std::move(files), entry.mesh, hash};
+    }
+    if (plan.falls.empty()) return folders;
     const CaseFiles fall_template = read_template(foam_cases / "templates/free-fall");
-    for (std::size_t i = 0; i < plan.falls.size(); ++i) {
-        const FreeFall& fall = plan.falls[i];
+    for (const FreeFall& fall : plan.falls) {
         CaseFiles files = fall_template;
         for (const char* name : shared_files) files[name] = body_flow.at(name);
         files["parameters"] = fall_parameters(files.at("parameters"), plan, fall);
         files["fall.json"] = free_fall_json(fall);
-        const std::string hash = content_hash(mesh_hashes.at(fall.mesh) + hash_of(files));
-        json[i]["inputs_hash"] = hash;
-        write_case(folder / fall.name, files, fall.mesh, hash);
+        const std::string hash = content_hash(folders.at(fall.mesh).hash + hash_of(files));
+        folders[fall.name] = {FolderKind::fall, std::move(files), fall.mesh, hash};
     }
+    return folders;
 }
 
 }  // namespace
@@ -222,32 +232,26 @@ void require_cases_of(CaseKind kind, const fs::path& folder) {
 
 void write_case_folder(const fs::path& folder, const Body& body, const BakePlan& plan,
                        const fs::path& foam_cases, Unplanned unplanned) {
-    const CaseFiles template_files = read_template(foam_cases / "templates/body-flow");
+    const InputFolders folders = input_folders(body, plan, foam_cases);
+    require_known_files(folder, folders);
     fs::create_directories(folder);
     write_body_file(folder / case_body_name, body);
     if (unplanned == Unplanned::removed) remove_unplanned_cases(folder, plan);
 
     nlohmann::json json = plan_json(plan);
-    const std::string stl = case_surface_stl(body, plan);
-    std::map<std::string, std::string> hashes;  // of the inputs, by the name of the mesh or case
-    const std::vector<FlowMesh> meshes = plan.all_meshes();
-    for (std::size_t i = 0; i < meshes.size(); ++i) {
-        const FlowMesh& mesh = meshes[i];
-        hashes[mesh.name] = write_mesh_case(folder / mesh.name, template_files, stl, mesh);
-        json["meshes"][i]["inputs_hash"] = hashes[mesh.name];
+    for (const char* kind : {"meshes", "cases", "falls"}) {
+        if (!json.contains(kind)) continue;
+        for (nlohmann::json& entry : json[kind]) {
+            const auto name = entry["name"].get<std::string>();
+            const InputFolder& one = folders.at(name);
+            entry["inputs_hash"] = one.hash;
+            if (one.kind == FolderKind::mesh) {
+                write_mesh_case(folder / name, one);
+            } else {
+                write_case(folder / name, one);
+            }
+        }
     }
-    for (std::size_t i = 0; i < plan.cases.size(); ++i) {
-        const BakeCase& entry = plan.cases[i];
-        CaseFiles files = template_files;
-        files["parameters"] = case_parameters(files.at("parameters"), plan, entry);
-        const std::string start = entry.start_from.empty() ? "" : hashes.at(entry.start_from);
-        const std::string hash = content_hash(hashes.at(entry.mesh) + start + hash_of(files));
-        hashes[entry.name] = hash;
-        json["cases"][i]["inputs_hash"] = hash;
-        write_case(folder / entry.name, files, entry.mesh, hash);
-        link_to_mesh(folder / entry.name, entry.mesh, "triSurface");
-    }
-    if (!plan.falls.empty()) write_falls(folder, plan, template_files, foam_cases, hashes, json["falls"]);
     if (!holds(folder / "README", folder_notes)) replace_file_with(folder / "README", folder_notes);
     write_plan(folder / "plan.json", json);
 }

@@ -21,11 +21,12 @@ void require_cases_of(CaseKind kind, const std::filesystem::path& folder);
 enum class Unplanned { removed, kept };
 
 /// Writes the folder of cases (docs/file-formats): body.body.h5, plan.json, one OpenFOAM case for each mesh,
-/// and one, linked to its mesh, for each case and fall of the plan. A file whose content is there already is
-/// left alone. Meshes and cases that were made on other inputs lose their mesh.json, provenance.json and
-/// failed.json, so that they will be made again; folders of cases that are no longer planned are removed,
-/// unless they are to be kept. Throws Error where the folder cannot be written or a template lacks a
-/// parameter.
+/// and one, linked to its mesh, for each case and fall of the plan. What stands there already is looked
+/// through first (require_known_files); an input of another content is written anew, one whose content is
+/// there already is left alone. Meshes and cases that were made on other inputs lose their mesh.json,
+/// provenance.json and failed.json, so that they will be made again; folders of cases that are no longer
+/// planned are removed, unless they are to be kept. Throws Error where the folder holds what is neither an
+/// input nor a result, where it cannot be written, and where a template lacks a parameter.
 void write_case_folder(const std::filesystem::path& folder, const Body& body, const BakePlan& plan,
                        const std::filesystem::path& foam_cases, Unplanned unplanned = Unplanned::removed);
 

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/env -S python3 -IB
 """Notes that a free fall was solved, from the files that OpenFOAM left behind.
 
     check_fall.py FOLDER   writes FOLDER/provenance.json where the fall reached its end
@@ -12,8 +12,9 @@ import os
 import re
 import sys
 
-from farm_script import input_hash, mesh_record, run_on_folder, stopping_fault
-from case_files import Failure, Fault, parameter, read, read_record, word, write_json
+sys.path.append(os.path.dirname(os.path.realpath(__file__)))  # which python3 -I leaves out
+from farm_script import input_hash, mesh_record, run_on_folder, stopping_fault  # noqa: E402
+from case_files import Failure, Fault, parameter, read, read_record, word, write_json  # noqa: E402
 
 
 def check_fall(folder):

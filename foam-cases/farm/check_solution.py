@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/env -S python3 -IB
 """Judges a solution from the files that OpenFOAM left behind.
 
     check_solution.py FOLDER   writes FOLDER/provenance.json where the solution holds
@@ -14,9 +14,10 @@ import os
 import re
 import sys
 
-from farm_script import input_hash, mesh_record, run_on_folder, stopping_fault
-from case_files import Failure, Fault, parameter, read, read_record, word, write_json
-from stationarity import AREA_UNIT, has_k_and_epsilon, whole_histories
+sys.path.append(os.path.dirname(os.path.realpath(__file__)))  # which python3 -I leaves out
+from farm_script import input_hash, mesh_record, run_on_folder, stopping_fault  # noqa: E402
+from case_files import Failure, Fault, parameter, read, read_record, word, write_json  # noqa: E402
+from stationarity import AREA_UNIT, has_k_and_epsilon, whole_histories  # noqa: E402
 
 
 def mean_and_deviation(rows, columns):

@@ -15,7 +15,7 @@ namespace samara {
 FolderLock::FolderLock(const std::filesystem::path& folder) {
     std::error_code fault;
     std::filesystem::create_directories(folder, fault);
-    descriptor_ = ::open((folder / ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    descriptor_ = ::open((folder / ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (descriptor_ < 0) {
         throw Error(fmt::format("{}: cannot be written: {}", folder.string(), std::strerror(errno)));
     }

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/env -S python3 -IB
 """Makes the mesh of a case, and tries remedies in a stated order until it is good.
 
     make_mesh.py FOLDER   runs FOLDER/Allrun mesh and writes FOLDER/mesh.json where the mesh can be solved on
@@ -18,9 +18,10 @@ import shutil
 import subprocess
 import sys
 
-from farm_script import input_hash, run_on_folder
-from case_files import Failure, Fault, parameter, read, write_entries, write_json
-from check_mesh import PROGRAMS, judge
+sys.path.append(os.path.dirname(os.path.realpath(__file__)))  # which python3 -I leaves out
+from farm_script import input_hash, run_on_folder  # noqa: E402
+from case_files import Failure, Fault, parameter, read, write_entries, write_json  # noqa: E402
+from check_mesh import PROGRAMS, judge  # noqa: E402
 
 # What `Allrun mesh` makes.
 PRODUCTS = ("constant/polyMesh", "constant/extendedFeatureEdgeMesh", "constant/triSurface/body.eMesh")

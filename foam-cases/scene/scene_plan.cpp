@@ -7,6 +7,7 @@
 
 #include "converter/tables/direction_sampling.hpp"
 #include "internal/dynamics/loads.hpp"
+#include "samara/base/error.hpp"
 
 namespace samara {
 namespace {
@@ -171,10 +172,24 @@ std::size_t next_count(const ScenePlan& plan, const Symmetry& symmetry, double w
         2, static_cast<std::size_t>(std::floor(share * static_cast<double>(plan.chosen.size()))));
 }
 
+/// Throws where the body meets no load within the scene, which so says nothing of what it needs.
+void require_loads(const SceneGoal& goal, const SampledFalls& flight) {
+    const Scene& scene = goal.scene;
+    const SceneBody& body = scene.bodies[goal.body];
+    const double mean = mean_reynolds_number(flight.visits);
+    if (scene.step <= scene.duration - body.start && mean > 0.0 && std::isfinite(mean)) return;
+    throw Error(
+        fmt::format("{}: the body '{}' does not move within the scene, which so says nothing of what it "
+                    "needs: it starts at {:.6g} s, and the scene ends at {:.6g} s, in steps of {:.6g} s; let "
+                    "the scene last longer, or take shorter steps",
+                    scene.file.string(), body.name, body.start, scene.duration, scene.step));
+}
+
 }  // namespace
 
 ScenePlan first_plan(const SceneGoal& goal, const Body& body, const BakeQuality& quality,
                      const Inflow& inflow, const SampledFalls& flight) {
+    require_loads(goal, flight);
     const Symmetry& symmetry = body.symmetry;
     ScenePlan plan;
     plan.candidates = candidate_directions(symmetry);

@@ -50,7 +50,7 @@ struct ScenePlan {
 /// The first list of cases: at the Reynolds number at which the visits have their mean load, in the
 /// directions that every table needs and the few that leave least uncertain where the visits are, with one
 /// more case at a Reynolds number far from it where they spread over a factor of more than two. `flight`: of
-/// the body without tables.
+/// the body without tables. Throws Error where it does not move in it.
 ScenePlan first_plan(const SceneGoal& goal, const Body& body, const BakeQuality& quality,
                      const Inflow& inflow, const SampledFalls& flight);
 

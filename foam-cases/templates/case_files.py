@@ -4,6 +4,7 @@ cases puts a copy into each, so that a case can be run by itself."""
 import glob
 import hashlib
 import json
+import math
 import os
 import re
 
@@ -53,6 +54,18 @@ def read_record(path):
             return json.load(file)
     except (OSError, ValueError):
         return {}
+
+
+def are_attempts(record, known, required, optional=()):
+    """Whether the record lists attempts as the case's script notes them: each of a known kind, with the `required`
+    numbers and perhaps the `optional` ones."""
+    try:
+        return bool(record["attempts"]) and all(
+            attempt["what"] in known and all(math.isfinite(float(attempt[name])) for name in required)
+            and all(math.isfinite(float(attempt[name])) for name in optional if name in attempt)
+            for attempt in record["attempts"])
+    except (LookupError, TypeError, ValueError):
+        return False
 
 
 def write_entries(path, remark, entries):

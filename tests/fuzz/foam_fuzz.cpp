@@ -1,16 +1,23 @@
 // The files of OpenFOAM cases. The first letter of the input is the reader's, the rest is the file; what
-// begins as a gzip file is read as one.
+// begins as a gzip file is read as one. Of a whole folder of cases (x) the rest is its files: each begins
+// with a line
+// "@ NAME", and "@ NAME -> TARGET" is a link.
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <string>
 
+#include "converter/cases/case_folder_reduction.hpp"
 #include "converter/cases/case_plan.hpp"
 #include "converter/cases/samples_csv.hpp"
 #include "converter/falls/free_fall.hpp"
+#include "converter/openfoam/foam_data.hpp"
 #include "converter/openfoam/foam_dictionary.hpp"
 #include "converter/openfoam/foam_file.hpp"
 #include "converter/openfoam/foam_history.hpp"
 #include "harness.hpp"
+#include "internal/base/content_hash.hpp"
 #include "internal/files/temporary_folder.hpp"
 
 namespace samara::fuzz {
@@ -43,7 +50,53 @@ void read_dictionary(const std::filesystem::path& file) {
     accepted([&] { return dictionary.vector("U"); });
 }
 
+bool stays_within(const std::filesystem::path& name) {
+    if (name.empty() || name.is_absolute() || name.native().size() > 200) return false;
+    return std::none_of(name.begin(), name.end(),
+                        [](const std::filesystem::path& part) { return part == ".."; });
+}
+
+void add_to_folder(const std::filesystem::path& folder, std::string_view line, std::string_view bytes) {
+    const std::size_t arrow = line.find(" -> ");
+    const std::filesystem::path name(line.substr(0, arrow));
+    if (!stays_within(name) || name.native().find('\0') != std::string::npos) return;
+    std::error_code taken;  // by a folder, or a file in the way
+    std::filesystem::create_directories((folder / name).parent_path(), taken);
+    if (arrow == std::string_view::npos) {
+        std::ofstream(folder / name, std::ios::binary) << bytes;
+    } else if (line.find('\0') == std::string_view::npos) {
+        std::filesystem::create_symlink(line.substr(arrow + 4), folder / name, taken);
+    }
+}
+
+/// Cases as they stand in a folder: plan, dictionaries, histories, fields and links together.
+void read_folder(const std::filesystem::path& archive) {
+    std::string text = read_bytes(archive);
+    const std::filesystem::path folder = archive.parent_path() / "cases";
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directory(folder);
+    for (std::size_t at = text.starts_with("@ ") ? 0 : text.find("\n@ "); at < text.size();) {
+        const std::size_t name = at + (at == 0 ? 2 : 3);
+        const std::size_t line_end = std::min(text.find('\n', name), text.size());
+        const std::size_t next = std::min(text.find("\n@ ", line_end), text.size());
+        const std::string_view rest(text);
+        const std::size_t start = std::min(line_end + 1, text.size());
+        add_to_folder(folder, rest.substr(name, line_end - name),
+                      rest.substr(start, std::max(next, start) - start));
+        at = next;
+    }
+    const FolderReduction reduction =
+        reduce_folder(folder, read_case_plan(folder), {}, UnsolvedCases::leave_out);
+    for (const SolvedCase& solved : reduction.cases) {
+        require(solved.sample.entry.force.allFinite() && solved.sample.error.force.allFinite(),
+                "loads are finite");
+        require(-solved.sample.entry.force.dot(solved.sample.direction) > 0.0, "drag is positive");
+    }
+}
+
 constexpr Kind kinds[] = {
+    {'x', "archive", read_folder},
+    {'a', "p", [](const std::filesystem::path& file) { require_foam_data(file); }},
     {'s', "k", [](const std::filesystem::path& file) { read_scalar_field(file); }},
     {'v', "U", [](const std::filesystem::path& file) { read_vector_field(file); }},
     {'z', "cellZones", [](const std::filesystem::path& file) { read_cell_zone(file, "shell"); }},

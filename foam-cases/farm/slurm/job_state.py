@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/env -S python3 -IB
 """Tells Snakemake how a job of Slurm stands: prints running, success or failed.
 
     job_state.py ID

@@ -1,4 +1,4 @@
-#!/usr/bin/env -S python3 -B
+#!/usr/bin/env -S python3 -IB
 """Runs the case's solver in rounds until the case is statistically stationary (stationarity.py).
 
     iterate.py      in the folder of the case, whose mesh is there
@@ -19,9 +19,11 @@ import shutil
 import subprocess
 import sys
 
-from case_files import (Failure, Fault, breakdown, could_not_read_state, hash_of_inputs, read, read_record, say,
-                        time_folders, word, write_entries, write_json)
-from stationarity import has_k_and_epsilon, whole_histories, worst_quantity
+# After Python's own folders, so that no file of this one takes the place of a module of theirs.
+sys.path.append(os.path.dirname(os.path.realpath(__file__)))
+from case_files import (Failure, Fault, are_attempts, breakdown, could_not_read_state,  # noqa: E402
+                        hash_of_inputs, read, read_record, say, time_folders, word, write_entries, write_json)
+from stationarity import has_k_and_epsilon, whole_histories, worst_quantity  # noqa: E402
 
 # Each attempt: its changes to the parameters, those of its first round, and where it starts: as `startFrom` says,
 # from what stands, or from the undisturbed flow.
@@ -77,6 +79,7 @@ class Rounds:
         self.inputs = hash_of_inputs([os.path.join(start_folder(), "rounds.json")] if start_folder() else [])
         self.state = read_record("rounds.json")
         self.goes_on = (self.state.get("inputs") == self.inputs and self.state.get("verdict") != "failed"
+                        and are_attempts(self.state, ATTEMPTS, ("first", "iterations"), ("unsteadiness_over_tolerance",))
                         and self.histories_are_whole())
         if self.goes_on:
             self.keep_whole_rounds()
@@ -134,6 +137,8 @@ class Rounds:
 
     def make_start(self):
         """The folder 0: the undisturbed flow, or the solution of another case on this mesh."""
+        if os.path.lexists("round"):  # of another run
+            os.remove("round")
         shutil.copytree("0.orig", "0")
         source = start_folder() if ATTEMPTS[self.attempt["what"]][2] == "startFrom" else None
         self.attempt["started_from"] = own("startFrom") if source else "undisturbed flow"

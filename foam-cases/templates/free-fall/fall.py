@@ -1,4 +1,4 @@
-#!/usr/bin/env -S python3 -B
+#!/usr/bin/env -S python3 -IB
 """Runs pimpleFoam over a free fall, watches it, and tries again with shorter steps where it blows up.
 
     fall.py      in the folder of the case, whose mesh is there
@@ -20,8 +20,11 @@ import signal
 import subprocess
 import sys
 
-from case_files import (Failure, Fault, breakdown, could_not_read_state, cpu_seconds, hash_of_inputs, numbers,
-                        parameter, read, read_record, say, time_folders, write_entries, write_json)
+# After Python's own folders, so that no file of this one takes the place of a module of theirs.
+sys.path.append(os.path.dirname(os.path.realpath(__file__)))
+from case_files import (Failure, Fault, are_attempts, breakdown, could_not_read_state, cpu_seconds,  # noqa: E402
+                        hash_of_inputs, numbers, parameter, read, read_record, say, time_folders, write_entries,
+                        write_json)
 
 SOLVER = "pimpleFoam"
 CONTAINER = os.environ.get("SAMARA_OPENFOAM", "").split()  # the words before it, where it is in one
@@ -34,6 +37,8 @@ ATTEMPTS = {
     "half the step": (0.5, 0.7, None),
     "a quarter of the step": (0.25, 0.5, 2),
 }
+# What an attempt has in place of the plan.
+REMEDIES = ("timeStep", "accelerationRelaxation", "outerCorrectors")
 # A body in free fall is about as fast as the case's unit: ten times that, or of the start, is no fall any more.
 LARGEST_SPEED = 10.0
 # Over U/L: some twenty times the turning of a coin that tumbles, whose rim is about as fast as its centre.
@@ -90,14 +95,16 @@ class Fall:
     def __init__(self):
         inputs = hash_of_inputs()
         self.state = read_record("attempts.json")
-        if self.state.get("inputs") != inputs or self.state.get("verdict") == "failed":
+        if self.state.get("inputs") != inputs or self.state.get("verdict") == "failed" or not self.is_whole():
             self.state = {"inputs": inputs, "verdict": None, "cpu_seconds": 0.0, "attempts": []}
             self.begin("as planned")
         elif self.state["verdict"] is None:
             self.take_up()
-        elif not self.is_at_end():
-            self.state["verdict"] = None
-            self.begin("as planned")
+
+    def is_whole(self):
+        """Whether the fall is still under way, or its history goes to its end."""
+        return are_attempts(self.state, ATTEMPTS, ("started",), REMEDIES) and (
+            self.state["verdict"] is None or self.is_at_end())
 
     @property
     def attempt(self):
@@ -120,15 +127,20 @@ class Fall:
             entries["outerCorrectors"] = correctors
         self.state["attempts"].append({"what": what, "started": False, **entries})
         write_json("attempts.json", self.state)
-        self.make_start(entries)
+        self.make_start()
 
-    def make_start(self, entries):
+    def write_remedy(self):
+        """The entries that the attempt has in place of the plan's: numbers alone, whatever its record holds."""
+        write_entries("remedy", "What this attempt has in place of the plan; written by fall.py",
+                      {name: f"{float(self.attempt[name]):.12g}" for name in REMEDIES if name in self.attempt})
+
+    def make_start(self):
         for path in [*states().values(), "0", "postProcessing"]:
             shutil.rmtree(path, ignore_errors=True)
         if os.path.exists(LOG):
             os.remove(LOG)
         shutil.copytree("0.orig", "0")
-        write_entries("remedy", "What this attempt has in place of the plan; written by fall.py", entries)
+        self.write_remedy()
         self.attempt["started"] = True
         write_json("attempts.json", self.state)
 
@@ -137,9 +149,9 @@ class Fall:
         if "end" in self.attempt:
             self.after_blow_up()
         elif not self.attempt["started"]:
-            names = ("timeStep", "accelerationRelaxation", "outerCorrectors")
-            self.make_start({name: self.attempt[name] for name in names if name in self.attempt})
+            self.make_start()
         else:
+            self.write_remedy()
             self.go_on()
 
     def go_on(self, before=math.inf):
@@ -195,7 +207,8 @@ class Fall:
         self.state["cpu_seconds"] = round(sum(one["cpu_seconds"] for one in self.state["attempts"]), 2)
 
     def after_blow_up(self):
-        following = list(ATTEMPTS)[len(self.state["attempts"]):]
+        names = list(ATTEMPTS)
+        following = names[names.index(self.attempt["what"]) + 1:]
         if following:
             self.begin(following[0])
         else:

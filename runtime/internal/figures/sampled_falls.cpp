@@ -53,7 +53,8 @@ Scene sampling_scene(const Scene& scene, std::size_t index, const Body& body, st
     only.count = sampling.falls;
     const double more = std::max(0.0, sampling.start_angle - only.spread_angle);
     only.spread_angle += more;
-    one.obstacles.clear();  // what a fall is told by comes before it meets one
+    one.obstacles.clear();    // what a fall is told by comes before it meets one
+    one.bodies_meet = false;  // the copies are falls of their own
     // Nothing may start below the ground that would not without this further turn.
     if (one.ground) only.position.z() += sinking(body, more);
     const double duration = sampled_duration(scene, only, sampling);
@@ -162,6 +163,11 @@ RegimeCounts SampledFalls::regimes() const {
 
 SampledFalls sample_falls(const Scene& scene, std::size_t body, const LoadedBody& loaded,
                           const FallSampling& sampling, std::uint64_t batch) {
+    if (!(sampled_duration(scene, scene.bodies[body], sampling) > 0.0)) {
+        SampledFalls none;
+        none.falls.resize(static_cast<std::size_t>(sampling.falls));
+        return none;
+    }
     const Scene one = sampling_scene(scene, body, *loaded.body, batch, sampling);
     const SimulationResult flown = simulate(
         one, {loaded}, 1, [](double, double) { return true; }, sampling.threads);

@@ -59,8 +59,9 @@ SceneBody guessed_before_bake(const Scene& scene, const SceneBody& scene_body, c
 
 /// `sampling.falls` falls of the body number `body`, alone in the scene, that differ by their noise and their
 /// starts; guessed_before_bake() where it has no tables. Fall i of batch b is the same draw whatever the
-/// models: so that what models change stands out from chance. The same for any number of threads. Throws
-/// Error where the body cannot fly so.
+/// models: so that what models change stands out from chance. The same for any number of threads. No fall is
+/// measured, and there are no visits, where the body starts as the scene ends or later. Throws Error where
+/// the body cannot fly so.
 SampledFalls sample_falls(const Scene& scene, std::size_t body, const LoadedBody& loaded,
                           const FallSampling& sampling = {}, std::uint64_t batch = 0);
 

@@ -78,8 +78,11 @@ class SolvedFlow : public testing::Test {
         CasePlan plan;
         plan.axes = plan.case_axes = Matrix3d::Identity();
         plan.solved_by_user = true;
+        // A cube of edge 1, whose area is that of a sphere of diameter 1.382.
+        PlannedCase planned{name, {0.6, 0.48, 0.64}, 1382.0};
+        planned.scales.length = 1.382;
         Shells shells;
-        return reduce_case(folder_->path(), plan, {name, {0.6, 0.48, 0.64}, 1e3}, shells).sample.entry;
+        return reduce_case(folder_->path(), plan, planned, shells).sample.entry;
     }
 
     static void expect_equal(const LoadEntry& a, const LoadEntry& b, double tolerance) {

@@ -69,5 +69,34 @@ TEST(StandardError, OfAnOscillationFallsWithItsLength) {
     EXPECT_LT(oscillation(900), 0.3 * oscillation(100));
 }
 
+/// The rms change of the mean from 50 iterations to the next 50, over the rms of the error that the first 50
+/// state.
+double change_over_error(double correlation, double (*error)(const std::vector<double>&)) {
+    double changes = 0.0;
+    double errors = 0.0;
+    for (unsigned run = 0; run < 1000; ++run) {
+        const std::vector<double> both = correlated_series(correlation, 100, run);
+        const std::vector<double> first(both.begin(), both.begin() + 50);
+        const std::vector<double> second(both.begin() + 50, both.end());
+        changes += std::pow(mean(second) - mean(first), 2.0);
+        errors += std::pow(error(first), 2.0);
+    }
+    return std::sqrt(changes / errors);
+}
+
+// Iterations that remember about as many before them as there are in the tail, as a wake's do.
+TEST(TailError, HoldsWhatARunOfTwiceTheLengthChanges) {
+    const double correlation = std::exp(-1.0 / 30.0);
+    EXPECT_GT(change_over_error(correlation, standard_error), 1.8);
+    EXPECT_NEAR(change_over_error(correlation, tail_error), 1.0, 0.3);
+}
+
+TEST(TailError, OfALongSeriesComesToThatOfItsBatches) {
+    const std::vector<double> series = correlated_series(0.99, 1'000'000, 1);
+    EXPECT_NEAR(tail_error(series), standard_error(series), 0.5 * standard_error(series));
+    EXPECT_EQ(tail_error(std::vector<double>(50, 0.25)), 0.0);
+    EXPECT_EQ(tail_error({1.0}), 0.0);
+}
+
 }  // namespace
 }  // namespace samara

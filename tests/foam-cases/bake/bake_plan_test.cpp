@@ -244,6 +244,13 @@ TEST(BakePlan, HalvesTheCellsAtTheSurfaceFromMeshToMesh) {
     for (std::size_t i = 1; i < plan.cells.size(); ++i) EXPECT_GT(plan.cells[i], 2.0 * plan.cells[i - 1]);
 }
 
+TEST(BakePlan, CountsTheCellsOfALongBodyAlikeWhicheverWayItLies) {
+    const FlowMesh mesh = bake_quality("preview").meshes.back();
+    const double along_x = estimated_cells(test::ellipsoid({0.1, 0.005, 0.005}), mesh);
+    const double along_z = estimated_cells(test::ellipsoid({0.005, 0.005, 0.1}), mesh);
+    EXPECT_NEAR(along_z, along_x, 1e-6 * along_x);
+}
+
 TEST(BakePlan, CountsTheCellsOfABoxWithoutRefinementExactly) {
     FlowMesh mesh;
     mesh.layers = 0;

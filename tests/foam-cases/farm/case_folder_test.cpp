@@ -8,12 +8,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
 
 #include "foam-cases/farm/case_parameters.hpp"
 #include "foam-cases/farm/case_surface.hpp"
 #include "internal/base/content_hash.hpp"
 #include "paths.hpp"
 #include "samara/base/error.hpp"
+#include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 #include "test_bodies.hpp"
 
@@ -42,7 +44,7 @@ void write(const fs::path& path, const std::string& text) {
 void pretend_solved(const fs::path& folder) {
     const auto plan = nlohmann::json::parse(read_bytes(folder / "plan.json"));
     fs::create_directories(folder / "mesh_coarse/constant/polyMesh");
-    write(folder / "mesh_coarse/constant/polyMesh/cellZones", "zones");
+    write(folder / "mesh_coarse/constant/polyMesh/cellZones", "FoamFile { format ascii; }\n");
     write(folder / "mesh_coarse/mesh.json",
           nlohmann::json({{"inputs_hash", plan["meshes"][0]["inputs_hash"]}}).dump());
     for (const auto& entry : plan["cases"]) {
@@ -169,6 +171,148 @@ TEST_F(CaseFolder, PutsBackAFileThatWasChangedByHand) {
     write(schemes, "something else");
     write_case_folder(folder_, body_, plan_, foam_cases);
     EXPECT_EQ(read_bytes(schemes), before);
+}
+
+// What stands in a folder that another one gave away: each is refused by its name, and what it leads to stays
+// as it is.
+class StrangeCaseFolder : public CaseFolder {
+  protected:
+    void SetUp() override {
+        write_case_folder(folder_, body_, plan_, foam_cases);
+        pretend_solved(folder_);
+    }
+    [[nodiscard]] fs::path first() const { return folder_ / plan_.cases[0].name; }
+    /// What is said of the folder as it is; what it says is the path of the file, and after that this.
+    [[nodiscard]] std::string fault_of(const fs::path& file) const {
+        const std::string said =
+            test::error_of([&] { write_case_folder(folder_, body_, plan_, foam_cases); });
+        EXPECT_THAT(said, testing::StartsWith(file.string() + ":"));
+        EXPECT_EQ(said.find('\n'), std::string::npos) << said;
+        return said;
+    }
+    void expect_refused(const fs::path& file, const std::string& text = "strange\n") const {
+        fs::create_directories(file.parent_path());
+        write(file, text);
+        (void)fault_of(file);
+        fs::remove_all(file);
+        EXPECT_NO_THROW(write_case_folder(folder_, body_, plan_, foam_cases));
+    }
+};
+
+TEST_F(StrangeCaseFolder, WithAFileThatIsNeitherAnInputNorAResultIsRefused) {
+    for (const char* name :
+         {"json.py", "fvOptions", "remedy", "case_files.cpython-311-x86_64-linux-gnu.so", "system/fvOptions",
+          "system/functions", "constant/fvOptions", "constant/dynamicMeshDict", "0.orig/alpha", "12/U.gz"}) {
+        expect_refused(first() / name);
+    }
+    for (const char* name : {"json.py", "Snakefile", "snakemake.py", "config.yaml"})
+        expect_refused(folder_ / name);
+    expect_refused(folder_ / "mesh_coarse/system/fvOptions");
+}
+
+TEST_F(StrangeCaseFolder, WithAFolderThatNobodyMakesThereIsRefused) {
+    for (const char* name : {"dynamicCode", "__pycache__", "case_files", "system/include", "constant/lib"}) {
+        const fs::path folder = first() / name;
+        fs::create_directories(folder);
+        EXPECT_THAT(fault_of(folder),
+                    testing::HasSubstr("is a folder that neither samara nor OpenFOAM makes here"));
+        fs::remove(folder);
+    }
+    fs::create_directories(folder_ / "profiles/default");
+    EXPECT_THAT(fault_of(folder_ / "profiles"),
+                testing::HasSubstr("nothing that samara makes here; move it out"));
+}
+
+TEST_F(StrangeCaseFolder, WritesThroughNoLink) {
+    const fs::path elsewhere = temporary_.file("elsewhere/mine", "untouched");
+    for (const char* name : {"parameters", "log.simpleFoam", "round", "case.foam", "12/U",
+                             "postProcessing/forces/0/force.dat"}) {
+        const fs::path link = first() / name;
+        fs::remove(link);
+        fs::create_directories(link.parent_path());
+        fs::create_symlink(elsewhere, link);
+        EXPECT_THAT(fault_of(link), testing::HasSubstr("is a link, which is not followed here"));
+        fs::remove(link);
+    }
+    for (const char* name : {"system", "constant", "0.orig"}) {
+        fs::remove_all(first() / name);
+        fs::create_directory_symlink(elsewhere.parent_path(), first() / name);
+        (void)fault_of(first() / name);
+        fs::remove(first() / name);
+    }
+    for (const char* name : {"plan.json", "README", "log.snakemake", "body.body.h5"}) {
+        fs::remove(folder_ / name);
+        fs::create_symlink(elsewhere, folder_ / name);
+        (void)fault_of(folder_ / name);
+        fs::remove(folder_ / name);
+    }
+    EXPECT_EQ(read_bytes(elsewhere), "untouched");
+    EXPECT_EQ(std::distance(fs::directory_iterator(elsewhere.parent_path()), {}), 1);
+}
+
+TEST_F(StrangeCaseFolder, ThatIsALinkIsNoFolder) {
+    fs::rename(folder_, temporary_.path() / "elsewhere");
+    fs::create_directory_symlink(temporary_.path() / "elsewhere", folder_);
+    EXPECT_THAT(fault_of(folder_), testing::HasSubstr("is no folder but a link"));
+}
+
+TEST_F(StrangeCaseFolder, PutsAnInputOfTwoNamesInItsPlaceAlone) {
+    const fs::path elsewhere = temporary_.file("elsewhere", "untouched");
+    fs::remove(first() / "parameters");
+    fs::create_hard_link(elsewhere, first() / "parameters");
+    write_case_folder(folder_, body_, plan_, foam_cases);
+    EXPECT_EQ(read_bytes(elsewhere), "untouched");
+}
+
+TEST_F(StrangeCaseFolder, LeadsToItsOwnMeshAlone) {
+    const fs::path elsewhere = temporary_.file("elsewhere/points", "untouched");
+    const fs::path link = first() / "constant/polyMesh";
+    fs::remove(link);
+    fs::create_directory_symlink(elsewhere.parent_path(), link);
+    write_case_folder(folder_, body_, plan_, foam_cases);
+    EXPECT_EQ(fs::read_symlink(link), "../../mesh_coarse/constant/polyMesh");
+    EXPECT_EQ(read_bytes(elsewhere), "untouched");
+}
+
+TEST_F(StrangeCaseFolder, WithAPipeIsRefused) {
+    const fs::path pipe = first() / "log.simpleFoam";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    EXPECT_THAT(fault_of(pipe), testing::HasSubstr("is neither a file nor a folder"));
+}
+
+TEST_F(StrangeCaseFolder, WhoseFieldsOrMeshHoldMoreThanDataIsRefused) {
+    const std::string field =
+        "FoamFile { version 2.0; format ascii; class volVectorField; object U; }\ninternalField ";
+    fs::create_directories(first() / "12");
+    write(first() / "12/U", field + "uniform (1 0 0);\n");
+    EXPECT_NO_THROW(write_case_folder(folder_, body_, plan_, foam_cases));
+    for (const fs::path& file :
+         {first() / "12/U", first() / "0/U", folder_ / "mesh_coarse/constant/polyMesh/boundary"}) {
+        fs::create_directories(file.parent_path());
+        write(file, field + "#calc \"system(\\\"x\\\")\";\n");
+        EXPECT_THAT(
+            fault_of(file),
+            testing::HasSubstr(":2: holds '#calc', which no solver writes there; remove the folder "));
+        fs::remove(file);
+    }
+    fs::copy_file(first() / "0.orig/U", first() / "0/U");
+    EXPECT_NO_THROW(write_case_folder(folder_, body_, plan_, foam_cases));
+}
+
+TEST_F(StrangeCaseFolder, KeepsWhatRunsLeaveBehind) {
+    for (const char* name :
+         {"log.simpleFoam", "round", "rounds.json", "rounds.json.part", "0/uniform/time", "12/uniform/time",
+          "postProcessing/shell/0/volFieldValue.dat", "processor0/12/U"}) {
+        fs::create_directories((first() / name).parent_path());
+        write(first() / name,
+              name == std::string("12/uniform/time") ? "FoamFile { format ascii; }\nvalue 12;\n" : "");
+    }
+    fs::create_symlink("../direction_01_coarse", first() / "startCase");
+    write(folder_ / "mesh_coarse/remedy", "layers 0;\n");
+    write(folder_ / ".samara.0123456789ab.77.1.tmp", "");
+    fs::create_directories(folder_ / "fall_07");
+    EXPECT_NO_THROW(write_case_folder(folder_, body_, plan_, foam_cases, Unplanned::kept));
+    EXPECT_TRUE(first_is_solved());
 }
 
 TEST_F(CaseFolder, SolvesAgainWhatStartsFromACaseWhoseInputsChanged) {

@@ -94,6 +94,31 @@ TEST_F(Farm, GivesTheSameTablesAfterAKillAtAnyMoment) {
     EXPECT_EQ(baked(), whole);
 }
 
+TEST_F(Farm, RunsNothingThatAStrangerLeftInItsFolder) {
+    const pid_t child = start_until_first_case(body_);
+    ::kill(child, SIGKILL);
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    for (int i = 0; i < 100 && !processes("", cases_).empty(); ++i) ::usleep(20000);
+    const fs::path ran = folder_ / "ran";
+    const std::string script = fmt::format("open('{}', 'w').close()\n", ran.string());
+    for (const char* name :
+         {"json.py", "direction_01_coarse/json.py", "direction_01_coarse/system/fvOptions"}) {
+        std::ofstream(cases_ / name) << script;
+        const test::ProgramRun run = bake(words_);
+        EXPECT_EQ(run.status, 1);
+        EXPECT_THAT(run.fault, HasSubstr((cases_ / name).string() + ": is "));
+        fs::remove(cases_ / name);
+    }
+    // These are written anew, or removed.
+    fs::create_directories(cases_ / ".snakemake/scripts");
+    std::ofstream(cases_ / ".snakemake/scripts/strange.py") << script;
+    std::ofstream(cases_ / "direction_01_coarse/Allrun") << "#!/bin/sh\ntouch '" << ran.string() << "'\n";
+    std::ofstream(cases_ / "direction_01_coarse/case_files.py") << script;
+    EXPECT_FALSE(baked().empty());
+    EXPECT_FALSE(fs::exists(ran));
+}
+
 TEST_F(Farm, WhoseSolverIsKilledSaysSoAndGoesOnFromTheLastRound) {
     const std::string whole = baked();
     fs::remove_all(cases_);

@@ -1,6 +1,7 @@
 #include "foam-cases/scene/scene_plan.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -11,6 +12,7 @@
 #include "../converter/load_laws.hpp"
 #include "../converter/table_cases.hpp"
 #include "foam-cases/scene/scene_plan_report.hpp"
+#include "support/expect_error.hpp"
 #include "support/known_bodies.hpp"
 #include "test_bodies.hpp"
 
@@ -36,6 +38,26 @@ SceneGoal goal_of(double tolerance) {
     goal.falls = 6;
     goal.draws = 6;
     return goal;
+}
+
+SampledFalls flown(const SceneGoal& goal) {
+    return fly_for_bake(goal.scene, 0, rubber(), goal.falls);
+}
+
+TEST(ScenePlan, OfASceneInWhichTheBodyDoesNotMoveIsRefused) {
+    const auto fault_of = [](double duration, double start, double step) {
+        SceneGoal goal = goal_of(0.1);
+        goal.scene.file = "odd.toml";
+        goal.scene.duration = duration;
+        goal.scene.step = step;
+        goal.scene.bodies[0].start = start;
+        return test::error_of([&] { first_plan(goal, rubber(), bake_quality("smoke"), {}, flown(goal)); });
+    };
+    for (const auto& [duration, start, step] :
+         {std::array{1e-4, 0.0, 1.0}, {1.0, 2.0, 2e-3}, {1.0, 1.0, 2e-3}}) {
+        EXPECT_THAT(fault_of(duration, start, step),
+                    testing::StartsWith("odd.toml: the body 'rubber' does not move within the scene"));
+    }
 }
 
 /// A box's law with a stall that no polynomial of low degree follows.

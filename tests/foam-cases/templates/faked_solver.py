@@ -2,7 +2,6 @@
 
 import os
 import subprocess
-import sys
 import tempfile
 import unittest
 
@@ -29,7 +28,6 @@ class FakedSolverTest(unittest.TestCase):
     def run_faked(self, program, fake):
         """The exit status and what was said of a run of the case's program; the solver is told FAKE."""
         path = os.path.join(self.case, program)
-        words = [sys.executable, "-B", path] if program.endswith(".py") else [path]
-        result = subprocess.run(words, env={**os.environ, "PATH": self.path, "FAKE": fake}, stdout=subprocess.PIPE,
+        result = subprocess.run([path], env={**os.environ, "PATH": self.path, "FAKE": fake}, stdout=subprocess.PIPE,
                                 stderr=subprocess.STDOUT, text=True, check=False, timeout=60)
         return result.returncode, result.stdout

@@ -100,6 +100,28 @@ class FallTest(FakedSolverTest):
         self.assertEqual(self.fall(), (0, ""))
         self.assertEqual(self.starts(), ["0"])
 
+    def test_one_whose_history_is_gone_has_all_its_attempts_again(self):
+        self.fall()
+        shutil.rmtree(os.path.join(self.case, "postProcessing"))
+        self.assertEqual(self.fall(largest_step=0.06), (0, ""))
+        self.assertEqual(self.attempts(), ["as planned", "half the step"])
+
+    def test_a_record_adds_nothing_but_numbers_to_the_case(self):
+        self.fall(largest_step=0.06, stop="kill")
+        whole = self.state()
+        for damage in ('0.05; libs ("/tmp/strange.so")', "#calc \"1\"", None, [1]):
+            self.set_state(lambda state: state["attempts"][-1].update(timeStep=damage))
+            self.assertEqual(self.fall(largest_step=0.06, stop="kill")[0], 1)
+            self.assertEqual(self.state(), whole)
+        self.write("remedy", "#calc \"1\";\n")
+        self.assertEqual(self.fall(largest_step=0.06), (0, ""))
+        with open(os.path.join(self.case, "remedy")) as file:
+            self.assertEqual(file.read().splitlines()[1:], ["timeStep 0.05;", "accelerationRelaxation 0.49;"])
+
+    def test_a_file_with_the_name_of_a_module_of_pythons_is_not_run(self):
+        self.write("json.py", "raise SystemExit('ran a stranger')\n")
+        self.assertEqual(self.fall(), (0, ""))
+
     def test_a_blow_up_is_followed_by_shorter_steps(self):
         self.assertEqual(self.fall(largest_step=0.03), (0, ""))
         self.assertEqual(self.attempts(), ["as planned", "half the step", "a quarter of the step"])

@@ -62,6 +62,10 @@ class IteratedCase(FakedSolverTest):
         with open(os.path.join(self.case, "rounds.json")) as file:
             return json.load(file)
 
+    def text(self, name):
+        with open(os.path.join(self.case, name)) as file:
+            return file.read()
+
     def histories(self):
         found = {}
         for folder, _, names in os.walk(os.path.join(self.case, "postProcessing")):
@@ -94,6 +98,26 @@ class IterateTest(IteratedCase):
     def test_a_case_that_settles_takes_two_rounds(self):
         self.expect_solved_as_if_never_stopped()
         self.assertEqual(self.rounds()["attempts"][0]["iterations"], 200)
+
+    def test_a_file_with_the_name_of_a_module_of_pythons_is_not_run(self):
+        self.write("json.py", "raise SystemExit('ran a stranger')\n")
+        self.assertEqual(self.run_case()[0], 0)
+
+    def test_what_a_round_left_counts_for_no_start(self):
+        self.write("round", "#calc \"1\";\n")
+        self.write("Allrun", self.text("Allrun").replace("exec ./iterate.py", "cp round kept; exec ./iterate.py"))
+        self.assertEqual(self.run_case()[0], 0)
+        self.assertNotIn("#calc", self.text("round"))
+
+    def test_a_record_that_makes_no_sense_is_none(self):
+        self.run_case("200 kill")
+        record = self.rounds()
+        for name, damage in (("what", "its own way"), ("iterations", "#calc"), ("first", None)):
+            whole = dict(record["attempts"][0])
+            record["attempts"][0][name] = damage
+            self.write("rounds.json", json.dumps(record))
+            record["attempts"][0] = whole
+            self.assertEqual(self.run_case()[0], 0)
 
     def test_a_killed_solver_is_said_and_the_case_goes_on(self):
         status, said = self.run_case("200 kill")

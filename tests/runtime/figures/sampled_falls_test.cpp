@@ -65,6 +65,19 @@ LoadedBody ellipsoid() {
     return {test::baked_ellipsoid({0.01, 0.02, 0.04}), "hash"};
 }
 
+// The falls are copies that start in one place.
+TEST(SampledFalls, AreTheSameWhetherOrNotTheScenesBodiesMeet) {
+    Scene scene = shaken_scene();
+    scene.duration = 0.5;
+    const SampledFalls apart = falls_of(scene, ellipsoid());
+    scene.bodies_meet = true;
+    const SampledFalls meeting = falls_of(scene, ellipsoid());
+    ASSERT_EQ(meeting.visits.size(), apart.visits.size());
+    for (std::size_t i = 0; i < apart.visits.size(); ++i) {
+        EXPECT_EQ(meeting.visits[i].direction, apart.visits[i].direction);
+    }
+}
+
 TEST(SampledFalls, OfABallSinkAtItsTerminalSpeedOneLikeTheOther) {
     const SampledFalls sampled = falls_of(ball_scene(), ball());
     ASSERT_EQ(sampled.falls.size(), 6U);

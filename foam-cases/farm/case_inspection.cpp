@@ -1,0 +1,190 @@
+#include "foam-cases/farm/case_inspection.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "converter/openfoam/foam_data.hpp"
+#include "converter/openfoam/time_folders.hpp"
+#include "internal/base/content_hash.hpp"
+#include "samara/base/error.hpp"
+
+namespace samara {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Beside the meshes, cases and falls.
+constexpr std::string_view files_beside[] = {".lock",     ".cluster",     "README",
+                                             "plan.json", "body.body.h5", "log.snakemake"};
+// Snakemake's own, which is removed before it runs.
+constexpr std::string_view notes_of_snakemake = ".snakemake";
+// The folders of cases that other plans have made there.
+constexpr std::string_view names_of_cases[] = {"direction_", "probe_", "fall_", "mesh"};
+
+// What solving leaves in a case's own folder.
+constexpr std::string_view records[] = {"case.foam",       "round",       "rounds.json", "attempts.json",
+                                        "provenance.json", "failed.json", "mesh.json"};
+constexpr std::string_view made_by_surface_features[] = {"constant/triSurface/body.eMesh",
+                                                         "constant/extendedFeatureEdgeMesh"};
+
+bool is_one_of(std::string_view name, const auto& names) {
+    return std::ranges::find(names, name) != std::end(names);
+}
+
+// Of files that are written beside their place, by samara and by its scripts.
+bool is_temporary(const std::string& name) {
+    return (name.starts_with(".samara.") && name.ends_with(".tmp")) || name.ends_with(".json.part") ||
+           name.starts_with(".nfs");  // which a network file system keeps until they are closed
+}
+
+bool is_time(const std::string& name) {
+    return std::isdigit(static_cast<unsigned char>(name.front())) != 0 && time_of(name);
+}
+
+bool is_of_processor(const std::string& name) {
+    constexpr std::string_view prefix = "processor";
+    return name.starts_with(prefix) && name.size() > prefix.size() &&
+           std::all_of(name.begin() + prefix.size(), name.end(),
+                       [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; });
+}
+
+/// One folder that is held against what is planned in it.
+class FolderInspection {
+  public:
+    FolderInspection(fs::path folder, const InputFolder& planned)
+        : folder_(std::move(folder)), planned_(planned) {}
+
+    void run() const { look_into(fs::path()); }
+
+  private:
+    [[nodiscard]] Error fault(const fs::path& file, const std::string& what) const {
+        return Error(fmt::format("{}: {}; remove it, or the whole of {}, which is then solved anew",
+                                 file.string(), what, folder_.string()));
+    }
+
+    void look_into(const fs::path& inside) const {
+        for (const auto& entry : fs::directory_iterator(folder_ / inside)) {
+            const fs::path name = inside / entry.path().filename();
+            const fs::file_status status = entry.symlink_status();
+            if (status.type() == fs::file_type::symlink && is_known_link(name)) continue;
+            if (status.type() == fs::file_type::directory && is_known_folder(name)) {
+                look_into(name);
+            } else if (status.type() == fs::file_type::regular && is_known_file(name)) {
+                if (is_read_by_solver(name)) require_data(name);
+            } else {
+                throw fault(entry.path(), what_it_is(status.type()));
+            }
+        }
+    }
+
+    static std::string what_it_is(fs::file_type type) {
+        if (type == fs::file_type::symlink) return "is a link, which is not followed here";
+        if (type == fs::file_type::directory)
+            return "is a folder that neither samara nor OpenFOAM makes here";
+        if (type == fs::file_type::regular) return "is a file that neither samara nor OpenFOAM writes here";
+        return "is neither a file nor a folder";
+    }
+
+    /// A link to a mesh is made anew, one to a start is removed.
+    [[nodiscard]] bool is_known_link(const fs::path& name) const {
+        if (planned_.kind == FolderKind::mesh) return false;
+        return name == "startCase" || name == "constant/polyMesh" ||
+               (planned_.kind == FolderKind::flow && name == "constant/triSurface");
+    }
+
+    /// Of a time, a mesh or a history, below which any file may be.
+    [[nodiscard]] bool is_of_solver(const fs::path& name) const {
+        const std::string first = name.begin()->string();
+        const bool is_solved = planned_.kind != FolderKind::mesh;
+        if (is_solved) return is_time(first) || first == "postProcessing" || is_of_processor(first);
+        return (name / "").string().starts_with("constant/polyMesh/");
+    }
+
+    [[nodiscard]] bool is_known_folder(const fs::path& name) const {
+        if (is_of_solver(name) || (planned_.kind == FolderKind::mesh && name == made_by_surface_features[1]))
+            return true;
+        return std::ranges::any_of(planned_.files, [&](const auto& file) {
+            return file.first.string().starts_with(name.string() + "/");
+        });
+    }
+
+    [[nodiscard]] bool is_known_file(const fs::path& name) const {
+        if (planned_.files.contains(name) || is_temporary(name.filename().string())) return true;
+        if (name.has_parent_path()) {
+            const std::string path = name.string();
+            const bool is_edge = planned_.kind == FolderKind::mesh &&
+                                 std::ranges::any_of(made_by_surface_features, [&](std::string_view made) {
+                                     return path.starts_with(made);
+                                 });
+            return is_edge || (is_of_solver(name) && name.extension() != ".gz");
+        }
+        const std::string only = name.string();
+        // `parameters` includes it: flows have none of their own.
+        if (only == "remedy") return planned_.kind != FolderKind::flow;
+        return is_one_of(only, records) || only.starts_with("log.");
+    }
+
+    [[nodiscard]] bool is_read_by_solver(const fs::path& name) const {
+        const std::string first = name.begin()->string();
+        return !planned_.files.contains(name) && name.has_parent_path() && is_of_solver(name) &&
+               first != "postProcessing" && !is_of_processor(first);
+    }
+
+    void require_data(const fs::path& name) const {
+        // The start is a copy of what is planned.
+        const auto start = planned_.files.find(fs::path("0.orig") / name.filename());
+        const fs::path file = folder_ / name;
+        if (*name.begin() == "0" && start != planned_.files.end() && read_bytes(file) == start->second)
+            return;
+        try {
+            require_foam_data(file);
+        } catch (const Error& reason) {
+            throw Error(fmt::format("{}; remove the folder {}, which is then solved anew", reason.what(),
+                                    folder_.string()));
+        }
+    }
+
+    fs::path folder_;
+    const InputFolder& planned_;
+};
+
+}  // namespace
+
+void require_known_files(const fs::path& cases, const InputFolders& planned) {
+    const fs::file_type type = fs::symlink_status(cases).type();
+    if (type == fs::file_type::not_found) return;
+    if (type != fs::file_type::directory) {
+        throw Error(
+            fmt::format("{}: is no folder but {}; cases are solved in a folder: remove it, or choose another "
+                        "name for the output",
+                        cases.string(), type == fs::file_type::symlink ? "a link" : "a file"));
+    }
+    for (const auto& entry : fs::directory_iterator(cases)) {
+        const std::string name = entry.path().filename().string();
+        const fs::file_type kind = entry.symlink_status().type();
+        const auto found = planned.find(name);
+        if (kind == fs::file_type::directory) {
+            if (found != planned.end()) {
+                FolderInspection(entry.path(), found->second).run();
+                continue;
+            }
+            if (name == notes_of_snakemake) continue;
+            if (std::ranges::any_of(names_of_cases,
+                                    [&](std::string_view start) { return name.starts_with(start); })) {
+                continue;
+            }
+        }
+        if (kind == fs::file_type::regular && (is_one_of(name, files_beside) || is_temporary(name))) continue;
+        throw Error(fmt::format(
+            "{}: is {}; move it out of {}, or remove that folder, whose cases are then solved anew",
+            entry.path().string(),
+            kind == fs::file_type::symlink ? "a link, which is not followed here"
+                                           : "nothing that samara makes here",
+            cases.string()));
+    }
+}
+
+}  // namespace samara
