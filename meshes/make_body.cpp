@@ -10,8 +10,8 @@
 #include "internal/base/labelled.hpp"
 #include "internal/body/body_check.hpp"
 #include "internal/body/curved_surface.hpp"
+#include "internal/body/mended_surface.hpp"
 #include "internal/body/surface_edges.hpp"
-#include "internal/body/welded_surface.hpp"
 #include "meshes/checks/joined_parts.hpp"
 #include "meshes/checks/shape_error.hpp"
 #include "meshes/checks/sound_surface.hpp"
@@ -65,7 +65,7 @@ Surface sound_triangles(const std::filesystem::path& shape, const MeshOptions& o
     const std::string label = shape.string();
     const Surface read = read_triangles(shape, shape_format(shape), options.time_limit);
     tell(progress, triangles_read);
-    Surface surface = labelled(label, [&] { return welded(read); });
+    Surface surface = labelled(label, [&] { return mended(read); });
     tell(progress, triangles_welded);
     if (options.flip) {
         for (std::size_t t = 0; t < surface.triangle_count(); ++t) turn_round(surface, t);

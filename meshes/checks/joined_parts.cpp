@@ -20,6 +20,7 @@
 
 #include "internal/base/as_index.hpp"
 #include "internal/base/labelled.hpp"
+#include "internal/body/mended_surface.hpp"
 #include "internal/body/surface_check.hpp"
 #include "internal/body/surface_edges.hpp"
 #include "internal/body/welded_surface.hpp"
@@ -320,7 +321,7 @@ Union soundly_united(const Parts& parts, const std::vector<std::size_t>& group, 
     const std::optional<Surface> exact_union = united(parts, group);
     if (!exact_union) return whole;
     try {
-        whole.surface = welded(*exact_union, part);
+        whole.surface = mended(*exact_union, part);
         require_bounding_surface(whole.surface);
     } catch (const Error& fault) {
         whole.fault = fault.what();
@@ -374,7 +375,7 @@ Surface with_parts_joined(const Surface& surface) {
         append(result, whole.surface);
         any = true;
     }
-    return any ? welded(result) : surface;
+    return any ? mended(result) : surface;
 }
 
 }  // namespace samara

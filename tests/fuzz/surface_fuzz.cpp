@@ -6,9 +6,9 @@
 #include <fstream>
 
 #include "harness.hpp"
+#include "internal/body/mended_surface.hpp"
 #include "internal/body/obj_file.hpp"
 #include "internal/body/stl_file.hpp"
-#include "internal/body/welded_surface.hpp"
 #include "internal/files/temporary_folder.hpp"
 #include "meshes/checks/sound_surface.hpp"
 #include "meshes/checks/volume_moments.hpp"
@@ -29,7 +29,7 @@ void feed(std::string_view input) {
     const auto read = input.front() == 'o' ? read_obj_file : read_stl_file;
     const auto surface = accepted([&] { return read(file); });
     if (!surface) return;
-    const auto whole = accepted([&] { return welded(*surface); });
+    const auto whole = accepted([&] { return mended(*surface); });
     if (!whole || !accepted([&] { require_sound_surface(*whole); })) return;
     const VolumeMoments moments = volume_moments(*whole);
     require(moments.volume > 0.0 && std::isfinite(moments.volume), "a sound surface has a volume");

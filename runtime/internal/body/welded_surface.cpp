@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "internal/base/as_index.hpp"
-#include "internal/body/mended_faces.hpp"
 #include "internal/body/surface_check.hpp"
 #include "samara/base/error.hpp"
 
@@ -147,12 +146,6 @@ Surface welded(const Surface& surface, double part) {
     }
     for (const auto& nodes : surface.edge_nodes) {
         result.edge_nodes.push_back({weld(nodes[0]), weld(nodes[1]), weld(nodes[2])});
-    }
-    drop_collapsed_faces(result);
-    split_at_corners_on_sides(result, tolerance);
-    flip_faces_without_area(result, tolerance);
-    if (result.corners.empty()) {
-        throw Error("none of its triangles has an area; export the surface as triangles");
     }
     return result;
 }

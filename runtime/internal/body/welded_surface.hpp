@@ -14,9 +14,9 @@ inline constexpr double welding_tolerance = 1e-6;
 void require_usable_numbers(const Surface& surface);
 
 /// The surface with vertices that lie within `part` of the bounding box's diagonal of each other made one,
-/// and those that no triangle uses left out; triangles keep their order. Those with two equal corners are
-/// left out, and the places mended where a corner lies on the side of another triangle (mended_faces.hpp).
-/// Throws as require_usable_numbers does, and where the surface is smaller than any body.
+/// and those that no triangle uses left out; triangles keep their number and order. Throws as
+/// require_usable_numbers does, where the surface is smaller than any body, and where it lies so far from the
+/// origin that its numbers do not tell its points apart.
 Surface welded(const Surface& surface, double part = welding_tolerance);
 
 /// The box around the triangles' corners (m).

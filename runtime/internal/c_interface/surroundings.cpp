@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "internal/body/mended_surface.hpp"
 #include "internal/body/surface_check.hpp"
-#include "internal/body/welded_surface.hpp"
 #include "internal/c_interface/guard.hpp"
 #include "internal/c_interface/members.hpp"
 #include "internal/c_interface/objects.hpp"
@@ -52,7 +52,7 @@ samara::Surface read_surface(const samara_obstacle& given) {
         const std::int32_t* corners = given.triangles + 3 * i;
         surface.corners.push_back({corners[0], corners[1], corners[2]});
     }
-    surface = samara::welded(surface);
+    surface = samara::mended(surface);
     samara::require_solid_surface(surface);
     return surface;
 }

@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 
 #include "internal/body/look_file.hpp"
+#include "internal/body/mended_surface.hpp"
 #include "internal/body/obj_file.hpp"
 #include "internal/body/stl_file.hpp"
 #include "internal/body/surface_check.hpp"
-#include "internal/body/welded_surface.hpp"
 #include "internal/files/input_file.hpp"
 #include "internal/scene/plain_name.hpp"
 #include "samara/physics/obstacle_motion.hpp"
@@ -34,7 +34,7 @@ Surface read_mesh(const TomlTable& table, const std::filesystem::path& file) {
         throw table.fault("shape", fmt::format("cannot be had: {}: {}", file.string(), fault));
     }
     try {
-        Surface surface = welded(extension == ".stl"   ? read_stl_file(file)
+        Surface surface = mended(extension == ".stl"   ? read_stl_file(file)
                                  : extension == ".obj" ? read_obj_file(file)
                                                        : surface_of(read_look_file(file)));
         require_solid_surface(surface);

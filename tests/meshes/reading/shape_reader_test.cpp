@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "internal/base/base64.hpp"
-#include "internal/body/welded_surface.hpp"
+#include "internal/body/mended_surface.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_shapes.hpp"
@@ -76,7 +76,7 @@ std::string ply(const char* format, const char* end_of_line = "\n") {
 Surface read(const std::string& name, const std::string& bytes) {
     const test::TemporaryFolder folder;
     const std::filesystem::path file = folder.file(name, bytes);
-    return welded(read_triangles(file, shape_format(file), 300.0));
+    return mended(read_triangles(file, shape_format(file), 300.0));
 }
 
 std::string fault_of(const std::string& name, const std::string& bytes) {
@@ -161,7 +161,7 @@ TEST(ShapeReader, ReadsGltfAsItsNodesPlaceItWithZUp) {
     const test::TemporaryFolder folder;
     (void)folder.file("parts/a.bin", buffer);
     const auto beside = folder.file("a.gltf", gltf(nodes, "[0,1,2]", "parts/a.bin"));
-    expect_the_three_cubes(welded(read_triangles(beside, shape_format(beside), 300.0)));
+    expect_the_three_cubes(mended(read_triangles(beside, shape_format(beside), 300.0)));
     std::string json = gltf(nodes, "[0,1,2]", "");
     json.resize((json.size() + 3) / 4 * 4, ' ');
     std::string glb = "glTF";

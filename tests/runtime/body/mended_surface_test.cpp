@@ -1,4 +1,4 @@
-#include "internal/body/welded_surface.hpp"
+#include "internal/body/mended_surface.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -48,7 +48,7 @@ void expect_a_sound_cube(const Surface& surface) {
     EXPECT_NEAR(surface_area(surface), 6.0, 1e-12);
 }
 
-TEST(WeldedSurface, LeavesOutFacesWithTwoEqualCorners) {
+TEST(MendedSurface, LeavesOutFacesWithTwoEqualCorners) {
     // Quads cut in two at the poles of a sphere: one half of each has two corners there.
     Surface sphere;
     constexpr int around = 12;
@@ -70,32 +70,32 @@ TEST(WeldedSurface, LeavesOutFacesWithTwoEqualCorners) {
             add(point(row, column), point(row + 1, column + 1), point(row, column + 1));
         }
     }
-    const Surface result = welded(sphere);
+    const Surface result = mended(sphere);
     EXPECT_EQ(result.triangle_count(), sphere.triangle_count() - 2U * around);
     EXPECT_EQ(result.vertices.size(), 2U + around * (rows - 1U));
     EXPECT_NO_THROW(require_bounding_surface(result));
     EXPECT_NEAR(test::moments_of(result).volume, test::moments_of(sphere).volume, 1e-12);
 }
 
-TEST(WeldedSurface, TurnsTheSidesOfFacesWithoutArea) {
+TEST(MendedSurface, TurnsTheSidesOfFacesWithoutArea) {
     for (const int corners : {1, 2, 7}) {
         const Surface cube = bridged(cube_with_corners_on_an_edge(corners));
-        expect_a_sound_cube(welded(cube));
+        expect_a_sound_cube(mended(cube));
     }
 }
 
-TEST(WeldedSurface, SplitsFacesWhereCornersOfOthersLieOnTheirSides) {
-    for (const int corners : {1, 2, 7}) expect_a_sound_cube(welded(cube_with_corners_on_an_edge(corners)));
+TEST(MendedSurface, SplitsFacesWhereCornersOfOthersLieOnTheirSides) {
+    for (const int corners : {1, 2, 7}) expect_a_sound_cube(mended(cube_with_corners_on_an_edge(corners)));
 }
 
-TEST(WeldedSurface, LeavesAHoleOpen) {
+TEST(MendedSurface, LeavesAHoleOpen) {
     Surface cube = cube_with_corners_on_an_edge(1);
     cube.corners.erase(cube.corners.begin());
-    EXPECT_THAT(test::error_of([&] { require_bounding_surface(welded(cube)); }),
+    EXPECT_THAT(test::error_of([&] { require_bounding_surface(mended(cube)); }),
                 HasSubstr("3 edges have a face on one"));
 }
 
-TEST(WeldedSurface, SaysWhatIsLostFarFromTheOrigin) {
+TEST(MendedSurface, SaysWhatIsLostFarFromTheOrigin) {
     const auto far_off = [](double distance, bool single) {
         Surface cube = cube_with_corners_on_an_edge(0);
         for (Vector3d& vertex : cube.vertices) {
@@ -104,11 +104,11 @@ TEST(WeldedSurface, SaysWhatIsLostFarFromTheOrigin) {
         }
         return cube;
     };
-    const std::string fault = test::error_of([&] { welded(far_off(1e6, true)); });
+    const std::string fault = test::error_of([&] { mended(far_off(1e6, true)); });
     EXPECT_THAT(fault, HasSubstr("lies 1e+06 from the origin, where its numbers of 32 bits are 0.12 apart"));
     EXPECT_THAT(fault, HasSubstr("move it to the origin before it is exported"));
-    EXPECT_NO_THROW(welded(far_off(1e2, true)));
-    EXPECT_NO_THROW(welded(far_off(1e6, false))) << "numbers of 64 bits";
+    EXPECT_NO_THROW(mended(far_off(1e2, true)));
+    EXPECT_NO_THROW(mended(far_off(1e6, false))) << "numbers of 64 bits";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "internal/body/mended_faces.hpp"
+#include "internal/body/mended_surface.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,6 +11,7 @@
 
 #include "internal/base/as_index.hpp"
 #include "internal/body/surface_edges.hpp"
+#include "samara/base/error.hpp"
 
 namespace samara {
 namespace {
@@ -300,8 +301,8 @@ class FaceFlipper {
     std::unordered_map<std::uint64_t, std::vector<std::size_t>> faces_at_;
 };
 
-}  // namespace
-
+// Leaves out triangles with two equal corners, pairs of triangles that lie on each other back to back and
+// close nothing, and vertices that no triangle uses.
 void drop_collapsed_faces(Surface& surface) {
     if (std::none_of(surface.corners.begin(), surface.corners.end(), is_collapsed)) return;
     std::vector<bool> gone;
@@ -311,15 +312,28 @@ void drop_collapsed_faces(Surface& surface) {
     drop_unused_vertices(surface);
 }
 
+// Takes no time to speak of where every side has a neighbour.
 void split_at_corners_on_sides(Surface& surface, double tolerance) {
-    if (surface.order() == 2 || mark_of_odd_edges(surface) == 0) return;
+    if (mark_of_odd_edges(surface) == 0) return;
     constexpr int most_rounds = 8;  // a face has three sides, and their parts may have corners on them again
     for (int round = 0; round < most_rounds && split_each_once(surface, tolerance); ++round) {
     }
 }
 
-void flip_faces_without_area(Surface& surface, double tolerance) {
-    if (surface.order() == 1) FaceFlipper(surface, tolerance).flip_all();
+}  // namespace
+
+Surface mended(const Surface& surface, double part) {
+    Surface result = welded(surface, part);
+    const double tolerance = part * bounding_box(surface).diagonal().norm();
+    drop_collapsed_faces(result);
+    if (result.order() == 1) {
+        split_at_corners_on_sides(result, tolerance);
+        FaceFlipper(result, tolerance).flip_all();
+    }
+    if (result.corners.empty()) {
+        throw Error("none of its triangles has an area; export the surface as triangles");
+    }
+    return result;
 }
 
 }  // namespace samara
