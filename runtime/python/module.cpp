@@ -30,6 +30,7 @@ void bind_errors(py::module_& module) {
                             "An Error of what was given: a scene, a file's content, an argument.");
     file_error = exception(module, "FileError", py::make_tuple(error, py::handle(PyExc_OSError)),
                            "An Error of a file that cannot be read or written.");
+    // NOLINTNEXTLINE(performance-unnecessary-value-param): so pybind11 calls it
     py::register_exception_translator([](std::exception_ptr thrown) {
         try {
             if (thrown) std::rethrow_exception(thrown);
