@@ -1,13 +1,16 @@
 // Bodies whose exact shape is known, as files of triangles and as exact geometry: the mesh keeps to the
 // shape, and the estimate of the added mass's error is above the true error.
 
+#include <array>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <numbers>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "internal/kirchhoff/solvers/tensor_error.hpp"
@@ -167,6 +170,23 @@ TEST(ExactShapes, FansAboutAMiddleAreMeshedEvenly) {
         longest = std::max(longest, longest_edge(body.surface, t));
     EXPECT_LT(longest, 0.35);
     EXPECT_LT(kirchhoff_tensor(body).error_estimate, 0.01);
+}
+
+TEST(ExactShapes, BodiesOfFewFacetsAndBevelsHaveAnAddedMass) {
+    const test::TemporaryFolder folder;
+    std::vector<std::filesystem::path> files;
+    for (const int facets : {24, 32, 40}) {
+        files.push_back(folder / fmt::format("cylinder{}.stl", facets));
+        test::write_binary_stl(files.back(),
+                               revolved({{0.0, 0.0}, {0.02, 0.0}, {0.02, 0.003}, {0.0, 0.003}}, facets));
+    }
+    for (const char* name : {"bevelled_slab.stl", "bevelled_tile.stl"})
+        files.push_back(test::shape_of_tests(name));
+    for (const std::filesystem::path& file : files) {
+        const Body body = make_body(file);
+        EXPECT_LT(body.shape_error->distance, 0.005) << file;
+        EXPECT_LT(kirchhoff_tensor(body).error_estimate, 0.05) << file;
+    }
 }
 
 TEST(ExactShapes, KeptTrianglesThatResolveNothingSayThatNothingIsKnown) {

@@ -67,4 +67,8 @@ std::filesystem::path shape_of_samara(const std::string& name) {
     return std::filesystem::path(SAMARA_SOURCE_DIRECTORY) / "meshes/shapes" / name;
 }
 
+std::filesystem::path shape_of_tests(const std::string& name) {
+    return std::filesystem::path(SAMARA_SOURCE_DIRECTORY) / "tests/meshes/shapes" / name;
+}
+
 }  // namespace samara::test

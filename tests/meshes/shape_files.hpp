@@ -22,4 +22,7 @@ void write_with_gmsh(const std::filesystem::path& file, const std::function<void
 /// The shape that comes with samara.
 std::filesystem::path shape_of_samara(const std::string& name);
 
+/// The shape that is kept for the tests.
+std::filesystem::path shape_of_tests(const std::string& name);
+
 }  // namespace samara::test

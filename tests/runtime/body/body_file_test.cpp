@@ -116,6 +116,25 @@ std::string fault_of(const std::filesystem::path& file) {
     return error_of([&] { (void)read_body_file(file); });
 }
 
+TEST(BodyFile, KeepsHowFarTheSurfaceIsFromItsShape) {
+    const test::TemporaryFolder folder;
+    Body body = test::full_body();
+    write_body_file(folder / "a.body.h5", body);
+    EXPECT_FALSE(read_body_file(folder / "a.body.h5").shape_error.has_value());
+    body.shape_error = ShapeError{0.001, 0.0002, -0.003, 0.004, 0.005};
+    write_body_file(folder / "b.body.h5", body);
+    const ShapeError found = *read_body_file(folder / "b.body.h5").shape_error;
+    EXPECT_EQ(found.distance, 0.001);
+    EXPECT_EQ(found.mean_distance, 0.0002);
+    EXPECT_EQ(found.volume, -0.003);
+    EXPECT_EQ(found.area, 0.004);
+    EXPECT_EQ(found.faceting, 0.005);
+    body.shape_error->distance = -1.0;
+    write_body_file(folder / "c.body.h5", body);
+    EXPECT_THAT(error_of([&] { read_body_file(folder / "c.body.h5"); }),
+                HasSubstr("distance from its shape"));
+}
+
 TEST(BodyFile, GivesBackTheBodyToTheLastBit) {
     const test::TemporaryFolder folder;
     const Body body = test::full_body();
