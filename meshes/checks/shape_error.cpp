@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <span>
 #include <vector>
 
 #include "internal/base/as_index.hpp"
@@ -85,21 +87,45 @@ ShapeError shape_error(const Surface& shape, const Surface& mesh) {
 }
 
 Smoothing smoothing_of(const Surface& flat) {
+    constexpr double coplanar = 1e-3;  // radians
+    const std::vector<EdgeUse> uses = edge_uses(flat);
+    const auto edges = edges_of(uses);
+    const auto area = [&](const EdgeUse& use) { return area_vector(flat, as_index(use.triangle)); };
+    const auto turn_at = [&](std::span<const EdgeUse> edge) {
+        const Vector3d one = area(edge.front());
+        const Vector3d two = area(edge.back());
+        return std::atan2(one.cross(two).norm(), one.dot(two));
+    };
+    // Triangles in one plane are one facet.
+    std::vector<std::size_t> parent(flat.triangle_count());
+    std::iota(parent.begin(), parent.end(), std::size_t{0});
+    const auto facet_of = [&](const EdgeUse& use) {
+        std::size_t t = as_index(use.triangle);
+        while (parent[t] != t) t = parent[t] = parent[parent[t]];
+        return t;
+    };
+    for (const auto& edge : edges) {
+        if (turn_at(edge) < coplanar) parent[facet_of(edge.front())] = facet_of(edge.back());
+    }
+    std::vector<double> facet_areas(flat.triangle_count(), 0.0);
+    for (const EdgeUse& use : uses) facet_areas[facet_of(use)] += area(use).norm() / 3.0;
+
     double lost = 0.0;
     double between = 0.0;
-    const std::vector<EdgeUse> uses = edge_uses(flat);
-    for (const auto& edge : edges_of(uses)) {
+    for (const auto& edge : edges) {
         const EdgeUse& use = edge.front();
+        const double turn = turn_at(edge);
+        if (turn > sharp_angle || turn < coplanar) continue;
         const Vector3d along = flat.vertices[as_index(use.high)] - flat.vertices[as_index(use.low)];
-        const Vector3d one = area_vector(flat, as_index(use.triangle));
-        const Vector3d two = area_vector(flat, as_index(edge.back().triangle));
-        const double turn = std::atan2(one.cross(two).norm(), one.dot(two));
-        if (turn > sharp_angle) continue;
         const double length = along.norm();
-        const double width = 2.0 * std::min(one.norm(), two.norm()) / length;
+        // Across the edge: a triangle's height, or what a strip of several has in the mean.
+        const auto width_of = [&](const EdgeUse& side) {
+            return std::max(2.0 * area(side).norm(), facet_areas[facet_of(side)]) / length;
+        };
+        const double width = std::min(width_of(use), width_of(edge.back()));
         // The segment of a circle over a chord of this width, whose next one turns by this angle.
         const double volume = length * width * width * turn / 12.0;
-        const bool hollow = one.cross(two).dot(along) * (use.forward ? 1.0 : -1.0) < 0.0;
+        const bool hollow = area(use).cross(area(edge.back())).dot(along) * (use.forward ? 1.0 : -1.0) < 0.0;
         lost += hollow ? -volume : volume;
         between += volume;
     }

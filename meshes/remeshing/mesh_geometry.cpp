@@ -10,6 +10,7 @@
 #include <gmsh.h>
 
 #include "internal/base/labelled.hpp"
+#include "internal/body/curved_surface.hpp"
 #include "internal/files/input_file.hpp"
 #include "meshes/checks/shape_error.hpp"
 #include "meshes/checks/sound_surface.hpp"

@@ -93,8 +93,9 @@ ImageComparison::ImageComparison(const Surface& surface, const Vector3d& centre,
       points_(points_of(surface, centre)),
       tree_(tree_of(surface, centre)) {}
 
-bool ImageComparison::is_symmetry(const Matrix3d& element, double slack) const {
-    return std::all_of(points_.begin(), points_.end(), [&](const Vector3d& point) {
+bool ImageComparison::is_symmetry(const Matrix3d& element, double slack, std::size_t points) const {
+    const auto end = points_.begin() + static_cast<std::ptrdiff_t>(std::min(points, points_.size()));
+    return std::all_of(points_.begin(), end, [&](const Vector3d& point) {
         return tree_.is_within(element * point, slack * tolerance_ * size_);
     });
 }

@@ -21,8 +21,9 @@ class ImageComparison {
     /// at most 0.05.
     ImageComparison(const Surface& surface, const Vector3d& centre, double tolerance);
 
-    /// Whether each point of the image lies within `slack` times the tolerance of the surface.
-    [[nodiscard]] bool is_symmetry(const Matrix3d& element, double slack = 1.0) const;
+    /// Whether each of the first points of the image lies within `slack` times the tolerance of the surface.
+    [[nodiscard]] bool is_symmetry(const Matrix3d& element, double slack = 1.0,
+                                   std::size_t points = std::numeric_limits<std::size_t>::max()) const;
 
     /// The mean distance of the first points of the image from the surface, over the body's size; some number
     /// above `enough`, and sooner, where it is above that.

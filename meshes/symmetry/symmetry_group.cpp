@@ -123,10 +123,12 @@ void SymmetryGroup::add_refined(const Operation& operation) {
     const double tolerance = images_.tolerance();
     const double in_the_mean = tolerance + most_astray_in_the_mean;
     if (images_.mean_distance(element, few_points, in_the_mean) > in_the_mean) return;
-    if (!images_.is_symmetry(element, std::min(most_tolerances, 1.0 + most_astray / tolerance))) return;
+    if (!images_.is_symmetry(element, std::min(most_tolerances, 1.0 + most_astray / tolerance), more_points))
+        return;
     double best = 0.0;
     const Operation near = refined(operation, images_, few_points, first_step, coarse_halvings, best);
-    if (best > tolerance || !images_.is_symmetry(near.matrix(), 1.0 + astray_after_coarse_steps / tolerance))
+    if (best > tolerance ||
+        !images_.is_symmetry(near.matrix(), 1.0 + astray_after_coarse_steps / tolerance, more_points))
         return;
     // Fine steps are the dear ones: not for what is known, or has no end of products.
     if (contains(near.matrix())) return;

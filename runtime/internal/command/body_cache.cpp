@@ -14,7 +14,6 @@
 
 #include "internal/base/content_hash.hpp"
 #include "internal/command/subprocess.hpp"
-#include "internal/motion/file_check.hpp"
 #include "samara/base/version.hpp"
 #include "samara/body/body_file.hpp"
 
@@ -58,7 +57,6 @@ bool is_ready(const std::filesystem::path& folder) {
 std::optional<Body> read_entry(const std::filesystem::path& entry) {
     if (!is_own(entry, S_IFREG, S_IWGRP | S_IWOTH)) return std::nullopt;
     try {
-        check_before_reading(entry);
         Body body = read_body_file(entry);
         std::error_code ignored;
         std::filesystem::last_write_time(entry, std::filesystem::file_time_type::clock::now(), ignored);

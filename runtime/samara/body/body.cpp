@@ -47,8 +47,10 @@ double tensor_error_of(const ShapeError& error, const VolumeMoments& moments, co
     // A surface that lies further out by d carries d times its area more fluid where it is blunt; a thin
     // body, whose added mass is far above its volume, is told by its rim.
     const double carried = moments.volume + tensor.bottomRightCorner<3, 3>().trace() / 3.0;
-    return std::max(
-        {std::abs(error.volume), error.faceting, error.mean_distance * moments.surface_area / carried});
+    // Angular blocks grow with the fifth power of a length, the volume with the third.
+    constexpr double of_volume = 5.0 / 3.0;
+    return std::max(of_volume * std::max(std::abs(error.volume), error.faceting),
+                    error.mean_distance * moments.surface_area / carried);
 }
 
 MassSpecification mass_asked_or_own(const MassSpecification& asked, const Body& body) {

@@ -41,8 +41,8 @@ TEST(ShapeError, SeesWhatEitherSurfaceLacks) {
 }
 
 TEST(ShapeError, RoundedFacetsAreNoMissWhereTheyAreMeant) {
-    const Surface facets = test::icosphere(2);
-    const Surface ball = test::icosphere(5);
+    const Surface facets = test::icosphere(3);
+    const Surface ball = test::icosphere(6);
     const ShapeError error = shape_error(facets, ball);
     EXPECT_GT(miss_of(error), 1.0);
     EXPECT_LT(miss_of(error, smoothing_of(facets).volume), 1.0);

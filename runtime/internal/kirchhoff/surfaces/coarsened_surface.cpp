@@ -63,6 +63,9 @@ class Coarsening {
   private:
     static std::size_t index(std::int32_t value) { return static_cast<std::size_t>(value); }
 
+    /// Whether so many triangles meet, as in the middle of a fan, that trying it takes long.
+    [[nodiscard]] bool is_hub(std::size_t v) const { return around_[v].size() > 32; }
+
     [[nodiscard]] std::set<std::int32_t> neighbours(std::size_t v) const {
         std::set<std::int32_t> result;
         for (const std::size_t t : around_[v]) result.insert(triangles_[t].begin(), triangles_[t].end());
@@ -90,6 +93,7 @@ class Coarsening {
 
     /// The neighbour that leaves the best triangles when v is drawn into it, or -1.
     [[nodiscard]] std::int32_t best_neighbour(std::size_t v) const {
+        if (is_hub(v)) return -1;
         double worst_before = 1.0;
         for (const std::size_t t : around_[v])
             worst_before = std::min(worst_before, quality_of(triangles_[t]));
@@ -98,6 +102,7 @@ class Coarsening {
         double best = std::min(least_quality, 0.5 * worst_before);
         std::int32_t choice = -1;
         for (const std::int32_t candidate : ring) {
+            if (is_hub(index(candidate))) continue;
             const double quality = quality_after(v, candidate, ring);
             if (quality > best) {
                 best = quality;
