@@ -78,9 +78,9 @@ struct ShapeError {
                             ///< through their vertices, over the whole, at most 1
 };
 
-/// The relative error of the added mass that `error` may bring about: that of the volume, of the faceting, or
-/// of the mean distance over the whole surface, set against the displaced volume and the mean of the added
-/// masses `tensor`, whichever is greatest.
+/// The relative error of the added mass that `error` may bring about, the greatest of 5/3 of the changes of
+/// volume, 5/3 of the faceting, and the volume of the mean distance over the surface, relative to the
+/// displaced volume and the mean of the added masses `tensor`.
 double tensor_error_of(const ShapeError& error, const VolumeMoments& moments, const Matrix6d& tensor);
 
 /// All that a body file holds. Each stage adds a part: mesh the first six, kirchhoff two, and
