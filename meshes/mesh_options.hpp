@@ -14,12 +14,12 @@ struct MeshOptions {
     };
     Sizing sizing = Sizing::triangles;
     int triangles = 1280;
-    double size = 0.0;            ///< m, after scaling
+    double size = 0.0;              ///< m, after scaling
     bool as_many_as_needed = true;  ///< more or smaller triangles where these do not hold the shape
-    int order = automatic_order;  ///< 1: flat; 2: curved triangles with nodes in the middle of their edges
-    double scale = 1.0;           ///< metres for one unit of the file
-    bool flip = false;            ///< turn every face of a file of triangles round
-    double time_limit = 300.0;    ///< s: the most computing that gmsh may do on the file
+    int order = automatic_order;    ///< 1: flat; 2: curved triangles with nodes in the middle of their edges
+    double scale = 1.0;             ///< metres for one unit of the file
+    bool flip = false;              ///< turn every face of a file of triangles round
+    double time_limit = 300.0;      ///< s: the most computing that gmsh may do on the file
 };
 
 }  // namespace samara
