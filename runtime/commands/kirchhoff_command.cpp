@@ -164,7 +164,8 @@ int kirchhoff_command(int argc, const char* const* argv) {
     Arguments arguments(
         "samara kirchhoff",
         "The added mass of a rigid body in an unbounded ideal fluid: its 6x6 Kirchhoff tensor.");
-    arguments.positional("FILE", request.file, "body file (.body.h5), or any shape (.geo .stl .obj .step ...)");
+    arguments.positional("FILE", request.file,
+                         "body file (.body.h5), or any shape (.geo .stl .obj .step ...)");
     arguments.output_option("-o,--output", request.output, "write the body file with the tensor in it");
     arguments.option("--triangles", request.triangles,
                      "mesh the shape with about this many; 0: samara mesh's choice", 0, 100'000);
