@@ -207,8 +207,8 @@ bool allow_computing_and_reading_alone() {
     filter.allow_where(SYS_open, {{lower_half(1), O_RDONLY, writing}});
 #endif
     // Not those that have a file signal other processes (F_SETOWN, F_SETSIG, O_ASYNC by F_SETFL).
-    for (const std::uint32_t command : {F_DUPFD, F_DUPFD_CLOEXEC, F_GETFD, F_SETFD, F_GETFL}) {
-        filter.allow_where(SYS_fcntl, {{lower_half(1), command}});
+    for (const int command : {F_DUPFD, F_DUPFD_CLOEXEC, F_GETFD, F_SETFD, F_GETFL}) {
+        filter.allow_where(SYS_fcntl, {{lower_half(1), static_cast<std::uint32_t>(command)}});
     }
     filter.allow_where(SYS_flock, {{lower_half(1), 0, LOCK_EX}});
     filter.allow_where(SYS_tgkill, {{lower_half(0), self}});
