@@ -51,8 +51,8 @@ std::vector<int> outer_surfaces(const std::string& label) {
     return tags;
 }
 
-// Fine enough to see curvature, coarse enough to be quick, with `across` triangles across the body: what
-// sizes are measured on.
+// Fine enough to see curvature, coarse enough to be quick, with at most `finest` triangles across the body:
+// what sizes are measured on.
 Surface reference_of_geometry(const std::string& label, const std::vector<int>& tags, double finest) {
     double low[3];
     double high[3];

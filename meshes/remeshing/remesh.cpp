@@ -18,8 +18,6 @@
 #include "internal/body/welded_surface.hpp"
 #include "meshes/checks/shape_error.hpp"
 #include "meshes/checks/sound_surface.hpp"
-#include "meshes/checks/triangle_tree.hpp"
-#include "meshes/checks/volume_moments.hpp"
 #include "meshes/remeshing/edge_middle.hpp"
 #include "meshes/remeshing/evened_surface.hpp"
 #include "meshes/remeshing/mesh_size_field.hpp"
@@ -143,8 +141,7 @@ class Attempts {
     Attempts(const Surface& flat, const Smoothing& smoothing, const std::string& label)
         : flat_(flat), smoothing_(smoothing), label_(label), sharpest_turn_(1.01 * sharpest_turn(flat)) {}
 
-    // Whether the surface is sound and holds the shape. One of a higher rank is taken in any case only where
-    // nothing better is found.
+    // Whether the surface is sound and holds the shape; the one that misses it least is kept.
     bool holds(Surface result) {
         try {
             require_sound_surface(result);
