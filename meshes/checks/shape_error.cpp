@@ -49,9 +49,10 @@ Distances distances(const Surface& from, const TriangleTree& to) {
         const int n = 1 + static_cast<int>(std::sqrt(area / whole * points_over_the_area));
         for (int i = 0; i < n; ++i) {
             for (int j = 0; j < 2 * (n - i) - 1; ++j) {
+                const int row = j / 2;
                 const double third = (j % 2 == 0 ? 1.0 : 2.0) / 3.0;
                 const double u = (i + third) / n;
-                const double v = (static_cast<double>(j / 2) + third) / n;
+                const double v = (row + third) / n;
                 const Vector3d point = (1.0 - u - v) * corner(0) + u * corner(1) + v * corner(2);
                 const double distance = to.nearest(point).squared_distance;
                 squared = std::max(squared, distance);

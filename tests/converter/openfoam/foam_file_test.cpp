@@ -248,7 +248,7 @@ TEST_F(FoamFile, FilesOfAnotherKindAreRefused) {
         EXPECT_THAT(test::error_of([&] { read_scalar_field(file); }), HasSubstr("not an OpenFOAM file"));
     }
     EXPECT_THAT(test::error_of([&] { read_scalar_field(folder_.path() / "none"); }),
-                HasSubstr("cannot be read"));
+                HasSubstr("there is no such file"));
 }
 
 TEST_F(FoamFile, BinaryThatIsCutShortIsRefused) {
