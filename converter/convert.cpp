@@ -10,10 +10,11 @@
 #include "converter/cases/plan_coverage.hpp"
 #include "converter/tables/direction_sampling.hpp"
 #include "converter/tables/table_filling.hpp"
-#include "internal/base/json_text.hpp"
-#include "internal/body/case_records.hpp"
-#include "samara/base/error.hpp"
-#include "samara/body/body_file.hpp"
+#include "samara/analysis/verdicts/case_records.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/body/body_file.hpp"
+#include "samara/formats/json_text.hpp"
+#include "samara/formats/left_out_cases.hpp"
 
 namespace samara {
 namespace {
@@ -116,8 +117,9 @@ Conversion convert_folder(const std::filesystem::path& folder,
             "{}: {}; {}", (folder / "plan.json").string(), fault.what(),
             plan.solved_by_user ? "solve what is missing and add it to 'cases'" : "run 'samara bake' again"));
     }
-    conversion.body.tables->left_out = std::move(reduction.left_out);
-    const std::vector<FallRecord> falls = solved_falls(folder, plan, conversion.body.tables->left_out);
+    conversion.left_out = std::move(reduction.left_out);
+    const std::vector<FallRecord> falls = solved_falls(folder, plan, conversion.left_out);
+    conversion.body.tables->left_out = left_out_text(conversion.left_out);
     if (falls.empty()) return conversion;
     conversion.identification = identify_motion(conversion.body, falls, {}, identifying);
     conversion.body.dynamic = conversion.identification->coefficients;

@@ -7,7 +7,8 @@
 
 #include "converter/cases/case_reduction.hpp"
 #include "converter/falls/fall_identification.hpp"
-#include "samara/body/body.hpp"
+#include "samara/core/body/body.hpp"
+#include "samara/formats/left_out_cases.hpp"
 
 namespace samara {
 
@@ -17,6 +18,7 @@ struct Conversion {
     std::vector<SolvedCase> cases;  ///< in the plan's order, case axes, as they stand in the tables: without
                                     ///< what the symmetry forbids, errors widened by it
     std::vector<LoadEntryError> sampling_errors;   ///< of the tables' entries, by fill_tables
+    std::vector<LeftOutCase> left_out;             ///< cases and falls that could not be solved
     std::optional<Identification> identification;  ///< of the dynamic coefficients, where falls are solved
 };
 

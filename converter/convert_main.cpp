@@ -15,13 +15,13 @@
 #include "converter/cases/samples_csv.hpp"
 #include "converter/convert.hpp"
 #include "converter/falls/identification_report.hpp"
-#include "internal/base/vector_json.hpp"
-#include "internal/command/arguments.hpp"
-#include "internal/command/print.hpp"
-#include "internal/command/progress.hpp"
-#include "internal/files/replace_file.hpp"
-#include "samara/base/error.hpp"
-#include "samara/body/body_file.hpp"
+#include "samara/commands/shared/arguments.hpp"
+#include "samara/commands/shared/print.hpp"
+#include "samara/commands/shared/progress.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/body/body_file.hpp"
+#include "samara/core/files/replace_file.hpp"
+#include "samara/formats/vector_json.hpp"
 
 namespace samara {
 namespace {
@@ -95,7 +95,7 @@ nlohmann::json conversion_as_json(const Conversion& conversion, const std::strin
                                           {"dissipation_rate", share.dissipation_rate}};
     }
     nlohmann::json left_out = nlohmann::json::array();
-    for (const LeftOutCase& one : tables.left_out) {
+    for (const LeftOutCase& one : conversion.left_out) {
         left_out.push_back({{"name", one.name}, {"reason", one.reason}});
     }
     return {{"body", conversion.body.name},
@@ -119,7 +119,8 @@ std::string with_error(double value, double error) {
     return fmt::format("{:.{}f} +- {:.{}f}", value, decimals, error, decimals);
 }
 
-void print_errors(const LoadTables& tables) {
+void print_errors(const Conversion& conversion) {
+    const LoadTables& tables = *conversion.body.tables;
     print_result(
         "\nThe errors above are those of the iterations and of the symmetry. Of the tables, root mean "
         "square\nstandard errors by source, over the quantity's own:\n");
@@ -128,7 +129,7 @@ void print_errors(const LoadTables& tables) {
                      name_of(share.source), 100.0 * share.force, 100.0 * share.moment,
                      100.0 * share.turbulent_kinetic_energy, 100.0 * share.dissipation_rate);
     }
-    for (const LeftOutCase& one : tables.left_out) {
+    for (const LeftOutCase& one : conversion.left_out) {
         print_result("Left out and filled from the others: {}: {}\n", one.name, one.reason);
     }
 }
@@ -151,7 +152,7 @@ void print_cases(const Conversion& conversion) {
             with_error(entry.turbulent_kinetic_energy, error.turbulent_kinetic_energy),
             with_error(entry.dissipation_rate, error.dissipation_rate));
     }
-    print_errors(tables);
+    print_errors(conversion);
 }
 
 /// The folder's solved cases as a table of numbers.

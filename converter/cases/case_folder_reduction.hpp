@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "converter/cases/case_reduction.hpp"
+#include "samara/formats/left_out_cases.hpp"
 
 namespace samara {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "foam-cases/bake/bake_plan.hpp"
-#include "samara/body/table_errors.hpp"
+#include "samara/formats/left_out_cases.hpp"
 
 namespace samara {
 

@@ -1,4 +1,4 @@
-#include "commands/body_report.hpp"
+#include "samara/commands/body_report.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -8,14 +8,15 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "commands/provenance_summary.hpp"
-#include "commands/table_errors_report.hpp"
-#include "internal/advice/density_doubt.hpp"
-#include "internal/base/json_text.hpp"
-#include "internal/base/symmetric_matrix.hpp"
-#include "internal/base/vector_json.hpp"
-#include "internal/body/principal_extents.hpp"
-#include "internal/command/print.hpp"
+#include "samara/analysis/advice/density_doubt.hpp"
+#include "samara/commands/provenance_summary.hpp"
+#include "samara/commands/shared/print.hpp"
+#include "samara/commands/table_errors_report.hpp"
+#include "samara/core/base/symmetric_matrix.hpp"
+#include "samara/core/body/principal_extents.hpp"
+#include "samara/formats/json_text.hpp"
+#include "samara/formats/left_out_cases.hpp"
+#include "samara/formats/vector_json.hpp"
 
 namespace samara {
 namespace {
@@ -119,7 +120,8 @@ void print_table_errors(const LoadTables& tables) {
                      100.0 * share.force, 100.0 * share.moment, 100.0 * share.turbulent_kinetic_energy,
                      100.0 * share.dissipation_rate);
     }
-    for (const LeftOutCase& one : tables.left_out) print_row("left out", "{}: {}", one.name, one.reason);
+    for (const LeftOutCase& one : left_out_cases(tables))
+        print_row("left out", "{}: {}", one.name, one.reason);
 }
 
 void print_tables(const LoadTables& tables) {
@@ -207,7 +209,7 @@ nlohmann::json tables_as_json(const LoadTables& tables) {
             {"dissipation_rate", share.dissipation_rate}};
     }
     result["left_out"] = nlohmann::json::array();
-    for (const LeftOutCase& one : tables.left_out) {
+    for (const LeftOutCase& one : left_out_cases(tables)) {
         result["left_out"].push_back({{"name", one.name}, {"reason", one.reason}});
     }
     result["provenance"] = parse_json_or_discard(tables.provenance);

@@ -1,4 +1,4 @@
-#include "commands/table_errors_report.hpp"
+#include "samara/commands/table_errors_report.hpp"
 
 #include <algorithm>
 #include <vector>
@@ -7,7 +7,8 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "internal/report/words.hpp"
+#include "samara/formats/left_out_cases.hpp"
+#include "samara/internal/report/words.hpp"
 
 namespace samara {
 namespace {
@@ -41,9 +42,9 @@ std::string table_errors_as_text(const std::optional<LoadTables>& tables, const 
         text += fmt::format(" {} of k", per_cent(met.mean_turbulent_kinetic_energy()));
     }
     text += fmt::format("\n  it holds: {}\n", error_sources_in_words(*tables));
-    if (!tables->left_out.empty()) {
+    if (const std::size_t left_out = left_out_cases(*tables).size(); left_out > 0) {
         text += fmt::format("  {} of the tables' cases could not be solved ('samara info' names them)\n",
-                            tables->left_out.size());
+                            left_out);
     }
     return text;
 }
@@ -58,7 +59,7 @@ nlohmann::json table_errors_as_json(const std::optional<LoadTables>& tables, con
     result["outside_of_plan"] = met.share_strayed();
     result["sources"] = source_names(*tables);
     result["left_out"] = nlohmann::json::array();
-    for (const LeftOutCase& one : tables->left_out) result["left_out"].push_back(one.name);
+    for (const LeftOutCase& one : left_out_cases(*tables)) result["left_out"].push_back(one.name);
     return result;
 }
 

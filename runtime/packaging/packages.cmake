@@ -6,13 +6,20 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY ${PROJECT_DESCRIPTION})
 set(CPACK_DEB_COMPONENT_INSTALL ON)
-set(CPACK_COMPONENTS_ALL runtime)
+set(CPACK_COMPONENTS_ALL core runtime)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 
+set(CPACK_DEBIAN_CORE_PACKAGE_NAME samara-core)
+set(CPACK_COMPONENT_CORE_DESCRIPTION
+  "The core: what a game engine or a simulator embeds. Reads body files and flies bodies:
+the C interface (libsamara-core.so, samara.h) and the C++ library.")
+set(CPACK_DEBIAN_CORE_PACKAGE_SUGGESTS "samara-runtime, libeigen3-dev, libhdf5-dev, libfmt-dev, libhwy-dev")
+
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME samara-runtime)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS "samara-core (= ${PROJECT_VERSION})")
 set(CPACK_COMPONENT_RUNTIME_DESCRIPTION
   "The runtime: simulates bodies with precomputed added mass, load and turbulence tables,
 exports their motion to animation tools and plots it. With ready-baked

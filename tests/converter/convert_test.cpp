@@ -13,12 +13,12 @@
 
 #include "converter/falls/motion_parameters.hpp"
 #include "converter/tables/direction_sampling.hpp"
-#include "internal/base/content_hash.hpp"
-#include "internal/body/octahedral_map.hpp"
-#include "internal/command/subprocess.hpp"
 #include "load_laws.hpp"
 #include "paths.hpp"
-#include "samara/body/body_file.hpp"
+#include "samara/commands/shared/subprocess.hpp"
+#include "samara/core/body/body_file.hpp"
+#include "samara/core/files/content_hash.hpp"
+#include "samara/core/surface/octahedral_map.hpp"
 #include "solved_folder.hpp"
 #include "support/expect_error.hpp"
 #include "support/known_bodies.hpp"
@@ -140,9 +140,9 @@ TEST_F(Convert, FillsADirectionThatCouldNotBeSolvedAndSaysSo) {
     const Conversion conversion = convert_folder(folder_.path());
     EXPECT_EQ(conversion.cases.size(), 11U);
     const LoadTables& tables = *conversion.body.tables;
-    ASSERT_EQ(tables.left_out.size(), 1U);
-    EXPECT_EQ(tables.left_out[0].name, "case_02");
-    EXPECT_EQ(tables.left_out[0].reason, "never settled");
+    ASSERT_EQ(conversion.left_out.size(), 1U);
+    EXPECT_EQ(conversion.left_out[0].name, "case_02");
+    EXPECT_EQ(conversion.left_out[0].reason, "never settled");
     const Vector3d lost = octahedral_node(2, 2, 3);
     EXPECT_LT(test::difference(look_up(tables, lost, 1e3), box_law(lost, 1e3)), 0.5);
 }
@@ -158,7 +158,7 @@ TEST_F(Convert, LeavesOutAFallThatFailedAndTheBodyWithoutCoefficients) {
     EXPECT_FALSE(conversion.identification);
     EXPECT_FALSE(conversion.body.dynamic);
     EXPECT_EQ(conversion.cases.size(), 12U);
-    const std::vector<LeftOutCase>& left_out = conversion.body.tables->left_out;
+    const std::vector<LeftOutCase>& left_out = conversion.left_out;
     ASSERT_EQ(left_out.size(), 1U);
     EXPECT_EQ(left_out[0].name, "fall_00");
     EXPECT_EQ(left_out[0].reason, "the solver stopped");
@@ -168,9 +168,8 @@ TEST_F(Convert, LeavesOutAFallWhoseMeshFailed) {
     plan_falls(folder_, {{{"name", "fall_00"}, {"mesh", "mesh_medium"}}});
     folder_.write("mesh_medium/failed.json", R"({"reason": "too few cells"})");
     const Conversion conversion = convert_folder(folder_.path());
-    ASSERT_EQ(conversion.body.tables->left_out.size(), 1U);
-    EXPECT_EQ(conversion.body.tables->left_out[0].reason,
-              "its mesh mesh_medium could not be made: too few cells");
+    ASSERT_EQ(conversion.left_out.size(), 1U);
+    EXPECT_EQ(conversion.left_out[0].reason, "its mesh mesh_medium could not be made: too few cells");
 }
 
 TEST_F(Convert, RefusesAFallThatIsNeitherSolvedNorFailed) {
@@ -248,7 +247,7 @@ TEST(ConvertFalls, IdentifiesTheCoefficientsOfTheFallsThatAreSolved) {
     ASSERT_TRUE(conversion.body.dynamic);
     const Matrix3d& transport = conversion.body.dynamic->values.transport;
     EXPECT_LT((transport - expected.transport).norm(), 0.05 * expected.transport.norm());
-    EXPECT_EQ(conversion.body.tables->left_out.size(), 1U);
+    EXPECT_EQ(conversion.left_out.size(), 1U);
 }
 
 TEST_F(Convert, RefusesWhereMoreThanOneDirectionInFiveCouldNotBeSolved) {

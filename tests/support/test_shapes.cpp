@@ -5,7 +5,7 @@
 #include <random>
 #include <utility>
 
-#include "internal/body/octahedral_map.hpp"
+#include "samara/core/surface/octahedral_map.hpp"
 
 namespace samara::test {
 namespace {
@@ -255,7 +255,7 @@ Body full_body() {
     body.tables = smooth_tables(2);
     body.tables->error_sources = {{ErrorSource::tail, 0.01, 0.02, 0.03, 0.04},
                                   {ErrorSource::interpolation, 0.05, 0.06, 0.07, 0.08}};
-    body.tables->left_out = {{"direction_07", "never settled"}};
+    body.tables->left_out = R"([{"name":"direction_07","reason":"never settled"}])";
     DynamicCoefficients dynamic;
     dynamic.transport << 0.05, 0.004, -0.003, 0.004, 0.02, 0.001, -0.003, 0.001, -0.006;
     dynamic.rotational_transport = 0.8;

@@ -1,10 +1,12 @@
-#include "internal/plot/silhouette.hpp"
+#include "samara/internal/plot/silhouette.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
 #include <utility>
+
+#include "samara/core/surface/curved_surface.hpp"
 
 namespace samara {
 namespace {

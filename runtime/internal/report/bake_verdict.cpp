@@ -1,4 +1,4 @@
-#include "internal/report/bake_verdict.hpp"
+#include "samara/internal/report/bake_verdict.hpp"
 
 #include <algorithm>
 #include <set>
@@ -7,12 +7,13 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "internal/base/laminar_flow.hpp"
-#include "internal/body/body_check.hpp"
-#include "internal/body/case_records.hpp"
-#include "internal/body/total_error.hpp"
-#include "internal/report/words.hpp"
-#include "samara/physics/fluid.hpp"
+#include "samara/analysis/verdicts/case_records.hpp"
+#include "samara/core/base/laminar_flow.hpp"
+#include "samara/core/body/body_check.hpp"
+#include "samara/core/body/total_error.hpp"
+#include "samara/core/physics/fluid.hpp"
+#include "samara/formats/left_out_cases.hpp"
+#include "samara/internal/report/words.hpp"
 
 namespace samara {
 namespace {
@@ -98,12 +99,11 @@ void judge_quality(std::vector<Finding>& findings, const LoadTables& tables) {
 
 void judge_cases(std::vector<Finding>& findings, const LoadTables& tables,
                  const std::vector<CaseRecord>& records) {
-    if (!tables.left_out.empty()) {
-        const double share = static_cast<double>(tables.left_out.size()) /
-                             static_cast<double>(tables.left_out.size() + records.size());
+    if (const std::size_t left_out = left_out_cases(tables).size(); left_out > 0) {
+        const double share = static_cast<double>(left_out) / static_cast<double>(left_out + records.size());
         findings.push_back({share > well_known ? Grade::bad : Grade::limited, "left out",
                             fmt::format("{} of {} cases could not be solved, and are filled from the others",
-                                        tables.left_out.size(), tables.left_out.size() + records.size())});
+                                        left_out, left_out + records.size())});
     }
     if (records.empty()) {
         findings.push_back({Grade::limited, "cases", "the file does not say how they were solved"});

@@ -1,4 +1,4 @@
-#include "internal/report/body_parts.hpp"
+#include "samara/internal/report/body_parts.hpp"
 
 #include <cmath>
 #include <map>
@@ -9,18 +9,19 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "internal/advice/density_doubt.hpp"
-#include "internal/base/content_hash.hpp"
-#include "internal/body/case_records.hpp"
-#include "internal/body/principal_extents.hpp"
-#include "internal/body/total_error.hpp"
-#include "internal/files/hdf5_reader.hpp"
-#include "internal/plot/convergence_plot.hpp"
-#include "internal/plot/polar_plot.hpp"
-#include "internal/plot/sphere_plot.hpp"
-#include "internal/report/html.hpp"
-#include "internal/report/words.hpp"
-#include "samara/physics/fluid.hpp"
+#include "samara/analysis/advice/density_doubt.hpp"
+#include "samara/analysis/verdicts/case_records.hpp"
+#include "samara/core/body/principal_extents.hpp"
+#include "samara/core/body/total_error.hpp"
+#include "samara/core/files/content_hash.hpp"
+#include "samara/core/files/hdf5_reader.hpp"
+#include "samara/core/physics/fluid.hpp"
+#include "samara/formats/left_out_cases.hpp"
+#include "samara/internal/plot/convergence_plot.hpp"
+#include "samara/internal/plot/polar_plot.hpp"
+#include "samara/internal/plot/sphere_plot.hpp"
+#include "samara/internal/report/html.hpp"
+#include "samara/internal/report/words.hpp"
 
 namespace samara {
 namespace {
@@ -154,9 +155,9 @@ std::string table_of_cpu_seconds(const std::vector<CaseRecord>& records, double 
 ReportPart part_of_cases(const LoadTables& tables) {
     const std::vector<CaseRecord> records = case_records(tables);
     std::string html;
-    if (!tables.left_out.empty()) {
+    if (const auto left_out = left_out_cases(tables); !left_out.empty()) {
         Rows rows;
-        for (const LeftOutCase& one : tables.left_out) rows.push_back({one.name, one.reason});
+        for (const LeftOutCase& one : left_out) rows.push_back({one.name, one.reason});
         html += html_table({"left out", "why"}, rows);
     }
     Rows rows;

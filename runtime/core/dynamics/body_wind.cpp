@@ -1,0 +1,75 @@
+#include "samara/core/dynamics/body_wind.hpp"
+
+namespace samara {
+namespace {
+
+/// About the body's radius: L/2, with the sphere of its surface.
+double reach_of(const ImmersedBody& body) {
+    return 0.5 * body.length;
+}
+
+Vector3d column(const double (&rows)[3][WindBlock::size], std::size_t lane) {
+    return {rows[0][lane], rows[1][lane], rows[2][lane]};
+}
+
+}  // namespace
+
+Vector3d wind_velocity(const ImmersedBody& body, const Surroundings& surroundings, const Vector3d& place,
+                       double time) noexcept {
+    if (surroundings.wind == nullptr) return Vector3d::Zero();
+    const Vector3d in_world = place + flow_displacement(surroundings, time);
+    WindBlock block;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        block.place[axis][0] = in_world[static_cast<Eigen::Index>(axis)];
+    }
+    constexpr double any_duration = 1e-3;  // it shapes the rate alone, which nobody asks for
+    surroundings.wind->blow(time, {reach_of(body), any_duration}, 1, block);
+    return column(block.velocity, 0);
+}
+
+kernel::WindSource WindMeeting::source() const noexcept {
+    if (surroundings_->wind == nullptr) return {};
+    return {meet, this};
+}
+
+void WindMeeting::meet(const void* context, std::uint64_t step, std::size_t count,
+                       kernel::MetWind& met) noexcept {
+    const auto& self = *static_cast<const WindMeeting*>(context);
+    const Surroundings& surroundings = *self.surroundings_;
+    const double begin = step_time(self.start_, self.time_step_, step);
+    const double time = 0.5 * (begin + step_time(self.start_, self.time_step_, step + 1));
+    const Vector3d displacement = flow_displacement(surroundings, time);
+    const Vector3d flow = flow_velocity(surroundings, time);
+    // Where centroids are was foretold halfway through the step in the flow's frame: there in the world.
+    WindBlock block = {};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (std::size_t lane = 0; lane < count; ++lane) {
+            block.place[axis][lane] = met.place[axis][lane] + displacement[static_cast<Eigen::Index>(axis)];
+        }
+    }
+    if (!surroundings.wind->blow(time, {reach_of(*self.body_), self.time_step_}, count, block)) {
+        self.unsound_.store(true, std::memory_order_relaxed);
+    }
+    for (std::size_t lane = 0; lane < count; ++lane) {
+        const Vector3d velocity = column(block.velocity, lane);
+        Matrix3d gradient;
+        for (std::size_t i = 0; i < 9; ++i) {
+            gradient(static_cast<Eigen::Index>(i / 3), static_cast<Eigen::Index>(i % 3)) =
+                block.gradient[i][lane];
+        }
+        // The fluid's own acceleration, which presses on a body as if it were the fluid.
+        const Vector3d acceleration = column(block.rate, lane) + gradient * (flow + velocity);
+        const Vector3d half_change = 0.5 * self.time_step_ * acceleration;
+        const Vector3d rotation =
+            0.5 * Vector3d(gradient(2, 1) - gradient(1, 2), gradient(0, 2) - gradient(2, 0),
+                           gradient(1, 0) - gradient(0, 1));
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto i = static_cast<Eigen::Index>(axis);
+            met.begin[axis][lane] = velocity[i] - half_change[i];
+            met.end[axis][lane] = velocity[i] + half_change[i];
+            met.rotation[axis][lane] = rotation[i];
+        }
+    }
+}
+
+}  // namespace samara

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+
+#include "samara/core/dynamics/immersed_body.hpp"
+#include "samara/core/dynamics/surroundings.hpp"
+#include "samara/core/kernel/kernel.hpp"
+
+namespace samara {
+
+/// The wind's velocity (m/s, world axes) beyond the undisturbed flow that a body meets at a place of the
+/// flow's frame (m) and a time (s); zero where there is none.
+Vector3d wind_velocity(const ImmersedBody& body, const Surroundings& surroundings, const Vector3d& place,
+                       double time) noexcept;
+
+/// What bodies of one kind meet of the wind of their surroundings in each step.
+class WindMeeting {
+  public:
+    /// Body and surroundings must outlive the meeting. The flight began at `start` (s).
+    WindMeeting(const ImmersedBody& body, const Surroundings& surroundings, double start,
+                double time_step) noexcept
+        : body_(&body), surroundings_(&surroundings), start_(start), time_step_(time_step) {}
+
+    /// Null where there is no wind.
+    [[nodiscard]] kernel::WindSource source() const noexcept;
+    /// Whether a caller's wind gave nothing but numbers so far.
+    [[nodiscard]] bool is_sound() const noexcept { return !unsound_.load(std::memory_order_relaxed); }
+
+  private:
+    static void meet(const void* context, std::uint64_t step, std::size_t count,
+                     kernel::MetWind& met) noexcept;
+
+    const ImmersedBody* body_;
+    const Surroundings* surroundings_;
+    double start_;
+    double time_step_;
+    mutable std::atomic<bool> unsound_ = false;
+};
+
+}  // namespace samara

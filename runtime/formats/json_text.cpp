@@ -1,0 +1,24 @@
+#include "samara/formats/json_text.hpp"
+
+#include <fmt/format.h>
+
+#include "samara/core/base/error.hpp"
+#include "samara/core/files/json_size.hpp"
+
+namespace samara {
+
+nlohmann::json parse_json(std::string_view text) {
+    if (const std::string fault = error_of_json_size(text); !fault.empty()) throw Error(fault);
+    try {
+        return nlohmann::json::parse(text);
+    } catch (const nlohmann::json::exception& reason) {
+        throw Error(fmt::format("is no JSON ({})", reason.what()));
+    }
+}
+
+nlohmann::json parse_json_or_discard(std::string_view text) {
+    if (!error_of_json_size(text).empty()) return nlohmann::json(nlohmann::json::value_t::discarded);
+    return nlohmann::json::parse(text, nullptr, false);
+}
+
+}  // namespace samara
