@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The reports: every program that ./dev runs can be run, and the tables of pages are those of their rows."""
+"""The pages: programs that ./dev runs can be run, tables are those of their rows, and links lead somewhere."""
 
 import os
 import re
@@ -38,6 +38,30 @@ class Reports(unittest.TestCase):
                     with open(os.path.join(root, STUDIES, page), encoding="utf-8") as file:
                         texts.append(file.read())
                 self.assertEqual(*texts, program)
+
+
+def headings(path):
+    """The anchors that the headings of a page have."""
+    with open(path, encoding="utf-8") as file:
+        titles = re.findall(r"^#+ +(.*?) *$", re.sub(r"^```.*?^```", "", file.read(), flags=re.S | re.M), re.M)
+    titles = [re.sub(r"\[([^]]*)\]\([^)]*\)", r"\1", title) for title in titles]
+    return {re.sub(r"[^\w -]", "", title.lower()).replace(" ", "-") for title in titles}
+
+
+class Links(unittest.TestCase):
+    def test_of_pages_lead_to_files_and_headings(self):
+        folders = [*os.walk(os.path.join(ROOT, "docs")), (ROOT, [], os.listdir(ROOT))]
+        pages = [os.path.join(folder, name) for folder, _, names in folders for name in names if name.endswith(".md")]
+        self.assertGreater(len(pages), 40)
+        for page in pages:
+            with open(page, encoding="utf-8") as file:
+                text = re.sub(r"^```.*?^```|`[^`\n]*`", "", file.read(), flags=re.S | re.M)
+            for target, anchor in re.findall(r"\]\((?![a-z]+:)([^)\s#]*)#?([^)\s]*)\)", text):
+                with self.subTest(page=os.path.relpath(page, ROOT), target=target, anchor=anchor):
+                    path = os.path.normpath(os.path.join(os.path.dirname(page), target)) if target else page
+                    self.assertTrue(os.path.exists(path))
+                    if anchor:
+                        self.assertIn(anchor, headings(path))
 
 
 if __name__ == "__main__":
