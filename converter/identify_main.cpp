@@ -93,7 +93,7 @@ int run(int argc, const char* const* argv) {
     arguments.footer(
         "samara bake does this at the qualities standard and high; this program does it anew, from other "
         "falls, or\n"
-        "without some of the terms (docs/falls.md).\n");
+        "without some of the terms (docs/studies/falls).\n");
     return run_program(argc, argv, arguments, [&] {
         return identify(options, arguments.given("--without-stretch"), arguments.json());
     });

@@ -20,7 +20,7 @@ namespace {
 using Eigen::VectorXd;
 
 // These numbers were chosen by looking at the ten reference falls and at how the bodies that are identified
-// fly them (docs/falls.md#how-the-coefficients-are-found).
+// fly them (docs/studies/falls/README.md#how-the-coefficients-are-found).
 //
 // Times are over L/U. The horizon is about a swing of a fluttering body: long enough for its energy to
 // matter, short enough not to be chaotic.
@@ -35,8 +35,8 @@ constexpr double expected_miss = 0.1;        // as far as expectations weigh
 // What the flights of segments miss is forgiven where the swings die: they are fitted best by a body that
 // swings less than it should. So the figures of the whole flight count too: as so many numbers of segments,
 // each where it is off by its fitted_miss as much as a number by `usual_miss`. 15 to 80 numbers in place of
-// the 40 give the same falls within their limits, 160 a disc that falls too fast (docs/falls.md, "How the
-// coefficients are found").
+// the 40 give the same falls within their limits, 160 a disc that falls too fast (docs/studies/falls, "How
+// the coefficients are found").
 constexpr Eigen::Index figures_of_fall = fitted_figures.size();
 constexpr double count_of_figure = 40.0;
 constexpr double least_count = 1e-3;  // of them, to begin with

@@ -48,7 +48,7 @@ struct LeftOutOfFalls {
 ///
 /// The runtime's own step flies the body from many moments of each fall over a short horizon, and each fall
 /// as a whole; the coefficients are those with which it misses those stretches, and the whole falls' descent
-/// speed, frequency, amplitude and rms angular speed, least (least_squares.hpp; docs/falls.md, "How the
+/// speed, frequency, amplitude and rms angular speed, least (least_squares.hpp; docs/studies/falls, "How the
 /// coefficients are found"), near what is expected of any body where the falls do not say
 /// (motion_parameters.hpp), and positive where the loads would else make energy. Their standard errors come
 /// from leaving out one of six stretches of the falls at a time (jackknife), and from how far what is

@@ -24,7 +24,7 @@ struct Expectation {
     double expected, deviation, lower, upper;
 };
 
-// What the falls in docs/falls have in common (docs/falls.md), and how far they differ.
+// What the falls in docs/studies/falls have in common, and how far they differ.
 constexpr Expectation expectations[] = {
     {&DynamicCoefficients::transport, "transport", 0.0, 1.0, -6.0, 6.0},
     {&DynamicCoefficients::rotational_drag, "rotational drag", usual_rotational_drag, 0.7, 0.0, 6.0},
@@ -72,7 +72,7 @@ MotionParameters::MotionParameters(const Body& body, const std::vector<std::stri
     axes_ = principal_axes(body.moments);
     shared_ = default_dynamic_coefficients(body);
     shared_.origin.clear();
-    // Whole, where the defaults' fade towards a sphere: so they follow the falls better (docs/falls.md).
+    // Whole, where the defaults' fade towards a sphere: so they follow the falls better (docs/studies/falls).
     const Matrix3d areas = projected_area_tensor(body);
     shared_.drag_in_motion = 0.5 * usual_drag_in_motion * (areas + areas.transpose());
     shared_.drag_in_spin = 0.5 * usual_drag_in_spin * (areas + areas.transpose());

@@ -20,8 +20,9 @@ struct MotionParameter {
 
 /// The numbers that a body's dynamic coefficients are made of, over what belongs to its size: the principal
 /// values of each tensor along the body's principal axes, the shortest extent first; along two axes that the
-/// body's symmetry makes equal there is one. What is expected is what the falls in docs/falls have in common;
-/// drags in motion and in spin and transport of the turning are that for every body, and have no numbers.
+/// body's symmetry makes equal there is one. What is expected is what the falls in docs/studies/falls have in
+/// common; drags in motion and in spin and transport of the turning are that for every body, and have no
+/// numbers.
 class MotionParameters {
   public:
     /// The body must have its Kirchhoff tensor. Terms whose names are in `without`, as names() has them, stay

@@ -74,7 +74,7 @@ BakeQuality high_quality() {
     return quality;
 }
 
-// The first layer (L) below y+ = 2 on a sphere up to Re 1e5 (docs/closures.md).
+// The first layer (L) below y+ = 2 on a sphere up to Re 1e5 (docs/studies/closures).
 constexpr double thinnest_layer = 1.0 / 1800.0;
 
 // The mesh with layers of which the first is about so thick. The last has half the thickness of the cells
@@ -87,7 +87,7 @@ FlowMesh with_thin_layers(FlowMesh mesh, double first_layer) {
     return mesh;
 }
 
-// What the loads ask for beyond the medium mesh is a fine wake, not a finer surface (docs/closures.md).
+// What the loads ask for beyond the medium mesh is a fine wake, not a finer surface (docs/studies/closures).
 FlowMesh mesh_of_loads(const FlowMesh& mesh) {
     if (mesh.name == fine_mesh().name) {
         return {"mesh_wake", 10, 1.0, 4, 0, {{0.3, 4}, {1.2, 3}, {2.5, 2}, {5.0, 1}}};

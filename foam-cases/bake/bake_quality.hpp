@@ -79,8 +79,8 @@ std::vector<FlowMesh> meshes_of_falls(double reynolds_number);
 BakeQuality bake_quality(const std::string& name);
 
 /// By what the loads of a quality are solved where nobody asks for another: kOmegaSSTLM, which measurements
-/// and falls support (docs/closures.md, docs/falls.md), but for the two that are for trying and for a first
-/// look.
+/// and falls support (docs/studies/closures, docs/studies/falls), but for the two that are for trying and for
+/// a first look.
 Closure usual_loads_closure(const std::string& quality);
 
 /// The names that bake_quality knows, cheapest first.

@@ -249,7 +249,7 @@ void add_falls(const Body& body, const Fluid& fluid, const std::vector<MassSpeci
     const FallModel model = fall_model_of(plan.quality.fall_closure);
     const std::string mesh_of_loads = plan.quality.meshes.at(plan.quality.fall_mesh).name;
     // A mesh of steady loads, fine at the surface and coarse behind it, makes smooth bodies sink a tenth
-    // faster than the meshes by which falls are validated (docs/falls.md).
+    // faster than the meshes by which falls are validated (docs/studies/falls).
     const bool has_own_mesh = model.resolved || plan.quality.fall_closure != plan.quality.loads_closure;
     double reynolds_number = 0.0;
     for (int i = 0; i < plan.quality.falls; ++i) {

@@ -118,7 +118,7 @@ Entries step_entries(const FreeFall& fall) {
 }
 
 // Where the mesh resolves the boundary layer: the scheme and the walls by which the closures were held
-// against measurements (docs/closures.md).
+// against measurements (docs/studies/closures).
 Entries closure_entries(Closure closure, bool resolves_boundary_layer) {
     const bool resolves_eddies = closure == Closure::k_omega_sst_ddes;
     Entries entries = {{"simulationType", closure == Closure::laminar ? "laminar"
@@ -170,7 +170,7 @@ Entries model_entries(const BakeQuality& quality, const BakeCase& entry) {
         {"startFrom", entry.start_from.empty() ? "none" : entry.start_from}};
     const bool is_started = !entry.start_from.empty();
     if (entry.closure == Closure::k_epsilon) {
-        // What is saved so and what it costs is in docs/speed-against-error/bake.md; of other models it is
+        // What is saved so and what it costs is in docs/studies/bake; of other models it is
         // not known.
         const int least = quality.least_iterations;
         entries.insert(entries.end(),

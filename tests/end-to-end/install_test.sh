@@ -14,7 +14,7 @@ if ldd "$work/installed/bin/samara" | grep -iE 'gmsh|openfoam'; then
   exit 1
 fi
 "$work/installed/bin/samara" --help | grep -q 'mesh .*(not installed)'
-if "$work/installed/bin/samara" export "$source_folder/docs/falls/sheet.h5" -o "$work/sheet.html" 2> "$work/fault"; then
+if "$work/installed/bin/samara" export "$source_folder/docs/studies/falls/sheet.h5" -o "$work/sheet.html" 2> "$work/fault"; then
   echo "a page was written without the page" >&2
   exit 1
 fi

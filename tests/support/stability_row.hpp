@@ -4,7 +4,7 @@
 
 namespace samara::test {
 
-/// One line of the table in docs/stability.md.
+/// One line of the table in docs/studies/stability.
 struct StabilityRow {
     std::string subject;  ///< the case, in words
     std::string step;     ///< the time step, in words
@@ -14,7 +14,7 @@ struct StabilityRow {
 };
 
 /// Expects the figure to be a number not above the bound, and records the line with the running test, from
-/// where tests/tools/stability_table.py takes it. To be called from the test's own thread.
+/// where docs/studies/stability/stability_table.py takes it. To be called from the test's own thread.
 void expect_row(const StabilityRow& row);
 
 }  // namespace samara::test

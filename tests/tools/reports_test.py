@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The reports: every program that ./dev runs can be run, and the tables of pages are those of their rows."""
+"""The pages: programs that ./dev runs can be run, tables are those of their rows, and links lead somewhere."""
 
 import os
 import re
@@ -9,33 +9,59 @@ import tempfile
 import unittest
 
 ROOT = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", ".."))
-# Which write their tables again from the rows of the last run.
-REWRITING = {"falls_report.py": "docs/falls.md", "tows_report.py": "docs/falls.md", "references_report.py": "docs/falls.md",
-             "step_auto.py": "docs/speed-against-error/step.md", "noise_report.py": "docs/noise.md", "surface_report.py": "docs/surface-loads.md",
-             "test_falls_report.py": "docs/test-falls.md", "long_falls_report.py": "docs/falls.md",
-             "ensembles_report.py": "docs/noise.md"}
+STUDIES = "docs/studies"
+# Which write their tables again from the rows of the last run, and the pages that hold these.
+REWRITING = {"falls/falls_report.py": "falls/README.md", "falls/tows_report.py": "falls/README.md",
+             "falls/references_report.py": "falls/README.md", "falls/long_falls_report.py": "falls/README.md",
+             "step/step_auto.py": "step/README.md", "noise/noise_report.py": "noise/README.md",
+             "noise/ensembles_report.py": "noise/README.md", "surface-loads/surface_report.py": "../surface-loads.md",
+             "test-falls/test_falls_report.py": "test-falls/README.md", "falls/bodies_report.py": "../shapes.md"}
 
 
 class Reports(unittest.TestCase):
     def test_programs_that_dev_runs_can_be_run(self):
         with open(os.path.join(ROOT, "dev"), encoding="utf-8") as file:
-            called = set(re.findall(r"tests/tools/[a-z_]+\.(?:py|sh)", file.read()))
+            called = set(re.findall(r"(?:tests/tools|docs/studies)/[a-z_/-]+\.(?:py|sh)", file.read()))
         self.assertGreater(len(called), 10)
         for program in sorted(called):
             self.assertTrue(os.access(os.path.join(ROOT, program), os.X_OK), program)
 
     def test_tables_are_those_of_their_rows(self):
         with tempfile.TemporaryDirectory() as copy:
-            for part in ("docs", "tests/tools", "foam-cases/templates", "foam-cases/farm"):
+            for part in ("docs", "foam-cases/templates", "foam-cases/farm"):
                 shutil.copytree(os.path.join(ROOT, part), os.path.join(copy, part),
-                                ignore=shutil.ignore_patterns("*.h5", "*.png", "*.gif", "node_modules", "__pycache__"))
+                                ignore=shutil.ignore_patterns("*.h5", "*.png", "*.gif", "__pycache__"))
             for program, page in REWRITING.items():
-                subprocess.run([os.path.join("tests/tools", program)], cwd=copy, check=True, stdout=subprocess.DEVNULL)
+                subprocess.run([os.path.join(STUDIES, program)], cwd=copy, check=True, stdout=subprocess.DEVNULL)
                 texts = []
                 for root in (ROOT, copy):
-                    with open(os.path.join(root, page), encoding="utf-8") as file:
+                    with open(os.path.join(root, STUDIES, page), encoding="utf-8") as file:
                         texts.append(file.read())
                 self.assertEqual(*texts, program)
+
+
+def headings(path):
+    """The anchors that the headings of a page have."""
+    with open(path, encoding="utf-8") as file:
+        titles = re.findall(r"^#+ +(.*?) *$", re.sub(r"^```.*?^```", "", file.read(), flags=re.S | re.M), re.M)
+    titles = [re.sub(r"\[([^]]*)\]\([^)]*\)", r"\1", title) for title in titles]
+    return {re.sub(r"[^\w -]", "", title.lower()).replace(" ", "-") for title in titles}
+
+
+class Links(unittest.TestCase):
+    def test_of_pages_lead_to_files_and_headings(self):
+        folders = [*os.walk(os.path.join(ROOT, "docs")), (ROOT, [], os.listdir(ROOT))]
+        pages = [os.path.join(folder, name) for folder, _, names in folders for name in names if name.endswith(".md")]
+        self.assertGreater(len(pages), 40)
+        for page in pages:
+            with open(page, encoding="utf-8") as file:
+                text = re.sub(r"^```.*?^```|`[^`\n]*`", "", file.read(), flags=re.S | re.M)
+            for target, anchor in re.findall(r"\]\((?![a-z]+:)([^)\s#]*)#?([^)\s]*)\)", text):
+                with self.subTest(page=os.path.relpath(page, ROOT), target=target, anchor=anchor):
+                    path = os.path.normpath(os.path.join(os.path.dirname(page), target)) if target else page
+                    self.assertTrue(os.path.exists(path))
+                    if anchor:
+                        self.assertIn(anchor, headings(path))
 
 
 if __name__ == "__main__":

@@ -6,7 +6,7 @@ namespace samara {
 namespace {
 
 // Chosen: the ready disc, at 0.55 of the density of its falls, swings a quarter less often and turns half as
-// fast as full CFD has it (docs/falls.md); what differs by a quarter is not known to.
+// fast as full CFD has it (docs/studies/falls); what differs by a quarter is not known to.
 constexpr double negligible = 1.25;
 
 }  // namespace

@@ -57,7 +57,7 @@ struct CataloguedFigure {
     bool refines_last = false;     ///< whether it is the figure before it, seen in another way
     bool relative = true;          ///< whether a difference is read in per cent; else in the unit
     AllowedError allowed = {};     ///< none for figures that nobody judges
-    double fitted_miss = 0.0;      ///< relative: what a well fitted flight is off by (docs/falls.md)
+    double fitted_miss = 0.0;      ///< relative: what a well fitted flight is off by (docs/studies/falls)
     /// Its value; null where Measures does not hold it.
     std::optional<double> (*measured)(const Measures& measures) = nullptr;
 };

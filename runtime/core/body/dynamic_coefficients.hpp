@@ -7,19 +7,19 @@
 namespace samara {
 
 /// (Q/|v|)^2 at which half of what a steady tow lacks is there: small, since a body need not turn fast beside
-/// its speed for its flow to be steady no more. Identified on the falls of docs/falls, which give 0.003 to
-/// 0.1. Where |v| and Q have changed places, half of the tow's moment is gone.
+/// its speed for its flow to be steady no more. Identified on the falls of docs/studies/falls, which give
+/// 0.003 to 0.1. Where |v| and Q have changed places, half of the tow's moment is gone.
 inline constexpr double motion_onset = 0.03;
 
 /// Over how long a way transport forms behind a body that starts in fluid at rest, over the body's extent
-/// along it (docs/theory, "A wake that forms"; chosen in docs/falls.md, "The start").
+/// along it (docs/theory, "A wake that forms"; chosen in docs/studies/falls, "The start").
 inline constexpr double wake_formation_ways = 1.0;
 
 /// Over how long a way the tow's own moment comes back behind a body that no longer swings, over its extent
 /// along it. Usual: so that from rest it is there after the 2.3 extents that tows by full CFD have in the
-/// median. Of bodies whose transport was identified from falls: these lack the tow's moment (docs/falls.md,
-/// "The start"); where all axes are alike, as a cube's, transport turns nothing and the tow's moment is all
-/// there is.
+/// median. Of bodies whose transport was identified from falls: these lack the tow's moment
+/// (docs/studies/falls, "The start"); where all axes are alike, as a cube's, transport turns nothing and the
+/// tow's moment is all there is.
 inline constexpr double usual_settling_ways = 0.8;
 inline constexpr double settling_ways_of_falls = 20.0;
 inline constexpr double settling_ways_of_alike_axes = 5.0;

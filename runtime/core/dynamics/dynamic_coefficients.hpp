@@ -4,8 +4,8 @@
 
 namespace samara {
 
-/// What bodies have in common, by their free falls in full CFD (docs/falls.md): T over the added mass, t,
-/// C_m, C_s, C_w and C_r.
+/// What bodies have in common, by their free falls in full CFD (docs/studies/falls): T over the added mass,
+/// t, C_m, C_s, C_w and C_r.
 inline constexpr double usual_transport = 1.0;
 inline constexpr double usual_rotational_transport = 1.0;
 inline constexpr double usual_drag_in_motion = 0.5;

@@ -71,7 +71,7 @@ HWY_INLINE void advance_seen_fluid(const FlightConstants<Real>& c, const Level<V
 }
 
 /// The slip of the wake, as lasting as the body takes to come so many of its lengths, and the weaker the more
-/// the body turns on its way (docs/noise.md).
+/// the body turns on its way (docs/studies/noise).
 template <class V, class Real>
 HWY_INLINE void advance_wake(const FlightConstants<Real>& c, const Level<V>& level, V h,
                              const Triple<V>& normals, Flight<V>& flight) {

@@ -86,9 +86,10 @@ void judge_sources(std::vector<Finding>& findings, const LoadTables& tables) {
     findings.push_back(
         {closure_alone ? Grade::limited : Grade::bad, "error sources",
          fmt::format("the errors know nothing of: {}; {}", fmt::join(missing, ", "),
-                     closure_alone ? "only quality high solves with other closures, and docs/closures.md "
-                                     "says what they come to"
-                                   : "the true errors are larger; bake with a higher quality")});
+                     closure_alone
+                         ? "only quality high solves with other closures, and docs/studies/closures "
+                           "says what they come to"
+                         : "the true errors are larger; bake with a higher quality")});
 }
 
 void judge_quality(std::vector<Finding>& findings, const LoadTables& tables) {

@@ -112,7 +112,7 @@ ReportPart part_of_turning(const Body& body) {
     if (!body.dynamic) {
         return {"The turning body", html_paragraph("The file holds no coefficients of a turning body, for no "
                                                    "falls were solved. It flies with those that "
-                                                   "bodies have in common (docs/falls.md). Quality "
+                                                   "bodies have in common (docs/studies/falls). Quality "
                                                    "standard solves falls and identifies its own.")};
     }
     const auto& [values, errors, densities] = *body.dynamic;

@@ -84,8 +84,8 @@ TEST_F(Bake, TakesLoadsFromOneModelAndTurbulenceFromAnotherWhereToldTo) {
     ASSERT_EQ(run.status, 0) << run.fault;
     const nlohmann::json json = run.json();
     ASSERT_EQ(json["cases"].size(), 1u);
-    // A resolved boundary layer on the coarse mesh: near what was measured (docs/closures.md); k-epsilon has
-    // 0.3.
+    // A resolved boundary layer on the coarse mesh: near what was measured (docs/studies/closures); k-epsilon
+    // has 0.3.
     EXPECT_NEAR(json["cases"][0]["drag_coefficient"].get<double>(), 0.43, 0.08);
     const fs::path cases = output_.parent_path() / "out.cases";
     const auto closure_in = [&](const std::string& name) {

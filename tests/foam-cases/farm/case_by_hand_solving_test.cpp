@@ -210,7 +210,7 @@ TEST_F(CaseByHand, StartsFromTheNearestCellsWhereTheInterpolationCrashes) {
     EXPECT_EQ(rounds["attempts"].size(), 1u);
 }
 
-// The models of docs/closures.md, each with what it needs of the parameters, on one mesh.
+// The models of docs/studies/closures, each with what it needs of the parameters, on one mesh.
 TEST_F(CaseByHand, SolvesByTheModelThatItsParametersName) {
     const fs::path first = flow_case("first");
     ASSERT_EQ(run(first, {"Allrun", "mesh"}), 0) << said();

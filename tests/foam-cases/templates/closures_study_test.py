@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The bodies and the literature of docs/closures.md (tests/tools/closures_study.py), and the case that is made of each model. Run by ctest."""
+"""The bodies and the literature of docs/studies/closures (closures_study.py), and the case that is made of each model. Run by ctest."""
 
 import collections
 import math
@@ -10,7 +10,7 @@ import unittest
 
 sys.dont_write_bytecode = True
 HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, os.path.join(HERE, "..", "..", "tools"))
+sys.path.insert(0, os.path.join(HERE, "..", "..", "..", "docs", "studies", "closures"))
 from closures_report import make_case, read, set_parameters  # noqa: E402
 from closures_study import BODIES, MESHES, MODELS, STUDY, brown_lawler, cross, minus, norm  # noqa: E402
 

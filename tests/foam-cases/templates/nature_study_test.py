@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""The cases of docs/nature.md: what is measured of a fall, the scenes, the fruits' mass and the tables. Run by ctest."""
+"""The cases of docs/studies/nature: what is measured of a fall, the scenes, the fruits' mass and the tables. Run by ctest."""
 
 import csv
+import glob
 import math
 import os
 import sys
@@ -11,7 +12,7 @@ import unittest
 sys.dont_write_bytecode = True
 HERE = os.path.dirname(os.path.abspath(__file__))
 PROJECT = os.path.join(HERE, "..", "..", "..")
-sys.path.insert(0, os.path.join(HERE, "..", "..", "tools"))
+sys.path[:0] = glob.glob(os.path.join(PROJECT, "docs", "studies", "*", ""))
 import nature_fruit  # noqa: E402
 import nature_scenes  # noqa: E402
 from gnuplot_picture import Pose, rotation_of  # noqa: E402
@@ -31,7 +32,7 @@ def fall(velocity, turning=lambda t: (0, 0, 0), rotation=UPRIGHT, seconds=2.0, f
 
 
 def published():
-    with open(os.path.join(PROJECT, "docs", "nature", "published.csv"), newline="", encoding="utf-8") as file:
+    with open(os.path.join(PROJECT, "docs", "studies", "nature", "published.csv"), newline="", encoding="utf-8") as file:
         return list(csv.DictReader(file))
 
 
@@ -85,7 +86,7 @@ class Study(unittest.TestCase):
             nature_scenes.main(folder)
             for name in os.listdir(folder):
                 with open(os.path.join(folder, name), encoding="utf-8") as new, \
-                        open(os.path.join(PROJECT, "docs", "nature", name), encoding="utf-8") as kept:
+                        open(os.path.join(PROJECT, "docs", "studies", "nature", name), encoding="utf-8") as kept:
                     self.assertEqual(new.read(), kept.read(), name)
         for case in CASES:
             self.assertTrue(os.path.exists(os.path.join(PROJECT, case.scene)), case.scene)

@@ -54,7 +54,7 @@ TEST(ScriptCheck, TakesWhatShapesAreMadeOf) {
 
 TEST(ScriptCheck, TakesTheShapesThatComeWithSamara) {
     int count = 0;
-    for (const char* folder : {"meshes/shapes", "docs/falls"}) {
+    for (const char* folder : {"meshes/shapes", "docs/studies/falls"}) {
         for (const auto& entry :
              std::filesystem::directory_iterator(std::filesystem::path(SAMARA_SOURCE_DIRECTORY) / folder)) {
             if (entry.path().extension() != ".geo") continue;

@@ -66,7 +66,8 @@ Errors errors_of_fall(const Motion& fall, double frame_rate) {
 // The figures of docs/output.md.
 TEST(Resample, FollowsTheReferenceFallsByFullCfd) {
     int falls = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(SAMARA_SOURCE_DIRECTORY "/docs/falls")) {
+    for (const auto& entry :
+         std::filesystem::directory_iterator(SAMARA_SOURCE_DIRECTORY "/docs/studies/falls")) {
         if (entry.path().extension() != ".h5") continue;
         const Motion fall = read_motion_file(entry.path());
         const Errors at_60 = errors_of_fall(fall, 60.0);

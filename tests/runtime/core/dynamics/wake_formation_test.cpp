@@ -93,7 +93,7 @@ TEST(WakeFormation, GoesOnAsAnExponentialOfTheWayOverTheExtentAlongIt) {
 }
 
 TEST(WakeFormation, BringsTheTowsMomentFromRestAfterTheWayOfTows) {
-    // The median of docs/falls.md, "The start".
+    // The median of docs/studies/falls, "The start".
     constexpr double way_of_tows = 2.3;
     const WakeShares shares =
         shares_of({1.0, (1.0 - std::exp(-way_of_tows / usual_settling_ways)) * Vector3d::UnitX()});

@@ -1,5 +1,5 @@
 // The ready-baked bodies fall as they fell: a change of the equations, the step or the tables that moves a
-// fall is seen here within seconds. How near the falls are to full CFD, docs/falls.md says.
+// fall is seen here within seconds. How near the falls are to full CFD, docs/studies/falls says.
 
 #include <optional>
 #include <string>
@@ -27,14 +27,14 @@ struct ShippedFall {
 
 /// Without noise, as the bodies of runtime/bodies fell when this was written.
 constexpr ShippedFall falls[] = {
-    {"falls/ellipsoid-tilted", "ellipsoid", Regime::fluttering, 0.2129, 0.7065, 2.852},
-    {"falls/ellipsoid-heavy", "ellipsoid", Regime::fluttering, 0.4698, 2.077, 7.023},
-    {"falls/sphere", "sphere", Regime::steady, 0.5496, {}, {}},
-    {"falls/cube", "cube", Regime::chaotic, 0.2547, 0.562, 4.184},
-    {"falls/disc-light", "disc", Regime::fluttering, 0.201, 0.5824, 2.549},
-    {"falls/disc-heavy", "disc", Regime::tumbling, 0.7003, 1.977, 12.59},
-    {"falls/sheet", "sheet", Regime::chaotic, 0.6914, 1.907, 11.26},
-    {"falls/samara", "samara", Regime::autorotating, 1.332, {}, 107.5},
+    {"studies/falls/ellipsoid-tilted", "ellipsoid", Regime::fluttering, 0.2129, 0.7065, 2.852},
+    {"studies/falls/ellipsoid-heavy", "ellipsoid", Regime::fluttering, 0.4698, 2.077, 7.023},
+    {"studies/falls/sphere", "sphere", Regime::steady, 0.5496, {}, {}},
+    {"studies/falls/cube", "cube", Regime::chaotic, 0.2547, 0.562, 4.184},
+    {"studies/falls/disc-light", "disc", Regime::fluttering, 0.201, 0.5824, 2.549},
+    {"studies/falls/disc-heavy", "disc", Regime::tumbling, 0.7003, 1.977, 12.59},
+    {"studies/falls/sheet", "sheet", Regime::chaotic, 0.6914, 1.907, 11.26},
+    {"studies/falls/samara", "samara", Regime::autorotating, 1.332, {}, 107.5},
     {"scenes/samara", "samara", Regime::autorotating, 1.016, {}, 116.2},
 };
 

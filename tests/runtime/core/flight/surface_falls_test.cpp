@@ -18,7 +18,7 @@ namespace samara {
 namespace {
 
 struct SurfaceFall {
-    const char* scene;  ///< of docs/falls
+    const char* scene;  ///< of docs/studies/falls
     const char* body;
     Regime regime;
     double tolerance;  ///< of the descent
@@ -31,7 +31,7 @@ constexpr SurfaceFall falls[] = {
 };
 
 TEST(SurfaceLoads, MakeBodiesFlutterTumbleAndAutorotateAsInFullCfd) {
-    const std::string folder = SAMARA_SOURCE_DIRECTORY "/docs/falls/";
+    const std::string folder = SAMARA_SOURCE_DIRECTORY "/docs/studies/falls/";
     for (const SurfaceFall& fall : falls) {
         SCOPED_TRACE(fall.scene);
         Scene scene = read_scene_file(folder + fall.scene + ".toml");
