@@ -10,13 +10,13 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "samara/base/version.hpp"
 #include "samara/commands/commands.hpp"
 #include "samara/commands/shared/guarded_program.hpp"
 #include "samara/commands/shared/print.hpp"
 #include "samara/commands/shared/subprocess.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/base/nearest_word.hpp"
+#include "samara/core/base/version.hpp"
 
 namespace {
 

@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 #include <tiny_gltf.h>
 
-#include "samara/base/version.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/base/printable.hpp"
+#include "samara/core/base/version.hpp"
 #include "samara/core/files/replace_file.hpp"
 #include "samara/core/surface/look_image.hpp"
 #include "samara/export/float_range.hpp"

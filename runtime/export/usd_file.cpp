@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "samara/base/version.hpp"
 #include "samara/core/base/as_index.hpp"
+#include "samara/core/base/version.hpp"
 #include "samara/core/files/replace_file.hpp"
 #include "samara/core/surface/look_image.hpp"
 #include "samara/export/float_range.hpp"

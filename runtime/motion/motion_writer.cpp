@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "samara/base/version.hpp"
 #include "samara/core/base/error.hpp"
+#include "samara/core/base/version.hpp"
 #include "samara/core/body/surface_file.hpp"
 #include "samara/core/files/row_major.hpp"
 #include "samara/motion/look_group.hpp"

@@ -35,9 +35,10 @@ grep -q '^fall: .*missing.body.h5' "$work/fault"
 # A project in C alone finds the C interface without any other package, and says what the C++ library lacks.
 without=()
 for package in Eigen3 HDF5 TinyGLTF fmt nlohmann_json tomlplusplus; do without+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON"); done
-for parts in "" "COMPONENTS;c"; do
+for parts in "" "COMPONENTS;c" "COMPONENTS;core_c"; do
   cmake -S "$source_folder/tests/end-to-end/consumer-c" -B "$work/consumer-c" -G Ninja "${without[@]}" \
-    -DCMAKE_PREFIX_PATH="$work/installed" -DEXAMPLES="$source_folder/docs/examples" -DPARTS="$parts"
+    -DCMAKE_PREFIX_PATH="$work/installed" -DEXAMPLES="$source_folder/docs/examples" -DPARTS="$parts" \
+    -DLIBRARY="$([ "$parts" = "COMPONENTS;core_c" ] && echo core_c || echo c)"
   cmake --build "$work/consumer-c"
   "$work/consumer-c/fall" "$source_folder/runtime/bodies/leaf.body.h5" | grep -q '^1.0000 s  body 2'
   rm -rf "$work/consumer-c"
@@ -48,6 +49,26 @@ if cmake -S "$source_folder/tests/end-to-end/consumer" -B "$work/consumer" -DCMA
   exit 1
 fi
 tr -s ' \n' ' ' <"$work/said" | grep -q 'samara::runtime needs fmt'
+# The core builds and installs alone, without TOML, JSON and glTF, and flies a body from C.
+without=()
+for package in TinyGLTF nlohmann_json tomlplusplus; do without+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON"); done
+cmake -S "$source_folder" -B "$work/core-build" -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 \
+  -DSAMARA_CORE_ONLY=ON "${without[@]}"
+cmake --build "$work/core-build"
+cmake --install "$work/core-build" --prefix "$work/core"
+if ldd "$(find "$work/core" -name libsamara-core.so)" | grep -iE 'toml|json|gltf'; then
+  echo "the core links TOML, JSON or glTF" >&2
+  exit 1
+fi
+if grep -rlE 'toml|nlohmann|tiny_gltf' "$work/core/include" "$source_folder/runtime/core" --include='*.hpp' --include='*.cpp' --include='*.h' |
+  xargs -r grep -lE '#include <(toml|nlohmann|tiny_gltf)'; then
+  echo "the core includes TOML, JSON or glTF" >&2
+  exit 1
+fi
+cmake -S "$source_folder/tests/end-to-end/consumer-c" -B "$work/consumer-c" -G Ninja -DCMAKE_PREFIX_PATH="$work/core" \
+  -DEXAMPLES="$source_folder/docs/examples" -DPARTS="COMPONENTS;core_c" -DLIBRARY=core_c
+cmake --build "$work/consumer-c"
+"$work/consumer-c/fall" "$source_folder/runtime/bodies/leaf.body.h5" | grep -q '^1.0000 s  body 2'
 # Programs in C, by the lines of the documentation, run from elsewhere.
 library=$(dirname "$(find "$work/installed" -name samara.pc)")
 PKG_CONFIG_PATH=$library pkg-config --modversion samara | grep -q '^[0-9]'

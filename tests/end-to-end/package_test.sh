@@ -16,6 +16,7 @@ rm -rf "$work"
 mkdir -p "$work/root" "$work/scene"
 (cd "$work" && cpack -G DEB --config "$build/CPackConfig.cmake" -B "$work/packages") >"$work/cpack.log" ||
   fail "cpack failed: $(tail -n 5 "$work/cpack.log")"
+core=$(echo "$work"/packages/samara-core_*.deb)
 runtime=$(echo "$work"/packages/samara-runtime_*.deb)
 baking=$(echo "$work"/packages/samara-baking_*.deb)
 
@@ -25,6 +26,8 @@ dpkg-deb -f "$runtime" Depends | grep -qE 'gmsh|openfoam|snakemake' && fail "the
 for package in samara-runtime openfoam snakemake libgmsh; do
   dpkg-deb -f "$baking" Depends | grep -q "$package" || fail "the baking tools do not depend on $package"
 done
+dpkg-deb -f "$core" Depends | grep -qE 'toml|tinygltf|samara' && fail "the core depends on more than it needs"
+dpkg-deb -f "$runtime" Depends | grep -q 'samara-core (=' || fail "the runtime does not depend on the core"
 dpkg-deb -c "$runtime" | awk '{ print $6 }' >"$work/runtime"
 dpkg-deb -c "$baking" | awk '{ print $6 }' >"$work/baking"
 grep -v '/$' "$work/runtime" | grep -Fxf "$work/baking" && fail "both packages hold these files"
@@ -36,7 +39,15 @@ if command -v help2man >/dev/null; then
 fi
 
 # The runtime alone, away from the folders it was built in.
+mkdir "$work/core"
+dpkg -x "$core" "$work/core"
+cc -std=c99 -Wall "$source_folder/docs/examples/fall.c" -I"$work/core/usr/include" \
+  -L"$(dirname "$(find "$work/core" -name libsamara-core.so)")" -lsamara-core -lm -o "$work/fall"
+LD_LIBRARY_PATH=$(dirname "$(find "$work/core" -name libsamara-core.so)") \
+  "$work/fall" "$source_folder/runtime/bodies/airplane.body.h5" >"$work/poses" || fail "the core alone does not fly a body"
+[ -s "$work/poses" ] || fail "the core alone printed nothing"
 dpkg -x "$runtime" "$work/root"
+dpkg -x "$core" "$work/root"
 samara=$work/root/usr/bin/samara
 cd "$work/scene"
 printf '[scene]\nduration = 1.0\n[fluid]\npreset = "air"\n[[body]]\nname = "dart"\nshape = "samara:airplane"\ndensity = 800\n' \

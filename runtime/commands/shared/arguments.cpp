@@ -11,10 +11,10 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "samara/base/version.hpp"
 #include "samara/commands/shared/guarded_program.hpp"
 #include "samara/commands/shared/print.hpp"
 #include "samara/core/base/nearest_word.hpp"
+#include "samara/core/base/version.hpp"
 #include "samara/core/files/replace_file.hpp"
 #include "samara/motion/file_check.hpp"
 

@@ -12,8 +12,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "samara/base/version.hpp"
 #include "samara/commands/shared/subprocess.hpp"
+#include "samara/core/base/version.hpp"
 #include "samara/core/body/body_file.hpp"
 #include "samara/core/files/content_hash.hpp"
 

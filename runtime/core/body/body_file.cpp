@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "samara/base/version.hpp"
 #include "samara/core/base/error.hpp"
+#include "samara/core/base/version.hpp"
 #include "samara/core/body/body_check.hpp"
 #include "samara/core/body/dynamic_coefficients_file.hpp"
 #include "samara/core/body/mass_file.hpp"

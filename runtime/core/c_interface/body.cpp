@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "samara.h"
-#include "samara/base/version.hpp"
+#include "samara/core/base/version.hpp"
 #include "samara/core/body/body_file.hpp"
 #include "samara/core/c_interface/guard.hpp"
 #include "samara/core/c_interface/objects.hpp"

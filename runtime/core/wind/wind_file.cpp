@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "samara/base/version.hpp"
 #include "samara/core/base/error.hpp"
+#include "samara/core/base/version.hpp"
 #include "samara/core/files/content_hash.hpp"
 #include "samara/core/files/hdf5_reader.hpp"
 #include "samara/core/files/hdf5_writer.hpp"

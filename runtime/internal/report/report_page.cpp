@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "samara/base/version.hpp"
+#include "samara/core/base/version.hpp"
 #include "samara/core/files/replace_file.hpp"
 #include "samara/internal/report/html.hpp"
 #include "samara/internal/report/report_style.hpp"

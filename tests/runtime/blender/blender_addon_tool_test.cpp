@@ -5,7 +5,7 @@
 
 #include "blender/blender_poses.hpp"
 #include "paths.hpp"
-#include "samara/base/version.hpp"
+#include "samara/core/base/version.hpp"
 #include "samara/core/files/content_hash.hpp"
 #include "samara/core/files/hdf5_writer.hpp"
 #include "samara/core/files/replace_file.hpp"

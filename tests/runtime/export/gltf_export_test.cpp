@@ -7,9 +7,9 @@
 #include <tiny_gltf.h>
 
 #include "paths.hpp"
-#include "samara/base/version.hpp"
 #include "samara/commands/shared/subprocess.hpp"
 #include "samara/core/base/error.hpp"
+#include "samara/core/base/version.hpp"
 #include "samara/core/files/content_hash.hpp"
 #include "samara/core/surface/curved_surface.hpp"
 #include "samara/export/gltf_file.hpp"
