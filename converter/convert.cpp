@@ -10,10 +10,10 @@
 #include "converter/cases/plan_coverage.hpp"
 #include "converter/tables/direction_sampling.hpp"
 #include "converter/tables/table_filling.hpp"
-#include "internal/base/json_text.hpp"
-#include "internal/body/case_records.hpp"
-#include "samara/base/error.hpp"
-#include "samara/body/body_file.hpp"
+#include "samara/analysis/verdicts/case_records.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/body/body_file.hpp"
+#include "samara/formats/json_text.hpp"
 
 namespace samara {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "converter/cases/case_reduction.hpp"
 #include "converter/falls/fall_identification.hpp"
-#include "samara/body/body.hpp"
+#include "samara/core/body/body.hpp"
 
 namespace samara {
 

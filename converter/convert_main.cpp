@@ -15,13 +15,13 @@
 #include "converter/cases/samples_csv.hpp"
 #include "converter/convert.hpp"
 #include "converter/falls/identification_report.hpp"
-#include "internal/base/vector_json.hpp"
-#include "internal/command/arguments.hpp"
-#include "internal/command/print.hpp"
-#include "internal/command/progress.hpp"
-#include "internal/files/replace_file.hpp"
-#include "samara/base/error.hpp"
-#include "samara/body/body_file.hpp"
+#include "samara/commands/shared/arguments.hpp"
+#include "samara/commands/shared/print.hpp"
+#include "samara/commands/shared/progress.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/body/body_file.hpp"
+#include "samara/core/files/replace_file.hpp"
+#include "samara/formats/vector_json.hpp"
 
 namespace samara {
 namespace {

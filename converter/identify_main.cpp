@@ -12,11 +12,11 @@
 #include "converter/falls/fall_identification.hpp"
 #include "converter/falls/identification_report.hpp"
 #include "converter/falls/motion_parameters.hpp"
-#include "internal/command/arguments.hpp"
-#include "internal/command/print.hpp"
-#include "internal/command/progress.hpp"
-#include "samara/base/error.hpp"
-#include "samara/body/body_file.hpp"
+#include "samara/commands/shared/arguments.hpp"
+#include "samara/commands/shared/print.hpp"
+#include "samara/commands/shared/progress.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/body/body_file.hpp"
 
 namespace samara {
 namespace {

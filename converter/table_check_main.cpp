@@ -7,11 +7,11 @@
 
 #include "converter/cases/samples_csv.hpp"
 #include "converter/tables/table_check.hpp"
-#include "internal/base/vector_json.hpp"
-#include "internal/command/arguments.hpp"
-#include "internal/command/print.hpp"
-#include "samara/base/error.hpp"
-#include "samara/body/body_file.hpp"
+#include "samara/commands/shared/arguments.hpp"
+#include "samara/commands/shared/print.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/body/body_file.hpp"
+#include "samara/formats/vector_json.hpp"
 
 namespace samara {
 namespace {

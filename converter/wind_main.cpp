@@ -10,11 +10,11 @@
 
 #include "converter/wind/foam_wind.hpp"
 #include "converter/wind/vdb_wind.hpp"
-#include "internal/command/arguments.hpp"
-#include "internal/command/print.hpp"
-#include "internal/command/progress.hpp"
-#include "samara/base/error.hpp"
-#include "samara/physics/wind_file.hpp"
+#include "samara/commands/shared/arguments.hpp"
+#include "samara/commands/shared/print.hpp"
+#include "samara/commands/shared/progress.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/wind/wind_file.hpp"
 
 namespace samara {
 namespace {

@@ -13,11 +13,11 @@
 #include "foam-cases/bake/bake_report.hpp"
 #include "foam-cases/farm/cluster_jobs.hpp"
 #include "foam-cases/scene/scene_requests.hpp"
-#include "internal/command/arguments.hpp"
-#include "internal/files/replace_file.hpp"
-#include "internal/flight/terminal_speed.hpp"
-#include "samara/base/error.hpp"
-#include "samara/body/body_file.hpp"
+#include "samara/commands/shared/arguments.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/body/body_file.hpp"
+#include "samara/core/files/replace_file.hpp"
+#include "samara/core/flight/terminal_speed.hpp"
 #include "samara/scene/scene_file.hpp"
 
 namespace samara {

@@ -11,12 +11,12 @@
 
 #include "foam-cases/falls/validate.hpp"
 #include "foam-cases/farm/cluster_jobs.hpp"
-#include "internal/command/arguments.hpp"
-#include "internal/command/motion_output.hpp"
-#include "internal/command/print.hpp"
-#include "internal/figures/description.hpp"
-#include "internal/files/replace_file.hpp"
-#include "samara/base/error.hpp"
+#include "samara/analysis/metrics/description.hpp"
+#include "samara/commands/shared/arguments.hpp"
+#include "samara/commands/shared/motion_output.hpp"
+#include "samara/commands/shared/print.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/files/replace_file.hpp"
 #include "samara/motion/motion_file.hpp"
 #include "samara/scene/scene_file.hpp"
 

@@ -6,12 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "internal/base/content_hash.hpp"
-#include "internal/base/labelled.hpp"
-#include "internal/body/body_check.hpp"
-#include "internal/body/curved_surface.hpp"
-#include "internal/body/mended_surface.hpp"
-#include "internal/body/surface_edges.hpp"
 #include "meshes/checks/joined_parts.hpp"
 #include "meshes/checks/shape_error.hpp"
 #include "meshes/checks/sound_surface.hpp"
@@ -22,8 +16,14 @@
 #include "meshes/remeshing/remesh.hpp"
 #include "meshes/symmetry/image_comparison.hpp"
 #include "meshes/symmetry/symmetry.hpp"
-#include "samara/base/error.hpp"
-#include "samara/body/body_file.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/base/labelled.hpp"
+#include "samara/core/body/body_check.hpp"
+#include "samara/core/body/body_file.hpp"
+#include "samara/core/files/content_hash.hpp"
+#include "samara/core/surface/curved_surface.hpp"
+#include "samara/core/surface/mended_surface.hpp"
+#include "samara/core/surface/surface_edges.hpp"
 
 namespace samara {
 namespace {

@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "meshes/mesh_options.hpp"
-#include "samara/body/body.hpp"
+#include "samara/core/body/body.hpp"
 
 namespace samara {
 

@@ -7,15 +7,15 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "internal/advice/unit_doubts.hpp"
-#include "internal/command/arguments.hpp"
-#include "internal/command/body_notes.hpp"
-#include "internal/command/print.hpp"
-#include "internal/command/progress.hpp"
 #include "meshes/make_body.hpp"
 #include "meshes/symmetry/symmetry.hpp"
-#include "samara/base/error.hpp"
-#include "samara/body/body_file.hpp"
+#include "samara/analysis/advice/unit_doubts.hpp"
+#include "samara/commands/shared/arguments.hpp"
+#include "samara/commands/shared/body_notes.hpp"
+#include "samara/commands/shared/print.hpp"
+#include "samara/commands/shared/progress.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/body/body_file.hpp"
 
 namespace {
 

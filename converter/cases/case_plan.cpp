@@ -10,13 +10,13 @@
 #include <nlohmann/json.hpp>
 
 #include "converter/cases/case_links.hpp"
-#include "internal/base/content_hash.hpp"
-#include "internal/base/json_text.hpp"
-#include "internal/base/nearest_word.hpp"
-#include "internal/base/printable.hpp"
-#include "internal/base/vector_json.hpp"
-#include "samara/base/error.hpp"
-#include "samara/body/body_file.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/base/nearest_word.hpp"
+#include "samara/core/base/printable.hpp"
+#include "samara/core/body/body_file.hpp"
+#include "samara/core/files/content_hash.hpp"
+#include "samara/formats/json_text.hpp"
+#include "samara/formats/vector_json.hpp"
 
 namespace samara {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "converter/cases/closure.hpp"
-#include "samara/base/linear_algebra.hpp"
+#include "samara/core/base/linear_algebra.hpp"
 
 namespace samara {
 

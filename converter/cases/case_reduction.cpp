@@ -15,9 +15,9 @@
 #include "converter/openfoam/foam_dictionary.hpp"
 #include "converter/openfoam/foam_history.hpp"
 #include "converter/tables/standard_error.hpp"
-#include "internal/base/content_hash.hpp"
-#include "internal/base/json_text.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/files/content_hash.hpp"
+#include "samara/formats/json_text.hpp"
 
 namespace samara {
 namespace {

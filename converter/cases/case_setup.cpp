@@ -9,7 +9,7 @@
 #include "converter/openfoam/foam_bytes.hpp"
 #include "converter/openfoam/foam_dictionary.hpp"
 #include "converter/openfoam/poly_mesh.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
 
 namespace samara {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "samara/base/linear_algebra.hpp"
+#include "samara/core/base/linear_algebra.hpp"
 
 namespace samara {
 

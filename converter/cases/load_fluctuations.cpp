@@ -9,7 +9,7 @@
 #include "converter/cases/load_history.hpp"
 #include "converter/openfoam/foam_dictionary.hpp"
 #include "converter/tables/standard_error.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
 
 namespace samara {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "internal/figures/spectrum.hpp"
-#include "samara/base/linear_algebra.hpp"
+#include "samara/analysis/metrics/spectrum.hpp"
+#include "samara/core/base/linear_algebra.hpp"
 
 namespace samara {
 

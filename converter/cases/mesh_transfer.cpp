@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "internal/body/case_records.hpp"
+#include "samara/analysis/verdicts/case_records.hpp"
 
 namespace samara {
 namespace {

@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "converter/tables/direction_sampling.hpp"
-#include "internal/body/case_records.hpp"
-#include "samara/base/error.hpp"
+#include "samara/analysis/verdicts/case_records.hpp"
+#include "samara/core/base/error.hpp"
 
 namespace samara {
 namespace {

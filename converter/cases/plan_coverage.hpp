@@ -2,7 +2,7 @@
 
 #include "converter/cases/case_folder_reduction.hpp"
 #include "converter/cases/case_plan.hpp"
-#include "samara/body/body.hpp"
+#include "samara/core/body/body.hpp"
 
 namespace samara {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "converter/openfoam/foam_history.hpp"
-#include "samara/base/linear_algebra.hpp"
+#include "samara/core/base/linear_algebra.hpp"
 
 namespace samara {
 

@@ -14,7 +14,7 @@
 #include "converter/openfoam/foam_dictionary.hpp"
 #include "converter/openfoam/foam_file.hpp"
 #include "converter/openfoam/time_folders.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
 
 namespace samara {
 namespace {

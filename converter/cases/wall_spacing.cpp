@@ -10,7 +10,7 @@
 
 #include "converter/cases/shell_means.hpp"
 #include "converter/openfoam/foam_dictionary.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
 
 namespace samara {
 namespace {

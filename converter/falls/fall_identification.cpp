@@ -10,9 +10,9 @@
 #include "converter/falls/falling_body.hpp"
 #include "converter/falls/motion_parameters.hpp"
 #include "converter/tables/least_squares.hpp"
-#include "internal/dynamics/loads.hpp"
-#include "internal/figures/figure_catalogue.hpp"
-#include "samara/base/error.hpp"
+#include "samara/analysis/metrics/figure_catalogue.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/dynamics/loads.hpp"
 
 namespace samara {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "converter/falls/fall_record.hpp"
-#include "samara/body/body.hpp"
+#include "samara/core/body/body.hpp"
 #include "samara/motion/measures.hpp"
 
 namespace samara {

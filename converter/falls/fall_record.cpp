@@ -8,7 +8,7 @@
 #include "converter/cases/case_links.hpp"
 #include "converter/cases/load_history.hpp"
 #include "converter/openfoam/foam_history.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
 
 namespace samara {
 namespace {

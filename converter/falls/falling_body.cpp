@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "internal/flight/world_pose.hpp"
-#include "samara/base/error.hpp"
-#include "samara/body/surface.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/flight/world_pose.hpp"
+#include "samara/core/surface/surface.hpp"
 
 namespace samara {
 

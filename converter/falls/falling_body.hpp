@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "converter/falls/fall_record.hpp"
-#include "internal/dynamics/immersed_body.hpp"
-#include "internal/dynamics/step.hpp"
-#include "samara/body/body.hpp"
+#include "samara/core/body/body.hpp"
+#include "samara/core/dynamics/immersed_body.hpp"
+#include "samara/core/integrator/step.hpp"
 #include "samara/motion/motion.hpp"
 
 namespace samara {

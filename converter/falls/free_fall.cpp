@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "internal/base/content_hash.hpp"
-#include "internal/base/json_text.hpp"
-#include "internal/base/vector_json.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/files/content_hash.hpp"
+#include "samara/formats/json_text.hpp"
+#include "samara/formats/vector_json.hpp"
 
 namespace samara {
 namespace {

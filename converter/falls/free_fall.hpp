@@ -4,7 +4,7 @@
 #include <string>
 
 #include "converter/cases/closure.hpp"
-#include "samara/base/linear_algebra.hpp"
+#include "samara/core/base/linear_algebra.hpp"
 
 namespace samara {
 

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "internal/base/angles.hpp"
-#include "internal/base/vector_json.hpp"
-#include "internal/figures/description.hpp"
+#include "samara/analysis/metrics/description.hpp"
+#include "samara/core/base/angles.hpp"
+#include "samara/formats/vector_json.hpp"
 
 namespace samara {
 namespace {

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "internal/dynamics/dynamic_coefficients.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/dynamics/dynamic_coefficients.hpp"
 
 namespace samara {
 namespace {

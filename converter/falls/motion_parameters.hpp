@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "samara/body/body.hpp"
+#include "samara/core/body/body.hpp"
 
 namespace samara {
 

@@ -6,7 +6,7 @@
 
 #include "converter/openfoam/foam_file.hpp"
 #include "converter/openfoam/poly_mesh.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
 
 namespace samara {
 namespace {

@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
-#include "internal/base/content_hash.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/files/content_hash.hpp"
 
 namespace samara {
 namespace {

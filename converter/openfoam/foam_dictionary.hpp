@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "samara/base/linear_algebra.hpp"
+#include "samara/core/base/linear_algebra.hpp"
 
 namespace samara {
 

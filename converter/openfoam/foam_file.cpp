@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "converter/openfoam/foam_scanner.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
 
 namespace samara {
 namespace {

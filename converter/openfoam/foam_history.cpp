@@ -10,7 +10,7 @@
 #include "converter/openfoam/foam_bytes.hpp"
 #include "converter/openfoam/foam_number.hpp"
 #include "converter/openfoam/time_folders.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
 
 namespace samara {
 namespace {

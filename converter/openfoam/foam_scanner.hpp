@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "converter/openfoam/foam_bytes.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
 
 namespace samara {
 

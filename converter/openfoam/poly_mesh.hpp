@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "converter/openfoam/foam_file.hpp"
-#include "samara/base/linear_algebra.hpp"
+#include "samara/core/base/linear_algebra.hpp"
 
 namespace samara {
 

@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "internal/plot/body_picture.hpp"
-#include "internal/plot/gnuplot.hpp"
-#include "internal/plot/heading.hpp"
-#include "internal/plot/panel.hpp"
+#include "samara/internal/plot/body_picture.hpp"
+#include "samara/internal/plot/gnuplot.hpp"
+#include "samara/internal/plot/heading.hpp"
+#include "samara/internal/plot/panel.hpp"
 
 namespace samara {
 namespace {

@@ -1,6 +1,6 @@
 #include "converter/tables/direction_fit.hpp"
 
-#include "internal/base/turn.hpp"
+#include "samara/core/base/turn.hpp"
 
 namespace samara {
 namespace {

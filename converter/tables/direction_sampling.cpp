@@ -9,8 +9,8 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "internal/body/octahedral_map.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/surface/octahedral_map.hpp"
 
 namespace samara {
 namespace {

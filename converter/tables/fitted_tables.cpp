@@ -11,7 +11,7 @@
 
 #include "converter/cases/mesh_transfer.hpp"
 #include "converter/tables/direction_sampling.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
 
 namespace samara {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <Eigen/Cholesky>
 
-#include "internal/base/parallel_for.hpp"
+#include "samara/core/base/parallel_for.hpp"
 
 namespace samara {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "converter/tables/student.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
 
 namespace samara {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "samara/base/linear_algebra.hpp"
+#include "samara/core/base/linear_algebra.hpp"
 
 namespace samara {
 

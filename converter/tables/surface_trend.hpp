@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "samara/body/body.hpp"
-#include "samara/body/surface_loads.hpp"
+#include "samara/core/body/body.hpp"
+#include "samara/core/body/surface_loads.hpp"
 
 namespace samara {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "converter/cases/case_reduction.hpp"
-#include "samara/body/load_tables.hpp"
+#include "samara/core/body/load_tables.hpp"
 
 namespace samara {
 

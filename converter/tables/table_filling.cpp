@@ -9,7 +9,7 @@
 #include "converter/falls/model_errors.hpp"
 #include "converter/tables/fitted_tables.hpp"
 #include "converter/tables/reynolds_interpolation.hpp"
-#include "internal/body/octahedral_map.hpp"
+#include "samara/core/surface/octahedral_map.hpp"
 
 namespace samara {
 namespace {

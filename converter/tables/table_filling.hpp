@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "converter/cases/case_reduction.hpp"
-#include "samara/body/body.hpp"
+#include "samara/core/body/body.hpp"
 
 namespace samara {
 

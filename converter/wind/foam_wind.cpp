@@ -11,7 +11,7 @@
 #include "converter/openfoam/poly_mesh.hpp"
 #include "converter/openfoam/time_folders.hpp"
 #include "converter/wind/node_layout.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
 
 namespace samara {
 namespace {

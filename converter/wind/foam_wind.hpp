@@ -4,7 +4,7 @@
 #include <functional>
 #include <optional>
 
-#include "samara/physics/wind_grid.hpp"
+#include "samara/core/wind/wind_grid.hpp"
 
 namespace samara {
 

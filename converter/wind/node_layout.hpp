@@ -1,6 +1,6 @@
 #pragma once
 
-#include "samara/physics/wind_grid.hpp"
+#include "samara/core/wind/wind_grid.hpp"
 
 namespace samara {
 

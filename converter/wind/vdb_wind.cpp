@@ -6,7 +6,7 @@
 #include <openvdb/tools/Interpolation.h>
 
 #include "converter/wind/node_layout.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
 
 namespace samara {
 namespace {

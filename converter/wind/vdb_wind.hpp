@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "samara/physics/wind_grid.hpp"
+#include "samara/core/wind/wind_grid.hpp"
 
 namespace samara {
 

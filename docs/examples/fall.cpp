@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <vector>
 
-#include <samara/flight/flight.hpp>
+#include <samara/core/flight/flight.hpp>
 
 namespace {
 

@@ -19,12 +19,12 @@
 #include "foam-cases/farm/cluster_jobs.hpp"
 #include "foam-cases/farm/folder_lock.hpp"
 #include "foam-cases/scene/scene_plan_report.hpp"
-#include "internal/command/print.hpp"
-#include "internal/command/progress.hpp"
-#include "internal/files/replace_file.hpp"
-#include "internal/files/temporary_folder.hpp"
-#include "samara/base/error.hpp"
-#include "samara/body/body_file.hpp"
+#include "samara/commands/shared/print.hpp"
+#include "samara/commands/shared/progress.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/body/body_file.hpp"
+#include "samara/core/files/replace_file.hpp"
+#include "samara/core/files/temporary_folder.hpp"
 
 namespace samara {
 namespace {

@@ -12,10 +12,10 @@
 #include "converter/tables/direction_sampling.hpp"
 #include "foam-cases/bake/direction_choice.hpp"
 #include "foam-cases/falls/fall_plan.hpp"
-#include "internal/base/vector_json.hpp"
-#include "internal/body/octahedral_map.hpp"
-#include "internal/flight/terminal_speed.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/flight/terminal_speed.hpp"
+#include "samara/core/surface/octahedral_map.hpp"
+#include "samara/formats/vector_json.hpp"
 
 namespace samara {
 namespace {

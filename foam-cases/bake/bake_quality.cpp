@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
 
 namespace samara {
 namespace {

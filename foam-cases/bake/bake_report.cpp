@@ -12,11 +12,11 @@
 #include "foam-cases/farm/case_record.hpp"
 #include "foam-cases/farm/disk_need.hpp"
 #include "foam-cases/scene/scene_plan_report.hpp"
-#include "internal/advice/unit_doubts.hpp"
-#include "internal/base/json_text.hpp"
-#include "internal/base/vector_json.hpp"
-#include "internal/command/print.hpp"
-#include "samara/body/body_file.hpp"
+#include "samara/analysis/advice/unit_doubts.hpp"
+#include "samara/commands/shared/print.hpp"
+#include "samara/core/body/body_file.hpp"
+#include "samara/formats/json_text.hpp"
+#include "samara/formats/vector_json.hpp"
 
 namespace samara {
 namespace {

@@ -3,7 +3,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "foam-cases/bake/bake.hpp"
-#include "internal/command/body_notes.hpp"
+#include "samara/commands/shared/body_notes.hpp"
 
 namespace samara {
 

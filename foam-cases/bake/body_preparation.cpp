@@ -6,11 +6,11 @@
 
 #include <fmt/format.h>
 
-#include "internal/base/content_hash.hpp"
-#include "internal/base/labelled.hpp"
-#include "internal/command/subprocess.hpp"
-#include "samara/base/error.hpp"
-#include "samara/body/body_file.hpp"
+#include "samara/commands/shared/subprocess.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/base/labelled.hpp"
+#include "samara/core/body/body_file.hpp"
+#include "samara/core/files/content_hash.hpp"
 
 namespace samara {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "converter/tables/direction_fit.hpp"
 #include "converter/tables/direction_sampling.hpp"
-#include "internal/body/octahedral_map.hpp"
+#include "samara/core/surface/octahedral_map.hpp"
 
 namespace samara {
 namespace {

@@ -3,9 +3,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "internal/flight/flow_visits.hpp"
-#include "samara/body/body.hpp"
-#include "samara/body/planned_region.hpp"
+#include "samara/analysis/metrics/flow_visits.hpp"
+#include "samara/core/body/body.hpp"
+#include "samara/core/body/planned_region.hpp"
 
 namespace samara {
 

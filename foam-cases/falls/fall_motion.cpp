@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "internal/flight/world_pose.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/flight/world_pose.hpp"
 
 namespace samara {
 namespace {

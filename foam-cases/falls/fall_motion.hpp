@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "converter/falls/fall_record.hpp"
-#include "internal/dynamics/surroundings.hpp"
-#include "internal/kernel/body_state.hpp"
+#include "samara/core/dynamics/surroundings.hpp"
+#include "samara/core/kernel/body_state.hpp"
 #include "samara/motion/motion.hpp"
 
 namespace samara {

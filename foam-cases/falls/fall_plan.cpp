@@ -10,10 +10,10 @@
 #include <Eigen/LU>
 #include <fmt/format.h>
 
-#include "internal/base/symmetric_matrix.hpp"
-#include "internal/base/turn.hpp"
-#include "internal/flight/terminal_speed.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/base/symmetric_matrix.hpp"
+#include "samara/core/base/turn.hpp"
+#include "samara/core/flight/terminal_speed.hpp"
 
 namespace samara {
 namespace {

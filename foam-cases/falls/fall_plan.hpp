@@ -5,8 +5,8 @@
 
 #include "converter/falls/free_fall.hpp"
 #include "foam-cases/bake/bake_plan.hpp"
-#include "internal/dynamics/immersed_body.hpp"
-#include "internal/kernel/body_state.hpp"
+#include "samara/core/dynamics/immersed_body.hpp"
+#include "samara/core/kernel/body_state.hpp"
 #include "samara/scene/scene.hpp"
 
 namespace samara {

@@ -5,10 +5,10 @@
 
 #include "converter/tables/direction_fit.hpp"
 #include "converter/tables/symmetric_loads.hpp"
-#include "internal/base/angles.hpp"
-#include "internal/body/octahedral_map.hpp"
-#include "internal/figures/fall_figures.hpp"
-#include "internal/kernel/noise.hpp"
+#include "samara/analysis/metrics/fall_figures.hpp"
+#include "samara/core/base/angles.hpp"
+#include "samara/core/kernel/noise.hpp"
+#include "samara/core/surface/octahedral_map.hpp"
 
 namespace samara {
 namespace {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "internal/figures/sampled_falls.hpp"
+#include "samara/analysis/metrics/sampled_falls.hpp"
 
 namespace samara {
 

@@ -15,15 +15,15 @@
 #include "foam-cases/farm/cluster_jobs.hpp"
 #include "foam-cases/farm/cpu_account.hpp"
 #include "foam-cases/farm/folder_lock.hpp"
-#include "internal/base/content_hash.hpp"
-#include "internal/base/json_text.hpp"
-#include "internal/comparison/reference_uncertainty.hpp"
-#include "internal/files/temporary_folder.hpp"
-#include "internal/flight/flight_surroundings.hpp"
-#include "internal/flight/world_pose.hpp"
-#include "samara/base/error.hpp"
-#include "samara/flight/simulation.hpp"
+#include "samara/analysis/comparison/reference_uncertainty.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/files/content_hash.hpp"
+#include "samara/core/files/temporary_folder.hpp"
+#include "samara/core/flight/flight_surroundings.hpp"
+#include "samara/core/flight/world_pose.hpp"
+#include "samara/formats/json_text.hpp"
 #include "samara/motion/motion_file.hpp"
+#include "samara/scene/simulation.hpp"
 
 namespace samara {
 namespace {

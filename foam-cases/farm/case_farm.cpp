@@ -19,11 +19,11 @@
 #include "foam-cases/farm/cluster_jobs.hpp"
 #include "foam-cases/farm/disk_need.hpp"
 #include "foam-cases/farm/guarded_process.hpp"
-#include "internal/base/content_hash.hpp"
-#include "internal/command/progress.hpp"
-#include "internal/command/subprocess.hpp"
-#include "internal/files/temporary_folder.hpp"
-#include "samara/base/error.hpp"
+#include "samara/commands/shared/progress.hpp"
+#include "samara/commands/shared/subprocess.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/files/content_hash.hpp"
+#include "samara/core/files/temporary_folder.hpp"
 
 namespace samara {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "foam-cases/bake/bake_plan.hpp"
-#include "samara/body/table_errors.hpp"
+#include "samara/core/body/table_errors.hpp"
 
 namespace samara {
 

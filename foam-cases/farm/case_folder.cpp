@@ -10,11 +10,11 @@
 #include "foam-cases/farm/case_parameters.hpp"
 #include "foam-cases/farm/case_record.hpp"
 #include "foam-cases/farm/case_surface.hpp"
-#include "internal/base/content_hash.hpp"
-#include "internal/files/replace_file.hpp"
-#include "internal/files/share_folder.hpp"
-#include "samara/base/error.hpp"
-#include "samara/body/body_file.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/body/body_file.hpp"
+#include "samara/core/files/content_hash.hpp"
+#include "samara/core/files/replace_file.hpp"
+#include "samara/core/files/share_folder.hpp"
 
 namespace samara {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "converter/openfoam/foam_data.hpp"
 #include "converter/openfoam/time_folders.hpp"
-#include "internal/base/content_hash.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/files/content_hash.hpp"
 
 namespace samara {
 namespace {

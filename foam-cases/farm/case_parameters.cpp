@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
 
 namespace samara {
 namespace {

@@ -1,7 +1,7 @@
 #include "foam-cases/farm/case_record.hpp"
 
-#include "internal/base/content_hash.hpp"
-#include "internal/base/json_text.hpp"
+#include "samara/core/files/content_hash.hpp"
+#include "samara/formats/json_text.hpp"
 
 namespace samara {
 

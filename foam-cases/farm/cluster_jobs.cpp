@@ -8,10 +8,10 @@
 #include <fmt/format.h>
 
 #include "foam-cases/farm/case_farm.hpp"
-#include "internal/base/content_hash.hpp"
-#include "internal/command/subprocess.hpp"
-#include "internal/files/temporary_folder.hpp"
-#include "samara/base/error.hpp"
+#include "samara/commands/shared/subprocess.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/files/content_hash.hpp"
+#include "samara/core/files/temporary_folder.hpp"
 
 namespace samara {
 namespace {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "converter/cases/case_reduction.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
 
 namespace samara {
 namespace {

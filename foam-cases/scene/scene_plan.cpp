@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "converter/tables/direction_sampling.hpp"
-#include "internal/dynamics/loads.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/dynamics/loads.hpp"
 
 namespace samara {
 namespace {

@@ -8,7 +8,7 @@
 #include "foam-cases/bake/bake_plan.hpp"
 #include "foam-cases/bake/direction_choice.hpp"
 #include "foam-cases/falls/motion_error.hpp"
-#include "samara/body/planned_region.hpp"
+#include "samara/core/body/planned_region.hpp"
 
 namespace samara {
 

@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include "converter/tables/direction_sampling.hpp"
-#include "internal/plot/canvas.hpp"
-#include "internal/plot/gnuplot.hpp"
-#include "internal/plot/heading.hpp"
+#include "samara/internal/plot/canvas.hpp"
+#include "samara/internal/plot/gnuplot.hpp"
+#include "samara/internal/plot/heading.hpp"
 
 namespace samara {
 namespace {

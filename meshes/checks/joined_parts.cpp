@@ -18,16 +18,16 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "internal/base/as_index.hpp"
-#include "internal/base/labelled.hpp"
-#include "internal/body/mended_surface.hpp"
-#include "internal/body/surface_check.hpp"
-#include "internal/body/surface_edges.hpp"
-#include "internal/body/welded_surface.hpp"
 #include "meshes/checks/flush_faces.hpp"
 #include "meshes/checks/sound_surface.hpp"
 #include "meshes/checks/triangle_tree.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/as_index.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/base/labelled.hpp"
+#include "samara/core/surface/mended_surface.hpp"
+#include "samara/core/surface/surface_check.hpp"
+#include "samara/core/surface/surface_edges.hpp"
+#include "samara/core/surface/welded_surface.hpp"
 
 namespace samara {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "samara/body/surface.hpp"
+#include "samara/core/surface/surface.hpp"
 
 namespace samara {
 

@@ -6,13 +6,13 @@
 #include <span>
 #include <vector>
 
-#include "internal/base/as_index.hpp"
-#include "internal/body/creases.hpp"
-#include "internal/body/curved_surface.hpp"
-#include "internal/body/surface_edges.hpp"
-#include "internal/body/welded_surface.hpp"
 #include "meshes/checks/triangle_tree.hpp"
 #include "meshes/checks/volume_moments.hpp"
+#include "samara/core/base/as_index.hpp"
+#include "samara/core/surface/creases.hpp"
+#include "samara/core/surface/curved_surface.hpp"
+#include "samara/core/surface/surface_edges.hpp"
+#include "samara/core/surface/welded_surface.hpp"
 
 namespace samara {
 namespace {

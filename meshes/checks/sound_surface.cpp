@@ -7,11 +7,11 @@
 
 #include <fmt/format.h>
 
-#include "internal/body/surface_check.hpp"
-#include "internal/body/welded_surface.hpp"
 #include "meshes/checks/flush_faces.hpp"
 #include "meshes/checks/triangle_tree.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/surface/surface_check.hpp"
+#include "samara/core/surface/welded_surface.hpp"
 
 namespace samara {
 namespace {

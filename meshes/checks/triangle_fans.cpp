@@ -7,7 +7,7 @@
 
 #include <Eigen/Geometry>
 
-#include "internal/base/as_index.hpp"
+#include "samara/core/base/as_index.hpp"
 
 namespace samara {
 namespace {

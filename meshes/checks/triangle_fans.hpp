@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "samara/base/linear_algebra.hpp"
+#include "samara/core/base/linear_algebra.hpp"
 
 namespace samara {
 

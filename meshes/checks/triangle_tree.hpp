@@ -8,7 +8,7 @@
 
 #include <Eigen/Geometry>
 
-#include "samara/base/linear_algebra.hpp"
+#include "samara/core/base/linear_algebra.hpp"
 
 namespace samara {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "samara/body/body.hpp"
-#include "samara/body/surface.hpp"
+#include "samara/core/body/body.hpp"
+#include "samara/core/surface/surface.hpp"
 
 namespace samara {
 

@@ -10,10 +10,10 @@
 
 #include <fmt/format.h>
 
-#include "internal/base/labelled.hpp"
-#include "internal/body/welded_surface.hpp"
-#include "internal/files/confined_process.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/base/labelled.hpp"
+#include "samara/core/files/confined_process.hpp"
+#include "samara/core/surface/welded_surface.hpp"
 
 namespace samara {
 namespace {

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "samara/body/surface.hpp"
+#include "samara/core/surface/surface.hpp"
 
 namespace samara {
 

@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 #include <gmsh.h>
 
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
 
 namespace samara {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "samara/body/surface.hpp"
+#include "samara/core/surface/surface.hpp"
 
 namespace samara {
 

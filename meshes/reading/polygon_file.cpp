@@ -12,11 +12,11 @@
 #include <CGAL/Simple_cartesian.h>
 #include <fmt/format.h>
 
-#include "internal/body/mesh_text.hpp"
-#include "internal/body/obj_file.hpp"
-#include "internal/body/polygon_triangles.hpp"
-#include "internal/files/input_file.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/files/input_file.hpp"
+#include "samara/core/surface/mesh_text.hpp"
+#include "samara/core/surface/obj_file.hpp"
+#include "samara/core/surface/polygon_triangles.hpp"
 
 namespace samara {
 namespace {

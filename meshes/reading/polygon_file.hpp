@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "meshes/reading/shape_format.hpp"
-#include "samara/body/surface.hpp"
+#include "samara/core/surface/surface.hpp"
 
 namespace samara {
 

@@ -12,8 +12,8 @@
 
 #include <fmt/format.h>
 
-#include "samara/base/error.hpp"
-#include "samara/body/body_file.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/body/body_file.hpp"
 
 namespace samara {
 namespace {

@@ -3,16 +3,16 @@
 #include <functional>
 #include <string>
 
-#include "internal/body/glb_file.hpp"
-#include "internal/body/look_file.hpp"
-#include "internal/body/obj_file.hpp"
-#include "internal/body/stl_file.hpp"
 #include "meshes/reading/confined_surface.hpp"
 #include "meshes/reading/gmsh_session.hpp"
 #include "meshes/reading/gmsh_surface.hpp"
 #include "meshes/reading/polygon_file.hpp"
 #include "meshes/reading/three_mf_file.hpp"
-#include "samara/body/body_file.hpp"
+#include "samara/core/body/body_file.hpp"
+#include "samara/core/surface/obj_file.hpp"
+#include "samara/core/surface/stl_file.hpp"
+#include "samara/formats/glb_file.hpp"
+#include "samara/formats/look_file.hpp"
 
 namespace samara {
 namespace {

@@ -8,8 +8,8 @@
 #include <Model/COM/NMR_DLLInterfaces.h>
 #include <fmt/format.h>
 
-#include "internal/body/stl_file.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/surface/stl_file.hpp"
 
 namespace samara {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "samara/body/surface.hpp"
+#include "samara/core/surface/surface.hpp"
 
 namespace samara {
 

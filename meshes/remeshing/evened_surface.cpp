@@ -8,9 +8,9 @@
 
 #include <Eigen/Geometry>
 
-#include "internal/base/as_index.hpp"
-#include "internal/body/surface_edges.hpp"
 #include "meshes/checks/triangle_fans.hpp"
+#include "samara/core/base/as_index.hpp"
+#include "samara/core/surface/surface_edges.hpp"
 
 namespace samara {
 namespace {

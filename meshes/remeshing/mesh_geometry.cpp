@@ -9,9 +9,6 @@
 #include <fmt/format.h>
 #include <gmsh.h>
 
-#include "internal/base/labelled.hpp"
-#include "internal/body/curved_surface.hpp"
-#include "internal/files/input_file.hpp"
 #include "meshes/checks/shape_error.hpp"
 #include "meshes/checks/sound_surface.hpp"
 #include "meshes/reading/confined_surface.hpp"
@@ -20,7 +17,10 @@
 #include "meshes/reading/shape_format.hpp"
 #include "meshes/remeshing/mesh_size_field.hpp"
 #include "meshes/remeshing/model_mesher.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/base/labelled.hpp"
+#include "samara/core/files/input_file.hpp"
+#include "samara/core/surface/curved_surface.hpp"
 
 namespace samara {
 namespace {

@@ -8,11 +8,11 @@
 #include <span>
 #include <utility>
 
-#include "internal/base/as_index.hpp"
-#include "internal/base/symmetric_matrix.hpp"
-#include "internal/body/creases.hpp"
-#include "internal/body/surface_edges.hpp"
-#include "samara/body/surface.hpp"
+#include "samara/core/base/as_index.hpp"
+#include "samara/core/base/symmetric_matrix.hpp"
+#include "samara/core/surface/creases.hpp"
+#include "samara/core/surface/surface.hpp"
+#include "samara/core/surface/surface_edges.hpp"
 
 namespace samara {
 namespace {

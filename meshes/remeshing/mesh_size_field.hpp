@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "meshes/checks/triangle_tree.hpp"
-#include "samara/body/surface.hpp"
+#include "samara/core/surface/surface.hpp"
 
 namespace samara {
 

@@ -5,11 +5,11 @@
 
 #include <gmsh.h>
 
-#include "internal/base/labelled.hpp"
-#include "internal/body/surface_edges.hpp"
-#include "internal/body/welded_surface.hpp"
 #include "meshes/reading/gmsh_session.hpp"
 #include "meshes/reading/gmsh_surface.hpp"
+#include "samara/core/base/labelled.hpp"
+#include "samara/core/surface/surface_edges.hpp"
+#include "samara/core/surface/welded_surface.hpp"
 
 namespace samara {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "meshes/mesh_options.hpp"
 #include "meshes/remeshing/mesh_size_field.hpp"
-#include "samara/body/surface.hpp"
+#include "samara/core/surface/surface.hpp"
 
 namespace samara {
 

@@ -9,11 +9,11 @@
 
 #include <Eigen/Geometry>
 
-#include "internal/base/as_index.hpp"
-#include "internal/base/parallel_for.hpp"
-#include "internal/body/creases.hpp"
 #include "meshes/checks/triangle_fans.hpp"
 #include "meshes/remeshing/mesh_size_field.hpp"
+#include "samara/core/base/as_index.hpp"
+#include "samara/core/base/parallel_for.hpp"
+#include "samara/core/surface/creases.hpp"
 
 namespace samara {
 namespace {

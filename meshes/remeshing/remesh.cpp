@@ -11,11 +11,6 @@
 
 #include <fmt/format.h>
 
-#include "internal/base/labelled.hpp"
-#include "internal/body/creases.hpp"
-#include "internal/body/curved_surface.hpp"
-#include "internal/body/surface_edges.hpp"
-#include "internal/body/welded_surface.hpp"
 #include "meshes/checks/shape_error.hpp"
 #include "meshes/checks/sound_surface.hpp"
 #include "meshes/remeshing/edge_middle.hpp"
@@ -23,7 +18,12 @@
 #include "meshes/remeshing/mesh_size_field.hpp"
 #include "meshes/remeshing/reduced_surface.hpp"
 #include "meshes/remeshing/smooth_shape.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/base/labelled.hpp"
+#include "samara/core/surface/creases.hpp"
+#include "samara/core/surface/curved_surface.hpp"
+#include "samara/core/surface/surface_edges.hpp"
+#include "samara/core/surface/welded_surface.hpp"
 
 namespace samara {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "meshes/mesh_options.hpp"
-#include "samara/body/body.hpp"
-#include "samara/body/surface.hpp"
+#include "samara/core/body/body.hpp"
+#include "samara/core/surface/surface.hpp"
 
 namespace samara {
 

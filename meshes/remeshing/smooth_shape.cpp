@@ -7,8 +7,8 @@
 #include <Eigen/Geometry>
 #include <Eigen/QR>
 
-#include "internal/base/as_index.hpp"
-#include "internal/body/surface_edges.hpp"
+#include "samara/core/base/as_index.hpp"
+#include "samara/core/surface/surface_edges.hpp"
 
 namespace samara {
 namespace {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <random>
 
-#include "internal/body/creases.hpp"
-#include "internal/body/curved_surface.hpp"
-#include "internal/body/surface_edges.hpp"
 #include "meshes/remeshing/mesh_size_field.hpp"
+#include "samara/core/surface/creases.hpp"
+#include "samara/core/surface/curved_surface.hpp"
+#include "samara/core/surface/surface_edges.hpp"
 
 namespace samara {
 namespace {

@@ -9,10 +9,10 @@
 
 #include <fmt/format.h>
 
-#include "internal/base/symmetric_matrix.hpp"
 #include "meshes/symmetry/image_comparison.hpp"
 #include "meshes/symmetry/symmetry_frame.hpp"
 #include "meshes/symmetry/symmetry_group.hpp"
+#include "samara/core/base/symmetric_matrix.hpp"
 
 namespace samara {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "samara/body/body.hpp"
-#include "samara/body/surface.hpp"
+#include "samara/core/body/body.hpp"
+#include "samara/core/surface/surface.hpp"
 
 namespace samara {
 

@@ -5,8 +5,8 @@
 
 #include <Eigen/SVD>
 
-#include "internal/base/turn.hpp"
 #include "meshes/symmetry/symmetry_group.hpp"
+#include "samara/core/base/turn.hpp"
 
 namespace samara {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "samara/base/linear_algebra.hpp"
+#include "samara/core/base/linear_algebra.hpp"
 
 namespace samara {
 

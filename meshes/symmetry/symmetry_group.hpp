@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "meshes/symmetry/image_comparison.hpp"
-#include "samara/base/linear_algebra.hpp"
+#include "samara/core/base/linear_algebra.hpp"
 
 namespace samara {
 

@@ -7,18 +7,18 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "commands/body_report.hpp"
-#include "commands/commands.hpp"
-#include "internal/base/content_hash.hpp"
-#include "internal/base/vector_json.hpp"
-#include "internal/body/principal_extents.hpp"
-#include "internal/body/total_error.hpp"
-#include "internal/command/arguments.hpp"
-#include "internal/command/print.hpp"
-#include "internal/files/hdf5_reader.hpp"
-#include "internal/files/replace_file.hpp"
-#include "samara/base/error.hpp"
-#include "samara/body/body_file.hpp"
+#include "samara/commands/body_report.hpp"
+#include "samara/commands/commands.hpp"
+#include "samara/commands/shared/arguments.hpp"
+#include "samara/commands/shared/print.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/body/body_file.hpp"
+#include "samara/core/body/principal_extents.hpp"
+#include "samara/core/body/total_error.hpp"
+#include "samara/core/files/content_hash.hpp"
+#include "samara/core/files/hdf5_reader.hpp"
+#include "samara/core/files/replace_file.hpp"
+#include "samara/formats/vector_json.hpp"
 #include "samara/scene/ready_bodies.hpp"
 
 namespace samara {

@@ -1,4 +1,4 @@
-#include "commands/body_report.hpp"
+#include "samara/commands/body_report.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -8,14 +8,14 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "commands/provenance_summary.hpp"
-#include "commands/table_errors_report.hpp"
-#include "internal/advice/density_doubt.hpp"
-#include "internal/base/json_text.hpp"
-#include "internal/base/symmetric_matrix.hpp"
-#include "internal/base/vector_json.hpp"
-#include "internal/body/principal_extents.hpp"
-#include "internal/command/print.hpp"
+#include "samara/analysis/advice/density_doubt.hpp"
+#include "samara/commands/provenance_summary.hpp"
+#include "samara/commands/shared/print.hpp"
+#include "samara/commands/table_errors_report.hpp"
+#include "samara/core/base/symmetric_matrix.hpp"
+#include "samara/core/body/principal_extents.hpp"
+#include "samara/formats/json_text.hpp"
+#include "samara/formats/vector_json.hpp"
 
 namespace samara {
 namespace {

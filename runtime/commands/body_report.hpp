@@ -2,7 +2,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "samara/body/body.hpp"
+#include "samara/core/body/body.hpp"
 
 namespace samara {
 

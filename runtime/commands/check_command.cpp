@@ -6,14 +6,14 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "commands/commands.hpp"
-#include "internal/command/arguments.hpp"
-#include "internal/command/load_body.hpp"
-#include "internal/command/print.hpp"
-#include "internal/files/file_digest.hpp"
-#include "internal/files/replace_file.hpp"
-#include "internal/motion/file_check.hpp"
-#include "samara/base/error.hpp"
+#include "samara/commands/commands.hpp"
+#include "samara/commands/shared/arguments.hpp"
+#include "samara/commands/shared/load_body.hpp"
+#include "samara/commands/shared/print.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/files/file_digest.hpp"
+#include "samara/core/files/replace_file.hpp"
+#include "samara/motion/file_check.hpp"
 
 namespace samara {
 namespace {

@@ -5,15 +5,15 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "commands/commands.hpp"
-#include "commands/motion_choice.hpp"
-#include "internal/command/arguments.hpp"
-#include "internal/command/print.hpp"
-#include "internal/command/progress.hpp"
-#include "internal/comparison/comparison_report.hpp"
-#include "internal/plot/comparison_plot.hpp"
-#include "internal/plot/gnuplot.hpp"
-#include "samara/base/error.hpp"
+#include "samara/analysis/comparison/comparison_report.hpp"
+#include "samara/commands/commands.hpp"
+#include "samara/commands/motion_choice.hpp"
+#include "samara/commands/shared/arguments.hpp"
+#include "samara/commands/shared/print.hpp"
+#include "samara/commands/shared/progress.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/internal/plot/comparison_plot.hpp"
+#include "samara/internal/plot/gnuplot.hpp"
 
 namespace samara {
 namespace {

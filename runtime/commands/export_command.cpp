@@ -9,21 +9,21 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "commands/commands.hpp"
-#include "commands/motion_choice.hpp"
-#include "internal/command/arguments.hpp"
-#include "internal/command/print.hpp"
-#include "internal/command/progress.hpp"
-#include "internal/export/fast_turn.hpp"
-#include "internal/export/loop.hpp"
-#include "internal/motion/resample.hpp"
-#include "samara/base/error.hpp"
+#include "samara/commands/commands.hpp"
+#include "samara/commands/motion_choice.hpp"
+#include "samara/commands/shared/arguments.hpp"
+#include "samara/commands/shared/print.hpp"
+#include "samara/commands/shared/progress.hpp"
+#include "samara/core/base/error.hpp"
 #include "samara/export/chan_file.hpp"
 #include "samara/export/csv_file.hpp"
+#include "samara/export/fast_turn.hpp"
 #include "samara/export/gltf_file.hpp"
+#include "samara/export/loop.hpp"
 #include "samara/export/page_file.hpp"
 #include "samara/export/usd_file.hpp"
 #include "samara/motion/motion_file.hpp"
+#include "samara/motion/resample.hpp"
 
 namespace samara {
 namespace {

@@ -7,20 +7,20 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "commands/body_report.hpp"
-#include "commands/commands.hpp"
-#include "commands/table_lookup_report.hpp"
-#include "commands/vector_words.hpp"
-#include "internal/base/vector_json.hpp"
-#include "internal/command/arguments.hpp"
-#include "internal/command/print.hpp"
-#include "internal/command/progress.hpp"
-#include "internal/figures/description.hpp"
-#include "internal/files/hdf5_reader.hpp"
-#include "samara/base/error.hpp"
-#include "samara/body/body_file.hpp"
+#include "samara/analysis/metrics/description.hpp"
+#include "samara/commands/body_report.hpp"
+#include "samara/commands/commands.hpp"
+#include "samara/commands/shared/arguments.hpp"
+#include "samara/commands/shared/print.hpp"
+#include "samara/commands/shared/progress.hpp"
+#include "samara/commands/table_lookup_report.hpp"
+#include "samara/commands/vector_words.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/body/body_file.hpp"
+#include "samara/core/files/hdf5_reader.hpp"
+#include "samara/core/wind/wind_file.hpp"
+#include "samara/formats/vector_json.hpp"
 #include "samara/motion/motion_file.hpp"
-#include "samara/physics/wind_file.hpp"
 
 namespace samara {
 namespace {

@@ -6,13 +6,13 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "commands/body_report.hpp"
-#include "commands/commands.hpp"
-#include "commands/vector_words.hpp"
-#include "internal/body/mass_check.hpp"
-#include "internal/command/arguments.hpp"
-#include "samara/base/error.hpp"
-#include "samara/body/body_file.hpp"
+#include "samara/commands/body_report.hpp"
+#include "samara/commands/commands.hpp"
+#include "samara/commands/shared/arguments.hpp"
+#include "samara/commands/vector_words.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/body/body_file.hpp"
+#include "samara/core/body/mass_check.hpp"
 
 namespace samara {
 namespace {

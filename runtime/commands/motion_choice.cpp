@@ -1,8 +1,8 @@
-#include "commands/motion_choice.hpp"
+#include "samara/commands/motion_choice.hpp"
 
 #include <fmt/format.h>
 
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
 
 namespace samara {
 

@@ -1,4 +1,4 @@
-#include "commands/provenance_summary.hpp"
+#include "samara/commands/provenance_summary.hpp"
 
 #include <algorithm>
 #include <map>
@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "internal/base/json_text.hpp"
+#include "samara/formats/json_text.hpp"
 
 namespace samara {
 namespace {

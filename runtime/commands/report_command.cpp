@@ -1,8 +1,8 @@
 // samara report: a bake judged by its body file. Where the baking tools are installed, samara-report runs in
 // its place, which also reads the cases.
 
-#include "commands/commands.hpp"
-#include "internal/report/report_program.hpp"
+#include "samara/commands/commands.hpp"
+#include "samara/internal/report/report_program.hpp"
 
 namespace samara {
 

@@ -10,13 +10,13 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "commands/commands.hpp"
-#include "internal/base/nearest_word.hpp"
-#include "internal/command/guarded_program.hpp"
-#include "internal/command/print.hpp"
-#include "internal/command/subprocess.hpp"
-#include "samara/base/error.hpp"
 #include "samara/base/version.hpp"
+#include "samara/commands/commands.hpp"
+#include "samara/commands/shared/guarded_program.hpp"
+#include "samara/commands/shared/print.hpp"
+#include "samara/commands/shared/subprocess.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/base/nearest_word.hpp"
 
 namespace {
 

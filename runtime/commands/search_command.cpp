@@ -9,18 +9,18 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "commands/commands.hpp"
-#include "internal/command/arguments.hpp"
-#include "internal/command/motion_output.hpp"
-#include "internal/command/print.hpp"
-#include "internal/command/progress.hpp"
-#include "internal/command/scene_bodies.hpp"
-#include "internal/flight/size_range.hpp"
-#include "internal/motion/motion_writer.hpp"
-#include "internal/search/target_search.hpp"
-#include "samara/base/error.hpp"
-#include "samara/flight/simulation.hpp"
+#include "samara/commands/commands.hpp"
+#include "samara/commands/shared/arguments.hpp"
+#include "samara/commands/shared/motion_output.hpp"
+#include "samara/commands/shared/print.hpp"
+#include "samara/commands/shared/progress.hpp"
+#include "samara/commands/shared/scene_bodies.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/motion/motion_writer.hpp"
 #include "samara/scene/scene_file.hpp"
+#include "samara/scene/simulation.hpp"
+#include "samara/scene/size_range.hpp"
+#include "samara/scene/target_search.hpp"
 
 namespace samara {
 namespace {

@@ -1,4 +1,4 @@
-#include "commands/table_errors_report.hpp"
+#include "samara/commands/table_errors_report.hpp"
 
 #include <algorithm>
 #include <vector>
@@ -7,7 +7,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "internal/report/words.hpp"
+#include "samara/internal/report/words.hpp"
 
 namespace samara {
 namespace {

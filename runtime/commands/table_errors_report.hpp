@@ -5,9 +5,9 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "internal/command/body_notes.hpp"
-#include "samara/body/load_tables.hpp"
-#include "samara/flight/table_errors_met.hpp"
+#include "samara/commands/shared/body_notes.hpp"
+#include "samara/core/body/load_tables.hpp"
+#include "samara/scene/table_errors_met.hpp"
 
 namespace samara {
 

@@ -1,9 +1,9 @@
-#include "commands/table_lookup_report.hpp"
+#include "samara/commands/table_lookup_report.hpp"
 
 #include <nlohmann/json.hpp>
 
-#include "internal/base/vector_json.hpp"
-#include "internal/command/print.hpp"
+#include "samara/commands/shared/print.hpp"
+#include "samara/formats/vector_json.hpp"
 
 namespace samara {
 namespace {

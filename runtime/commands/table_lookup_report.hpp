@@ -2,7 +2,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "samara/body/load_tables.hpp"
+#include "samara/core/body/load_tables.hpp"
 
 namespace samara {
 

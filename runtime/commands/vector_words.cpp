@@ -1,4 +1,4 @@
-#include "commands/vector_words.hpp"
+#include "samara/commands/vector_words.hpp"
 
 namespace samara {
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "samara/base/linear_algebra.hpp"
+#include "samara/core/base/linear_algebra.hpp"
 
 namespace samara {
 

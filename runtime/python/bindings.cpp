@@ -6,8 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "internal/command/scene_bodies.hpp"
-#include "samara/base/error.hpp"
+#include "samara/commands/shared/scene_bodies.hpp"
+#include "samara/core/base/error.hpp"
 
 namespace samara::python {
 namespace {

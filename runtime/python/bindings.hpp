@@ -19,11 +19,11 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
-#include "internal/files/input_file.hpp"
-#include "samara/base/error.hpp"
-#include "samara/flight/flight.hpp"
-#include "samara/flight/simulation.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/files/input_file.hpp"
+#include "samara/core/flight/flight.hpp"
 #include "samara/motion/motion.hpp"
+#include "samara/scene/simulation.hpp"
 
 namespace samara::python {
 

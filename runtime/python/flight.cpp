@@ -1,6 +1,6 @@
 // samara.Flight: bodies that fall call by call, for those who steer.
 
-#include "samara/flight/flight.hpp"
+#include "samara/core/flight/flight.hpp"
 
 #include <algorithm>
 #include <array>
@@ -16,12 +16,12 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "bindings.hpp"
-#include "internal/command/scene_bodies.hpp"
-#include "internal/flight/flight_surroundings.hpp"
-#include "internal/scene/number_limits.hpp"
-#include "internal/scene/toml_table.hpp"
-#include "internal/scene/wind_table.hpp"
-#include "samara/base/error.hpp"
+#include "samara/commands/shared/scene_bodies.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/base/number_limits.hpp"
+#include "samara/core/flight/flight_surroundings.hpp"
+#include "samara/formats/toml_table.hpp"
+#include "samara/scene/wind_table.hpp"
 
 namespace samara::python {
 namespace {

@@ -1,6 +1,6 @@
 #include "bindings.hpp"
-#include "samara/base/error.hpp"
 #include "samara/base/version.hpp"
+#include "samara/core/base/error.hpp"
 
 namespace samara::python {
 namespace {

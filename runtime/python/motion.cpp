@@ -10,12 +10,12 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "bindings.hpp"
-#include "internal/command/scene_bodies.hpp"
-#include "internal/comparison/comparison_report.hpp"
-#include "internal/figures/description.hpp"
-#include "internal/figures/ensemble.hpp"
-#include "internal/files/temporary_folder.hpp"
-#include "samara/base/error.hpp"
+#include "samara/analysis/comparison/comparison_report.hpp"
+#include "samara/analysis/metrics/description.hpp"
+#include "samara/analysis/metrics/ensemble.hpp"
+#include "samara/commands/shared/scene_bodies.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/files/temporary_folder.hpp"
 #include "samara/export/chan_file.hpp"
 #include "samara/export/csv_file.hpp"
 #include "samara/export/gltf_file.hpp"

@@ -10,7 +10,7 @@
 #include <toml++/toml.h>
 
 #include "bindings.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
 #include "samara/scene/ready_bodies.hpp"
 #include "samara/scene/scene_file.hpp"
 

@@ -6,8 +6,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include "internal/kirchhoff/operators/hypersingular.hpp"
-#include "internal/kirchhoff/solvers/tensor_error.hpp"
+#include "samara/kirchhoff/operators/hypersingular.hpp"
+#include "samara/kirchhoff/solvers/tensor_error.hpp"
 #include "support/known_bodies.hpp"
 #include "support/test_shapes.hpp"
 

@@ -2,9 +2,9 @@
 
 #include <benchmark/benchmark.h>
 
-#include "internal/kirchhoff/panels/curved_collocation.hpp"
-#include "internal/kirchhoff/solvers/tensor_error.hpp"
 #include "samara/kirchhoff/kirchhoff_solver.hpp"
+#include "samara/kirchhoff/panels/curved_collocation.hpp"
+#include "samara/kirchhoff/solvers/tensor_error.hpp"
 #include "support/known_bodies.hpp"
 #include "support/test_shapes.hpp"
 

@@ -12,7 +12,7 @@
 
 #include <fmt/format.h>
 
-#include "internal/kirchhoff/solvers/tensor_error.hpp"
+#include "samara/kirchhoff/solvers/tensor_error.hpp"
 #ifdef SAMARA_ELLIPSOID
 #include "meshes/make_body.hpp"
 #include "meshes/remeshing/remesh.hpp"

@@ -5,8 +5,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include "internal/files/temporary_folder.hpp"
 #include "meshes/make_body.hpp"
+#include "samara/core/files/temporary_folder.hpp"
 #include "support/test_shapes.hpp"
 
 namespace samara {

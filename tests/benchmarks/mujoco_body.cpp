@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 #include <mujoco/mujoco.h>
 
-#include "internal/command/load_body.hpp"
-#include "samara/base/error.hpp"
-#include "samara/body/body.hpp"
+#include "samara/commands/shared/load_body.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/body/body.hpp"
 
 namespace samara {
 namespace {

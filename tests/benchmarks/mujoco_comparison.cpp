@@ -17,9 +17,9 @@
 #include <fmt/format.h>
 #include <mujoco/mujoco.h>
 
-#include "internal/dynamics/batch.hpp"
-#include "internal/dynamics/step.hpp"
 #include "peers/peer_body.hpp"
+#include "samara/core/integrator/batch.hpp"
+#include "samara/core/integrator/step.hpp"
 #include "support/known_bodies.hpp"
 
 namespace samara {

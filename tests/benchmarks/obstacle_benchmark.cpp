@@ -2,7 +2,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "internal/dynamics/step.hpp"
+#include "samara/core/integrator/step.hpp"
 #include "support/ground_bodies.hpp"
 #include "support/obstacles.hpp"
 #include "support/test_shapes.hpp"

@@ -15,12 +15,12 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "internal/command/arguments.hpp"
-#include "internal/command/progress.hpp"
-#include "internal/comparison/comparison.hpp"
-#include "internal/motion/inclination.hpp"
 #include "peers/peer_body.hpp"
-#include "samara/base/error.hpp"
+#include "samara/analysis/comparison/comparison.hpp"
+#include "samara/commands/shared/arguments.hpp"
+#include "samara/commands/shared/progress.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/motion/inclination.hpp"
 #include "samara/motion/motion_file.hpp"
 #include "samara/scene/scene_file.hpp"
 

@@ -4,8 +4,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include "internal/dynamics/batch.hpp"
-#include "internal/dynamics/step.hpp"
+#include "samara/core/integrator/batch.hpp"
+#include "samara/core/integrator/step.hpp"
 #include "support/known_bodies.hpp"
 
 namespace samara {

@@ -14,9 +14,9 @@
 
 #include <fmt/format.h>
 
-#include "internal/dynamics/reference_step.hpp"
 #include "peers/explicit_steps.hpp"
 #include "peers/peer_body.hpp"
+#include "samara/core/integrator/reference_step.hpp"
 #include "support/hard_bodies.hpp"
 #include "support/known_bodies.hpp"
 

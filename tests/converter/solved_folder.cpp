@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "converter/tables/direction_sampling.hpp"
-#include "internal/base/content_hash.hpp"
-#include "samara/body/body_file.hpp"
+#include "samara/core/body/body_file.hpp"
+#include "samara/core/files/content_hash.hpp"
 #include "symmetry_groups.hpp"
 
 namespace samara::test {

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "samara/body/body.hpp"
+#include "samara/core/body/body.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace samara::test {

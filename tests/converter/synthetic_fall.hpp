@@ -1,8 +1,8 @@
 #pragma once
 
 #include "converter/falls/fall_record.hpp"
-#include "internal/dynamics/step.hpp"
-#include "samara/body/body.hpp"
+#include "samara/core/body/body.hpp"
+#include "samara/core/integrator/step.hpp"
 
 namespace samara::test {
 

@@ -9,10 +9,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "internal/base/content_hash.hpp"
-#include "internal/dynamics/loads.hpp"
 #include "paths.hpp"
-#include "samara/body/body_file.hpp"
+#include "samara/core/body/body_file.hpp"
+#include "samara/core/dynamics/loads.hpp"
+#include "samara/core/files/content_hash.hpp"
 #include "samara/scene/scene.hpp"
 #include "support/program_run.hpp"
 

@@ -13,9 +13,9 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "internal/base/content_hash.hpp"
 #include "paths.hpp"
-#include "samara/body/body_file.hpp"
+#include "samara/core/body/body_file.hpp"
+#include "samara/core/files/content_hash.hpp"
 #include "support/program_run.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "samara/body/body.hpp"
+#include "samara/core/body/body.hpp"
 
 namespace samara::test {
 

@@ -6,9 +6,9 @@
 
 #include "harness.hpp"
 #include "hdf5_recipe.hpp"
-#include "internal/files/temporary_folder.hpp"
 #include "samara.h"
-#include "samara/body/body_file.hpp"
+#include "samara/core/body/body_file.hpp"
+#include "samara/core/files/temporary_folder.hpp"
 #include "support/test_shapes.hpp"
 
 namespace samara::fuzz {

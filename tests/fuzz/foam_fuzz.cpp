@@ -17,8 +17,8 @@
 #include "converter/openfoam/foam_file.hpp"
 #include "converter/openfoam/foam_history.hpp"
 #include "harness.hpp"
-#include "internal/base/content_hash.hpp"
-#include "internal/files/temporary_folder.hpp"
+#include "samara/core/files/content_hash.hpp"
+#include "samara/core/files/temporary_folder.hpp"
 
 namespace samara::fuzz {
 namespace {

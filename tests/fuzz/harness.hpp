@@ -6,7 +6,7 @@
 #include <string_view>
 #include <type_traits>
 
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
 
 /// One harness a kind of file: NAME_fuzz.cpp defines feed(), which libFuzzer calls with what it makes up, and
 /// replay_main.cpp with the files of corpus/NAME.

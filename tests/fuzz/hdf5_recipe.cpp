@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <hdf5.h>
 
-#include "internal/base/content_hash.hpp"
+#include "samara/core/files/content_hash.hpp"
 
 namespace samara::fuzz {
 namespace {

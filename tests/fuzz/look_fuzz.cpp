@@ -10,9 +10,9 @@
 #include <string>
 
 #include "harness.hpp"
-#include "internal/body/glb_file.hpp"
-#include "internal/body/obj_file.hpp"
-#include "internal/files/temporary_folder.hpp"
+#include "samara/core/files/temporary_folder.hpp"
+#include "samara/core/surface/obj_file.hpp"
+#include "samara/formats/glb_file.hpp"
 
 namespace samara::fuzz {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "harness.hpp"
 #include "hdf5_recipe.hpp"
-#include "internal/figures/description.hpp"
-#include "internal/files/temporary_folder.hpp"
+#include "samara/analysis/metrics/description.hpp"
+#include "samara/core/files/temporary_folder.hpp"
 #include "samara/export/csv_file.hpp"
 #include "samara/motion/motion_file.hpp"
 #include "support/painted_mesh.hpp"

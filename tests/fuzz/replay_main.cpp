@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "harness.hpp"
-#include "internal/base/content_hash.hpp"
+#include "samara/core/files/content_hash.hpp"
 
 int main(int count, char** arguments) {
     std::vector<std::filesystem::path> files;

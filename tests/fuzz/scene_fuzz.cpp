@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "harness.hpp"
-#include "internal/files/temporary_folder.hpp"
-#include "samara/body/body_file.hpp"
-#include "samara/flight/simulation.hpp"
+#include "samara/core/body/body_file.hpp"
+#include "samara/core/files/temporary_folder.hpp"
 #include "samara/scene/scene_file.hpp"
+#include "samara/scene/simulation.hpp"
 #include "support/known_bodies.hpp"
 
 namespace samara::fuzz {

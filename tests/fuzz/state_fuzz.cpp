@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "harness.hpp"
-#include "internal/base/content_hash.hpp"
-#include "internal/files/temporary_folder.hpp"
-#include "internal/flight/state_bytes.hpp"
 #include "samara.h"
-#include "samara/body/body_file.hpp"
+#include "samara/core/body/body_file.hpp"
+#include "samara/core/files/content_hash.hpp"
+#include "samara/core/files/temporary_folder.hpp"
+#include "samara/core/flight/state_bytes.hpp"
 #include "support/known_bodies.hpp"
 
 namespace samara::fuzz {

@@ -6,13 +6,13 @@
 #include <fstream>
 
 #include "harness.hpp"
-#include "internal/body/mended_surface.hpp"
-#include "internal/body/obj_file.hpp"
-#include "internal/body/stl_file.hpp"
-#include "internal/files/temporary_folder.hpp"
 #include "meshes/checks/sound_surface.hpp"
 #include "meshes/checks/volume_moments.hpp"
 #include "meshes/reading/script_check.hpp"
+#include "samara/core/files/temporary_folder.hpp"
+#include "samara/core/surface/mended_surface.hpp"
+#include "samara/core/surface/obj_file.hpp"
+#include "samara/core/surface/stl_file.hpp"
 
 namespace samara::fuzz {
 

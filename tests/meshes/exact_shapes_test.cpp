@@ -13,10 +13,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "internal/kirchhoff/solvers/tensor_error.hpp"
 #include "meshes/make_body.hpp"
 #include "meshes/shape_files.hpp"
 #include "samara/kirchhoff/kirchhoff_solver.hpp"
+#include "samara/kirchhoff/solvers/tensor_error.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_shapes.hpp"

@@ -10,11 +10,11 @@
 #include <gmsh.h>
 #include <gtest/gtest.h>
 
-#include "internal/kirchhoff/solvers/tensor_error.hpp"
 #include "meshes/checks/sound_surface.hpp"
 #include "meshes/shape_files.hpp"
-#include "samara/body/body_file.hpp"
+#include "samara/core/body/body_file.hpp"
 #include "samara/kirchhoff/kirchhoff_solver.hpp"
+#include "samara/kirchhoff/solvers/tensor_error.hpp"
 #include "support/expect_error.hpp"
 #include "support/known_bodies.hpp"
 #include "support/temporary_folder.hpp"

@@ -8,11 +8,11 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "internal/base/content_hash.hpp"
-#include "internal/command/subprocess.hpp"
 #include "meshes/shape_files.hpp"
 #include "paths.hpp"
-#include "samara/body/body_file.hpp"
+#include "samara/commands/shared/subprocess.hpp"
+#include "samara/core/body/body_file.hpp"
+#include "samara/core/files/content_hash.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_shapes.hpp"
 

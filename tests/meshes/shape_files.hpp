@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <functional>
 
-#include "samara/body/surface.hpp"
+#include "samara/core/surface/surface.hpp"
 
 namespace samara::test {
 

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "samara.h"
-#include "samara/body/body_file.hpp"
+#include "samara/core/body/body_file.hpp"
 #include "support/known_bodies.hpp"
 #include "support/temporary_folder.hpp"
 

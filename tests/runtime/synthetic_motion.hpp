@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "internal/base/angles.hpp"
+#include "samara/core/base/angles.hpp"
 #include "samara/motion/motion.hpp"
 #include "support/test_shapes.hpp"
 

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "internal/base/content_hash.hpp"
-#include "internal/command/subprocess.hpp"
 #include "paths.hpp"
+#include "samara/commands/shared/subprocess.hpp"
+#include "samara/core/files/content_hash.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace samara::test {

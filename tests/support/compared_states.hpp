@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "internal/dynamics/batch.hpp"
-#include "internal/dynamics/step.hpp"
-#include "samara/motion/pose.hpp"
+#include "samara/core/integrator/batch.hpp"
+#include "samara/core/integrator/step.hpp"
+#include "samara/core/physics/pose.hpp"
 
 namespace samara::test {
 

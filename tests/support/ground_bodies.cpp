@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "samara/core/physics/body_physics.hpp"
 #include "samara/kirchhoff/kirchhoff_solver.hpp"
-#include "samara/physics/body_physics.hpp"
 #include "support/test_shapes.hpp"
 
 namespace samara::test {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "internal/dynamics/immersed_body.hpp"
-#include "internal/dynamics/step.hpp"
-#include "internal/dynamics/surroundings.hpp"
+#include "samara/core/dynamics/immersed_body.hpp"
+#include "samara/core/dynamics/surroundings.hpp"
+#include "samara/core/integrator/step.hpp"
 
 namespace samara::test {
 

@@ -1,6 +1,6 @@
 #include "support/hard_bodies.hpp"
 
-#include "internal/body/octahedral_map.hpp"
+#include "samara/core/surface/octahedral_map.hpp"
 #include "support/exact_bodies.hpp"
 #include "support/known_bodies.hpp"
 #include "support/test_shapes.hpp"

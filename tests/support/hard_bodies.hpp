@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "internal/dynamics/immersed_body.hpp"
-#include "samara/body/body.hpp"
+#include "samara/core/body/body.hpp"
+#include "samara/core/dynamics/immersed_body.hpp"
 
 namespace samara::test {
 

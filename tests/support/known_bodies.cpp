@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "internal/body/octahedral_map.hpp"
+#include "samara/core/surface/octahedral_map.hpp"
 #include "support/test_shapes.hpp"
 
 namespace samara::test {

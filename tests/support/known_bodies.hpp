@@ -1,8 +1,8 @@
 #pragma once
 
-#include "internal/dynamics/immersed_body.hpp"
-#include "internal/dynamics/step.hpp"
-#include "samara/body/body.hpp"
+#include "samara/core/body/body.hpp"
+#include "samara/core/dynamics/immersed_body.hpp"
+#include "samara/core/integrator/step.hpp"
 #include "samara/scene/scene.hpp"
 
 namespace samara::test {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "internal/dynamics/hull_pair.hpp"
-#include "internal/flight/flight_kind.hpp"
+#include "samara/core/collision/hull_pair.hpp"
+#include "samara/core/flight/flight_kind.hpp"
 #include "support/test_shapes.hpp"
 
 namespace samara::test {

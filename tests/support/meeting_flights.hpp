@@ -1,7 +1,7 @@
 #pragma once
 
-#include "samara/body/surface.hpp"
-#include "samara/flight/flight.hpp"
+#include "samara/core/flight/flight.hpp"
+#include "samara/core/surface/surface.hpp"
 
 namespace samara::test {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "internal/dynamics/surroundings.hpp"
-#include "samara/physics/obstacle.hpp"
+#include "samara/core/dynamics/surroundings.hpp"
+#include "samara/core/physics/obstacle.hpp"
 
 namespace samara::test {
 

@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "internal/base/content_hash.hpp"
-#include "internal/command/subprocess.hpp"
 #include "paths.hpp"
+#include "samara/commands/shared/subprocess.hpp"
+#include "samara/core/files/content_hash.hpp"
 
 namespace samara::test {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "internal/body/octahedral_map.hpp"
+#include "samara/core/surface/octahedral_map.hpp"
 #include "support/hard_bodies.hpp"
 #include "support/known_bodies.hpp"
 #include "support/test_shapes.hpp"

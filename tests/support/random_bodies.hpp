@@ -2,8 +2,8 @@
 
 #include <random>
 
-#include "internal/dynamics/immersed_body.hpp"
-#include "internal/dynamics/step.hpp"
+#include "samara/core/dynamics/immersed_body.hpp"
+#include "samara/core/integrator/step.hpp"
 
 namespace samara::test {
 

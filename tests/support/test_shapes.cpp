@@ -5,7 +5,7 @@
 #include <random>
 #include <utility>
 
-#include "internal/body/octahedral_map.hpp"
+#include "samara/core/surface/octahedral_map.hpp"
 
 namespace samara::test {
 namespace {

@@ -1,11 +1,11 @@
-#include "internal/plot/axis_scale.hpp"
+#include "samara/internal/plot/axis_scale.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "internal/plot/heading.hpp"
+#include "samara/internal/plot/heading.hpp"
 
 namespace samara {
 namespace {

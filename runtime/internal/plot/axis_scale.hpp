@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "internal/plot/canvas.hpp"
+#include "samara/internal/plot/canvas.hpp"
 
 namespace samara {
 

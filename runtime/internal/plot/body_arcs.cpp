@@ -1,10 +1,10 @@
-#include "internal/plot/body_arcs.hpp"
+#include "samara/internal/plot/body_arcs.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "internal/base/angles.hpp"
-#include "internal/base/symmetric_matrix.hpp"
+#include "samara/core/base/angles.hpp"
+#include "samara/core/base/symmetric_matrix.hpp"
 
 namespace samara {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "samara/body/body.hpp"
+#include "samara/core/body/body.hpp"
 
 namespace samara {
 

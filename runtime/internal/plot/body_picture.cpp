@@ -1,8 +1,8 @@
-#include "internal/plot/body_picture.hpp"
+#include "samara/internal/plot/body_picture.hpp"
 
 #include <fmt/format.h>
 
-#include "internal/plot/heading.hpp"
+#include "samara/internal/plot/heading.hpp"
 
 namespace samara {
 namespace {

@@ -1,11 +1,11 @@
-#include "internal/plot/canvas.hpp"
+#include "samara/internal/plot/canvas.hpp"
 
 #include <cmath>
 #include <string_view>
 
 #include <fmt/format.h>
 
-#include "internal/base/printable.hpp"
+#include "samara/core/base/printable.hpp"
 
 namespace samara {
 

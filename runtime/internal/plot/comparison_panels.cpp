@@ -1,4 +1,4 @@
-#include "internal/plot/comparison_panels.hpp"
+#include "samara/internal/plot/comparison_panels.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "internal/base/angles.hpp"
+#include "samara/core/base/angles.hpp"
 
 namespace samara {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "internal/comparison/comparison.hpp"
-#include "internal/plot/canvas.hpp"
-#include "internal/plot/panel.hpp"
+#include "samara/analysis/comparison/comparison.hpp"
+#include "samara/internal/plot/canvas.hpp"
+#include "samara/internal/plot/panel.hpp"
 
 namespace samara {
 

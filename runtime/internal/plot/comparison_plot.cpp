@@ -1,12 +1,12 @@
-#include "internal/plot/comparison_plot.hpp"
+#include "samara/internal/plot/comparison_plot.hpp"
 
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "internal/plot/comparison_panels.hpp"
-#include "internal/plot/gnuplot.hpp"
-#include "internal/plot/heading.hpp"
+#include "samara/internal/plot/comparison_panels.hpp"
+#include "samara/internal/plot/gnuplot.hpp"
+#include "samara/internal/plot/heading.hpp"
 
 namespace samara {
 namespace {

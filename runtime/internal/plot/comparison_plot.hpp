@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "internal/comparison/comparison.hpp"
+#include "samara/analysis/comparison/comparison.hpp"
 
 namespace samara {
 

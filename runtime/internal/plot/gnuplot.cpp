@@ -1,15 +1,15 @@
-#include "internal/plot/gnuplot.hpp"
+#include "samara/internal/plot/gnuplot.hpp"
 
 #include <fstream>
 
 #include <fmt/format.h>
 
-#include "internal/base/content_hash.hpp"
-#include "internal/command/subprocess.hpp"
-#include "internal/files/replace_file.hpp"
-#include "internal/files/temporary_folder.hpp"
-#include "internal/plot/canvas.hpp"
-#include "samara/base/error.hpp"
+#include "samara/commands/shared/subprocess.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/files/content_hash.hpp"
+#include "samara/core/files/replace_file.hpp"
+#include "samara/core/files/temporary_folder.hpp"
+#include "samara/internal/plot/canvas.hpp"
 
 namespace samara {
 namespace {

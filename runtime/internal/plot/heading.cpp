@@ -1,8 +1,8 @@
-#include "internal/plot/heading.hpp"
+#include "samara/internal/plot/heading.hpp"
 
 #include <algorithm>
 
-#include "internal/plot/canvas.hpp"
+#include "samara/internal/plot/canvas.hpp"
 
 namespace samara {
 namespace {

@@ -1,4 +1,4 @@
-#include "internal/plot/landing_plot.hpp"
+#include "samara/internal/plot/landing_plot.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,13 +7,13 @@
 
 #include <fmt/format.h>
 
-#include "internal/motion/inclination.hpp"
-#include "internal/plot/axis_scale.hpp"
-#include "internal/plot/gnuplot.hpp"
-#include "internal/plot/heading.hpp"
-#include "internal/plot/panel.hpp"
-#include "internal/plot/silhouette.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/internal/plot/axis_scale.hpp"
+#include "samara/internal/plot/gnuplot.hpp"
+#include "samara/internal/plot/heading.hpp"
+#include "samara/internal/plot/panel.hpp"
+#include "samara/internal/plot/silhouette.hpp"
+#include "samara/motion/inclination.hpp"
 #include "samara/motion/measures.hpp"
 
 namespace samara {

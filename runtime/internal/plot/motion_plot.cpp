@@ -1,15 +1,15 @@
-#include "internal/plot/motion_plot.hpp"
+#include "samara/internal/plot/motion_plot.hpp"
 
 #include <cmath>
 #include <string>
 
 #include <fmt/format.h>
 
-#include "internal/base/angles.hpp"
-#include "internal/plot/gnuplot.hpp"
-#include "internal/plot/heading.hpp"
-#include "internal/plot/series_panel.hpp"
-#include "internal/plot/strip_panel.hpp"
+#include "samara/core/base/angles.hpp"
+#include "samara/internal/plot/gnuplot.hpp"
+#include "samara/internal/plot/heading.hpp"
+#include "samara/internal/plot/series_panel.hpp"
+#include "samara/internal/plot/strip_panel.hpp"
 
 namespace samara {
 

@@ -1,4 +1,4 @@
-#include "internal/plot/panel.hpp"
+#include "samara/internal/plot/panel.hpp"
 
 #include <algorithm>
 

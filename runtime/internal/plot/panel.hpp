@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "internal/plot/canvas.hpp"
+#include "samara/internal/plot/canvas.hpp"
 #include "samara/motion/measures.hpp"
 
 namespace samara {

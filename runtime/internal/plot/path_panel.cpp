@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "internal/plot/axis_scale.hpp"
-#include "internal/plot/comparison_panels.hpp"
+#include "samara/internal/plot/axis_scale.hpp"
+#include "samara/internal/plot/comparison_panels.hpp"
 
 namespace samara {
 namespace {

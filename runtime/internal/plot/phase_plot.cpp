@@ -1,18 +1,18 @@
-#include "internal/plot/phase_plot.hpp"
+#include "samara/internal/plot/phase_plot.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "internal/base/angles.hpp"
-#include "internal/figures/tilt.hpp"
-#include "internal/motion/inclination.hpp"
-#include "internal/plot/gnuplot.hpp"
-#include "internal/plot/motion_plot.hpp"
-#include "internal/plot/panel.hpp"
-#include "internal/plot/silhouette.hpp"
-#include "samara/base/error.hpp"
+#include "samara/analysis/metrics/tilt.hpp"
+#include "samara/core/base/angles.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/internal/plot/gnuplot.hpp"
+#include "samara/internal/plot/motion_plot.hpp"
+#include "samara/internal/plot/panel.hpp"
+#include "samara/internal/plot/silhouette.hpp"
+#include "samara/motion/inclination.hpp"
 
 namespace samara {
 namespace {

@@ -1,4 +1,4 @@
-#include "internal/plot/polar_plot.hpp"
+#include "samara/internal/plot/polar_plot.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -6,13 +6,13 @@
 
 #include <fmt/format.h>
 
-#include "internal/base/angles.hpp"
-#include "internal/body/case_records.hpp"
-#include "internal/plot/body_arcs.hpp"
-#include "internal/plot/body_picture.hpp"
-#include "internal/plot/gnuplot.hpp"
-#include "internal/plot/heading.hpp"
-#include "internal/plot/panel.hpp"
+#include "samara/analysis/verdicts/case_records.hpp"
+#include "samara/core/base/angles.hpp"
+#include "samara/internal/plot/body_arcs.hpp"
+#include "samara/internal/plot/body_picture.hpp"
+#include "samara/internal/plot/gnuplot.hpp"
+#include "samara/internal/plot/heading.hpp"
+#include "samara/internal/plot/panel.hpp"
 
 namespace samara {
 namespace {

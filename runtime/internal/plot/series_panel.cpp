@@ -1,4 +1,4 @@
-#include "internal/plot/series_panel.hpp"
+#include "samara/internal/plot/series_panel.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,12 +7,12 @@
 
 #include <fmt/format.h>
 
-#include "internal/base/angles.hpp"
-#include "internal/motion/inclination.hpp"
-#include "internal/plot/heading.hpp"
-#include "internal/plot/panel.hpp"
-#include "internal/plot/silhouette.hpp"
-#include "internal/plot/strip_panel.hpp"
+#include "samara/core/base/angles.hpp"
+#include "samara/internal/plot/heading.hpp"
+#include "samara/internal/plot/panel.hpp"
+#include "samara/internal/plot/silhouette.hpp"
+#include "samara/internal/plot/strip_panel.hpp"
+#include "samara/motion/inclination.hpp"
 
 namespace samara {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "internal/plot/strip.hpp"
+#include "samara/internal/plot/strip.hpp"
 #include "samara/motion/measures.hpp"
 
 namespace samara {

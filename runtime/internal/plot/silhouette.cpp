@@ -1,4 +1,4 @@
-#include "internal/plot/silhouette.hpp"
+#include "samara/internal/plot/silhouette.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "internal/export/shaded_mesh.hpp"
-#include "internal/export/shape_pose.hpp"
+#include "samara/export/shaded_mesh.hpp"
+#include "samara/export/shape_pose.hpp"
 
 namespace samara {
 

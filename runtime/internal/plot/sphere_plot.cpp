@@ -1,4 +1,4 @@
-#include "internal/plot/sphere_plot.hpp"
+#include "samara/internal/plot/sphere_plot.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,11 +9,11 @@
 
 #include <fmt/format.h>
 
-#include "internal/body/case_records.hpp"
-#include "internal/plot/body_picture.hpp"
-#include "internal/plot/gnuplot.hpp"
-#include "internal/plot/heading.hpp"
-#include "internal/plot/silhouette.hpp"
+#include "samara/analysis/verdicts/case_records.hpp"
+#include "samara/internal/plot/body_picture.hpp"
+#include "samara/internal/plot/gnuplot.hpp"
+#include "samara/internal/plot/heading.hpp"
+#include "samara/internal/plot/silhouette.hpp"
 
 namespace samara {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "samara/body/body.hpp"
+#include "samara/core/body/body.hpp"
 
 namespace samara {
 

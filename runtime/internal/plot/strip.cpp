@@ -1,4 +1,4 @@
-#include "internal/plot/strip.hpp"
+#include "samara/internal/plot/strip.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <set>
 
-#include "internal/plot/silhouette.hpp"
+#include "samara/internal/plot/silhouette.hpp"
 #include "samara/motion/measures.hpp"
 
 namespace samara {

@@ -1,4 +1,4 @@
-#include "internal/plot/strip_panel.hpp"
+#include "samara/internal/plot/strip_panel.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "internal/plot/axis_scale.hpp"
-#include "internal/plot/silhouette.hpp"
+#include "samara/internal/plot/axis_scale.hpp"
+#include "samara/internal/plot/silhouette.hpp"
 
 namespace samara {
 namespace {

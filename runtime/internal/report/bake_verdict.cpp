@@ -1,4 +1,4 @@
-#include "internal/report/bake_verdict.hpp"
+#include "samara/internal/report/bake_verdict.hpp"
 
 #include <algorithm>
 #include <set>
@@ -7,12 +7,12 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "internal/base/laminar_flow.hpp"
-#include "internal/body/body_check.hpp"
-#include "internal/body/case_records.hpp"
-#include "internal/body/total_error.hpp"
-#include "internal/report/words.hpp"
-#include "samara/physics/fluid.hpp"
+#include "samara/analysis/verdicts/case_records.hpp"
+#include "samara/core/base/laminar_flow.hpp"
+#include "samara/core/body/body_check.hpp"
+#include "samara/core/body/total_error.hpp"
+#include "samara/core/physics/fluid.hpp"
+#include "samara/internal/report/words.hpp"
 
 namespace samara {
 namespace {

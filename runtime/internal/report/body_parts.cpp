@@ -1,4 +1,4 @@
-#include "internal/report/body_parts.hpp"
+#include "samara/internal/report/body_parts.hpp"
 
 #include <cmath>
 #include <map>
@@ -9,18 +9,18 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "internal/advice/density_doubt.hpp"
-#include "internal/base/content_hash.hpp"
-#include "internal/body/case_records.hpp"
-#include "internal/body/principal_extents.hpp"
-#include "internal/body/total_error.hpp"
-#include "internal/files/hdf5_reader.hpp"
-#include "internal/plot/convergence_plot.hpp"
-#include "internal/plot/polar_plot.hpp"
-#include "internal/plot/sphere_plot.hpp"
-#include "internal/report/html.hpp"
-#include "internal/report/words.hpp"
-#include "samara/physics/fluid.hpp"
+#include "samara/analysis/advice/density_doubt.hpp"
+#include "samara/analysis/verdicts/case_records.hpp"
+#include "samara/core/body/principal_extents.hpp"
+#include "samara/core/body/total_error.hpp"
+#include "samara/core/files/content_hash.hpp"
+#include "samara/core/files/hdf5_reader.hpp"
+#include "samara/core/physics/fluid.hpp"
+#include "samara/internal/plot/convergence_plot.hpp"
+#include "samara/internal/plot/polar_plot.hpp"
+#include "samara/internal/plot/sphere_plot.hpp"
+#include "samara/internal/report/html.hpp"
+#include "samara/internal/report/words.hpp"
 
 namespace samara {
 namespace {

@@ -4,8 +4,8 @@
 #include <functional>
 #include <vector>
 
-#include "internal/report/report_page.hpp"
-#include "samara/body/body.hpp"
+#include "samara/core/body/body.hpp"
+#include "samara/internal/report/report_page.hpp"
 
 namespace samara {
 

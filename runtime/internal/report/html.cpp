@@ -1,11 +1,11 @@
-#include "internal/report/html.hpp"
+#include "samara/internal/report/html.hpp"
 
 #include <fmt/format.h>
 
-#include "internal/base/base64.hpp"
-#include "internal/base/content_hash.hpp"
-#include "internal/base/printable.hpp"
-#include "internal/files/temporary_folder.hpp"
+#include "samara/core/base/base64.hpp"
+#include "samara/core/base/printable.hpp"
+#include "samara/core/files/content_hash.hpp"
+#include "samara/core/files/temporary_folder.hpp"
 
 namespace samara {
 

@@ -1,13 +1,13 @@
-#include "internal/report/report_page.hpp"
+#include "samara/internal/report/report_page.hpp"
 
 #include <ostream>
 
 #include <fmt/format.h>
 
-#include "internal/files/replace_file.hpp"
-#include "internal/report/html.hpp"
-#include "internal/report/report_style.hpp"
 #include "samara/base/version.hpp"
+#include "samara/core/files/replace_file.hpp"
+#include "samara/internal/report/html.hpp"
+#include "samara/internal/report/report_style.hpp"
 
 namespace samara {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "internal/report/bake_verdict.hpp"
+#include "samara/internal/report/bake_verdict.hpp"
 
 namespace samara {
 

@@ -1,4 +1,4 @@
-#include "internal/report/report_program.hpp"
+#include "samara/internal/report/report_program.hpp"
 
 #include <optional>
 
@@ -6,13 +6,13 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "internal/command/arguments.hpp"
-#include "internal/command/print.hpp"
-#include "internal/command/progress.hpp"
-#include "internal/report/body_parts.hpp"
-#include "internal/report/html.hpp"
-#include "samara/base/error.hpp"
-#include "samara/body/body_file.hpp"
+#include "samara/commands/shared/arguments.hpp"
+#include "samara/commands/shared/print.hpp"
+#include "samara/commands/shared/progress.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/body/body_file.hpp"
+#include "samara/internal/report/body_parts.hpp"
+#include "samara/internal/report/html.hpp"
 
 namespace samara {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "internal/report/report_page.hpp"
-#include "samara/body/body.hpp"
+#include "samara/core/body/body.hpp"
+#include "samara/internal/report/report_page.hpp"
 
 namespace samara {
 

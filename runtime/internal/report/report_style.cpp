@@ -1,4 +1,4 @@
-#include "internal/report/report_style.hpp"
+#include "samara/internal/report/report_style.hpp"
 
 namespace samara {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "internal/dynamics/equations_of_motion.hpp"
+#include "samara/core/integrator/equations_of_motion.hpp"
 
 namespace samara::peers {
 

@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "internal/command/load_body.hpp"
 #include "peers/peer_body.hpp"
-#include "samara/base/error.hpp"
+#include "samara/commands/shared/load_body.hpp"
+#include "samara/core/base/error.hpp"
 
 namespace samara {
 namespace {

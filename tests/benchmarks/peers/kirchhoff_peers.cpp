@@ -1,10 +1,10 @@
 #include <utility>
 
-#include "internal/command/load_body.hpp"
-#include "internal/dynamics/equations_of_motion.hpp"
-#include "internal/flight/terminal_speed.hpp"
-#include "internal/flight/world_pose.hpp"
 #include "peers/peer_body.hpp"
+#include "samara/commands/shared/load_body.hpp"
+#include "samara/core/flight/terminal_speed.hpp"
+#include "samara/core/flight/world_pose.hpp"
+#include "samara/core/integrator/equations_of_motion.hpp"
 #include "samara/kirchhoff/kirchhoff_solver.hpp"
 
 namespace samara {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "samara/base/linear_algebra.hpp"
-#include "samara/body/surface.hpp"
+#include "samara/core/base/linear_algebra.hpp"
+#include "samara/core/surface/surface.hpp"
 
 namespace samara::peers {
 

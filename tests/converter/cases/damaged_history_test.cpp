@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "converter/cases/case_folder_reduction.hpp"
-#include "internal/base/content_hash.hpp"
 #include "load_laws.hpp"
+#include "samara/core/files/content_hash.hpp"
 #include "solved_folder.hpp"
 #include "support/expect_error.hpp"
 

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "converter/falls/motion_parameters.hpp"
-#include "samara/body/body_file.hpp"
+#include "samara/core/body/body_file.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 #include "synthetic_fall.hpp"

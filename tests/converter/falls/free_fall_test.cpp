@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "internal/base/content_hash.hpp"
+#include "samara/core/files/content_hash.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 

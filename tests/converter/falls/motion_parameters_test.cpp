@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "internal/dynamics/dynamic_coefficients.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/dynamics/dynamic_coefficients.hpp"
 #include "support/exact_bodies.hpp"
 #include "support/test_shapes.hpp"
 

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "samara/base/linear_algebra.hpp"
+#include "samara/core/base/linear_algebra.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "gzip.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -11,9 +11,9 @@
 #include "converter/openfoam/cell_volumes.hpp"
 #include "converter/openfoam/foam_file.hpp"
 #include "converter/openfoam/foam_history.hpp"
-#include "internal/base/content_hash.hpp"
-#include "internal/command/subprocess.hpp"
 #include "paths.hpp"
+#include "samara/commands/shared/subprocess.hpp"
+#include "samara/core/files/content_hash.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "internal/body/octahedral_map.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/surface/octahedral_map.hpp"
 #include "symmetry_groups.hpp"
 
 namespace samara {

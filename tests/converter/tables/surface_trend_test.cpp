@@ -7,10 +7,10 @@
 
 #include "converter/tables/direction_sampling.hpp"
 #include "converter/tables/reynolds_fit.hpp"
-#include "internal/body/octahedral_map.hpp"
 #include "load_laws.hpp"
 #include "paths.hpp"
-#include "samara/body/body_file.hpp"
+#include "samara/core/body/body_file.hpp"
+#include "samara/core/surface/octahedral_map.hpp"
 #include "table_cases.hpp"
 
 namespace samara {

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "converter/cases/samples_csv.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace samara {

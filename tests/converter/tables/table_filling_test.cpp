@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "converter/tables/direction_sampling.hpp"
-#include "internal/body/octahedral_map.hpp"
 #include "load_laws.hpp"
+#include "samara/core/surface/octahedral_map.hpp"
 #include "support/expect_error.hpp"
 #include "symmetry_groups.hpp"
 #include "table_cases.hpp"

@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "converter/wind/foam_wind.hpp"
-#include "internal/base/content_hash.hpp"
-#include "internal/command/subprocess.hpp"
 #include "paths.hpp"
+#include "samara/commands/shared/subprocess.hpp"
+#include "samara/core/files/content_hash.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 

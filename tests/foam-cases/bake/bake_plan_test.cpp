@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "converter/tables/direction_sampling.hpp"
-#include "internal/flight/terminal_speed.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/flight/terminal_speed.hpp"
 #include "support/expect_error.hpp"
 #include "test_bodies.hpp"
 

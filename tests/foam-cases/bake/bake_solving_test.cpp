@@ -20,11 +20,11 @@
 #include "bake_folder.hpp"
 #include "foam-cases/farm/case_farm.hpp"
 #include "foam-cases/farm/case_folder.hpp"
-#include "internal/base/content_hash.hpp"
-#include "internal/command/subprocess.hpp"
 #include "paths.hpp"
-#include "samara/base/error.hpp"
-#include "samara/body/body_file.hpp"
+#include "samara/commands/shared/subprocess.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/body/body_file.hpp"
+#include "samara/core/files/content_hash.hpp"
 #include "test_bodies.hpp"
 
 namespace samara {

@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "foam-cases/falls/validate.hpp"
-#include "internal/flight/terminal_speed.hpp"
-#include "internal/flight/world_pose.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/flight/terminal_speed.hpp"
+#include "samara/core/flight/world_pose.hpp"
 #include "test_bodies.hpp"
 
 namespace samara {

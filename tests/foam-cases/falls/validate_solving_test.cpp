@@ -17,10 +17,10 @@
 #include <unistd.h>
 
 #include "converter/falls/fall_record.hpp"
-#include "internal/base/content_hash.hpp"
-#include "internal/dynamics/immersed_body.hpp"
 #include "paths.hpp"
-#include "samara/body/body_file.hpp"
+#include "samara/core/body/body_file.hpp"
+#include "samara/core/dynamics/immersed_body.hpp"
+#include "samara/core/files/content_hash.hpp"
 #include "samara/motion/motion_file.hpp"
 #include "samara/scene/scene_file.hpp"
 #include "support/program_run.hpp"

@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "samara/body/body_file.hpp"
+#include "samara/core/body/body_file.hpp"
 #include "support/program_run.hpp"
 #include "support/temporary_folder.hpp"
 #include "test_bodies.hpp"

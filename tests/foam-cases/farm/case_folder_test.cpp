@@ -12,9 +12,9 @@
 
 #include "foam-cases/farm/case_parameters.hpp"
 #include "foam-cases/farm/case_surface.hpp"
-#include "internal/base/content_hash.hpp"
 #include "paths.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/files/content_hash.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 #include "test_bodies.hpp"

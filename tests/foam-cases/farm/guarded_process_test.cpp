@@ -9,8 +9,8 @@
 #include <unistd.h>
 
 #include "foam-cases/farm/folder_lock.hpp"
-#include "internal/base/content_hash.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/files/content_hash.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace samara {

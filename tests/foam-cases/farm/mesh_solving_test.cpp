@@ -9,8 +9,8 @@
 
 #include "bake_folder.hpp"
 #include "foam-cases/farm/case_folder.hpp"
-#include "internal/command/subprocess.hpp"
 #include "paths.hpp"
+#include "samara/commands/shared/subprocess.hpp"
 #include "test_bodies.hpp"
 
 namespace samara {

@@ -6,9 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "internal/body/surface_edges.hpp"
-#include "internal/body/welded_surface.hpp"
 #include "meshes/checks/sound_surface.hpp"
+#include "samara/core/surface/surface_edges.hpp"
+#include "samara/core/surface/welded_surface.hpp"
 #include "support/expect_error.hpp"
 #include "support/test_shapes.hpp"
 

@@ -7,11 +7,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "internal/body/surface_check.hpp"
-#include "internal/body/welded_surface.hpp"
 #include "meshes/checks/volume_moments.hpp"
 #include "meshes/make_body.hpp"
 #include "meshes/shape_files.hpp"
+#include "samara/core/surface/surface_check.hpp"
+#include "samara/core/surface/welded_surface.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_shapes.hpp"

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "internal/body/curved_surface.hpp"
+#include "samara/core/surface/curved_surface.hpp"
 #include "support/test_shapes.hpp"
 
 namespace samara {

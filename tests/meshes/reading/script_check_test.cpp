@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "internal/base/content_hash.hpp"
 #include "paths.hpp"
+#include "samara/core/files/content_hash.hpp"
 #include "support/expect_error.hpp"
 
 namespace samara {

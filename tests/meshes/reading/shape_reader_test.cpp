@@ -9,8 +9,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "internal/base/base64.hpp"
-#include "internal/body/mended_surface.hpp"
+#include "samara/core/base/base64.hpp"
+#include "samara/core/surface/mended_surface.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_shapes.hpp"

@@ -6,11 +6,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "internal/base/content_hash.hpp"
-#include "internal/command/subprocess.hpp"
 #include "meshes/make_body.hpp"
 #include "paths.hpp"
-#include "samara/base/error.hpp"
+#include "samara/commands/shared/subprocess.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/files/content_hash.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 

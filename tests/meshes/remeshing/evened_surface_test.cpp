@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "internal/body/creases.hpp"
-#include "internal/body/surface_edges.hpp"
 #include "meshes/checks/sound_surface.hpp"
+#include "samara/core/surface/creases.hpp"
+#include "samara/core/surface/surface_edges.hpp"
 #include "support/test_shapes.hpp"
 
 namespace samara {

@@ -8,8 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "internal/body/curved_surface.hpp"
 #include "meshes/checks/sound_surface.hpp"
+#include "samara/core/surface/curved_surface.hpp"
 #include "support/test_shapes.hpp"
 
 namespace samara {

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "internal/body/creases.hpp"
 #include "meshes/remeshing/mesh_size_field.hpp"
+#include "samara/core/surface/creases.hpp"
 #include "support/test_shapes.hpp"
 
 namespace samara {

@@ -4,13 +4,13 @@
 #include <gtest/gtest.h>
 
 #include "blender/blender_poses.hpp"
-#include "internal/base/content_hash.hpp"
-#include "internal/export/shape_pose.hpp"
-#include "internal/files/hdf5_writer.hpp"
-#include "internal/files/replace_file.hpp"
 #include "paths.hpp"
 #include "samara/base/version.hpp"
+#include "samara/core/files/content_hash.hpp"
+#include "samara/core/files/hdf5_writer.hpp"
+#include "samara/core/files/replace_file.hpp"
 #include "samara/export/gltf_file.hpp"
+#include "samara/export/shape_pose.hpp"
 #include "samara/motion/motion_file.hpp"
 #include "support/blender_addon.hpp"
 #include "support/program_run.hpp"

@@ -8,7 +8,7 @@
 
 #include "blender/blender_poses.hpp"
 #include "paths.hpp"
-#include "samara/flight/flight.hpp"
+#include "samara/core/flight/flight.hpp"
 #include "samara/motion/motion_file.hpp"
 #include "support/blender_addon.hpp"
 #include "support/program_run.hpp"

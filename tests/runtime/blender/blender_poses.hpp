@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "c_interface_calls.hpp"
-#include "internal/export/shape_pose.hpp"
+#include "samara/export/shape_pose.hpp"
 
 // What tasks of tests/tools/use_addon.py find: matrices in the world.
 

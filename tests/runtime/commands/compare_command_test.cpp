@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "internal/base/content_hash.hpp"
 #include "irregular_flutter.hpp"
+#include "samara/core/files/content_hash.hpp"
 #include "samara/motion/motion_file.hpp"
 #include "support/program_run.hpp"
 #include "support/temporary_folder.hpp"

@@ -6,10 +6,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "internal/command/load_body.hpp"
-#include "internal/files/hdf5_writer.hpp"
-#include "internal/files/replace_file.hpp"
-#include "samara/body/body_file.hpp"
+#include "samara/commands/shared/load_body.hpp"
+#include "samara/core/body/body_file.hpp"
+#include "samara/core/files/hdf5_writer.hpp"
+#include "samara/core/files/replace_file.hpp"
 #include "support/expect_error.hpp"
 #include "support/program_run.hpp"
 #include "support/temporary_folder.hpp"

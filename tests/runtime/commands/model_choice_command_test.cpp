@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "samara/body/body_file.hpp"
+#include "samara/core/body/body_file.hpp"
 #include "samara/motion/motion_file.hpp"
 #include "support/hard_bodies.hpp"
 #include "support/program_run.hpp"

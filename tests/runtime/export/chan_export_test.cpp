@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "internal/base/content_hash.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/files/content_hash.hpp"
 #include "samara/export/chan_file.hpp"
 #include "support/temporary_folder.hpp"
 #include "synthetic_motion.hpp"

@@ -3,12 +3,12 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "internal/base/content_hash.hpp"
-#include "internal/command/subprocess.hpp"
-#include "internal/motion/resample.hpp"
 #include "paths.hpp"
+#include "samara/commands/shared/subprocess.hpp"
+#include "samara/core/files/content_hash.hpp"
 #include "samara/export/csv_file.hpp"
 #include "samara/motion/motion_file.hpp"
+#include "samara/motion/resample.hpp"
 #include "support/temporary_folder.hpp"
 #include "synthetic_motion.hpp"
 

@@ -1,4 +1,4 @@
-#include "internal/export/fast_turn.hpp"
+#include "samara/export/fast_turn.hpp"
 
 #include <numbers>
 

@@ -1,4 +1,4 @@
-#include "internal/export/float_range.hpp"
+#include "samara/export/float_range.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -6,14 +6,14 @@
 #include <nlohmann/json.hpp>
 #include <tiny_gltf.h>
 
-#include "internal/base/content_hash.hpp"
-#include "internal/command/subprocess.hpp"
-#include "internal/export/shaded_mesh.hpp"
-#include "internal/export/shape_pose.hpp"
 #include "paths.hpp"
-#include "samara/base/error.hpp"
 #include "samara/base/version.hpp"
+#include "samara/commands/shared/subprocess.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/files/content_hash.hpp"
 #include "samara/export/gltf_file.hpp"
+#include "samara/export/shaded_mesh.hpp"
+#include "samara/export/shape_pose.hpp"
 #include "samara/motion/motion_file.hpp"
 #include "support/temporary_folder.hpp"
 #include "synthetic_motion.hpp"

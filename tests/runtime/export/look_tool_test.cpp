@@ -7,12 +7,12 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "internal/base/content_hash.hpp"
-#include "internal/body/look_file.hpp"
-#include "internal/command/subprocess.hpp"
 #include "paths.hpp"
+#include "samara/commands/shared/subprocess.hpp"
+#include "samara/core/files/content_hash.hpp"
 #include "samara/export/gltf_file.hpp"
 #include "samara/export/usd_file.hpp"
+#include "samara/formats/look_file.hpp"
 #include "support/painted_mesh.hpp"
 #include "support/temporary_folder.hpp"
 #include "synthetic_motion.hpp"

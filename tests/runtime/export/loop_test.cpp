@@ -1,6 +1,6 @@
 // Backgrounds that play for ever.
 
-#include "internal/export/loop.hpp"
+#include "samara/export/loop.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "internal/base/content_hash.hpp"
-#include "internal/command/subprocess.hpp"
-#include "internal/motion/inclination.hpp"
 #include "paths.hpp"
-#include "samara/base/error.hpp"
+#include "samara/commands/shared/subprocess.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/files/content_hash.hpp"
 #include "samara/export/page_file.hpp"
+#include "samara/motion/inclination.hpp"
 #include "samara/motion/motion_file.hpp"
 #include "support/temporary_folder.hpp"
 #include "synthetic_motion.hpp"

@@ -8,10 +8,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "internal/base/content_hash.hpp"
-#include "internal/command/subprocess.hpp"
-#include "internal/export/shape_pose.hpp"
 #include "paths.hpp"
+#include "samara/commands/shared/subprocess.hpp"
+#include "samara/core/files/content_hash.hpp"
+#include "samara/export/shape_pose.hpp"
 #include "samara/export/usd_file.hpp"
 #include "support/temporary_folder.hpp"
 #include "synthetic_motion.hpp"

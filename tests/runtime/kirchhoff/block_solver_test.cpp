@@ -1,4 +1,4 @@
-#include "internal/kirchhoff/solvers/block_solver.hpp"
+#include "samara/kirchhoff/solvers/block_solver.hpp"
 
 #include <random>
 

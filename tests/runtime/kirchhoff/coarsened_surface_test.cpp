@@ -1,10 +1,10 @@
-#include "internal/kirchhoff/surfaces/coarsened_surface.hpp"
+#include "samara/kirchhoff/surfaces/coarsened_surface.hpp"
 
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
-#include "internal/body/surface_check.hpp"
+#include "samara/core/surface/surface_check.hpp"
 #include "support/test_shapes.hpp"
 
 namespace samara {

@@ -1,4 +1,4 @@
-#include "internal/kirchhoff/operators/compressed_matrix.hpp"
+#include "samara/kirchhoff/operators/compressed_matrix.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,10 +7,10 @@
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
-#include "internal/kirchhoff/operators/cross_approximation.hpp"
-#include "internal/kirchhoff/operators/single_layer_matrix.hpp"
-#include "internal/kirchhoff/panels/flat_triangle_integrals.hpp"
-#include "internal/kirchhoff/panels/linear_elements.hpp"
+#include "samara/kirchhoff/operators/cross_approximation.hpp"
+#include "samara/kirchhoff/operators/single_layer_matrix.hpp"
+#include "samara/kirchhoff/panels/flat_triangle_integrals.hpp"
+#include "samara/kirchhoff/panels/linear_elements.hpp"
 #include "support/test_shapes.hpp"
 
 namespace samara {

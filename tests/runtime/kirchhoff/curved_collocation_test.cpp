@@ -1,4 +1,4 @@
-#include "internal/kirchhoff/panels/curved_collocation.hpp"
+#include "samara/kirchhoff/panels/curved_collocation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +12,8 @@
 #include <gtest/gtest.h>
 #include <hwy/highway.h>
 
-#include "internal/kirchhoff/panels/curved_panels.hpp"
-#include "internal/kirchhoff/solvers/tensor_error.hpp"
+#include "samara/kirchhoff/panels/curved_panels.hpp"
+#include "samara/kirchhoff/solvers/tensor_error.hpp"
 #include "support/expect_error.hpp"
 #include "support/test_shapes.hpp"
 

@@ -1,4 +1,4 @@
-#include "internal/kirchhoff/panels/flat_triangle_integrals.hpp"
+#include "samara/kirchhoff/panels/flat_triangle_integrals.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
-#include "internal/kirchhoff/panels/single_layer_entries.hpp"
-#include "internal/kirchhoff/panels/triangle_rules.hpp"
+#include "samara/kirchhoff/panels/single_layer_entries.hpp"
+#include "samara/kirchhoff/panels/triangle_rules.hpp"
 
 namespace samara {
 namespace {

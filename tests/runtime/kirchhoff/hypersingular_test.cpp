@@ -1,4 +1,4 @@
-#include "internal/kirchhoff/operators/hypersingular.hpp"
+#include "samara/kirchhoff/operators/hypersingular.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -6,9 +6,9 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
-#include "internal/body/curved_surface.hpp"
-#include "internal/kirchhoff/surfaces/refined_surface.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/surface/curved_surface.hpp"
+#include "samara/kirchhoff/surfaces/refined_surface.hpp"
 #include "support/test_shapes.hpp"
 
 namespace samara {

@@ -7,8 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "internal/kirchhoff/solvers/tensor_error.hpp"
 #include "samara/kirchhoff/kirchhoff_solver.hpp"
+#include "samara/kirchhoff/solvers/tensor_error.hpp"
 #include "support/ground_bodies.hpp"
 #include "support/test_shapes.hpp"
 

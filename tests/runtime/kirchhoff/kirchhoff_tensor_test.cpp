@@ -5,8 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "internal/kirchhoff/solvers/tensor_error.hpp"
 #include "samara/kirchhoff/kirchhoff_solver.hpp"
+#include "samara/kirchhoff/solvers/tensor_error.hpp"
 #include "support/exact_bodies.hpp"
 #include "support/expect_error.hpp"
 #include "support/test_shapes.hpp"

@@ -1,4 +1,4 @@
-#include "internal/kirchhoff/panels/panel_quadrature.hpp"
+#include "samara/kirchhoff/panels/panel_quadrature.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -1,4 +1,4 @@
-#include "internal/kirchhoff/surfaces/rebuilt_surface.hpp"
+#include "samara/kirchhoff/surfaces/rebuilt_surface.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "internal/body/curved_surface.hpp"
-#include "internal/body/surface_check.hpp"
-#include "internal/kirchhoff/surfaces/refined_surface.hpp"
+#include "samara/core/surface/curved_surface.hpp"
+#include "samara/core/surface/surface_check.hpp"
+#include "samara/kirchhoff/surfaces/refined_surface.hpp"
 #include "support/test_shapes.hpp"
 
 namespace samara {

@@ -1,11 +1,11 @@
-#include "internal/kirchhoff/solvers/schwarz_preconditioner.hpp"
+#include "samara/kirchhoff/solvers/schwarz_preconditioner.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
-#include "internal/kirchhoff/operators/single_layer_matrix.hpp"
-#include "internal/kirchhoff/solvers/conjugate_gradients.hpp"
+#include "samara/kirchhoff/operators/single_layer_matrix.hpp"
+#include "samara/kirchhoff/solvers/conjugate_gradients.hpp"
 #include "support/test_shapes.hpp"
 
 namespace samara {

@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "internal/body/octahedral_map.hpp"
-#include "internal/dynamics/loads.hpp"
-#include "internal/kirchhoff/operators/hypersingular.hpp"
+#include "samara/core/dynamics/loads.hpp"
+#include "samara/core/surface/octahedral_map.hpp"
+#include "samara/kirchhoff/operators/hypersingular.hpp"
 #include "support/known_bodies.hpp"
 #include "support/test_shapes.hpp"
 

@@ -1,4 +1,4 @@
-#include "internal/kirchhoff/panels/triangle_rules.hpp"
+#include "samara/kirchhoff/panels/triangle_rules.hpp"
 
 #include <cmath>
 

@@ -1,9 +1,9 @@
-#include "internal/motion/autorotation.hpp"
+#include "samara/motion/autorotation.hpp"
 
 #include <gtest/gtest.h>
 
-#include "internal/figures/ensemble.hpp"
-#include "internal/figures/fall_figures.hpp"
+#include "samara/analysis/metrics/ensemble.hpp"
+#include "samara/analysis/metrics/fall_figures.hpp"
 #include "synthetic_motion.hpp"
 
 namespace samara {

@@ -1,4 +1,4 @@
-#include "internal/motion/file_check.hpp"
+#include "samara/motion/file_check.hpp"
 
 #include <random>
 #include <string>
@@ -9,11 +9,11 @@
 #include <gtest/gtest.h>
 
 #include "c_interface_calls.hpp"
-#include "internal/base/content_hash.hpp"
-#include "internal/files/replace_file.hpp"
 #include "paths.hpp"
-#include "samara/base/error.hpp"
-#include "samara/body/body_file.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/body/body_file.hpp"
+#include "samara/core/files/content_hash.hpp"
+#include "samara/core/files/replace_file.hpp"
 #include "samara/motion/motion_file.hpp"
 #include "support/expect_error.hpp"
 #include "support/program_run.hpp"

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "internal/figures/ensemble.hpp"
-#include "internal/motion/inclination.hpp"
-#include "samara/base/error.hpp"
+#include "samara/analysis/metrics/ensemble.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/motion/inclination.hpp"
 #include "synthetic_motion.hpp"
 
 namespace samara {

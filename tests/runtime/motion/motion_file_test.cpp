@@ -6,13 +6,13 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "internal/base/content_hash.hpp"
-#include "internal/figures/description.hpp"
-#include "internal/files/hdf5_reader.hpp"
-#include "internal/files/hdf5_writer.hpp"
-#include "internal/files/replace_file.hpp"
-#include "internal/motion/motion_writer.hpp"
-#include "samara/base/error.hpp"
+#include "samara/analysis/metrics/description.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/files/content_hash.hpp"
+#include "samara/core/files/hdf5_reader.hpp"
+#include "samara/core/files/hdf5_writer.hpp"
+#include "samara/core/files/replace_file.hpp"
+#include "samara/motion/motion_writer.hpp"
 #include "support/temporary_folder.hpp"
 #include "synthetic_motion.hpp"
 

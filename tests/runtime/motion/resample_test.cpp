@@ -1,12 +1,12 @@
-#include "internal/motion/resample.hpp"
+#include "samara/motion/resample.hpp"
 
 #include <filesystem>
 
 #include <gtest/gtest.h>
 
-#include "internal/export/key_reduction.hpp"
 #include "paths.hpp"
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/export/key_reduction.hpp"
 #include "samara/motion/motion_file.hpp"
 #include "synthetic_motion.hpp"
 

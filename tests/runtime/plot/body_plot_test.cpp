@@ -3,12 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "internal/body/case_records.hpp"
-#include "internal/plot/body_arcs.hpp"
-#include "internal/plot/convergence_plot.hpp"
-#include "internal/plot/polar_plot.hpp"
 #include "paths.hpp"
-#include "samara/body/body_file.hpp"
+#include "samara/analysis/verdicts/case_records.hpp"
+#include "samara/core/body/body_file.hpp"
+#include "samara/internal/plot/body_arcs.hpp"
+#include "samara/internal/plot/convergence_plot.hpp"
+#include "samara/internal/plot/polar_plot.hpp"
 #include "samara/motion/motion_file.hpp"
 #include "support/known_bodies.hpp"
 #include "support/picture_faults.hpp"

@@ -7,9 +7,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "internal/base/content_hash.hpp"
-#include "internal/command/subprocess.hpp"
 #include "paths.hpp"
+#include "samara/commands/shared/subprocess.hpp"
+#include "samara/core/files/content_hash.hpp"
 #include "support/picture_faults.hpp"
 #include "support/temporary_folder.hpp"
 

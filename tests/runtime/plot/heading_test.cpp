@@ -1,9 +1,9 @@
-#include "internal/plot/heading.hpp"
+#include "samara/internal/plot/heading.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "internal/plot/axis_scale.hpp"
+#include "samara/internal/plot/axis_scale.hpp"
 #include "support/text_extent.hpp"
 
 namespace samara {

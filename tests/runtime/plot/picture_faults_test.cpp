@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "internal/plot/gnuplot.hpp"
+#include "samara/internal/plot/gnuplot.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace samara {

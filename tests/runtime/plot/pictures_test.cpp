@@ -5,11 +5,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "internal/base/content_hash.hpp"
-#include "internal/plot/landing_plot.hpp"
-#include "internal/plot/motion_plot.hpp"
-#include "internal/plot/phase_plot.hpp"
 #include "irregular_flutter.hpp"
+#include "samara/core/files/content_hash.hpp"
+#include "samara/internal/plot/landing_plot.hpp"
+#include "samara/internal/plot/motion_plot.hpp"
+#include "samara/internal/plot/phase_plot.hpp"
 #include "samara/motion/motion_file.hpp"
 #include "support/picture_faults.hpp"
 #include "support/program_run.hpp"

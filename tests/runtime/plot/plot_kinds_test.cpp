@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "internal/base/content_hash.hpp"
-#include "internal/figures/tilt.hpp"
+#include "samara/analysis/metrics/tilt.hpp"
+#include "samara/core/files/content_hash.hpp"
 #include "samara/motion/motion_file.hpp"
 #include "support/program_run.hpp"
 #include "synthetic_motion.hpp"

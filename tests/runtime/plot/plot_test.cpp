@@ -4,13 +4,13 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "internal/base/content_hash.hpp"
-#include "internal/command/subprocess.hpp"
-#include "internal/plot/canvas.hpp"
-#include "internal/plot/motion_plot.hpp"
-#include "internal/plot/silhouette.hpp"
-#include "internal/plot/strip.hpp"
 #include "paths.hpp"
+#include "samara/commands/shared/subprocess.hpp"
+#include "samara/core/files/content_hash.hpp"
+#include "samara/internal/plot/canvas.hpp"
+#include "samara/internal/plot/motion_plot.hpp"
+#include "samara/internal/plot/silhouette.hpp"
+#include "samara/internal/plot/strip.hpp"
 #include "samara/motion/motion_file.hpp"
 #include "support/temporary_folder.hpp"
 #include "synthetic_motion.hpp"

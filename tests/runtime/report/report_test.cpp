@@ -4,14 +4,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "internal/base/base64.hpp"
-#include "internal/base/content_hash.hpp"
-#include "internal/report/bake_verdict.hpp"
-#include "internal/report/html.hpp"
-#include "internal/report/report_program.hpp"
-#include "internal/report/words.hpp"
 #include "paths.hpp"
-#include "samara/body/body_file.hpp"
+#include "samara/core/base/base64.hpp"
+#include "samara/core/body/body_file.hpp"
+#include "samara/core/files/content_hash.hpp"
+#include "samara/internal/report/bake_verdict.hpp"
+#include "samara/internal/report/html.hpp"
+#include "samara/internal/report/report_program.hpp"
+#include "samara/internal/report/words.hpp"
 #include "support/known_bodies.hpp"
 #include "support/program_run.hpp"
 

@@ -8,10 +8,10 @@
 #include <gtest/gtest.h>
 
 #include "paths.hpp"
-#include "samara/body/body_file.hpp"
-#include "samara/flight/simulation.hpp"
+#include "samara/core/body/body_file.hpp"
 #include "samara/motion/motion_file.hpp"
 #include "samara/scene/scene_file.hpp"
+#include "samara/scene/simulation.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "samara/base/error.hpp"
+#include "samara/core/base/error.hpp"
 #include "support/expect_error.hpp"
 
 namespace samara {

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "paths.hpp"
-#include "samara/physics/wind_file.hpp"
+#include "samara/core/wind/wind_file.hpp"
 #include "samara/scene/scene_file.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"

@@ -1,0 +1,326 @@
+#include "samara/analysis/advice/step_advice.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <exception>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "samara/core/base/parallel_for.hpp"
+#include "samara/core/dynamics/body_size.hpp"
+#include "samara/core/dynamics/langevin.hpp"
+#include "samara/core/flight/flight_kind.hpp"
+#include "samara/core/flight/flight_surroundings.hpp"
+#include "samara/core/flight/terminal_speed.hpp"
+#include "samara/core/flight/world_pose.hpp"
+#include "samara/core/kernel/kolmogorov_constant.hpp"
+#include "samara/core/kernel/wake_noise.hpp"
+
+namespace samara {
+namespace {
+
+constexpr double longest_step = 0.04;  // s; the others are this over powers of two, whatever the frames
+constexpr int most_copies = 4;
+constexpr int most_windows = 48;
+constexpr double lengths_in_window = 4.0;
+constexpr double finest_of_length = 0.01;  // of the way L that a body comes in the finest step
+constexpr int fewest_halvings = 4;         // of the longest step, down to the finest
+constexpr int most_halvings = 14;
+constexpr int truth_halvings = 2;  // by which the finest flight is finer than the finest step that is judged
+constexpr double least_turning = 0.01;  // speed of a tip, over the body's: less is not judged
+constexpr double turbulence_rate = 0.75 * kolmogorov_constant;  // times epsilon/k: docs/theory.md#langevin
+
+/// The flights of one body.
+class JudgedBody {
+  public:
+    JudgedBody(const Scene& scene, const SceneBody& scene_body, const LoadedBody& loaded)
+        : scene_(scene), loaded_(loaded), name_(scene_body.name), physics_(scene_body), release_(scene_body) {
+        turbulent_ = physics_.turbulence != Turbulence::none;
+        quiet_ = physics_;
+        quiet_.turbulence = Turbulence::none;
+        release_.count = std::min(release_.count, most_copies);
+        set_scales();
+    }
+
+    /// The longest steps that motion and turbulence allow.
+    BodyStep judge() {
+        fly_finest();
+        BodyStep result{.name = name_};
+        errors_.clear();
+        for (int j = 0; j <= halvings_ - truth_halvings; ++j) errors_.push_back(errors_at(j));
+        result.motion = longest_within(&StepErrors::motion);
+        result.turning =
+            turbulent_ ? longest_within(&StepErrors::turning) : std::numeric_limits<double>::infinity();
+        result.turbulence = std::numeric_limits<double>::infinity();
+        if (turbulent_ && samples_ > 0 && squared_rates_ > 0.0) {
+            const double rate = std::sqrt(squared_rates_ / static_cast<double>(samples_));
+            result.turbulence = std::sqrt(12.0 * scene_.step_tolerance) / rate;
+        }
+        return result;
+    }
+
+    /// Of the motion, at the longest step over a power of two.
+    [[nodiscard]] double error_of(double step) const {
+        const auto j = static_cast<std::size_t>(std::max(0L, std::lround(std::log2(longest_step / step))));
+        return errors_[std::min(j, errors_.size() - 1)].motion;
+    }
+    [[nodiscard]] bool is_met() const { return is_met_; }
+
+  private:
+    /// The finest flight through a window: what it begins and ends with, and poses within steps.
+    struct Window {
+        std::vector<Pose> begin, end;
+        std::vector<std::vector<Pose>> middle;  // half a step before, for each step that is judged
+    };
+    struct StepErrors {
+        double motion;   ///< of place and tip, over the way
+        double turning;  ///< of the rms angular speed
+    };
+
+    static double step_of(int halvings) { return longest_step / std::exp2(halvings); }
+
+    /// The longest step from which on all shorter ones are within the tolerance, or the shortest.
+    double longest_within(double StepErrors::*error) {
+        int longest = 0;
+        const int shortest = static_cast<int>(errors_.size()) - 1;
+        for (int j = 0; j <= shortest; ++j) {
+            if (errors_[as_place(j)].*error > scene_.step_tolerance) longest = j + 1;
+        }
+        is_met_ = is_met_ && longest <= shortest;
+        return step_of(std::min(longest, shortest));
+    }
+
+    void set_scales() {
+        Flight flight(settings_at(longest_step));
+        add_to(flight, quiet_);
+        const ImmersedBody& body = flight.kinds()[0]->body();
+        double smallest = flight.size_of(0);
+        double largest = smallest;
+        for (std::size_t i = 1; i < flight.size(); ++i) {
+            smallest = std::min(smallest, flight.size_of(i));
+            largest = std::max(largest, flight.size_of(i));
+        }
+        half_length_ = 0.5 * largest * body.length;
+        double speed = std::sqrt(largest) *
+                       terminal_speed(*loaded_.body, scene_.fluid, body.mass, scene_.gravity.norm());
+        for (std::size_t i = 0; i < flight.size(); ++i) {
+            const Pose start = flight.kinds()[0]->pose_in_wind(i, flight.kinds()[0]->start(i));
+            speed = std::max(speed, start.velocity.norm() + half_length_ * start.angular_velocity.norm());
+        }
+        const double length = smallest * body.length;
+        const double wanted =
+            speed > 0.0 ? std::log2(longest_step * speed / (finest_of_length * length)) : 0.0;
+        halvings_ =
+            static_cast<int>(std::clamp(std::ceil(wanted), double{fewest_halvings}, double{most_halvings}));
+        const double window = speed > 0.0 ? lengths_in_window * largest * body.length / speed : 0.0;
+        steps_in_window_ = static_cast<int>(std::clamp(std::ceil(window / longest_step), 1.0, 1e4));
+        const double steps = std::max(0.0, (scene_.duration - release_.start) / longest_step);
+        windows_ =
+            static_cast<int>(std::clamp(std::floor(steps / steps_in_window_), 1.0, double{most_windows}));
+    }
+    [[nodiscard]] FlightSettings settings_at(double step) const {
+        FlightSettings settings = flight_settings(scene_, 1, 1);
+        settings.ground.reset();
+        settings.obstacles.clear();
+        settings.step = step;
+        return settings;
+    }
+    void add_to(Flight& flight, const BodyPhysics& physics) const {
+        flight.add(loaded_, physics, release_, name_);
+    }
+
+    /// The end of window number w (s).
+    [[nodiscard]] double end_of(int w) const {
+        return release_.start + static_cast<double>(w * steps_in_window_) * longest_step;
+    }
+
+    /// From where the windows begin: with noise from where it brings the bodies, since it may be what turns
+    /// them.
+    void fly_finest() {
+        Flight flight(settings_at(step_of(halvings_)));
+        add_to(flight, quiet_);
+        std::unique_ptr<Flight> noisy;
+        if (turbulent_) {
+            noisy = std::make_unique<Flight>(settings_at(step_of(halvings_ - truth_halvings)));
+            add_to(*noisy, physics_);
+        }
+        const FlightKind& kind = *flight.kinds()[0];
+        finest_.clear();
+        way_ = 0.0;
+        for (int w = 0; w < windows_; ++w) {
+            if (noisy && w > 0) {
+                noisy->advance_to(end_of(w));
+                put(flight, poses_of(*noisy), end_of(w));
+            }
+            Window window{poses_of(flight), {}, {}};
+            std::vector<Pose> before = window.begin;
+            const auto go_on_to = [&](double time) {
+                flight.advance_to(time);
+                std::vector<Pose> now = poses_of(flight);
+                for (std::size_t i = 0; i < now.size(); ++i) way_ += distance(before[i], now[i]);
+                before = now;
+                if (turbulent_) sample_rates(kind, time);
+                return now;
+            };
+            for (int step = 1; step < steps_in_window_; ++step) go_on_to(end_of(w) + step * longest_step);
+            for (int j = 0; j <= halvings_ - truth_halvings; ++j) {
+                window.middle.push_back(go_on_to(end_of(w + 1) - 0.5 * step_of(j)));
+            }
+            window.end = go_on_to(end_of(w + 1));
+            finest_.push_back(std::move(window));
+        }
+    }
+
+    /// Puts those that have started by the time (s) where they are to be.
+    static void put(Flight& flight, const std::vector<Pose>& poses, double time) {
+        for (std::size_t i = 0; i < flight.size(); ++i) {
+            if (time > flight.kinds()[0]->start(i)) flight.set_pose(i, poses[i]);
+        }
+    }
+
+    void sample_rates(const FlightKind& kind, double time) {
+        if (!rated_) rated_ = std::make_unique<const ImmersedBody>(made());
+        for (std::size_t i = 0; i < kind.size(); ++i) {
+            if (time < kind.start(i)) continue;
+            const double size = kind.size_of(i);
+            const Pose pose = in_own_units(kind.pose_in_wind(i, time), size);
+            const TurbulenceLevel level = turbulence_level(*rated_, centroid_velocity(pose, *rated_));
+            if (!(level.turbulent_kinetic_energy > 0.0)) continue;
+            const double per_size = physics_.turbulence == Turbulence::table ? 1.0 / (size * size)
+                                                                             : 1.0;  // else it is the world's
+            const double rate =
+                rated_->constants.langevin == Langevin::wake
+                    ? centroid_velocity(pose, *rated_).norm() / (wake_persistence * rated_->length) * per_size
+                    : turbulence_rate * level.dissipation_rate / level.turbulent_kinetic_energy * per_size;
+            squared_rates_ += rate * rate;
+            ++samples_;
+        }
+    }
+    [[nodiscard]] ImmersedBody made() const {
+        return make_immersed_body(*loaded_.body, physics_, scene_.fluid, name_);
+    }
+
+    /// Infinite where the motion leaves the range of numbers.
+    StepErrors errors_at(int j) {
+        try {
+            return errors_of_flight(j);
+        } catch (const FlightError&) {
+            return {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+        }
+    }
+
+    StepErrors errors_of_flight(int j) {
+        Flight flight(settings_at(step_of(j)));
+        add_to(flight, quiet_);
+        double squares = 0.0;
+        double finest_turning = 0.0;
+        double turning = 0.0;
+        const auto compare_at = [&](double time, const std::vector<Pose>& finest) {
+            flight.advance_to(time);
+            const std::vector<Pose> now = poses_of(flight);
+            for (std::size_t i = 0; i < now.size(); ++i) {
+                const double off = distance(finest[i], now[i]);
+                squares += off * off;
+                finest_turning += finest[i].angular_velocity.squaredNorm();
+                turning += now[i].angular_velocity.squaredNorm();
+            }
+        };
+        for (int w = 0; w < windows_; ++w) {
+            const Window& finest = finest_[as_place(w)];
+            if (w > 0) put(flight, finest.begin, end_of(w));
+            compare_at(end_of(w + 1) - 0.5 * step_of(j), finest.middle[as_place(j)]);
+            compare_at(end_of(w + 1), finest.end);
+        }
+        if (!(way_ > 0.0)) return {0.0, 0.0};
+        const double pieces = static_cast<double>(windows_) * static_cast<double>(flight.size());
+        const double speed = way_ / pieces / (steps_in_window_ * longest_step);
+        const double tip_speed = half_length_ * std::sqrt(0.5 * turning / pieces);
+        const double finest_tip_speed = half_length_ * std::sqrt(0.5 * finest_turning / pieces);
+        return {std::sqrt(0.5 * squares * pieces) / way_,
+                std::abs(tip_speed - finest_tip_speed) / std::max(finest_tip_speed, least_turning * speed)};
+    }
+
+    static std::size_t as_place(int w) { return static_cast<std::size_t>(w); }
+    static std::vector<Pose> poses_of(const Flight& flight) {
+        std::vector<Pose> poses(flight.size());
+        flight.poses(0, poses.size(), poses.data());
+        return poses;
+    }
+    /// Of place and tip.
+    [[nodiscard]] double distance(const Pose& a, const Pose& b) const {
+        return std::hypot((a.position - b.position).norm(),
+                          half_length_ * a.orientation.angularDistance(b.orientation));
+    }
+
+    const Scene& scene_;
+    const LoadedBody& loaded_;
+    std::string name_;
+    BodyPhysics physics_, quiet_;
+    Release release_;
+    double half_length_ = 0.0;
+    bool turbulent_ = false;
+    int halvings_ = 0;
+    int steps_in_window_ = 1;
+    int windows_ = 1;
+    std::vector<Window> finest_;
+    double way_ = 0.0;  // of all copies through all windows
+    std::unique_ptr<const ImmersedBody> rated_;
+    double squared_rates_ = 0.0;
+    std::size_t samples_ = 0;
+    std::vector<StepErrors> errors_;
+    bool is_met_ = true;
+};
+
+}  // namespace
+
+StepAdvice advise_step(const Scene& scene, const std::vector<LoadedBody>& loaded, int threads) {
+    std::vector<JudgedBody> judged;
+    for (std::size_t i = 0; i < loaded.size(); ++i) judged.emplace_back(scene, scene.bodies[i], loaded[i]);
+    StepAdvice advice{.step = longest_step, .tolerance = scene.step_tolerance};
+    advice.bodies.resize(judged.size());
+    std::vector<std::exception_ptr> faults(judged.size());
+    parallel_for(judged.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            try {
+                advice.bodies[i] = judged[i].judge();
+            } catch (...) {
+                faults[i] = std::current_exception();
+            }
+        }
+    });
+    for (const std::exception_ptr& fault : faults) {
+        if (fault != nullptr) std::rethrow_exception(fault);
+    }
+    for (const BodyStep& body : advice.bodies) {
+        const auto limit_to = [&](double step, const char* what) {
+            if (step >= advice.step) return;
+            advice.step = step;
+            advice.limit = fmt::format("the {} of '{}'", what, body.name);
+        };
+        limit_to(body.motion, "motion");
+        limit_to(body.turning, "turning");
+        limit_to(body.turbulence, "turbulence");
+    }
+    advice.step = longest_step / std::exp2(std::ceil(std::log2(longest_step / advice.step) - 1e-9));
+    for (std::size_t i = 0; i < judged.size(); ++i) {
+        advice.bodies[i].error = judged[i].error_of(advice.step);
+        advice.error = std::max(advice.error, advice.bodies[i].error);
+        advice.is_met = advice.is_met && judged[i].is_met();
+    }
+    return advice;
+}
+
+std::string as_text(const StepAdvice& advice) {
+    const std::string missed =
+        advice.is_met ? "" : fmt::format(", not within {:.2g} %", 100.0 * advice.tolerance);
+    const std::string limit =
+        advice.limit.empty() ? "the longest there is" : fmt::format("{} allows no longer one", advice.limit);
+    return fmt::format("{:.4g} ms, off by {:.2g} % of the way{}; {}", 1e3 * advice.step, 100.0 * advice.error,
+                       missed, limit);
+}
+
+}  // namespace samara

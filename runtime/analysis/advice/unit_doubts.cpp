@@ -1,0 +1,108 @@
+#include "samara/analysis/advice/unit_doubts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "samara/core/body/body_file.hpp"
+#include "samara/core/flight/terminal_speed.hpp"
+
+namespace samara {
+namespace {
+
+constexpr double longest = 5.0;            // m
+constexpr double shortest = 1e-4;          // m: what is smaller is dust
+constexpr double most_reynolds = 2e7;      // a ball of steel of 1 m sinks at 1e7
+constexpr double least_density = 10.0;     // kg/m^3: foams begin there
+constexpr double largest_density = 22600;  // kg/m^3: osmium's
+constexpr double gram_in_cubic_centimetre = 1000.0;
+
+double length_of(const Body& body) {
+    Eigen::AlignedBox3d box;
+    for (const Vector3d& vertex : body.surface.vertices) box.extend(vertex);
+    return box.sizes().maxCoeff();
+}
+
+const char* in_words(ScaleRemedy remedy) {
+    switch (remedy) {
+        case ScaleRemedy::option:
+            return "give --scale 0.001";
+        case ScaleRemedy::scene_key:
+            return "write scale = 0.001 beside its shape";
+        default:
+            return "mesh its shape again with 'samara mesh --scale 0.001'";
+    }
+}
+
+std::string length_doubt(double length, const std::optional<double>& reynolds_number, ScaleRemedy remedy) {
+    if (length < shortest) {
+        return fmt::format("{:.2g} m long: was its shape scaled twice, or is it in another unit than metres?",
+                           length);
+    }
+    const bool fast = reynolds_number && *reynolds_number > most_reynolds;
+    if (length <= longest && !fast) return {};
+    return fmt::format(
+        "{:.3g} m long{}: is its shape in millimetres? then {}", length,
+        fast ? fmt::format(" and falls at a Reynolds number of about {:.1g}", *reynolds_number) : "",
+        in_words(remedy));
+}
+
+std::string density_doubt(double density) {
+    if (density > largest_density) {
+        return fmt::format(
+            "a density of {:.3g} kg/m^3, above that of any metal: is its mass in grams, or its shape in "
+            "another unit than metres?",
+            density);
+    }
+    if (density >= least_density) return {};
+    return fmt::format("a density of {:.3g} kg/m^3: is that in g/cm^3? then it is {:.4g} kg/m^3", density,
+                       density * gram_in_cubic_centimetre);
+}
+
+}  // namespace
+
+ScaleRemedy scale_remedy_in_scene(const std::filesystem::path& shape) {
+    return is_body_file_name(shape) ? ScaleRemedy::mesh_again : ScaleRemedy::scene_key;
+}
+
+std::string size_doubts(const Body& body, ScaleRemedy remedy) {
+    return length_doubt(length_of(body), std::nullopt, remedy);
+}
+
+std::string unit_doubts(const Body& body, const MassSpecification& asked, const Fluid& fluid, double gravity,
+                        ScaleRemedy remedy) {
+    const double volume = body.moments.volume;
+    const MassSpecification mass = mass_asked_or_own(asked, body);
+    if (!mass.is_given()) return {};
+    const double density = mass_properties(body, mass).mass / volume;
+    const double reynolds_number = terminal_speed(body, fluid, density * volume, gravity) *
+                                   reference_length(body.moments.surface_area) / fluid.kinematic_viscosity();
+    std::vector<std::string> doubts;
+    for (std::string doubt :
+         {length_doubt(length_of(body), reynolds_number, remedy), density_doubt(density)}) {
+        if (!doubt.empty()) doubts.push_back(std::move(doubt));
+    }
+    return fmt::format("{}", fmt::join(doubts, "; and "));
+}
+
+std::string shape_warning(const Body& body) {
+    constexpr double unsaid = 0.005;
+    if (!body.shape_error) return {};
+    const ShapeError& error = *body.shape_error;
+    if (std::max(std::abs(error.volume), error.distance) <= unsaid) return {};
+    std::string text = fmt::format(
+        "its mesh has {:.1f} % {} volume than its shape and lies up to {:.1f} % of its size from it",
+        100.0 * std::abs(error.volume), error.volume < 0.0 ? "less" : "more", 100.0 * error.distance);
+    // Rounding facets off adds half to once and a half of what is estimated to lie between.
+    const bool rounded = std::abs(error.volume) < 1.5 * error.faceting && body.surface.order() == 2;
+    return text + (rounded ? ": it follows the smooth shape through the corners of the facets; 'samara mesh "
+                             "--order 1' keeps the facets"
+                           : "; 'samara mesh' with more --triangles, or without, comes nearer");
+}
+
+}  // namespace samara

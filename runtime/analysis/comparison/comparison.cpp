@@ -1,0 +1,224 @@
+#include "samara/analysis/comparison/comparison.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "samara/analysis/comparison/comparison_notes.hpp"
+#include "samara/analysis/comparison/reference_uncertainty.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/motion/inclination.hpp"
+
+namespace samara {
+namespace {
+
+constexpr double certain_errors = 2.0;
+constexpr double swings_in_segment = 16.0;
+constexpr double same_gravity = 1e-4;
+constexpr double rounding = 1e-9;
+
+void require_same_gravity(const FallChoice& motion, const FallChoice& reference) {
+    const Vector3d& a = motion.motion().gravity;
+    const Vector3d& b = reference.motion().gravity;
+    if ((a - b).norm() <= same_gravity * std::max(a.norm(), b.norm())) return;
+    throw Error(fmt::format(
+        "{} has the gravity [{:g}, {:g}, {:g}] m/s^2, {} has [{:g}, {:g}, {:g}]: the two cannot be compared",
+        motion.name, a.x(), a.y(), a.z(), reference.name, b.x(), b.y(), b.z()));
+}
+
+void require_length(const FallChoice& choice, const FallLengths& lengths) {
+    if (lengths.shortest > 0.0) return;
+    throw Error(fmt::format("{}: a fall of '{}' is a single frame; there is nothing to measure", choice.name,
+                            choice.of_body().name));
+}
+
+TimeWindow window_of(const FallChoice& motion, const FallLengths& motion_lengths, const FallChoice& reference,
+                     const FallLengths& reference_lengths, const std::optional<TimeWindow>& asked) {
+    const double common = std::min(motion_lengths.shortest, reference_lengths.shortest);
+    if (!asked) return {common / 3.0, common};
+    if (asked->begin >= 0.0 && asked->begin < asked->end && asked->end <= common * (1.0 + 1e-9))
+        return *asked;
+    throw Error(
+        fmt::format("the window from {:g} s to {:g} s after the release is not within both falls: {} shows "
+                    "{:.4g} s, {} shows {:.4g} s",
+                    asked->begin, asked->end, motion.name, motion_lengths.shortest, reference.name,
+                    reference_lengths.shortest));
+}
+
+/// The measures of the first fall of a choice.
+Measures first_measures(const FallChoice& choice, const TimeWindow& window) {
+    FallChoice first = choice;
+    first.run = choice.run.value_or(0);
+    first.copy = choice.copy.value_or(0);
+    Measures measures;
+    for_each_fall(first, [&](const Motion& part, int run, int copy) {
+        measures = fall_series(part, part.bodies[0], run, copy, window).measures;
+    });
+    return measures;
+}
+
+/// Long enough to tell frequencies apart, short enough to have many in a long window; the same for both.
+double segment_of(const FallChoice& motion, const FallChoice& reference, const TimeWindow& window) {
+    const double length = window.end - window.begin;
+    for (const FallChoice* choice : {&reference, &motion}) {
+        const auto frequency = first_measures(*choice, window).frequency;
+        if (frequency) return std::min(length, swings_in_segment * 0.5 / *frequency);
+    }
+    return length;
+}
+
+/// The error of an estimate in a comparison: that of a single fall is at least what several falls scatter by.
+std::optional<double> error_beside(const Estimate& one, const Estimate& other) {
+    if (one.deviation || !other.deviation) return one.error;
+    return std::max(one.error.value_or(0.0), *other.deviation);
+}
+
+FigureComparison compare_turn(const std::optional<TurningPoint>& motion,
+                              const std::optional<TurningPoint>& reference, Estimate TurningPoint::*figure) {
+    return compare_figure(motion ? std::optional((*motion).*figure) : std::nullopt,
+                          reference ? std::optional((*reference).*figure) : std::nullopt);
+}
+
+/// Quarters of the depth (m) that all falls reach; none where one does not sink.
+std::vector<double> levels_of(const FallLengths& motion, const FallLengths& reference) {
+    const double depth = (1.0 - rounding) * std::min(motion.shallowest, reference.shallowest);
+    if (!(depth > 0.0)) return {};
+    return {0.25 * depth, 0.5 * depth, 0.75 * depth, depth};
+}
+
+void compare_all_landings(Comparison& all, const std::vector<double>& depths) {
+    for (std::size_t i = 0; i < depths.size(); ++i) {
+        const std::vector<Passage>& motion = all.motion.passages[i];
+        const std::vector<Passage>& reference = all.reference.passages[i];
+        if (std::min(motion.size(), reference.size()) < fewest_landings) return;
+        all.landings.push_back(compare_landings(depths[i], motion, reference));
+    }
+}
+
+void compare_first_swings(Comparison& all) {
+    const FirstSwing& a = all.motion.first_swing;
+    const FirstSwing& b = all.reference.first_swing;
+    all.first_swing.minimum_time = compare_turn(a.minimum, b.minimum, &TurningPoint::time);
+    all.first_swing.minimum_inclination = compare_turn(a.minimum, b.minimum, &TurningPoint::inclination);
+    all.first_swing.maximum_time = compare_turn(a.maximum, b.maximum, &TurningPoint::time);
+    all.first_swing.maximum_inclination = compare_turn(a.maximum, b.maximum, &TurningPoint::inclination);
+}
+
+void judge(Comparison& all) {
+    all.regimes_agree = all.motion.regimes.commonest() == all.reference.regimes.commonest();
+    all.agrees = all.regimes_agree || !all.judges_inclination || all.regime_is_uncertain;
+    bool all_certain = !(all.judges_inclination && all.regime_is_uncertain);
+    bool surely_differs = !all.agrees;
+    for (const FigureComparison& figure : all.figures) {
+        if (!figure.verdict) continue;
+        all.agrees = all.agrees && figure.verdict->agrees;
+        all_certain = all_certain && figure.verdict->certain;
+        surely_differs = surely_differs || (!figure.verdict->agrees && figure.verdict->certain);
+    }
+    all.certain = all.agrees ? all_certain : surely_differs;
+}
+
+void compare_figures(Comparison& all, const BodyMotion& reference, const PerFigure<double>& tolerances) {
+    PerFigure<std::optional<double>> judged;
+    for (const Figure figure : compared_figures) {
+        if (all.judges_inclination || catalogued(figure).subject != FigureSubject::inclination) {
+            judged[figure] = tolerances[figure];
+        }
+    }
+    for (const CataloguedFigure& entry : figure_catalogue) {
+        const Figure figure = entry.figure;
+        all.figures[figure] =
+            compare_figure(all.motion.figures[figure], all.reference.figures[figure], judged[figure],
+                           entry.allowed.always, uncertainty_of(reference, entry.key));
+    }
+    for (std::size_t q = 0; q < quantile_percents.size(); ++q) {
+        all.quantiles[q] =
+            compare_figure(all.motion.inclination_quantiles[q], all.reference.inclination_quantiles[q]);
+    }
+    all.regime_is_uncertain = uncertainty_of(reference, regime_key) > 0.0;
+    all.distribution = distribution_distance(all.motion.histograms, all.reference.histograms);
+    judge(all);
+}
+
+}  // namespace
+
+FigureComparison compare_figure(const std::optional<Estimate>& motion,
+                                const std::optional<Estimate>& reference,
+                                const std::optional<double>& tolerance, double least_limit,
+                                double uncertainty) {
+    FigureComparison result;
+    result.motion = motion;
+    result.reference = reference;
+    if (!motion && !reference) return result;
+    if (!motion || !reference) {
+        // One with a frequency and one without differ, unless the reference itself may have it or not.
+        const bool undecided = uncertainty >= 1.0;
+        if (tolerance) result.verdict = Verdict{0.0, undecided, !undecided};
+        return result;
+    }
+    const double magnitude = std::abs(reference->value);
+    result.difference = motion->value - reference->value;
+    result.reference_uncertainty = uncertainty * magnitude;
+    if (magnitude > 0.0) result.relative = *result.difference / magnitude;
+    const auto motion_error = error_beside(*motion, *reference);
+    const auto reference_error = error_beside(*reference, *motion);
+    if (motion_error && reference_error) {
+        result.difference_error = std::hypot(*motion_error, *reference_error);
+        // Errors of regular motions can be rounding alone.
+        if (*result.difference_error > rounding * std::max(std::abs(motion->value), magnitude)) {
+            result.in_errors = std::abs(*result.difference) / *result.difference_error;
+        }
+    }
+    if (!tolerance) return result;
+    Verdict verdict;
+    verdict.limit = std::max(*tolerance * magnitude, least_limit);
+    const double beyond = std::abs(*result.difference) - result.reference_uncertainty;
+    const double at_most = std::abs(*result.difference) + result.reference_uncertainty;
+    verdict.agrees = beyond <= verdict.limit;
+    const double to_limit = verdict.agrees ? verdict.limit - at_most : beyond - verdict.limit;
+    verdict.certain = result.difference_error && to_limit >= certain_errors * *result.difference_error;
+    result.verdict = verdict;
+    return result;
+}
+
+Comparison compare(const FallChoice& motion, const FallChoice& reference, const ComparisonSettings& settings,
+                   const std::function<void(double, double)>& progress) {
+    require_same_gravity(motion, reference);
+    Comparison all;
+    all.motion_body = motion.of_body().name;
+    all.reference_body = reference.of_body().name;
+    all.judges_inclination =
+        has_shortest_axis(motion.of_body().surface) && has_shortest_axis(reference.of_body().surface);
+    all.motion_lengths = fall_lengths(motion);
+    all.reference_lengths = fall_lengths(reference);
+    require_length(motion, all.motion_lengths);
+    require_length(reference, all.reference_lengths);
+    all.window = window_of(motion, all.motion_lengths, reference, all.reference_lengths, settings.window);
+    const FallWindow window{all.window, segment_of(motion, reference, all.window),
+                            levels_of(all.motion_lengths, all.reference_lengths)};
+
+    const double total = motion.runs() * motion.copies() + reference.runs() * reference.copies();
+    double done = 0.0;
+    const auto count = [&] { progress(++done, total); };
+    all.reference = measure_falls(reference, window, std::nullopt, count);
+    all.first_swing.end = end_of(all.reference.first_swing);
+    FallSeries path = all.reference.example;
+    path.ways = all.reference.mean_ways;
+    if (all.first_swing.end) {
+        *all.first_swing.end = std::min(
+            *all.first_swing.end, std::min(all.motion_lengths.shortest, all.reference_lengths.shortest));
+        all.motion = measure_falls(motion, window, std::pair(&path, *all.first_swing.end), count);
+        all.first_swing.path_distance = all.motion.path_distance;
+        all.first_swing.way_fallen = way_at(path, *all.first_swing.end).dot(path.down);
+    } else {
+        all.motion = measure_falls(motion, window, std::nullopt, count);
+    }
+    compare_first_swings(all);
+    compare_all_landings(all, window.depths);
+    compare_figures(all, reference.of_body(), settings.tolerances);
+    all.notes = comparison_notes(motion, reference, all);
+    return all;
+}
+
+}  // namespace samara

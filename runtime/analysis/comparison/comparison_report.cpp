@@ -1,0 +1,256 @@
+#include "samara/analysis/comparison/comparison_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "samara/analysis/metrics/description.hpp"
+#include "samara/core/base/angles.hpp"
+#include "samara/formats/vector_json.hpp"
+
+namespace samara {
+namespace {
+
+using nlohmann::json;
+
+json as_json(const std::optional<Estimate>& estimate) {
+    if (!estimate) return nullptr;
+    return {{"value", estimate->value},
+            {"error", or_null(estimate->error)},
+            {"deviation", or_null(estimate->deviation)}};
+}
+
+json as_json(const FigureComparison& figure) {
+    json result = {{"motion", as_json(figure.motion)},
+                   {"reference", as_json(figure.reference)},
+                   {"difference", or_null(figure.difference)},
+                   {"difference_error", or_null(figure.difference_error)},
+                   {"relative_difference", or_null(figure.relative)},
+                   {"standard_errors", or_null(figure.in_errors)},
+                   {"reference_uncertainty", figure.reference_uncertainty}};
+    if (figure.verdict) {
+        result["limit"] = figure.verdict->limit;
+        result["agrees"] = figure.verdict->agrees;
+        result["certain"] = figure.verdict->certain;
+    }
+    return result;
+}
+
+json as_json(const FallSet& set, const std::string& body, const FallLengths& lengths) {
+    json result = as_json(set.regimes);
+    result["body"] = body;
+    result["falls"] = set.falls;
+    result["distinct"] = set.distinct;
+    result["duration"] = {lengths.shortest, lengths.longest};
+    result["pieces"] = set.pieces;
+    return result;
+}
+
+std::string regime_text(const FallSet& set) {
+    const Regime regime = set.regimes.commonest();
+    if (set.distinct == 1) return name_of(regime);
+    return fmt::format("{}, {} of {}", name_of(regime), set.regimes.of(regime), set.distinct);
+}
+
+std::string row(const std::string& what, const std::string& motion, const std::string& reference,
+                const std::string& difference, const std::string& verdict) {
+    std::string line =
+        fmt::format("{:<28} {:<21} {:<21} {:<17} {}", what, motion, reference, difference, verdict);
+    line.erase(line.find_last_not_of(' ') + 1);
+    return line + '\n';
+}
+
+std::string estimate_text(const std::optional<Estimate>& estimate, double scale) {
+    return estimate ? with_error(*estimate, scale) : "-";
+}
+
+/// "-4.1 +- 1.2 %", or in the figure's own unit.
+std::string difference_text(const FigureComparison& figure, double scale, bool relative) {
+    if (!figure.difference) return "";
+    if (!relative || !figure.relative) {
+        const std::string text = with_error({*figure.difference, figure.difference_error, {}}, scale);
+        return *figure.difference > 0.0 ? '+' + text : text;
+    }
+    std::string text = fmt::format("{:+.1f}", 100.0 * *figure.relative);
+    if (figure.difference_error) {
+        text +=
+            fmt::format(" +- {:.1f}", 100.0 * *figure.difference_error / std::abs(figure.reference->value));
+    }
+    return text + " %";
+}
+
+std::string verdict_text(const FigureComparison& figure, double scale) {
+    if (!figure.verdict) {
+        return figure.in_errors ? fmt::format("{:.1f} standard errors", *figure.in_errors) : "";
+    }
+    const char* words = figure.verdict->agrees ? "agrees" : "differs";
+    if (!figure.motion || !figure.reference) return words;
+    const double magnitude = std::abs(figure.reference->value);
+    const double share = figure.verdict->limit / magnitude;
+    std::string limits = share < 1.0 ? fmt::format("{:.0f} %", 100.0 * share)
+                                     : fmt::format("{:.3g}", scale * figure.verdict->limit);
+    if (figure.reference_uncertainty > 0.0) {
+        limits += fmt::format(" beyond the reference's own {:.2g} %",
+                              100.0 * figure.reference_uncertainty / magnitude);
+    }
+    return fmt::format("{}{} (limit {})", words, figure.verdict->certain ? "" : "?", limits);
+}
+
+std::string figure_row(const std::string& what, const FigureComparison& figure, double scale,
+                       bool relative = false) {
+    return row(what, estimate_text(figure.motion, scale), estimate_text(figure.reference, scale),
+               difference_text(figure, scale, relative), verdict_text(figure, scale));
+}
+
+std::string distribution_text(const Comparison& all) {
+    std::string text = "inclination (degrees)\n";
+    for (std::size_t q = 0; q < quantile_percents.size(); ++q) {
+        text += figure_row(fmt::format("  {:.0f} % of the time below", quantile_percents[q]),
+                           all.quantiles[q], degrees);
+    }
+    const DistributionDistance& distance = all.distribution;
+    text += fmt::format("  distributions apart by {:.3f}", distance.distance);
+    if (distance.chance) {
+        text += fmt::format("; {} by chance {:.3f}, 95 % of them below {:.3f} (p = {:.3f})",
+                            distance.by_falls ? "runs" : "swings", distance.chance->mean,
+                            distance.chance->limit, distance.chance->probability);
+    }
+    return text + '\n';
+}
+
+std::string first_swing_text(const Comparison& all) {
+    const FirstSwingComparison& swing = all.first_swing;
+    std::string text = "first swing\n";
+    text += figure_row("  minimum at (s)", swing.minimum_time, 1.0);
+    text += figure_row("  minimum (degrees)", swing.minimum_inclination, degrees);
+    text += figure_row("  maximum at (s)", swing.maximum_time, 1.0);
+    text += figure_row("  maximum (degrees)", swing.maximum_inclination, degrees);
+    if (swing.path_distance) {
+        text +=
+            fmt::format("  paths apart by {} mm (rms) until {:.3g} s, {:.1f} % of the {:.3g} m fallen\n",
+                        with_error(*swing.path_distance, 1000.0), *swing.end,
+                        100.0 * swing.path_distance->value / std::abs(*swing.way_fallen), *swing.way_fallen);
+    }
+    return text;
+}
+
+json as_json(const Landings& landings) {
+    return {{"time", as_json(std::optional(landings.time))},
+            {"scatter", as_json(std::optional(landings.scatter))},
+            {"mean", samara::as_json(landings.mean)}};
+}
+
+json as_json(const LandingComparison& landing) {
+    return {{"depth", landing.depth},
+            {"motion", as_json(landing.motion)},
+            {"reference", as_json(landing.reference)},
+            {"distance", landing.distance},
+            {"distance_by_chance", landing.chance.mean},
+            {"distance_by_chance_limit", landing.chance.limit},
+            {"probability", landing.chance.probability}};
+}
+
+std::string landing_text(const LandingComparison& landing) {
+    std::string text = fmt::format("landing {:.3g} m below the release\n", landing.depth);
+    text += figure_row("  after (s)", compare_figure(landing.motion.time, landing.reference.time), 1.0, true);
+    text += figure_row("  scattered by (mm)",
+                       compare_figure(landing.motion.scatter, landing.reference.scatter), 1000.0, true);
+    return text + fmt::format(
+                      "  places apart by {:.3g} mm; falls by chance {:.3g}, 95 % of them below {:.3g} (p = "
+                      "{:.3f})\n",
+                      1000.0 * landing.distance, 1000.0 * landing.chance.mean, 1000.0 * landing.chance.limit,
+                      landing.chance.probability);
+}
+
+bool has_doubts(const Comparison& all) {
+    return std::any_of(all.figures.begin(), all.figures.end(), [](const FigureComparison& figure) {
+        return figure.verdict && !figure.verdict->certain;
+    });
+}
+
+}  // namespace
+
+std::string with_error(const Estimate& estimate, double scale) {
+    const double value = scale * estimate.value;
+    if (!estimate.error) return fmt::format("{:.4g}", value);
+    const double error = scale * *estimate.error;
+    // Below a millionth of the figure an error is rounding.
+    if (!(error > 1e-6 * std::abs(value))) return fmt::format("{:.4g} +- 0", value);
+    const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 9);
+    return fmt::format("{:.{}f} +- {:.{}f}", value, decimals, error, decimals);
+}
+
+json as_json(const Comparison& all) {
+    json measures;
+    for (const CataloguedFigure& entry : figure_catalogue) {
+        measures[entry.key] = as_json(all.figures[entry.figure]);
+    }
+    json quantiles = json::array();
+    for (std::size_t q = 0; q < quantile_percents.size(); ++q) {
+        json one = as_json(all.quantiles[q]);
+        one["percent"] = quantile_percents[q];
+        quantiles.push_back(one);
+    }
+    const FirstSwingComparison& swing = all.first_swing;
+    const std::optional<Chance>& chance = all.distribution.chance;
+    json landings = json::array();
+    for (const LandingComparison& landing : all.landings) landings.push_back(as_json(landing));
+    return {{"window", {all.window.begin, all.window.end}},
+            {"motion", as_json(all.motion, all.motion_body, all.motion_lengths)},
+            {"reference", as_json(all.reference, all.reference_body, all.reference_lengths)},
+            {"measures", measures},
+            {"inclination_distribution",
+             {{"quantiles", quantiles},
+              {"distance", all.distribution.distance},
+              {"distance_by_chance", chance ? json(chance->mean) : json()},
+              {"distance_by_chance_limit", chance ? json(chance->limit) : json()},
+              {"probability", chance ? json(chance->probability) : json()},
+              {"chance_between", all.distribution.by_falls ? "falls" : "swings"}}},
+            {"first_swing",
+             {{"minimum_time", as_json(swing.minimum_time)},
+              {"minimum_inclination", as_json(swing.minimum_inclination)},
+              {"maximum_time", as_json(swing.maximum_time)},
+              {"maximum_inclination", as_json(swing.maximum_inclination)},
+              {"end", or_null(swing.end)},
+              {"path_distance", as_json(swing.path_distance)},
+              {"way_fallen", or_null(swing.way_fallen)}}},
+            {"landings", landings},
+            {"judges_inclination", all.judges_inclination},
+            {"regimes_agree", all.regimes_agree},
+            {"regime_is_uncertain", all.regime_is_uncertain},
+            {"agrees", all.agrees},
+            {"certain", all.certain},
+            {"notes", all.notes}};
+}
+
+std::string as_text(const Comparison& all) {
+    std::string text = row(fmt::format("{:.3g} s to {:.3g} s of fall", all.window.begin, all.window.end),
+                           "motion", "reference", "difference", "");
+    text += row("regime", regime_text(all.motion), regime_text(all.reference), "",
+                !all.judges_inclination   ? ""
+                : all.regime_is_uncertain ? "the reference's own is uncertain"
+                : all.regimes_agree       ? "agrees"
+                                          : "differs");
+    for (const CataloguedFigure& entry : figure_catalogue) {
+        const FigureComparison& figure = all.figures[entry.figure];
+        if (is_of_autorotation(entry.figure) && !figure.motion && !figure.reference) continue;
+        const std::string what = entry.refines_last ? fmt::format("  {}", entry.title)
+                                                    : fmt::format("{} ({})", entry.title, entry.unit);
+        text += figure_row(what, figure, entry.in_unit, entry.relative);
+    }
+    text += distribution_text(all) + first_swing_text(all);
+    for (const LandingComparison& landing : all.landings) text += landing_text(landing);
+    for (const std::string& note : all.notes) text += "note: " + note + '\n';
+    text += all.agrees ? "the motion agrees with the reference" : "the motion differs from the reference";
+    if (!all.certain) text += ", but not for certain";
+    if (has_doubts(all))
+        text +=
+            " (?: the limit is less than two standard errors away, or these are not known, or the "
+            "reference's own "
+            "uncertainty decides)";
+    return text + '\n';
+}
+
+}  // namespace samara

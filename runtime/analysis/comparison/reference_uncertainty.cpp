@@ -1,0 +1,73 @@
+#include "samara/analysis/comparison/reference_uncertainty.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "samara/analysis/comparison/comparison.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/motion/motion_file.hpp"
+
+namespace samara {
+namespace {
+
+void require_same_scene(const std::filesystem::path& reference, const Motion& a,
+                        const std::filesystem::path& other, const Motion& b) {
+    if (a.bodies.size() != 1 || b.bodies.size() != 1) {
+        throw Error(
+            fmt::format("{}: holds several bodies; the falls that a reference is held against hold one",
+                        (a.bodies.size() != 1 ? reference : other).string()));
+    }
+    if (a.scene_text != b.scene_text) {
+        throw Error(fmt::format(
+            "{}: is of another scene than {}; only falls of the same scene tell how uncertain they are",
+            other.string(), reference.string()));
+    }
+}
+
+std::optional<FigureUncertainty> uncertainty_of(const FigureComparison& figure, const std::string& cause,
+                                                const char* key) {
+    if (!figure.motion && !figure.reference) return std::nullopt;
+    if (!figure.relative) return FigureUncertainty{cause, key, 1.0};
+    const double chance = figure.difference_error.value_or(0.0) / std::abs(figure.reference->value);
+    return FigureUncertainty{cause, key, std::abs(*figure.relative), chance};
+}
+
+}  // namespace
+
+std::vector<FigureUncertainty> uncertainty_beside(const std::filesystem::path& reference,
+                                                  const std::filesystem::path& other,
+                                                  const std::string& cause) {
+    const MotionReader held(reference);
+    const MotionReader beside(other);
+    require_same_scene(reference, held.motion(), other, beside.motion());
+    const Comparison comparison = compare({other.string(), &beside, 0, {}, {}},
+                                          {reference.string(), &held, 0, {}, {}}, {}, [](double, double) {});
+    std::vector<FigureUncertainty> uncertainties;
+    for (const Figure figure : baked_figures) {
+        const CataloguedFigure& entry = catalogued(figure);
+        if (entry.subject != FigureSubject::path && !comparison.judges_inclination) continue;
+        const auto uncertainty = uncertainty_of(comparison.figures[figure], cause, entry.key);
+        if (uncertainty) uncertainties.push_back(*uncertainty);
+    }
+    if (comparison.judges_inclination) {
+        uncertainties.push_back({cause, regime_key, comparison.regimes_agree ? 0.0 : 1.0});
+    }
+    std::ranges::sort(uncertainties, {}, &FigureUncertainty::figure);
+    return uncertainties;
+}
+
+double uncertainty_of(const BodyMotion& body, const std::string& figure) {
+    double sum = 0.0;
+    double chance = 0.0;
+    for (const FigureUncertainty& one : body.uncertainties) {
+        if (one.figure != figure) continue;
+        sum += one.relative;
+        chance = std::max(chance, one.chance);
+    }
+    return std::max(sum, chance);
+}
+
+}  // namespace samara

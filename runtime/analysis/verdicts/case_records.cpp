@@ -1,0 +1,103 @@
+#include "samara/analysis/verdicts/case_records.hpp"
+
+#include <map>
+
+#include <nlohmann/json.hpp>
+
+#include "samara/formats/json_text.hpp"
+#include "samara/formats/vector_json.hpp"
+
+namespace samara {
+namespace {
+
+using Json = nlohmann::json;
+
+std::string text_of(const Json& object, const char* key) {
+    const auto found = object.find(key);
+    return found != object.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+std::optional<double> number_of(const Json& object, const char* key) {
+    const auto found = object.find(key);
+    if (found == object.end() || !found->is_number()) return std::nullopt;
+    return found->get<double>();
+}
+
+/// The object under the key, an empty one where there is none.
+Json object_of(const Json& object, const char* key) {
+    const auto found = object.find(key);
+    return found != object.end() && found->is_object() ? *found : Json::object();
+}
+
+std::optional<Vector3d> direction_of(const Json& object) {
+    const auto found = object.find("direction");
+    if (found == object.end() || !found->is_array() || found->size() != 3) return std::nullopt;
+    for (const Json& number : *found) {
+        if (!number.is_number()) return std::nullopt;
+    }
+    const Vector3d direction = vector_of(*found);
+    if (!(direction.norm() > 0.0)) return std::nullopt;
+    return direction.normalized();
+}
+
+std::optional<CaseRecord> record_of(const Json& one, const Matrix3d& axes) {
+    if (!one.is_object()) return std::nullopt;
+    const auto direction = direction_of(one);
+    const auto reynolds_number = number_of(one, "reynolds_number");
+    const auto drag = number_of(one, "drag_coefficient");
+    if (!direction || !reynolds_number || !drag) return std::nullopt;
+    const Json mesh = object_of(one, "mesh");
+    CaseRecord record{.name = text_of(one, "name"),
+                      .purpose = text_of(one, "purpose"),
+                      .direction = axes * *direction,
+                      .reynolds_number = *reynolds_number,
+                      .drag = *drag,
+                      .k = number_of(object_of(one, "shell"), "k"),
+                      .cells = number_of(mesh, "cells").value_or(0.0),
+                      .closure = text_of(one, "closure"),
+                      .verdict = text_of(one, "verdict"),
+                      .mesh_verdict = text_of(mesh, "verdict"),
+                      .mesh_remedy = text_of(mesh, "remedy"),
+                      .openfoam = text_of(one, "openfoam"),
+                      .cpu_seconds = number_of(one, "cpu_seconds").value_or(0.0),
+                      .final_residual = number_of(object_of(one, "final_residuals"), "p").value_or(0.0)};
+    // Where loads and turbulence are of different closures, k is another case's.
+    if (const Json other = object_of(one, "turbulence"); !other.empty()) {
+        record.k = number_of(object_of(other, "shell"), "k");
+    }
+    return record;
+}
+
+}  // namespace
+
+std::vector<CaseRecord> case_records(const LoadTables& tables) {
+    const Json cases = parse_json_or_discard(tables.provenance);
+    std::vector<CaseRecord> records;
+    if (!cases.is_array()) return records;
+    for (const Json& one : cases) {
+        if (auto record = record_of(one, tables.axes)) records.push_back(std::move(*record));
+    }
+    return records;
+}
+
+bool is_on_last_meshes(const CaseRecord& record) {
+    return record.purpose == "table" || record.purpose == "mesh";
+}
+
+double main_reynolds_number(const LoadTables& tables, const std::vector<CaseRecord>& records) {
+    std::map<double, int> counts;
+    for (const CaseRecord& record : records) {
+        if (is_on_last_meshes(record)) ++counts[record.reynolds_number];
+    }
+    double main = tables.reynolds_numbers.back();
+    int most = 0;
+    for (const auto& [number, count] : counts) {
+        if (count >= most) {
+            main = number;
+            most = count;
+        }
+    }
+    return main;
+}
+
+}  // namespace samara

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "samara/core/base/linear_algebra.hpp"
+#include "samara/core/body/load_tables.hpp"
+
+namespace samara {
+
+/// What a body file keeps of one solved case of its tables.
+struct CaseRecord {
+    std::string name;
+    std::string purpose;          ///< "table", "mesh", "closure", as plan.json words it
+    Vector3d direction;           ///< unit vector: the body's velocity relative to the fluid, body axes
+    double reynolds_number;       ///< U L / nu
+    double drag;                  ///< coefficient on A = pi L^2/4
+    std::optional<double> k;      ///< k / U^2, mean over the shell; none of a laminar case
+    double cells = 0.0;           ///< of its mesh; 0 where it is not said
+    std::string closure;          ///< OpenFOAM's word
+    std::string verdict;          ///< "stationary", "restless"
+    std::string mesh_verdict;     ///< checkMesh's, "ok" or what is wrong
+    std::string mesh_remedy;      ///< what made the mesh good; "as planned" where nothing was needed
+    std::string openfoam;         ///< version
+    double cpu_seconds = 0.0;     ///< of the solver
+    double final_residual = 0.0;  ///< of the pressure in the last iteration; 0 where it is not said
+};
+
+/// The distance between unit vectors below which two cases are of one direction: those of one plan differ by
+/// the rounding of a turn of axes alone.
+inline constexpr double same_direction = 1e-6;
+
+/// Whether the case is on the last mesh or the one before it (purposes "table" and "mesh").
+bool is_on_last_meshes(const CaseRecord& record);
+
+/// The records of the tables' cases that say in which flow they were solved, in the file's order; none where
+/// the provenance is not that of `samara bake`.
+std::vector<CaseRecord> case_records(const LoadTables& tables);
+
+/// The Reynolds number at which the most cases are on the last meshes; without records the highest.
+double main_reynolds_number(const LoadTables& tables, const std::vector<CaseRecord>& records);
+
+}  // namespace samara

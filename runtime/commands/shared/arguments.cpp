@@ -1,0 +1,214 @@
+#include "samara/commands/shared/arguments.hpp"
+
+#include <algorithm>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+#include <string_view>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "samara/base/version.hpp"
+#include "samara/commands/shared/guarded_program.hpp"
+#include "samara/commands/shared/print.hpp"
+#include "samara/core/base/nearest_word.hpp"
+#include "samara/core/files/replace_file.hpp"
+#include "samara/motion/file_check.hpp"
+
+namespace samara {
+
+struct Arguments::Parser {
+    CLI::App app;
+    std::string program;
+    bool json = false;
+    std::map<std::string, std::vector<std::string>> choices;  ///< by the option's name with its dashes
+    std::vector<const std::string*> outputs;                  ///< files to write; empty where none is given
+};
+
+namespace {
+
+constexpr std::string_view json_option = "--json";
+
+/// For shells: a line for each option, of its names and, after a tab, the words that it takes.
+void list_options(const CLI::App& app, const std::map<std::string, std::vector<std::string>>& choices) {
+    for (const CLI::Option* option : app.get_options()) {
+        std::vector<std::string> names;
+        for (const std::string& name : option->get_snames()) names.push_back('-' + name);
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+        if (names.empty()) continue;  // a word by its place
+        const auto words = choices.find(option->get_name());
+        print_result("{}\t{}\n", fmt::join(names, " "),
+                     words == choices.end() ? "" : fmt::format("{}", fmt::join(words->second, " ")));
+    }
+}
+
+std::vector<std::string> options_of(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : app.get_options()) {
+        for (const std::string& name : option->get_lnames()) names.push_back(fmt::format("--{}", name));
+    }
+    return names;
+}
+
+/// What is wrong with the words: first an option that there is none of, for which what it was to be may lack.
+std::string fault_in_words(const CLI::App& app, const CLI::ParseError& fault) {
+    const std::string see_help = fmt::format("; see '{} --help'", app.get_name());
+    const std::vector<std::string> unknown = app.remaining();
+    for (const std::string& word : unknown) {
+        if (word.size() < 2 || word.front() != '-' || word == "--") continue;
+        const std::string option = word.substr(0, word.find('='));
+        const std::string meant = did_you_mean(option, options_of(app));
+        return fmt::format("there is no option '{}'{}", option, meant.empty() ? see_help : meant);
+    }
+    const bool too_many = fault.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
+    return (too_many && !unknown.empty() ? fmt::format("'{}' is one word too many", unknown.front())
+                                         : std::string(fault.what())) +
+           see_help;
+}
+
+/// Refuses "3mm" and "fast" where a number is due.
+const CLI::Validator plain_number(
+    [](const std::string& word) {
+        double number = 0.0;
+        if (CLI::detail::lexical_cast(word, number)) return std::string();
+        return fmt::format("'{}' is no number; numbers stand without a unit, in SI units: m, kg, s, rad",
+                           word);
+    },
+    "");
+
+/// Whether the words ask for JSON, whatever else is wrong with them.
+bool asks_for_json(int argc, const char* const* argv) {
+    return std::any_of(argv, argv + argc, [](const char* word) { return word == json_option; });
+}
+
+}  // namespace
+
+Arguments::Arguments(std::string program, std::string description) : parser_(std::make_unique<Parser>()) {
+    parser_->app.description(std::move(description));
+    parser_->app.name(program);
+    parser_->program = std::move(program);
+    parser_->app.get_formatter()->column_width(34);
+    parser_->app.set_version_flag("--version", std::string("samara ") + version);
+    parser_->app.add_flag(std::string(json_option), parser_->json,
+                          "print the result as one JSON object; of an error {\"error\": \"...\"}");
+}
+
+Arguments::~Arguments() = default;
+
+void Arguments::positional(const std::string& name, std::string& value, const std::string& help) {
+    parser_->app.add_option(name, value, help)->required();
+}
+
+void Arguments::optional_positional(const std::string& name, std::string& value, const std::string& help) {
+    parser_->app.add_option(name, value, help);
+}
+
+void Arguments::positionals(const std::string& name, std::vector<std::string>& values,
+                            const std::string& help) {
+    parser_->app.add_option(name, values, help)->required();
+}
+
+void Arguments::flag(const std::string& name, bool& value, const std::string& help) {
+    parser_->app.add_flag(name, value, help);
+}
+
+void Arguments::option(const std::string& name, std::string& value, const std::string& help) {
+    auto* option = parser_->app.add_option(name, value, help);
+    if (!value.empty()) option->capture_default_str();
+}
+
+void Arguments::required_option(const std::string& name, std::string& value, const std::string& help) {
+    parser_->app.add_option(name, value, help)->required();
+}
+
+void Arguments::output_option(const std::string& name, std::string& value, const std::string& help) {
+    option(name, value, help);
+    parser_->outputs.push_back(&value);
+}
+
+void Arguments::required_output_option(const std::string& name, std::string& value, const std::string& help) {
+    required_option(name, value, help);
+    parser_->outputs.push_back(&value);
+}
+
+void Arguments::option(const std::string& name, double& value, const std::string& help, double lowest,
+                       double highest) {
+    parser_->app.add_option(name, value, help)
+        ->check(plain_number)
+        ->check(CLI::Range(lowest, highest))
+        ->capture_default_str();
+}
+
+void Arguments::option(const std::string& name, int& value, const std::string& help, int lowest,
+                       int highest) {
+    parser_->app.add_option(name, value, help)
+        ->check(plain_number)
+        ->check(CLI::Range(lowest, highest))
+        ->capture_default_str();
+}
+
+void Arguments::option(const std::string& name, std::optional<int>& value, const std::string& help,
+                       int lowest, int highest) {
+    parser_->app.add_option(name, value, help)->check(plain_number)->check(CLI::Range(lowest, highest));
+}
+
+void Arguments::option(const std::string& name, std::optional<double>& value, const std::string& help,
+                       double lowest, double highest) {
+    parser_->app.add_option(name, value, help)->check(plain_number)->check(CLI::Range(lowest, highest));
+}
+
+void Arguments::option(const std::string& name, std::uint64_t& value, const std::string& help) {
+    parser_->app.add_option(name, value, help)->capture_default_str();
+}
+
+void Arguments::choice(const std::string& name, std::string& value, const std::vector<std::string>& words,
+                       const std::string& help) {
+    CLI::Option* option = parser_->app.add_option(name, value, help);
+    option->check(CLI::IsMember(words))->capture_default_str();
+    parser_->choices[option->get_name()] = words;
+}
+
+void Arguments::footer(const std::string& text) {
+    parser_->app.footer(text);
+}
+
+bool Arguments::given(const std::string& name) const {
+    return parser_->app.count(name) > 0;
+}
+
+bool Arguments::json() const {
+    return parser_->json;
+}
+
+int run_program(int argc, const char* const* argv, Arguments& arguments,
+                const std::function<nlohmann::json()>& body) {
+    Arguments::Parser& parser = *arguments.parser_;
+    const auto work = [&] {
+        if (argc == 2 && std::string_view(argv[1]) == "--list-options") {
+            list_options(parser.app, parser.choices);
+            return;
+        }
+        try {
+            parser.app.parse(argc, argv);
+        } catch (const CLI::Success& asked_for_help) {
+            std::ostringstream help;
+            parser.app.exit(asked_for_help, help, help);
+            print_result("{}", help.str());
+            return;
+        } catch (const CLI::ParseError& fault) {
+            throw std::runtime_error(fault_in_words(parser.app, fault));
+        }
+        for (const std::string* output : parser.outputs) {
+            if (!output->empty()) require_writable(*output);
+        }
+        const CheckBeforeReading check;
+        const nlohmann::json result = body();
+        if (parser.json) print_json(result);
+    };
+    return run_guarded(parser.program, work, asks_for_json(argc, argv));
+}
+
+}  // namespace samara

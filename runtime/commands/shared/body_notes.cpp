@@ -1,0 +1,54 @@
+#include "samara/commands/shared/body_notes.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "samara/commands/shared/print.hpp"
+
+namespace samara {
+namespace {
+
+constexpr std::size_t most_names = 3;
+
+std::string names_of(const std::vector<std::string>& bodies) {
+    const std::size_t named = bodies.size() <= most_names ? bodies.size() : most_names - 1;
+    std::string names;
+    for (std::size_t i = 0; i < named; ++i) {
+        const bool last = i > 0 && i + 1 == bodies.size();
+        names += fmt::format("{}'{}'", i == 0 ? "" : last ? " and " : ", ", bodies[i]);
+    }
+    if (named < bodies.size()) names += fmt::format(" and {} more", bodies.size() - named);
+    return names;
+}
+
+}  // namespace
+
+BodyNotes::BodyNotes(std::string program) : program_(std::move(program)) {}
+
+void BodyNotes::add(const std::string& kind, const std::string& body, double severity,
+                    const std::string& text) {
+    if (text.empty()) return;
+    const auto known = std::ranges::find(notes_, kind, &Note::kind);
+    if (known == notes_.end()) {
+        notes_.push_back({kind, {body}, body, severity, text});
+        return;
+    }
+    known->bodies.push_back(body);
+    known->alike = known->alike && text == known->text;
+    if (severity <= known->severity) return;
+    known->worst = body;
+    known->severity = severity;
+    known->text = text;
+}
+
+void BodyNotes::print() {
+    for (const Note& note : notes_) {
+        print_note("{}: note: {}{}: {}\n", program_, names_of(note.bodies),
+                   !note.alike ? fmt::format(" (figures of '{}')", note.worst) : "", note.text);
+    }
+    notes_.clear();
+}
+
+}  // namespace samara

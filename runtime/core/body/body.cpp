@@ -1,0 +1,69 @@
+#include "samara/core/body/body.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "samara/core/base/symmetric_matrix.hpp"
+
+namespace samara {
+
+Matrix3d principal_axes(const VolumeMoments& moments) {
+    Matrix3d axes = principal_values(moments.second_moments).directions;
+    if (axes.determinant() < 0.0) axes.col(2) = -axes.col(2);
+    return axes;
+}
+
+Matrix3d uniform_inertia(const VolumeMoments& moments, double density) {
+    return density * (moments.second_moments.trace() * Matrix3d::Identity() - moments.second_moments);
+}
+
+const char* name_of(Symmetry::Kind kind) {
+    switch (kind) {
+        case Symmetry::Kind::axial:
+            return "axial";
+        case Symmetry::Kind::spherical:
+            return "spherical";
+        case Symmetry::Kind::finite:
+            break;
+    }
+    return "finite";
+}
+
+Matrix6d about_point(const Matrix6d& tensor, const Vector3d& old_point, const Vector3d& new_point) {
+    // With v at the new point, the velocity at the old one is v + omega x (old - new).
+    Matrix6d shift = Matrix6d::Identity();
+    shift.block<3, 3>(3, 0) = -skew(old_point - new_point);
+    return shift.transpose() * tensor * shift;
+}
+
+Matrix6d in_rotated_axes(const Matrix6d& tensor, const Matrix3d& rotation) {
+    Matrix6d turn = Matrix6d::Zero();
+    turn.block<3, 3>(0, 0) = rotation;
+    turn.block<3, 3>(3, 3) = rotation;
+    return turn * tensor * turn.transpose();
+}
+
+double tensor_error_of(const ShapeError& error, const VolumeMoments& moments, const Matrix6d& tensor) {
+    // A surface that lies further out by d carries d times its area more fluid where it is blunt; a thin
+    // body, whose added mass is far above its volume, is told by its rim.
+    const double carried = moments.volume + tensor.bottomRightCorner<3, 3>().trace() / 3.0;
+    // Angular blocks grow with the fifth power of a length, the volume with the third.
+    constexpr double of_volume = 5.0 / 3.0;
+    return std::max(of_volume * std::max(std::abs(error.volume), error.faceting),
+                    error.mean_distance * moments.surface_area / carried);
+}
+
+MassSpecification mass_asked_or_own(const MassSpecification& asked, const Body& body) {
+    return asked.is_given() ? asked : body.mass.value_or(asked);
+}
+
+MassProperties mass_properties(const Body& body, const MassSpecification& mass) {
+    const VolumeMoments& moments = body.moments;
+    MassProperties result;
+    result.mass = mass.mass.value_or(mass.density.value_or(0.0) * moments.volume);
+    result.center_of_mass = mass.center_of_mass.value_or(moments.centroid);
+    result.inertia = mass.inertia.value_or(uniform_inertia(moments, result.mass / moments.volume));
+    return result;
+}
+
+}  // namespace samara

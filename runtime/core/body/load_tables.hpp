@@ -1,0 +1,70 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "samara/core/base/linear_algebra.hpp"
+#include "samara/core/body/planned_region.hpp"
+#include "samara/core/body/table_errors.hpp"
+
+namespace samara {
+
+/// One entry of the tables: nondimensional, made with L = sqrt(S/pi), A = pi L^2/4 and U, the speed relative
+/// to the fluid. Vectors are in body (shape) axes; moments are about the centroid of the volume.
+struct LoadEntry {
+    Vector3d force = Vector3d::Zero();  ///< F / (rho U^2 A / 2)
+    Vector3d moment =
+        Vector3d::Zero();  ///< M / (rho U^2 A L / 2), the total moment of the fluid in a steady tow
+    double turbulent_kinetic_energy = 0.0;  ///< k / U^2, mean over the shell of volume from 0.05 L to 0.25 L
+    double dissipation_rate = 0.0;          ///< epsilon L / U^3, mean over the same shell
+};
+
+/// Standard errors of an entry's values, same scales: for the vectors one figure for each component.
+using LoadEntryError = LoadEntry;
+
+/// Load and turbulence tables over the direction d of the body's velocity relative to the fluid and the
+/// Reynolds number U L / nu.
+///
+/// Directions lie on the octahedral map (octahedral_map.hpp) of `axes`^T d, with map_size() nodes a side,
+/// both edges included: node (row, column) of Reynolds number r is entries[(r * map_size() + row) *
+/// map_size() + column].
+struct LoadTables {
+    double reference_length = 0.0;         ///< L (m)
+    int subdivisions = 1;                  ///< n: each edge of the octahedron is cut into n
+    Matrix3d axes = Matrix3d::Identity();  ///< columns: the map's axes, in body axes
+    std::vector<double> reynolds_numbers;  ///< ascending
+    /// Whether Stokes' resistance stands beside the entries at every Reynolds number; else it is added below
+    /// the first alone, and fades out there.
+    bool stokes_throughout = false;
+    std::vector<LoadEntry> entries;      ///< by index()
+    std::vector<LoadEntryError> errors;  ///< beside the entries; empty where unknown
+    std::string quality;                 ///< of the bake: smoke, preview, ...
+    std::string provenance;              ///< JSON text: one object for each solved case (docs/file-formats)
+    std::vector<ErrorShare> error_sources;  ///< that `errors` hold; empty where the file does not say
+    std::vector<LeftOutCase> left_out;      ///< what the bake could not solve
+    PlannedRegion plan;                     ///< what a bake for a scene was planned for
+
+    /// Nodes along each side of the octahedral map.
+    [[nodiscard]] int map_size() const { return 2 * subdivisions + 1; }
+    /// The place in `entries` of a node of the map at a Reynolds number, each counted from 0.
+    [[nodiscard]] std::size_t index(int reynolds, int row, int column) const {
+        const auto size = static_cast<std::size_t>(map_size());
+        return (static_cast<std::size_t>(reynolds) * size + static_cast<std::size_t>(row)) * size +
+               static_cast<std::size_t>(column);
+    }
+};
+
+/// The entry at the unit direction (body axes) and the Reynolds number: bilinear on the map, linear in log
+/// Re, held at the first and last Reynolds number. Never throws; tables must hold at least one Reynolds
+/// number.
+LoadEntry look_up(const LoadTables& tables, const Vector3d& direction, double reynolds_number) noexcept;
+
+/// The tables as a bake of that one Reynolds number would have made them: their values there. A number beyond
+/// the tables' is moved to their edge.
+LoadTables at_reynolds_number(const LoadTables& tables, double reynolds_number);
+
+/// The standard errors of look_up's values, themselves looked up in the same way.
+LoadEntryError look_up_error(const LoadTables& tables, const Vector3d& direction,
+                             double reynolds_number) noexcept;
+
+}  // namespace samara

@@ -1,0 +1,169 @@
+#include <cstddef>
+#include <limits>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "samara.h"
+#include "samara/core/c_interface/guard.hpp"
+#include "samara/core/c_interface/members.hpp"
+#include "samara/core/c_interface/objects.hpp"
+#include "samara/core/physics/obstacle_motion.hpp"
+#include "samara/core/surface/mended_surface.hpp"
+#include "samara/core/surface/surface_check.hpp"
+#include "samara/scene/wind_table.hpp"
+
+namespace {
+
+using samara::Fault;
+using samara::fill;
+using samara::guarded;
+using samara::known_part;
+using samara::require;
+
+// Up to the last member that version 6 had.
+constexpr std::size_t first_obstacle_size = offsetof(samara_obstacle, key_count) + sizeof(size_t);
+constexpr std::size_t most_triangles = 100'000'000;
+// Of a simulation, for wind files: they need not last.
+constexpr double no_end = -std::numeric_limits<double>::infinity();
+
+samara_obstacle default_obstacle() {
+    const samara::Obstacle standard;
+    samara_obstacle obstacle{};
+    obstacle.size = sizeof obstacle;
+    obstacle.friction = standard.friction;
+    obstacle.orientation[0] = 1.0;
+    return obstacle;
+}
+
+samara::Surface read_surface(const samara_obstacle& given) {
+    require(given.vertices, "vertices");
+    require(given.triangles, "triangles");
+    if (given.vertex_count > 3 * most_triangles || given.triangle_count > most_triangles) {
+        samara::refuse("triangle_count", fmt::format("or vertex_count is beyond {}", most_triangles));
+    }
+    samara::Surface surface;
+    for (std::size_t i = 0; i < given.vertex_count; ++i) {
+        surface.vertices.emplace_back(given.vertices + 3 * i);
+    }
+    for (std::size_t i = 0; i < given.triangle_count; ++i) {
+        const std::int32_t* corners = given.triangles + 3 * i;
+        surface.corners.push_back({corners[0], corners[1], corners[2]});
+    }
+    surface = samara::mended(surface);
+    samara::require_solid_surface(surface);
+    return surface;
+}
+
+std::vector<samara::ObstacleKey> read_keys(const samara_obstacle_key* given, std::size_t count) {
+    std::vector<samara::ObstacleKey> keys;
+    for (std::size_t i = 0; i < count; ++i) {
+        samara::ObstacleKey key;
+        key.time = samara::finite(given[i].time, "time");
+        key.position = samara::vector(given[i].position, "position");
+        key.orientation = samara::orientation(given[i].orientation, "orientation");
+        if (i > 0 && !(key.time > keys.back().time)) {
+            samara::refuse("time", fmt::format("of key {}, {} s, must be later than that of the key before",
+                                               i, key.time));
+        }
+        keys.push_back(key);
+    }
+    return keys;
+}
+
+samara::Obstacle read_obstacle(const samara_obstacle& all, std::size_t number) {
+    const samara_obstacle given = known_part(all, default_obstacle(), first_obstacle_size, "obstacle");
+    samara::Obstacle obstacle;
+    obstacle.name =
+        given.name == nullptr ? fmt::format("obstacle-{}", number) : samara::plain_name(given.name, "name");
+    obstacle.friction = samara::non_negative(given.friction, "friction");
+    obstacle.keys.front().position = samara::vector(given.position, "position");
+    obstacle.keys.front().orientation = samara::orientation(given.orientation, "orientation");
+    if (given.key_count > 0) {
+        require(given.keys, "keys");
+        obstacle.keys = read_keys(given.keys, given.key_count);
+    }
+    try {
+        obstacle.surface = read_surface(given);
+    } catch (const Fault&) {
+        throw;
+    } catch (const samara::Error& fault) {
+        throw Fault(SAMARA_INVALID_ARGUMENT,
+                    fmt::format("obstacle '{}' is no sound surface: {}", obstacle.name, fault.what()));
+    }
+    try {
+        samara::require_steady_keys(obstacle);
+    } catch (const samara::Error& fault) {
+        samara::refuse("keys", fmt::format("of obstacle '{}' {}", obstacle.name, fault.what()));
+    }
+    return obstacle;
+}
+
+}  // namespace
+
+samara_status samara_default_obstacle(samara_obstacle* obstacle, size_t size, char* error,
+                                      size_t error_size) {
+    return guarded(error, error_size, [&] { fill(obstacle, size, default_obstacle(), "obstacle"); });
+}
+
+samara_status samara_simulation_add_obstacle(samara_simulation* simulation, const samara_obstacle* obstacle,
+                                             size_t* index, char* error, size_t error_size) {
+    return guarded(error, error_size, [&] {
+        require(simulation, "simulation");
+        require(obstacle, "obstacle");
+        samara::Flight& flight = simulation->flight;
+        const size_t added = flight.add_obstacle(read_obstacle(*obstacle, flight.obstacle_count()));
+        if (index != nullptr) *index = added;
+    });
+}
+
+size_t samara_simulation_obstacle_count(const samara_simulation* simulation) {
+    return simulation == nullptr ? 0 : simulation->flight.obstacle_count();
+}
+
+samara_status samara_set_obstacle_keys(samara_simulation* simulation, size_t obstacle,
+                                       const samara_obstacle_key* keys, size_t count, char* error,
+                                       size_t error_size) {
+    return guarded(error, error_size, [&] {
+        require(simulation, "simulation");
+        samara::Flight& flight = simulation->flight;
+        flight.require_running();
+        if (obstacle >= flight.obstacle_count()) {
+            samara::refuse("obstacle",
+                           fmt::format("is {}, but there are {}", obstacle, flight.obstacle_count()));
+        }
+        require(keys, "keys");
+        if (count < 1) samara::refuse("count", "is 0; give one key at least");
+        flight.set_obstacle_keys(obstacle, read_keys(keys, count));
+    });
+}
+
+samara_status samara_set_wind(samara_simulation* simulation, const char* wind, char* error,
+                              size_t error_size) {
+    return guarded(error, error_size, [&] {
+        require(simulation, "simulation");
+        require(wind, "wind");
+        samara::Flight& flight = simulation->flight;
+        flight.require_running();
+        const toml::table document = samara::parse_toml(wind, "wind");
+        samara::TomlTable table(document, "wind", "the wind");
+        const std::lock_guard lock(samara::hdf5_mutex());  // of a wind file
+        samara::Wind given = samara::read_wind(table, ".", flight.ground().value_or(0.0), no_end);
+        given.function = flight.wind().function;
+        given.function_context = flight.wind().function_context;
+        flight.set_wind(given);
+    });
+}
+
+samara_status samara_set_ground(samara_simulation* simulation, int32_t has_ground, double height, char* error,
+                                size_t error_size) {
+    return guarded(error, error_size, [&] {
+        require(simulation, "simulation");
+        simulation->flight.require_running();
+        std::optional<double> ground;
+        if (has_ground != 0) ground = samara::finite(height, "height");
+        simulation->flight.set_ground(ground);
+    });
+}

@@ -1,0 +1,169 @@
+#include "samara/core/collision/face_contacts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "samara/core/collision/lowest_side.hpp"
+
+namespace samara {
+namespace {
+
+// Over the bounding radius.
+constexpr double level = 1e-3;  // height within which the points of a side are taken to face a plane
+constexpr double seam = 1e-6;   // by which faces reach over their sides, so that nothing falls between two
+constexpr double same = 1e-9;   // way between points that are one
+// Cosine of the angle by which a face beyond an edge may stand over the plane that the edge holds.
+constexpr double beyond_plane = 1e-3;
+
+/// Whether the projection of a point along the triangle's normal lies within it, or within `reach` (m).
+bool is_over(const ObstacleTriangle& triangle, const Vector3d& point, double reach) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vector3d side = triangle.corners[(i + 1) % 3] - triangle.corners[i];
+        const double area = triangle.normal.dot(side.cross(point - triangle.corners[i]));
+        if (area < -reach * side.norm()) return false;
+    }
+    return true;
+}
+
+/// Which corners of the triangle are those nearest to a body along a normal.
+std::array<bool, 3> highest_corners(const ObstacleTriangle& triangle, const Vector3d& normal, double plane,
+                                    double tolerance) {
+    std::array<bool, 3> highest{};
+    for (std::size_t i = 0; i < 3; ++i) highest[i] = plane - normal.dot(triangle.corners[i]) <= tolerance;
+    return highest;
+}
+
+/// Whether the surface beyond a side keeps below a plane through it.
+bool holds_plane(const ObstacleTriangle& triangle, std::size_t side, const Vector3d& normal) {
+    const Vector3d way = triangle.beyond[side] - triangle.corners[side];
+    return normal.dot(way) <= beyond_plane * way.norm();
+}
+
+/// Whether the edge or the corner that is nearest to a body stands out of the surface towards it.
+bool stands_free(const ObstacleTriangle& triangle, const std::array<bool, 3>& highest,
+                 const Vector3d& normal) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (highest[i] && highest[(i + 1) % 3])
+            return triangle.stands_out[i] && holds_plane(triangle, i, normal);
+    }
+    const auto corner =
+        static_cast<std::size_t>(std::find(highest.begin(), highest.end(), true) - highest.begin());
+    // A corner amid one plane is none.
+    if (!triangle.stands_out[corner] && !triangle.stands_out[(corner + 2) % 3]) return false;
+    const auto& around = triangle.around[corner];
+    return std::all_of(around.begin(), around.end(),
+                       [&](const Vector3d& way) { return normal.dot(way) <= beyond_plane; });
+}
+
+}  // namespace
+
+FaceContacts::FaceContacts(const PlacedHull& hull, const Vector6d& velocity, const SurfaceMotion& surface,
+                           double time_step, double margin, double friction, int obstacle,
+                           ContactSet& near) noexcept
+    : hull_(hull),
+      next_(hull),
+      velocity_(velocity),
+      surface_(surface),
+      time_step_(time_step),
+      margin_(margin),
+      friction_(friction),
+      obstacle_(obstacle),
+      near_(near) {
+    const Vector3d turn = time_step * (hull.orientation * velocity.head<3>() - surface.turning);
+    const Vector3d way = time_step * (hull.orientation * velocity.tail<3>() - surface.at(hull.position));
+    if (turn.norm() > 0.0) {
+        next_.orientation = Eigen::AngleAxisd(turn.norm(), turn.normalized()) * hull.orientation;
+    }
+    next_.position += way;
+}
+
+bool FaceContacts::passes_by(const ObstacleTriangle& triangle, const Separation& now) const noexcept {
+    if (now.gap <= level * hull_.radius()) return false;
+    if (gap_along(next_, triangle, now.normal) >= 0.0) return false;  // it may come to, for other reasons
+    const Separation later = separation(next_, triangle, std::numeric_limits<double>::infinity());
+    return later.gap >= 0.0 && gap_along(hull_, triangle, later.normal) >= 0.0;
+}
+
+void FaceContacts::add_point(const Vector3d& of_body, const Vector3d& normal, double gap) noexcept {
+    const Vector3d place = hull_.position + hull_.orientation * of_body - gap * normal;
+    near_.add({.point = of_body,
+               .normal = hull_.orientation.transpose() * normal,
+               .gap = gap,
+               .friction = friction_,
+               .obstacle = obstacle_,
+               .surface_velocity = hull_.orientation.transpose() * surface_.at(place),
+               .surface_turning = hull_.orientation.transpose() * surface_.turning});
+}
+
+void FaceContacts::add_corners(const ObstacleTriangle& triangle, const Vector3d& normal,
+                               double plane) noexcept {
+    const auto look_at = [&](const Vector3d& point) {
+        const Vector3d place = hull_.position + hull_.orientation * point;
+        const double gap = normal.dot(place) - plane;
+        if (gap > margin_) return;
+        const Vector3d velocity =
+            hull_.orientation * (velocity_.tail<3>() + velocity_.head<3>().cross(point)) - surface_.at(place);
+        const double closing = -normal.dot(velocity);
+        const double until = gap > 0.0 && closing > 0.0 ? std::min(gap / closing, time_step_) : 0.0;
+        if (!is_over(triangle, place + until * velocity, seam * hull_.radius())) return;
+        add_point(point, normal, gap);
+    };
+    for (const Vector3d& corner : hull_.points->corners) look_at(corner);
+    if (hull_.points->round.empty()) return;
+    look_at(lowest_round_point(*hull_.points, Vector3d(hull_.orientation.transpose() * -normal)));
+}
+
+bool FaceContacts::add_crossings(const ObstacleTriangle& triangle, const Vector3d& normal,
+                                 double plane) noexcept {
+    const bool any_stands_out =
+        std::any_of(triangle.stands_out.begin(), triangle.stands_out.end(), [](bool out) { return out; });
+    if (!any_stands_out) return false;
+    const double radius = hull_.radius();
+    const std::array<bool, 3> highest = highest_corners(triangle, normal, plane, level * radius);
+    const double thickness = -hull_.lowest(-normal) - hull_.lowest(normal);
+    const LowestSide side(hull_, normal, std::min(level * radius, 0.25 * thickness));
+    bool found = false;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t next = (i + 1) % 3;
+        if (!highest[i] || !highest[next] || !triangle.stands_out[i]) continue;
+        if (!holds_plane(triangle, i, normal)) continue;
+        const Vector3d& a = triangle.corners[i];
+        const Vector3d& b = triangle.corners[next];
+        double from = 0.0;
+        double to = 1.0;
+        if (!side.covers(a, b, from, to)) continue;
+        const auto add = [&](double share) {
+            const Vector3d place = a + share * (b - a);
+            const double height = side.height(place);
+            if (height - plane > margin_) return;
+            const Vector3d of_hull = place + (height - normal.dot(place)) * normal;
+            add_point(hull_.orientation.transpose() * (of_hull - hull_.position), normal, height - plane);
+            found = true;
+        };
+        add(from);
+        if ((to - from) * (b - a).norm() > same * radius) add(to);
+    }
+    return found;
+}
+
+void FaceContacts::add(const ObstacleTriangle& triangle) noexcept {
+    const Separation part = separation(hull_, triangle, margin_);
+    if (!(part.gap <= margin_)) return;
+    if (passes_by(triangle, part)) return;
+    const double plane = triangle.reach(part.normal);
+    const std::array<bool, 3> highest =
+        highest_corners(triangle, part.normal, plane, 0.1 * level * hull_.radius());
+    const bool is_face = part.of_face || (highest[0] && highest[1] && highest[2]);
+    if (is_face) {
+        add_corners(triangle, part.normal, plane);
+        add_crossings(triangle, part.normal, plane);
+        return;
+    }
+    if (!stands_free(triangle, highest, part.normal)) return;
+    if (add_crossings(triangle, part.normal, plane)) return;
+    const Vector3d of_hull = part.on_triangle + part.gap * part.normal;
+    add_point(hull_.orientation.transpose() * (of_hull - hull_.position), part.normal, part.gap);
+}
+
+}  // namespace samara

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "samara/core/collision/contact_set.hpp"
+#include "samara/core/collision/hull_separation.hpp"
+
+namespace samara {
+
+/// How the surface of an obstacle moves, in its own axes.
+struct SurfaceMotion {
+    Vector3d turning = Vector3d::Zero();  ///< rad/s
+    Vector3d moving = Vector3d::Zero();   ///< m/s: of its origin
+
+    [[nodiscard]] Vector3d at(const Vector3d& place) const noexcept { return moving + turning.cross(place); }
+};
+
+/// Finds where a body's hull and the faces of one obstacle may meet within a step, each face by itself, in
+/// the obstacle's axes. Never allocates.
+class FaceContacts {
+  public:
+    /// `velocity`: of the body, (omega, v) in its axes; `margin`: m; `obstacle`: its number; what is found is
+    /// added to `near`.
+    FaceContacts(const PlacedHull& hull, const Vector6d& velocity, const SurfaceMotion& surface,
+                 double time_step, double margin, double friction, int obstacle, ContactSet& near) noexcept;
+
+    /// Adds where the body may meet a face: its corners, and its lowest round point, that come to lie over
+    /// the face; the ends of what its lowest side covers of the face's sides; the nearest points where an
+    /// edge or a corner of the face faces it. What lies between two faces of one plane is neither. A face
+    /// that it would pass by, moving on as it does, is left out.
+    void add(const ObstacleTriangle& triangle) noexcept;
+
+  private:
+    [[nodiscard]] bool passes_by(const ObstacleTriangle& triangle, const Separation& now) const noexcept;
+    void add_point(const Vector3d& of_body, const Vector3d& normal, double gap) noexcept;
+    void add_corners(const ObstacleTriangle& triangle, const Vector3d& normal, double plane) noexcept;
+    bool add_crossings(const ObstacleTriangle& triangle, const Vector3d& normal, double plane) noexcept;
+
+    PlacedHull hull_;
+    PlacedHull next_;  ///< where it would be after the step, as the obstacle sees it
+    Vector6d velocity_;
+    SurfaceMotion surface_;
+    double time_step_, margin_, friction_;
+    int obstacle_;
+    ContactSet& near_;
+};
+
+}  // namespace samara

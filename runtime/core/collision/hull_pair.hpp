@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "samara/core/collision/hull_faces.hpp"
+#include "samara/core/collision/hull_separation.hpp"
+
+namespace samara {
+
+/// A hull that may meet others; all that meet are placed in the same axes.
+struct MeetingHull {
+    PlacedHull hull;
+    const std::vector<HullFace>* faces;
+};
+
+/// The plane that parts two hulls.
+struct Parting {
+    Vector3d normal;     ///< of length one, from the second to the first
+    double gap;          ///< m, along the normal; negative where they overlap
+    Vector3d on_second;  ///< m: a point of the second that is nearest to the first
+    /// Of two that overlap the normal is that of the directions looked at along which they overlap least:
+    /// those of their faces and that from middle to middle.
+    bool overlap;
+};
+
+/// The plane that leaves the widest gap, or one with a gap above `enough` (m), found sooner. Never throws or
+/// allocates.
+Parting parting(const MeetingHull& first, const MeetingHull& second, double enough) noexcept;
+
+/// The gap (m) between two hulls along a unit vector from the second to the first.
+inline double gap_along(const PlacedHull& first, const PlacedHull& second, const Vector3d& normal) noexcept {
+    return first.lowest(normal) + second.lowest(-normal);
+}
+
+/// Where two hulls may meet: pairs of points that face each other along one normal.
+struct Meeting {
+    struct Point {
+        Vector3d on_first, on_second;  ///< m
+        double gap;                    ///< m, along the normal
+    };
+    Vector3d normal;  ///< of length one, from the second to the first
+    double gap;       ///< m: the smallest there is along the normal
+    std::array<Point, 8> points;
+    std::size_t count = 0;
+};
+
+/// Where two hulls come within `reach` (m) of each other: of faces that face each other the outline of what
+/// they share, eight points of it at most, else the nearest points. Never throws or allocates.
+Meeting meeting(const MeetingHull& first, const MeetingHull& second, double reach) noexcept;
+
+}  // namespace samara

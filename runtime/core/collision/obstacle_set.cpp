@@ -1,0 +1,196 @@
+#include "samara/core/collision/obstacle_set.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "samara/core/base/as_index.hpp"
+#include "samara/core/surface/surface_edges.hpp"
+
+namespace samara {
+namespace {
+
+constexpr std::uint32_t most_faces_of_a_leaf = 4;
+// Sine of the angle from which an edge is not flat: meshes of a plane are flat to far less, and no mesh of a
+// curve is so fine.
+constexpr double flat = 1e-6;
+
+Eigen::AlignedBox3d box_of(const ObstacleTriangle& triangle) {
+    Eigen::AlignedBox3d box;
+    for (const Vector3d& corner : triangle.corners) box.extend(corner);
+    return box;
+}
+
+Vector3d middle_of(const ObstacleTriangle& triangle) {
+    return (triangle.corners[0] + triangle.corners[1] + triangle.corners[2]) / 3.0;
+}
+
+double radius_of(const Surface& surface) {
+    double radius = 0.0;
+    for (const Vector3d& vertex : surface.vertices) radius = std::max(radius, vertex.norm());
+    return radius;
+}
+
+}  // namespace
+
+ObstacleFaces::ObstacleFaces(Obstacle obstacle) : obstacle_(std::move(obstacle)) {
+    prepare_triangles();
+    look_around_corners();
+    build(0, static_cast<std::uint32_t>(triangles_.size()));
+    set_keys(std::move(obstacle_.keys));
+}
+
+void ObstacleFaces::set_keys(std::vector<ObstacleKey> keys) {
+    for (std::size_t i = 1; i < keys.size(); ++i) {
+        Quaterniond& turned = keys[i].orientation;
+        if (turned.dot(keys[i - 1].orientation) < 0.0) turned.coeffs() *= -1.0;
+    }
+    obstacle_.keys = std::move(keys);
+    measure_ways();
+}
+
+void ObstacleFaces::prepare_triangles() {
+    const Surface& surface = obstacle_.surface;
+    const auto others = neighbours(surface);
+    is_closed_ = true;
+    for (std::size_t t = 0; t < surface.triangle_count(); ++t) {
+        ObstacleTriangle& triangle = triangles_.emplace_back();
+        triangle.index = static_cast<std::int32_t>(t);
+        for (std::size_t i = 0; i < 3; ++i) {
+            triangle.corners[i] = surface.vertices[as_index(surface.corners[t][i])];
+        }
+        triangle.normal = area_vector(surface, t).normalized();
+        for (std::size_t i = 0; i < 3; ++i) {
+            triangle.beyond[i] = triangle.corners[i];
+            triangle.stands_out[i] = true;
+            if (others[t][i] < 0) {
+                is_closed_ = false;
+                continue;
+            }
+            const std::size_t other = as_index(others[t][i]);
+            for (const std::int32_t corner : surface.corners[other]) {
+                if (corner == surface.corners[t][i] || corner == surface.corners[t][(i + 1) % 3]) continue;
+                triangle.beyond[i] = surface.vertices[as_index(corner)];
+            }
+            triangle.stands_out[i] =
+                triangle.normal.cross(area_vector(surface, other).normalized()).norm() > flat;
+        }
+    }
+}
+
+void ObstacleFaces::look_around_corners() {
+    const Surface& surface = obstacle_.surface;
+    std::vector<std::vector<std::int32_t>> others(surface.vertices.size());
+    for (const auto& corners : surface.corners) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            auto& known = others[as_index(corners[i])];
+            known.insert(known.end(), {corners[(i + 1) % 3], corners[(i + 2) % 3]});
+        }
+    }
+    std::vector<std::size_t> first(1, 0);
+    for (std::size_t i = 0; i < others.size(); ++i) {
+        std::sort(others[i].begin(), others[i].end());
+        others[i].erase(std::unique(others[i].begin(), others[i].end()), others[i].end());
+        for (const std::int32_t other : others[i]) {
+            around_.push_back((surface.vertices[as_index(other)] - surface.vertices[i]).normalized());
+        }
+        first.push_back(around_.size());
+    }
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::size_t corner = as_index(surface.corners[t][i]);
+            triangles_[t].around[i] =
+                std::span<const Vector3d>(around_).subspan(first[corner], first[corner + 1] - first[corner]);
+        }
+    }
+}
+
+void ObstacleFaces::build(std::uint32_t first, std::uint32_t count) {
+    const std::size_t at = nodes_.size();
+    nodes_.emplace_back();
+    Eigen::AlignedBox3d box;
+    Eigen::AlignedBox3d middles;
+    for (std::uint32_t i = first; i < first + count; ++i) {
+        box.extend(box_of(triangles_[i]));
+        middles.extend(middle_of(triangles_[i]));
+    }
+    nodes_[at].box = box;
+    if (count <= most_faces_of_a_leaf) {
+        nodes_[at].faces = count;
+        nodes_[at].next = first;
+        return;
+    }
+    Eigen::Index axis = 0;
+    middles.sizes().maxCoeff(&axis);
+    const std::uint32_t half = count / 2;
+    const auto begin = triangles_.begin() + first;
+    std::nth_element(begin, begin + half, begin + count,
+                     [&](const ObstacleTriangle& a, const ObstacleTriangle& b) {
+                         const double one = middle_of(a)[axis];
+                         const double two = middle_of(b)[axis];
+                         return std::pair(one, a.index) < std::pair(two, b.index);
+                     });
+    build(first, half);
+    nodes_[at].next = static_cast<std::uint32_t>(nodes_.size());
+    build(first + half, count - half);
+}
+
+void ObstacleFaces::measure_ways() {
+    const auto& keys = obstacle_.keys;
+    whereabouts_.setEmpty();
+    fastest_ = 0.0;
+    if (!obstacle_.moves()) {
+        for (const Vector3d& vertex : obstacle_.surface.vertices) whereabouts_.extend(keys[0](vertex));
+        return;
+    }
+    const double radius = radius_of(obstacle_.surface);
+    for (const ObstacleKey& key : keys) {
+        whereabouts_.extend(key.position + Vector3d::Constant(radius));
+        whereabouts_.extend(key.position - Vector3d::Constant(radius));
+    }
+    for (std::size_t i = 1; i < keys.size(); ++i) {
+        const double way = (keys[i].position - keys[i - 1].position).norm() +
+                           radius * keys[i].orientation.angularDistance(keys[i - 1].orientation);
+        fastest_ = std::max(fastest_, way / (keys[i].time - keys[i - 1].time));
+    }
+}
+
+bool ObstacleFaces::encloses(const Vector3d& point) const noexcept {
+    // The solid angle of all faces: van Oosterom and Strackee, IEEE Transactions on Biomedical Engineering
+    // 30(2), 1983.
+    double angle = 0.0;
+    for (const ObstacleTriangle& triangle : triangles_) {
+        const Vector3d a = triangle.corners[0] - point;
+        const Vector3d b = triangle.corners[1] - point;
+        const Vector3d c = triangle.corners[2] - point;
+        angle += 2.0 * std::atan2(a.dot(b.cross(c)), a.norm() * b.norm() * c.norm() + a.dot(b) * c.norm() +
+                                                         b.dot(c) * a.norm() + c.dot(a) * b.norm());
+    }
+    return std::abs(angle) > 2.0 * std::numbers::pi;
+}
+
+ObstacleSet::ObstacleSet(const std::vector<Obstacle>& obstacles) {
+    for (const Obstacle& obstacle : obstacles) add(obstacle);
+}
+
+void ObstacleSet::add(Obstacle obstacle) {
+    obstacles_.emplace_back(std::move(obstacle));
+    measure();
+}
+
+void ObstacleSet::set_keys(std::size_t index, std::vector<ObstacleKey> keys) {
+    obstacles_[index].set_keys(std::move(keys));
+    measure();
+}
+
+void ObstacleSet::measure() {
+    whereabouts_.setEmpty();
+    fastest_ = 0.0;
+    for (const ObstacleFaces& faces : obstacles_) {
+        fastest_ = std::max(fastest_, faces.fastest());
+        whereabouts_.extend(faces.whereabouts());
+    }
+}
+
+}  // namespace samara

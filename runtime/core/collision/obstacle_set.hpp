@@ -1,0 +1,125 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "samara/core/base/linear_algebra.hpp"
+#include "samara/core/physics/obstacle.hpp"
+
+namespace samara {
+
+/// A face of an obstacle, made ready to be met from both of its sides.
+struct ObstacleTriangle {
+    std::array<Vector3d, 3> corners;  ///< m, shape axes
+    Vector3d normal;
+    /// The third corner of the face beyond each side, from corner i to the next; where the surface ends the
+    /// side's own first.
+    std::array<Vector3d, 3> beyond;
+    /// Which sides something can lie on, from above or below: those where the surface ends or is not flat.
+    std::array<bool, 3> stands_out;
+    /// From each corner unit vectors along all sides that end there, of any face.
+    std::array<std::span<const Vector3d>, 3> around;
+    /// The triangle's number in the surface.
+    std::int32_t index;
+
+    /// How far (m) it reaches along a unit vector.
+    [[nodiscard]] double reach(const Vector3d& direction) const noexcept {
+        return std::max({corners[0].dot(direction), corners[1].dot(direction), corners[2].dot(direction)});
+    }
+};
+
+/// One obstacle with a tree of boxes over its faces.
+class ObstacleFaces {
+  public:
+    /// The surface must be welded and have no face without area.
+    explicit ObstacleFaces(Obstacle obstacle);
+    ObstacleFaces(ObstacleFaces&&) noexcept = default;
+    ObstacleFaces& operator=(ObstacleFaces&&) noexcept = default;
+    ObstacleFaces(const ObstacleFaces&) = delete;  // its faces point into it
+    ObstacleFaces& operator=(const ObstacleFaces&) = delete;
+    ~ObstacleFaces() = default;
+
+    [[nodiscard]] const Obstacle& obstacle() const noexcept { return obstacle_; }
+    /// Other keys to move between: one at least, in ascending order of time.
+    void set_keys(std::vector<ObstacleKey> keys);
+    /// Whether it has an inside.
+    [[nodiscard]] bool is_closed() const noexcept { return is_closed_; }
+    /// Whether a point (m, shape axes) lies inside it, which must be closed.
+    [[nodiscard]] bool encloses(const Vector3d& point) const noexcept;
+    /// No point of it moves faster (m/s).
+    [[nodiscard]] double fastest() const noexcept { return fastest_; }
+    /// A box in the world that it never leaves.
+    [[nodiscard]] const Eigen::AlignedBox3d& whereabouts() const noexcept { return whereabouts_; }
+
+    /// Calls `visit` with each face whose box meets `box` (m, shape axes). Never allocates.
+    template <typename Visit>
+    void visit_near(const Eigen::AlignedBox3d& box, const Visit& visit) const noexcept {
+        std::array<std::uint32_t, 64> waiting;  // one a level, and a level halves the faces
+        std::size_t count = 0;
+        waiting[count++] = 0;
+        while (count > 0) {
+            const std::uint32_t at = waiting[--count];
+            const Node& node = nodes_[at];
+            if (!node.box.intersects(box)) continue;
+            if (node.faces == 0) {
+                waiting[count++] = node.next;
+                waiting[count++] = at + 1;
+                continue;
+            }
+            for (std::uint32_t i = 0; i < node.faces; ++i) visit(triangles_[node.next + i]);
+        }
+    }
+
+  private:
+    struct Node {
+        Eigen::AlignedBox3d box;
+        std::uint32_t faces = 0;  ///< 0: two nodes, the one behind it and `next`
+        std::uint32_t next = 0;   ///< or its first face
+    };
+    void prepare_triangles();
+    void look_around_corners();
+    void build(std::uint32_t first, std::uint32_t count);
+    void measure_ways();
+
+    Obstacle obstacle_;
+    bool is_closed_ = false;
+    double fastest_ = 0.0;
+    Eigen::AlignedBox3d whereabouts_;
+    std::vector<Vector3d> around_;  ///< corner by corner
+    std::vector<ObstacleTriangle> triangles_;
+    std::vector<Node> nodes_;
+};
+
+/// All obstacles of a flight.
+class ObstacleSet {
+  public:
+    explicit ObstacleSet(const std::vector<Obstacle>& obstacles);
+
+    /// One more, as ObstacleFaces takes it.
+    void add(Obstacle obstacle);
+    /// Other keys of an obstacle, as ObstacleFaces takes them.
+    void set_keys(std::size_t index, std::vector<ObstacleKey> keys);
+
+    [[nodiscard]] const std::vector<ObstacleFaces>& obstacles() const noexcept { return obstacles_; }
+    /// Whether any of them has keys.
+    [[nodiscard]] bool moves() const noexcept { return fastest_ > 0.0; }
+    /// No point of any moves faster (m/s).
+    [[nodiscard]] double fastest() const noexcept { return fastest_; }
+    /// A box in the world that none ever leaves.
+    [[nodiscard]] const Eigen::AlignedBox3d& whereabouts() const noexcept { return whereabouts_; }
+
+  private:
+    void measure();
+
+    std::vector<ObstacleFaces> obstacles_;
+    double fastest_ = 0.0;
+    Eigen::AlignedBox3d whereabouts_;
+};
+
+}  // namespace samara

@@ -1,0 +1,161 @@
+#include "samara/core/contact/ground_contact.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace samara {
+namespace {
+
+// Chosen, not derived (docs/theory.md#ground): far below what a picture shows.
+constexpr double touching = 1e-5;    // gap that counts as none, over the bounding radius
+constexpr double supporting = 1e-4;  // gap of points that hold a body at rest, over the bounding radius
+constexpr double hovering = 1e-3;    // more of it, over the way that the load would move the body in a step
+constexpr double still = 1e-4;  // speed that counts as none, over what the step would give without the ground
+
+Vector6d relative_to(const Vector3d& ground_velocity, const BodyState& state) {
+    Vector6d velocity = state.velocity;
+    velocity.tail<3>() -= state.orientation.conjugate() * ground_velocity;
+    return velocity;
+}
+
+/// Whether a body comes to rest or stays at rest where it stood before a step. `velocity`: before it;
+/// `change`: in it, without what it stands on.
+bool rests(const TouchingBody& body, const ContactSet& stood, double time_step, const Vector6d& velocity,
+           const Vector6d& change) noexcept {
+    const auto energy = [&](const Vector6d& u) { return 0.5 * u.dot(body.inertia * u); };
+    const double radius = body.contact_points.bounding_radius;
+    const double load = (body.inertia * change).tail<3>().norm() / time_step;
+    if (!(energy(velocity) < resting_energy * load * radius)) return false;
+    const double near = supporting * radius + hovering * time_step * change.tail<3>().norm();
+    const bool is_moved = std::any_of(stood.begin(), stood.end(), [&](const NearPoint& point) {
+        if (point.on_ground() && point.gap < -near) return true;  // the ground was raised over it
+        return point.gap <= near &&
+               !(point.surface_velocity.isZero(0.0) && point.surface_turning.isZero(0.0));
+    });
+    if (is_moved) return false;
+    const Approach approach{.margin = near, .touching = near, .time_step = time_step};
+    return energy(after_impulses(body, stood, approach, change)) < still * still * energy(change);
+}
+
+/// Takes back what the load moved the body by in a step, as far as what it stood on was in its way. Else it
+/// would turn a little in each step that it lies, and never lie still.
+void hold_against_load(const TouchingBody& body, const ContactSet& stood, const Approach& approach,
+                       const Vector6d& change, BodyState& state) noexcept {
+    const Vector6d moved = 0.5 * change;
+    const Vector6d held = approach.time_step * (after_impulses(body, stood, approach, moved) - moved);
+    if (held.isZero(0.0)) return;
+    state.position += stood.to_world() * held.tail<3>();
+    const Vector3d half_turn = 0.5 * held.head<3>();
+    state.orientation =
+        (state.orientation * Quaterniond(1.0, half_turn.x(), half_turn.y(), half_turn.z())).normalized();
+}
+
+/// Keeps a body out of the obstacles on its way since before the step.
+void keep_out_of_obstacles(const TouchingBody& body, const Ground& ground, double time_step,
+                           const BodyState& before, BodyState& state) noexcept {
+    const BodyPlace reached = ground.in_world(state);
+    BodyPlace mended = reached;
+    keep_out(*ground.obstacles, body.contact_points, ground.time - time_step, ground.time,
+             ground.in_world_before(before), mended);
+    if (mended.position != reached.position) state.position = mended.position + ground.origin;
+    state.orientation = mended.orientation;
+}
+
+/// A record of body axes in the world.
+ContactRecord in_world(const ContactRecord& of_body, const Matrix3d& to_world, const Ground& ground,
+                       const BodyState& state) noexcept {
+    ContactRecord record = of_body;
+    record.impulse = to_world * of_body.impulse;
+    record.point = ground.in_world(state).position + to_world * of_body.point;
+    record.normal = to_world * of_body.normal;
+    record.time = ground.time;
+    return record;
+}
+
+}  // namespace
+
+Ground ground_in_flow(const Surroundings& surroundings, double begin, double end) noexcept {
+    const Vector3d displacement = flow_displacement(surroundings, end);
+    const Vector3d velocity = flow_velocity(surroundings, end);
+    constexpr double none = -std::numeric_limits<double>::infinity();
+    return {.height = surroundings.ground ? *surroundings.ground - displacement.z() : none,
+            .velocity = -velocity,
+            .travel = flow_displacement(surroundings, begin) - displacement,
+            .gain = flow_velocity(surroundings, begin) - velocity,
+            .obstacles = surroundings.obstacles.get(),
+            .origin = -displacement,
+            .time = end};
+}
+
+bool has_ground(const Surroundings& surroundings) noexcept {
+    return surroundings.ground || surroundings.obstacles != nullptr;
+}
+
+void touch_ground(const TouchingBody& body, const Ground& ground, double time_step, const BodyState& before,
+                  BodyState& state, ContactRecord* met) noexcept {
+    state.at_rest = false;
+    const double radius = body.contact_points.bounding_radius;
+    Vector6d velocity = relative_to(ground.velocity, state);
+    // No point moves faster than this, nor twice as fast once impulses have turned the body.
+    const double margin = 2.0 * time_step * (velocity.tail<3>().norm() + radius * velocity.head<3>().norm());
+    const bool is_over_ground = state.position.z() - ground.height - radius <= margin;
+    const Vector6d velocity_before = relative_to(ground.velocity - ground.gain, before);
+    const Vector6d change = velocity - velocity_before;
+    // From a standstill the load alone may bring it against a thin sheet.
+    const double reached = margin + time_step * change.tail<3>().norm();
+    const ContactPoints& points = body.contact_points;
+    const bool is_at_obstacle =
+        ground.obstacles != nullptr && passes_near(*ground.obstacles, points, ground.in_world_before(before),
+                                                   ground.in_world(state), reached);
+    if (!is_over_ground && !is_at_obstacle) return;
+
+    ContactSet stood(before.orientation.toRotationMatrix());
+    if (is_over_ground) {
+        stood.add_ground(points, before.position.z() + ground.travel.z() - ground.height, margin);
+    }
+    if (is_at_obstacle) {
+        add_obstacles(*ground.obstacles, points, ground.in_world_before(before), velocity_before,
+                      ground.time - time_step, time_step, reached, stood);
+    }
+    if (rests(body, stood, time_step, velocity_before, change)) {
+        state.position = before.position;
+        state.orientation = before.orientation;
+        stay_on(ground, state);
+        return;
+    }
+    const Approach on_the_way{
+        .margin = reached, .touching = touching * radius, .time_step = time_step, .drift = velocity_before};
+    hold_against_load(body, stood, on_the_way, change, state);
+    if (is_at_obstacle) keep_out_of_obstacles(body, ground, time_step, before, state);
+    velocity = relative_to(ground.velocity, state);
+    const Matrix3d to_world = state.orientation.toRotationMatrix();
+    const double above = state.position.z() - ground.height;
+    const double lift = std::max(0.0, reach(points, -to_world.row(2).transpose()) - above);
+    state.position.z() += lift;
+    ContactSet near(to_world);
+    if (is_over_ground) near.add_ground(points, above + lift, margin);
+    if (is_at_obstacle) {
+        add_obstacles(*ground.obstacles, points, ground.in_world(state), velocity, ground.time, time_step,
+                      reached, near);
+    }
+    const Approach next{.margin = reached, .touching = touching * radius, .time_step = time_step};
+    ContactRecord now;
+    state.velocity += after_impulses(body, near, next, velocity, met == nullptr ? nullptr : &now) - velocity;
+    if (met != nullptr && now.strongest > 0.0) met->add(in_world(now, to_world, ground, state));
+}
+
+void stay_on(const Ground& ground, BodyState& state) noexcept {
+    state.position += ground.travel;
+    state.velocity << Vector3d::Zero(), state.orientation.conjugate() * ground.velocity;
+    state.acceleration.setZero();
+    state.at_rest = true;
+}
+
+bool is_steady(const ImmersedBody& body, const Surroundings& surroundings) noexcept {
+    return surroundings.gust.amplitude.isZero(0.0) && surroundings.wind == nullptr &&
+           (surroundings.obstacles == nullptr || !surroundings.obstacles->moves()) &&
+           (body.turbulence == Turbulence::none ||
+            (body.turbulence == Turbulence::table && surroundings.current.isZero(0.0)));
+}
+
+}  // namespace samara

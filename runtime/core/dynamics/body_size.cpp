@@ -1,0 +1,56 @@
+#include "samara/core/dynamics/body_size.hpp"
+
+namespace samara {
+namespace {
+
+/// Lengths times `length`, times by its square.
+BodyState in_units(const BodyState& state, double length) noexcept {
+    const double turning = 1.0 / (length * length);
+    const double moving = length * turning;
+    BodyState result = state;
+    result.position *= length;
+    result.velocity.head<3>() *= turning;
+    result.velocity.tail<3>() *= moving;
+    result.seen_fluid.velocity *= moving;
+    result.seen_fluid.angular_velocity *= turning;
+    result.acceleration.head<3>() *= turning * turning;
+    result.acceleration.tail<3>() *= moving * turning;
+    return result;
+}
+
+}  // namespace
+
+BodyState in_own_units(const BodyState& state, double size) noexcept {
+    return in_units(state, 1.0 / size);
+}
+
+BodyState in_world_units(const BodyState& state, double size) noexcept {
+    return in_units(state, size);
+}
+
+Pose in_own_units(const Pose& pose, double size) noexcept {
+    Pose result = pose;
+    result.position /= size;
+    result.velocity *= size;
+    result.angular_velocity *= size * size;
+    return result;
+}
+
+TouchingBody touching_body(const TouchingBody& body, double size) {
+    const double volume = size * size * size;
+    TouchingBody result;
+    result.contact_points = body.contact_points;
+    ContactPoints& points = result.contact_points;
+    for (Vector3d& corner : points.corners) corner *= size;
+    for (Vector3d& point : points.round) point *= size;
+    points.bounding_radius *= size;
+    points.middle *= size;
+    result.inertia.topLeftCorner<3, 3>() = (size * size * volume) * body.inertia.topLeftCorner<3, 3>();
+    result.inertia.topRightCorner<3, 3>() = (size * volume) * body.inertia.topRightCorner<3, 3>();
+    result.inertia.bottomLeftCorner<3, 3>() = (size * volume) * body.inertia.bottomLeftCorner<3, 3>();
+    result.inertia.bottomRightCorner<3, 3>() = volume * body.inertia.bottomRightCorner<3, 3>();
+    result.inverse_inertia = result.inertia.inverse();
+    return result;
+}
+
+}  // namespace samara

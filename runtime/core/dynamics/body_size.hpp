@@ -1,0 +1,23 @@
+#pragma once
+
+#include "samara/core/dynamics/immersed_body.hpp"
+#include "samara/core/kernel/body_state.hpp"
+#include "samara/core/physics/pose.hpp"
+
+namespace samara {
+
+/// A body of `size` times the shape's lengths and of its density moves, in the same fluid, as the shape's own
+/// does with all lengths over size, all times over size^2 and gravity times size^3: Reynolds numbers, Froude
+/// numbers and ratios of mass are the same (docs/theory.md#sizes). So one body made ready serves all sizes.
+/// The state, in the shape's own lengths and times, of a body of that size with this state of the world's.
+BodyState in_own_units(const BodyState& state, double size) noexcept;
+/// The reverse of in_own_units.
+BodyState in_world_units(const BodyState& state, double size) noexcept;
+
+/// The pose of a body of that size in the shape's own lengths and times.
+Pose in_own_units(const Pose& pose, double size) noexcept;
+
+/// What a body of that size touches with, in metres and kilograms.
+TouchingBody touching_body(const TouchingBody& body, double size);
+
+}  // namespace samara

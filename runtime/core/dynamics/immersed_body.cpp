@@ -1,0 +1,220 @@
+#include "samara/core/dynamics/immersed_body.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <fmt/format.h>
+
+#include "samara/core/base/error.hpp"
+#include "samara/core/base/symmetric_matrix.hpp"
+#include "samara/core/dynamics/dynamic_coefficients.hpp"
+#include "samara/core/dynamics/flight_constants_of.hpp"
+#include "samara/core/dynamics/immersed_body_check.hpp"
+#include "samara/core/surface/octahedral_map.hpp"
+
+namespace samara {
+namespace {
+
+/// Blocks about the centre of mass: diag(I, m 1).
+Matrix6d body_inertia(const MassProperties& mass) {
+    Matrix6d inertia = Matrix6d::Zero();
+    inertia.topLeftCorner<3, 3>() = mass.inertia;
+    inertia.bottomRightCorner<3, 3>() = mass.mass * Matrix3d::Identity();
+    return inertia;
+}
+
+double turning_scale(const Matrix6d& inertia, const Matrix3d& added_mass) {
+    const Vector3d masses = eigenvalues_of(added_mass);
+    const Matrix3d rotational = inertia.topLeftCorner<3, 3>();
+    const double smallest = eigenvalues_of(rotational).x();
+    return std::sqrt((masses.z() - masses.x()) / smallest);
+}
+
+void require_tables(const Body& body, const BodyPhysics& physics, const std::string& name) {
+    const bool needed = physics.loads == Loads::table || physics.turbulence == Turbulence::table;
+    if (!needed || body.tables) return;
+    throw Error(
+        fmt::format("body '{0}': {1} = \"table\", but its file holds no tables; make them with 'samara bake "
+                    "SCENE -o DIR' and simulate with --bodies DIR, or set {1} otherwise",
+                    name, physics.loads == Loads::table ? "loads" : "turbulence"));
+}
+
+void require_surface_loads(const Body& body, const BodyPhysics& physics, const std::string& name) {
+    if (physics.loads != Loads::surface) return;
+    if (!body.surface_loads) {
+        throw Error(
+            fmt::format("body '{}': loads = \"surface\", but its file holds no surface loads; add them "
+                        "with 'samara kirchhoff FILE -o FILE', or set loads otherwise",
+                        name));
+    }
+    if (physics.turbulence != Turbulence::table) return;
+    throw Error(
+        fmt::format("body '{}': turbulence = \"table\" goes with loads = \"table\"; loads of the "
+                    "surface know no turbulence",
+                    name));
+}
+
+/// The tables that the steps read: of the body's bake, or made of its surface's loads.
+std::optional<LoadTables> tables_of(const Body& body, const BodyPhysics& physics, double length) {
+    std::optional<LoadTables> tables;
+    if (physics.loads == Loads::surface) tables = as_tables(*body.surface_loads, length);
+    if (physics.loads == Loads::table || physics.turbulence == Turbulence::table) tables = body.tables;
+    if (!tables || !physics.table_reynolds_number) return tables;
+    return at_reynolds_number(*tables, *physics.table_reynolds_number);
+}
+
+/// projected_area() in all directions of the map, with each triangle's area vector worked out once.
+std::vector<double> projected_areas(const Surface& surface) {
+    Eigen::MatrixX3d area_vectors(static_cast<Eigen::Index>(surface.triangle_count()), 3);
+    for (std::size_t t = 0; t < surface.triangle_count(); ++t) {
+        area_vectors.row(static_cast<Eigen::Index>(t)) = area_vector(surface, t).transpose();
+    }
+    std::vector<double> areas;
+    for (const Vector3d& direction : octahedral_nodes(shadow_subdivisions)) {
+        areas.push_back(0.5 * (area_vectors * direction).cwiseAbs().sum());
+    }
+    return areas;
+}
+
+// The square of wake_formation_ways times the extent along a direction: that of the ellipsoid with the body's
+// second moments.
+Matrix3d squared_formation_way(const VolumeMoments& moments) {
+    const PrincipalValues principal = principal_values(moments.second_moments);
+    const Vector3d squared_extents = (20.0 / moments.volume * principal.values).cwiseMax(0.0);
+    const Vector3d squares = wake_formation_ways * wake_formation_ways * squared_extents;
+    return principal.directions * squares.asDiagonal() * principal.directions.transpose();
+}
+
+// Second moments are alike within this, relative to the larger.
+constexpr double alike = 0.02;
+
+// ImmersedBody's: about the principal axes across which the other two moments are alike.
+Matrix3d unseen_turning(const VolumeMoments& moments) {
+    const PrincipalValues principal = principal_values(moments.second_moments);
+    Vector3d unseen;
+    for (Eigen::Index i = 0; i < 3; ++i) {
+        const double a = principal.values[(i + 1) % 3];
+        const double b = principal.values[(i + 2) % 3];
+        unseen[i] = std::abs(a - b) <= alike * std::max(a, b) ? 1.0 : 0.0;
+    }
+    return principal.directions * unseen.asDiagonal() * principal.directions.transpose();
+}
+
+/// projected_area() along the principal axes, as a matrix that has these areas along them.
+Matrix3d shadows(const Body& body) {
+    const Matrix3d axes = principal_axes(body.moments);
+    Vector3d areas;
+    for (Eigen::Index i = 0; i < 3; ++i) areas[i] = projected_area(body.surface, axes.col(i));
+    return axes * areas.asDiagonal() * axes.transpose();
+}
+
+/// What separated flow lacks of the fluid's momentum goes with that momentum, where the scene leaves it out.
+DynamicCoefficients without_momentum(DynamicCoefficients coefficients, const BodyPhysics& physics) {
+    if (physics.added_mass) return coefficients;
+    coefficients.transport.setZero();
+    coefficients.rotational_transport = 0.0;
+    return coefficients;
+}
+
+DynamicCoefficients dynamic_coefficients_of(const Body& body, const BodyPhysics& physics) {
+    if (physics.loads == Loads::none) return {};
+    if (physics.dynamic == Dynamic::none) return no_dynamic_coefficients(body);
+    if (physics.loads == Loads::coefficients) return rotational_drag_alone(body);
+    if (physics.loads == Loads::surface) return without_momentum(surface_dynamic_coefficients(body), physics);
+    const bool own = physics.dynamic == Dynamic::of_body && body.dynamic;
+    DynamicCoefficients coefficients = own ? body.dynamic->values : default_dynamic_coefficients(body);
+    if (!own && body.dynamic) coefficients.origin = "dynamic coefficients by default";
+    return without_momentum(std::move(coefficients), physics);
+}
+
+/// ImmersedBody's.
+Matrix3d roll_drag_of(const Body& body, const BodyPhysics& physics) {
+    if (physics.loads != Loads::table || physics.dynamic == Dynamic::none) return Matrix3d::Zero();
+    return usual_rotational_drag * rotational_drag_tensor(body.surface, body.moments.centroid);
+}
+
+/// rho_f K_fluid; zero where the scene leaves it out.
+Matrix6d fluid_inertia_of(const Body& body, const BodyPhysics& physics, const Fluid& fluid,
+                          const std::string& name) {
+    if (!physics.added_mass) return Matrix6d::Zero();
+    if (!body.kirchhoff) {
+        throw Error(fmt::format(
+            "body '{}': its file holds no Kirchhoff tensor; add it with 'samara kirchhoff', or set "
+            "added_mass = false",
+            name));
+    }
+    return fluid.density * body.kirchhoff->matrix;
+}
+
+}  // namespace
+
+void prepare(ImmersedBody& body) {
+    body.inverse_inertia = body.inertia.inverse();
+    body.constants = flight_constants<double>(body);
+}
+
+ImmersedBody make_immersed_body(const Body& body, const BodyPhysics& physics, const Fluid& fluid,
+                                const std::string& name) {
+    const Matrix6d fluid_inertia = fluid_inertia_of(body, physics, fluid, name);
+    require_tables(body, physics, name);
+    require_surface_loads(body, physics, name);
+    require_sound(body, physics, fluid, name);
+    const MassProperties mass = mass_properties(body, mass_asked_or_own(physics.mass, body));
+
+    ImmersedBody result;
+    result.name = name;
+    result.mass = mass.mass;
+    result.volume = body.moments.volume;
+    result.fluid_density = fluid.density;
+    result.viscosity = fluid.viscosity;
+    result.center_of_mass = mass.center_of_mass;
+    result.center_of_buoyancy = body.moments.centroid - mass.center_of_mass;
+    result.to_centroid.block<3, 3>(3, 0) = -skew(result.center_of_buoyancy);
+    result.own_inertia = mass.inertia;
+    result.added_mass = fluid_inertia.bottomRightCorner<3, 3>();
+    result.added_inertia = fluid_inertia.topLeftCorner<3, 3>();
+    result.added_coupling = fluid_inertia.topRightCorner<3, 3>();
+    result.inertia = body_inertia(mass) + result.to_centroid.transpose() * fluid_inertia * result.to_centroid;
+    if (Eigen::LLT<Matrix6d>(result.inertia).info() != Eigen::Success) {
+        throw Error(fmt::format(
+            "body '{}': its inertia with the fluid's is not positive definite; compute the Kirchhoff "
+            "tensor with more triangles",
+            name));
+    }
+    result.contact_points = contact_points(body.surface, mass.center_of_mass);
+    result.turning_scale = turning_scale(result.inertia, result.added_mass);
+    result.length = reference_length(body.moments.surface_area);
+    result.reference_area = std::numbers::pi * result.length * result.length / 4.0;
+    result.shadows = shadows(body);
+    result.squared_formation_way = squared_formation_way(body.moments);
+    result.unseen_turning = unseen_turning(body.moments);
+
+    result.loads = physics.loads;
+    result.coefficients = physics.coefficients;
+    if (!result.coefficients.normal) result.coefficients.normal = principal_axes(body.moments).col(0);
+    if (result.loads == Loads::coefficients && !physics.coefficients.reference_area) {
+        result.projected_areas = projected_areas(body.surface);
+    }
+    result.dynamic = dynamic_coefficients_of(body, physics);
+    result.roll_drag = roll_drag_of(body, physics);
+    result.turbulence = physics.turbulence;
+    result.turbulent_kinetic_energy = physics.turbulent_kinetic_energy;
+    result.dissipation_rate = physics.dissipation_rate;
+    result.langevin = physics.langevin;
+    result.tables = tables_of(body, physics, result.length);
+    if (physics.patches > 1) {
+        const bool tabled = result.loads != Loads::coefficients && result.tables.has_value();
+        DividedSurface divided = tabled ? divided_surface(body, *result.tables, physics.patches)
+                                        : divided_surface(body, physics.patches);
+        result.dynamic = within_patches(std::move(result.dynamic), divided);
+        result.roll_drag = within_patches(result.roll_drag, divided);
+        result.patches = std::move(divided.patches);
+    }
+    prepare(result);
+    return result;
+}
+
+}  // namespace samara

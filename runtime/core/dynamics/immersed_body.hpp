@@ -1,0 +1,85 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "samara/core/base/linear_algebra.hpp"
+#include "samara/core/body/body.hpp"
+#include "samara/core/body/contact_points.hpp"
+#include "samara/core/dynamics/tow_patches.hpp"
+#include "samara/core/kernel/flight_constants.hpp"
+#include "samara/core/physics/body_physics.hpp"
+#include "samara/core/physics/fluid.hpp"
+
+namespace samara {
+
+/// What of a body in a fluid its contacts ask for; body axes about the centre of mass, SI units.
+struct TouchingBody {
+    ContactPoints contact_points;
+    Matrix6d inertia = Matrix6d::Identity();          ///< K = K_body + rho_f K_fluid, order (omega, v)
+    Matrix6d inverse_inertia = Matrix6d::Identity();  ///< K^-1: of an ImmersedBody by prepare()
+};
+
+/// A body in a fluid, made ready for the time steps: constant while it moves. Body axes are the shape file's,
+/// about the centre of mass unless said otherwise; SI units. Where a member is set by hand, prepare() must
+/// follow.
+struct ImmersedBody : TouchingBody {
+    std::string name;
+    double mass = 0.0;                           ///< kg
+    double volume = 0.0;                         ///< m^3
+    double fluid_density = 0.0;                  ///< kg/m^3
+    double viscosity = 0.0;                      ///< dynamic, Pa s
+    Vector3d center_of_mass = Vector3d::Zero();  ///< m, shape axes from the shape's origin
+    Vector3d center_of_buoyancy =
+        Vector3d::Zero();  ///< m, from the centre of mass to the centroid of the volume
+    Matrix3d own_inertia = Matrix3d::Identity();  ///< of the body alone about the centre of mass (kg m^2)
+    Matrix6d to_centroid = Matrix6d::Identity();  ///< X: (omega, v) at the centre of mass -> at the centroid
+    Matrix3d added_mass = Matrix3d::Zero();       ///< rho_f M (kg)
+    Matrix3d added_inertia = Matrix3d::Zero();    ///< rho_f J, K_fluid's block of (omega, omega) (kg m^2)
+    Matrix3d added_coupling = Matrix3d::Zero();   ///< rho_f C, its block of (omega, v) (kg m)
+    double length = 1.0;                          ///< L = sqrt(S/pi) (m)
+    double reference_area = 0.0;                  ///< A = pi L^2/4 (m^2)
+    Matrix3d shadows = Matrix3d::Zero();  ///< m^2, body axes: projected areas along the principal axes
+    /// m^2, body axes: d.(squared_formation_way d) is the square of the way in which a wake forms behind a
+    /// body that goes in the direction d (docs/theory, "A wake that forms").
+    Matrix3d squared_formation_way = Matrix3d::Zero();
+    /// The part of an angular velocity that the flow does not see: about axes across which the body reaches
+    /// equally far, as a body of revolution's own.
+    Matrix3d unseen_turning = Matrix3d::Zero();
+    double turning_scale = 0.0;  ///< sqrt of the largest ratio of added-mass difference to inertia (1/m):
+                                 ///< with |v| the rate at which the Munk moment turns the body
+
+    Loads loads = Loads::none;
+    CoefficientLoads coefficients;  ///< where loads are coefficients; normal always set
+    /// m^2, where loads are coefficients without a reference area: the body's shadow along the nodes of an
+    /// octahedral map of `shadow_subdivisions`, row by row.
+    std::vector<double> projected_areas;
+    std::optional<LoadTables> tables;  ///< where loads or turbulence are from tables
+    DynamicCoefficients dynamic;
+    /// m^4, body axes: what the rotational drag of `dynamic` is at least about the way (docs/theory, "Turning
+    /// about the way"); zero beside loads that know no such term.
+    Matrix3d roll_drag = Matrix3d::Zero();
+    std::vector<TowPatch> patches{TowPatch()};  ///< of the surface; one stands for the whole
+
+    Turbulence turbulence = Turbulence::none;
+    double turbulent_kinetic_energy = 0.0;  ///< m^2/s^2, where turbulence is constant
+    double dissipation_rate = 0.0;          ///< m^2/s^3, likewise
+    Langevin langevin = Langevin::wake;
+
+    // Of all the above, as inverse_inertia, by prepare().
+    FlightConstants<double> constants;
+};
+inline constexpr int shadow_subdivisions = 16;
+
+/// Works out what the steps need of the members.
+void prepare(ImmersedBody& body);
+
+/// Puts body, mass and fluid together. Without added mass, K_fluid is zero and the coefficients T and t with
+/// it. `name` is what messages call the body. Throws Error where the body lacks what its physics asks for
+/// (the Kirchhoff tensor; tables: the message names the command that makes them), where a number is not
+/// finite or out of its range (the message names the member), and where the inertia is not that of any body.
+ImmersedBody make_immersed_body(const Body& body, const BodyPhysics& physics, const Fluid& fluid,
+                                const std::string& name = "body");
+
+}  // namespace samara

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "samara/core/base/linear_algebra.hpp"
+#include "samara/core/dynamics/immersed_body.hpp"
+#include "samara/core/kernel/body_state.hpp"
+
+namespace samara {
+
+/// The matrix D (6x6, order omega then v) with which the loads beyond the Kirchhoff terms are -D u: u holds
+/// the body's angular velocity and the velocity of its centroid relative to the fluid (rad/s, m/s; body
+/// axes), the load moment about the centroid and force (N m, N). D depends on u; its symmetric part is
+/// positive semidefinite, so the loads never make energy in still fluid. docs/theory, "Loads of a moving
+/// body". Never throws.
+Matrix6d load_matrix(const ImmersedBody& body, const Vector6d& relative_velocity) noexcept;
+
+/// D in a fluid that turns with `seen_rotation` (rad/s, body axes): the loads are
+/// -whole u + relative (seen_rotation, 0), where u holds the body's own angular velocity and the velocity of
+/// its centroid relative to the fluid, of which `slip` (m/s, body axes) is that of the wake. Never throws.
+LoadMatrices load_matrices(const ImmersedBody& body, const Vector6d& velocity, const Vector3d& seen_rotation,
+                           const Vector3d& slip = Vector3d::Zero(), const WakeShares& shares = {}) noexcept;
+
+/// The share that has formed, and the length of the heading to the eighth power (docs/theory, "A wake that
+/// forms").
+WakeShares shares_of(const Wake& wake) noexcept;
+
+/// How fast a wake changes, at the velocity u of load_matrix(). Zero where the loads do not wait for one to
+/// form: their wake always has.
+struct WakeRates {
+    double formation = 0.0;  ///< 1/s, at which Wake::formed tends to one
+    double settling = 0.0;   ///< 1/s, at which Wake::heading tends to the velocity's direction
+    Vector3d unseen_turning = Vector3d::Zero();  ///< rad/s: that of the body under its heading
+};
+WakeRates wake_rates(const ImmersedBody& body, const Vector6d& relative_velocity) noexcept;
+
+/// U L / nu of a speed (m/s).
+double reynolds_number(const ImmersedBody& body, double speed) noexcept;
+
+}  // namespace samara

@@ -1,0 +1,113 @@
+#include "samara/core/files/input_file.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "samara/core/base/error.hpp"
+#include "samara/core/base/machine_memory.hpp"
+
+namespace samara {
+namespace {
+
+constexpr const char* is_folder = "is a folder; give a file";
+
+std::string in_words(int reason) {
+    return reason == ENOENT ? "there is no such file"
+                            : fmt::format("cannot be read: {}", std::strerror(reason));
+}
+
+/// What keeps what is there from being a file; empty where nothing does.
+std::string fault_of_kind(const struct stat& status) {
+    if (S_ISREG(status.st_mode)) return {};
+    return S_ISDIR(status.st_mode) ? is_folder : "is a pipe, socket or device; give a file";
+}
+
+Error fault(const std::filesystem::path& path, const std::string& what) {
+    return Error(fmt::format("{}: {}", path.string(), what));
+}
+
+}  // namespace
+
+std::string reading_fault(const std::filesystem::path& path) {
+    struct stat status = {};
+    if (::stat(path.c_str(), &status) != 0) return in_words(errno);
+    if (std::string kind = fault_of_kind(status); !kind.empty()) return kind;
+    return ::access(path.c_str(), R_OK) == 0 ? "" : in_words(errno);
+}
+
+std::string read_at_most(const std::filesystem::path& path, std::size_t most) {
+    return InputFile(path).bytes(most);
+}
+
+InputFile::InputFile(const std::filesystem::path& path)
+    : path_(path), descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)) {
+    struct stat status = {};
+    // A socket cannot be opened, nor a device without a driver: what it is says more than why.
+    if (descriptor_ < 0) {
+        const int reason = errno;
+        const std::string kind = ::stat(path.c_str(), &status) == 0 ? fault_of_kind(status) : "";
+        throw fault(path, kind.empty() ? in_words(reason) : kind);
+    }
+    const std::string what = ::fstat(descriptor_, &status) == 0 ? fault_of_kind(status) : in_words(errno);
+    if (!what.empty()) {
+        ::close(descriptor_);
+        throw fault(path, what);
+    }
+    size_ = static_cast<std::uint64_t>(status.st_size);
+}
+
+InputFile::~InputFile() {
+    ::close(descriptor_);
+}
+
+std::string InputFile::name() const {
+    const std::string own = fmt::format("/proc/self/fd/{}", descriptor_);
+    return ::access(own.c_str(), R_OK) == 0 ? own : path_.string();
+}
+
+std::size_t InputFile::read_at(std::uint64_t place, char* bytes, std::size_t size) const {
+    std::size_t done = 0;
+    while (done < size) {
+        const ssize_t count =
+            ::pread(descriptor_, bytes + done, size - done, static_cast<off_t>(place + done));
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) throw fault(path_, in_words(errno));
+        if (count == 0) break;
+        done += static_cast<std::size_t>(count);
+    }
+    return done;
+}
+
+std::string InputFile::bytes(std::size_t most) const {
+    if (size_ > most) {
+        throw fault(path_, fmt::format("holds more than {} bytes; is it the right file?", most));
+    }
+    require_memory(static_cast<double>(size_), path_.string() + ": its content", "is it the right file?");
+    std::string bytes(size_, '\0');
+    bytes.resize(read_at(0, bytes.data(), bytes.size()));
+    return bytes;
+}
+
+bool InputFile::is_beneath(const std::filesystem::path& folder) const {
+    std::error_code unknown;
+    std::filesystem::path real =
+        std::filesystem::read_symlink(fmt::format("/proc/self/fd/{}", descriptor_), unknown);
+    if (unknown) real = std::filesystem::canonical(path_, unknown);
+    const std::filesystem::path top = std::filesystem::canonical(folder.empty() ? "." : folder, unknown);
+    if (unknown) return false;
+    return std::mismatch(top.begin(), top.end(), real.begin(), real.end()).first == top.end();
+}
+
+FileState state_of(const InputFile& file) {
+    struct stat status = {};
+    ::fstat(file.descriptor(), &status);
+    return {status.st_dev, status.st_ino, status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
+}
+
+}  // namespace samara

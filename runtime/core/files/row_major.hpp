@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "samara/core/base/linear_algebra.hpp"
+
+namespace samara {
+
+/// Row-major values of a matrix or vector, for Hdf5Writer.
+template <typename Derived>
+std::vector<double> row_major(const Eigen::MatrixBase<Derived>& matrix) {
+    std::vector<double> values;
+    values.reserve(static_cast<std::size_t>(matrix.size()));
+    for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
+        for (Eigen::Index column = 0; column < matrix.cols(); ++column) values.push_back(matrix(row, column));
+    }
+    return values;
+}
+
+/// The inverse of row_major for a matrix of fixed size.
+template <typename Matrix>
+Matrix from_row_major(const std::vector<double>& values) {
+    Matrix matrix;
+    std::size_t next = 0;
+    for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
+        for (Eigen::Index column = 0; column < matrix.cols(); ++column)
+            matrix(row, column) = values.at(next++);
+    }
+    return matrix;
+}
+
+/// The vectors one after another: the values of a dataset of shape (n, 3).
+std::vector<double> flattened(const std::vector<Vector3d>& vectors);
+
+/// The inverse of flattened.
+std::vector<Vector3d> unflattened(const std::vector<double>& values);
+
+}  // namespace samara

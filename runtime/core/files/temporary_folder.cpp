@@ -1,0 +1,80 @@
+#include "samara/core/files/temporary_folder.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <string>
+#include <system_error>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <stdlib.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "samara/core/base/error.hpp"
+
+namespace samara {
+namespace {
+
+constexpr const char* prefix = "samara-tmp-";
+
+/// Opens and locks a folder of one's own; -1 where it is gone, or where another holds the lock and is not
+/// waited for.
+int locked(const std::filesystem::path& folder, bool wait) {
+    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    if (descriptor < 0) return -1;
+    struct stat status = {};
+    const bool taken = ::flock(descriptor, wait ? LOCK_EX : LOCK_EX | LOCK_NB) == 0 &&
+                       ::fstat(descriptor, &status) == 0 && status.st_nlink > 0 &&
+                       status.st_uid == ::geteuid();
+    if (taken) return descriptor;
+    ::close(descriptor);
+    return -1;
+}
+
+void remove_those_of_the_dead(const std::filesystem::path& parent) {
+    std::error_code failure;
+    for (std::filesystem::directory_iterator entry(parent, failure), end; !failure && entry != end;
+         entry.increment(failure)) {
+        if (!entry->path().filename().string().starts_with(prefix)) continue;
+        const int lock = locked(entry->path(), false);
+        if (lock < 0) continue;
+        std::error_code ignored;
+        std::filesystem::remove_all(entry->path(), ignored);
+        ::close(lock);
+    }
+}
+
+}  // namespace
+
+TemporaryFolder::TemporaryFolder() {
+    std::error_code unknown;
+    const std::filesystem::path parent = std::filesystem::temp_directory_path(unknown);
+    if (unknown) {
+        throw Error(
+            fmt::format("TMPDIR: is no folder ({}); set it to one that can be written", unknown.message()));
+    }
+    remove_those_of_the_dead(parent);
+    // Another may take the new folder for one of the dead before it is locked; some file systems lock
+    // nothing.
+    for (int attempt = 0; attempt < 10 && lock_ < 0; ++attempt) {
+        if (attempt > 0) std::filesystem::remove(path_, unknown);
+        std::string pattern = (parent / prefix).string() + "XXXXXX";
+        if (::mkdtemp(pattern.data()) == nullptr) {
+            throw Error(fmt::format(
+                "{}: no temporary folder can be made: {}; set TMPDIR to a folder that can be written",
+                parent.string(), std::strerror(errno)));
+        }
+        path_ = pattern;
+        lock_ = locked(path_, true);
+    }
+}
+
+TemporaryFolder::~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+    if (lock_ >= 0) ::close(lock_);
+}
+
+}  // namespace samara

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <optional>
+
+#include "samara/core/base/linear_algebra.hpp"
+#include "samara/core/physics/mass_specification.hpp"
+
+namespace samara {
+
+/// Where the loads of a steady tow come from: nowhere, drag and lift coefficients, the body's tables, the
+/// pressure of the potential flow over its surface (docs/surface-loads.md).
+enum class Loads { none, coefficients, table, surface };
+/// Where the turbulence around a body comes from: nowhere, constants, the body's tables.
+enum class Turbulence { none, constant, table };
+/// What the Langevin equation moves: the fluid that the body sees as one stream; (the paper's eq. 8) the body
+/// itself; the slip by which the body's own wake makes its loads fluctuate (docs/noise.md), which only tables
+/// know: constant turbulence, of the fluid around, is a stream then.
+enum class Langevin { seen_fluid, body_velocity, wake };
+/// Whose coefficients give the loads of a body in motion beyond those of a steady tow: the body file's, or
+/// the defaults where it has none; the defaults; none.
+enum class Dynamic { of_body, by_default, none };
+
+/// The paper's eq. 5; what is absent is taken from the body (docs/theory.md).
+struct CoefficientLoads {
+    double drag_coefficient = 1.0;         ///< C_d of eq. 5
+    double lift_coefficient = 0.0;         ///< C_l of eq. 5
+    std::optional<double> reference_area;  ///< m^2; default: the area projected along the direction of motion
+    std::optional<Vector3d> normal;        ///< shape axes; default: the axis of the body's shortest extent
+    Vector3d center_of_pressure = Vector3d::Zero();  ///< m from the centroid of the volume, shape axes
+
+    /// Member by member.
+    bool operator==(const CoefficientLoads&) const = default;
+};
+
+/// What a body is physically, wherever it starts: with the shape and the fluid, all that its equations of
+/// motion hold. A member more is to be listed in visit_members() below, on which the scene file, the C
+/// interface, saved states and what is shared between equal bodies rest.
+struct BodyPhysics {
+    MassSpecification mass;         ///< density, or mass and how it is distributed; default: the body file's
+    Loads loads = Loads::table;     ///< where force and moment come from
+    CoefficientLoads coefficients;  ///< where the loads are coefficients
+    std::optional<double> table_reynolds_number;  ///< at which alone tables are read
+    int patches = 1;         ///< of the surface, each of which meets the flow with its own velocity
+    bool added_mass = true;  ///< whether the fluid's inertia is part of the body's
+    Dynamic dynamic = Dynamic::of_body;         ///< whether the body's dynamic coefficients count
+    Turbulence turbulence = Turbulence::table;  ///< default: table where the loads are, else none
+    double turbulent_kinetic_energy = 0.0;      ///< m^2/s^2, where turbulence is constant
+    double dissipation_rate = 0.0;              ///< m^2/s^3, where turbulence is constant
+    Langevin langevin = Langevin::wake;         ///< what the noise drives
+
+    /// Member by member.
+    bool operator==(const BodyPhysics&) const = default;
+};
+
+/// Calls visit(key, value) for every number and choice of a (const) BodyPhysics, by the keys of the scene
+/// file. That none is left out the compiler sees: a binding names all members of a struct or does not
+/// compile.
+template <typename Physics, typename Visit>
+void visit_members(Physics& physics, const Visit& visit) {
+    auto& [mass, loads, coefficients, table_reynolds_number, patches, added_mass, dynamic, turbulence,
+           turbulent_kinetic_energy, dissipation_rate, langevin] = physics;
+    auto& [density, total_mass, center_of_mass, inertia] = mass;
+    auto& [drag_coefficient, lift_coefficient, reference_area, normal, center_of_pressure] = coefficients;
+    visit("density", density);
+    visit("mass", total_mass);
+    visit("center_of_mass", center_of_mass);
+    visit("inertia", inertia);
+    visit("loads", loads);
+    visit("drag_coefficient", drag_coefficient);
+    visit("lift_coefficient", lift_coefficient);
+    visit("reference_area", reference_area);
+    visit("normal", normal);
+    visit("center_of_pressure", center_of_pressure);
+    visit("table_reynolds_number", table_reynolds_number);
+    visit("patches", patches);
+    visit("added_mass", added_mass);
+    visit("dynamic_coefficients", dynamic);
+    visit("turbulence", turbulence);
+    visit("turbulent_kinetic_energy", turbulent_kinetic_energy);
+    visit("dissipation_rate", dissipation_rate);
+    visit("langevin", langevin);
+}
+
+}  // namespace samara

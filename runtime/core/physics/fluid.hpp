@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "samara/core/base/linear_algebra.hpp"
+
+namespace samara {
+
+/// A uniform flow that swings: amplitude sin(2 pi t / period), world axes.
+struct Gust {
+    Vector3d amplitude = Vector3d::Zero();  ///< m/s
+    double period = 1.0;                    ///< s
+
+    /// Member by member.
+    bool operator==(const Gust&) const = default;
+};
+
+/// The fluid: incompressible and Newtonian, at rest but for a uniform current and gust.
+struct Fluid {
+    double density = 998.2;               ///< kg/m^3
+    double viscosity = 1.002e-3;          ///< dynamic, Pa s
+    Vector3d current = Vector3d::Zero();  ///< m/s, world axes
+    Gust gust = {};                       ///< beside the current
+
+    /// m^2/s.
+    [[nodiscard]] double kinematic_viscosity() const { return viscosity / density; }
+    /// Member by member.
+    bool operator==(const Fluid&) const = default;
+};
+
+/// The fluid of that name ("water" or "air", at 20 degrees Celsius and 101325 Pa), or nothing.
+std::optional<Fluid> fluid_preset(const std::string& name);
+
+}  // namespace samara

@@ -1,0 +1,236 @@
+#include "samara/core/wind/wind_field.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "samara/core/dynamics/surroundings.hpp"
+#include "samara/core/wind/grid_wind.hpp"
+#include "samara/core/wind/gust_waves.hpp"
+
+namespace samara {
+namespace {
+
+constexpr std::size_t places_around = 6;
+constexpr double largest_velocity = 1e30;  // m/s
+constexpr double lowest_share = 0.01;      // of the profile's height, below which the power law is straight
+
+Triple<double> triple(const Vector3d& v) {
+    return {v.x(), v.y(), v.z()};
+}
+
+void set_profile(const Wind& wind, WindConstants& constants) {
+    const WindProfile& profile = *wind.profile;
+    constants.profile_velocity = triple(wind.velocity);
+    constants.ground = profile.ground;
+    if (profile.law == WindProfile::Law::logarithmic) {
+        constants.profile = WindConstants::Profile::logarithmic;
+        constants.inverse_scale = 1.0 / profile.roughness;
+        constants.exponent = 1.0 / std::log1p(profile.height / profile.roughness);
+    } else {
+        constants.profile = WindConstants::Profile::power;
+        constants.inverse_scale = 1.0 / profile.height;
+        constants.exponent = profile.exponent;
+        constants.lowest = lowest_share * profile.height;
+    }
+}
+
+VortexConstants constants_of(const WindVortex& vortex) {
+    return {.rankine = vortex.kind == WindVortex::Core::rankine,
+            .position = triple(vortex.position),
+            .axis = triple(vortex.axis),
+            .velocity = triple(vortex.velocity),
+            .strength = vortex.circulation / (2.0 * std::numbers::pi),
+            .core_square = vortex.core * vortex.core,
+            .inverse_square = 1.0 / (vortex.core * vortex.core)};
+}
+
+FanConstants constants_of(const WindFan& fan) {
+    // The bell with the momentum of an even flow through the fan's circle.
+    const double width = std::numbers::sqrt2 * 0.5 * fan.diameter;
+    return {.position = triple(fan.position),
+            .direction = triple(fan.direction),
+            .width = width,
+            .half_flow = 0.5 * fan.speed * width,
+            .intake = fan.diameter};
+}
+
+/// About the body's radius: L/2, with the sphere of its surface.
+double reach_of(const ImmersedBody& body) {
+    return 0.5 * body.length;
+}
+
+Vector3d column(const double (&rows)[3][WindBlock::size], std::size_t lane) {
+    return {rows[0][lane], rows[1][lane], rows[2][lane]};
+}
+
+}  // namespace
+
+WindField::WindField(const Wind& wind, const Vector3d& current)
+    : file_(wind.file), function_(wind.function), context_(wind.function_context) {
+    if (wind.profile) set_profile(wind, constants_);
+    if (wind.gusts) {
+        constants_.drift = triple(current + wind.velocity);
+        constants_.waves = gust_waves(*wind.gusts);
+    }
+    for (const WindVortex& vortex : wind.vortices) constants_.vortices.push_back(constants_of(vortex));
+    for (const WindFan& fan : wind.fans) constants_.fans.push_back(constants_of(fan));
+}
+
+bool WindField::blow(double time, const WindSpan& span, std::size_t count, WindBlock& block) const noexcept {
+    kernel::blow(constants_, time, count, block);
+    if (file_) add_file(time, count, block);
+    return function_ == nullptr || add_function(time, span, count, block);
+}
+
+void WindField::add_file(double time, std::size_t count, WindBlock& block) const noexcept {
+    for (std::size_t lane = 0; lane < count; ++lane) {
+        const GridWind there = grid_wind(*file_, column(block.place, lane), time);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto row = static_cast<Eigen::Index>(i);
+            block.velocity[i][lane] += there.velocity[row];
+            block.rate[i][lane] += there.rate[row];
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                block.gradient[3 * i + axis][lane] += there.gradient(row, static_cast<Eigen::Index>(axis));
+            }
+        }
+    }
+}
+
+bool WindField::add_function(double time, const WindSpan& span, std::size_t count,
+                             WindBlock& block) const noexcept {
+    // Along each axis to both sides: their mean is that over a sphere as far as the second derivatives go
+    // (Faxen), their differences are the gradient.
+    double places[WindBlock::size * places_around * 3];
+    double velocities[2][WindBlock::size * places_around * 3] = {};
+    const std::size_t all = count * places_around;
+    for (std::size_t i = 0; i < all; ++i) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double side = i % 2 == 0 ? span.reach : -span.reach;
+            const bool along = (i % places_around) / 2 == axis;
+            places[3 * i + axis] = block.place[axis][i / places_around] + (along ? side : 0.0);
+        }
+    }
+    bool sound = true;
+    for (std::size_t end = 0; end < 2; ++end) {
+        const double at = time + (end == 0 ? -0.5 : 0.5) * span.duration;
+        function_(context_, at, all, places, velocities[end]);
+        for (std::size_t i = 0; i < 3 * all; ++i) {
+            if (std::abs(velocities[end][i]) <= largest_velocity) continue;
+            velocities[end][i] = 0.0;
+            sound = false;
+        }
+    }
+    for (std::size_t lane = 0; lane < count; ++lane) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto at = [&](std::size_t end, std::size_t place) {
+                return velocities[end][(lane * places_around + place) * 3 + i];
+            };
+            double sums[2] = {0.0, 0.0};
+            for (std::size_t end = 0; end < 2; ++end) {
+                for (std::size_t place = 0; place < places_around; ++place) sums[end] += at(end, place);
+            }
+            block.velocity[i][lane] += (sums[0] + sums[1]) / (2.0 * places_around);
+            block.rate[i][lane] += (sums[1] - sums[0]) / (places_around * span.duration);
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const double difference =
+                    (at(0, 2 * axis) - at(0, 2 * axis + 1)) + (at(1, 2 * axis) - at(1, 2 * axis + 1));
+                block.gradient[3 * i + axis][lane] += difference / (4.0 * span.reach);
+            }
+        }
+    }
+    return sound;
+}
+
+Vector3d wind_velocity(const ImmersedBody& body, const Surroundings& surroundings, const Vector3d& place,
+                       double time) noexcept {
+    if (surroundings.wind == nullptr) return Vector3d::Zero();
+    const Vector3d in_world = place + flow_displacement(surroundings, time);
+    WindBlock block;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        block.place[axis][0] = in_world[static_cast<Eigen::Index>(axis)];
+    }
+    constexpr double any_duration = 1e-3;  // it shapes the rate alone, which nobody asks for
+    surroundings.wind->blow(time, {reach_of(body), any_duration}, 1, block);
+    return column(block.velocity, 0);
+}
+
+kernel::WindSource WindMeeting::source() const noexcept {
+    if (surroundings_->wind == nullptr) return {};
+    return {meet, this};
+}
+
+void WindMeeting::meet(const void* context, std::uint64_t step, std::size_t count,
+                       kernel::MetWind& met) noexcept {
+    const auto& self = *static_cast<const WindMeeting*>(context);
+    const Surroundings& surroundings = *self.surroundings_;
+    const double begin = step_time(self.start_, self.time_step_, step);
+    const double time = 0.5 * (begin + step_time(self.start_, self.time_step_, step + 1));
+    const Vector3d displacement = flow_displacement(surroundings, time);
+    const Vector3d flow = flow_velocity(surroundings, time);
+    // Where centroids are was foretold halfway through the step in the flow's frame: there in the world.
+    WindBlock block = {};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (std::size_t lane = 0; lane < count; ++lane) {
+            block.place[axis][lane] = met.place[axis][lane] + displacement[static_cast<Eigen::Index>(axis)];
+        }
+    }
+    if (!surroundings.wind->blow(time, {reach_of(*self.body_), self.time_step_}, count, block)) {
+        self.unsound_.store(true, std::memory_order_relaxed);
+    }
+    for (std::size_t lane = 0; lane < count; ++lane) {
+        const Vector3d velocity = column(block.velocity, lane);
+        Matrix3d gradient;
+        for (std::size_t i = 0; i < 9; ++i) {
+            gradient(static_cast<Eigen::Index>(i / 3), static_cast<Eigen::Index>(i % 3)) =
+                block.gradient[i][lane];
+        }
+        // The fluid's own acceleration, which presses on a body as if it were the fluid.
+        const Vector3d acceleration = column(block.rate, lane) + gradient * (flow + velocity);
+        const Vector3d half_change = 0.5 * self.time_step_ * acceleration;
+        const Vector3d rotation =
+            0.5 * Vector3d(gradient(2, 1) - gradient(1, 2), gradient(0, 2) - gradient(2, 0),
+                           gradient(1, 0) - gradient(0, 1));
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto i = static_cast<Eigen::Index>(axis);
+            met.begin[axis][lane] = velocity[i] - half_change[i];
+            met.end[axis][lane] = velocity[i] + half_change[i];
+            met.rotation[axis][lane] = rotation[i];
+        }
+    }
+}
+
+std::string description_of(const Wind& wind) {
+    if (wind.is_calm()) return {};
+    const auto numbers = [](const Vector3d& v) { return fmt::format("{}", fmt::join(v.reshaped(), " ")); };
+    std::string text = fmt::format("wind {}", numbers(wind.velocity));
+    if (wind.profile) {
+        const WindProfile& p = *wind.profile;
+        text += fmt::format(" profile {} {} {} {} {}", static_cast<int>(p.law), p.roughness, p.exponent,
+                            p.height, p.ground);
+    }
+    if (wind.gusts) {
+        const WindGusts& g = *wind.gusts;
+        text += fmt::format(" gusts {} {} {} {} {}", static_cast<int>(g.spectrum), g.rms, g.length,
+                            g.seed.value_or(0), g.bands);
+    }
+    for (const WindVortex& v : wind.vortices) {
+        text += fmt::format(" vortex {} {} {} {} {} {}", static_cast<int>(v.kind), numbers(v.position),
+                            numbers(v.axis), v.circulation, v.core, numbers(v.velocity));
+    }
+    for (const WindFan& f : wind.fans) {
+        text +=
+            fmt::format(" fan {} {} {} {}", numbers(f.position), numbers(f.direction), f.diameter, f.speed);
+    }
+    if (wind.file) {
+        const WindFile& f = *wind.file;
+        text += fmt::format(" file {} {} {} {} {}", f.grid->hash, numbers(f.position), f.start, f.repeats,
+                            static_cast<int>(f.outside));
+    }
+    if (wind.function != nullptr) text += " function";
+    return text + '\n';
+}
+
+}  // namespace samara

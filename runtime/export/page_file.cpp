@@ -1,0 +1,163 @@
+#include "samara/export/page_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <ostream>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "samara/core/base/base64.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/files/replace_file.hpp"
+#include "samara/export/float_range.hpp"
+#include "samara/export/page_bytes.hpp"
+#include "samara/export/shaded_mesh.hpp"
+#include "samara/motion/inclination.hpp"
+
+namespace samara {
+namespace {
+
+constexpr std::string_view mark = "<!--MOTION-->";
+constexpr std::size_t floats_of_pose = 10;  // as runtime/page/motion.js reads them
+constexpr double most_bytes = 384e6;
+
+/// An array for motion.js to find by its name.
+template <typename Number>
+void write_array(std::ostream& stream, const std::string& name, const std::vector<Number>& numbers) {
+    stream << "<script type=\"text/plain\" id=\"motion-" << name << "\">"
+           << base64({reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number)})
+           << "</script>\n";
+}
+
+void append(std::vector<float>& floats, const auto& values) {
+    for (const double value : values) floats.push_back(static_cast<float>(value));
+}
+
+/// From the centre of mass to the body's farthest point (m).
+double radius_of(const BodyMotion& body) {
+    double radius = 0.0;
+    for (const Vector3d& vertex : body.surface.vertices) {
+        radius = std::max(radius, (vertex - body.center_of_mass).norm());
+    }
+    return radius;
+}
+
+std::vector<float> poses_of(const Motion& motion, const BodyMotion& body, int run) {
+    const Vector3d down = down_direction(motion.gravity);
+    std::vector<float> floats;
+    floats.reserve(floats_of_pose * motion.times.size() * static_cast<std::size_t>(body.copies));
+    for (int frame = 0; frame < motion.frames(); ++frame) {
+        for (int copy = 0; copy < body.copies; ++copy) {
+            const Pose& pose = motion.pose(body, run, frame, copy);
+            append(floats, pose.position);
+            append(floats, pose.orientation.normalized().coeffs());  // x, y, z, w
+            append(floats, std::array<double, 3>{pose.velocity.dot(down), inclination(motion, body, pose),
+                                                 pose.angular_velocity.norm()});
+        }
+    }
+    return floats;
+}
+
+/// The arrays NAME-points, NAME-normals and NAME-triangles, about `origin` (m, shape axes).
+void write_mesh(std::ostream& stream, const std::string& name, const Surface& surface,
+                const Vector3d& origin) {
+    const ShadedMesh mesh = shaded_mesh(surface);
+    std::vector<float> points;
+    std::vector<float> normals;
+    std::vector<std::uint32_t> triangles;
+    for (const Vector3d& position : mesh.positions) append(points, Vector3d(position - origin));
+    for (const Vector3d& normal : mesh.normals) append(normals, normal);
+    for (const auto& triangle : mesh.triangles)
+        triangles.insert(triangles.end(), triangle.begin(), triangle.end());
+    write_array(stream, name + "-points", points);
+    write_array(stream, name + "-normals", normals);
+    write_array(stream, name + "-triangles", triangles);
+}
+
+/// Position and quaternion (x, y, z, w) of an obstacle at each frame; of one that stands still once.
+std::vector<float> places_of(const Motion& motion, const Obstacle& obstacle) {
+    std::vector<float> floats;
+    for (const double time : motion.times) {
+        const ObstaclePlace place = samara::place_of(obstacle, time);
+        append(floats, place.position);
+        append(floats, place.orientation.coeffs());
+        if (!obstacle.moves()) break;
+    }
+    return floats;
+}
+
+/// JSON in ASCII and without "<": nothing in it ends or opens an element of the page.
+std::string header_of(const Motion& motion, int run, const std::string& title, const std::string& detail) {
+    nlohmann::json header = {{"title", title}, {"detail", detail}, {"frame_rate", motion.frame_rate}};
+    header["ground"] = motion.ground ? nlohmann::json(*motion.ground) : nlohmann::json(nullptr);
+    for (const BodyMotion& body : motion.bodies) {
+        header["bodies"].push_back(
+            {{"name", body.name}, {"copies", body.copies}, {"radius", radius_of(body)}});
+        for (int copy = 0; !body.sizes.empty() && copy < body.copies; ++copy) {
+            header["bodies"].back()["sizes"].push_back(body.size(run, copy));
+        }
+    }
+    header["obstacles"] = nlohmann::json::array();
+    for (const Obstacle& obstacle : motion.obstacles)
+        header["obstacles"].push_back({{"name", obstacle.name}});
+    std::string text = header.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+    for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) {
+        text.replace(at, 1, "\\u003c");
+    }
+    return text;
+}
+
+void require_size(const std::filesystem::path& file, const Motion& motion) {
+    double poses = 0.0;
+    for (const BodyMotion& body : motion.bodies) {
+        poses = std::max(poses, static_cast<double>(motion.times.size()) * body.copies);
+    }
+    const double bytes = poses * floats_of_pose * sizeof(float) * 4.0 / 3.0;
+    if (bytes > most_bytes) {
+        throw Error(
+            fmt::format("{}: the poses would take {:.0f} MB, and browsers read {:.0f}; give a lower "
+                        "--frame-rate, or simulate fewer copies",
+                        file.string(), 1e-6 * bytes, 1e-6 * most_bytes));
+    }
+}
+
+}  // namespace
+
+bool has_page() {
+    return !page_bytes().empty();
+}
+
+void write_page(const std::filesystem::path& file, const Motion& motion, int run, const std::string& title,
+                const std::string& detail) {
+    const std::string_view page = page_bytes();
+    const std::size_t place = page.find(mark);
+    if (place == std::string_view::npos) {
+        throw Error(
+            fmt::format("{}: this samara was built without the page; configure it with "
+                        "-DSAMARA_PAGE=ON where npm is, or write .glb",
+                        file.string()));
+    }
+    require_size(file, motion);
+    require_float_range(file, motion, run);
+    replace_file_by_stream(file, [&](std::ostream& stream) {
+        stream << page.substr(0, place) << "<script type=\"application/json\" id=\"motion-header\">"
+               << header_of(motion, run, title, detail) << "</script>\n";
+        write_array(stream, "times", motion.times);
+        for (std::size_t b = 0; b < motion.bodies.size(); ++b) {
+            const BodyMotion& body = motion.bodies[b];
+            write_mesh(stream, std::to_string(b), body.surface, body.center_of_mass);
+            write_array(stream, fmt::format("{}-poses", b), poses_of(motion, body, run));
+        }
+        for (std::size_t i = 0; i < motion.obstacles.size(); ++i) {
+            const std::string name = fmt::format("obstacle-{}", i);
+            write_mesh(stream, name, motion.obstacles[i].surface, Vector3d::Zero());
+            write_array(stream, name + "-places", places_of(motion, motion.obstacles[i]));
+        }
+        stream << page.substr(place + mark.size());
+    });
+}
+
+}  // namespace samara

@@ -1,0 +1,152 @@
+#include "samara/formats/toml_table.hpp"
+
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "samara/core/base/nearest_word.hpp"
+#include "samara/formats/toml_keys.hpp"
+
+namespace samara {
+
+toml::table parse_toml(std::string_view text, const std::string& file) {
+    require_short_keys(text, file);
+    try {
+        return toml::parse(text, file);
+    } catch (const toml::parse_error& fault) {
+        throw Error(fmt::format("{}:{}: {}", file, fault.source().begin.line, fault.description()));
+    }
+}
+
+TomlTable::TomlTable(const toml::table& table, std::string file, std::string where)
+    : table_(&table), file_(std::move(file)), where_(std::move(where)) {}
+
+Error TomlTable::fault(std::string_view key, std::string_view what) const {
+    const toml::node* found = table_->get(key);
+    if (found == nullptr) require_no_slip(key);
+    const auto line = (found != nullptr ? found->source() : table_->source()).begin.line;
+    return Error(fmt::format("{}:{}: {} in {} {}", file_, line, key, where_, what));
+}
+
+void TomlTable::require_no_slip(std::string_view key) const {
+    const auto bare = key.substr(key.starts_with('[') ? 1 : 0);
+    const std::vector<std::string> meant = {std::string(bare.substr(0, bare.find(']')))};
+    for (const auto& [written, value] : *table_) {
+        if (known_.contains(written.str()) || nearest_word(written.str(), meant).empty()) continue;
+        throw unknown_key(written, meant);
+    }
+}
+
+Error TomlTable::unknown_key(const toml::key& key, const std::vector<std::string>& keys) const {
+    const std::string meant = did_you_mean(key.str(), keys);
+    return Error(
+        fmt::format("{}:{}: unknown key '{}' in {}{}", file_, key.source().begin.line, key.str(), where_,
+                    meant.empty() ? fmt::format("; the keys are: {}", fmt::join(keys, ", ")) : meant));
+}
+
+const toml::node* TomlTable::node(std::string_view key) {
+    known_.emplace(key);
+    return table_->get(key);
+}
+
+double TomlTable::finite_number(std::string_view key, const toml::node& node,
+                                const NumberRange& range) const {
+    const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
+    const bool fits =
+        value && ((*value >= range.lowest && *value <= range.highest) || (range.or_zero && *value == 0.0));
+    if (!fits && node.is_string()) {
+        throw fault(key,
+                    fmt::format("must be a number without a unit, in SI units (m, kg, s, rad), not \"{}\"",
+                                node.ref<std::string>()));
+    }
+    if (!fits) throw fault(key, range.words);
+    return *value;
+}
+
+std::optional<double> TomlTable::number(std::string_view key, const NumberRange& range) {
+    const toml::node* found = node(key);
+    if (found == nullptr) return std::nullopt;
+    return finite_number(key, *found, range);
+}
+
+std::optional<std::int64_t> TomlTable::integer(std::string_view key, std::int64_t lowest,
+                                               std::int64_t highest) {
+    const toml::node* found = node(key);
+    if (found == nullptr) return std::nullopt;
+    const std::optional<std::int64_t> value =
+        found->is_integer() ? found->value<std::int64_t>() : std::nullopt;
+    if (!value || *value < lowest || *value > highest) {
+        throw fault(key, fmt::format("must be a whole number from {} to {}", lowest, highest));
+    }
+    return value;
+}
+
+std::optional<std::string> TomlTable::text(std::string_view key) {
+    const toml::node* found = node(key);
+    if (found == nullptr) return std::nullopt;
+    if (!found->is_string()) throw fault(key, "must be a text in quotes");
+    return found->value<std::string>();
+}
+
+std::optional<bool> TomlTable::boolean(std::string_view key) {
+    const toml::node* found = node(key);
+    if (found == nullptr) return std::nullopt;
+    if (!found->is_boolean()) throw fault(key, "must be true or false");
+    return found->value<bool>();
+}
+
+std::optional<std::vector<double>> TomlTable::numbers(std::string_view key, std::size_t length) {
+    const toml::node* found = node(key);
+    if (found == nullptr) return std::nullopt;
+    const toml::array* array = found->as_array();
+    if (array == nullptr || array->size() != length)
+        throw fault(key, fmt::format("must be a list of {} numbers", length));
+    std::vector<double> values;
+    for (const toml::node& element : *array) {
+        values.push_back(finite_number(
+            key, element, {any_number.lowest, any_number.highest, "must hold finite numbers, 1e30 at most"}));
+    }
+    return values;
+}
+
+std::optional<Vector3d> TomlTable::vector(std::string_view key) {
+    const auto values = numbers(key, 3);
+    if (!values) return std::nullopt;
+    return Vector3d(values->data());
+}
+
+std::optional<Quaterniond> TomlTable::quaternion(std::string_view key) {
+    const auto values = numbers(key, 4);
+    if (!values) return std::nullopt;
+    const Quaterniond quaternion((*values)[0], (*values)[1], (*values)[2], (*values)[3]);
+    if (quaternion.norm() < 1e-6) throw fault(key, "must be a quaternion (w, x, y, z) that is not zero");
+    return quaternion.normalized();
+}
+
+std::optional<TomlTable> TomlTable::table(std::string_view key) {
+    const toml::node* found = node(key);
+    if (found == nullptr) return std::nullopt;
+    if (!found->is_table()) throw fault(key, "must be a table");
+    return TomlTable(*found->as_table(), file_, fmt::format("[{}]", key));
+}
+
+std::vector<TomlTable> TomlTable::tables(std::string_view key) {
+    std::vector<TomlTable> result;
+    const toml::node* found = node(key);
+    if (found == nullptr) return result;
+    if (!found->is_array_of_tables()) throw fault(key, fmt::format("must be written as [[{}]]", key));
+    for (const toml::node& element : *found->as_array()) {
+        result.emplace_back(*element.as_table(), file_, fmt::format("[[{}]]", key));
+    }
+    return result;
+}
+
+void TomlTable::finish() const {
+    for (const auto& [key, value] : *table_) {
+        if (known_.contains(key.str())) continue;
+        throw unknown_key(key, {known_.begin(), known_.end()});
+    }
+}
+
+}  // namespace samara

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "samara/kirchhoff/panels/flat_triangle_integrals.hpp"
+#include "samara/kirchhoff/panels/linear_elements.hpp"
+#include "samara/kirchhoff/panels/triangle_rules.hpp"
+
+namespace samara {
+
+/// Point sources, coordinate by coordinate: the three rotations' strengths and an area vector each.
+struct RotationSources {
+    std::size_t stride = 0;  ///< from one point of a triangle to the next
+    std::array<std::vector<double>, 3> place;
+    std::array<std::vector<double>, 3> strength;
+    std::array<std::vector<double>, 3> area_vector;
+};
+
+/// One source a triangle, in single precision for those very far off.
+struct DistantSources {
+    std::array<std::vector<float>, 3> place;
+    std::array<std::vector<float>, 3> strength;
+    std::array<std::vector<float>, 3> area_vector;
+};
+
+/// Triangles that follow each other and are near each other.
+struct SourceGroup {
+    std::size_t begin;
+    std::size_t end;
+    Vector3d low;  ///< corners of the box that holds them
+    Vector3d high;
+    double radius;  ///< the largest
+};
+
+/// Sources in one, three or six points a triangle, and batches for the near ones.
+struct RotationSourceSets {
+    DistantSources distant;
+    RotationSources one;
+    RotationSources three;
+    RotationSources six;
+    std::vector<double> radius;
+    std::vector<SourceGroup> groups;
+    std::vector<std::array<SourceBatch, 2>> near;
+};
+
+/// Sums over sources at one point.
+struct FieldAtPoint {
+    std::array<double, 3> potential{};  ///< of the strengths: sum of g / r
+    std::array<double, 3> flux{};       ///< sum of g n . (y - x) / r^3, y and n this point's
+};
+
+/// What all distant triangles exert on the points of one.
+struct DistantFields {
+    /// The sum of the solid angles from the middle, but for those of the triangles in `exact`.
+    double solid_angle = 0.0;
+    FieldAtPoint one;                   ///< at the middle, of triangles very far off
+    std::array<FieldAtPoint, 3> three;  ///< at the points of the rule, of those less far
+    std::array<FieldAtPoint, 6> six;    ///< and of those still nearer
+    std::vector<std::size_t> exact;     ///< triangles whose solid angle is left to do
+    std::vector<std::size_t> near;      ///< triangles too near for point sources
+};
+
+/// The normal velocities x cross n of the unit rotations, as sources.
+RotationSourceSets rotation_sources(const LinearElements& elements);
+
+/// The fields of all triangles at the points of one of them.
+DistantFields distant_fields(const RotationSourceSets& sources, const FlatTriangle& triangle);
+
+/// A point of a rule on a triangle.
+Vector3d place_on(const FlatTriangle& triangle, const RulePoint& point);
+
+}  // namespace samara

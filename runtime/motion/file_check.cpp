@@ -1,0 +1,94 @@
+#include "samara/motion/file_check.hpp"
+
+#include <cerrno>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <linux/seccomp.h>
+#include <sys/prctl.h>
+
+#include "samara/core/base/error.hpp"
+#include "samara/core/body/body_file.hpp"
+#include "samara/core/files/confined_process.hpp"
+#include "samara/core/files/file_digest.hpp"
+#include "samara/core/files/hdf5_reader.hpp"
+#include "samara/core/wind/wind_file.hpp"
+#include "samara/motion/motion_file.hpp"
+
+namespace samara {
+namespace {
+
+std::string kind_of(const std::filesystem::path& file) {
+    Hdf5Reader::set_check(nullptr);  // this is the process that checks
+    const Hdf5Reader reader(file);
+    if (reader.has("/surface")) return "body";
+    if (reader.has("/bodies")) return "motion";
+    if (reader.has("/wind")) return "wind";
+    throw Error(fmt::format("{}: is an HDF5 file, but neither a body nor a motion nor a wind of samara's",
+                            file.string()));
+}
+
+/// Reads all of the file, or all but a motion's poses. Returns its kind.
+std::string read_through(const std::filesystem::path& file, bool poses) {
+    const std::string kind = kind_of(file);
+    if (kind == "body") {
+        (void)read_body_file(file);
+        return kind;
+    }
+    if (kind == "wind") {
+        (void)read_wind_file(file);
+        return kind;
+    }
+    const MotionReader motion(file);
+    for (std::size_t i = 0; poses && i < motion.motion().bodies.size(); ++i) {
+        motion.for_each_block(i, [](const Motion& /*part*/, const PoseBlock& /*block*/) {});
+    }
+    return kind;
+}
+
+ConfinedLimits limits_for(const InputFile& input) {
+    ConfinedLimits limits;
+    // Of the name and, where that is a link, of the file.
+    for (const auto& file :
+         {std::filesystem::absolute(input.path()), std::filesystem::canonical(input.path())}) {
+        limits.readable.push_back(file.parent_path());
+    }
+    limits.cpu_seconds = 10.0 + static_cast<double>(input.size()) / 20e6;
+    limits.idle_seconds = 30.0;
+    limits.memory = 0.25;
+    limits.sent_bytes = 64U << 10U;  // a kind, or what is wrong
+    return limits;
+}
+
+/// A system that takes filters looks at the filter, which is none.
+bool offers_confinement() {
+    return ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, nullptr, 0, 0) != 0 && errno == EFAULT;
+}
+
+CheckedFile check(const InputFile& input, bool poses) {
+    const std::filesystem::path& file = input.path();
+    std::string kind;
+    run_confined(
+        file.string(), limits_for(input), [&](const SendBytes& send) { send(read_through(file, poses)); },
+        [&](std::string_view bytes) { kind = bytes; });
+    if (kind != "body" && kind != "motion" && kind != "wind") {
+        throw Error(fmt::format("{}: its reader was led astray; do not use it", file.string()));
+    }
+    return {kind, has_digest(input)};
+}
+
+}  // namespace
+
+CheckedFile check_file(const std::filesystem::path& file) {
+    return check(InputFile(file), true);
+}
+
+CheckBeforeReading::CheckBeforeReading() {
+    if (offers_confinement()) Hdf5Reader::set_check([](const InputFile& file) { (void)check(file, false); });
+}
+
+CheckBeforeReading::~CheckBeforeReading() {
+    Hdf5Reader::set_check(nullptr);
+}
+
+}  // namespace samara

@@ -1,0 +1,276 @@
+#include "samara/motion/measures.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "samara/core/base/angles.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/motion/autorotation.hpp"
+#include "samara/motion/inclination.hpp"
+
+namespace samara {
+namespace {
+
+constexpr double rest_share = 1e-6;
+constexpr double touching = 1e-3;
+constexpr double steady_range = 5.0 * degree;
+constexpr double horizontal_band = 10.0 * degree;
+constexpr double exception_share = 0.1;
+
+/// The poses of one copy in one run, frames [begin, end).
+struct Track {
+    const Motion& motion;
+    const BodyMotion& body;
+    int run;
+    int copy;
+    int begin;
+    int end;
+
+    [[nodiscard]] const Pose& pose(int frame) const { return motion.pose(body, run, frame, copy); }
+    [[nodiscard]] double time(int frame) const { return motion.times[static_cast<std::size_t>(frame)]; }
+    [[nodiscard]] Vector3d axis(int frame) const { return pose(frame).orientation * body.shortest_axis; }
+};
+
+Track track_in(const Motion& motion, const BodyMotion& body, int run, int copy, const TimeWindow& window) {
+    const auto& times = motion.times;
+    const double slack = 1e-9 * std::max(1.0, std::abs(window.end));
+    if (!(window.begin <= window.end) || window.end < times.front() - slack ||
+        window.begin > times.back() + slack) {
+        throw Error(fmt::format("the window from {} s to {} s holds no part of the motion from {} s to {} s",
+                                window.begin, window.end, times.front(), times.back()));
+    }
+    auto first = std::lower_bound(times.begin(), times.end(), window.begin - slack);
+    auto last = std::upper_bound(first, times.end(), window.end + slack);
+    if (first == last) {
+        const double middle = 0.5 * (window.begin + window.end);
+        if (first == times.end() || (first != times.begin() && middle - *(first - 1) < *first - middle)) {
+            --first;
+        }
+        last = first + 1;
+    }
+    return {motion,
+            body,
+            run,
+            copy,
+            static_cast<int>(first - times.begin()),
+            static_cast<int>(last - times.begin())};
+}
+
+/// The mean over time of a function of the frame, by the trapezoidal rule.
+template <typename Function>
+double time_mean(const Track& track, const Function& function) {
+    if (track.end - track.begin < 2) return function(track.begin);
+    double sum = 0.0;
+    for (int frame = track.begin + 1; frame < track.end; ++frame) {
+        sum += 0.5 * (track.time(frame) - track.time(frame - 1)) * (function(frame - 1) + function(frame));
+    }
+    return sum / (track.time(track.end - 1) - track.time(track.begin));
+}
+
+struct Turnovers {
+    int count = 0;
+    int reversals = 0;
+    std::vector<double> times;  ///< s, the frame after each
+};
+
+/// Half turns of the shortest axis past the horizontal, with the band of the docstring as hysteresis.
+Turnovers find_turnovers(const Track& track) {
+    const Vector3d down = down_direction(track.motion.gravity);
+    Turnovers found;
+    int side = 0;
+    Vector3d turning = Vector3d::Zero();
+    Vector3d last_turning = Vector3d::Zero();
+    for (int frame = track.begin; frame < track.end; ++frame) {
+        const Vector3d axis = track.axis(frame);
+        const double height = axis.dot(down);
+        const Vector3d& spin = track.pose(frame).angular_velocity;
+        const Vector3d transverse = spin - axis * axis.dot(spin);
+        const bool clear = std::abs(height) > std::sin(horizontal_band);
+        const int new_side = height > 0.0 ? 1 : -1;
+        turning += transverse;
+        if (!clear) continue;
+        if (side != 0 && new_side != side) {
+            if (found.count > 0 && turning.dot(last_turning) < 0.0) ++found.reversals;
+            ++found.count;
+            found.times.push_back(track.time(frame));
+            last_turning = turning;
+        }
+        side = new_side;
+        turning = transverse;
+    }
+    return found;
+}
+
+/// Stretches between two minima in which the axis does not turn over.
+int count_plain_swings(const std::vector<double>& minima, const std::vector<double>& turnovers) {
+    int plain = 0;
+    for (std::size_t i = 1; i < minima.size(); ++i) {
+        const bool turns = std::any_of(turnovers.begin(), turnovers.end(), [&](double time) {
+            return time > minima[i - 1] && time <= minima[i];
+        });
+        if (!turns) ++plain;
+    }
+    return plain;
+}
+
+Regime regime_of(const Turnovers& turnovers, int plain_swings, double inclination_range, bool autorotates) {
+    const double turns = turnovers.count;
+    const double all = turns + plain_swings;
+    if (turns > 0 && turns >= (1.0 - exception_share) * all &&
+        turnovers.reversals <= exception_share * turns) {
+        return Regime::tumbling;
+    }
+    if (autorotates) return Regime::autorotating;
+    if (turnovers.count == 0 && inclination_range < steady_range) return Regime::steady;
+    if (turns <= exception_share * all) return Regime::fluttering;
+    return Regime::chaotic;
+}
+
+/// How far (m) a body of `size` over its surface's is above the ground at a pose.
+double clearance(const BodyMotion& body, double size, double ground, const Pose& pose) {
+    const Vector3d down = pose.orientation.conjugate() * -Vector3d::UnitZ();
+    return pose.position.z() - ground - size * reach(body.contact_points, down);
+}
+
+/// The pose after it moved on as it does for so many seconds.
+Pose moved_on(const Pose& pose, double seconds) {
+    Pose later = pose;
+    later.position += seconds * pose.velocity;
+    const double angle = seconds * pose.angular_velocity.norm();
+    if (angle != 0.0) {
+        later.orientation = Quaterniond(Eigen::AngleAxisd(angle, (seconds / angle) * pose.angular_velocity)) *
+                            pose.orientation;
+    }
+    return later;
+}
+
+/// The first frame at which a body touches the ground, or behind a touch between two frames.
+struct Touch {
+    int frame;
+    bool before_frame;
+};
+
+std::optional<Touch> first_touch(const Motion& motion, const BodyMotion& body, int run, int copy) {
+    const double size = body.size(run, copy);
+    const double radius = size * body.contact_points.bounding_radius;
+    if (!motion.ground || radius == 0.0) return std::nullopt;
+    const double ground = *motion.ground;
+    for (int frame = 0; frame < motion.frames(); ++frame) {
+        const Pose& pose = motion.pose(body, run, frame, copy);
+        const double height = pose.position.z() - ground;
+        if (height <= radius * (1.0 + touching) && clearance(body, size, ground, pose) <= touching * radius) {
+            return Touch{frame, false};
+        }
+        if (frame + 1 == motion.frames()) break;
+        const double interval =
+            motion.times[static_cast<std::size_t>(frame) + 1] - motion.times[static_cast<std::size_t>(frame)];
+        if (height + interval * pose.velocity.z() > radius) continue;
+        // It fell into the ground and came out of it, so it met it in between.
+        const Pose& next = motion.pose(body, run, frame + 1, copy);
+        if (clearance(body, size, ground, moved_on(pose, interval)) <= 0.0 &&
+            clearance(body, size, ground, moved_on(next, -interval)) <= 0.0) {
+            return Touch{frame + 1, true};
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+const char* name_of(Regime regime) {
+    switch (regime) {
+        case Regime::fluttering:
+            return "fluttering";
+        case Regime::autorotating:
+            return "autorotating";
+        case Regime::tumbling:
+            return "tumbling";
+        case Regime::chaotic:
+            return "chaotic";
+        default:
+            return "steady";
+    }
+}
+
+std::optional<int> landing_frame(const Motion& motion, const BodyMotion& body, int run, int copy) {
+    const std::optional<Touch> touch = first_touch(motion, body, run, copy);
+    return touch ? std::optional(touch->frame) : std::nullopt;
+}
+
+TimeWindow fall_of(const Motion& motion, const BodyMotion& body, int run, int copy) {
+    double fastest = 0.0;
+    double fastest_spin = 0.0;
+    for (int frame = 0; frame < motion.frames(); ++frame) {
+        const Pose& pose = motion.pose(body, run, frame, copy);
+        fastest = std::max(fastest, pose.velocity.norm());
+        fastest_spin = std::max(fastest_spin, pose.angular_velocity.norm());
+    }
+    int first = motion.frames();
+    int last = -1;
+    for (int frame = 0; frame < motion.frames(); ++frame) {
+        const Pose& pose = motion.pose(body, run, frame, copy);
+        if (pose.velocity.norm() > rest_share * fastest ||
+            pose.angular_velocity.norm() > rest_share * fastest_spin) {
+            first = std::min(first, frame);
+            last = frame;
+        }
+    }
+    if (last < 0) return {motion.times.front(), motion.times.back()};
+    if (const auto touch = first_touch(motion, body, run, copy); touch && touch->frame > first) {
+        last = std::min(last, std::max(touch->frame - (touch->before_frame ? 2 : 1), first));
+    }
+    return {motion.times[static_cast<std::size_t>(std::max(first - 1, 0))],
+            motion.times[static_cast<std::size_t>(std::min(last + 1, motion.frames() - 1))]};
+}
+
+TimeWindow default_window(const Motion& motion, const BodyMotion& body, int run, int copy) {
+    TimeWindow window = fall_of(motion, body, run, copy);
+    window.begin += (window.end - window.begin) / 3.0;
+    return window;
+}
+
+Measures measure(const Motion& motion, const BodyMotion& body, int run, int copy,
+                 const std::optional<TimeWindow>& window) {
+    const Track track =
+        track_in(motion, body, run, copy, window ? *window : default_window(motion, body, run, copy));
+    const int last = track.end - 1;
+    Measures measures;
+    measures.window = {track.time(track.begin), track.time(last)};
+    const double duration = measures.window.end - measures.window.begin;
+    measures.mean_velocity =
+        duration > 0.0 ? Vector3d((track.pose(last).position - track.pose(track.begin).position) / duration)
+                       : track.pose(last).velocity;
+    measures.descent_speed = measures.mean_velocity.dot(down_direction(motion.gravity));
+    measures.rms_angular_speed = std::sqrt(
+        time_mean(track, [&](int frame) { return track.pose(frame).angular_velocity.squaredNorm(); }));
+
+    std::vector<double> times;
+    std::vector<double> inclinations;
+    for (int frame = track.begin; frame < track.end; ++frame) {
+        times.push_back(track.time(frame));
+        inclinations.push_back(inclination(motion, body, track.pose(frame)));
+    }
+    measures.mean_inclination = time_mean(
+        track, [&](int frame) { return inclinations[static_cast<std::size_t>(frame - track.begin)]; });
+    measures.inclination_amplitude = percentile(inclinations, 95.0);
+    const std::vector<double> minima =
+        inclination_minima(times, inclinations, required_prominence(inclinations));
+    measures.swings = static_cast<int>(minima.size());
+    if (minima.size() >= 2) {
+        measures.frequency = 0.5 * static_cast<double>(minima.size() - 1) / (minima.back() - minima.front());
+    }
+    const Turnovers turnovers = find_turnovers(track);
+    measures.turnovers = turnovers.count;
+    if (turnovers.count == 0) {
+        measures.autorotation = autorotation_of(motion, body, run, copy, track.begin, track.end);
+    }
+    measures.regime = regime_of(turnovers, count_plain_swings(minima, turnovers.times),
+                                measures.inclination_amplitude - percentile(inclinations, 5.0),
+                                measures.autorotation.has_value());
+    return measures;
+}
+
+}  // namespace samara

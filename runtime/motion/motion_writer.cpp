@@ -1,0 +1,200 @@
+#include "samara/motion/motion_writer.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "samara/base/version.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/body/surface_file.hpp"
+#include "samara/core/files/row_major.hpp"
+#include "samara/motion/look_group.hpp"
+#include "samara/motion/motion_rules.hpp"
+#include "samara/motion/obstacle_file.hpp"
+
+namespace samara {
+namespace {
+
+constexpr std::int64_t format_version = 1;
+constexpr std::size_t block_bytes = 64U << 20U;
+constexpr std::size_t rows_in_chunk = (1U << 16U) / 3;
+constexpr std::size_t most_frames = 4096;
+constexpr std::size_t pose_bytes = 13 * sizeof(double);
+
+struct Series {
+    const char* name;
+    hsize_t components;
+    const char* units;
+    const char* meaning;
+    void (*take)(const Pose& pose, double* values);
+};
+
+void take(const Vector3d& vector, double* values) {
+    std::copy_n(vector.data(), 3, values);
+}
+
+const Series all_series[] = {
+    {"position", 3, "m", "of the centre of mass, world axes: run, frame, copy, component",
+     [](const Pose& pose, double* values) { take(pose.position, values); }},
+    {"orientation", 4, "1", "unit quaternion w, x, y, z, body to world: run, frame, copy, component",
+     [](const Pose& pose, double* values) {
+         const Quaterniond& q = pose.orientation;
+         std::copy_n(Eigen::Vector4d(q.w(), q.x(), q.y(), q.z()).data(), 4, values);
+     }},
+    {"velocity", 3, "m/s", "of the centre of mass, world axes: run, frame, copy, component",
+     [](const Pose& pose, double* values) { take(pose.velocity, values); }},
+    {"angular_velocity", 3, "rad/s", "world axes: run, frame, copy, component",
+     [](const Pose& pose, double* values) { take(pose.angular_velocity, values); }}};
+
+std::string group_of(const BodyMotion& body) {
+    return "/bodies/" + body.name;
+}
+
+std::size_t poses_in_frame(const Motion& motion) {
+    std::size_t poses = 0;
+    for (const BodyMotion& body : motion.bodies) poses += static_cast<std::size_t>(body.copies);
+    return poses * static_cast<std::size_t>(motion.runs);
+}
+
+/// `whole` cut into the fewest pieces of at most `most`, of which all are about as large.
+std::size_t even_piece(std::size_t whole, std::size_t most) {
+    const std::size_t pieces = (whole + most - 1) / most;
+    return (whole + pieces - 1) / pieces;
+}
+
+/// As many copies and then runs at the frames of a block as fit.
+std::vector<hsize_t> chunk_of(const Motion& motion, const BodyMotion& body, hsize_t components) {
+    const std::size_t frames = frames_in_block(motion);
+    const std::size_t copies =
+        even_piece(static_cast<std::size_t>(body.copies), std::max<std::size_t>(rows_in_chunk / frames, 1));
+    const std::size_t runs = even_piece(static_cast<std::size_t>(motion.runs),
+                                        std::max<std::size_t>(rows_in_chunk / (frames * copies), 1));
+    return {runs, frames, copies, components};
+}
+
+void write_body(Hdf5Writer& file, const Motion& motion, std::size_t index) {
+    const BodyMotion& body = motion.bodies[index];
+    const std::string group = group_of(body);
+    for (const Series& series : all_series) {
+        file.reserve(group + "/" + series.name,
+                     {static_cast<hsize_t>(motion.runs), motion.times.size(),
+                      static_cast<hsize_t>(body.copies), series.components},
+                     chunk_of(motion, body, series.components), series.units, series.meaning);
+    }
+    file.write(group + "/center_of_mass", row_major(body.center_of_mass), {3}, "m",
+               "shape axes: position - R center_of_mass is the place of the shape file's origin");
+    file.write(group + "/shortest_axis", row_major(body.shortest_axis), {3}, "1",
+               "principal axis of the shortest extent, shape axes: the axis of the inclination");
+    write_surface(file, group + "/surface", body.surface);
+    if (body.look != nullptr) write_look(file, group + "/look", *body.look);
+    if (!body.sizes.empty()) {
+        file.write(group + "/size", body.sizes,
+                   {static_cast<hsize_t>(motion.runs), static_cast<hsize_t>(body.copies)}, "1",
+                   "lengths of each copy over the surface's: run, copy");
+    }
+    for (const FigureUncertainty& one : body.uncertainties) {
+        const std::string name = fmt::format("{}/{}/{}", uncertainty_group(body.name), one.cause, one.figure);
+        file.write(
+            name, std::vector{one.relative, one.chance}, {2}, "1",
+            "what the figure differs by from another solution and the standard error, over the figure");
+    }
+    file.attribute(group, "index", static_cast<std::int64_t>(index));
+    file.attribute(group, "body_hash", std::string_view(body.body_hash));
+    file.attribute(group, "models", std::string_view(body.models));
+}
+
+std::uintmax_t rounded_up(std::uintmax_t value, std::uintmax_t multiple) {
+    return (value + multiple - 1) / multiple * multiple;
+}
+
+/// Somewhat more than the file will take (bytes).
+std::uintmax_t expected_size(const Motion& motion) {
+    constexpr std::uintmax_t small_parts = 1U << 20U;
+    std::uintmax_t bytes = small_parts + 8 * motion.times.size();
+    for (const BodyMotion& body : motion.bodies) {
+        const std::vector<hsize_t> chunk = chunk_of(motion, body, 1);
+        const std::uintmax_t poses = rounded_up(static_cast<std::uintmax_t>(motion.runs), chunk[0]) *
+                                     rounded_up(motion.times.size(), chunk[1]) *
+                                     rounded_up(static_cast<std::uintmax_t>(body.copies), chunk[2]);
+        bytes += poses * pose_bytes + poses * pose_bytes / 1000;  // and the list of chunks
+        bytes += body.surface.vertices.size() * 24 + body.surface.corners.size() * 24;
+        if (body.look != nullptr) bytes += body.look->positions.size() * 64 + body.look->corners.size() * 16;
+    }
+    for (const Obstacle& obstacle : motion.obstacles) {
+        bytes += small_parts + obstacle.surface.vertices.size() * 24 + obstacle.surface.corners.size() * 24 +
+                 obstacle.keys.size() * 64;
+    }
+    return bytes;
+}
+
+}  // namespace
+
+MotionWriter::MotionWriter(Hdf5Writer& file, const Motion& motion) : file_(file), motion_(motion) {
+    file.attribute("/", "format_version", format_version);
+    file.attribute("/", "samara_version", std::string_view(version));
+    file.attribute("/", "kind", std::string_view("motion"));
+    file.attribute("/", "frame_rate", motion.frame_rate);
+    file.attribute("/", "seed", motion.seed);
+    if (motion.ground) file.attribute("/", "ground", *motion.ground);
+    file.reserve("/time", {motion.times.size()}, {std::min(motion.times.size(), rows_in_chunk)}, "s",
+                 "of each frame");
+    file.write_block("/time", motion.times, {0}, {motion.times.size()});
+    file.write("/gravity", row_major(motion.gravity), {3}, "m/s^2", "world axes");
+    file.write_text("/scene", motion.scene_text, "the scene file as it was read");
+    write_obstacles(file, motion.obstacles);
+    for (std::size_t i = 0; i < motion.bodies.size(); ++i) write_body(file, motion, i);
+}
+
+void MotionWriter::write(std::size_t body, std::size_t first_frame, const std::vector<Pose>& poses) {
+    const BodyMotion& written = motion_.bodies[body];
+    check_poses("motion", written.name, poses);
+    const auto runs = static_cast<hsize_t>(motion_.runs);
+    const auto copies = static_cast<hsize_t>(written.copies);
+    const hsize_t frames = poses.size() / (runs * copies);
+    if (frames == 0) return;
+    std::vector<double> values;
+    for (const Series& series : all_series) {
+        values.resize(poses.size() * series.components);
+        for (std::size_t i = 0; i < poses.size(); ++i) {
+            series.take(poses[i], &values[i * series.components]);
+        }
+        file_.write_block(group_of(written) + "/" + series.name, values, {0, first_frame, 0, 0},
+                          {runs, frames, copies, series.components});
+    }
+}
+
+void MotionWriter::finish(std::size_t frames) {
+    if (frames == motion_.times.size()) return;
+    file_.shorten("/time", {frames});
+    for (const BodyMotion& body : motion_.bodies) {
+        for (const Series& series : all_series) {
+            file_.shorten(group_of(body) + "/" + series.name,
+                          {static_cast<hsize_t>(motion_.runs), frames, static_cast<hsize_t>(body.copies),
+                           series.components});
+        }
+    }
+}
+
+std::size_t frames_in_block(const Motion& motion) {
+    const std::size_t in_memory =
+        block_bytes / (std::max<std::size_t>(1, poses_in_frame(motion)) * pose_bytes);
+    return even_piece(motion.times.size(), std::clamp<std::size_t>(in_memory, 1, most_frames));
+}
+
+void write_motion_file(const std::filesystem::path& path, const Motion& motion_but_poses,
+                       const std::function<void(MotionWriter&)>& fill) {
+    check_motion_but_poses(path, motion_but_poses);
+    write_hdf5(path, [&](Hdf5Writer& file) {
+        try {
+            file.expect_size(expected_size(motion_but_poses));
+        } catch (const Error& fault) {
+            throw Error(
+                fmt::format("{}: {}; lower the duration, frame_rate, count or runs, or write elsewhere",
+                            path.string(), fault.what()));
+        }
+        MotionWriter writer(file, motion_but_poses);
+        fill(writer);
+    });
+}
+
+}  // namespace samara

@@ -1,0 +1,81 @@
+#include "samara/scene/run_needs.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "samara/core/base/error.hpp"
+#include "samara/core/base/machine_memory.hpp"
+#include "samara/core/dynamics/prepared_bodies.hpp"
+#include "samara/core/kernel/flight_block.hpp"
+#include "samara/core/physics/pose.hpp"
+#include "samara/scene/table_errors_met.hpp"
+
+namespace samara {
+namespace {
+
+// Of a copy in a run while it flies (body_flight.hpp), and of its poses in a block while that is written.
+constexpr double bytes_of_a_flight =
+    static_cast<double>(sizeof(FlightBlock<double>)) / FlightBlock<double>::size + 2.0 * sizeof(Pose) +
+    sizeof(Quaterniond) + sizeof(TableErrorsMet);
+constexpr double bytes_in_file = 13.0 * sizeof(double);
+constexpr double bytes_of_a_written_pose = sizeof(Pose) + 4.0 * sizeof(double);
+constexpr double bytes_in_block = 64U << 20U;
+// Of a frame of the one copy that is measured at a time, and of its time.
+constexpr double bytes_of_a_measured_frame = 170.0;
+constexpr double bytes_of_all_else = 60e6;
+
+/// Of what a copy of another size than the shape's touches ground, obstacles and others with.
+double bytes_of_a_touching_body(const Scene& scene, const SceneBody& body, const LoadedBody& loaded) {
+    const bool touches = scene.ground || !scene.obstacles.empty() || scene.bodies_meet;
+    if (!touches || !body.spreads_size()) return 0.0;
+    const auto made = loaded.prepared->get(*loaded.body, body, scene.fluid, body.name);
+    const ContactPoints& points = made->contact_points;
+    return sizeof(TouchingBody) +
+           static_cast<double>(points.corners.size() + points.round.size()) * sizeof(Vector3d);
+}
+
+}  // namespace
+
+RunNeeds needs_of(const Scene& scene, int runs, const std::vector<LoadedBody>& loaded) {
+    const double frames = std::floor(scene.duration * scene.frame_rate) + 1.0;
+    double samples = 0.0;
+    double touching = 0.0;
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        const SceneBody& body = scene.bodies[i];
+        const double copies = static_cast<double>(body.count) * runs;
+        samples += copies;
+        if (!loaded.empty()) touching += copies * bytes_of_a_touching_body(scene, body, loaded[i]);
+    }
+    const double block = std::min(frames * samples, std::max(samples, bytes_in_block / bytes_in_file));
+    const double flight = samples * bytes_of_a_flight + touching + block * bytes_of_a_written_pose +
+                          frames * 2.0 * sizeof(double);
+    const double measuring =
+        frames * bytes_of_a_measured_frame + std::min(frames * samples * sizeof(Pose), bytes_in_block);
+    RunNeeds needs;
+    needs.memory = std::max(flight, measuring) + bytes_of_all_else;
+    needs.disk = frames * samples * bytes_in_file + frames * sizeof(double);
+    needs.memory_for_copies = flight > measuring;
+    return needs;
+}
+
+std::string in_words(const RunNeeds& needs) {
+    return fmt::format("{:.3g} GB of memory and {:.3g} GB of disk", 1e-9 * needs.memory, 1e-9 * needs.disk);
+}
+
+void require_room(const RunNeeds& needs, const std::string& scene, const std::filesystem::path& output) {
+    require_memory(
+        needs.memory, scene + ": its flight",
+        needs.memory_for_copies ? "lower the count or --runs" : "lower the duration or frame_rate");
+    std::error_code unknown;
+    const std::filesystem::path folder = output.has_parent_path() ? output.parent_path() : ".";
+    const auto space = std::filesystem::space(folder, unknown);
+    if (unknown || needs.disk <= static_cast<double>(space.available)) return;
+    throw Error(
+        fmt::format("{}: there is no room for its {:.3g} GB: {:.3g} GB are free; lower the duration, "
+                    "frame_rate, count or runs, or write elsewhere",
+                    output.string(), 1e-9 * needs.disk, 1e-9 * static_cast<double>(space.available)));
+}
+
+}  // namespace samara

@@ -1,0 +1,383 @@
+#include "samara/scene/scene_file.hpp"
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "samara/core/base/error.hpp"
+#include "samara/core/base/plain_name.hpp"
+#include "samara/core/body/body_file.hpp"
+#include "samara/core/files/input_file.hpp"
+#include "samara/core/surface/surface_patches.hpp"
+#include "samara/formats/look_file.hpp"
+#include "samara/formats/toml_table.hpp"
+#include "samara/scene/choice.hpp"
+#include "samara/scene/obstacle_table.hpp"
+#include "samara/scene/ready_bodies.hpp"
+#include "samara/scene/wind_table.hpp"
+
+namespace samara {
+namespace {
+
+constexpr std::size_t most_bytes_of_a_scene = 64'000'000;  // devices have no end
+
+/// Copies a value that the file gives; leaves the default where it does not.
+template <typename Value>
+void assign(Value& target, const std::optional<Value>& given) {
+    if (given) target = *given;
+}
+
+Fluid read_fluid(TomlTable& table) {
+    const auto preset = table.text("preset");
+    const auto density = table.number("density", positive_number);
+    const auto viscosity = table.number("viscosity", positive_number);
+    if (preset && (density || viscosity)) {
+        throw table.fault("preset", "stands beside density or viscosity; give the preset or both of these");
+    }
+    if (density.has_value() != viscosity.has_value()) {
+        throw table.fault(density ? "density" : "viscosity",
+                          "stands alone; give density and viscosity, or a preset");
+    }
+    Fluid fluid = *fluid_preset("water");
+    if (preset) {
+        const auto known = fluid_preset(*preset);
+        if (!known) throw table.fault("preset", R"(must be "water" or "air")");
+        fluid = *known;
+    }
+    assign(fluid.density, density);
+    assign(fluid.viscosity, viscosity);
+    assign(fluid.current, table.vector("current"));
+    if (auto gust = table.table("gust")) {
+        const auto amplitude = gust->vector("amplitude");
+        const auto period = gust->number("period", positive_number);
+        if (!amplitude || !period) {
+            throw gust->fault(amplitude ? "period" : "amplitude",
+                              "is missing; a gust has an amplitude and a period");
+        }
+        fluid.gust = {.amplitude = *amplitude, .period = *period};
+        gust->finish();
+    }
+    table.finish();
+    return fluid;
+}
+
+/// Three moments of inertia about the axes, or the whole symmetric matrix as three rows.
+std::optional<Matrix3d> read_inertia(TomlTable& table) {
+    const toml::node* node = table.node("inertia");
+    if (node == nullptr) return std::nullopt;
+    const toml::array* rows = node->as_array();
+    if (rows != nullptr && rows->size() == 3 && rows->is_homogeneous(toml::node_type::array)) {
+        Matrix3d inertia;
+        for (std::size_t row = 0; row < 3; ++row) {
+            const toml::array& values = *rows->get(row)->as_array();
+            if (values.size() != 3) throw table.fault("inertia", "must be three rows of three numbers");
+            for (std::size_t column = 0; column < 3; ++column) {
+                const auto value = values.get(column)->value<double>();
+                if (!value || !(std::abs(*value) <= largest_number)) {
+                    throw table.fault("inertia", "must hold finite numbers, 1e30 at most");
+                }
+                inertia(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)) = *value;
+            }
+        }
+        if ((inertia - inertia.transpose()).norm() > 1e-9 * inertia.norm()) {
+            throw table.fault("inertia", "must be symmetric");
+        }
+        return inertia;
+    }
+    const auto moments = table.vector("inertia");
+    return Matrix3d(moments->asDiagonal());
+}
+
+MassSpecification read_mass(TomlTable& table) {
+    MassSpecification mass;
+    mass.density = table.number("density", positive_number);
+    mass.mass = table.number("mass", positive_number);
+    mass.center_of_mass = table.vector("center_of_mass");
+    mass.inertia = read_inertia(table);
+    if (mass.density && mass.mass) throw table.fault("mass", "stands beside density; give one of the two");
+    if (!mass.mass && (mass.center_of_mass || mass.inertia)) {
+        throw table.fault(mass.inertia ? "inertia" : "center_of_mass",
+                          mass.density ? "contradicts a uniform density; give mass instead of density"
+                                       : "stands alone; give mass with it");
+    }
+    return mass;
+}
+
+/// What the equations hold, beside turbulence and coefficients.
+void read_models(TomlTable& table, SceneBody& body) {
+    body.loads = choice<Loads>(table, "loads",
+                               {{"none", Loads::none},
+                                {"coefficients", Loads::coefficients},
+                                {"table", Loads::table},
+                                {"surface", Loads::surface}},
+                               body.loads);
+    body.loads_by_default = table.node("loads") == nullptr;
+    assign(body.added_mass, table.boolean("added_mass"));
+    body.dynamic = choice<Dynamic>(
+        table, "dynamic_coefficients",
+        {{"body", Dynamic::of_body}, {"default", Dynamic::by_default}, {"none", Dynamic::none}},
+        body.dynamic);
+    body.table_reynolds_number = table.number("table_reynolds_number", positive_number);
+    if (const auto patches = table.integer("patches", 1, most_surface_patches)) {
+        if (body.loads == Loads::none) throw table.fault("patches", "is for loads, of which there are none");
+        body.patches = static_cast<int>(*patches);
+    }
+    body.models_auto = choice<bool>(table, "models", {{"auto", true}, {"given", false}}, false);
+    if (!body.models_auto) return;
+    for (const char* key :
+         {"loads", "added_mass", "dynamic_coefficients", "table_reynolds_number", "turbulence"}) {
+        if (table.node(key) == nullptr) continue;
+        throw table.fault(key, R"(stands beside models = "auto", which chooses it; give one of the two)");
+    }
+}
+
+CoefficientLoads read_coefficients(TomlTable& table, Loads loads) {
+    CoefficientLoads coefficients;
+    for (const char* key :
+         {"drag_coefficient", "lift_coefficient", "reference_area", "normal", "center_of_pressure"}) {
+        if (table.node(key) != nullptr && loads != Loads::coefficients) {
+            throw table.fault(key, R"(is for loads = "coefficients" alone; remove it or change loads)");
+        }
+    }
+    assign(coefficients.drag_coefficient, table.number("drag_coefficient", non_negative_number));
+    assign(coefficients.lift_coefficient, table.number("lift_coefficient", any_number));
+    coefficients.reference_area = table.number("reference_area", positive_number);
+    coefficients.normal = table.vector("normal");
+    if (coefficients.normal) {
+        if (coefficients.normal->norm() < smallest_number)
+            throw table.fault("normal", "must not be the zero vector");
+        coefficients.normal->normalize();
+    }
+    assign(coefficients.center_of_pressure, table.vector("center_of_pressure"));
+    return coefficients;
+}
+
+void read_turbulence(TomlTable& table, SceneBody& body) {
+    body.turbulence = body.loads == Loads::table ? Turbulence::table : Turbulence::none;
+    body.turbulence = choice<Turbulence>(
+        table, "turbulence",
+        {{"none", Turbulence::none}, {"constant", Turbulence::constant}, {"table", Turbulence::table}},
+        body.turbulence);
+    body.langevin = choice<Langevin>(table, "langevin",
+                                     {{"wake", Langevin::wake},
+                                      {"seen-fluid", Langevin::seen_fluid},
+                                      {"body-velocity", Langevin::body_velocity}},
+                                     body.langevin);
+    body.turbulence_by_default = table.node("turbulence") == nullptr;
+    if (body.loads == Loads::surface && body.turbulence == Turbulence::table) {
+        throw table.fault("turbulence", R"(is of tables, and the loads are not; set loads = "table", or )"
+                                        R"(turbulence to "none" or "constant")");
+    }
+    const auto energy = table.number("turbulent_kinetic_energy", non_negative_number);
+    const auto dissipation = table.number("dissipation_rate", non_negative_number);
+    const bool constant = body.turbulence == Turbulence::constant;
+    if (constant != energy.has_value() || constant != dissipation.has_value()) {
+        throw table.fault("turbulence",
+                          constant ? "is constant: give turbulent_kinetic_energy and dissipation_rate"
+                                   : R"(must be "constant" where its values are given)");
+    }
+    assign(body.turbulent_kinetic_energy, energy);
+    assign(body.dissipation_rate, dissipation);
+    if (constant && (*energy > 0.0) != (*dissipation > 0.0)) {
+        throw table.fault("dissipation_rate",
+                          "and turbulent_kinetic_energy must be both zero or both above zero");
+    }
+}
+
+void read_start(TomlTable& table, const std::filesystem::path& folder, SceneBody& body) {
+    const auto position = table.vector("position");
+    assign(body.position, position);
+    if (auto emitter = table.table("emitter")) {
+        if (position) {
+            throw table.fault("position", "stands beside emitter, which says where bodies start; give one");
+        }
+        body.emitter = std::make_shared<const Emitter>(read_emitter(*emitter, folder));
+    }
+    assign(body.orientation, table.quaternion("orientation"));
+    assign(body.velocity, table.vector("velocity"));
+    assign(body.angular_velocity, table.vector("angular_velocity"));
+    assign(body.start, table.number("start", non_negative_number));
+    if (const auto count = table.integer("count", 1, 10'000'000)) body.count = static_cast<int>(*count);
+    if (auto spread = table.table("spread")) {
+        assign(body.spread_position, spread->vector("position"));
+        assign(body.spread_angle,
+               spread->number("angle", {0.0, std::numbers::pi, "must lie between 0 and pi"}));
+        assign(body.spread_start, spread->number("start", non_negative_number));
+        if (const auto sizes = spread->numbers("size", 2)) {
+            body.smallest_size = (*sizes)[0];
+            body.largest_size = (*sizes)[1];
+            constexpr double most = 1e3;  // beyond it a unit is wrong
+            if (!(body.smallest_size >= 1.0 / most && body.smallest_size <= body.largest_size &&
+                  body.largest_size <= most)) {
+                throw spread->fault("size",
+                                    "must be the smallest and the largest size over the shape's, within "
+                                    "0.001 and 1000, as [0.8, 1.25]");
+            }
+        }
+        if (body.count == 1 && body.spreads()) {
+            throw table.fault("spread", "is of copies, and there is one; give a count above 1, or remove it");
+        }
+        spread->finish();
+    }
+}
+
+/// The file that `shape` names: a ready-baked body, or a file seen from the scene's folder.
+std::filesystem::path shape_file(const TomlTable& table, const std::string& shape,
+                                 const std::filesystem::path& folder) {
+    if (shape.starts_with(ready_body_prefix)) {
+        try {
+            return ready_body_file(shape.substr(ready_body_prefix.size()));
+        } catch (const Error& fault) {
+            throw table.fault("shape", fmt::format("cannot be had: {}", fault.what()));
+        }
+    }
+    const std::filesystem::path file = folder / shape;  // an absolute path stays as it is
+    if (const std::string fault = reading_fault(file); !fault.empty()) {
+        throw table.fault("shape", fmt::format("cannot be had: {}: {}", file.string(), fault));
+    }
+    return file;
+}
+
+/// What exports show of a body; null where the scene says nothing.
+std::shared_ptr<const LookMesh> read_look(TomlTable& table, const std::filesystem::path& folder,
+                                          double shape_scale) {
+    const auto name = table.text("look");
+    const auto scale = table.number("look_scale", positive_number);
+    if (!name) {
+        if (scale) throw table.fault("look_scale", "is of a look; give one, or remove it");
+        return nullptr;
+    }
+    const std::filesystem::path file = folder / *name;
+    if (const std::string fault = reading_fault(file); !fault.empty()) {
+        throw table.fault("look", fmt::format("cannot be had: {}: {}", file.string(), fault));
+    }
+    try {
+        LookMesh look = read_look_file(file);
+        for (Vector3d& place : look.positions) place *= scale.value_or(shape_scale);
+        return std::make_shared<const LookMesh>(std::move(look));
+    } catch (const Error& fault) {
+        throw table.fault("look", fmt::format("cannot be had: {}", fault.what()));
+    }
+}
+
+SceneBody read_body(TomlTable& table, const std::filesystem::path& folder) {
+    SceneBody body;
+    const auto name = table.text("name");
+    if (!name) throw table.fault("name", "is missing; give the body a name");
+    if (!is_plain_name(*name))
+        throw table.fault("name", "may hold letters, digits, '-' and '_' alone, 64 at most");
+    body.name = *name;
+    const auto shape = table.text("shape");
+    if (!shape)
+        throw table.fault(
+            "shape", "is missing; give a shape file, a .body.h5 or a ready-baked body, as \"samara:leaf\"");
+    body.shape = shape_file(table, *shape, folder);
+    assign(body.scale, table.number("scale", positive_number));
+    body.look = read_look(table, folder, body.scale);
+    body.mass = read_mass(table);
+    if (!body.mass.is_given() && !is_body_file_name(body.shape)) {
+        throw table.fault("density", "is missing; give it, or mass");
+    }
+    read_start(table, folder, body);
+    read_models(table, body);
+    body.coefficients = read_coefficients(table, body.loads);
+    read_turbulence(table, body);
+    if (body.table_reynolds_number && body.loads != Loads::table && body.turbulence != Turbulence::table) {
+        throw table.fault(
+            "table_reynolds_number",
+            "is for loads or turbulence from tables; remove it or set one of them to \"table\"");
+    }
+    table.finish();
+    return body;
+}
+
+void read_step(TomlTable& table, Scene& scene) {
+    const toml::node* step = table.node("step");
+    scene.step_auto = step != nullptr && step->is_string();
+    if (!scene.step_auto) {
+        assign(scene.step, table.number("step", positive_number));
+    } else if (*table.text("step") != "auto") {
+        throw table.fault("step", "must be a number of seconds, or \"auto\"");
+    }
+    const auto tolerance =
+        table.number("step_tolerance", {1e-6, 0.1, "must lie between 1e-6 and 0.1: a share of the way"});
+    if (tolerance && !scene.step_auto) {
+        throw table.fault("step_tolerance", "is for step = \"auto\"; remove it, or set step so");
+    }
+    assign(scene.step_tolerance, tolerance);
+}
+
+void read_settings(TomlTable& table, Scene& scene) {
+    const auto duration = table.number("duration", positive_number);
+    if (!duration) throw table.fault("duration", "is missing; give the seconds to simulate");
+    scene.duration = *duration;
+    read_step(table, scene);
+    assign(scene.frame_rate, table.number("frame_rate", positive_number));
+    if (const auto seed = table.integer("seed", 0, std::numeric_limits<std::int64_t>::max())) {
+        scene.seed = static_cast<std::uint64_t>(*seed);
+    }
+    assign(scene.gravity, table.vector("gravity"));
+    scene.ground = table.number("ground", any_number);
+    assign(scene.bodies_meet, table.boolean("bodies_meet"));
+    if (scene.duration * scene.frame_rate > 1e8 || scene.duration / scene.step > 1e10) {
+        throw table.fault("duration", "makes more than 1e8 frames or 1e10 steps; is a unit wrong?");
+    }
+    table.finish();
+}
+
+toml::table parsed_scene(const Scene& scene) {
+    const std::string file = scene.file.string();
+    try {
+        return parse_toml(scene.text, file);
+    } catch (const Error& fault) {
+        const std::filesystem::path ending = scene.file.extension();
+        if (ending.empty() || ending == ".toml") throw;
+        throw Error(fmt::format("{}; is this a scene file (.toml)?", fault.what()));
+    }
+}
+
+}  // namespace
+
+Scene read_scene_file(const std::filesystem::path& file) {
+    return read_scene_text(read_at_most(file, most_bytes_of_a_scene), file.string(),
+                           file.has_parent_path() ? file.parent_path() : ".");
+}
+
+Scene read_scene_text(std::string text, const std::string& name, const std::filesystem::path& folder) {
+    Scene scene;
+    scene.file = name;
+    scene.text = std::move(text);
+    const toml::table document = parsed_scene(scene);
+    TomlTable top(document, name, "the scene");
+    auto settings = top.table("scene");
+    if (!settings) throw top.fault("[scene]", "is missing; it holds at least the duration");
+    read_settings(*settings, scene);
+    if (auto fluid = top.table("fluid")) scene.fluid = read_fluid(*fluid);
+    if (auto wind = top.table("wind"))
+        scene.wind = read_wind(*wind, folder, scene.ground.value_or(0.0), scene.duration);
+    std::set<std::string> names;
+    for (TomlTable& table : top.tables("body")) {
+        scene.bodies.push_back(read_body(table, folder));
+        if (!names.insert(scene.bodies.back().name).second) {
+            throw table.fault("name", fmt::format("'{}' is taken by another body", scene.bodies.back().name));
+        }
+    }
+    std::set<std::string> obstacle_names;
+    for (TomlTable& table : top.tables("obstacle")) {
+        scene.obstacles.push_back(read_obstacle(table, folder));
+        const std::string& obstacle = scene.obstacles.back().name;
+        if (obstacle_names.insert(obstacle).second) continue;
+        throw table.fault("name",
+                          fmt::format("'{}' is taken by another obstacle; give this one another", obstacle));
+    }
+    top.finish();
+    if (scene.bodies.empty()) throw Error(fmt::format("{}: there is no [[body]] in the scene", name));
+    return scene;
+}
+
+}  // namespace samara

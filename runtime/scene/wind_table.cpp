@@ -1,0 +1,144 @@
+#include "samara/scene/wind_table.hpp"
+
+#include <limits>
+#include <memory>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "samara/core/wind/wind_file.hpp"
+#include "samara/scene/choice.hpp"
+
+namespace samara {
+namespace {
+
+constexpr int most_bands = 1000;
+constexpr NumberRange exponent_range = {smallest_number, 1.0, "must be a number above 0, 1 at most"};
+
+double required(TomlTable& table, std::string_view key, const NumberRange& range, std::string_view remedy) {
+    const auto number = table.number(key, range);
+    if (!number) throw table.fault(key, remedy);
+    return *number;
+}
+
+Vector3d required_vector(TomlTable& table, std::string_view key, std::string_view remedy) {
+    const auto vector = table.vector(key);
+    if (!vector) throw table.fault(key, remedy);
+    return *vector;
+}
+
+Vector3d direction(TomlTable& table, std::string_view key, const Vector3d& given) {
+    if (given.norm() < smallest_number) throw table.fault(key, "must not be the zero vector");
+    return given.normalized();
+}
+
+WindProfile read_profile(TomlTable& table, double ground) {
+    using Law = WindProfile::Law;
+    WindProfile profile;
+    if (!table.text("law")) throw table.fault("law", R"(is missing; give "log" or "power")");
+    profile.law = choice<Law>(table, "law", {{"log", Law::logarithmic}, {"power", Law::power}}, profile.law);
+    const bool logarithmic = profile.law == Law::logarithmic;
+    const char* foreign = logarithmic ? "exponent" : "roughness";
+    if (table.node(foreign) != nullptr) {
+        throw table.fault(
+            foreign, logarithmic ? R"(is for law = "power"; remove it)" : R"(is for law = "log"; remove it)");
+    }
+    if (logarithmic) {
+        profile.roughness = table.number("roughness", positive_number).value_or(profile.roughness);
+    } else {
+        profile.exponent = table.number("exponent", exponent_range).value_or(profile.exponent);
+    }
+    profile.height = table.number("height", positive_number).value_or(profile.height);
+    profile.ground = table.number("ground", any_number).value_or(ground);
+    table.finish();
+    return profile;
+}
+
+WindGusts read_gusts(TomlTable& table) {
+    using Spectrum = WindGusts::Spectrum;
+    WindGusts gusts;
+    gusts.spectrum = choice<Spectrum>(table, "spectrum",
+                                      {{"von-karman", Spectrum::von_karman}, {"kaimal", Spectrum::kaimal}},
+                                      gusts.spectrum);
+    gusts.rms = required(table, "rms", non_negative_number, "is missing; give the gusts' m/s");
+    gusts.length = required(table, "length", positive_number, "is missing; give the gusts' size, m");
+    if (const auto seed = table.integer("seed", 0, std::numeric_limits<std::int64_t>::max())) {
+        gusts.seed = static_cast<std::uint64_t>(*seed);
+    }
+    gusts.bands = static_cast<int>(table.integer("bands", 1, most_bands).value_or(gusts.bands));
+    table.finish();
+    return gusts;
+}
+
+WindVortex read_vortex(TomlTable& table) {
+    using Core = WindVortex::Core;
+    WindVortex vortex;
+    vortex.kind = choice<Core>(table, "kind", {{"lamb-oseen", Core::lamb_oseen}, {"rankine", Core::rankine}},
+                               vortex.kind);
+    vortex.position = table.vector("position").value_or(vortex.position);
+    vortex.axis = direction(table, "axis", table.vector("axis").value_or(vortex.axis));
+    vortex.circulation = required(table, "circulation", any_number, "is missing; give it in m^2/s");
+    vortex.core = required(table, "core", positive_number, "is missing; give the core's radius, m");
+    vortex.velocity = table.vector("velocity").value_or(vortex.velocity);
+    table.finish();
+    return vortex;
+}
+
+WindFan read_fan(TomlTable& table) {
+    WindFan fan;
+    fan.position = required_vector(table, "position", "is missing; give the middle of the fan");
+    fan.direction =
+        direction(table, "direction",
+                  required_vector(table, "direction", "is missing; give the vector that it blows along"));
+    fan.diameter = table.number("diameter", positive_number).value_or(fan.diameter);
+    fan.speed = required(table, "speed", non_negative_number, "is missing; give the air's m/s at the fan");
+    table.finish();
+    return fan;
+}
+
+WindFile read_file(TomlTable& table, const std::filesystem::path& folder, double end) {
+    using Outside = WindFile::Outside;
+    WindFile file;
+    const auto path = table.text("path");
+    if (!path) throw table.fault("path", "is missing; give a wind file, from 'samara wind'");
+    file.grid = std::make_shared<const WindGrid>(read_wind_file(folder / *path));
+    file.position = table.vector("position").value_or(file.position);
+    file.start = table.number("start", any_number).value_or(file.start);
+    file.repeats = table.boolean("repeat").value_or(file.repeats);
+    file.outside =
+        choice<Outside>(table, "outside", {{"edge", Outside::edge}, {"still", Outside::still}}, file.outside);
+    const bool is_steady = file.grid->frames == 1;
+    const double file_end = file.start + file.grid->duration();
+    if (!is_steady && !file.repeats && file_end < end * (1.0 - 1e-9)) {
+        throw table.fault("path",
+                          fmt::format("holds the wind until {:g} s, and the scene ends at {:g} s; give "
+                                      "repeat = true, a shorter duration or a longer file",
+                                      file_end, end));
+    }
+    table.finish();
+    return file;
+}
+
+}  // namespace
+
+Wind read_wind(TomlTable& table, const std::filesystem::path& folder, double ground, double end) {
+    Wind wind;
+    wind.velocity = table.vector("velocity").value_or(wind.velocity);
+    if (auto profile = table.table("profile")) {
+        wind.profile = read_profile(*profile, ground);
+        if (wind.velocity.isZero(0.0)) {
+            throw table.fault("velocity", "is missing; a profile is that of a velocity");
+        }
+        if (wind.velocity.z() != 0.0) {
+            throw table.fault("velocity", "must be level (its z 0) where it has a profile over the ground");
+        }
+    }
+    if (auto gusts = table.table("gusts")) wind.gusts = read_gusts(*gusts);
+    for (TomlTable& vortex : table.tables("vortex")) wind.vortices.push_back(read_vortex(vortex));
+    for (TomlTable& fan : table.tables("fan")) wind.fans.push_back(read_fan(fan));
+    if (auto file = table.table("file")) wind.file = read_file(*file, folder, end);
+    table.finish();
+    return wind;
+}
+
+}  // namespace samara

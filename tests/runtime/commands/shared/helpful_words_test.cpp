@@ -1,0 +1,133 @@
+// What `samara` says of slips: misspelt words, names of other formats, figures that many bodies share.
+
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "samara/core/body/body_file.hpp"
+#include "support/known_bodies.hpp"
+#include "support/program_run.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace samara {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+class HelpfulWords : public ::testing::Test {
+  protected:
+    HelpfulWords() {
+        Body body = test::rubber_ellipsoid();
+        body.kirchhoff->error_estimate = 0.3;  // which simulate has a note for
+        write_body_file(folder_ / "rubber.body.h5", body);
+        body.kirchhoff->error_estimate = 0.5;
+        write_body_file(folder_ / "rough.body.h5", body);
+        std::string scene = "[scene]\nduration = 0.1\n";
+        for (const char* name : {"a", "b", "c", "d"}) {
+            scene += std::string("[[body]]\nname = \"") + name + "\"\nshape = \"" +
+                     (*name == 'c' ? "rough" : "rubber") + ".body.h5\"\ndensity = 1200\nloads = \"none\"\n";
+        }
+        (void)folder_.file("scene.toml", scene);
+    }
+    [[nodiscard]] test::ProgramRun run(std::vector<std::string> words) const {
+        words.insert(words.begin(), "samara");
+        return run_program_in(folder_, words);
+    }
+    void expect_refusal(const std::vector<std::string>& words, const std::string& text) const {
+        const test::ProgramRun done = run(words);
+        EXPECT_EQ(done.status, 1);
+        EXPECT_TRUE(test::is_one_line(done.fault)) << done.fault;
+        EXPECT_THAT(done.fault, HasSubstr(text));
+        EXPECT_EQ(done.output, "");
+    }
+
+    const test::TemporaryFolder folder_;
+};
+
+TEST_F(HelpfulWords, NameTheCommandOrOptionThatWasMeant) {
+    expect_refusal({"simulte", "scene.toml"}, "there is no command 'simulte'; did you mean 'simulate'?");
+    expect_refusal({"fly"}, "there is no command 'fly'; see 'samara --help'");
+    expect_refusal({"simulate", "scene.toml", "-o", "x.h5", "--sed", "3"},
+                   "samara simulate: there is no option '--sed'; did you mean '--seed'?");
+    expect_refusal({"simulate", "scene.toml", "-o", "x.h5", "--trheads=2"}, "did you mean '--threads'?");
+    expect_refusal({"simulate", "scene.toml", "-o", "x.h5", "--colour"},
+                   "there is no option '--colour'; see 'samara simulate --help'");
+    expect_refusal({"simulate", "scene.toml", "more.toml", "-o", "x.h5"}, "'more.toml' is one word too many");
+}
+
+TEST_F(HelpfulWords, NameTheMisspeltOptionRatherThanTheOneThatItLeavesMissing) {
+    expect_refusal({"simulate", "scene.toml", "--ouput", "x.h5"}, "did you mean '--output'?");
+    expect_refusal({"simulate", "scene.toml"}, "--output is required");
+}
+
+TEST_F(HelpfulWords, OfANumberWithAUnitSayInWhichUnitsNumbersAre) {
+    expect_refusal({"export", "x.h5", "-o", "x.glb", "--tolerance", "3mm"},
+                   "'3mm' is no number; numbers stand without a unit, in SI units: m, kg, s, rad");
+    expect_refusal({"search", "scene.toml", "--target", "0,0,0,5cm"}, "x,y,z,radius in metres");
+    (void)folder_.file("units.toml", "[scene]\nduration = \"2 s\"\n");
+    expect_refusal({"simulate", "units.toml", "-o", "x.h5"},
+                   "must be a number without a unit, in SI units (m, kg, s, rad), not \"2 s\"");
+}
+
+TEST_F(HelpfulWords, OfAMotionInAnotherFormatNameTheCommandThatWritesIt) {
+    expect_refusal({"simulate", "scene.toml", "-o", "x.glb"},
+                   "x.glb: the output is a motion file; write x.h5, then 'samara export x.h5 -o x.glb'");
+    expect_refusal({"simulate", "scene.toml", "-o", "x.png"}, "then 'samara plot x.h5 -o x.png'");
+    expect_refusal({"simulate", "scene.toml", "-o", "x.body.h5"}, "is the name of a body file");
+    expect_refusal({"simulate", "scene.toml", "-o", "x"}, "the name of a motion file ends in .h5");
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "x.glb"));
+}
+
+TEST_F(HelpfulWords, OfASearchWhereNothingIsDrawnComeAtOnceAndSayWhatToAdd) {
+    expect_refusal({"search", "scene.toml", "--target", "0,0,0,1", "--body", "a", "--tries", "10000000"},
+                   "all seeds give the same; give the body a count with a spread");
+    EXPECT_EQ(run({"search", "scene.toml", "--target", "0,0,0,1", "--body", "a", "--tries", "1"}).status, 0);
+}
+
+TEST_F(HelpfulWords, OfOneKindComeOnceInOneLine) {
+    const test::ProgramRun done = run({"simulate", "scene.toml", "-o", "x.h5"});
+    ASSERT_EQ(done.status, 0);
+    EXPECT_EQ(
+        done.fault,
+        "samara simulate: note: 'a', 'b' and 2 more (figures of 'c'): the added mass may be wrong by 50 % "
+        "(error estimate): the body is thin or its mesh coarse\n");
+}
+
+TEST_F(HelpfulWords, OfUnitsAreOneLineForThoseThatSayTheSame) {
+    std::string scene = "[scene]\nduration = 0.1\n";
+    for (const char* name : {"a", "b", "c"}) {
+        scene += std::string("[[body]]\nname = \"") + name +
+                 "\"\nshape = \"rubber.body.h5\"\nadded_mass = false\n" +
+                 "loads = \"none\"\ndensity = " + (*name == 'c' ? "0.6" : "2.7") + "\n";
+    }
+    (void)folder_.file("light.toml", scene);
+    const test::ProgramRun done = run({"simulate", "light.toml", "-o", "x.h5"});
+    ASSERT_EQ(done.status, 0);
+    EXPECT_THAT(done.fault,
+                testing::StartsWith("samara simulate: note: 'a' and 'b': a density of 2.7 kg/m^3"));
+    EXPECT_THAT(done.fault, HasSubstr("samara simulate: note: 'c': a density of 0.6 kg/m^3"));
+}
+
+TEST_F(HelpfulWords, AreJsonWithJsonWhateverIsWrong) {
+    const auto fault_of = [&](const std::vector<std::string>& words) {
+        const test::ProgramRun done = run(words);
+        EXPECT_EQ(done.status, 1);
+        EXPECT_TRUE(test::is_one_line(done.output)) << done.output;
+        EXPECT_TRUE(test::is_one_line(done.fault)) << done.fault;
+        EXPECT_EQ(done.json().size(), 1U);
+        return done.json()["error"].get<std::string>();
+    };
+    EXPECT_EQ(fault_of({"simulate", "none.toml", "-o", "x.h5", "--json"}),
+              "none.toml: there is no such file");
+    EXPECT_EQ(fault_of({"simulate", "--json", "--sed", "3"}),
+              "there is no option '--sed'; did you mean '--seed'?");
+    EXPECT_THAT(fault_of({"nonsense", "--json"}), HasSubstr("no command 'nonsense'"));
+    EXPECT_THAT(run({"info", "\xff\x1b[2J.h5", "--json"}).output, Not(HasSubstr("\x1b")));
+}
+
+}  // namespace
+}  // namespace samara

@@ -1,0 +1,232 @@
+// The slip by which a body's own wake makes its loads fluctuate.
+#include "samara/core/kernel/wake_noise.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "samara/core/dynamics/langevin.hpp"
+#include "samara/core/integrator/step.hpp"
+#include "samara/core/kernel/kernel.hpp"
+#include "support/hard_bodies.hpp"
+
+namespace samara {
+namespace {
+
+const Surroundings weightless{.gravity = Vector3d::Zero()};
+
+ImmersedBody ellipsoid_with_a_wake(double density) {
+    ImmersedBody body =
+        test::immersed(test::baked_ellipsoid({0.01, 0.02, 0.04}), density, test::water(), Loads::table);
+    body.turbulence = Turbulence::table;
+    body.langevin = Langevin::wake;
+    prepare(body);
+    return body;
+}
+
+BodyState moving_at(const Vector3d& velocity, const Vector3d& angular_velocity = Vector3d::Zero()) {
+    BodyState state;
+    state.velocity << angular_velocity, velocity;
+    return state;
+}
+
+/// What the wake of a body too heavy to be moved does at its velocities, over many steps.
+struct WakeStatistics {
+    Matrix3d slip = Matrix3d::Zero();  // mean of its square
+    double kept = 0.0;                 // correlation from step to step
+};
+WakeStatistics statistics_of(const ImmersedBody& body, const BodyState& moving, double h) {
+    constexpr std::uint64_t settling = 200;
+    constexpr std::uint64_t steps = 400'000;
+    const Noise noise(11, "wake", 0, 0);
+    BodyState state = moving;
+    WakeStatistics found;
+    double product = 0.0;
+    for (std::uint64_t step = 0; step < settling + steps; ++step) {
+        const Vector3d before = state.seen_fluid.velocity;
+        state = advance(body, weightless, 0.0, h, state, noise, step).state;
+        state.velocity = moving.velocity;
+        state.orientation = Quaterniond::Identity();
+        EXPECT_EQ(state.seen_fluid.angular_velocity, Vector3d::Zero());
+        if (step < settling) continue;
+        const Vector3d& slip = state.seen_fluid.velocity;
+        product += slip.dot(before);
+        found.slip += slip * slip.transpose() / double{steps};
+    }
+    found.kept = product / double{steps} / found.slip.trace();
+    return found;
+}
+
+TEST(WakeNoise, HasItsVarianceAndItsTimeWhateverTheStep) {
+    const ImmersedBody body = ellipsoid_with_a_wake(1e9);
+    for (const double speed : {0.22, 0.44}) {
+        const Vector3d velocity = speed * Vector3d(2.0, 0.0, 1.0).normalized();
+        const double energy = turbulence_level(body, velocity).turbulent_kinetic_energy;
+        const double time = wake_persistence * body.length / speed;
+        const Matrix3d expected = wake_slip * wake_slip * 2.0 / 3.0 * energy * Matrix3d::Identity();
+        for (const double step_by_time : {0.2, 2.0}) {
+            const WakeStatistics found = statistics_of(body, moving_at(velocity), step_by_time * time);
+            EXPECT_LT((found.slip - expected).cwiseAbs().maxCoeff(), 0.02 * expected.trace());
+            EXPECT_NEAR(found.kept, std::exp(-step_by_time), 0.01);
+        }
+    }
+}
+
+TEST(WakeNoise, IsTheWeakerTheMoreTheBodyTurnsOnItsWay) {
+    const ImmersedBody body = ellipsoid_with_a_wake(1e9);
+    const Vector3d velocity(0.4, 0.0, 0.2);
+    const double time = wake_persistence * body.length / velocity.norm();
+    const double straight = statistics_of(body, moving_at(velocity), time).slip.trace();
+    const double rate = velocity.norm() / body.length;  // lengths gone in a second
+    for (const double turns : {0.1, 0.25, 1.0}) {
+        const Vector3d turning = turns * rate * Vector3d(1.0, 2.0, -2.0) / 3.0;
+        const WakeStatistics found = statistics_of(body, moving_at(velocity, turning), time);
+        const double share = 1.0 / (1.0 + wake_order * wake_order * turns * turns);
+        EXPECT_NEAR(std::sqrt(found.slip.trace() / straight), share, 0.02 * share);
+        EXPECT_NEAR(found.kept, std::exp(-1.0), 0.01);
+    }
+}
+
+TEST(WakeNoise, PushesByTheLoadsAtTheSlipAndNotByItsChange) {
+    ImmersedBody body = ellipsoid_with_a_wake(1200.0);
+    body.shadows.setZero();
+    prepare(body);
+    const Noise noise(12, "wake", 0, 0);
+    const double h = 0.01;
+    BodyState state = moving_at({0.2, 0.0, 0.1});
+    state.wake = {1.0, Vector3d(0.2, 0.0, 0.1).normalized()};
+    for (std::uint64_t step = 0; step < 20; ++step) {
+        const BodyState after = advance(body, weightless, 0.0, h, state, noise, step).state;
+        // The same step in the stream that stands between the two slips.
+        BodyState frozen = state;
+        frozen.seen_fluid = after.seen_fluid;
+        frozen.seen_fluid.velocity = 0.5 * (state.seen_fluid.velocity + after.seen_fluid.velocity);
+        EXPECT_EQ(implicit_step(body, Vector3d::Zero(), h, frozen).velocity, after.velocity);
+        EXPECT_GT(
+            (implicit_step(body, Vector3d::Zero(), h, state, after.seen_fluid).velocity - after.velocity)
+                .norm(),
+            1e-5);
+        state = after;
+    }
+}
+
+/// One step in the frozen slip of a wake (m/s, world axes).
+BodyState stepped(const ImmersedBody& body, const Vector3d& slip, double h, const BodyState& state) {
+    BodyState after = state;
+    const kernel::SeenStream stream{slip, slip, Vector3d::Zero(), true, true, slip};
+    kernel::implicit_step(body.constants, Vector3d::Zero(), h, stream, 0, 1, nullptr, after);
+    return after;
+}
+
+TEST(WakeNoise, PressesOnTheSidesAcrossThePath) {
+    ImmersedBody body = ellipsoid_with_a_wake(1e6);
+    const Vector3d path = Vector3d(2.0, 1.0, 1.0).normalized();
+    const Vector3d slip(0.004, -0.003, 0.005);
+    BodyState state = moving_at(0.22 * path);
+    state.orientation = Quaterniond(Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()));
+    const double h = 1e-3;
+    const Vector3d with = stepped(body, slip, h, state).velocity.tail<3>();
+    const Vector3d seen = state.orientation.conjugate() * slip;
+    const Vector3d relative = 0.22 * path - seen;
+    const Vector3d pressed =
+        wake_side_pressure * 0.5 * body.fluid_density * relative.norm() * (body.shadows * seen);
+    const Vector3d across = pressed - pressed.dot(relative) / relative.squaredNorm() * relative;
+    body.shadows.setZero();
+    prepare(body);
+    const Vector3d without = stepped(body, slip, h, state).velocity.tail<3>();
+    EXPECT_LT(((with - without) * body.mass / h - across).norm(), 1e-3 * across.norm());
+}
+
+TEST(WakeNoise, HasTheShadowsAlongThePrincipalAxes) {
+    const ImmersedBody body = ellipsoid_with_a_wake(1200.0);
+    const Vector3d exact = std::numbers::pi * Vector3d(8e-4, 4e-4, 2e-4);
+    EXPECT_LT((body.shadows.diagonal() - exact).cwiseAbs().maxCoeff(), 0.03 * exact.x());  // flat triangles
+    EXPECT_LT((body.shadows - Matrix3d(body.shadows.diagonal().asDiagonal())).norm(), 1e-6 * exact.x());
+}
+
+// In the frame of the slip no load but drag changes the energy of body and fluid.
+TEST(WakeNoise, MakesNoEnergyInTheFrameOfItsSlip) {
+    for (const double h : {0.002, 0.05}) {
+        const ImmersedBody body = ellipsoid_with_a_wake(1200.0);
+        const Vector3d slip(0.1, -0.2, 0.15);  // far beyond what k makes
+        BodyState state = moving_at({0.2, 0.1, -0.1});
+        state.velocity.head<3>() = Vector3d(1.0, -2.0, 0.5);
+        const auto energy = [&](BodyState of) {
+            of.velocity.tail<3>() -= of.orientation.conjugate() * slip;
+            return kinetic_energy(body, of);
+        };
+        double before = energy(state);
+        for (int step = 0; step < 200; ++step) {
+            state = stepped(body, slip, h, state);
+            EXPECT_LE(energy(state), before * (1.0 + 1e-12));
+            before = energy(state);
+        }
+    }
+}
+
+TEST(WakeNoise, DoesNothingToABodyWithoutLoads) {
+    // A stream that accelerates pushes by the displaced and the added mass; a wake pushes through loads
+    // alone.
+    ImmersedBody ball = test::immersed(test::baked_sphere(0.02), 1300.0, test::water(), Loads::none);
+    ball.tables = *test::baked_sphere(0.02).tables;
+    ball.turbulence = Turbulence::table;
+    prepare(ball);
+    const Vector3d velocity(0.3, 0.1, 0.0);
+    const auto flown = [&](Langevin langevin) {
+        ball.langevin = langevin;
+        prepare(ball);
+        BodyState state = moving_at(velocity);
+        for (std::uint64_t step = 0; step < 100; ++step) {
+            state = advance(ball, weightless, 0.0, 0.01, state, Noise(13, "wake", 0, 0), step).state;
+        }
+        return Vector3d(state.orientation * state.velocity.tail<3>());
+    };
+    EXPECT_LT((flown(Langevin::wake) - velocity).norm(), 1e-13);
+    EXPECT_GT((flown(Langevin::seen_fluid) - velocity).norm(), 1e-3);
+}
+
+TEST(WakeNoise, IsNoneAroundABodyAtRest) {
+    const ImmersedBody body = ellipsoid_with_a_wake(1200.0);
+    BodyState state;
+    state.seen_fluid.velocity = Vector3d(0.1, 0.0, 0.0);
+    state = advance(body, weightless, 0.0, 0.01, state, Noise(14, "wake", 0, 0), 0).state;
+    EXPECT_EQ(state.seen_fluid.velocity, Vector3d::Zero());
+    EXPECT_EQ(state.seen_fluid.angular_velocity, Vector3d::Zero());
+}
+
+TEST(WakeNoise, IsNoneInLaminarFlow) {
+    ImmersedBody body = ellipsoid_with_a_wake(1200.0);
+    for (LoadEntry& entry : body.tables->entries) {
+        entry.turbulent_kinetic_energy = 0.0;
+        entry.dissipation_rate = 0.0;
+    }
+    prepare(body);
+    BodyState state = moving_at({0.2, 0.0, 0.1});
+    for (std::uint64_t step = 0; step < 20; ++step) {
+        state = advance(body, weightless, 0.0, 0.01, state, Noise(16, "wake", 0, 0), step).state;
+        EXPECT_EQ(state.seen_fluid.velocity, Vector3d::Zero());
+    }
+}
+
+TEST(WakeNoise, OfTheFluidAroundIsItsStream) {
+    // Constant turbulence is no wake's.
+    ImmersedBody body = ellipsoid_with_a_wake(1200.0);
+    body.turbulence = Turbulence::constant;
+    body.turbulent_kinetic_energy = 0.01;
+    body.dissipation_rate = 0.02;
+    const auto flown = [&](Langevin langevin) {
+        body.langevin = langevin;
+        prepare(body);
+        BodyState state = moving_at({0.2, 0.0, 0.1});
+        for (std::uint64_t step = 0; step < 20; ++step) {
+            state = advance(body, weightless, 0.0, 0.01, state, Noise(15, "wake", 0, 0), step).state;
+        }
+        return state.velocity;
+    };
+    EXPECT_EQ(flown(Langevin::wake), flown(Langevin::seen_fluid));
+}
+
+}  // namespace
+}  // namespace samara
