@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Error of the motion against time, from inertia alone to full CFD, on the reference falls and on those three times as long.
 
     motion_report.py BIN BODIES FOLDER    flies the falls whose bodies are in BODIES, writes FOLDER/motion.{csv,png}, motion-long.csv
@@ -11,7 +11,6 @@ if it is missing. Bodies that are not there are left out. Run from the project's
 import csv
 import os
 import re
-import subprocess
 import sys
 import tempfile
 
@@ -19,6 +18,7 @@ from falls_report import BODIES as SHAPES
 from falls_report import FALLS, SCENES, baked_file, run, scene_with, worst_figure
 from long_falls_report import FOLDER as LONG
 from report_tables import mark, write_tables
+from study_pictures import picture_of
 
 # The models, cheapest first: the keys that the body of a scene is given, the body file that it needs, how many steps of
 # the scene are made one, and how many runs are flown: more than one with noise, as a scene is by default.
@@ -117,7 +117,7 @@ def main():
         tables.append(table_of(f"{folder}/{name}"))
     write_tables(f"{folder}/motion.md", tables, mark("falls"))
     picture = f"{folder}/motion"
-    subprocess.run(["gnuplot", "-e", f"rows='{picture}.csv'; picture='{picture}.png'", f"{picture}.gp"], check=True)
+    picture_of("motion", f"{picture}.csv", f"{picture}.png")
     print(f"Written: motion.csv, motion-long.csv, motion.md and motion.png in {folder}")
 
 

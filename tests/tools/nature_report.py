@@ -28,7 +28,7 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True
-from gnuplot_picture import flights  # noqa: E402
+from study_pictures import flights  # noqa: E402
 from nature_measure import measured  # noqa: E402
 from nature_study import CASES, REGIME  # noqa: E402
 

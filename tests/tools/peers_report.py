@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Other models of falling bodies and the runtime against the reference falls, those three times as long, and the test falls.
 
     peers_report.py BIN FOLDER    flies the other models, and the runtime by the loads of the surface
@@ -13,7 +13,6 @@ long_falls_report.py and test_falls_report.py. Run from the project's folder.
 import csv
 import json
 import os
-import subprocess
 import sys
 import tempfile
 
@@ -21,6 +20,7 @@ from falls_report import FALLS, SCENES, compared, differences_of, has_the_regime
 from falls_report import FIGURES as MEASURES
 from long_falls_report import FOLDER as LONG
 from report_tables import mark, table, write_tables
+from study_pictures import picture_of
 from surface_report import plain, shape_of
 from test_falls_report import FOLDER as TEST
 from test_falls_report import SCENES as TEST_SCENES
@@ -245,8 +245,7 @@ def write_report(folder, rows_of):
         errors_table(rows, (DEFAULT, BEST, SHAPE, OTHERS, ALONE)), errors_table(rows, tuple(dict.fromkeys(equations))),
         errors_table(rows, [SURFACE, *OURS]), errors_table(long_rows, [SHAPE, OTHERS, SURFACE, *OURS]),
         errors_table(test_rows, [OTHERS, SURFACE, *OURS], TEST_SCENES)], mark("falls"))
-    subprocess.run(["gnuplot", "-e", f"rows='{folder}/peers.csv'; picture='{folder}/peers.png'", f"{folder}/peers.gp"],
-                   check=True)
+    picture_of("peers", f"{folder}/peers.csv", f"{folder}/peers.png")
     print(f"Written: {', '.join(rows_of)}, peers.md and peers.png in {folder}")
 
 

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """What baking only what a scene needs saves: its rounds beside uniform grids of directions.
 
     plan_report.py BIN WORK ROWS.csv    bakes the scenes of docs/plan in the folder WORK, or goes on there
@@ -18,6 +18,7 @@ import subprocess
 import sys
 
 from report_tables import mark, write_tables
+from study_pictures import picture_of
 
 SCENES = "docs/plan"
 BODIES = ("sphere", "ellipsoid", "sheet", "airplane", "samara", "leaf")
@@ -219,7 +220,7 @@ def write(target):
     write_tables(target.replace(".csv", ".md"), ["\n".join(summary) + "\n", "\n".join(lines) + "\n"],
                  mark("plan"))
     picture = target.replace(".csv", "")
-    subprocess.run(["gnuplot", "-e", f"rows='{target}'; picture='{picture}.png'", f"{picture}.gp"], check=True)
+    picture_of("plan", target, f"{picture}.png")
 
 
 def main():

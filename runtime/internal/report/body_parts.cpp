@@ -16,16 +16,11 @@
 #include "samara/core/files/content_hash.hpp"
 #include "samara/core/files/hdf5_reader.hpp"
 #include "samara/core/physics/fluid.hpp"
-#include "samara/internal/plot/convergence_plot.hpp"
-#include "samara/internal/plot/polar_plot.hpp"
-#include "samara/internal/plot/sphere_plot.hpp"
-#include "samara/internal/report/html.hpp"
+#include "samara/internal/plot/body_pictures.hpp"
 #include "samara/internal/report/words.hpp"
 
 namespace samara {
 namespace {
-
-using Rows = std::vector<std::vector<std::string>>;
 
 std::string in_words(const Vector3d& vector, const char* unit = "") {
     return fmt::format("({:.4g}, {:.4g}, {:.4g}){}", vector.x(), vector.y(), vector.z(), unit);
@@ -82,25 +77,25 @@ ReportPart part_of_body(const Body& body) {
     for (const char* fluid : {"water", "air"}) {
         rows.push_back({fmt::format("at {:.6g}, broadside", main), density_in(body, fluid, main)});
     }
-    return {"The body", html_table({}, rows)};
+    return {"The body", {table_block({}, rows)}};
 }
 
-std::string error_table(const LoadTables& tables) {
+std::vector<nlohmann::json> error_blocks(const LoadTables& tables) {
     Rows rows;
     for (const ErrorShare& share : tables.error_sources) {
         rows.push_back({name_of(share.source), per_cent(share.force), per_cent(share.moment),
                         per_cent(share.turbulent_kinetic_energy), per_cent(share.dissipation_rate)});
     }
-    if (rows.empty()) return html_paragraph("The file does not tell its errors by source.");
+    if (rows.empty()) return {text_block("The file does not tell its errors by source.")};
     const auto total = [&](double ErrorShare::*quantity) {
         return per_cent(total_error(tables.error_sources, quantity));
     };
     rows.push_back({"together", total(&ErrorShare::force), total(&ErrorShare::moment),
                     total(&ErrorShare::turbulent_kinetic_energy), total(&ErrorShare::dissipation_rate)});
-    return html_paragraph(
-               "Standard errors over the quantity, root mean squares over all directions and Reynolds "
-               "numbers.") +
-           html_table({"source", "force", "moment", "k", "epsilon"}, rows);
+    return {
+        text_block("Standard errors over the quantity, root mean squares over all directions and Reynolds "
+                   "numbers."),
+        table_block({"source", "force", "moment", "k", "epsilon"}, rows)};
 }
 
 std::string tensor_in_words(const Matrix3d& tensor, const char* unit) {
@@ -109,10 +104,11 @@ std::string tensor_in_words(const Matrix3d& tensor, const char* unit) {
 
 ReportPart part_of_turning(const Body& body) {
     if (!body.dynamic) {
-        return {"The turning body", html_paragraph("The file holds no coefficients of a turning body, for no "
-                                                   "falls were solved. It flies with those that "
-                                                   "bodies have in common (docs/falls.md). Quality "
-                                                   "standard solves falls and identifies its own.")};
+        return {"The turning body",
+                {text_block("The file holds no coefficients of a turning body, for no "
+                            "falls were solved. It flies with those that "
+                            "bodies have in common (docs/falls.md). Quality "
+                            "standard solves falls and identifies its own.")}};
     }
     const auto& [values, errors, densities] = *body.dynamic;
     Rows rows;
@@ -126,8 +122,8 @@ ReportPart part_of_turning(const Body& body) {
     }
     rows.push_back({"density of the falling body, over the fluid's", in_words(densities), "-"});
     return {"The turning body",
-            html_paragraph("From: " + values.origin) +
-                html_table({"coefficient (tensors: xx, yy, zz)", "value", "standard error"}, rows)};
+            {text_block("From: " + values.origin),
+             table_block({"coefficient (tensors: xx, yy, zz)", "value", "standard error"}, rows)}};
 }
 
 std::string or_dash(double number, const char* format) {
@@ -135,7 +131,7 @@ std::string or_dash(double number, const char* format) {
 }
 
 /// Where the solver's CPU seconds went, by mesh.
-std::string table_of_cpu_seconds(const std::vector<CaseRecord>& records, double all) {
+nlohmann::json table_of_cpu_seconds(const std::vector<CaseRecord>& records, double all) {
     std::map<double, std::pair<int, double>> meshes;
     for (const CaseRecord& one : records) {
         auto& [count, seconds] = meshes[one.cells];
@@ -148,16 +144,16 @@ std::string table_of_cpu_seconds(const std::vector<CaseRecord>& records, double 
                         fmt::format("{:.1f}", spent.second),
                         all > 0.0 ? fmt::format("{:.0f} %", 100.0 * spent.second / all) : "-"});
     }
-    return html_table({"cells", "cases", "CPU s", "share"}, rows);
+    return table_block({"cells", "cases", "CPU s", "share"}, rows);
 }
 
 ReportPart part_of_cases(const LoadTables& tables) {
     const std::vector<CaseRecord> records = case_records(tables);
-    std::string html;
+    ReportPart part{"The cases", {}};
     if (!tables.left_out.empty()) {
         Rows rows;
         for (const LeftOutCase& one : tables.left_out) rows.push_back({one.name, one.reason});
-        html += html_table({"left out", "why"}, rows);
+        part.blocks.push_back(table_block({"left out", "why"}, rows));
     }
     Rows rows;
     for (const CaseRecord& one : records) {
@@ -166,16 +162,19 @@ ReportPart part_of_cases(const LoadTables& tables) {
                         one.k ? fmt::format("{:.3g}", *one.k) : "-", one.verdict,
                         or_dash(one.final_residual, "{:.1g}"), fmt::format("{:.1f}", one.cpu_seconds)});
     }
-    if (rows.empty())
-        return {"The cases", html + html_paragraph("The file does not say how its cases were solved.")};
+    if (rows.empty()) {
+        part.blocks.push_back(text_block("The file does not say how its cases were solved."));
+        return part;
+    }
     double seconds = 0.0;
     for (const CaseRecord& one : records) seconds += one.cpu_seconds;
-    return {"The cases",
-            html + table_of_cpu_seconds(records, seconds) +
-                html_details(fmt::format("{} solved cases, {:.0f} CPU seconds", records.size(), seconds),
-                             html_table({"case", "for", "moving along", "Reynolds", "closure", "cells",
-                                         "drag", "k/U²", "verdict", "residual of p", "CPU s"},
-                                        rows))};
+    part.blocks.push_back(table_of_cpu_seconds(records, seconds));
+    part.blocks.push_back(
+        folded_block(fmt::format("{} solved cases, {:.0f} CPU seconds", records.size(), seconds),
+                     table_block({"case", "for", "moving along", "Reynolds", "closure", "cells", "drag",
+                                  "k/U²", "verdict", "residual of p", "CPU s"},
+                                 rows)));
+    return part;
 }
 
 std::string joined(const std::set<std::string>& words) {
@@ -192,46 +191,41 @@ ReportPart part_of_provenance(const std::filesystem::path& path, const Body& bod
         if (!one.closure.empty()) closures.insert(one.closure);
         if (!one.mesh_remedy.empty()) remedies.insert(one.mesh_remedy);
     }
-    return {
-        "Where it comes from",
-        html_table({}, {{"file", path.filename().string()},
-                        {"XXH3 128-bit hash", file_content_hash(path)},
-                        {"digest of its content",
-                         file.has_digest() ? "sound" : "none: 'samara check --add-digest' writes one"},
-                        {"written by", fmt::format("samara {}", file.text_attribute("/", "samara_version"))},
-                        {"quality", body.tables->quality},
-                        {"solver", joined(programs)},
-                        {"closures", joined(closures)},
-                        {"meshes made", joined(remedies)}})};
+    return {"Where it comes from",
+            {table_block(
+                {}, {{"file", path.filename().string()},
+                     {"XXH3 128-bit hash", file_content_hash(path)},
+                     {"digest of its content",
+                      file.has_digest() ? "sound" : "none: 'samara check --add-digest' writes one"},
+                     {"written by", fmt::format("samara {}", file.text_attribute("/", "samara_version"))},
+                     {"quality", body.tables->quality},
+                     {"solver", joined(programs)},
+                     {"closures", joined(closures)},
+                     {"meshes made", joined(remedies)}})}};
 }
 
 }  // namespace
 
-std::vector<ReportPart> body_parts(const std::filesystem::path& file, const Body& body,
-                                   const std::function<void(double share)>& progress) {
-    std::vector<ReportPart> parts = {part_of_body(body)};
-    const auto picture = [&](const char* title, const char* words, const auto& plot,
-                             const std::string& below) {
-        parts.push_back({title, html_picture(words, [&](const std::filesystem::path& picture_file) {
-                                    plot(picture_file, body);
-                                }) + below});
-        progress(static_cast<double>(parts.size() - 1) / 3.0);
-    };
-    progress(0.0);
-    picture("Polars", "Drag, lift, moment and k against the direction of motion, with standard errors",
-            plot_polars,
-            html_paragraph("Coefficients on ρU²A/2 with A = πL²/4, the moment's also on L. The direction of "
-                           "motion turns in the plane of "
-                           "two principal axes; 0° is along the shorter one. Dots are solved cases."));
-    picture("All directions", "Drag, moment, k and the force's standard error over the sphere of directions",
-            plot_sphere, "");
-    picture("Convergence and errors",
-            "Drag and k over the meshes, drag over Reynolds numbers, errors by source", plot_convergence,
-            error_table(*body.tables));
-    parts.push_back(part_of_turning(body));
-    parts.push_back(part_of_cases(*body.tables));
-    parts.push_back(part_of_provenance(file, body));
-    return parts;
+std::vector<ReportPart> body_parts(const std::filesystem::path& file, const Body& body) {
+    std::vector<nlohmann::json> convergence = error_blocks(*body.tables);
+    convergence.insert(
+        convergence.begin(),
+        picture_block("Drag and k over the meshes, drag over Reynolds numbers, errors by source",
+                      body_picture("convergence", body)));
+    return {part_of_body(body),
+            {"Polars",
+             {picture_block("Drag, lift, moment and k against the direction of motion, with standard errors",
+                            body_picture("polars", body)),
+              text_block("Coefficients on ρU²A/2 with A = πL²/4, the moment's also on L. The direction of "
+                         "motion turns in the plane of two principal axes; 0° is along the shorter one. Dots "
+                         "are solved cases.")}},
+            {"All directions",
+             {picture_block("Drag, moment, k and the force's standard error over the sphere of directions",
+                            body_picture("sphere", body))}},
+            {"Convergence and errors", convergence},
+            part_of_turning(body),
+            part_of_cases(*body.tables),
+            part_of_provenance(file, body)};
 }
 
 }  // namespace samara

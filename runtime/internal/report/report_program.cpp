@@ -6,13 +6,14 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "samara/base/version.hpp"
 #include "samara/commands/shared/arguments.hpp"
 #include "samara/commands/shared/print.hpp"
 #include "samara/commands/shared/progress.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/body/body_file.hpp"
+#include "samara/internal/plot/draw.hpp"
 #include "samara/internal/report/body_parts.hpp"
-#include "samara/internal/report/html.hpp"
 
 namespace samara {
 namespace {
@@ -25,7 +26,7 @@ then the body, polars with error bars, maps over all directions, convergence and
 by source, the coefficients of a turning body, the cases, and where all comes from. Of
 the folder of cases, NAME.cases beside NAME.body.h5, it adds the meshes, y+, how the
 cases settled, and the solved falls beside the runtime's; what of it is missing, the
-page and a note say. gnuplot draws the pictures.
+page and a note say. Python's matplotlib and Jinja make it.
 
 JSON: output, body, verdict (grade: good, limited or bad; headline, good_for, not_for,
 findings), parts (titles), cases (the folder, or null), missing (what is not told).
@@ -74,12 +75,6 @@ std::optional<fs::path> cases_of(const ReportOptions& options, bool can_read,
     return std::nullopt;
 }
 
-std::string list_html(const std::vector<std::string>& lines) {
-    std::string html = "<ul>\n";
-    for (const std::string& line : lines) html += "<li>" + html_text(line) + "</li>\n";
-    return html + "</ul>\n";
-}
-
 nlohmann::json report(const ReportOptions& options, const CasesReader& read_cases, bool quiet) {
     if (fs::path(options.output).extension() != ".html") {
         throw Error(fmt::format("{}: a report is a page; end the name in .html", options.output));
@@ -88,29 +83,34 @@ nlohmann::json report(const ReportOptions& options, const CasesReader& read_case
     std::vector<std::string> missing;
     const auto folder = cases_of(options, static_cast<bool>(read_cases), missing);
     Progress progress("reporting", "parts");
-    const double of_body = folder ? 3.0 : 6.0;  // of six parts
     CasesReport cases;
     if (folder) {
         cases = read_cases(*folder, body, [&](double share) { progress.update(3.0 * share, 6.0); });
     }
+    progress.update(3.0, 6.0);
     missing.insert(missing.end(), cases.missing.begin(), cases.missing.end());
-    std::vector<ReportPart> parts = body_parts(
-        options.input, body, [&](double share) { progress.update(6.0 - of_body + of_body * share, 6.0); });
+    std::vector<ReportPart> parts = body_parts(options.input, body);
     // What the cases tell stands before where all comes from.
     parts.insert(parts.end() - 1, cases.parts.begin(), cases.parts.end());
-    if (!missing.empty()) parts.push_back({"What is missing here", list_html(missing)});
+    if (!missing.empty()) parts.push_back({"What is missing here", {{{"list", missing}}}});
     const BakeVerdict verdict = judge_bake(body, cases.findings);
     const std::string below = fmt::format(
         "A bake of quality {} at Reynolds number {}. {}", body.tables->quality,
         fmt::join(body.tables->reynolds_numbers, ", "), fs::path(options.input).filename().string());
-    write_report_page(options.output, body.name, below, verdict, parts);
     for (const std::string& line : missing) print_note("samara report: note: {}\n", line);
     if (!quiet) print_result("{}: {}", options.output, as_text(verdict));
     nlohmann::json result = {
         {"output", options.output},         {"body", body.name}, {"verdict", as_json(verdict)},
         {"parts", nlohmann::json::array()}, {"cases", nullptr},  {"missing", missing}};
-    for (const ReportPart& part : parts) result["parts"].push_back(part.title);
+    nlohmann::json page = {
+        {"name", body.name}, {"below", below}, {"verdict", as_json(verdict)}, {"version", version}};
+    for (ReportPart& part : parts) {
+        result["parts"].push_back(part.title);
+        page["parts"].push_back({{"title", part.title}, {"blocks", std::move(part.blocks)}});
+    }
     if (folder) result["cases"] = folder->string();
+    progress.update(4.0, 6.0);
+    draw_page(options.output, std::move(page));
     return result;
 }
 

@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "samara/core/body/body.hpp"
-#include "samara/internal/report/report_page.hpp"
+#include "samara/internal/report/bake_verdict.hpp"
+#include "samara/internal/report/report_blocks.hpp"
 
 namespace samara {
 

@@ -1,24 +1,23 @@
+#include <cmath>
 #include <filesystem>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "paths.hpp"
+#include "picture_files.hpp"
 #include "samara/analysis/verdicts/case_records.hpp"
 #include "samara/core/body/body_file.hpp"
 #include "samara/internal/plot/body_arcs.hpp"
-#include "samara/internal/plot/convergence_plot.hpp"
-#include "samara/internal/plot/polar_plot.hpp"
+#include "samara/internal/plot/body_pictures.hpp"
 #include "samara/motion/motion_file.hpp"
 #include "support/known_bodies.hpp"
-#include "support/picture_faults.hpp"
 #include "support/program_run.hpp"
 #include "synthetic_motion.hpp"
 
 namespace samara {
 namespace {
 
-using test::faults_of;
 using test::ProgramRun;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -36,28 +35,25 @@ Body blunt_body() {
     return body;
 }
 
-/// Each shipped body, and one whose file tells nothing of its cases and its errors' sources.
-class BodyPictures : public testing::TestWithParam<std::string> {
-  protected:
-    [[nodiscard]] static Body body() {
-        return GetParam() == "blunt" ? blunt_body() : shipped_body(GetParam());
+/// All numbers of a JSON value, and how many are none.
+void expect_finite(const nlohmann::json& value, const std::string& place) {
+    if (value.is_structured()) {
+        for (const auto& [key, part] : value.items()) expect_finite(part, place + '/' + key);
+    } else if (value.is_number()) {
+        EXPECT_TRUE(std::isfinite(value.get<double>())) << place;
     }
-    test::TemporaryFolder folder_;
-};
-
-TEST_P(BodyPictures, OfPolarsHaveNoFaults) {
-    plot_polars(folder_ / "picture.svg", body());
-    EXPECT_THAT(faults_of(test::read_svg(folder_ / "picture.svg")), IsEmpty());
 }
 
-TEST_P(BodyPictures, OfConvergenceHaveNoFaults) {
-    plot_convergence(folder_ / "picture.svg", body());
-    EXPECT_THAT(faults_of(test::read_svg(folder_ / "picture.svg")), IsEmpty());
+TEST(BodyPicture, OfEachShippedBodyAndOfOneWithoutCasesAndErrorsHoldsFiniteNumbers) {
+    for (const char* name : {"airplane", "cube", "disc", "leaf", "samara", "sphere", "blunt"}) {
+        const Body body = name == std::string("blunt") ? blunt_body() : shipped_body(name);
+        for (const char* kind : {"polars", "sphere", "convergence"}) {
+            expect_finite(body_picture(kind, body), std::string(name) + ' ' + kind);
+        }
+    }
+    EXPECT_EQ(body_picture("sphere", shipped_body("leaf"))["drag"].size(), 120U);
+    EXPECT_EQ(body_picture("convergence", blunt_body())["ladders"].size(), 0U);
 }
-
-INSTANTIATE_TEST_SUITE_P(All, BodyPictures,
-                         testing::Values("airplane", "cube", "disc", "leaf", "samara", "sphere", "blunt"),
-                         [](const auto& given) { return given.param; });
 
 TEST(CaseRecords, AreThoseOfTheBake) {
     const Body leaf = shipped_body("leaf");
@@ -146,6 +142,7 @@ TEST_F(PlotOfBodies, DrawsPolarsUnlessAskedForAnotherKind) {
     ASSERT_EQ(sphere.status, 0) << sphere.fault;
     EXPECT_EQ(sphere.json()["cases"], 13);
     EXPECT_EQ(sphere.json()["planned"], 1.0);
+    test::expect_png(folder_ / "picture.png");
     const ProgramRun convergence =
         plot({"leaf.body.h5", "-o", "picture.svg", "--kind", "convergence", "--json"});
     ASSERT_EQ(convergence.status, 0) << convergence.fault;

@@ -1,3 +1,4 @@
+#include <cstdlib>
 #include <filesystem>
 #include <regex>
 
@@ -9,7 +10,6 @@
 #include "samara/core/body/body_file.hpp"
 #include "samara/core/files/content_hash.hpp"
 #include "samara/internal/report/bake_verdict.hpp"
-#include "samara/internal/report/html.hpp"
 #include "samara/internal/report/report_program.hpp"
 #include "samara/internal/report/words.hpp"
 #include "support/known_bodies.hpp"
@@ -160,12 +160,6 @@ TEST(Base64, IsThatOfTheStandardsExamples) {
     EXPECT_EQ(base64("\xff\xfe"), "//4=");
 }
 
-TEST(ReportHtml, ShowsAnyTextAsItIs) {
-    EXPECT_EQ(html_text("a < b & \"c\">"), "a &lt; b &amp; &quot;c&quot;&gt;");
-    EXPECT_EQ(html_text("one\nline"), "one\\x0aline");
-    EXPECT_THAT(html_table({"<i>"}, {{"<b>", "1"}}), AllOf(HasSubstr("&lt;i&gt;"), Not(HasSubstr("<b>"))));
-}
-
 /// samara report as it is without the baking tools, on the shipped leaf and on bodies of its own.
 class ReportCommand : public testing::Test {
   protected:
@@ -222,8 +216,9 @@ TEST_F(ReportCommand, PutsWhatTheCasesTellIntoThePageAndTheVerdict) {
     std::filesystem::create_directory(folder_ / "leaf.cases");
     static_cast<void>(folder_.file("leaf.cases/plan.json", "{}"));
     const CasesReader reader = [](const auto&, const auto&, const auto&) {
-        return CasesReport{
-            {{"Told by the cases", "<p>told</p>"}}, {{Grade::limited, "y+", "too small"}}, {"no falls"}};
+        return CasesReport{{{"Told by the cases", {text_block("told <b>")}}},
+                           {{Grade::limited, "y+", "too small"}},
+                           {"no falls"}};
     };
     ASSERT_EQ(report({in("leaf.body.h5").c_str(), "-o", in("leaf.html").c_str(), "--json"}, reader), 0)
         << fault_;
@@ -231,7 +226,7 @@ TEST_F(ReportCommand, PutsWhatTheCasesTellIntoThePageAndTheVerdict) {
     EXPECT_EQ(json["verdict"]["findings"].back()["what"], "y+");
     EXPECT_THAT(json["parts"].get<std::vector<std::string>>(), Contains("Told by the cases"));
     EXPECT_EQ(json["missing"], nlohmann::json::array({"no falls"}));
-    EXPECT_THAT(read_bytes(in("leaf.html")), HasSubstr("<p>told</p>"));
+    EXPECT_THAT(read_bytes(in("leaf.html")), HasSubstr("<p>told &lt;b&gt;</p>"));
 }
 
 TEST_F(ReportCommand, ShowsANameAsTextWhateverItHolds) {
@@ -241,6 +236,16 @@ TEST_F(ReportCommand, ShowsANameAsTextWhateverItHolds) {
     ASSERT_EQ(report({in("odd.body.h5").c_str(), "-o", in("odd.html").c_str()}), 0) << fault_;
     EXPECT_THAT(read_bytes(in("odd.html")),
                 AllOf(Not(HasSubstr("<script")), HasSubstr("&lt;script&gt;alert(1)")));
+}
+
+TEST_F(ReportCommand, StillTellsTheVerdictWhereThePageCannotBeMade) {
+    ::setenv("SAMARA_PYTHON", "/bin/false", 1);
+    const int status = report({in("leaf.body.h5").c_str(), "-o", in("leaf.html").c_str()});
+    ::unsetenv("SAMARA_PYTHON");
+    EXPECT_EQ(status, 1);
+    EXPECT_THAT(output_, HasSubstr("Good for pictures, not for figures."));
+    EXPECT_THAT(fault_, HasSubstr("/bin/false could not make the page"));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "leaf.html"));
 }
 
 TEST_F(ReportCommand, RefusesWhatIsNoBakeInOneLineAndWritesNothing) {
