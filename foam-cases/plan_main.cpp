@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "foam-cases/bake/bake_report.hpp"
-#include "foam-cases/scene/scene_plan_picture.hpp"
 #include "foam-cases/scene/scene_plan_report.hpp"
 #include "foam-cases/scene/scene_requests.hpp"
 #include "samara/analysis/advice/density_doubt.hpp"
@@ -19,7 +18,7 @@
 #include "samara/core/base/error.hpp"
 #include "samara/core/body/body_file.hpp"
 #include "samara/formats/vector_json.hpp"
-#include "samara/internal/plot/gnuplot.hpp"
+#include "samara/pictures/draw.hpp"
 #include "samara/scene/scene_file.hpp"
 
 namespace samara {
@@ -64,7 +63,7 @@ void print_places(const std::vector<VisitedDirection>& places) {
 }
 
 nlohmann::json plan_body(const BakeRequest& request, const BakePreparation& preparation,
-                         const PlanOptions& options, bool quiet) {
+                         const PlanOptions& options, bool quiet, nlohmann::json& picture) {
     nlohmann::json json = bake_as_json(request, preparation);
     json["name"] = request.name;
     if (!preparation.scene_plan) {
@@ -80,9 +79,7 @@ nlohmann::json plan_body(const BakeRequest& request, const BakePreparation& prep
     json["visited"] = visits_as_json(places);
     json["whole_grid"] = cost_as_json(whole_grid(plan, false));
     json["symmetric_grid"] = cost_as_json(whole_grid(plan, true));
-    if (!options.picture.empty()) {
-        draw_plan(options.picture, request.name, preparation.flight.visits, preparation.body.symmetry, plan);
-    }
+    picture = plan_picture(request.name, preparation.flight.visits, preparation.body.symmetry, plan);
     if (quiet) return json;
     const GridCost all = whole_grid(plan, false);
     const GridCost wedge = whole_grid(plan, true);
@@ -133,12 +130,13 @@ nlohmann::json run(const PlanOptions& options, const Arguments& arguments) {
     wanted.quality = with_loads_by(usual_loads_closure(options.quality), bake_quality(options.quality));
     wanted.tolerance = options.tolerance;
     nlohmann::json result = {{"bodies", nlohmann::json::array()}};
+    nlohmann::json picture;
     std::vector<LoadedBody> loaded;
     BodyNotes notes("samara plan");
     for (const BakeRequest& request : requests_for_scene(scene, folder, wanted)) {
         const BakePreparation preparation = prepare_bake(request);
         note_doubts(notes, request, preparation);
-        result["bodies"].push_back(plan_body(request, preparation, options, arguments.json()));
+        result["bodies"].push_back(plan_body(request, preparation, options, arguments.json(), picture));
         loaded.push_back(as_baked(request, preparation, !options.bodies.empty()));
         const SceneBody& body = scene.bodies[loaded.size() - 1];
         const DensityDoubt density = density_doubt(body, *loaded.back().body, scene.fluid);
@@ -148,6 +146,7 @@ nlohmann::json run(const PlanOptions& options, const Arguments& arguments) {
     const ModelAdvice advice = advised(scene, loaded, options.tolerance);
     if (!arguments.json()) print_result("{}", as_text(advice));
     result["models"] = as_json(advice);
+    if (!options.picture.empty() && !picture.is_null()) draw_picture(options.picture, picture);
     return result;
 }
 

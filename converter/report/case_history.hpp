@@ -1,11 +1,23 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "converter/cases/case_plan.hpp"
-#include "converter/report/case_pictures.hpp"
 
 namespace samara {
+
+/// What a case did while it was solved, at its iterations; a value that is not finite is left out.
+struct CaseHistory {
+    std::string name;
+    std::vector<double> iterations;
+    std::vector<double> drag;  ///< coefficients on A = pi L^2/4
+    std::vector<double> moment;
+    std::vector<double> k;  ///< k/U^2 of the shell; empty where the flow is laminar
+    std::vector<double> residual_iterations;
+    std::vector<double> residuals;  ///< initial, of the pressure, in the last round
+};
 
 /// How a case of a plan came to what the tables hold: force, moment and k at its iterations, in the tables'
 /// units, and the residuals of its last round, of the solver's log. Of k and the residuals, what is not there

@@ -11,6 +11,7 @@
 
 #include "converter/cases/case_folder_reduction.hpp"
 #include "converter/cases/case_reduction.hpp"
+#include "converter/cases/mesh_section.hpp"
 #include "converter/cases/wall_spacing.hpp"
 #include "converter/falls/fall_identification.hpp"
 #include "converter/report/case_history.hpp"
@@ -21,17 +22,15 @@
 #include "samara/core/files/content_hash.hpp"
 #include "samara/core/files/temporary_folder.hpp"
 #include "samara/formats/json_text.hpp"
-#include "samara/internal/plot/comparison_plot.hpp"
-#include "samara/internal/report/html.hpp"
-#include "samara/internal/report/words.hpp"
 #include "samara/motion/motion_file.hpp"
+#include "samara/pictures/comparison_picture.hpp"
+#include "samara/reports/words.hpp"
 
 namespace samara {
 namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-using Rows = std::vector<std::vector<std::string>>;
 using Told = std::function<void(double share)>;
 
 constexpr std::size_t most_meshes = 4;     // that one picture shows
@@ -93,9 +92,9 @@ class Folder {
 
   private:
     std::vector<CaseMesh> meshes(const Told& told);
-    std::string meshes_picture(const std::vector<CaseMesh>& meshes) const;
-    std::string spacing_table(const std::vector<CaseMesh>& meshes, const Told& told);
-    [[nodiscard]] DrawnMesh drawn(const CaseMesh& mesh, std::size_t count) const;
+    [[nodiscard]] Json meshes_picture(const std::vector<CaseMesh>& meshes) const;
+    Rows spacing_rows(const std::vector<CaseMesh>& meshes, const Told& told);
+    [[nodiscard]] Json drawn(const CaseMesh& mesh, std::size_t count) const;
     /// What cannot be read of a case or mesh is missing in the report.
     template <typename Work>
     void or_missing(const Work& work) {
@@ -131,41 +130,47 @@ std::vector<CaseMesh> Folder::meshes(const Told& told) {
     return meshes;
 }
 
-DrawnMesh Folder::drawn(const CaseMesh& mesh, std::size_t count) const {
+/// The pieces as rows of x, y of both ends, over the body's length.
+Json as_json(const std::vector<MeshSection::Piece>& pieces) {
+    Json rows = Json::array();
+    for (const auto& [from, to] : pieces) rows.push_back({from.x(), from.y(), to.x(), to.y()});
+    return rows;
+}
+
+Json Folder::drawn(const CaseMesh& mesh, std::size_t count) const {
     const Matrix3d to_case = plan_.case_axes.transpose();
     const Matrix3d principal = principal_axes(body_.moments);
     const Vector3d right = to_case * principal.col(2);
     const Vector3d up = to_case * principal.col(0);
-    double half = 0.0;
+    double half_width = 0.0;
     for (const Vector3d& vertex : body_.surface.vertices) {
-        half = std::max(half, std::abs((vertex - body_.moments.centroid).dot(principal.col(2))));
+        half_width = std::max(half_width, std::abs((vertex - body_.moments.centroid).dot(principal.col(2))));
     }
-    const std::vector<double> shape = mesh_panel_shape(count);
-    DrawnMesh picture{.title = fmt::format("{}: {} cells", mesh.name, mesh.mesh.cell_count()),
-                      .section = {},
-                      .half_width = around_body * half / plan_.reference_length,
-                      .half_height = 0.0};
+    half_width *= around_body / plan_.reference_length / closer;
+    const double high_over_wide = count == 1 ? 0.54 : count == 2 ? 1.17 : 0.47;  // of the panels
+    MeshSection section;
     do {
-        picture.half_height = picture.half_width * shape[1] / shape[0];
-        picture.section = mesh_section(mesh.mesh, right, up, off_symmetry, beyond * picture.half_width,
-                                       beyond * picture.half_height);
-        picture.half_width *= closer;
-    } while (picture.section.cells.size() > most_pieces);
-    picture.half_width /= closer;
+        half_width *= closer;
+        section = mesh_section(mesh.mesh, right, up, off_symmetry, beyond * half_width,
+                               beyond * high_over_wide * half_width);
+    } while (section.cells.size() > most_pieces);
+    return {{"title", fmt::format("{}: {} cells", mesh.name, mesh.mesh.cell_count())},
+            {"cells", as_json(section.cells)},
+            {"body", as_json(section.body)},
+            {"half_width", half_width},
+            {"half_height", high_over_wide * half_width}};
+}
+
+Json Folder::meshes_picture(const std::vector<CaseMesh>& meshes) const {
+    const std::size_t count = std::min(meshes.size(), most_meshes);
+    Json picture = {{"picture", "meshes"}, {"name", body_.name}};
+    for (std::size_t i = meshes.size() - count; i < meshes.size(); ++i) {
+        picture["meshes"].push_back(drawn(meshes[i], count));
+    }
     return picture;
 }
 
-std::string Folder::meshes_picture(const std::vector<CaseMesh>& meshes) const {
-    const std::size_t count = std::min(meshes.size(), most_meshes);
-    std::vector<DrawnMesh> drawings;
-    for (std::size_t i = meshes.size() - count; i < meshes.size(); ++i)
-        drawings.push_back(drawn(meshes[i], count));
-    return html_picture("The meshes where a plane cuts them", [&](const fs::path& file) {
-        plot_meshes(file, body_.name, "in the plane of the shortest (up) and the longest axis", drawings);
-    });
-}
-
-std::string Folder::spacing_table(const std::vector<CaseMesh>& meshes, const Told& told) {
+Rows Folder::spacing_rows(const std::vector<CaseMesh>& meshes, const Told& told) {
     Rows rows;
     std::optional<WallSpacing> worst;
     std::size_t done = 0;
@@ -187,7 +192,6 @@ std::string Folder::spacing_table(const std::vector<CaseMesh>& meshes, const Tol
             if (!worst || badness(spacing) > badness(*worst)) worst = spacing;
         });
     }
-    if (rows.empty()) return "";
     if (worst && worst->wall_functions) {
         report_.findings.push_back(
             {worst->below_30 > 0.5 ? Grade::limited : Grade::good, "y+",
@@ -200,8 +204,7 @@ std::string Folder::spacing_table(const std::vector<CaseMesh>& meshes, const Tol
                                     fmt::format("median {:.2g}, above 1 on {} of the body", worst->median,
                                                 per_cent(worst->above_1))});
     }
-    return html_details(fmt::format("y+ of the cells along the body, of {} cases", rows.size()),
-                        html_table({"case", "wall", "least", "median", "most", "share of the body"}, rows));
+    return rows;
 }
 
 void Folder::tell_meshes(const Told& told) {
@@ -213,19 +216,41 @@ void Folder::tell_meshes(const Told& told) {
                         text_of(mesh.record, "remedy"), number_of(mesh.record, "body_area_over_true_area"),
                         number_of(mesh.record, "max_non_orthogonality")});
     }
-    const std::string picture = meshes_picture(all);
+    ReportPart part{"Meshes and y+",
+                    {picture_block("The meshes where a plane cuts them", meshes_picture(all)),
+                     table_block({"mesh", "cells", "checkMesh", "remedy",
+                                  "area of the body over the true one", "most non-orthogonality (°)"},
+                                 rows)}};
     told(0.5);
-    const std::string spacing = spacing_table(all, [&](double share) { told(0.5 + 0.5 * share); });
-    report_.parts.push_back(
-        {"Meshes and y+", picture +
-                              html_table({"mesh", "cells", "checkMesh", "remedy",
-                                          "area of the body over the true one", "most non-orthogonality (°)"},
-                                         rows) +
-                              spacing});
+    const Rows spacing = spacing_rows(all, [&](double share) { told(0.5 + 0.5 * share); });
+    if (!spacing.empty()) {
+        part.blocks.push_back(folded_block(
+            fmt::format("y+ of the cells along the body, of {} cases", spacing.size()),
+            table_block({"case", "wall", "least", "median", "most", "share of the body"}, spacing)));
+    }
+    report_.parts.push_back(std::move(part));
+}
+
+/// Some of many values, evenly.
+Json thinned(const std::vector<double>& values) {
+    constexpr std::size_t most_points = 400;
+    const std::size_t stride = 1 + values.size() / most_points;
+    Json some = Json::array();
+    for (std::size_t i = 0; i < values.size(); i += stride) some.push_back(values[i]);
+    return some;
+}
+
+Json as_json(const CaseHistory& history) {
+    return {{"iterations", thinned(history.iterations)},
+            {"drag", thinned(history.drag)},
+            {"moment", thinned(history.moment)},
+            {"k", thinned(history.k)},
+            {"residual_iterations", thinned(history.residual_iterations)},
+            {"residuals", thinned(history.residuals)}};
 }
 
 void Folder::tell_histories(const Told& told) {
-    std::vector<CaseHistory> histories;
+    Json histories = Json::array();
     Rows failed;
     std::size_t done = 0;
     for (const PlannedCase& one : plan_.cases) {
@@ -237,15 +262,16 @@ void Folder::tell_histories(const Told& told) {
             });
             continue;
         }
-        or_missing([&] { histories.push_back(read_case_history(path_ / one.name, plan_, one)); });
+        or_missing([&] { histories.push_back(as_json(read_case_history(path_ / one.name, plan_, one))); });
     }
-    std::string html;
+    ReportPart part{"How the cases settled", {}};
     if (!histories.empty()) {
-        html = html_picture("Drag, moment, k and residuals of all cases over their iterations",
-                            [&](const fs::path& file) { plot_histories(file, body_.name, histories); });
+        part.blocks.push_back(
+            picture_block("Drag, moment, k and residuals of all cases over their iterations",
+                          {{"picture", "histories"}, {"name", body_.name}, {"cases", histories}}));
     }
-    if (!failed.empty()) html += html_table({"not solved", "why"}, failed);
-    if (!html.empty()) report_.parts.push_back({"How the cases settled", html});
+    if (!failed.empty()) part.blocks.push_back(table_block({"not solved", "why"}, failed));
+    if (!part.blocks.empty()) report_.parts.push_back(std::move(part));
     told(1.0);
 }
 
@@ -285,7 +311,7 @@ struct SwingsApart {
 };
 
 /// A fall as 'samara compare' draws it: paths, inclination, spectra and distributions.
-std::string fall_picture(const Body& body, const FallRecord& record) {
+Json fall_picture(const Body& body, const FallRecord& record) {
     const TemporaryFolder folder;
     const FallMotions motions = fall_motions(body, record);
     write_motion_file(folder / "flown", motions.flown);
@@ -300,14 +326,13 @@ std::string fall_picture(const Body& body, const FallRecord& record) {
     other.name = name + ", solved";
     other.file = &solved;
     const Comparison comparison = compare(one, other, {}, [](double, double) {});
-    return html_picture(
-        name + ": its path, inclination and swings, solved and flown",
-        [&](const fs::path& file) { plot_comparison(file, comparison, one.name, "solved by full CFD"); });
+    return picture_block(name + ": its path, inclination and swings, solved and flown",
+                         comparison_picture(comparison, one.name, "solved by full CFD"));
 }
 
 void Folder::tell_falls(const Told& told) {
     Rows rows;
-    std::string pictures;
+    std::vector<Json> pictures;
     double farthest = 0.0;
     SwingsApart swings;
     FallBalance worst;
@@ -330,21 +355,22 @@ void Folder::tell_falls(const Told& told) {
                 {planned.name, figures_of(flown.solved), figures_of(flown.flown), per_cent(difference),
                  fmt::format("{}, {}", per_cent(flown.balance.force), per_cent(flown.balance.moment)),
                  in_plain_digits(record.fall.mass / record.fall.volume * record.fall.fluid_density)});
-            pictures += fall_picture(body_, record);
+            pictures.push_back(fall_picture(body_, record));
         });
     }
     told(1.0);
     if (rows.empty()) return;
-    report_.parts.push_back(
-        {"The falls, solved and flown",
-         html_paragraph(
+    ReportPart part{
+        "The falls, solved and flown",
+        {text_block(
              "Descent speed, frequency, inclination that 95 % are below, rms angular speed and regime: of "
-             "the free "
-             "falls in full CFD, and of the runtime's flights from the same starts with this file.") +
-             html_table({"fall", "solved", "flown", "descent speeds differ by",
-                         "momenta balance to (force, moment)", "density kg/m³"},
-                        rows) +
-             pictures});
+             "the "
+             "free falls in full CFD, and of the runtime's flights from the same starts with this file."),
+         table_block({"fall", "solved", "flown", "descent speeds differ by",
+                      "momenta balance to (force, moment)", "density kg/m³"},
+                     rows)}};
+    part.blocks.insert(part.blocks.end(), pictures.begin(), pictures.end());
+    report_.parts.push_back(std::move(part));
     if (farthest > 0.0) {
         report_.findings.push_back(
             {farthest <= good_fall   ? Grade::good

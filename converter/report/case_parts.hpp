@@ -1,6 +1,6 @@
 #pragma once
 
-#include "samara/internal/report/report_program.hpp"
+#include "samara/reports/report_program.hpp"
 
 namespace samara {
 

@@ -160,4 +160,21 @@ std::vector<VisitedDirection> visited_directions(const std::vector<FlowVisit>& v
     return places;
 }
 
+nlohmann::json plan_picture(const std::string& name, const std::vector<FlowVisit>& visits,
+                            const Symmetry& symmetry, const ScenePlan& plan) {
+    constexpr std::size_t most_dots = 4000;
+    nlohmann::json visited = nlohmann::json::array();
+    const std::size_t stride = 1 + visits.size() / most_dots;
+    for (std::size_t i = 0; i < visits.size(); i += stride) {
+        visited.push_back(as_json(Vector3d(symmetry.axes.transpose() * visits[i].direction)));
+    }
+    nlohmann::json cases = nlohmann::json::array();
+    for (const std::size_t index : plan.chosen) {
+        for (const Matrix3d& element : elements_in_map_axes(symmetry)) {
+            cases.push_back(as_json(Vector3d(element * plan.candidates.directions[index])));
+        }
+    }
+    return {{"picture", "plan"}, {"name", name}, {"visited", visited}, {"cases", cases}};
+}
+
 }  // namespace samara

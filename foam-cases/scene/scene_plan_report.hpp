@@ -38,4 +38,9 @@ struct VisitedDirection {
 std::vector<VisitedDirection> visited_directions(const std::vector<FlowVisit>& visits,
                                                  const Symmetry& symmetry, const ScenePlan& plan);
 
+/// What the picture of a plan shows, as draw_picture() takes it: where a body moves as it meets the flow, and
+/// the planned cases with their images under the symmetry, as unit vectors in the map axes.
+nlohmann::json plan_picture(const std::string& name, const std::vector<FlowVisit>& visits,
+                            const Symmetry& symmetry, const ScenePlan& plan);
+
 }  // namespace samara

@@ -12,8 +12,8 @@
 #include "samara/commands/shared/print.hpp"
 #include "samara/commands/shared/progress.hpp"
 #include "samara/core/base/error.hpp"
-#include "samara/internal/plot/comparison_plot.hpp"
-#include "samara/internal/plot/gnuplot.hpp"
+#include "samara/pictures/comparison_picture.hpp"
+#include "samara/pictures/draw.hpp"
 
 namespace samara {
 namespace {
@@ -106,8 +106,9 @@ nlohmann::json run(const Request& request, const Arguments& arguments) {
     if (!arguments.json()) print_result("{}", as_text(comparison));
     nlohmann::json result = as_json(comparison);
     if (!request.output.empty()) {
-        plot_comparison(request.output, comparison, std::filesystem::path(request.motion).filename(),
-                        std::filesystem::path(request.reference).filename());
+        draw_picture(request.output,
+                     comparison_picture(comparison, std::filesystem::path(request.motion).filename(),
+                                        std::filesystem::path(request.reference).filename()));
         result["output"] = request.output;
         if (!arguments.json()) print_result("picture: {}\n", request.output);
     }

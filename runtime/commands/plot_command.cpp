@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "samara/analysis/metrics/description.hpp"
 #include "samara/commands/commands.hpp"
 #include "samara/commands/motion_choice.hpp"
 #include "samara/commands/shared/arguments.hpp"
@@ -11,15 +10,10 @@
 #include "samara/core/base/error.hpp"
 #include "samara/core/body/body_file.hpp"
 #include "samara/core/files/hdf5_reader.hpp"
-#include "samara/formats/vector_json.hpp"
-#include "samara/internal/plot/convergence_plot.hpp"
-#include "samara/internal/plot/gnuplot.hpp"
-#include "samara/internal/plot/landing_plot.hpp"
-#include "samara/internal/plot/motion_plot.hpp"
-#include "samara/internal/plot/phase_plot.hpp"
-#include "samara/internal/plot/polar_plot.hpp"
-#include "samara/internal/plot/sphere_plot.hpp"
 #include "samara/motion/motion_file.hpp"
+#include "samara/pictures/body_pictures.hpp"
+#include "samara/pictures/draw.hpp"
+#include "samara/pictures/motion_pictures.hpp"
 
 namespace samara {
 namespace {
@@ -34,12 +28,12 @@ phase: how far the shortest axis leans from the vertical, seen in the plane in w
 swings most and negative to one side, against its rate, coloured by time; both over time.
 landing: where all copies and runs come down, from above, with the mean and the circle
 of the rms distance; the distributions of the distance and of the time of landing.
-Without a ground: the places at the last frame, and the ways descended.
+Without a ground: the places at the last frame, and the distances descended.
 polars, of a body file: drag, lift, moment and k against the direction of motion in the
 planes of the principal axes, with their standard errors and the solved cases.
 sphere: drag, moment, k and the force's standard error over all directions.
 convergence: drag and k over the meshes, errors by source, drag over Reynolds numbers.
-gnuplot draws them.
+Python's matplotlib draws them.
 
 Examples: samara plot motion.h5 -o motion.png
           samara plot motion.h5 -o phase.svg --kind phase
@@ -54,74 +48,54 @@ struct PlotOptions {
     int copy = 0;
 };
 
-nlohmann::json plot_one(const PlotOptions& options, const Motion& motion, const BodyMotion& body) {
-    require_run(options.input, motion, options.run);
-    require_copy(options.input, body, options.copy);
-    nlohmann::json result = {{"run", options.run}, {"copy", options.copy}};
-    if (options.kind == "phase") {
-        const PhasePlot shown = plot_phase(options.output, motion, body, options.run, options.copy);
-        result["fall"] = {shown.fall.begin, shown.fall.end};
-        result["highest_rate"] = shown.highest_rate;
-        result["lines"] = shown.lines;
-        result["frames_in_swing"] = or_null(shown.frames_in_swing);
-        result["measures"] = as_json(shown.measures);
-        return result;
-    }
-    const MotionPlot shown = plot_motion(options.output, motion, body, options.run, options.copy);
-    result["silhouettes"] = shown.silhouettes;
-    result["strip"] = {shown.strip.begin, shown.strip.end};
-    result["measures"] = as_json(shown.measures);
-    return result;
-}
-
-nlohmann::json landing_as_json(const LandingPlot& shown) {
-    return {{"samples", shown.samples},
-            {"landed", shown.landed},
-            {"mean", as_json(shown.mean)},
-            {"spread", shown.spread},
-            {"median", shown.median}};
-}
-
 bool is_body_kind(const std::string& kind) {
     return kind == "polars" || kind == "sphere" || kind == "convergence";
 }
 
-nlohmann::json plot_body(const PlotOptions& options) {
-    const Body body = read_body_file(options.input);
-    if (!body.tables) {
-        throw Error(fmt::format("{}: has no tables to draw; make them with 'samara bake'", options.input));
-    }
-    nlohmann::json result = {{"output", options.output}, {"kind", options.kind}, {"body", body.name}};
-    if (options.kind == "polars") {
-        const PolarPlot shown = plot_polars(options.output, body);
-        result["arcs"] = shown.arcs;
-        result["solved"] = shown.solved;
-        result["shown_angle"] = shown.shown_angle;
-        result["reynolds_number"] = shown.reynolds_number;
-    } else if (options.kind == "sphere") {
-        const SpherePlot shown = plot_sphere(options.output, body);
-        result["cases"] = shown.cases;
-        result["planned"] = shown.planned;
-        result["reynolds_number"] = shown.reynolds_number;
-    } else {
-        const ConvergencePlot shown = plot_convergence(options.output, body);
-        result["directions"] = shown.directions;
-        result["meshes"] = shown.meshes;
-        result["sources"] = shown.sources;
+/// What is told of a picture beside its kind: of what it was given, and what it shows.
+nlohmann::json told_of(const nlohmann::json& picture) {
+    nlohmann::json result;
+    for (const char* key : {"run",
+                            "copy",
+                            "measures",
+                            "fall",
+                            "highest_rate",
+                            "lines",
+                            "frames_in_swing",
+                            "samples",
+                            "landed",
+                            "mean",
+                            "spread",
+                            "median",
+                            "cases",
+                            "planned",
+                            "solved",
+                            "shown_angle",
+                            "reynolds_number",
+                            "directions",
+                            "meshes",
+                            "sources"}) {
+        if (picture.contains(key)) result[key] = picture[key];
     }
     return result;
 }
 
-nlohmann::json plot_motion_file(const PlotOptions& options) {
+nlohmann::json picture_of(const PlotOptions& options, bool of_body) {
+    if (of_body) {
+        const Body body = read_body_file(options.input);
+        if (!body.tables) {
+            throw Error(
+                fmt::format("{}: has no tables to draw; make them with 'samara bake'", options.input));
+        }
+        return body_picture(options.kind, body);
+    }
     const Motion motion = read_motion_file(options.input);
     const BodyMotion& body = find_body(options.input, motion, options.body);
-    nlohmann::json result = options.kind == "landing"
-                                ? landing_as_json(plot_landing(options.output, motion, body))
-                                : plot_one(options, motion, body);
-    result["output"] = options.output;
-    result["kind"] = options.kind;
-    result["body"] = body.name;
-    return result;
+    if (options.kind != "landing") {
+        require_run(options.input, motion, options.run);
+        require_copy(options.input, body, options.copy);
+    }
+    return motion_picture(options.kind, motion, body, options.run, options.copy);
 }
 
 /// The kind of picture is of the kind of file; without --kind the file's first.
@@ -141,7 +115,13 @@ nlohmann::json plot(PlotOptions options, const Arguments& arguments) {
                 fmt::format("{}: is of a motion, and {} is a body file; drop it", option, options.input));
         }
     }
-    return of_body ? plot_body(options) : plot_motion_file(options);
+    const nlohmann::json picture = picture_of(options, of_body);
+    nlohmann::json result = told_of(picture);
+    result.update(draw_picture(options.output, picture));
+    result["output"] = options.output;
+    result["kind"] = options.kind;
+    result["body"] = picture["name"];
+    return result;
 }
 
 std::string in_words(const nlohmann::json& result) {

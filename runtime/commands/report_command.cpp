@@ -2,7 +2,7 @@
 // its place, which also reads the cases.
 
 #include "samara/commands/commands.hpp"
-#include "samara/internal/report/report_program.hpp"
+#include "samara/reports/report_program.hpp"
 
 namespace samara {
 

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "samara/formats/left_out_cases.hpp"
-#include "samara/internal/report/words.hpp"
+#include "samara/reports/words.hpp"
 
 namespace samara {
 namespace {

@@ -24,7 +24,7 @@ set(CPACK_COMPONENT_RUNTIME_DESCRIPTION
   "The runtime: simulates bodies with precomputed added mass, load and turbulence tables,
 exports their motion to animation tools and plots it. With ready-baked
 bodies, the C interface (libsamara.so, samara.h) and the C++ library.")
-set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS gnuplot-nox)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "python3-matplotlib, python3-jinja2")
 # For programs in C++ that find_package(samara).
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS
   "samara-baking, libeigen3-dev, libhdf5-dev, libfmt-dev, libhwy-dev, libtinygltf-dev, libtomlplusplus-dev, nlohmann-json3-dev")
@@ -36,6 +36,7 @@ if(TARGET samara_python)
   set(CPACK_COMPONENT_PYTHON_DESCRIPTION
     "The Python module: scenes to motions as numpy arrays, figures and comparisons, live
 flights.")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-matplotlib, python3-jinja2")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "samara-runtime (= ${PROJECT_VERSION}), ${SAMARA_PYTHON_DEPENDS}")
 endif()
 

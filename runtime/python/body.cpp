@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -11,6 +12,7 @@
 #include "bindings.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/body/body_file.hpp"
+#include "samara/pictures/body_pictures.hpp"
 
 namespace samara::python {
 namespace {
@@ -152,6 +154,12 @@ void bind_body(py::module_& module) {
             py::arg("direction"), py::arg("reynolds_number"),
             "The tables' force and moment coefficients where the body moves in a direction (shape axes) "
             "relative to the fluid.")
+        .def(
+            "_picture",
+            [](const Body& body, const std::string& picture) {
+                return as_python(on_input([&] { return body_picture(picture, body); }));
+            },
+            py::arg("picture"), "What samara.plot draws of the tables.")
         .def("__repr__", [](const Body& body) {
             return fmt::format("<samara.Body {}: {} triangles{}>", body.name, body.surface.triangle_count(),
                                body.tables ? ", tables of quality " + body.tables->quality : "");

@@ -23,6 +23,8 @@
 #include "samara/export/usd_file.hpp"
 #include "samara/motion/measures.hpp"
 #include "samara/motion/motion_file.hpp"
+#include "samara/pictures/comparison_picture.hpp"
+#include "samara/pictures/motion_pictures.hpp"
 
 namespace samara::python {
 namespace {
@@ -175,26 +177,54 @@ FallChoice choice_of(const MotionReader& file, const std::string& name,
         fmt::format("{}: holds the bodies {}; give one of these as body", name, names_of(file.motion())));
 }
 
-py::object comparison(const py::object& motion, const py::object& reference,
-                      const std::optional<std::string>& body, std::optional<std::pair<double, double>> window,
-                      py::object progress) {
+/// A comparison as `told` makes JSON of it.
+py::object compared(const py::object& motion, const py::object& reference,
+                    const std::optional<std::string>& body, std::optional<std::pair<double, double>> window,
+                    py::object progress, nlohmann::json (*told)(const Comparison& comparison)) {
     const TemporaryFolder folder;
     const std::filesystem::path motion_file = file_of(motion, folder.path(), "motion.h5");
     const std::filesystem::path reference_file = file_of(reference, folder.path(), "reference.h5");
     ComparisonSettings settings;
     if (window) settings.window = TimeWindow{window->first, window->second};
     LongWork work(std::move(progress));
-    const auto compared = [&] {
+    const auto compare_files = [&] {
         const std::lock_guard lock(hdf5_mutex());
         const MotionReader first(motion_file);
         const MotionReader second(reference_file);
-        return as_json(compare(choice_of(first, "the motion", body), choice_of(second, "the reference", body),
-                               settings, [&](double done, double total) {
-                                   if (!work.tell(done, total)) throw Error("the comparison was ended");
-                               }));
+        return told(compare(choice_of(first, "the motion", body), choice_of(second, "the reference", body),
+                            settings, [&](double done, double total) {
+                                if (!work.tell(done, total)) throw Error("the comparison was ended");
+                            }));
     };
     const std::filesystem::path& doubted = reading_fault(motion_file).empty() ? reference_file : motion_file;
-    const nlohmann::json result = work([&] { return on_input(compared, doubted); });
+    const nlohmann::json result = work([&] { return on_input(compare_files, doubted); });
+    return as_python(result);
+}
+
+py::object comparison(const py::object& motion, const py::object& reference,
+                      const std::optional<std::string>& body, std::optional<std::pair<double, double>> window,
+                      py::object progress) {
+    return compared(motion, reference, body, window, std::move(progress),
+                    [](const Comparison& all) { return as_json(all); });
+}
+
+py::object picture_of_comparison(const py::object& motion, const py::object& reference,
+                                 const std::optional<std::string>& body,
+                                 std::optional<std::pair<double, double>> window) {
+    return compared(motion, reference, body, window, py::none(),
+                    [](const Comparison& all) { return comparison_picture(all, "motion", "reference"); });
+}
+
+py::object picture_of_motion(const FlownMotion& motion, const std::string& picture,
+                             const std::optional<std::string>& body, int run, int copy) {
+    const std::string first = motion.motion->bodies.empty() ? "" : motion.motion->bodies.front().name;
+    const BodyOfMotion shown = body_named(motion, body.value_or(first));
+    require_fall(shown, run, copy);
+    nlohmann::json result;
+    {
+        const py::gil_scoped_release others_go_on;
+        result = on_input([&] { return motion_picture(picture, *motion.motion, shown.body(), run, copy); });
+    }
     return as_python(result);
 }
 
@@ -311,6 +341,8 @@ void bind_motion(py::module_& module) {
         .def("export", &export_to, py::arg("file"), py::arg("run") = 0,
              "Writes one run for other programs, by the name's ending: .glb, .usda, .chan, .csv, .html.")
         .def("page", &page, py::arg("run") = 0, "The page (.html) that plays a run, as text.")
+        .def("_picture", &picture_of_motion, py::arg("picture"), py::arg("body"), py::arg("run"),
+             py::arg("copy"), "What samara.plot draws of a body.")
         .def_property_readonly(
             "times",
             [](const py::object& self) {
@@ -357,6 +389,9 @@ void bind_motion(py::module_& module) {
                "compare --json' prints it (docs/output.md): `agrees`, `certain`, and each figure of both "
                "with its standard "
                "error, their difference and the verdict. `window`: (begin, end) in s after the release.");
+    module.def("_comparison_picture", &picture_of_comparison, py::arg("motion"), py::arg("reference"),
+               py::kw_only(), py::arg("body") = py::none(), py::arg("window") = py::none(),
+               "What samara.plot draws of both.");
 }
 
 }  // namespace samara::python

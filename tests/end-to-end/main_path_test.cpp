@@ -1,4 +1,4 @@
-// The whole way with real gmsh, OpenFOAM, HDF5, gnuplot and the Khronos validator: a shape becomes a baked
+// The whole way with real gmsh, OpenFOAM, HDF5, matplotlib and the Khronos validator: a shape becomes a baked
 // body, the body falls, and its motion leaves for other tools.
 
 #include <cmath>

@@ -57,6 +57,9 @@ printf '[scene]\nduration = 1.0\n[fluid]\npreset = "air"\n[[body]]\nname = "dart
 "$samara" simulate scene.toml -o motion.h5
 "$samara" export motion.h5 -o motion.glb
 [ -s motion.glb ] || fail "nothing was exported"
+dpkg-deb -f "$runtime" Recommends | grep -q 'python3-matplotlib' || fail "the runtime does not recommend matplotlib"
+"$samara" plot motion.h5 -o motion.svg
+(cd "$work/root/usr/share/samara/python/samara" && find . -name __pycache__) | grep -q . && fail "drawing left files in the package's folder"
 PATH= "$samara" --help | /usr/bin/grep -q 'bake .*(not installed)' || fail "baking tools were found outside of the root"
 
 # A program in C with what the package holds, and no other library.
@@ -78,7 +81,10 @@ if [ -n "$module" ]; then
   dpkg -x "$module" "$work/root"
   SAMARA_BODIES=$work/root/usr/share/samara/bodies PYTHONPATH=$work/root/usr/lib/python3/dist-packages /usr/bin/python3 -c '
 import samara
-print(samara.simulate("scene.toml")["dart"].measure()["descent_speed"])' >speed || fail "the Python module does not fly"
+motion = samara.simulate("scene.toml")
+samara.plot.save(samara.plot.motion(motion), "again.svg")
+print(samara.report.__file__, motion["dart"].measure()["descent_speed"])' >speed || fail "the Python module does not fly and draw"
+  cmp -s motion.svg again.svg || fail "the module draws another picture than the program"
 fi
 
 # Both together: the tools are found beside samara, and their templates beside them.

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """How a disc falls over its dimensionless inertia I* and the Reynolds number, beside Field et al. 1997.
 
     discs_map.py BIN BODIES FOLDER
@@ -17,8 +17,8 @@ import tempfile
 
 sys.path += glob.glob(f"{os.path.dirname(os.path.abspath(__file__))}/../*/")  # the modules of all studies
 from falls_report import run  # noqa: E402
-from gnuplot_picture import draw, flights  # noqa: E402
 from report_tables import mark, write_tables  # noqa: E402
+from study_pictures import flights, key, logarithmic, new_figure, plain, save  # noqa: E402
 
 DISC = "docs/studies/falls/disc.geo"
 DIAMETER, THICKNESS, FLUID_DENSITY, GRAVITY = 0.04, 0.004, 998.2, 9.81
@@ -165,48 +165,30 @@ def thin_table(programs):
 
 def picture(maps, file):
     width = 170 + 760 * len(maps)
-    commands = f'''set terminal pngcairo size {width}, 900 font "DejaVu Sans,16" linewidth 1.6
-set output "{file}"
-set logscale xy
-set xrange [10:30000]
-set yrange [0.004:0.2]
-set border 3 lc rgb "#6b6b6b"
-set tics nomirror textcolor rgb "#1a1a1a"
-set format x "10^{{%T}}"
-set ytics (0.005, 0.01, 0.02, 0.05, 0.1, 0.2)
-set key off
-areas = "'#f1f1f1' '#e3eef5' '#f7ead6' '#f5dedb'"
-set object 1 rectangle from 10, 0.004 to 100, 0.2 behind fc rgb word(areas, 1) fs solid noborder
-set object 2 rectangle from 100, 0.004 to 30000, 0.01 behind fc rgb word(areas, 2) fs solid noborder
-set object 3 rectangle from 100, 0.01 to 30000, 0.05 behind fc rgb word(areas, 3) fs solid noborder
-set object 4 rectangle from 100, 0.05 to 30000, 0.2 behind fc rgb word(areas, 4) fs solid noborder
-set label 1 "Field: steady" at 11, 0.187 tc rgb "#6b6b6b"
-set label 2 "Field: periodic" at 110, 0.0044 tc rgb "#2a6f97"
-set label 3 "Field: chaotic" at 110, 0.0365 tc rgb "#b5761a"
-set label 4 "Field: tumbling" at 110, 0.187 tc rgb "#a5281b"
-set xlabel "Reynolds number of the fall"
-'''
-    colours = ("#8a8a8a", "#2a6f97", "#d98c1f", "#c0392b", "#4a7c59")
-    marks = (6, 7, 9, 5, 13)
-    commands += "set multiplot\nset tmargin at screen 0.93\nset bmargin at screen 0.2\n"
-    for number, (model, rows) in enumerate(maps.items()):
-        left = (150 + 760 * number) / width
-        commands += f"set lmargin at screen {left}\nset rmargin at screen {left + 660 / width}\nset title '{model}'\n"
-        commands += "set ylabel 'I* = (π/64) ρ_{disc} t / (ρ_{fluid} d)' offset 0.5\n" if number == 0 else "unset ylabel\n"
-        if number == 0:
-            commands += "set key at screen 0.5, 0.02 center bottom maxrows 2 Left reverse samplen 1.5 width -6\n"
-        else:
-            commands += "set key off\n"
-        plots = []
-        for index, regime in enumerate(REGIMES):
-            points = [f"{row['reynolds']:.6g} {row['inertia']:.6g} {1.0 + 1.8 * row['share']:.3f}" for row in rows
-                      if row["regime"] == regime] or ["1e9 1e9 1"]
-            commands += f"$points{number}{index} << EOD\n" + "\n".join(points) + "\nEOD\n"
-            title = "fluttering (periodic)" if regime == "fluttering" else regime
-            plots.append(f'$points{number}{index} using 1:2:3 with points pt {marks[index]} ps variable lc rgb '
-                         f'"{colours[index]}" notitle, NaN with points pt {marks[index]} ps 2 lc rgb "{colours[index]}" title "{title}"')
-        commands += "plot " + ", ".join(plots) + "\n"
-    draw(commands + "unset multiplot\n")
+    figure, panels = new_figure(width, 900, 16, columns=len(maps), margins=(150 / width, 1 - 20 / width, 0.2, 0.93), gaps=(100 / width, 0))
+    styles = (("#8a8a8a", "o"), ("#2a6f97", "o"), ("#d98c1f", "^"), ("#c0392b", "s"), ("#4a7c59", "D"))
+    areas = ((10, 100, 0.004, 0.2, "#f1f1f1"), (100, 3e4, 0.004, 0.01, "#e3eef5"), (100, 3e4, 0.01, 0.05, "#f7ead6"), (100, 3e4, 0.05, 0.2, "#f5dedb"))
+    words = (("Field: steady", 11, 0.187, "#6b6b6b"), ("Field: periodic", 110, 0.0044, "#2a6f97"), ("Field: chaotic", 110, 0.0365, "#b5761a"),
+             ("Field: tumbling", 110, 0.187, "#a5281b"))
+    for axes, (model, rows) in zip(panels, maps.items()):
+        for left, right, bottom, top, colour in areas:
+            axes.fill_between((left, right), bottom, top, color=colour, lw=0)
+        for text, x, y, colour in words:
+            axes.text(x, y, text, color=colour, va="center")
+        for regime, (colour, marker) in zip(REGIMES, styles):
+            there = [row for row in rows if row["regime"] == regime]
+            axes.scatter([row["reynolds"] for row in there], [row["inertia"] for row in there], marker=marker, edgecolors=colour, zorder=3,
+                         s=[20.0 * (1.0 + 1.8 * row["share"]) ** 2 for row in there], linewidths=1.6,
+                         facecolors="white" if regime == "steady" else colour)
+            axes.plot([], [], marker, mec=colour, mfc="white" if regime == "steady" else colour, ms=11, mew=1.6,
+                      label="fluttering (periodic)" if regime == "fluttering" else regime)
+        axes.grid(False)
+        axes.set(title=model, xlabel="Reynolds number of the fall")
+        logarithmic(axes, (10, 3e4), (0.004, 0.2))
+        plain(axes.yaxis, (0.005, 0.01, 0.02, 0.05, 0.1, 0.2))
+    panels[0].set_ylabel("I* = (π/64) $ρ_{disc}$ t / ($ρ_{fluid}$ d)")
+    key(figure, panels, 5)
+    save(figure, file)
 
 
 def main(words):

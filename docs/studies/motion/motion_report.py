@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Error of the motion against time, from inertia alone to full CFD, on the reference falls and on those three times as long.
 
     motion_report.py BIN BODIES FOLDER    flies the falls whose bodies are in BODIES, writes FOLDER/motion.{csv,png}, motion-long.csv
@@ -12,7 +12,6 @@ import csv
 import glob
 import os
 import re
-import subprocess
 import sys
 import tempfile
 
@@ -21,6 +20,7 @@ from falls_report import BODIES as SHAPES  # noqa: E402
 from falls_report import FALLS, SCENES, baked_file, run, scene_with, worst_figure  # noqa: E402
 from long_falls_report import FOLDER as LONG  # noqa: E402
 from report_tables import mark, write_tables  # noqa: E402
+from study_pictures import picture_of  # noqa: E402
 
 # The models, cheapest first: the keys that the body of a scene is given, the body file that it needs, how many steps of
 # the scene are made one, and how many runs are flown: more than one with noise, as a scene is by default.
@@ -119,7 +119,7 @@ def main():
         tables.append(table_of(f"{folder}/{name}"))
     write_tables(f"{folder}/README.md", tables, mark("falls"))
     picture = f"{folder}/motion"
-    subprocess.run(["gnuplot", "-e", f"rows='{picture}.csv'; picture='{picture}.png'", f"{picture}.gp"], check=True)
+    picture_of("motion", f"{picture}.csv", f"{picture}.png")
     print(f"Written: motion.csv, motion-long.csv, README.md and motion.png in {folder}")
 
 

@@ -18,7 +18,7 @@ import tempfile
 sys.dont_write_bytecode = True
 sys.path += glob.glob(f"{os.path.dirname(os.path.abspath(__file__))}/../*/")  # the modules of all studies
 from falls_report import run  # noqa: E402
-from gnuplot_picture import flights  # noqa: E402
+from study_pictures import flights  # noqa: E402
 from nature_measure import spin, swinging_descent  # noqa: E402
 from nature_report import mean_of_flights, with_copies, write  # noqa: E402
 from nature_scenes import fruit_scene, strip_scene  # noqa: E402

@@ -1,4 +1,4 @@
-"""What is measured of a fall for README.md. Poses are those of gnuplot_picture.flights: SI units, world axes, z up.
+"""What is measured of a fall for README.md. Poses are those of study_pictures.flights: SI units, world axes, z up.
 
 Each function returns the value and its error. The error of a mean is half the difference between the means of the two halves of
 its stretch: how far it still drifts or swings, and no more than that.

@@ -30,7 +30,7 @@ import tempfile
 
 sys.dont_write_bytecode = True
 sys.path += glob.glob(f"{os.path.dirname(os.path.abspath(__file__))}/../*/")  # the modules of all studies
-from gnuplot_picture import flights  # noqa: E402
+from study_pictures import flights  # noqa: E402
 from nature_measure import measured  # noqa: E402
 from nature_study import CASES, REGIME  # noqa: E402
 

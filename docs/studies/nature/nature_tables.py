@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """nature.csv, nature.png and the tables of README.md, from what nature_report.py wrote and published.csv.
 
     nature_tables.py ROWS.csv FOLDER
@@ -15,11 +15,11 @@ import sys
 
 sys.dont_write_bytecode = True
 sys.path += glob.glob(f"{os.path.dirname(os.path.abspath(__file__))}/../*/")  # the modules of all studies
-from gnuplot_picture import block, draw  # noqa: E402
 from nature_families import NATURE, STRIPS, fruits_table, strips_table, transition  # noqa: E402
 from nature_report import FULL_CFD, SURFACE, TABLES, write  # noqa: E402
 from nature_study import CARDS, CASES, REGIME, SPHERES, STRIP_FROUDE_NUMBERS, card_name, strip_name  # noqa: E402
 from report_tables import mark, table, write_tables  # noqa: E402
+from study_pictures import new_figure, save  # noqa: E402
 
 MODELS = {SURFACE: "surface", TABLES: "tables", FULL_CFD: "cfd"}
 HEADS = ("runtime, surface", "runtime, tables", "full CFD")
@@ -233,36 +233,26 @@ def picture(rows, file):
     """Measured over published, of every figure of which there is such a ratio; a bar spans the published one's uncertainty."""
     shown = [row for row in rows if any(row[f"{column}_ratio"] for column in MODELS.values())]
 
-    def points(column, aside):
-        for place, row in enumerate(shown):
-            if row[f"{column}_ratio"]:
-                yield place + aside, float(row[f"{column}_ratio"]), float(row[f"{column}_error"] or 0) / float(row["published"])
-
-    bands = [(place, (as_number(row["uncertainty"]) or 0.0) / float(row["published"])) for place, row in enumerate(shown)]
-    tics = ", ".join(f'"{row["case"]}: {row["quantity"]}" {place}' for place, row in enumerate(shown))
-    asides, colours, marks = (-0.2, 0.0, 0.2), ("#3a9d5d", "#2a6f97", "#d98c1f"), (9, 7, 5)
-    series = ", \\\n     ".join(
-        f'${column} using 1:2:3 with yerrorbars lc rgb "{colour}" pt {mark_} ps 1.4 title "{head}"'
-        for column, colour, mark_, head in zip(MODELS.values(), colours, marks, HEADS))
-    draw(block("band", [bands]) + "".join(block(column, [points(column, aside)]) for column, aside in zip(MODELS.values(), asides)) + f'''
-set terminal pngcairo size 2400, 950 noenhanced font "DejaVu Sans,14" linewidth 1.6
-set output "{file}"
-set grid ytics lc rgb "#e4e4e4" lt 1 lw 0.8
-set border 3 lc rgb "#6b6b6b"
-set tics nomirror textcolor rgb "#1a1a1a"
-set ylabel "measured over published"
-set yrange [0:*]
-set xrange [-0.6:{len(shown) - 0.4}]
-set xtics rotate by 40 right font ",11" scale 0 ({tics})
-set key outside top center horizontal Left reverse samplen 1.5 width 2
-set lmargin 20
-set rmargin 4
-set bmargin 13
-set style fill solid 0.35 noborder
-set arrow 1 from graph 0, first 1 to graph 1, first 1 nohead lc rgb "#1a1a1a" back
-plot $band using 1:(1.0):(0.4):2 with boxxyerror lc rgb "#8a8a8a" title "published, with its uncertainty", \\
-     {series}
-''')
+    figure, (axes,) = new_figure(2400, 950, margins=(0.11, 0.985, 0.32, 0.93))
+    bands = [(as_number(row["uncertainty"]) or 0.0) / float(row["published"]) for row in shown]
+    axes.bar(range(len(shown)), [2 * band for band in bands], 0.8, [1.0 - band for band in bands], color="#d0d0d0",
+             label="published, with its uncertainty")
+    axes.axhline(1.0, color="#1a1a1a", lw=1, zorder=1)
+    styles = ((-0.2, "#3a9d5d", "^"), (0.0, "#2a6f97", "o"), (0.2, "#d98c1f", "s"))
+    for column, (aside, colour, marker), head in zip(MODELS.values(), styles, HEADS):
+        told = [(place + aside, float(row[f"{column}_ratio"]), float(row[f"{column}_error"] or 0) / abs(float(row["published"])))
+                for place, row in enumerate(shown) if row[f"{column}_ratio"]]
+        if told:
+            axes.errorbar(*zip(*told), fmt=marker, color=colour, ms=7, capsize=3, elinewidth=1.2, label=head)
+    axes.grid(False, axis="x")
+    axes.set_ylabel("measured over published")
+    axes.set_xlim(-0.6, len(shown) - 0.4)
+    axes.set_ylim(bottom=0.0)
+    axes.set_xticks(range(len(shown)), [f"{row['case']}: {row['quantity']}" for row in shown], rotation=40, ha="right", rotation_mode="anchor",
+                    fontsize=11)
+    axes.tick_params(axis="x", length=0)
+    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=4)
+    save(figure, file)
 
 
 def main(source, folder):

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """The loads' fluctuations of bodies that are held in a stream: full CFD in time beside the runtime's noise.
 
     noise_report.py BIN FOLDER            solves in FOLDER what is missing of CASES, some two CPU hours where nothing is,
@@ -30,9 +30,9 @@ sys.path += glob.glob(f"{os.path.dirname(os.path.abspath(__file__))}/../*/")  # 
 from closures_report import cells_of, make_case, run, set_parameters  # noqa: E402
 from case_files import history, read_record  # noqa: E402
 from closures_study import RESOLVED, Body, box, disc, mesh, norm, sphere, unsteady  # noqa: E402
-from gnuplot_picture import block, draw  # noqa: E402
 from report_tables import mark, write_tables  # noqa: E402
 from stationarity import AREA_UNIT  # noqa: E402
+from study_pictures import key, logarithmic, new_figure, save  # noqa: E402
 
 
 def axis_along_z(triangles):
@@ -261,23 +261,20 @@ def spectra_rows(programs, work, kept):
 def draw_spectra():
     with open(SPECTRA_ROWS, newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
-    commands = ['set terminal pngcairo size 1600, 900 font "DejaVu Sans,14" linewidth 1.6', f'set output "{PICTURE}"',
-                "set logscale xy", "set border 3", "set tics nomirror", "set grid lc rgb '#e4e4e4'", "set xrange [0.04:6]", "set format y '10^{%T}'",
-                "set multiplot layout 2, 2"]
+    figure, panels = new_figure(1600, 900, rows=2, columns=2, margins=(0.07, 0.98, 0.16, 0.94), gaps=(0.08, 0.16))
     titles = {"cfd": ("full CFD", "#d98c1f"), "seen-fluid": ("the stream", "#7a7a7a"), "wake": ("the wake", "#2a7f8e")}
-    for i, (name, component) in enumerate(SPECTRA):
-        blocks_of, plots = [], []
+    for axes, (name, component) in zip(panels, SPECTRA):
         for which, (title, color) in titles.items():
-            label = f"{which}{i}".replace("-", "")
             points = [(float(row["frequency"]), float(row["power"])) for row in rows
                       if (row["case"], row["component"], row["model"]) == (name, component, which)]
-            blocks_of.append(block(label, [points]))
-            plots.append(f"${label} using 1:2 with lines lw 2 lc rgb '{color}' title '{title}'")
+            if points:
+                axes.plot(*zip(*points), color=color, lw=2, label=title)
         what, axis = component.split("_")
-        side = "set key bottom left Left reverse" if i == 0 else "unset key"
-        commands += [*blocks_of, side, f"set title '{name}: {what} along {axis}'", "set xlabel 'frequency, U/L'", "set ylabel 'power, L/U'",
-                     "plot " + ", ".join(plots)]
-    draw("\n".join([*commands, "unset multiplot", ""]))
+        axes.set(title=f"{name}: {what} along {axis}", xlabel="frequency, U/L", ylabel="power, L/U")
+        axes.set_yscale("log")
+        logarithmic(axes, (0.04, 6))
+    key(figure, panels, 3)
+    save(figure, PICTURE)
 
 
 MEASURES = ("mean", "rms", "rms_error", "time")

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """The paper's figures 1 and 3 with the project's scenes: pictures and the tables of README.md.
 
     paper_scenes.py BIN BODIES FOLDER
@@ -15,19 +15,13 @@ import tempfile
 
 sys.path += glob.glob(f"{os.path.dirname(os.path.abspath(__file__))}/../*/")  # the modules of all studies
 from falls_report import run  # noqa: E402
-from gnuplot_picture import block, draw, ellipsoid_outline, flights, turned  # noqa: E402
 from report_tables import mark, write_tables  # noqa: E402
+from study_pictures import GRAY, ellipsoid_outline, flights, key, new_figure, save, turned  # noqa: E402
 
 SCENES = "docs/scenes"
 RUNS = 20
 FRONT_TURN = math.radians(20)  # how far the nose dips before it comes up to level again
 SIDE_TURN = math.radians(45)   # how far the course turns
-
-STYLE = '''set border 3 lc rgb "#6b6b6b"
-set tics nomirror textcolor rgb "#1a1a1a"
-set key off
-'''
-
 
 def flown(programs, folder, scene, work, runs=1):
     """The motion file of a scene and what `samara simulate` says of its one body."""
@@ -56,50 +50,53 @@ def inclination(pose):
     return math.degrees(math.acos(min(1.0, abs(pose.rotation[2][0]))))
 
 
+def bare(figure, place, x, y):
+    """Axes without a frame on a place (left, bottom, width, height: shares) between two ends of each direction."""
+    axes = figure.add_axes(place)
+    axes.set_axis_off()
+    axes.set_xlim(*x)
+    axes.set_ylim(*y)
+    return axes
+
+
+def scale_bar(axes, begin, end, text):
+    """A line with ends from one place to another, and what it is as long as."""
+    axes.annotate("", begin, end, annotation_clip=False, arrowprops={"arrowstyle": "|-|,widthA=0.3,widthB=0.3", "lw": 1.2, "shrinkA": 0, "shrinkB": 0})
+    axes.text(0.5 * (begin[0] + end[0]), 0.5 * (begin[1] + end[1]) + 0.02, text, ha="center", va="bottom")
+
+
 def rubber_picture(motions, picture):
     """Each motion as a strip from the front and from the side, and the inclinations beside them."""
     width, height = 2300, 1320
     scale = 1200.0 / (FALLEN + 0.09)  # pixels a metre
-    commands = f'set terminal pngcairo size {width}, {height} font "DejaVu Sans,16" linewidth 1.6\nset output "{picture}"\n'
-    commands += STYLE + "set multiplot\nunset border\nunset tics\n"
+    figure = new_figure(width, height, 16)
     left = 20.0
-    for number, (name, (title, poses, interval)) in enumerate(motions.items()):
+    for name, (title, poses, interval) in motions.items():
         shown = [pose for pose in poses if pose.position[2] > -FALLEN]
         every = round(interval / (poses[1].time - poses[0].time))
-        for side, axis in enumerate((0, 1)):
+        figure.text(left / width + 0.004, 0.972, title, color=COLOURS[name])
+        for axis, side in enumerate(("front", "side")):
             outlines = [ellipsoid_outline(SEMI_AXES, pose, axis) for pose in shown[::every]]
             across = [point[0] for outline in outlines for point in outline]
             middle, half = (min(across) + max(across)) / 2, max(0.058, (max(across) - min(across)) / 2 + 0.008)
-            right = left + 2 * half * scale
-            commands += block(f"outlines{number}{side}", [outline + outline[:1] for outline in outlines])
-            commands += block(f"path{number}{side}", [[(pose.position[axis], pose.position[2]) for pose in shown]])
-            commands += f"set lmargin at screen {left / width}\nset rmargin at screen {right / width}\n"
-            commands += f"set bmargin at screen 0.015\nset tmargin at screen {(20.0 + 1200.0) / height}\n"
-            commands += f"set xrange [{middle - half}:{middle + half}]\nset yrange [{-FALLEN - 0.04}:0.05]\n"
-            if side == 0:
-                commands += f'set label 1 "{title}" at screen {left / width + 0.004}, screen 0.972 tc rgb "{COLOURS[name]}"\n'
-            else:
-                commands += "unset label 1\n"
-            commands += f'set label 2 "{("front", "side")[side]}" at graph 0.5, 0.995 center tc rgb "#6b6b6b"\n'
-            commands += (f'plot $outlines{number}{side} with filledcurves closed fc rgb "{COLOURS[name]}" fs transparent solid 0.25 '
-                         f'noborder, "" with lines lc rgb "{COLOURS[name]}" lw 1, $path{number}{side} with lines lc rgb "#1a1a1a" lw 0.8\n')
-            left = right + (14 if side == 0 else 34)
-    commands += "unset label 1\nunset label 2\n"
-    place, bar = left / width, 0.1 * scale / height
-    commands += (f'set arrow 1 from screen {place}, screen 0.03 to screen {place}, screen {0.03 + bar} heads size screen 0.003, 90 '
-                 f'lc rgb "#1a1a1a" lw 1.2\nset label 1 "0.1 m, in all" at screen {place + 0.008}, screen {0.03 + bar / 2} center rotate\n')
-    commands += "set border 3\nset tics nomirror\nset grid lc rgb '#e4e4e4' lt 1 lw 0.8\n"
+            axes = bare(figure, (left / width, 0.015, 2 * half * scale / width, 1200.0 / height), (middle - half, middle + half), (-FALLEN - 0.04, 0.05))
+            for outline in outlines:
+                axes.fill(*zip(*outline), fc=COLOURS[name] + "40", ec=COLOURS[name], lw=1)
+            axes.plot([pose.position[axis] for pose in shown], [pose.position[2] for pose in shown], color="#1a1a1a", lw=0.8)
+            axes.text(0.5, 0.995, side, transform=axes.transAxes, ha="center", va="center", color=GRAY)
+            left += 2 * half * scale + (14 if axis == 0 else 34)
+    bar = bare(figure, (left / width, 0.03, 50 / width, 0.1 * scale / height), (0, 1), (0, 1))
+    scale_bar(bar, (0, 0), (0, 1), "")
+    bar.text(0.2, 0.5, "0.1 m, in all", rotation=90, va="center")
     left = (left + 90) / width
     for number, (name, (title, poses, _)) in enumerate(motions.items()):
-        top = 0.93 - number * 0.31
-        commands += block(f"inclination{number}", [[(pose.time, inclination(pose)) for pose in poses if pose.time <= 4.0]])
-        commands += f"set lmargin at screen {left}\nset rmargin at screen 0.99\nset tmargin at screen {top}\nset bmargin at screen {top - 0.235}\n"
-        commands += 'set xrange [0:4]\nset yrange [0:90]\nset ytics 30\nset xtics 1\n'
-        commands += f'set title "{title.split(":")[0]}: inclination, degrees" offset 0, -0.6\n'
-        commands += 'set xlabel "time, s" offset 0, 0.5\n' if number == 2 else "unset xlabel\n"
-        commands += f'plot $inclination{number} with lines lc rgb "{COLOURS[name]}" lw 2\n'
-        commands += "unset arrow 1\nunset label 1\n"
-    draw(commands + "unset multiplot\n")
+        axes = figure.add_axes((left, 0.93 - number * 0.31 - 0.235, 0.99 - left, 0.235))
+        early = [pose for pose in poses if pose.time <= 4.0]
+        axes.plot([pose.time for pose in early], [inclination(pose) for pose in early], color=COLOURS[name], lw=2)
+        axes.set(title=f"{title.split(':')[0]}: inclination, degrees", xlim=(0, 4), ylim=(0, 90), xlabel="time, s" if number == 2 else "")
+        axes.set_xticks(range(5))
+        axes.set_yticks([0, 30, 60, 90])
+    save(figure, picture)
 
 
 def turning(poses):
@@ -188,12 +185,6 @@ def turns(poses):
     return front, side
 
 
-def scale_bar(left, height, length=0.5):
-    """What a length across the view is as long as; both views have one scale."""
-    return (f'set arrow from {left}, {height} to {left + length}, {height} heads size screen 0.004, 90 front lc rgb "#1a1a1a" lw 1.2\n'
-            f'set label "{length:g} m, in both" at {left + 0.5 * length}, {height + 0.07} center tc rgb "#1a1a1a"\n')
-
-
 def edges_of(all_flights):
     """Between which places across the view the flights lie, with room for the airplane and for a title."""
     across = [seen(pose.position)[0] for poses in all_flights for pose in poses]
@@ -202,49 +193,44 @@ def edges_of(all_flights):
     return middle - half, middle + half
 
 
-def airplane_panel(number, title, all_flights, interval, edges):
-    left, right, bottom, top, low, high = edges
+def airplane_panel(axes, title, all_flights, interval):
+    """All flights as lines, and the airplane along the first at even times."""
     shown = all_flights[0]
     every = max(1, round(interval / (shown[1].time - shown[0].time)))
-    commands = block(f"others{number}", [[seen(pose.position)[:2] for pose in poses[::4]] for poses in all_flights[1:]])
-    commands += block(f"path{number}", [[seen(pose.position)[:2] for pose in shown]])
+    for poses in all_flights[1:]:
+        axes.plot(*zip(*(seen(pose.position)[:2] for pose in poses[::4])), color="#c9c9c9", lw=0.8)
+    axes.plot(*zip(*(seen(pose.position)[:2] for pose in shown)), color="#1a1a1a", lw=1)
     faces = []
     for pose in shown[::every]:
         for face, shade in zip(FACES, SHADES):
             corners = [seen([p + q for p, q in zip(pose.position, turned(pose.rotation, corner))]) for corner in face]
             faces.append((sum(corner[2] for corner in corners), shade, [corner[:2] for corner in corners]))
-    commands += f'set lmargin at screen {left}\nset rmargin at screen {right}\nset bmargin at screen {bottom}\nset tmargin at screen {top}\n'
-    commands += f'set title "{title}" offset 0, -0.5\nset xrange [{low}:{high}]\nunset border\nunset tics\nset yrange [-2.2:0.15]\n'
-    for place, (_, shade, corners) in enumerate(sorted(faces), 1):
-        text = " to ".join(f"{x:.5f}, {y:.5f}" for x, y in corners + corners[:1])
-        commands += f'set object {place} polygon from {text} fc rgb "{shade}" fs solid 0.85 border lc rgb "#16384d" lw 0.4 front\n'
-    commands += scale_bar(high - 0.55, -2.0) if number == 0 else ""
-    commands += f'plot $others{number} with lines lc rgb "#c9c9c9" lw 0.8, $path{number} with lines lc rgb "#1a1a1a" lw 1\n'
-    return commands + "unset arrow\nunset label\n" + "".join(f"unset object {place}\n" for place in range(1, len(faces) + 1))
+    for order, (_, shade, corners) in enumerate(sorted(faces)):
+        axes.fill(*zip(*corners), fc=shade + "d9", ec="#16384d", lw=0.4, zorder=3 + order)
+    axes.set_title(title)
 
 
 def airplane_picture(flights_of, picture):
-    commands = f'set terminal pngcairo size 2000, 1050 font "DejaVu Sans,16" linewidth 1.6\nset output "{picture}"\n' + STYLE
-    commands += "set multiplot\nset size ratio -1\n"
+    figure = new_figure(2000, 1050, 16)
     titles = {"wake": "the wake's slip (default)", "body-velocity": "equation 8"}
     edges = {form: edges_of(all_flights) for form, all_flights in flights_of.items()}
     scale = min(0.6 / sum(high - low for low, high in edges.values()), 0.86 * 1050 / 2000 / 2.35)  # screens a metre
-    left = 0.005
+    left, tall = 0.005, 2.35 * scale * 2000 / 1050
     for number, (form, all_flights) in enumerate(flights_of.items()):
         low, high = edges[form]
-        right = left + scale * (high - low)
-        commands += airplane_panel(number, titles[form], all_flights, (0.1, 0.3)[number], (left, right, 0.06, 0.92, low, high))
-        left = right + 0.02
-    commands += "set border 3\nset tics nomirror\nset grid lc rgb '#e4e4e4' lt 1 lw 0.8\n"
-    commands += "set lmargin at screen 0.66\nset rmargin at screen 0.985\nset bmargin at screen 0.2\nset tmargin at screen 0.9\n"
-    commands += 'set title "where they land, m from the start (it flies to the left)"\nset xrange [-1.6:0.8]\nset yrange [-1.2:1.2]\nset xtics 0.5\nset ytics 0.5\n'
-    commands += 'set key at screen 0.82, 0.04 center bottom maxrows 1 Left reverse samplen 1 width 1\nset xlabel "x"\nset ylabel "y"\n'
-    for number, (form, all_flights) in enumerate(flights_of.items()):
-        commands += block(f"ends{number}", [[poses[-1].position[:2] for poses in all_flights]])
-    commands += ('plot $ends0 with points pt 7 ps 1.6 lc rgb "#2a6f97" title "the wake", '
-                 '$ends1 with points pt 6 ps 1.6 lc rgb "#c0392b" title "equation 8", '
-                 '"+" using (0):(0) every ::0::0 with points pt 1 ps 2 lc rgb "#1a1a1a" title "start"\n')
-    draw(commands + "unset multiplot\n")
+        axes = bare(figure, (left, 0.92 - tall, scale * (high - low), tall), (low, high), (-2.2, 0.15))
+        airplane_panel(axes, titles[form], all_flights, (0.1, 0.3)[number])
+        if number == 0:
+            scale_bar(axes, (high - 0.55, -2.1), (high - 0.05, -2.1), "0.5 m, in both")
+        left += scale * (high - low) + 0.02
+    axes = figure.add_axes((0.66, 0.2, 0.325, 0.7))
+    for all_flights, name, face in zip(flights_of.values(), ("the wake", "equation 8"), ("#2a6f97", "none")):
+        ends = [poses[-1].position[:2] for poses in all_flights]
+        axes.plot(*zip(*ends), "o", mfc=face, mec="#2a6f97" if face != "none" else "#c0392b", mew=1.6, ms=8, label=name)
+    axes.plot(0, 0, "+", color="#1a1a1a", ms=12, mew=2, label="start")
+    axes.set(title="where they land, m from the start (it flies to the left)", xlim=(-1.6, 0.8), ylim=(-1.2, 1.2), xlabel="x", ylabel="y")
+    key(figure, (axes,), 3, (0.82, 0.03))
+    save(figure, picture)
 
 
 def airplane_row(title, told, all_flights):

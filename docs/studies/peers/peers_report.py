@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Other models of falling bodies and the runtime against the reference falls, those three times as long, and the test falls.
 
     peers_report.py BIN FOLDER    flies the other models, and the runtime by the loads of the surface
@@ -14,7 +14,6 @@ import csv
 import glob
 import json
 import os
-import subprocess
 import sys
 import tempfile
 
@@ -27,6 +26,7 @@ from surface_report import plain, shape_of  # noqa: E402
 from test_falls_report import FOLDER as TEST  # noqa: E402
 from test_falls_report import SCENES as TEST_SCENES  # noqa: E402
 from test_falls_report import SEEN  # noqa: E402
+from study_pictures import picture_of  # noqa: E402
 
 FIGURES = dict(zip(("descent", "frequency", "amplitude", "angular_speed"), MEASURES))
 DEFAULT, BEST, SHAPE, ALONE = "MuJoCo default", "MuJoCo best", "MuJoCo best for each shape", "MuJoCo best for each fall"
@@ -247,8 +247,7 @@ def write_report(folder, rows_of):
         errors_table(rows, (DEFAULT, BEST, SHAPE, OTHERS, ALONE)), errors_table(rows, tuple(dict.fromkeys(equations))),
         errors_table(rows, [SURFACE, *OURS]), errors_table(long_rows, [SHAPE, OTHERS, SURFACE, *OURS]),
         errors_table(test_rows, [OTHERS, SURFACE, *OURS], TEST_SCENES)], mark("falls"))
-    subprocess.run(["gnuplot", "-e", f"rows='{folder}/peers.csv'; picture='{folder}/peers.png'", f"{folder}/peers.gp"],
-                   check=True)
+    picture_of("peers", f"{folder}/peers.csv", f"{folder}/peers.png")
     print(f"Written: {', '.join(rows_of)}, README.md and peers.png in {folder}")
 
 

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """What baking only what a scene needs saves: its rounds beside uniform grids of directions.
 
     plan_report.py BIN WORK ROWS.csv    bakes the scenes of docs/studies/plan in the folder WORK, or goes on there
@@ -20,6 +20,7 @@ import sys
 
 sys.path += glob.glob(f"{os.path.dirname(os.path.abspath(__file__))}/../*/")  # the modules of all studies
 from report_tables import mark, write_tables  # noqa: E402
+from study_pictures import picture_of  # noqa: E402
 
 SCENES = "docs/studies/plan"
 BODIES = ("sphere", "ellipsoid", "sheet", "airplane", "samara", "leaf")
@@ -221,7 +222,7 @@ def write(target):
     write_tables(os.path.join(os.path.dirname(target), "README.md"), ["\n".join(summary) + "\n", "\n".join(lines) + "\n"],
                  mark("plan"))
     picture = target.replace(".csv", "")
-    subprocess.run(["gnuplot", "-e", f"rows='{target}'; picture='{picture}.png'", f"{picture}.gp"], check=True)
+    picture_of("plan", target, f"{picture}.png")
 
 
 def main():

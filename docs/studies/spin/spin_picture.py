@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """docs/pictures/samara.gif: the samara of docs/scenes/samara.toml spins up, seen by an eye that falls with it.
 
     spin_picture.py BIN PICTURE.gif
@@ -10,14 +10,13 @@ import glob
 import math
 import os
 import re
-import subprocess
 import sys
 import tempfile
 
 sys.dont_write_bytecode = True
 sys.path += glob.glob(f"{os.path.dirname(os.path.abspath(__file__))}/../*/")  # the modules of all studies
 from falls_report import run  # noqa: E402
-from gnuplot_picture import block, flights, turned  # noqa: E402
+from study_pictures import flights, new_figure, turned  # noqa: E402
 
 SCENE = "docs/scenes/samara.toml"
 BEGIN, END = 0.1, 1.25  # s
@@ -63,21 +62,27 @@ def colour(shade):
 
 
 def frame(places, triangles, pose, start):
-    """The commands that draw one frame."""
+    """One picture of the moving one."""
+    from matplotlib.collections import PolyCollection
+    from PIL import Image
+    figure = new_figure(680, 480, 9)
+    axes = figure.add_axes((0, 0, 1, 1))
+    axes.set_axis_off()
+    axes.set_xlim(-HALF_WIDTH, HALF_WIDTH)
+    axes.set_ylim(-HALF_HEIGHT, HALF_HEIGHT)
     fallen = start[2] - pose.position[2]
-    lines = [mark for mark in range(-1, 200) if abs(0.05 * mark - fallen) < HALF_HEIGHT / math.cos(STEEPNESS)]
-    commands = "unset arrow\nunset label\n"
-    for mark in lines:
+    for mark in range(-1, 200):
         height = (fallen - 0.05 * mark) * math.cos(STEEPNESS)
-        commands += (f'set arrow from {-HALF_WIDTH},{height} to {HALF_WIDTH},{height} nohead lc rgb "#d5dde3" lw 1 back\n'
-                     f'set label "{5 * mark} cm" at {-HALF_WIDTH + 0.002},{height + 0.002} tc rgb "#8295a3" font ",11" front\n')
+        if abs(height) < HALF_HEIGHT:
+            axes.axhline(height, color="#d5dde3", lw=1)
+            axes.text(-HALF_WIDTH + 0.002, height + 0.001, f"{5 * mark} cm", color="#8295a3")
+    for shade, outlines in sorted(shaded(places, triangles, pose).items()):
+        axes.add_collection(PolyCollection(outlines, facecolors=colour(shade), edgecolors=colour(shade), linewidths=0.6, zorder=3), autolim=False)
     spin = abs(pose.angular_velocity[2]) / (2 * math.pi)
-    commands += (f'set label "{pose.time:.2f} s    sinks at {-pose.velocity[2]:.1f} m/s    {spin:.0f} turns a second" '
-                 f'at {HALF_WIDTH - 0.002},{HALF_HEIGHT - 0.004} right tc rgb "#26323b" font ",13" front\n')
-    groups = sorted(shaded(places, triangles, pose).items())
-    curves = ", ".join(f'$shade{shade} with filledcurves closed fs solid 1 noborder fc rgb "{colour(shade)}", '
-                       f'$shade{shade} with lines lw 0.6 lc rgb "{colour(shade)}"' for shade, _ in groups)
-    return "".join(block(f"shade{shade}", outlines) for shade, outlines in groups) + commands + f"plot {curves}\n"
+    axes.text(HALF_WIDTH - 0.002, HALF_HEIGHT - 0.004, f"{pose.time:.2f} s    sinks at {-pose.velocity[2]:.1f} m/s    {spin:.0f} turns a second",
+              ha="right", va="center", color="#26323b", fontsize=11, zorder=4)
+    figure.canvas.draw()
+    return Image.frombytes("RGBA", (680, 480), bytes(figure.canvas.buffer_rgba())).convert("RGB")
 
 
 def main(programs, picture):
@@ -92,19 +97,8 @@ def main(programs, picture):
         places, triangles = surface_of(usda)
     middle = [sum(place[i] for place in places) / len(places) for i in range(3)]
     places = [tuple(p - m for p, m in zip(place, middle)) for place in places]
-    commands = f'''set terminal gif animate delay {100 // FRAMES} loop 0 size 680, 480 font "DejaVu Sans"
-set output "{picture}"
-unset key
-unset border
-unset tics
-set margins 0, 0, 0, 0
-set xrange [{-HALF_WIDTH}:{HALF_WIDTH}]
-set yrange [{-HALF_HEIGHT}:{HALF_HEIGHT}]
-'''
-    for pose in poses:
-        if BEGIN <= pose.time <= END:
-            commands += frame(places, triangles, pose, poses[0].position)
-    subprocess.run(["gnuplot"], input=commands, text=True, check=True)
+    frames = [frame(places, triangles, pose, poses[0].position).quantize(64) for pose in poses if BEGIN <= pose.time <= END]
+    frames[0].save(picture, save_all=True, append_images=frames[1:], duration=1000 // FRAMES, loop=0, optimize=True)
     print(f"Written: {picture}")
 
 

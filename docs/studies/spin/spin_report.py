@@ -18,7 +18,7 @@ import tempfile
 sys.dont_write_bytecode = True
 sys.path += glob.glob(f"{os.path.dirname(os.path.abspath(__file__))}/../*/")  # the modules of all studies
 from falls_report import percent, run, scene_with  # noqa: E402
-from gnuplot_picture import flights  # noqa: E402
+from study_pictures import flights  # noqa: E402
 from nature_measure import coning, mean, spin, stretch, swinging_descent  # noqa: E402
 from report_tables import mark, write_tables  # noqa: E402
 

@@ -6,6 +6,7 @@
     motion = samara.simulate(scene, runs=5)
     motion["leaf"].position          # (runs, frames, copies, 3) in m, without a copy
     motion["leaf"].ensemble()        # descent speed, frequency, regimes, landing, ... with their errors
+    samara.plot.motion(motion)       # a matplotlib figure
 
 Lengths are in metres, times in seconds, angles in radians, all else in SI units; world axes have z up. Faults are samara.Error,
 whose text is one line that names the place and the remedy; of what was given InputError, a ValueError too; of files that cannot be
@@ -36,6 +37,13 @@ def simulate(scene: Union[Scene, dict[str, Any], str, "_os.PathLike[str]"], *, r
     elif not isinstance(scene, Scene):
         scene = Scene.read(scene)
     return _fly(scene, runs=runs, seed=seed, step=step, threads=threads, bodies=bodies, progress=progress)
+
+
+def __getattr__(name: str) -> Any:
+    if name in ("plot", "report"):  # which need matplotlib
+        import importlib
+        return importlib.import_module("." + name, __name__)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def _show_in_notebook(motion: Motion) -> str:

@@ -15,7 +15,7 @@ PROJECT = os.path.join(HERE, "..", "..", "..")
 sys.path[:0] = glob.glob(os.path.join(PROJECT, "docs", "studies", "*", ""))
 import nature_fruit  # noqa: E402
 import nature_scenes  # noqa: E402
-from gnuplot_picture import Pose, rotation_of  # noqa: E402
+from study_pictures import Pose, rotation_of  # noqa: E402
 from nature_families import FRUITS, REGIMES, slope, transition  # noqa: E402
 from nature_measure import coning, drift, first_acceleration, horizontal_speed, measured, peak_speed, spin, turning_rate  # noqa: E402
 from nature_report import mean_of_flights, with_copies  # noqa: E402

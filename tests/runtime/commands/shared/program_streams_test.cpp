@@ -92,14 +92,15 @@ TEST_F(ProgramStreams, AFileBeyondTheShellsLimitIsAnErrorAndLeavesNothing) {
 }
 
 TEST_F(ProgramStreams, ProgramsThatAreStartedGetTheSignalsAsTheyWere) {
-    // gnuplot as plot starts it, replaced by one that says how it was started.
-    (void)folder_.file("bin/gnuplot", "#!/bin/sh\ngrep SigIgn /proc/self/status > ignored\nexit 1\n");
-    std::filesystem::permissions(folder_ / "bin/gnuplot", std::filesystem::perms::owner_all);
+    // Python as plot starts it, replaced by one that says how it was started.
+    (void)folder_.file("bin/python", "#!/bin/sh\ngrep SigIgn /proc/self/status > " +
+                                         (folder_ / "ignored").string() + "\nexit 1\n");
+    std::filesystem::permissions(folder_ / "bin/python", std::filesystem::perms::owner_all);
     ASSERT_EQ(shell("\"$SAMARA\" simulate scene.toml -o motion.h5 > output 2> fault"), 0) << fault();
-    EXPECT_EQ(shell("PATH=\"$PWD/bin:$PATH\" \"$SAMARA\" plot motion.h5 -o out.png 2> fault"), 1);
-    const std::string of_gnuplot = read_bytes(folder_ / "ignored");
+    EXPECT_EQ(shell("SAMARA_PYTHON=\"$PWD/bin/python\" \"$SAMARA\" plot motion.h5 -o out.png 2> fault"), 1);
+    const std::string of_python = read_bytes(folder_ / "ignored");
     ASSERT_EQ(shell("grep SigIgn /proc/self/status > ignored"), 0);
-    EXPECT_EQ(of_gnuplot, read_bytes(folder_ / "ignored"));
+    EXPECT_EQ(of_python, read_bytes(folder_ / "ignored"));
 }
 
 }  // namespace

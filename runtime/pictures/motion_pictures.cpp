@@ -1,0 +1,173 @@
+#include "samara/pictures/motion_pictures.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "samara/analysis/metrics/description.hpp"
+#include "samara/analysis/metrics/tilt.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/export/shaded_mesh.hpp"
+#include "samara/formats/vector_json.hpp"
+#include "samara/motion/inclination.hpp"
+#include "samara/motion/measures.hpp"
+
+namespace samara {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t most_paths = 200;
+constexpr int most_path_points = 240;
+
+json of_one_copy(const char* picture, const Motion& motion, const BodyMotion& body, int run, int copy) {
+    return {{"picture", picture},
+            {"name", body.name},
+            {"run", run},
+            {"runs", motion.runs},
+            {"copy", copy},
+            {"copies", body.copies},
+            {"measures", as_json(measure(motion, body, run, copy))}};
+}
+
+/// With the frames of the fall and a little before and after it: a body may wait long, and lie long on the
+/// ground.
+json strip(const Motion& motion, const BodyMotion& body, int run, int copy) {
+    json picture = of_one_copy("strip", motion, body, run, copy);
+    const TimeWindow fall = fall_of(motion, body, run, copy);
+    const double length = fall.end - fall.begin;
+    const Vector3d down = down_direction(motion.gravity);
+    picture["fall"] = {fall.begin, fall.end};
+    for (int frame = 0; frame < motion.frames(); ++frame) {
+        const double time = motion.times[static_cast<std::size_t>(frame)];
+        if (time < fall.begin - 0.1 * length || time > fall.end + 0.25 * length) continue;
+        const Pose& pose = motion.pose(body, run, frame, copy);
+        const auto& turn = pose.orientation;
+        picture["times"].push_back(time);
+        picture["position"].push_back(as_json(pose.position));
+        picture["orientation"].push_back({turn.x(), turn.y(), turn.z(), turn.w()});
+        picture["descent_speed"].push_back(pose.velocity.dot(down));
+        picture["inclination"].push_back(inclination(motion, body, pose));
+        picture["angular_velocity"].push_back(as_json(pose.angular_velocity));
+    }
+    const Surface flat = flattened_surface(body.surface);
+    const double size = body.size(run, copy);
+    for (const Vector3d& vertex : flat.vertices) {
+        picture["vertices"].push_back(as_json(Vector3d(size * (vertex - body.center_of_mass))));
+    }
+    picture["triangles"] = flat.corners;
+    return picture;
+}
+
+json phase(const Motion& motion, const BodyMotion& body, int run, int copy) {
+    if (!has_shortest_axis(body.surface)) {
+        throw Error(fmt::format(
+            "'{}' has no shortest axis, whose tilt a phase portrait shows: draw its strip", body.name));
+    }
+    json picture = of_one_copy("phase", motion, body, run, copy);
+    const Tilt tilt = tilt_of(motion, body, run, copy);
+    double highest = 0.0;
+    for (const double rate : tilt.rate) highest = std::max(highest, std::abs(rate));
+    picture["times"] = tilt.times;
+    picture["angle"] = tilt.angle;
+    picture["rate"] = tilt.rate;
+    picture["continues"] = tilt.continues;
+    picture["fall"] = {tilt.times.front(), tilt.times.back()};
+    picture["highest_rate"] = highest;
+    picture["lines"] = std::ranges::count(tilt.continues, false);
+    const json& frequency = picture["measures"]["frequency"];
+    const bool swings = frequency.is_number() && frequency.get<double>() > 0.0;
+    picture["frames_in_swing"] = swings ? json(0.5 / frequency.get<double>() * motion.frame_rate) : json();
+    return picture;
+}
+
+/// Where one copy comes down in one run.
+struct Place {
+    int run;
+    int copy;
+    int frame;
+    Vector3d position;  ///< m
+    double value;       ///< s: time of landing; without a landing m: the distance descended
+};
+
+/// The landings; where there is none, the places at the last frame.
+std::vector<Place> places_of(const Motion& motion, const BodyMotion& body, bool& landed) {
+    std::vector<Place> landings;
+    std::vector<Place> last;
+    const Vector3d down = down_direction(motion.gravity);
+    for (int run = 0; run < motion.runs; ++run) {
+        for (int copy = 0; copy < body.copies; ++copy) {
+            const auto at = [&](int frame) { return motion.pose(body, run, frame, copy).position; };
+            if (const auto frame = landing_frame(motion, body, run, copy)) {
+                landings.push_back(
+                    {run, copy, *frame, at(*frame), motion.times[static_cast<std::size_t>(*frame)]});
+            }
+            const int end = motion.frames() - 1;
+            last.push_back({run, copy, end, at(end), (at(end) - at(0)).dot(down)});
+        }
+    }
+    landed = !landings.empty();
+    return landed ? landings : last;
+}
+
+json landing(const Motion& motion, const BodyMotion& body) {
+    bool landed = false;
+    const std::vector<Place> places = places_of(motion, body, landed);
+    if (places.size() < 2) {
+        throw Error(
+            fmt::format("'{}': a landing map needs more than one {}: simulate with --runs N, or a count in "
+                        "the scene",
+                        body.name, landed ? "landing" : "fall"));
+    }
+    const auto count = static_cast<double>(places.size());
+    Vector3d mean = Vector3d::Zero();
+    for (const Place& place : places) mean += place.position / count;
+    std::vector<double> distances;
+    double squares = 0.0;
+    json picture = {{"picture", "landing"},
+                    {"name", body.name},
+                    {"runs", motion.runs},
+                    {"copies", body.copies},
+                    {"end", motion.times.back()}};
+    for (const Place& place : places) {
+        const double square = (place.position - mean).head<2>().squaredNorm();
+        squares += square;
+        distances.push_back(std::sqrt(square));
+        picture["places"].push_back({place.position.x(), place.position.y()});
+        picture["values"].push_back(place.value);
+    }
+    const std::size_t stride = 1 + (places.size() - 1) / most_paths;
+    for (std::size_t i = 0; i < places.size(); i += stride) {
+        const Place& place = places[i];
+        json path = json::array();
+        const int step = 1 + place.frame / most_path_points;
+        for (int frame = place.frame % step; frame <= place.frame; frame += step) {
+            const Vector3d& at = motion.pose(body, place.run, frame, place.copy).position;
+            path.push_back({at.x(), at.y()});
+        }
+        picture["paths"].push_back(path);
+    }
+    double radius = 0.0;
+    for (const Vector3d& vertex : body.surface.vertices) {
+        radius = std::max(radius, (vertex - body.center_of_mass).norm());
+    }
+    if (!body.sizes.empty()) radius *= *std::ranges::max_element(body.sizes);
+    picture["radius"] = radius;
+    picture["samples"] = motion.runs * body.copies;
+    picture["landed"] = landed ? places.size() : 0;
+    picture["mean"] = as_json(mean);
+    picture["spread"] = std::sqrt(squares / count);
+    picture["median"] = percentile(distances, 50.0);
+    return picture;
+}
+
+}  // namespace
+
+json motion_picture(const std::string& picture, const Motion& motion, const BodyMotion& body, int run,
+                    int copy) {
+    if (picture == "landing") return landing(motion, body);
+    return picture == "phase" ? phase(motion, body, run, copy) : strip(motion, body, run, copy);
+}
+
+}  // namespace samara
