@@ -16,7 +16,6 @@ using test::SolvedFolder;
 using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
-using testing::Not;
 
 LoadEntry along_the_motion(const Vector3d& direction, double reynolds_number) {
     LoadEntry entry;

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -38,7 +39,7 @@ Body blunt_body() {
 /// All numbers of a JSON value, and how many are none.
 void expect_finite(const nlohmann::json& value, const std::string& place) {
     if (value.is_structured()) {
-        for (const auto& [key, part] : value.items()) expect_finite(part, place + '/' + key);
+        for (const auto& [key, part] : value.items()) expect_finite(part, fmt::format("{}/{}", place, key));
     } else if (value.is_number()) {
         EXPECT_TRUE(std::isfinite(value.get<double>())) << place;
     }

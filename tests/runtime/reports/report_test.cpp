@@ -18,7 +18,6 @@
 namespace samara {
 namespace {
 
-using test::ProgramRun;
 using testing::AllOf;
 using testing::Contains;
 using testing::ElementsAre;
