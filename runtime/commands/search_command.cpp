@@ -16,10 +16,10 @@
 #include "samara/commands/shared/progress.hpp"
 #include "samara/commands/shared/scene_bodies.hpp"
 #include "samara/core/base/error.hpp"
+#include "samara/core/flight/terminal_speed.hpp"
 #include "samara/motion/motion_writer.hpp"
 #include "samara/scene/scene_file.hpp"
 #include "samara/scene/simulation.hpp"
-#include "samara/scene/size_range.hpp"
 #include "samara/scene/target_search.hpp"
 
 namespace samara {

@@ -25,6 +25,7 @@
 #include "samara/commands/table_errors_report.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/body/body_file.hpp"
+#include "samara/core/flight/terminal_speed.hpp"
 #include "samara/core/kernel/body_state.hpp"
 #include "samara/formats/vector_json.hpp"
 #include "samara/motion/motion_file.hpp"
@@ -32,7 +33,6 @@
 #include "samara/scene/run_needs.hpp"
 #include "samara/scene/scene_file.hpp"
 #include "samara/scene/simulation.hpp"
-#include "samara/scene/size_range.hpp"
 
 namespace samara {
 namespace {

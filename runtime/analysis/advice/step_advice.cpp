@@ -12,12 +12,11 @@
 
 #include "samara/core/base/parallel_for.hpp"
 #include "samara/core/dynamics/body_size.hpp"
-#include "samara/core/dynamics/langevin.hpp"
+#include "samara/core/dynamics/loads.hpp"
 #include "samara/core/flight/flight_kind.hpp"
 #include "samara/core/flight/flight_surroundings.hpp"
 #include "samara/core/flight/terminal_speed.hpp"
 #include "samara/core/flight/world_pose.hpp"
-#include "samara/core/kernel/kolmogorov_constant.hpp"
 #include "samara/core/kernel/wake_noise.hpp"
 
 namespace samara {

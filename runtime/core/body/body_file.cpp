@@ -8,16 +8,12 @@
 #include "samara/base/version.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/body/body_check.hpp"
-#include "samara/core/body/dynamic_coefficients_file.hpp"
-#include "samara/core/body/mass_file.hpp"
-#include "samara/core/body/planned_region_file.hpp"
 #include "samara/core/body/surface_file.hpp"
-#include "samara/core/body/surface_loads_file.hpp"
-#include "samara/core/body/table_errors_file.hpp"
 #include "samara/core/files/content_hash.hpp"
 #include "samara/core/files/hdf5_reader.hpp"
 #include "samara/core/files/hdf5_writer.hpp"
 #include "samara/core/files/row_major.hpp"
+#include "samara/internal/body/body_groups.hpp"
 
 namespace samara {
 namespace {

@@ -3,6 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
+#include "samara/core/base/error.hpp"
+#include "samara/core/dynamics/loads.hpp"
+#include "samara/core/dynamics/prepared_bodies.hpp"
 #include "samara/core/surface/octahedral_map.hpp"
 
 namespace samara {
@@ -26,6 +31,28 @@ double terminal_speed(const Body& body, const Fluid& fluid, double mass, double 
     if (excess <= neutral_mass * buoyant_mass || !(gravity > 0.0)) return 0.0;
     return std::sqrt(2.0 * excess * gravity /
                      (terminal_drag_coefficient * fluid.density * largest_projected_area(body)));
+}
+
+void require_sizes_in_tables(const Scene& scene, const SceneBody& scene_body, const LoadedBody& loaded) {
+    if (!scene_body.spreads_size() || scene_body.table_reynolds_number) return;
+    const auto body = loaded.prepared->get(*loaded.body, scene_body, scene.fluid, scene_body.name);
+    if (!body->tables) return;
+    const double speed = terminal_speed(*loaded.body, scene.fluid, body->mass, scene.gravity.norm());
+    if (!(speed > 0.0)) return;
+    const double lowest = body->tables->reynolds_numbers.front();
+    const double highest = body->tables->reynolds_numbers.back();
+    // The terminal speed goes with the root of the size, the Reynolds number with its power 3/2.
+    const double own = reynolds_number(*body, speed);
+    const auto size_at = [&](double reynolds) { return std::pow(reynolds / own, 2.0 / 3.0); };
+    const double least = size_at(0.5 * lowest);
+    const double most = size_at(2.0 * highest);
+    const bool too_large = scene_body.largest_size > most;
+    if (!too_large && scene_body.smallest_size >= least) return;
+    const double size = too_large ? scene_body.largest_size : scene_body.smallest_size;
+    throw Error(fmt::format(
+        "{}: body '{}': of spread.size {:g} it falls at a Reynolds number of about {:.3g}, and its tables go "
+        "from {:.3g} to {:.3g}; keep the sizes within {:.3g} and {:.3g}, or bake this scene",
+        scene.file.string(), scene_body.name, size, own * std::pow(size, 1.5), lowest, highest, least, most));
 }
 
 }  // namespace samara

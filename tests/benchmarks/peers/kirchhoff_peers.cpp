@@ -4,8 +4,8 @@
 #include "samara/commands/shared/load_body.hpp"
 #include "samara/core/flight/terminal_speed.hpp"
 #include "samara/core/flight/world_pose.hpp"
-#include "samara/core/integrator/equations_of_motion.hpp"
 #include "samara/kirchhoff/kirchhoff_solver.hpp"
+#include "support/reference_step.hpp"
 
 namespace samara {
 namespace {

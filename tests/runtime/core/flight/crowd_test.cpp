@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "samara/core/flight/flight_surroundings.hpp"
+#include "samara/core/flight/terminal_speed.hpp"
 #include "samara/motion/motion_file.hpp"
 #include "samara/scene/simulation.hpp"
-#include "samara/scene/size_range.hpp"
 #include "support/expect_error.hpp"
 #include "support/known_bodies.hpp"
 #include "support/obstacles.hpp"
