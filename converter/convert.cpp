@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "converter/cases/case_folder_reduction.hpp"
-#include "converter/cases/plan_coverage.hpp"
 #include "converter/tables/direction_sampling.hpp"
 #include "converter/tables/table_filling.hpp"
 #include "samara/analysis/verdicts/case_records.hpp"

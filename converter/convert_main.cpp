@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "converter/cases/case_folder_reduction.hpp"
-#include "converter/cases/case_links.hpp"
+#include "converter/cases/case_plan.hpp"
 #include "converter/cases/load_fluctuations.hpp"
 #include "converter/cases/samples_csv.hpp"
 #include "converter/convert.hpp"

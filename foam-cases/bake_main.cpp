@@ -17,8 +17,8 @@
 #include "samara/core/base/error.hpp"
 #include "samara/core/body/body_file.hpp"
 #include "samara/core/files/replace_file.hpp"
-#include "samara/core/flight/terminal_speed.hpp"
 #include "samara/scene/scene_file.hpp"
+#include "samara/scene/terminal_speed.hpp"
 
 namespace samara {
 namespace {

@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "converter/cases/case_plan.hpp"
 #include "converter/cases/case_reduction.hpp"
+#include "samara/core/body/body.hpp"
 #include "samara/formats/left_out_cases.hpp"
 
 namespace samara {
@@ -35,5 +37,15 @@ FolderReduction reduce_folder(const std::filesystem::path& folder, const CasePla
 /// is there, or it was solved after all. Throws Error where that file is damaged.
 std::optional<std::string> failure_of(const std::filesystem::path& folder, const std::string& name,
                                       const std::string& mesh);
+
+/// That of which the plan has most cases on the last mesh and the one before it (purposes `table` and
+/// `mesh`), the lowest of equals, whatever became of them. Throws Error where no case is for the table.
+double main_reynolds_number(const CasePlan& plan);
+
+/// Throws Error where the plan's cases cannot make tables that are worth it. The main Reynolds number must
+/// plan at least the required_directions of a map with one subdivision, unless the plan covers a scene alone,
+/// and at most one in five of its directions may be left out.
+void require_enough_directions(const CasePlan& plan, const Symmetry& symmetry,
+                               const FolderReduction& reduction);
 
 }  // namespace samara

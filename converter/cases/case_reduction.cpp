@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "converter/cases/case_setup.hpp"
-#include "converter/cases/load_history.hpp"
+#include "converter/cases/load_fluctuations.hpp"
 #include "converter/cases/quantity_history.hpp"
 #include "converter/openfoam/foam_dictionary.hpp"
 #include "converter/openfoam/foam_history.hpp"

@@ -9,10 +9,10 @@
 #include <fmt/format.h>
 
 #include "converter/cases/case_setup.hpp"
-#include "converter/openfoam/cell_volumes.hpp"
 #include "converter/openfoam/foam_bytes.hpp"
 #include "converter/openfoam/foam_dictionary.hpp"
 #include "converter/openfoam/foam_file.hpp"
+#include "converter/openfoam/poly_mesh.hpp"
 #include "converter/openfoam/time_folders.hpp"
 #include "samara/core/base/error.hpp"
 

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "converter/cases/case_links.hpp"
-#include "converter/cases/load_history.hpp"
+#include "converter/cases/case_plan.hpp"
+#include "converter/cases/load_fluctuations.hpp"
 #include "converter/openfoam/foam_history.hpp"
 #include "samara/core/base/error.hpp"
 

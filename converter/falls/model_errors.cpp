@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "converter/tables/direction_sampling.hpp"
-#include "converter/tables/student.hpp"
+#include "converter/tables/standard_error.hpp"
 
 namespace samara {
 namespace {

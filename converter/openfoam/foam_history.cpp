@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "converter/openfoam/foam_bytes.hpp"
-#include "converter/openfoam/foam_number.hpp"
+#include "converter/openfoam/foam_scanner.hpp"
 #include "converter/openfoam/time_folders.hpp"
 #include "samara/core/base/error.hpp"
 

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdlib>
+#include <string>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
-
-#include "converter/openfoam/foam_number.hpp"
 
 namespace samara {
 namespace {
@@ -144,6 +145,14 @@ Error FoamScanner::fault(std::string_view what) const {
     const auto end = text_.begin() + static_cast<std::ptrdiff_t>(std::min(place_, text_.size()));
     const auto line = 1 + std::count(text_.begin(), end, '\n');
     return Error(fmt::format("{}:{}: {}", path_.string(), line, what));
+}
+
+const char* read_foam_number(const char* first, const char* last, double& value) {
+    const auto [end, status] = std::from_chars(first, last, value);
+    // std::from_chars leaves the value as it was there.
+    if (status == std::errc::result_out_of_range)
+        value = std::strtod(std::string(first, end).c_str(), nullptr);
+    return status == std::errc::invalid_argument ? first : end;
 }
 
 }  // namespace samara

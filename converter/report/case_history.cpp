@@ -5,7 +5,7 @@
 #include <numbers>
 #include <string>
 
-#include "converter/cases/load_history.hpp"
+#include "converter/cases/load_fluctuations.hpp"
 
 namespace samara {
 namespace {

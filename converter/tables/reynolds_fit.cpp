@@ -4,7 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "converter/tables/student.hpp"
+#include "converter/tables/direction_sampling.hpp"
+#include "converter/tables/standard_error.hpp"
+#include "converter/tables/symmetric_loads.hpp"
 #include "samara/core/base/error.hpp"
 
 namespace samara {
@@ -148,6 +150,23 @@ ErrorFigures ReynoldsFit::interpolation_error(const Vector3d& direction) const {
             hypot_scaled(scale_.moment, spread, other.moment),
             hypot_scaled(scale_.turbulent_kinetic_energy, spread, other.turbulent_kinetic_energy),
             hypot_scaled(scale_.dissipation_rate, spread, other.dissipation_rate)};
+}
+
+SurfaceTrend::SurfaceTrend(const SurfaceLoads& loads, const Symmetry& symmetry, double reynolds_number)
+    : tables_(as_tables(loads, 1.0)), reynolds_number_(reynolds_number) {
+    for (const Matrix3d& element : elements_in_map_axes(symmetry)) {
+        elements_.push_back(symmetry.axes * element);
+    }
+}
+
+LoadEntry SurfaceTrend::at(const Vector3d& direction) const {
+    LoadEntry mean;
+    const double part = 1.0 / static_cast<double>(elements_.size());
+    for (const Matrix3d& element : elements_) {
+        const LoadEntry image = look_up(tables_, element * direction, reynolds_number_);
+        mean = plus(mean, part, transformed(image, element.transpose()));
+    }
+    return mean;
 }
 
 }  // namespace samara

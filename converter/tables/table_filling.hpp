@@ -5,6 +5,7 @@
 
 #include "converter/cases/case_reduction.hpp"
 #include "samara/core/body/body.hpp"
+#include "samara/core/body/load_tables.hpp"
 
 namespace samara {
 
@@ -38,5 +39,16 @@ namespace samara {
 std::vector<LoadEntryError> fill_tables(LoadTables& tables, const Symmetry& symmetry,
                                         std::vector<SolvedCase>& cases, double main_reynolds_number,
                                         const std::optional<SurfaceLoads>& surface = {});
+
+/// The mean square error of looking a table up between its Reynolds numbers, linear in log Re: each inner
+/// Reynolds number is left out and predicted from its two neighbours. That error belongs to intervals twice
+/// as long, and to their middle, so that for a smooth change a quarter of it is left in the middle of the
+/// table's own. One figure for each kind of quantity (the components of a vector alike), k and epsilon by
+/// their logarithms; nothing (zero) where there are fewer than three Reynolds numbers, or where they are
+/// laminar.
+///
+/// `nodes`: the entries of each of the ascending `reynolds_numbers` in the same directions.
+LoadEntryError reynolds_interpolation_variance(const std::vector<double>& reynolds_numbers,
+                                               const std::vector<std::vector<LoadEntry>>& nodes);
 
 }  // namespace samara

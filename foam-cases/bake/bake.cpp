@@ -17,7 +17,7 @@
 #include "foam-cases/farm/case_farm.hpp"
 #include "foam-cases/farm/case_folder.hpp"
 #include "foam-cases/farm/cluster_jobs.hpp"
-#include "foam-cases/farm/folder_lock.hpp"
+#include "foam-cases/farm/guarded_process.hpp"
 #include "foam-cases/scene/scene_plan_report.hpp"
 #include "samara/commands/shared/print.hpp"
 #include "samara/commands/shared/progress.hpp"

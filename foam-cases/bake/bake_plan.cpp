@@ -13,9 +13,9 @@
 #include "foam-cases/bake/direction_choice.hpp"
 #include "foam-cases/falls/fall_plan.hpp"
 #include "samara/core/base/error.hpp"
-#include "samara/core/flight/terminal_speed.hpp"
 #include "samara/core/surface/octahedral_map.hpp"
 #include "samara/formats/vector_json.hpp"
+#include "samara/scene/terminal_speed.hpp"
 
 namespace samara {
 namespace {

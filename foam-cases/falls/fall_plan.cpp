@@ -13,7 +13,7 @@
 #include "samara/core/base/error.hpp"
 #include "samara/core/base/symmetric_matrix.hpp"
 #include "samara/core/base/turn.hpp"
-#include "samara/core/flight/terminal_speed.hpp"
+#include "samara/scene/terminal_speed.hpp"
 
 namespace samara {
 namespace {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "foam-cases/bake/bake_plan.hpp"
 
@@ -29,5 +30,9 @@ enum class Unplanned { removed, kept };
 /// input nor a result, where it cannot be written, and where a template lacks a parameter.
 void write_case_folder(const std::filesystem::path& folder, const Body& body, const BakePlan& plan,
                        const std::filesystem::path& foam_cases, Unplanned unplanned = Unplanned::removed);
+
+/// The body's surface in case axes as an ASCII STL file of one solid, "body". Triangles of order 2 become
+/// four flat ones, so that the mesh sees the curved surface's edge nodes.
+std::string case_surface_stl(const Body& body, const BakePlan& plan);
 
 }  // namespace samara

@@ -18,7 +18,6 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "meshes/checks/flush_faces.hpp"
 #include "meshes/checks/sound_surface.hpp"
 #include "meshes/checks/triangle_tree.hpp"
 #include "samara/core/base/as_index.hpp"

@@ -45,21 +45,13 @@ Distances distances(const Surface& from, const TriangleTree& to) {
         const auto corner = [&](std::size_t i) -> const Vector3d& {
             return from.vertices[static_cast<std::size_t>(from.corners[t][i])];
         };
-        // The middles of n^2 equal parts.
-        const int n = 1 + static_cast<int>(std::sqrt(area / whole * points_over_the_area));
-        for (int i = 0; i < n; ++i) {
-            for (int j = 0; j < 2 * (n - i) - 1; ++j) {
-                const int row = j / 2;
-                const double third = (j % 2 == 0 ? 1.0 : 2.0) / 3.0;
-                const double u = (i + third) / n;
-                const double v = (row + third) / n;
-                const Vector3d point = (1.0 - u - v) * corner(0) + u * corner(1) + v * corner(2);
-                const double distance = to.nearest(point).squared_distance;
-                squared = std::max(squared, distance);
-                weighted += area / (n * n) * std::sqrt(distance);
-                weights += area / (n * n);
-            }
-        }
+        visit_middles(corner(0), corner(1), corner(2), area / whole * points_over_the_area,
+                      [&](const Vector3d& point, int parts) {
+                          const double distance = to.nearest(point).squared_distance;
+                          squared = std::max(squared, distance);
+                          weighted += area / parts * std::sqrt(distance);
+                          weights += area / parts;
+                      });
     }
     const std::size_t step = 1 + from.vertices.size() / most_vertices;
     for (std::size_t i = 0; i < from.vertices.size(); i += step) {

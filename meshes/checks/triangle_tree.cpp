@@ -2,14 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace samara {
 namespace {
 
-constexpr std::uint32_t triangles_of_a_leaf = 4;
-constexpr std::size_t deepest_stack = 128;  // the tree halves at each level: 2^32 triangles need 32
 // Long triangles, aslant in a box, have one box for each piece of them.
 constexpr std::size_t most_pieces = 32;
 constexpr std::size_t pieces_of_all = 4'000'000;
@@ -51,9 +48,10 @@ TriangleTree::TriangleTree(std::vector<Vector3d> vertices, std::vector<Triangle>
         add_pieces(t, boxes);
         order_.resize(boxes.size(), static_cast<std::uint32_t>(t));
     }
-    std::vector<std::uint32_t> pieces(boxes.size());
-    std::iota(pieces.begin(), pieces.end(), 0U);
-    if (!pieces.empty()) build(0, static_cast<std::uint32_t>(pieces.size()), boxes, pieces);
+    std::vector<Vector3d> centres;
+    for (const Box& box : boxes) centres.push_back(box.center());
+    std::vector<std::uint32_t> pieces;
+    tree_ = BoxTree(boxes, centres, pieces);
     for (std::uint32_t& piece : pieces) piece = order_[piece];
     order_ = std::move(pieces);
 }
@@ -111,48 +109,18 @@ TriangleTree::Box TriangleTree::box_of(std::size_t triangle) const {
     return box;
 }
 
-void TriangleTree::build(std::uint32_t first, std::uint32_t count, const std::vector<Box>& boxes,
-                         std::vector<std::uint32_t>& pieces) {
-    const std::size_t self = nodes_.size();
-    nodes_.emplace_back();
-    Box box;
-    Box box_of_centres;
-    for (std::uint32_t i = first; i < first + count; ++i) {
-        box.extend(boxes[pieces[i]]);
-        box_of_centres.extend(boxes[pieces[i]].center());
-    }
-    nodes_[self].box = box;
-    nodes_[self].first = first;
-    if (count <= triangles_of_a_leaf) {
-        nodes_[self].count = count;
-        return;
-    }
-    Eigen::Index axis = 0;
-    box_of_centres.sizes().maxCoeff(&axis);
-    const std::uint32_t half = count / 2;
-    const auto begin = pieces.begin() + first;
-    const auto place = [&](std::uint32_t piece) {
-        return boxes[piece].min()[axis] + boxes[piece].max()[axis];
-    };
-    std::nth_element(begin, begin + half, begin + count, [&](std::uint32_t a, std::uint32_t b) {
-        return std::pair(place(a), a) < std::pair(place(b), b);
-    });
-    build(first, half, boxes, pieces);
-    nodes_[self].right = static_cast<std::uint32_t>(nodes_.size());
-    build(first + half, count - half, boxes, pieces);
-}
-
 TriangleTree::Nearest TriangleTree::search(const Vector3d& p, double bound, double good_enough) const {
     Nearest best;
     double limit = bound * bound;
     const double enough = good_enough * good_enough;
-    std::array<std::pair<double, std::uint32_t>, deepest_stack> stack;
+    std::array<std::pair<double, std::uint32_t>, BoxTree::most_waiting> stack;
+    const std::vector<BoxTree::Node>& nodes = tree_.nodes();
     std::size_t depth = 0;
-    if (!nodes_.empty()) stack[depth++] = {nodes_[0].box.squaredExteriorDistance(p), 0U};
+    if (!nodes.empty()) stack[depth++] = {nodes[0].box.squaredExteriorDistance(p), 0U};
     while (depth > 0) {
         const auto [distance, index] = stack[--depth];
         if (distance > limit) continue;
-        const Node& node = nodes_[index];
+        const BoxTree::Node& node = nodes[index];
         for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
             const std::size_t t = order_[i];
             const Vector3d point = closest_point_of_triangle(p, corner(t, 0), corner(t, 1), corner(t, 2));
@@ -163,8 +131,8 @@ TriangleTree::Nearest TriangleTree::search(const Vector3d& p, double bound, doub
             if (squared <= enough) return best;
         }
         if (node.count > 0) continue;
-        const std::pair near{nodes_[index + 1].box.squaredExteriorDistance(p), index + 1};
-        const std::pair far{nodes_[node.right].box.squaredExteriorDistance(p), node.right};
+        const std::pair near{nodes[index + 1].box.squaredExteriorDistance(p), index + 1};
+        const std::pair far{nodes[node.right].box.squaredExteriorDistance(p), node.right};
         stack[depth++] = std::max(near, far);
         stack[depth++] = std::min(near, far);
     }
@@ -177,23 +145,6 @@ TriangleTree::Nearest TriangleTree::nearest(const Vector3d& p, double bound) con
 
 bool TriangleTree::is_within(const Vector3d& p, double bound) const {
     return search(p, bound, bound).squared_distance <= bound * bound;
-}
-
-void TriangleTree::visit_overlaps(const Box& box, const std::function<bool(std::size_t)>& visit) const {
-    std::array<std::uint32_t, deepest_stack> stack;
-    std::size_t depth = 0;
-    if (!nodes_.empty()) stack[depth++] = 0U;
-    while (depth > 0) {
-        const std::uint32_t index = stack[--depth];
-        const Node& node = nodes_[index];
-        if (!node.box.intersects(box)) continue;
-        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-            if (box_of(order_[i]).intersects(box) && !visit(order_[i])) return;
-        }
-        if (node.count > 0) continue;
-        stack[depth++] = node.right;
-        stack[depth++] = index + 1;
-    }
 }
 
 }  // namespace samara

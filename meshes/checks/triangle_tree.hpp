@@ -1,13 +1,12 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <vector>
 
-#include <Eigen/Geometry>
-
+#include "samara/core/base/box_tree.hpp"
 #include "samara/core/base/linear_algebra.hpp"
 
 namespace samara {
@@ -16,11 +15,27 @@ namespace samara {
 Vector3d closest_point_of_triangle(const Vector3d& p, const Vector3d& a, const Vector3d& b,
                                    const Vector3d& c);
 
+/// Spreads points over a flat triangle: calls `visit` with the middle of each of its equal parts and their
+/// number, which is about the one wanted and a square.
+template <typename Visit>
+void visit_middles(const Vector3d& a, const Vector3d& b, const Vector3d& c, double wanted,
+                   const Visit& visit) {
+    const int n = 1 + static_cast<int>(std::sqrt(wanted));
+    for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < 2 * (n - i) - 1; ++j) {
+            const double third = (j % 2 == 0 ? 1.0 : 2.0) / 3.0;
+            const double u = (i + third) / n;
+            const double v = (j / 2 + third) / n;
+            visit(Vector3d((1.0 - u - v) * a + u * b + v * c), n * n);
+        }
+    }
+}
+
 /// A tree of boxes over flat triangles, for nearest points and overlaps in logarithmic time.
 class TriangleTree {
   public:
     using Triangle = std::array<std::int32_t, 3>;  ///< three indices of vertices
-    using Box = Eigen::AlignedBox3d;
+    using Box = BoxTree::Box;
 
     /// Copies the triangles; their indices must lie within `vertices`.
     TriangleTree(std::vector<Vector3d> vertices, std::vector<Triangle> triangles);
@@ -41,7 +56,13 @@ class TriangleTree {
 
     /// Calls `visit` with each triangle whose box meets `box`, with a long one maybe more than once, until
     /// `visit` returns false.
-    void visit_overlaps(const Box& box, const std::function<bool(std::size_t)>& visit) const;
+    template <typename Visit>
+    void visit_overlaps(const Box& box, const Visit& visit) const {
+        tree_.visit_near(box, [&](std::uint32_t piece) {
+            const std::size_t triangle = order_[piece];
+            return !box_of(triangle).intersects(box) || visit(triangle);
+        });
+    }
 
     [[nodiscard]] const std::vector<Vector3d>& vertices() const { return vertices_; }
     [[nodiscard]] const std::vector<Triangle>& triangles() const { return triangles_; }
@@ -52,22 +73,13 @@ class TriangleTree {
     [[nodiscard]] Box box_of(std::size_t triangle) const;
 
   private:
-    struct Node {
-        Box box;
-        std::uint32_t first = 0;  // of its pieces in order_
-        std::uint32_t count = 0;  // 0: an inner node
-        std::uint32_t right = 0;  // an inner node's second child; the first follows the node itself
-    };
-
     void add_pieces(std::size_t triangle, std::vector<Box>& boxes) const;
-    void build(std::uint32_t first, std::uint32_t count, const std::vector<Box>& boxes,
-               std::vector<std::uint32_t>& pieces);
     [[nodiscard]] Nearest search(const Vector3d& p, double bound, double good_enough) const;
 
     std::vector<Vector3d> vertices_;
     std::vector<Triangle> triangles_;
     std::vector<std::uint32_t> order_;  // the triangle of each piece
-    std::vector<Node> nodes_;
+    BoxTree tree_;
 };
 
 }  // namespace samara

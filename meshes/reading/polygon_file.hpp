@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "meshes/reading/shape_format.hpp"
+#include "meshes/reading/shape_reader.hpp"
 #include "samara/core/surface/surface.hpp"
 
 namespace samara {

@@ -1,13 +1,25 @@
 #include "meshes/reading/shape_reader.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
 #include <functional>
+#include <map>
+#include <memory>
 #include <string>
+#include <string_view>
+
+#include <Model/COM/NMR_DLLInterfaces.h>
+#include <fmt/format.h>
 
 #include "meshes/reading/confined_surface.hpp"
 #include "meshes/reading/gmsh_session.hpp"
 #include "meshes/reading/gmsh_surface.hpp"
 #include "meshes/reading/polygon_file.hpp"
-#include "meshes/reading/three_mf_file.hpp"
+#include "samara/core/base/error.hpp"
 #include "samara/core/body/body_file.hpp"
 #include "samara/core/surface/obj_file.hpp"
 #include "samara/core/surface/stl_file.hpp"
@@ -38,6 +50,147 @@ Surface read_triangles(const std::filesystem::path& file, ShapeFormat format, do
         if (format == ShapeFormat::three_mf) return read_3mf_file(file);
         return format == ShapeFormat::msh ? read_msh_file(file) : read_polygon_file(file, format);
     });
+}
+
+namespace {
+
+std::string extension_of(const std::filesystem::path& file) {
+    if (is_body_file_name(file)) return ".body.h5";
+    std::string extension = file.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension;
+}
+
+}  // namespace
+
+bool is_geometry(ShapeFormat format) {
+    return format == ShapeFormat::script || format == ShapeFormat::step || format == ShapeFormat::brep;
+}
+
+bool is_read_by_gmsh(ShapeFormat format) {
+    return is_geometry(format) || format == ShapeFormat::msh;
+}
+
+ShapeFormat shape_format(const std::filesystem::path& file) {
+    static const std::map<std::string_view, ShapeFormat> formats = {
+        {".geo", ShapeFormat::script},  {".step", ShapeFormat::step},    {".stp", ShapeFormat::step},
+        {".brep", ShapeFormat::brep},   {".stl", ShapeFormat::stl},      {".obj", ShapeFormat::obj},
+        {".ply", ShapeFormat::ply},     {".off", ShapeFormat::off},      {".glb", ShapeFormat::gltf},
+        {".gltf", ShapeFormat::gltf},   {".3mf", ShapeFormat::three_mf}, {".msh", ShapeFormat::msh},
+        {".body.h5", ShapeFormat::body}};
+    const auto found = formats.find(extension_of(file));
+    if (found == formats.end()) {
+        throw Error(fmt::format(
+            "{}: is of no known kind; give a .geo, .step, .stp, .brep, .stl, .obj, .ply, .off, .glb, "
+            ".gltf, .3mf, .msh or .body.h5 file (Blender opens most other meshes and exports .stl, "
+            "FreeCAD most geometry and exports .step)",
+            file.string()));
+    }
+    std::error_code unknown;
+    const std::filesystem::file_status status = std::filesystem::status(file, unknown);
+    if (!std::filesystem::is_regular_file(status)) {
+        const bool missing = status.type() == std::filesystem::file_type::not_found;
+        const std::string reason = missing ? "does not exist" : unknown ? unknown.message() : "is not a file";
+        throw Error(fmt::format("{}: {}", file.string(), reason));
+    }
+    return found->second;
+}
+
+void require_beginning(const std::filesystem::path& file, ShapeFormat format) {
+    std::array<char, 1024> block{};
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream) throw Error(fmt::format("{}: cannot be read: {}", file.string(), std::strerror(errno)));
+    stream.read(block.data(), block.size());
+    const std::string_view start(block.data(), static_cast<std::size_t>(stream.gcount()));
+    const auto require = [&](bool holds, const char* kind, const char* beginning) {
+        if (holds) return;
+        const std::string what = start.empty() ? "is empty" : fmt::format("is no {} file", kind);
+        throw Error(fmt::format("{}: {}: these begin with {}", file.string(), what, beginning));
+    };
+    if (format == ShapeFormat::step) {
+        require(start.find("ISO-10303-21") != std::string_view::npos, "STEP", "ISO-10303-21");
+    } else if (format == ShapeFormat::brep) {
+        require(start.find("CASCADE Topology") != std::string_view::npos, "BREP", "CASCADE Topology");
+    } else if (format == ShapeFormat::msh) {
+        // Of the first version, of the later ones, and with a comment before.
+        const bool holds =
+            start.starts_with("$MeshFormat") || start.starts_with("$NOD") || start.starts_with("$Comments");
+        require(holds, "MSH", "$MeshFormat");
+    }
+}
+
+namespace {
+
+struct Release {
+    void operator()(NMR::PLib3MFBase* object) const { NMR::lib3mf_release(object); }
+};
+using Object = std::unique_ptr<NMR::PLib3MFBase, Release>;
+
+// By the number of lib3mf's eModelUnit: micrometre, millimetre, centimetre, inch, foot, metre.
+constexpr std::array<double, 6> metres = {1e-6, 1e-3, 1e-2, 0.0254, 0.3048, 1.0};
+
+class Reader {
+  public:
+    explicit Reader(std::string label) : label_(std::move(label)) {
+        NMR::PLib3MFModel* model = nullptr;
+        require(NMR::lib3mf_createmodel(&model), nullptr);
+        model_.reset(model);
+    }
+
+    void read(const std::string& file) {
+        NMR::PLib3MFModelReader* reader = nullptr;
+        require(NMR::lib3mf_model_queryreader(model_.get(), "3mf", &reader), model_.get());
+        const Object held(reader);
+        require(NMR::lib3mf_reader_readfromfileutf8(reader, file.c_str()), reader);
+    }
+
+    [[nodiscard]] double unit() const {
+        DWORD number = 0;
+        require(NMR::lib3mf_model_getunit(model_.get(), &number), model_.get());
+        return metres.at(std::min<std::size_t>(number, metres.size() - 1));
+    }
+
+    // All that is built, placed: lib3mf does so itself where it writes an STL file.
+    [[nodiscard]] std::string built() const {
+        NMR::PLib3MFModelWriter* writer = nullptr;
+        require(NMR::lib3mf_model_querywriter(model_.get(), "stl", &writer), model_.get());
+        const Object held(writer);
+        ULONG64 size = 0;
+        require(NMR::lib3mf_writer_getstreamsize(writer, &size), writer);
+        std::string bytes(size, '\0');
+        require(NMR::lib3mf_writer_writetobuffer(writer, reinterpret_cast<BYTE*>(bytes.data()), size),
+                writer);
+        return bytes;
+    }
+
+  private:
+    void require(LIB3MFRESULT result, NMR::PLib3MFBase* object) const {
+        if (result == 0) return;
+        DWORD code = 0;
+        LPCSTR reason = nullptr;
+        if (object != nullptr) NMR::lib3mf_getlasterror(object, &code, &reason);
+        throw Error(fmt::format("{}: is no sound 3MF file: {}; export it again, or as .stl", label_,
+                                reason == nullptr ? "lib3mf cannot read it" : reason));
+    }
+
+    std::string label_;
+    Object model_;
+};
+
+}  // namespace
+
+Surface read_3mf_file(const std::filesystem::path& file) {
+    Reader reader(file.string());
+    reader.read(file.string());
+    Surface surface = read_stl(reader.built(), file.string());
+    if (surface.corners.empty()) {
+        throw Error(
+            fmt::format("{}: builds no object with triangles; export the model again", file.string()));
+    }
+    const double unit = reader.unit();
+    for (Vector3d& vertex : surface.vertices) vertex *= unit;
+    return surface;
 }
 
 }  // namespace samara

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,14 +14,16 @@
 #include "meshes/checks/sound_surface.hpp"
 #include "meshes/reading/confined_surface.hpp"
 #include "meshes/reading/gmsh_session.hpp"
+#include "meshes/reading/gmsh_surface.hpp"
 #include "meshes/reading/script_check.hpp"
-#include "meshes/reading/shape_format.hpp"
+#include "meshes/reading/shape_reader.hpp"
 #include "meshes/remeshing/mesh_size_field.hpp"
-#include "meshes/remeshing/model_mesher.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/base/labelled.hpp"
 #include "samara/core/files/input_file.hpp"
 #include "samara/core/surface/curved_surface.hpp"
+#include "samara/core/surface/surface_edges.hpp"
+#include "samara/core/surface/welded_surface.hpp"
 
 namespace samara {
 namespace {
@@ -51,9 +54,10 @@ std::vector<int> outer_surfaces(const std::string& label) {
     return tags;
 }
 
-// Fine enough to see curvature, coarse enough to be quick, with at most `finest` triangles across the body:
-// what sizes are measured on.
-Surface reference_of_geometry(const std::string& label, const std::vector<int>& tags, double finest) {
+constexpr double finest = 1000.0;  // triangles across the body
+
+// Fine enough to see curvature, coarse enough to be quick: what sizes are measured on.
+Surface reference_of_geometry(const std::string& label, const std::vector<int>& tags) {
     double low[3];
     double high[3];
     gmsh::model::getBoundingBox(-1, -1, low[0], low[1], low[2], high[0], high[1], high[2]);
@@ -78,7 +82,6 @@ Surface held_in_order(const std::string& label, const std::vector<int>& tags, in
 // The mesh, and the finer one of order 2 that it was held against.
 std::vector<Surface> meshed_by_gmsh(const std::string& label, ShapeFormat format, const MeshOptions& options,
                                     const ProgressCall& tell) {
-    constexpr double finest = 1000.0;  // triangles across the body
     constexpr int most_times_finer = 8;
     constexpr double equilateral_ones = 1.0 / 1.17;
     constexpr double most_needed = 20000.0;
@@ -104,7 +107,7 @@ std::vector<Surface> meshed_by_gmsh(const std::string& label, ShapeFormat format
             tell(0.4);
         }
         forget_sizes_of_file();
-        const Surface reference = reference_of_geometry(label, tags, finest);
+        const Surface reference = reference_of_geometry(label, tags);
         labelled(label, [&] { require_sound_surface(in_units_of_file(reference)); });
         shape = in_units_of_file(mesh_held(label, tags, 2));
         straighten_overturned(shape);
@@ -155,6 +158,89 @@ MeshedShape mesh_geometry(const std::filesystem::path& file, const MeshOptions& 
                         100.0 * meshed.error.distance, 4 * meshed.surface.triangle_count()));
     }
     return meshed;
+}
+
+namespace {
+
+constexpr int most_attempts = 6;
+constexpr double good_count = 0.05;  // relative: nearer than this needs no further attempt
+constexpr double unlimited = 1e22;   // gmsh's own default for the largest size
+
+void set(const char* option, double value) {
+    gmsh::option::setNumber(option, value);
+}
+
+void generate_with_size(const MeshSizeField& field, double size) {
+    gmsh::model::mesh::setSizeCallback(
+        [&](int, int, double x, double y, double z) { return size * field(Vector3d(x, y, z)); });
+    GmshSession::generate_surface_mesh();
+    gmsh::model::mesh::removeSizeCallback();
+}
+
+std::size_t triangle_count(const std::vector<int>& tags) {
+    std::size_t count = 0;
+    for (const int tag : tags.empty() ? std::vector<int>{-1} : tags) {
+        std::vector<int> types;
+        std::vector<std::vector<std::size_t>> elements;
+        std::vector<std::vector<std::size_t>> nodes;
+        gmsh::model::mesh::getElements(types, elements, nodes, 2, tag);
+        for (const std::vector<std::size_t>& list : elements) count += list.size();
+    }
+    return count;
+}
+
+}  // namespace
+
+void forget_sizes_of_file() {
+    set("Mesh.Algorithm", 6);  // frontal Delaunay: the best triangles
+    set("Mesh.ElementOrder", 1);
+    set("Mesh.RecombineAll", 0);
+    set("Mesh.SubdivisionAlgorithm", 0);
+    set("Mesh.MeshSizeFactor", 1);
+    set("Mesh.MeshSizeMin", 0);
+    set("Mesh.MeshSizeMax", unlimited);
+    set("Mesh.MeshSizeFromPoints", 0);
+    set("Mesh.MeshSizeFromCurvature", 0);
+    set("Mesh.MeshSizeExtendFromBoundary", 0);
+    // Sizes are no more than wishes: at gmsh's own 1e-9 curves take ten times as long as surfaces.
+    set("Mesh.LcIntegrationPrecision", 1e-2);
+}
+
+Surface generated(const std::string& label, const std::vector<int>& tags) {
+    GmshSession::generate_surface_mesh();
+    return mesh_held(label, tags, 1);
+}
+
+Surface mesh_held(const std::string& label, const std::vector<int>& tags, int order) {
+    Surface surface = labelled(label, [&] {
+        return welded(order == 2 ? curved_surface_of_model(label, tags) : surface_of_model(label, tags));
+    });
+    orient_outwards(surface);
+    return surface;
+}
+
+void mesh_model(const MeshSizeField& field, const MeshOptions& options, double size,
+                const std::vector<int>& tags) {
+    if (options.sizing != MeshOptions::Sizing::triangles) {
+        generate_with_size(field, size);
+        return;
+    }
+    // gmsh makes about a sixth more triangles than equilateral ones would be.
+    double next = std::sqrt(1.17 * field.triangle_count(1.0) / options.triangles);
+    double best = next;
+    double smallest_error = std::numeric_limits<double>::infinity();
+    for (int attempt = 0; attempt < most_attempts; ++attempt) {
+        generate_with_size(field, next);
+        const double ratio = static_cast<double>(triangle_count(tags)) / options.triangles;
+        const double error = std::abs(std::log(ratio));
+        if (error < good_count) return;
+        if (error < smallest_error) {
+            smallest_error = error;
+            best = next;
+        }
+        next *= std::sqrt(ratio);
+    }
+    generate_with_size(field, best);
 }
 
 }  // namespace samara

@@ -205,19 +205,11 @@ double MeshSizeField::triangle_count(double size) const {
     }
     double count = 0.0;
     for (std::size_t t = 0; t < areas.size(); ++t) {
-        // The middles of n^2 equal parts.
-        const int n = 1 + static_cast<int>(std::sqrt(areas[t] / whole * places_over_the_area));
-        for (int i = 0; i < n; ++i) {
-            for (int j = 0; j < 2 * (n - i) - 1; ++j) {
-                const int column = j / 2;
-                const double third = (j % 2 == 0 ? 1.0 : 2.0) / 3.0;
-                const double u = (i + third) / n;
-                const double v = (column + third) / n;
-                const double side = size * (*this)((1.0 - u - v) * tree_.corner(t, 0) +
-                                                   u * tree_.corner(t, 1) + v * tree_.corner(t, 2));
-                count += areas[t] / (n * n) / (std::sqrt(3.0) / 4.0 * side * side);
-            }
-        }
+        visit_middles(tree_.corner(t, 0), tree_.corner(t, 1), tree_.corner(t, 2),
+                      areas[t] / whole * places_over_the_area, [&](const Vector3d& place, int parts) {
+                          const double side = size * (*this)(place);
+                          count += areas[t] / parts / (std::sqrt(3.0) / 4.0 * side * side);
+                      });
     }
     return count;
 }

@@ -19,8 +19,8 @@
 #include "samara/motion/motion_writer.hpp"
 #include "samara/scene/scene_file.hpp"
 #include "samara/scene/simulation.hpp"
-#include "samara/scene/size_range.hpp"
 #include "samara/scene/target_search.hpp"
+#include "samara/scene/terminal_speed.hpp"
 
 namespace samara {
 namespace {

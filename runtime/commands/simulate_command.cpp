@@ -32,7 +32,7 @@
 #include "samara/scene/run_needs.hpp"
 #include "samara/scene/scene_file.hpp"
 #include "samara/scene/simulation.hpp"
-#include "samara/scene/size_range.hpp"
+#include "samara/scene/terminal_speed.hpp"
 
 namespace samara {
 namespace {

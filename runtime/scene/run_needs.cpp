@@ -16,9 +16,8 @@ namespace samara {
 namespace {
 
 // Of a copy in a run while it flies (body_flight.hpp), and of its poses in a block while that is written.
-constexpr double bytes_of_a_flight =
-    static_cast<double>(sizeof(FlightBlock<double>)) / FlightBlock<double>::size + 2.0 * sizeof(Pose) +
-    sizeof(Quaterniond) + sizeof(TableErrorsMet);
+constexpr double bytes_of_a_flight = static_cast<double>(sizeof(FlightBlock)) / FlightBlock::size +
+                                     2.0 * sizeof(Pose) + sizeof(Quaterniond) + sizeof(TableErrorsMet);
 constexpr double bytes_in_file = 13.0 * sizeof(double);
 constexpr double bytes_of_a_written_pose = sizeof(Pose) + 4.0 * sizeof(double);
 constexpr double bytes_in_block = 64U << 20U;

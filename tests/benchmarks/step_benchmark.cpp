@@ -61,13 +61,12 @@ void step_at_rest(benchmark::State& state) {
 }
 
 /// Items a second are body-steps; `threads`: 1 or all cores.
-template <class BatchOf>
 void batch(benchmark::State& state, int threads) {
     ImmersedBody body = test::blunt_ellipsoid();
     body.turbulence = Turbulence::table;
     prepare(body);
     const auto count = static_cast<std::size_t>(state.range(0));
-    BatchOf bodies(body, count);
+    Batch bodies(body, count);
     for (std::size_t i = 0; i < count; ++i) {
         bodies.set_state(i, test::tumbling_state(0.1, 0.001 * static_cast<double>(i % 1000)));
         bodies.set_noise(i, Noise(1, "leaf", 0, static_cast<std::uint32_t>(i)));
@@ -82,14 +81,11 @@ void batch(benchmark::State& state, int threads) {
     state.SetItemsProcessed(static_cast<std::int64_t>(step * count));
     state.counters["substeps"] = static_cast<double>(implicit_steps) / static_cast<double>(step * count);
 }
-void float_batch(benchmark::State& state) {
-    batch<FloatBatch>(state, 1);
+void batch_on_one_core(benchmark::State& state) {
+    batch(state, 1);
 }
-void float_batch_on_all_cores(benchmark::State& state) {
-    batch<FloatBatch>(state, 0);
-}
-void double_batch(benchmark::State& state) {
-    batch<Batch>(state, 1);
+void batch_on_all_cores(benchmark::State& state) {
+    batch(state, 0);
 }
 
 /// 1024 bodies side by side in a wind with everything: items a second are body-steps.
@@ -165,7 +161,7 @@ void million_leaves(benchmark::State& state) {
         given.turbulence = Turbulence::table;
         bodies.push_back(make_immersed_body(shape, given, Fluid{}));
     }
-    std::vector<FloatBatch> batches;
+    std::vector<Batch> batches;
     for (std::size_t kind = 0; kind < kinds; ++kind) {
         batches.emplace_back(bodies[kind], leaves);
         for (std::size_t i = 0; i < leaves; ++i) {
@@ -177,7 +173,7 @@ void million_leaves(benchmark::State& state) {
     std::uint64_t step = 0;
     std::uint64_t implicit_steps = 0;
     while (state.KeepRunning()) {
-        for (FloatBatch& batch : batches) {
+        for (Batch& batch : batches) {
             implicit_steps += batch.advance(Surroundings{}, 0.0, 1.0 / 60.0, step, 1, 0).implicit_steps;
         }
         ++step;
@@ -187,9 +183,8 @@ void million_leaves(benchmark::State& state) {
 }
 
 BENCHMARK(million_leaves)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK(float_batch)->Arg(4096)->Arg(1'000'000)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK(float_batch_on_all_cores)->Arg(1'000'000)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK(double_batch)->Arg(4096)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(batch_on_one_core)->Arg(4096)->Arg(1'000'000)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(batch_on_all_cores)->Arg(1'000'000)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(in_no_wind);
 BENCHMARK(in_no_wind_of_many_sizes);
 BENCHMARK(in_a_wind_with_profile);

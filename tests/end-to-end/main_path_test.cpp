@@ -15,6 +15,7 @@
 #include "samara/core/files/content_hash.hpp"
 #include "samara/scene/scene.hpp"
 #include "support/program_run.hpp"
+#include "support/reference_step.hpp"
 
 namespace samara {
 namespace {

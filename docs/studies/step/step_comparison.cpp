@@ -16,9 +16,9 @@
 
 #include "peers/explicit_steps.hpp"
 #include "peers/peer_body.hpp"
-#include "samara/core/integrator/reference_step.hpp"
 #include "support/hard_bodies.hpp"
 #include "support/known_bodies.hpp"
+#include "support/reference_step.hpp"
 
 namespace samara {
 namespace {

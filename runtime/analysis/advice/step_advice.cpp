@@ -12,13 +12,12 @@
 
 #include "samara/core/base/parallel_for.hpp"
 #include "samara/core/dynamics/body_size.hpp"
-#include "samara/core/dynamics/langevin.hpp"
+#include "samara/core/dynamics/loads.hpp"
 #include "samara/core/flight/flight_kind.hpp"
-#include "samara/core/flight/terminal_speed.hpp"
 #include "samara/core/flight/world_pose.hpp"
-#include "samara/core/kernel/kolmogorov_constant.hpp"
 #include "samara/core/kernel/wake_noise.hpp"
 #include "samara/scene/scene_flight.hpp"
+#include "samara/scene/terminal_speed.hpp"
 
 namespace samara {
 namespace {

@@ -1,7 +1,5 @@
 #include "samara/analysis/advice/unit_doubts.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -10,7 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "samara/core/body/body_file.hpp"
-#include "samara/core/flight/terminal_speed.hpp"
+#include "samara/scene/terminal_speed.hpp"
 
 namespace samara {
 namespace {
@@ -88,21 +86,6 @@ std::string unit_doubts(const Body& body, const MassSpecification& asked, const 
         if (!doubt.empty()) doubts.push_back(std::move(doubt));
     }
     return fmt::format("{}", fmt::join(doubts, "; and "));
-}
-
-std::string shape_warning(const Body& body) {
-    constexpr double unsaid = 0.005;
-    if (!body.shape_error) return {};
-    const ShapeError& error = *body.shape_error;
-    if (std::max(std::abs(error.volume), error.distance) <= unsaid) return {};
-    std::string text = fmt::format(
-        "its mesh has {:.1f} % {} volume than its shape and lies up to {:.1f} % of its size from it",
-        100.0 * std::abs(error.volume), error.volume < 0.0 ? "less" : "more", 100.0 * error.distance);
-    // Rounding facets off adds half to once and a half of what is estimated to lie between.
-    const bool rounded = std::abs(error.volume) < 1.5 * error.faceting && body.surface.order() == 2;
-    return text + (rounded ? ": it follows the smooth shape through the corners of the facets; 'samara mesh "
-                             "--order 1' keeps the facets"
-                           : "; 'samara mesh' with more --triangles, or without, comes nearer");
 }
 
 }  // namespace samara

@@ -26,9 +26,4 @@ std::string size_doubts(const Body& body, ScaleRemedy remedy);
 std::string unit_doubts(const Body& body, const MassSpecification& asked, const Fluid& fluid, double gravity,
                         ScaleRemedy remedy);
 
-/// What a mesh that is not quite its shape differs by, such as "its mesh has 1.6 % more volume than the
-/// facets of its file, as the smooth shape through their corners has; ..."; empty below 0.5 % of volume and
-/// size.
-std::string shape_warning(const Body& body);
-
 }  // namespace samara

@@ -7,8 +7,8 @@
 #include "samara/analysis/metrics/fall_figures.hpp"
 #include "samara/core/base/parallel_for.hpp"
 #include "samara/core/dynamics/loads.hpp"
-#include "samara/core/flight/terminal_speed.hpp"
 #include "samara/scene/scene_flight.hpp"
+#include "samara/scene/terminal_speed.hpp"
 
 namespace samara {
 namespace {

@@ -1,6 +1,7 @@
 #include "samara/commands/shared/body_notes.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -49,6 +50,21 @@ void BodyNotes::print() {
                    !note.alike ? fmt::format(" (figures of '{}')", note.worst) : "", note.text);
     }
     notes_.clear();
+}
+
+std::string shape_warning(const Body& body) {
+    constexpr double unsaid = 0.005;
+    if (!body.shape_error) return {};
+    const ShapeError& error = *body.shape_error;
+    if (std::max(std::abs(error.volume), error.distance) <= unsaid) return {};
+    std::string text = fmt::format(
+        "its mesh has {:.1f} % {} volume than its shape and lies up to {:.1f} % of its size from it",
+        100.0 * std::abs(error.volume), error.volume < 0.0 ? "less" : "more", 100.0 * error.distance);
+    // Rounding facets off adds half to once and a half of what is estimated to lie between.
+    const bool rounded = std::abs(error.volume) < 1.5 * error.faceting && body.surface.order() == 2;
+    return text + (rounded ? ": it follows the smooth shape through the corners of the facets; 'samara mesh "
+                             "--order 1' keeps the facets"
+                           : "; 'samara mesh' with more --triangles, or without, comes nearer");
 }
 
 }  // namespace samara

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "samara/core/body/body.hpp"
+
 namespace samara {
 
 /// Notes about the bodies of a scene, on standard error: those of one kind come once, in one line.
@@ -31,5 +33,10 @@ class BodyNotes {
     std::string program_;
     std::vector<Note> notes_;
 };
+
+/// What a mesh that is not quite its shape differs by, such as "its mesh has 1.6 % more volume than the
+/// facets of its file, as the smooth shape through their corners has; ..."; empty below 0.5 % of volume and
+/// size.
+std::string shape_warning(const Body& body);
 
 }  // namespace samara

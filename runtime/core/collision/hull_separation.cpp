@@ -1,8 +1,8 @@
 #include "samara/core/collision/hull_separation.hpp"
 
 #include <algorithm>
-
-#include "samara/core/collision/nearest_way.hpp"
+#include <cmath>
+#include <limits>
 
 namespace samara {
 namespace {
@@ -51,6 +51,114 @@ Separation separation(const PlacedHull& hull, const ObstacleTriangle& triangle, 
     const double gap = gap_along(hull, triangle, normal);
     if (gap <= best.gap + better * hull.radius()) return best;
     return {normal, gap, best.on_triangle, false};
+}
+
+namespace {
+
+constexpr double flat = 1e-9;  // sine of the angle between a face and a corner that lies in its plane
+
+}  // namespace
+
+Vector3d Simplex::nearest() const {
+    Vector3d sum = Vector3d::Zero();
+    for (int i = 0; i < size; ++i) sum += at(i).share * at(i).point;
+    return sum;
+}
+
+Vector3d Simplex::on_second() const {
+    Vector3d sum = Vector3d::Zero();
+    for (int i = 0; i < size; ++i) sum += at(i).share * at(i).on_second;
+    return sum;
+}
+
+void Simplex::keep(std::initializer_list<std::pair<int, double>> kept) {
+    const std::array<Difference, 4> before = corners;
+    size = 0;
+    for (const auto& [i, share] : kept) {
+        corners[static_cast<std::size_t>(size)] = before[static_cast<std::size_t>(i)];
+        corners[static_cast<std::size_t>(size++)].share = share;
+    }
+}
+
+bool Simplex::reduce() {
+    if (size == 1) {
+        corners[0].share = 1.0;
+    } else if (size == 2) {
+        reduce_segment();
+    } else if (size == 3) {
+        reduce_triangle();
+    } else {
+        return reduce_tetrahedron();
+    }
+    return true;
+}
+
+void Simplex::reduce_segment() {
+    const Vector3d way = point(1) - point(0);
+    const double square = way.squaredNorm();
+    const double share = square > 0.0 ? -point(0).dot(way) / square : 0.0;
+    if (share <= 0.0) return keep({{0, 1.0}});
+    if (share >= 1.0) return keep({{1, 1.0}});
+    keep({{0, 1.0 - share}, {1, share}});
+}
+
+void Simplex::reduce_triangle() {
+    const Vector3d& a = point(0);
+    const Vector3d& b = point(1);
+    const Vector3d& c = point(2);
+    const Vector3d ab = b - a;
+    const Vector3d ac = c - a;
+    const double d1 = -ab.dot(a);
+    const double d2 = -ac.dot(a);
+    if (d1 <= 0.0 && d2 <= 0.0) return keep({{0, 1.0}});
+    const double d3 = -ab.dot(b);
+    const double d4 = -ac.dot(b);
+    if (d3 >= 0.0 && d4 <= d3) return keep({{1, 1.0}});
+    const double d5 = -ab.dot(c);
+    const double d6 = -ac.dot(c);
+    if (d6 >= 0.0 && d5 <= d6) return keep({{2, 1.0}});
+    const double vc = d1 * d4 - d3 * d2;
+    if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) {
+        const double share = d1 / (d1 - d3);
+        return keep({{0, 1.0 - share}, {1, share}});
+    }
+    const double vb = d5 * d2 - d1 * d6;
+    if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) {
+        const double share = d2 / (d2 - d6);
+        return keep({{0, 1.0 - share}, {2, share}});
+    }
+    const double va = d3 * d6 - d5 * d4;
+    if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) {
+        const double share = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+        return keep({{1, 1.0 - share}, {2, share}});
+    }
+    const double all = va + vb + vc;
+    if (!(all > 0.0)) return reduce_segment();
+    keep({{0, va / all}, {1, vb / all}, {2, vc / all}});
+}
+
+bool Simplex::reduce_tetrahedron() {
+    constexpr int faces[4][4] = {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {1, 3, 2, 0}};
+    const Simplex whole = *this;
+    double nearest_yet = std::numeric_limits<double>::infinity();
+    for (const auto& face : faces) {
+        const Vector3d& a = whole.point(face[0]);
+        const Vector3d normal = (whole.point(face[1]) - a).cross(whole.point(face[2]) - a);
+        const double origin_side = -normal.dot(a);
+        const Vector3d height = whole.point(face[3]) - a;
+        const double other_side = normal.dot(height);
+        // Of a tetrahedron without volume every face may be the nearest.
+        const bool is_flat = std::abs(other_side) <= flat * normal.norm() * height.norm();
+        if (!is_flat && origin_side * other_side > 0.0) continue;
+        Simplex part = whole;
+        part.keep({{face[0], 0.0}, {face[1], 0.0}, {face[2], 0.0}});
+        part.reduce_triangle();
+        const double square = part.nearest().squaredNorm();
+        if (square >= nearest_yet) continue;
+        nearest_yet = square;
+        *this = part;
+    }
+    return std::isfinite(nearest_yet);
 }
 
 }  // namespace samara

@@ -1,5 +1,10 @@
 #pragma once
 
+#include <array>
+#include <initializer_list>
+#include <limits>
+#include <utility>
+
 #include "samara/core/base/linear_algebra.hpp"
 #include "samara/core/body/contact_points.hpp"
 #include "samara/core/collision/obstacle_set.hpp"
@@ -45,6 +50,71 @@ Separation separation(const PlacedHull& hull, const ObstacleTriangle& triangle, 
 inline double gap_along(const PlacedHull& hull, const ObstacleTriangle& triangle,
                         const Vector3d& normal) noexcept {
     return hull.lowest(normal) - triangle.reach(normal);
+}
+
+/// A point of the difference of two convex bodies, and the second's part in it.
+struct Difference {
+    Vector3d point;
+    Vector3d on_second;
+    double share = 0.0;
+};
+
+/// Up to four of them, and the point nearest to the origin: Ericson, Real-Time Collision Detection (2005),
+/// 5.1. Never allocates.
+struct Simplex {
+    std::array<Difference, 4> corners;
+    int size = 0;
+
+    [[nodiscard]] Vector3d nearest() const;
+    /// What of the second body the nearest point is made of.
+    [[nodiscard]] Vector3d on_second() const;
+    void add(const Difference& corner) { corners[static_cast<std::size_t>(size++)] = corner; }
+    /// Keeps the corners that the nearest point lies between. False where the origin lies within.
+    bool reduce();
+
+  private:
+    [[nodiscard]] const Difference& at(int i) const { return corners[static_cast<std::size_t>(i)]; }
+    [[nodiscard]] const Vector3d& point(int i) const { return at(i).point; }
+    void keep(std::initializer_list<std::pair<int, double>> kept);
+    void reduce_segment();
+    void reduce_triangle();
+    bool reduce_tetrahedron();
+};
+
+/// The way from the nearest point of one convex body to that of another: Gilbert, Johnson and Keerthi, IEEE
+/// Journal of Robotics and Automation 4(2), 1988. `first` and `second` give the point (m) of each body that
+/// is farthest along a unit vector. `way` (m): from the second to the first, at first any guess; where a
+/// plane across it leaves a gap above `enough` (m) it is not the nearest. False where the two overlap. Never
+/// allocates.
+template <typename First, typename Second>
+bool nearest_way(const First& first, const Second& second, Simplex& simplex, Vector3d& way,
+                 double enough = std::numeric_limits<double>::infinity()) noexcept {
+    constexpr int most_rounds = 32;      // five are common, round bodies need some more
+    constexpr double converged = 1e-13;  // of the squared distance
+    if (way.squaredNorm() == 0.0) return false;
+    double square = std::numeric_limits<double>::infinity();
+    for (int round = 0; round < most_rounds; ++round) {
+        const Vector3d direction = way.normalized();
+        const Vector3d of_second = second(direction);
+        const Vector3d point = first(-direction) - of_second;
+        const double parted = way.dot(point);
+        if (round > 0 && way.squaredNorm() - parted <= converged * square) return true;
+        if (parted > 0.0 && parted * parted > enough * enough * way.squaredNorm()) return true;
+        const Simplex before = simplex;
+        simplex.add({point, of_second, 1.0});
+        const bool is_outside = simplex.reduce();
+        const Vector3d next = is_outside ? simplex.nearest() : Vector3d::Zero();
+        const double next_square = next.squaredNorm();
+        if (!(next_square > 0.0) && parted <= 0.0) return false;
+        // Where a plane parts the two already, nothing but rounding finds the origin within.
+        if (!(next_square > 0.0) || !(next_square < square)) {
+            simplex = before;
+            return true;
+        }
+        way = next;
+        square = next_square;
+    }
+    return true;
 }
 
 }  // namespace samara

@@ -11,20 +11,9 @@
 namespace samara {
 namespace {
 
-constexpr std::uint32_t most_faces_of_a_leaf = 4;
 // Sine of the angle from which an edge is not flat: meshes of a plane are flat to far less, and no mesh of a
 // curve is so fine.
 constexpr double flat = 1e-6;
-
-Eigen::AlignedBox3d box_of(const ObstacleTriangle& triangle) {
-    Eigen::AlignedBox3d box;
-    for (const Vector3d& corner : triangle.corners) box.extend(corner);
-    return box;
-}
-
-Vector3d middle_of(const ObstacleTriangle& triangle) {
-    return (triangle.corners[0] + triangle.corners[1] + triangle.corners[2]) / 3.0;
-}
 
 double radius_of(const Surface& surface) {
     double radius = 0.0;
@@ -37,7 +26,7 @@ double radius_of(const Surface& surface) {
 ObstacleFaces::ObstacleFaces(Obstacle obstacle) : obstacle_(std::move(obstacle)) {
     prepare_triangles();
     look_around_corners();
-    build(0, static_cast<std::uint32_t>(triangles_.size()));
+    grow_tree();
     set_keys(std::move(obstacle_.keys));
 }
 
@@ -106,34 +95,20 @@ void ObstacleFaces::look_around_corners() {
     }
 }
 
-void ObstacleFaces::build(std::uint32_t first, std::uint32_t count) {
-    const std::size_t at = nodes_.size();
-    nodes_.emplace_back();
-    Eigen::AlignedBox3d box;
-    Eigen::AlignedBox3d middles;
-    for (std::uint32_t i = first; i < first + count; ++i) {
-        box.extend(box_of(triangles_[i]));
-        middles.extend(middle_of(triangles_[i]));
+void ObstacleFaces::grow_tree() {
+    std::vector<BoxTree::Box> boxes;
+    std::vector<Vector3d> middles;
+    for (const ObstacleTriangle& triangle : triangles_) {
+        const auto& [a, b, c] = triangle.corners;
+        boxes.emplace_back(a);
+        boxes.back().extend(b).extend(c);
+        middles.emplace_back((a + b + c) / 3.0);
     }
-    nodes_[at].box = box;
-    if (count <= most_faces_of_a_leaf) {
-        nodes_[at].faces = count;
-        nodes_[at].next = first;
-        return;
-    }
-    Eigen::Index axis = 0;
-    middles.sizes().maxCoeff(&axis);
-    const std::uint32_t half = count / 2;
-    const auto begin = triangles_.begin() + first;
-    std::nth_element(begin, begin + half, begin + count,
-                     [&](const ObstacleTriangle& a, const ObstacleTriangle& b) {
-                         const double one = middle_of(a)[axis];
-                         const double two = middle_of(b)[axis];
-                         return std::pair(one, a.index) < std::pair(two, b.index);
-                     });
-    build(first, half);
-    nodes_[at].next = static_cast<std::uint32_t>(nodes_.size());
-    build(first + half, count - half);
+    std::vector<std::uint32_t> order;
+    tree_ = BoxTree(boxes, middles, order);
+    std::vector<ObstacleTriangle> ordered;
+    for (const std::uint32_t number : order) ordered.push_back(triangles_[number]);
+    triangles_ = std::move(ordered);
 }
 
 void ObstacleFaces::measure_ways() {

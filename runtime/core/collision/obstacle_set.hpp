@@ -9,6 +9,7 @@
 
 #include <Eigen/Geometry>
 
+#include "samara/core/base/box_tree.hpp"
 #include "samara/core/base/linear_algebra.hpp"
 #include "samara/core/physics/obstacle.hpp"
 
@@ -60,40 +61,25 @@ class ObstacleFaces {
     /// Calls `visit` with each face whose box meets `box` (m, shape axes). Never allocates.
     template <typename Visit>
     void visit_near(const Eigen::AlignedBox3d& box, const Visit& visit) const noexcept {
-        std::array<std::uint32_t, 64> waiting;  // one a level, and a level halves the faces
-        std::size_t count = 0;
-        waiting[count++] = 0;
-        while (count > 0) {
-            const std::uint32_t at = waiting[--count];
-            const Node& node = nodes_[at];
-            if (!node.box.intersects(box)) continue;
-            if (node.faces == 0) {
-                waiting[count++] = node.next;
-                waiting[count++] = at + 1;
-                continue;
-            }
-            for (std::uint32_t i = 0; i < node.faces; ++i) visit(triangles_[node.next + i]);
-        }
+        tree_.visit_near(box, [&](std::uint32_t i) {
+            visit(triangles_[i]);
+            return true;
+        });
     }
 
   private:
-    struct Node {
-        Eigen::AlignedBox3d box;
-        std::uint32_t faces = 0;  ///< 0: two nodes, the one behind it and `next`
-        std::uint32_t next = 0;   ///< or its first face
-    };
     void prepare_triangles();
     void look_around_corners();
-    void build(std::uint32_t first, std::uint32_t count);
+    void grow_tree();
     void measure_ways();
 
     Obstacle obstacle_;
     bool is_closed_ = false;
     double fastest_ = 0.0;
     Eigen::AlignedBox3d whereabouts_;
-    std::vector<Vector3d> around_;  ///< corner by corner
-    std::vector<ObstacleTriangle> triangles_;
-    std::vector<Node> nodes_;
+    std::vector<Vector3d> around_;             ///< corner by corner
+    std::vector<ObstacleTriangle> triangles_;  ///< as the tree's leaves hold them
+    BoxTree tree_;
 };
 
 /// All obstacles of a flight.

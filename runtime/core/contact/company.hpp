@@ -9,7 +9,7 @@
 #include "samara/core/collision/free_flight.hpp"
 #include "samara/core/collision/hull_pair.hpp"
 #include "samara/core/collision/obstacle_contact.hpp"
-#include "samara/core/contact/joint_impulses.hpp"
+#include "samara/core/contact/contact_impulses.hpp"
 #include "samara/core/dynamics/immersed_body.hpp"
 #include "samara/core/physics/contact_record.hpp"
 
@@ -62,8 +62,8 @@ inline Matrix6d in_world(const Matrix6d& of_body, const Quaterniond& orientation
 /// more than half its radius or would fall from a standstill by more than a two-hundredth of it. Where two
 /// that come fast from afar hit, the part ends, and they are struck there and then: so are the first of a
 /// step, the fewer the more bodies there are. In each part the bodies get their share of what the step does
-/// to them alone, and joint impulses (joint_impulses.hpp), at the points where they may meet within the part,
-/// allow each gap to close and no more; with the velocities that these leave the bodies fly freely
+/// to them alone, and joint impulses (contact_impulses.hpp), at the points where they may meet within the
+/// part, allow each gap to close and no more; with the velocities that these leave the bodies fly freely
 /// (free_flight.hpp). So much is Moreau's stepping: whatever the step, contact takes energy and gives none.
 /// Two are pushed at one place of the world, so that they keep their momentum and angular momentum. Where two
 /// come through each other at other points, those where they first touch on their way are added, and the

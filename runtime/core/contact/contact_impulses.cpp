@@ -11,76 +11,77 @@ namespace samara {
 namespace {
 
 // Chosen by trial, not derived: what they must give, no energy, no sinking and rest to the last bit, is what
-// the tests GroundContact, GroundRest and Settling hold them to.
+// the tests GroundContact, GroundRest, Settling and Encounters hold them to.
 constexpr int most_sweeps = 100;
 constexpr int most_attempts = 12;   // to find what holds
 constexpr double converged = 1e-6;  // change of an impulse in a sweep, over the largest
 constexpr double settling = 1e-2;   // the same, from which on further points are looked for
 constexpr double sinking = 1e-7;    // speed of a point through what it meets that is let be, over the body's
 constexpr double stiffness = 1e3;   // of what holds the points that stick, over the body's inertia there
+constexpr int most_joint_sweeps = 60;  // forwards and backwards
+constexpr double joint_converged = 1e-5;
 
-using Block = Eigen::Matrix<double, 3, 6>;
+/// Stops rates where impulses within `bound` can, else slows them: returns what the size becomes, and whether
+/// it is the first.
+template <int N>
+std::pair<Eigen::Matrix<double, N, 1>, bool> held(const Eigen::Matrix<double, N, 1>& size,
+                                                  const Eigen::Matrix<double, N, 1>& rates,
+                                                  const Eigen::Matrix<double, N, N>& inverse, double trace,
+                                                  double bound) {
+    Eigen::Matrix<double, N, 1> after = size - inverse * rates;
+    if (after.norm() <= bound) return {after, true};
+    // A step of projected gradients: no longer than the mobility's trace allows, so it never gains.
+    after = size - rates / trace;
+    const double length = after.norm();
+    if (length > bound) after *= bound / length;
+    return {after, false};
+}
 
-/// Impulses that act on the body together, along the rows of a block (two tangents and the normal; over the
-/// ground the world's x, y, z) and within a length that the normal impulse bounds.
-struct Impulses {
-    Block along;                           ///< J: velocity -> rates along the rows
-    Eigen::Matrix<double, 6, 3> response;  ///< K^-1 J^T
-    Matrix3d mobility;                     ///< J K^-1 J^T
-    Vector3d meant;  ///< rates that the impulses bring about: those of the surface, along the rows
-    Vector3d size;
-    Vector3d step;  ///< a change of the size
-    bool holds;     ///< within the bound: what it holds is at rest
-
-    void set(const Block& rows, const Vector3d& rates, const Matrix6d& inverse_inertia) {
-        along = rows;
-        meant = rates;
-        response = inverse_inertia * rows.transpose();
-        mobility = rows * response;
-        size.setZero();
-        holds = false;
-    }
-
-    /// Holds the rows from `first` on by springs at the rates that are meant.
-    void brace(int first, const Vector6d& velocity, Matrix6d& stiff, Vector6d& pull) {
-        step.setZero();
-        for (int row = first; row < 3; ++row) {
-            const double spring = stiffness / mobility(row, row);
-            const double rate = along.row(row).dot(velocity) - meant[row];
-            step[row] = -spring * rate;
-            stiff += along.row(row).transpose() * (spring * along.row(row));
-            pull += along.row(row).transpose() * step[row];
-        }
-    }
-    /// What the springs push with, once the velocity has changed.
-    void follow(int first, const Vector6d& change) {
-        for (int row = first; row < 3; ++row) {
-            step[row] -= stiffness / mobility(row, row) * along.row(row).dot(change);
-        }
-    }
+/// Which of the impulses at a point bring about the rates that are meant, within their bounds.
+struct Held {
+    bool slip = false, turn = false;
 };
 
-struct Contact {
-    const NearPoint* near;
-    Matrix3d axes;  ///< along whose rows `push` acts
-    double friction;
-    double rising;  ///< m/s: of the surface, along the normal
-    Impulses push;  ///< friction along x and y, the normal impulse along z
-    Impulses turn;  ///< rolling resistance
-};
+/// Finds the impulses at one point anew, those at all others being what they are. `motion` has the rates at
+/// the point that are not meant (closing, slip, turn), and changes velocities (add).
+template <typename Motion>
+Held relax(ContactImpulses& impulses, const Motion& motion) {
+    Vector6d& size = impulses.size;
+    const double normal = std::max(0.0, size[2] - motion.closing() / impulses.push_mobility(2, 2));
+    const double more = normal - size[2];
+    size[2] = normal;
+    motion.add([&](const ContactImpulses::Side& side) -> Vector6d { return side.push.col(2) * more; });
+    if (normal == 0.0 && size.isZero(0.0)) return {};
 
-/// The share, up to 1, of a step that keeps a size within its bound, which changes with it.
-template <typename Part>
-double share_within(const Part& size, const Part& step, double bound, double bound_step) {
-    // |size + s step|^2 <= (bound + s bound_step)^2
-    const double a = step.squaredNorm() - bound_step * bound_step;
-    const double b = size.dot(step) - bound * bound_step;
-    const double c = std::min(0.0, size.squaredNorm() - bound * bound);
-    if (a + 2.0 * b + c <= 0.0 && bound + bound_step >= 0.0) return 1.0;
-    const double root = std::sqrt(std::max(0.0, b * b - a * c));
-    // The smallest root that is not negative, without cancellation.
-    if (b >= 0.0) return b + root > 0.0 ? std::clamp(-c / (b + root), 0.0, 1.0) : 0.0;
-    return a > 0.0 ? std::clamp((root - b) / a, 0.0, 1.0) : 1.0;
+    const auto [slip, slip_holds] =
+        held<2>(size.head<2>(), motion.slip(), impulses.slip_inverse,
+                impulses.push_mobility(0, 0) + impulses.push_mobility(1, 1), impulses.friction * normal);
+    const Eigen::Vector2d slip_change = slip - size.head<2>();
+    size.head<2>() = slip;
+    motion.add(
+        [&](const ContactImpulses::Side& side) -> Vector6d { return side.push.leftCols<2>() * slip_change; });
+
+    const auto [turn, turn_holds] = held<3>(size.tail<3>(), motion.turn(), impulses.turn_inverse,
+                                            impulses.turn_mobility.trace(), impulses.lever * normal);
+    const Vector3d turn_change = turn - size.tail<3>();
+    size.tail<3>() = turn;
+    motion.add([&](const ContactImpulses::Side& side) -> Vector6d { return side.turn * turn_change; });
+    return {slip_holds, turn_holds};
+}
+
+/// The share of impulses that adds no energy: of those that do so much work (J) on the velocities before, and
+/// whose square by the inverse inertia (J) is given. Friction that was bounded by a normal impulse which
+/// later fell may add a little.
+double passive_share(double gain, double square) {
+    return gain + 0.5 * square <= 0.0 ? 1.0 : std::max(0.0, -gain / square);
+}
+
+Matrix3d axes_about(const Vector3d& normal) {
+    Matrix3d axes;
+    axes.row(0) = normal.unitOrthogonal().transpose();
+    axes.row(1) = normal.cross(axes.row(0).transpose()).transpose();
+    axes.row(2) = normal.transpose();
+    return axes;
 }
 
 /// A near point that no impulse acts on yet.
@@ -142,17 +143,58 @@ class Candidates {
     std::size_t count_ = 0;
 };
 
-/// Two tangents and the normal, as rows in body axes.
-Matrix3d axes_of(const NearPoint& near, const Matrix3d& to_world) noexcept {
-    if (near.on_ground()) return to_world;
-    Matrix3d axes;
-    axes.row(0) = near.normal.unitOrthogonal().transpose();
-    axes.row(1) = near.normal.cross(axes.row(0).transpose()).transpose();
-    axes.row(2) = near.normal.transpose();
-    return axes;
+/// The impulses at a point of a body by itself.
+struct Contact : ContactImpulses {
+    using Rows = Eigen::Matrix<double, 3, 6>;
+
+    const NearPoint* near;
+    Rows along, about;  ///< J: velocity -> rates along and about the axes
+    Held holds;
+    Vector6d step;  ///< a change of the size
+
+    /// Visits what is solved for at once: its place in the size, its row of J, its mobility and its rate.
+    template <typename Function>
+    void for_each_held(const Function& function) const {
+        for (int i = holds.slip ? 0 : 2; i < 3; ++i) {
+            function(i, along.row(i), push_mobility(i, i), meant[i]);
+        }
+        for (int i = 0; holds.turn && i < 3; ++i) {
+            function(3 + i, about.row(i), turn_mobility(i, i), meant_turn[i]);
+        }
+    }
+    /// Holds those by springs at the rates that are meant.
+    void brace(const Vector6d& velocity, Matrix6d& stiff, Vector6d& pull) {
+        step.setZero();
+        for_each_held([&](int i, const auto& row, double mobility, double rate) {
+            const double spring = stiffness / mobility;
+            step[i] = -spring * (row.dot(velocity) - rate);
+            stiff += row.transpose() * (spring * row);
+            pull += row.transpose() * step[i];
+        });
+    }
+    /// What the springs push with, once the velocity has changed.
+    void follow(const Vector6d& change) {
+        for_each_held([&](int i, const auto& row, double mobility, double) {
+            step[i] -= stiffness / mobility * row.dot(change);
+        });
+    }
+};
+
+/// The share, up to 1, of a step that keeps a size within its bound, which changes with it.
+template <typename Part>
+double share_within(const Part& size, const Part& step, double bound, double bound_step) {
+    // |size + s step|^2 <= (bound + s bound_step)^2
+    const double a = step.squaredNorm() - bound_step * bound_step;
+    const double b = size.dot(step) - bound * bound_step;
+    const double c = std::min(0.0, size.squaredNorm() - bound * bound);
+    if (a + 2.0 * b + c <= 0.0 && bound + bound_step >= 0.0) return 1.0;
+    const double root = std::sqrt(std::max(0.0, b * b - a * c));
+    // The smallest root that is not negative, without cancellation.
+    if (b >= 0.0) return b + root > 0.0 ? std::clamp(-c / (b + root), 0.0, 1.0) : 0.0;
+    return a > 0.0 ? std::clamp((root - b) / a, 0.0, 1.0) : 1.0;
 }
 
-/// The velocity relative to the ground while impulses act on it.
+/// The velocity of a body by itself, relative to the ground, while impulses act on it.
 class ImpulseSolver {
   public:
     /// `surfaces_move`: whether what bodies meet has its velocity, or stands still.
@@ -175,12 +217,11 @@ class ImpulseSolver {
             change_ = largest_ = 0.0;
             for (std::size_t i = 0; i < count_; ++i) {
                 Contact& contact = contacts_[i];
-                press(contact.push);
-                const double normal = contact.push.size.z();
-                hold<2>(contact.push, contact.friction * normal);
-                hold<3>(contact.turn, rolling_resistance * radius * normal);
+                const Vector6d before = contact.size;
+                contact.holds = relax(contact, Motion{contact, velocity_});
+                note(contact, before);
             }
-            stick(radius);
+            stick();
         }
     }
 
@@ -191,7 +232,7 @@ class ImpulseSolver {
         ContactRecord all;
         for (std::size_t i = 0; i < count_; ++i) {
             const Contact& contact = contacts_[i];
-            const Vector3d impulse = share * (contact.axes.transpose() * contact.push.size);
+            const Vector3d impulse = share * contact.push();
             all.add({.impulse = impulse,
                      .strongest = impulse.norm(),
                      .point = contact.near->point,
@@ -204,134 +245,109 @@ class ImpulseSolver {
     /// The work (J) of the surfaces that move.
     [[nodiscard]] double work() const noexcept {
         double sum = 0.0;
-        if (!surfaces_move_) return sum;
-        for (std::size_t i = 0; i < count_; ++i) {
-            const Contact& contact = contacts_[i];
-            sum += contact.push.size.head<2>().dot(contact.push.meant.head<2>()) +
-                   contact.push.size.z() * contact.rising + contact.turn.size.dot(contact.turn.meant);
-        }
+        for (std::size_t i = 0; surfaces_move_ && i < count_; ++i) sum += contacts_[i].work();
         return sum;
     }
 
   private:
+    struct Motion {
+        const Contact& contact;
+        Vector6d& velocity;
+
+        [[nodiscard]] double closing() const {
+            return contact.along.row(2).dot(velocity) - contact.meant.z();
+        }
+        [[nodiscard]] Eigen::Vector2d slip() const {
+            return contact.along.topRows<2>() * velocity - contact.meant.head<2>();
+        }
+        [[nodiscard]] Vector3d turn() const { return contact.about * velocity - contact.meant_turn; }
+        template <typename Change>
+        void add(const Change& change) const {
+            velocity += change(contact.first);
+        }
+    };
+
     void add(const Candidate& candidate) noexcept {
         const NearPoint& near = *candidate.near;
-        const Matrix3d axes = axes_of(near, to_world_);
         const bool moves = surfaces_move_ && !near.on_ground();
-        Vector3d rates = moves ? Vector3d(axes * near.surface_velocity) : Vector3d::Zero();
-        const Vector3d turning = moves ? Vector3d(axes * near.surface_turning) : Vector3d::Zero();
         Contact& contact = contacts_[count_++];
         contact.near = &near;
-        contact.axes = axes;
-        contact.friction = near.friction;
-        contact.rising = rates.z();
-        rates.z() = -candidate.allowed_speed;
-        Block rows;
-        rows << -axes * skew(near.point), axes;
-        contact.push.set(rows, rates, body_.inverse_inertia);
-        rows << axes, Matrix3d::Zero();
-        contact.turn.set(rows, turning, body_.inverse_inertia);
-    }
-
-    /// Lets the point come down no faster than is allowed.
-    void press(Impulses& impulses) noexcept {
-        const double mobility = impulses.mobility(2, 2);
-        const double speed = impulses.along.row(2).dot(velocity_) - impulses.meant.z();
-        const double before = impulses.size.z();
-        impulses.size.z() = std::max(0.0, before - speed / mobility);
-        velocity_ += impulses.response.col(2) * (impulses.size.z() - before);
-        note(std::abs(impulses.size.z() - before), impulses.size.z(), mobility);
-    }
-
-    /// Stops the first N rates where impulses within `bound` can, else slows them.
-    template <int N>
-    void hold(Impulses& impulses, double bound) noexcept {
-        using Part = Eigen::Matrix<double, N, 1>;
-        const Eigen::Matrix<double, N, N> mobility = impulses.mobility.topLeftCorner<N, N>();
-        const Part rates = impulses.along.topRows<N>() * velocity_ - impulses.meant.head<N>();
-        const Part before = impulses.size.head<N>();
-        Part after = before - mobility.inverse() * rates;
-        impulses.holds = after.norm() <= bound;
-        if (!impulses.holds) {
-            // A step of projected gradients: no longer than the mobility's trace allows, so it never gains.
-            after = before - rates / mobility.trace();
-            const double size = after.norm();
-            if (size > bound) after *= bound / size;
-        }
-        impulses.size.head<N>() = after;
-        velocity_ += impulses.response.leftCols<N>() * (after - before);
-        note((after - before).norm(), after.norm(), mobility.trace());
+        contact.begin(near.on_ground() ? to_world_ : axes_about(near.normal),
+                      moves ? near.surface_velocity : Vector3d::Zero(),
+                      moves ? near.surface_turning : Vector3d::Zero(), near.friction,
+                      body_.contact_points.bounding_radius);
+        contact.meant.z() = -candidate.allowed_speed;
+        contact.along << -contact.axes * skew(near.point), contact.axes;
+        contact.about << contact.axes, Matrix3d::Zero();
+        contact.first.push = body_.inverse_inertia * contact.along.transpose();
+        contact.first.turn = body_.inverse_inertia * contact.about.transpose();
+        contact.push_mobility = contact.along * contact.first.push;
+        contact.turn_mobility = contact.about * contact.first.turn;
+        contact.invert();
     }
 
     /// Solves at once for all points that press and all that is held, as if by springs so stiff that they
     /// leave next to nothing. Where one would pull or leave friction's bounds it goes as far as
     /// that, lets go of it, and goes on. Sweeps alone take hundreds where points stand close together.
-    void stick(double radius) noexcept {
-        const double lever = rolling_resistance * radius;
+    void stick() noexcept {
         for (int attempt = 0; attempt < most_attempts; ++attempt) {
             Matrix6d stiff = body_.inertia;
             Vector6d pull = Vector6d::Zero();
-            for_each_pressing([&](Contact& contact) {
-                contact.push.brace(contact.push.holds ? 0 : 2, velocity_, stiff, pull);
-                contact.turn.brace(contact.turn.holds ? 0 : 3, velocity_, stiff, pull);
-            });
+            for_each_pressing([&](Contact& contact) { contact.brace(velocity_, stiff, pull); });
             const Vector6d change = Eigen::LLT<Matrix6d>(stiff).solve(pull);
             double share = 1.0;
             Contact* lets_go = nullptr;
-            Impulses* which = nullptr;
-            const auto limit = [&](double most, Contact& contact, Impulses* impulses) {
+            bool Held::*which = nullptr;
+            const auto limit = [&](double most, Contact& contact, bool Held::*what) {
                 if (most >= share) return;
                 share = most;
                 lets_go = &contact;
-                which = impulses;
+                which = what;
             };
             for_each_pressing([&](Contact& contact) {
-                contact.push.follow(contact.push.holds ? 0 : 2, change);
-                contact.turn.follow(contact.turn.holds ? 0 : 3, change);
-                const double normal = contact.push.size.z();
-                const double more = contact.push.step.z();
-                if (contact.push.holds) {
-                    const Eigen::Vector2d size = contact.push.size.head<2>();
-                    const Eigen::Vector2d step = contact.push.step.head<2>();
-                    limit(share_within(size, step, contact.friction * normal, contact.friction * more),
-                          contact, &contact.push);
-                }
-                if (contact.turn.holds) {
-                    limit(share_within(contact.turn.size, contact.turn.step, lever * normal, lever * more),
-                          contact, &contact.turn);
-                }
-                if (more < 0.0) limit(-normal / more, contact, nullptr);
+                contact.follow(change);
+                const Vector6d& size = contact.size;
+                const Vector6d& step = contact.step;
+                const auto limit_to = [&](const auto& part, const auto& its_step, double bound,
+                                          bool Held::*what) {
+                    if (!(contact.holds.*what)) return;
+                    limit(share_within(part, its_step, bound * size[2], bound * step[2]), contact, what);
+                };
+                limit_to(size.head<2>(), step.head<2>(), contact.friction, &Held::slip);
+                limit_to(size.tail<3>(), step.tail<3>(), contact.lever, &Held::turn);
+                if (step[2] < 0.0) limit(-size[2] / step[2], contact, nullptr);
             });
-            for_each_pressing([&](Contact& contact) {
-                contact.turn.size += share * contact.turn.step;
-                contact.push.size += share * contact.push.step;
-            });
+            for_each_pressing([&](Contact& contact) { contact.size += share * contact.step; });
             velocity_ += share * change;
             if (lets_go == nullptr) return;
             if (which != nullptr) {
-                which->holds = false;
-            } else {
-                release(*lets_go);
+                lets_go->holds.*which = false;
+                continue;
             }
+            velocity_ -=
+                lets_go->first.push * lets_go->size.head<3>() + lets_go->first.turn * lets_go->size.tail<3>();
+            lets_go->size.setZero();
         }
-    }
-
-    void release(Contact& contact) noexcept {
-        velocity_ -= contact.push.response * contact.push.size + contact.turn.response * contact.turn.size;
-        contact.push.size.setZero();
-        contact.turn.size.setZero();
     }
 
     template <typename Function>
     void for_each_pressing(const Function& function) noexcept {
         for (std::size_t i = 0; i < count_; ++i) {
-            if (contacts_[i].push.size.z() > 0.0) function(contacts_[i]);
+            if (contacts_[i].size[2] > 0.0) function(contacts_[i]);
         }
     }
 
-    void note(double change, double size, double mobility) noexcept {
-        change_ = std::max(change_, change * std::sqrt(mobility));
-        largest_ = std::max(largest_, size * std::sqrt(mobility));
+    /// How far impulses changed in a sweep.
+    void note(const Contact& contact, const Vector6d& before) noexcept {
+        const Vector6d change = contact.size - before;
+        const auto add = [&](double by, double to, double mobility) {
+            change_ = std::max(change_, by * std::sqrt(mobility));
+            largest_ = std::max(largest_, to * std::sqrt(mobility));
+        };
+        add(std::abs(change[2]), contact.size[2], contact.push_mobility(2, 2));
+        add(change.head<2>().norm(), contact.size.head<2>().norm(),
+            contact.push_mobility(0, 0) + contact.push_mobility(1, 1));
+        add(change.tail<3>().norm(), contact.size.tail<3>().norm(), contact.turn_mobility.trace());
     }
 
     const TouchingBody& body_;
@@ -344,18 +360,64 @@ class ImpulseSolver {
     double largest_ = 0.0;
 };
 
-/// The share of the change that was found which adds no energy beyond the `work` (J) of surfaces that move:
-/// friction that was bounded by a normal impulse which later fell may add a little.
-double passive_share(const TouchingBody& body, const Vector6d& velocity, const Vector6d& change,
-                     double work) {
-    const Vector6d momentum = body.inertia * change;
-    const double gain = velocity.dot(momentum) - work;
-    const double square = change.dot(momentum);
-    if (gain + 0.5 * square <= 0.0) return 1.0;
-    return std::max(0.0, -gain / square);
-}
+/// The velocities of bodies among others at a point where they may touch.
+struct JointMotion {
+    std::span<JointBody> bodies;
+    const JointPoint& point;
+    const ContactImpulses& impulses;
+
+    /// How fast the first passes the second at the point (m/s), or what it meets there.
+    [[nodiscard]] Vector3d passing() const {
+        const Vector6d& a = bodies[point.first].velocity;
+        Vector3d rate = a.tail<3>() + a.head<3>().cross(point.first_arm);
+        if (point.second == JointPoint::none) return rate;
+        const Vector6d& b = bodies[point.second].velocity;
+        rate -= b.tail<3>() + b.head<3>().cross(point.second_arm);
+        return rate;
+    }
+    [[nodiscard]] double closing() const { return point.normal.dot(passing()) - impulses.meant.z(); }
+    [[nodiscard]] Eigen::Vector2d slip() const {
+        return Vector3d(impulses.axes * passing() - impulses.meant).head<2>();
+    }
+    [[nodiscard]] Vector3d turn() const {
+        Vector3d rate = bodies[point.first].velocity.head<3>();
+        if (point.second != JointPoint::none) rate -= bodies[point.second].velocity.head<3>();
+        return impulses.axes * rate - impulses.meant_turn;
+    }
+    template <typename Change>
+    void add(const Change& change) const {
+        bodies[point.first].velocity += change(impulses.first);
+        if (point.second != JointPoint::none) bodies[point.second].velocity -= change(impulses.second);
+    }
+    void add_size(const Vector6d& size) const {
+        add([&](const ContactImpulses::Side& side) -> Vector6d {
+            return side.push * size.head<3>() + side.turn * size.tail<3>();
+        });
+    }
+};
 
 }  // namespace
+
+void ContactImpulses::begin(const Matrix3d& along, const Vector3d& surface_velocity,
+                            const Vector3d& surface_turning, double friction_coefficient,
+                            double radius) noexcept {
+    axes = along;
+    meant = axes * surface_velocity;
+    meant_turn = axes * surface_turning;
+    rising = meant.z();
+    friction = friction_coefficient;
+    lever = rolling_resistance * radius;
+    size.setZero();
+}
+
+void ContactImpulses::invert() noexcept {
+    slip_inverse = push_mobility.topLeftCorner<2, 2>().inverse();
+    turn_inverse = turn_mobility.inverse();
+}
+
+double ContactImpulses::work() const noexcept {
+    return size.head<2>().dot(meant.head<2>()) + size[2] * rising + size.tail<3>().dot(meant_turn);
+}
 
 Vector6d after_impulses(const TouchingBody& body, const ContactSet& near, const Approach& approach,
                         const Vector6d& velocity, ContactRecord* met) noexcept {
@@ -363,9 +425,130 @@ Vector6d after_impulses(const TouchingBody& body, const ContactSet& near, const 
     ImpulseSolver solver(body, near.to_world(), !approach.drift, velocity);
     solver.solve(candidates);
     const Vector6d change = solver.velocity() - velocity;
-    const double share = passive_share(body, velocity, change, solver.work());
+    const Vector6d momentum = body.inertia * change;
+    const double share = passive_share(velocity.dot(momentum) - solver.work(), change.dot(momentum));
     if (met != nullptr) *met = solver.record(share);
     return velocity + (share == 1.0 ? change : Vector6d(share * change));
+}
+
+void JointImpulses::prepare(std::span<JointBody> bodies, std::span<const JointPoint> points,
+                            std::size_t known) {
+    rows_.resize(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const JointPoint& point = points[i];
+        Row& row = rows_[i];
+        row.direction.setZero();
+        if (i < known) {
+            JointMotion{bodies, point, row}.add_size(row.size);
+            continue;
+        }
+        const Matrix3d axes = axes_about(point.normal);
+        const Matrix3d across = axes.transpose();
+        const auto respond = [&](const JointBody& body, const Vector3d& arm, ContactImpulses::Side& side) {
+            ContactImpulses::Response wrench;
+            wrench << skew(arm) * across, across;
+            side.push = body.inverse_inertia * wrench;
+            side.turn = body.inverse_inertia.leftCols<3>() * across;
+            row.push_mobility += wrench.transpose() * side.push;
+            row.turn_mobility += across.transpose() * side.turn.topRows<3>();
+        };
+        row.push_mobility.setZero();
+        row.turn_mobility.setZero();
+        respond(bodies[point.first], point.first_arm, row.first);
+        double radius = bodies[point.first].radius;
+        if (point.second != JointPoint::none) {
+            const JointBody& second = bodies[point.second];
+            respond(second, point.second_arm, row.second);
+            radius = std::min(radius, second.radius);
+        }
+        row.begin(axes, point.surface_velocity, point.surface_turning, point.friction, radius);
+        row.meant.z() -= point.allowed_speed;
+        row.invert();
+    }
+}
+
+void JointImpulses::sweep(std::span<JointBody> bodies, std::span<const JointPoint> points,
+                          bool backwards) noexcept {
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        const std::size_t i = backwards ? points.size() - 1 - k : k;
+        relax(rows_[i], JointMotion{bodies, points[i], rows_[i]});
+    }
+}
+
+bool JointImpulses::has_converged() const noexcept {
+    double change = 0.0;
+    double largest = 0.0;
+    for (const Row& row : rows_) {
+        const double mobility = row.push_mobility(2, 2);
+        change = std::max(change, (row.size - row.before).head<3>().squaredNorm() * mobility);
+        largest = std::max(largest, row.size.head<3>().squaredNorm() * mobility);
+    }
+    return change <= joint_converged * joint_converged * largest;
+}
+
+void JointImpulses::accelerate(std::span<JointBody> bodies, std::span<const JointPoint> points) noexcept {
+    double square = 0.0;
+    for (const Row& row : rows_) square += (row.size - row.before).squaredNorm();
+    const double share = slope_ > 0.0 ? square / slope_ : 0.0;
+    slope_ = square;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        Row& row = rows_[i];
+        const Vector6d change = row.size - row.before;
+        if (!(share > 0.0 && share < 1.0)) {
+            row.direction = change;
+            continue;
+        }
+        const Vector6d more = share * row.direction;
+        row.direction = more + change;
+        row.size += more;
+        JointMotion{bodies, points[i], row}.add_size(more);
+    }
+}
+
+void JointImpulses::keep_passive(std::span<JointBody> bodies, std::span<JointPoint> points) {
+    impulse_.assign(bodies.size(), Vector6d::Zero());
+    double gain = 0.0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const JointPoint& point = points[i];
+        const Row& row = rows_[i];
+        const Vector3d push = row.push();
+        const Vector3d turn = row.axes.transpose() * row.size.tail<3>();
+        Vector6d wrench;
+        wrench << point.first_arm.cross(push) + turn, push;
+        impulse_[point.first] += wrench;
+        if (point.second != JointPoint::none) {
+            wrench << point.second_arm.cross(push) + turn, push;
+            impulse_[point.second] -= wrench;
+        } else {
+            gain -= row.work();
+        }
+    }
+    double square = 0.0;
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        gain += start_[i].dot(impulse_[i]);
+        square += impulse_[i].dot(bodies[i].inverse_inertia * impulse_[i]);
+    }
+    const double share = passive_share(gain, square);
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        bodies[i].velocity = start_[i] + share * (bodies[i].inverse_inertia * impulse_[i]);
+    }
+    for (std::size_t i = 0; i < points.size(); ++i) points[i].impulse = share * rows_[i].push();
+}
+
+void JointImpulses::solve(std::span<JointBody> bodies, std::span<JointPoint> points, std::size_t known) {
+    if (points.empty()) return;
+    start_.clear();
+    for (const JointBody& body : bodies) start_.push_back(body.velocity);
+    prepare(bodies, points, known);
+    slope_ = 0.0;
+    for (int i = 0; i < most_joint_sweeps; ++i) {
+        for (Row& row : rows_) row.before = row.size;
+        sweep(bodies, points, false);
+        sweep(bodies, points, true);
+        if (has_converged()) break;
+        if (i + 1 < most_joint_sweeps) accelerate(bodies, points);
+    }
+    keep_passive(bodies, points);
 }
 
 }  // namespace samara

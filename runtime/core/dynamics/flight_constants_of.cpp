@@ -1,56 +1,49 @@
-#include "samara/core/dynamics/flight_constants_of.hpp"
-
 #include <array>
 #include <cmath>
 #include <numbers>
 
+#include "samara/core/dynamics/immersed_body.hpp"
 #include "samara/core/kernel/wake_noise.hpp"
 
 namespace samara {
 namespace {
 
-template <class Real>
-Triple<Real> triple(const Vector3d& v) {
-    return {static_cast<Real>(v.x()), static_cast<Real>(v.y()), static_cast<Real>(v.z())};
+Triple<double> triple(const Vector3d& v) {
+    return {v.x(), v.y(), v.z()};
 }
 
-template <class Real>
-Square<Real> square(const Matrix3d& m) {
-    return {triple<Real>(m.row(0)), triple<Real>(m.row(1)), triple<Real>(m.row(2))};
+Square<double> square(const Matrix3d& m) {
+    return {triple(m.row(0)), triple(m.row(1)), triple(m.row(2))};
 }
 
 /// Of a matrix that is symmetric but for rounding.
-template <class Real>
-Square<Real> symmetric(const Matrix3d& m) {
-    return square<Real>(0.5 * (m + m.transpose()));
+Square<double> symmetric(const Matrix3d& m) {
+    return square(0.5 * (m + m.transpose()));
 }
 
-template <class Real>
-void set_planes(const std::vector<double>& reynolds_numbers, DirectionTable<Real>& table) {
+void set_planes(const std::vector<double>& reynolds_numbers, DirectionTable& table) {
     for (const double number : reynolds_numbers) {
-        table.reynolds_numbers.push_back(static_cast<Real>(number));
-        table.logarithms.push_back(static_cast<Real>(std::log(number)));
+        table.reynolds_numbers.push_back(number);
+        table.logarithms.push_back(std::log(number));
     }
     for (std::size_t i = 1; i < reynolds_numbers.size(); ++i) {
-        table.inverse_differences.push_back(
-            static_cast<Real>(1.0 / std::log(reynolds_numbers[i] / reynolds_numbers[i - 1])));
+        table.inverse_differences.push_back(1.0 / std::log(reynolds_numbers[i] / reynolds_numbers[i - 1]));
     }
 }
 
 /// The table with the numbers of entry i as row(i) gives them.
-template <class Real, std::size_t width, class Row>
-DirectionTable<Real> direction_table(const LoadTables& tables, const Row& row) {
-    DirectionTable<Real> result;
+template <std::size_t width, class Row>
+DirectionTable direction_table(const LoadTables& tables, const Row& row) {
+    DirectionTable result;
     result.width = static_cast<int>(width);
     result.side = tables.map_size();
     result.turned = !tables.axes.isIdentity(0.0);
-    result.to_map_axes = square<Real>(tables.axes.transpose());
+    result.to_map_axes = square(tables.axes.transpose());
     set_planes(tables.reynolds_numbers, result);
     for (std::size_t entry = 0; entry < tables.entries.size(); ++entry) {
         const std::array<double, width> numbers = row(entry);
         for (std::size_t i = 0; i < width; i += 4) {
-            result.rows.push_back({static_cast<Real>(numbers[i]), static_cast<Real>(numbers[i + 1]),
-                                   static_cast<Real>(numbers[i + 2]), static_cast<Real>(numbers[i + 3])});
+            result.rows.push_back({numbers[i], numbers[i + 1], numbers[i + 2], numbers[i + 3]});
         }
     }
     return result;
@@ -61,10 +54,9 @@ double length_scale(const ImmersedBody& body) {
     return std::exp2(std::round(std::log2(body.length)));
 }
 
-template <class Real>
-DirectionTable<Real> load_table(const ImmersedBody& body) {
+DirectionTable load_table(const ImmersedBody& body) {
     const double arm = body.length / length_scale(body);
-    return direction_table<Real, 8>(*body.tables, [&](std::size_t i) {
+    return direction_table<8>(*body.tables, [&](std::size_t i) {
         Vector3d moment = body.tables->entries[i].moment;
         for (const TowPatch& patch : body.patches) {
             if (!patch.force.empty()) moment -= patch.place.cross(patch.force[i]) / body.length;
@@ -75,19 +67,17 @@ DirectionTable<Real> load_table(const ImmersedBody& body) {
     });
 }
 
-template <class Real>
-DirectionTable<Real> patch_table(const ImmersedBody& body, const TowPatch& patch) {
+DirectionTable patch_table(const ImmersedBody& body, const TowPatch& patch) {
     if (patch.force.empty()) return {};
-    return direction_table<Real, 4>(*body.tables, [&](std::size_t i) {
+    return direction_table<4>(*body.tables, [&](std::size_t i) {
         const Vector3d f = body.dynamic.unsteady_factor * patch.force[i];
         return std::array<double, 4>{f.x(), f.y(), f.z(), 0.0};
     });
 }
 
-template <class Real>
-DirectionTable<Real> turbulence_table(const ImmersedBody& body) {
+DirectionTable turbulence_table(const ImmersedBody& body) {
     const double scale = length_scale(body) / body.length;
-    return direction_table<Real, 4>(*body.tables, [&](std::size_t i) {
+    return direction_table<4>(*body.tables, [&](std::size_t i) {
         const LoadEntry& entry = body.tables->entries[i];
         return std::array<double, 4>{entry.turbulent_kinetic_energy, scale * entry.dissipation_rate, 0.0,
                                      0.0};
@@ -95,49 +85,46 @@ DirectionTable<Real> turbulence_table(const ImmersedBody& body) {
 }
 
 /// The area over A by direction: the projected one, or a given one everywhere.
-template <class Real>
-DirectionTable<Real> area_table(const ImmersedBody& body) {
-    DirectionTable<Real> table;
+DirectionTable area_table(const ImmersedBody& body) {
+    DirectionTable table;
     table.width = 8;
     table.side = body.coefficients.reference_area ? 3 : 2 * shadow_subdivisions + 1;
-    table.to_map_axes = square<Real>(Matrix3d::Identity());
-    table.reynolds_numbers = {Real{1}};
-    table.logarithms = {Real{0}};
+    table.to_map_axes = square(Matrix3d::Identity());
+    table.reynolds_numbers = {1.0};
+    table.logarithms = {0.0};
     const auto nodes = static_cast<std::size_t>(table.side) * static_cast<std::size_t>(table.side);
     for (std::size_t node = 0; node < nodes; ++node) {
         const double area =
             body.coefficients.reference_area ? *body.coefficients.reference_area : body.projected_areas[node];
-        table.rows.push_back({static_cast<Real>(area / body.reference_area), 0, 0, 0});
+        table.rows.push_back({area / body.reference_area, 0, 0, 0});
         table.rows.push_back({});
     }
     return table;
 }
 
-template <class Real>
-void set_inertia(const ImmersedBody& body, FlightConstants<Real>& c) {
+void set_inertia(const ImmersedBody& body, FlightConstants& c) {
     const Matrix6d from_centroid = body.to_centroid.inverse();
     const Matrix6d inertia = from_centroid.transpose() * body.inertia * from_centroid;
     const double length = length_scale(body);
     const double mass = inertia.bottomRightCorner<3, 3>().trace() / 3.0;
     const Matrix3d turning = inertia.topLeftCorner<3, 3>() / (mass * length * length);
     const Matrix3d moving = inertia.bottomRightCorner<3, 3>() / mass;
-    c.mass_scale = static_cast<Real>(mass);
-    c.inertia_turning = symmetric<Real>(turning);
+    c.mass_scale = mass;
+    c.inertia_turning = symmetric(turning);
     c.off_center = !body.center_of_buoyancy.isZero(0.0);
     c.coupled = !inertia.topRightCorner<3, 3>().isZero(0.0);
-    c.inertia_coupling = square<Real>(inertia.topRightCorner<3, 3>() / (mass * length));
-    c.directed_inertia = symmetric<Real>(moving - Matrix3d::Identity());
-    c.inverse_turning = triple<Real>(turning.diagonal().cwiseInverse());
-    c.inverse_moving = triple<Real>(moving.diagonal().cwiseInverse());
-    c.weight = static_cast<Real>((body.mass - body.fluid_density * body.volume) / (mass * length));
-    c.weight_moment = triple<Real>(-body.mass / (mass * length * length) * body.center_of_buoyancy);
-    c.tip_square = static_cast<Real>(0.25 * body.length * body.length / (length * length));
-    c.munk_rate = static_cast<Real>(body.turning_scale * length);
+    c.inertia_coupling = square(inertia.topRightCorner<3, 3>() / (mass * length));
+    c.directed_inertia = symmetric(moving - Matrix3d::Identity());
+    c.inverse_turning = triple(turning.diagonal().cwiseInverse());
+    c.inverse_moving = triple(moving.diagonal().cwiseInverse());
+    c.weight = (body.mass - body.fluid_density * body.volume) / (mass * length);
+    c.weight_moment = triple(-body.mass / (mass * length * length) * body.center_of_buoyancy);
+    c.tip_square = 0.25 * body.length * body.length / (length * length);
+    c.munk_rate = body.turning_scale * length;
 }
 
-template <class Real>
-Real reynolds_factor(const ImmersedBody& body) {
-    return static_cast<Real>(body.length * length_scale(body) * body.fluid_density / body.viscosity);
+double reynolds_factor(const ImmersedBody& body) {
+    return body.length * length_scale(body) * body.fluid_density / body.viscosity;
 }
 
 /// Less its isotropic part.
@@ -145,15 +132,14 @@ Matrix3d directed(const Matrix3d& tensor) {
     return tensor - tensor.trace() / 3.0 * Matrix3d::Identity();
 }
 
-template <class Real>
-void set_transport(const ImmersedBody& body, double mass, double length, FlightConstants<Real>& c) {
+void set_transport(const ImmersedBody& body, double mass, double length, FlightConstants& c) {
     const Matrix3d transport = body.fluid_density / mass * body.dynamic.transport;
-    c.isotropic_transport = static_cast<Real>(transport.trace() / 3.0);
-    c.directed_transport = symmetric<Real>(directed(transport));
+    c.isotropic_transport = transport.trace() / 3.0;
+    c.directed_transport = symmetric(directed(transport));
     const double share = body.dynamic.rotational_transport / mass;
     c.transports_turning = share != 0.0;
-    c.turning_transport = symmetric<Real>(share / (length * length) * body.added_inertia);
-    c.coupling_transport = square<Real>(share / length * body.added_coupling);
+    c.turning_transport = symmetric(share / (length * length) * body.added_inertia);
+    c.coupling_transport = square(share / length * body.added_coupling);
 }
 
 /// What the rotational drag of falls, in the mean over the axes, lacks of the least about the way (m^4).
@@ -163,65 +149,60 @@ Matrix3d lacking_roll_drag(const ImmersedBody& body) {
     return std::max(0.0, 1.0 - share) * body.roll_drag;
 }
 
-template <class Real>
-void set_loads(const ImmersedBody& body, FlightConstants<Real>& c) {
-    const double mass = static_cast<double>(c.mass_scale);
+void set_loads(const ImmersedBody& body, FlightConstants& c) {
+    const double mass = c.mass_scale;
     const double length = length_scale(body);
     const double half_density = 0.5 * body.fluid_density;
     const DynamicCoefficients& dynamic = body.dynamic;
     const double tow = half_density * body.reference_area * length / mass;
     c.loads = body.loads;
-    c.tow_factor = static_cast<Real>(tow);
-    c.reynolds_factor = reynolds_factor<Real>(body);
-    c.half_length = static_cast<Real>(dynamic.half_length / length);
+    c.tow_factor = tow;
+    c.reynolds_factor = reynolds_factor(body);
+    c.half_length = dynamic.half_length / length;
     // The numbers of the loads of the surface were chosen on whole falls, without a start of their own.
     c.wake_forms = body.loads != Loads::coefficients && !body.tables->stokes_throughout;
-    c.squared_formation_way = symmetric<Real>(body.squared_formation_way / (length * length));
-    c.settling_over_formation = static_cast<Real>(wake_formation_ways / dynamic.settling_ways);
+    c.squared_formation_way = symmetric(body.squared_formation_way / (length * length));
+    c.settling_over_formation = wake_formation_ways / dynamic.settling_ways;
     c.has_unseen_turning = !body.unseen_turning.isZero(0.0);
-    c.unseen_turning = symmetric<Real>(body.unseen_turning);
-    c.drag_in_motion = symmetric<Real>(half_density * length / mass * dynamic.drag_in_motion);
+    c.unseen_turning = symmetric(body.unseen_turning);
+    c.drag_in_motion = symmetric(half_density * length / mass * dynamic.drag_in_motion);
     c.has_spin = !dynamic.drag_in_spin.isZero(0.0) || !dynamic.rotational_drag_in_spin.isZero(0.0);
-    c.drag_in_spin = symmetric<Real>(half_density * length / mass * dynamic.drag_in_spin);
-    c.rotational_drag = symmetric<Real>(half_density / (mass * length) * dynamic.rotational_drag);
+    c.drag_in_spin = symmetric(half_density * length / mass * dynamic.drag_in_spin);
+    c.rotational_drag = symmetric(half_density / (mass * length) * dynamic.rotational_drag);
     const Matrix3d lacking = lacking_roll_drag(body);
     c.has_roll_drag = !lacking.isZero(0.0);
-    c.lacking_roll_drag = symmetric<Real>(half_density / (mass * length) * lacking);
-    c.rotational_drag_in_spin =
-        symmetric<Real>(half_density / (mass * length) * dynamic.rotational_drag_in_spin);
+    c.lacking_roll_drag = symmetric(half_density / (mass * length) * lacking);
+    c.rotational_drag_in_spin = symmetric(half_density / (mass * length) * dynamic.rotational_drag_in_spin);
     set_transport(body, mass, length, c);
     for (const TowPatch& patch : body.patches) {
-        c.patches.push_back({triple<Real>(patch.place / length), static_cast<Real>(patch.share),
-                             patch_table<Real>(body, patch)});
+        c.patches.push_back({triple(patch.place / length), patch.share, patch_table(body, patch)});
     }
     const double creeping = std::numbers::pi * body.viscosity * body.length / mass;
     const double ratio = body.length / length;
-    c.creeping_turn = static_cast<Real>(creeping * ratio * ratio);
+    c.creeping_turn = creeping * ratio * ratio;
     if (body.loads != Loads::coefficients) {
-        c.creeping_drag = static_cast<Real>(3.0 * creeping);
-        c.potential_transport = symmetric<Real>(
-            directed(body.added_mass - body.fluid_density * dynamic.transport) / (mass * tow));
-        c.creeping_fades = static_cast<Real>(
-            body.tables->stokes_throughout ? 0.0 : 1.0 / body.tables->reynolds_numbers.front());
-        c.loads_by_direction = load_table<Real>(body);
+        c.creeping_drag = 3.0 * creeping;
+        c.potential_transport =
+            symmetric(directed(body.added_mass - body.fluid_density * dynamic.transport) / (mass * tow));
+        c.creeping_fades = body.tables->stokes_throughout ? 0.0 : 1.0 / body.tables->reynolds_numbers.front();
+        c.loads_by_direction = load_table(body);
     } else {
-        c.drag_coefficient = static_cast<Real>(body.coefficients.drag_coefficient);
-        c.twice_lift_coefficient = static_cast<Real>(2.0 * body.coefficients.lift_coefficient);
-        c.normal = triple<Real>(*body.coefficients.normal);
-        c.center_of_pressure = triple<Real>(body.coefficients.center_of_pressure / length);
-        c.loads_by_direction = area_table<Real>(body);
+        c.drag_coefficient = body.coefficients.drag_coefficient;
+        c.twice_lift_coefficient = 2.0 * body.coefficients.lift_coefficient;
+        c.normal = triple(*body.coefficients.normal);
+        c.center_of_pressure = triple(body.coefficients.center_of_pressure / length);
+        c.loads_by_direction = area_table(body);
     }
 }
 
 }  // namespace
 
-template <class Real>
-FlightConstants<Real> flight_constants(const ImmersedBody& body) {
-    FlightConstants<Real> c;
-    c.length = static_cast<Real>(length_scale(body));
-    c.inverse_length = static_cast<Real>(1.0 / length_scale(body));
-    c.inverse_eddy_length = static_cast<Real>(1.0 / body.length);
-    c.center_of_buoyancy = triple<Real>(body.center_of_buoyancy);
+FlightConstants flight_constants(const ImmersedBody& body) {
+    FlightConstants c;
+    c.length = length_scale(body);
+    c.inverse_length = 1.0 / length_scale(body);
+    c.inverse_eddy_length = 1.0 / body.length;
+    c.center_of_buoyancy = triple(body.center_of_buoyancy);
     set_inertia(body, c);
     if (body.loads != Loads::none) set_loads(body, c);
     c.turbulence = body.turbulence;
@@ -232,18 +213,15 @@ FlightConstants<Real> flight_constants(const ImmersedBody& body) {
         body.loads != Loads::none && body.turbulence == Turbulence::table && c.langevin == Langevin::wake;
     if (c.has_side_pressure) {
         const double pressure = wake_side_pressure * static_cast<double>(c.tow_factor);
-        c.side_pressure = symmetric<Real>(pressure / body.reference_area * body.shadows);
+        c.side_pressure = symmetric(pressure / body.reference_area * body.shadows);
     }
-    c.turbulent_kinetic_energy = static_cast<Real>(body.turbulent_kinetic_energy);
-    c.dissipation_rate = static_cast<Real>(body.dissipation_rate);
+    c.turbulent_kinetic_energy = body.turbulent_kinetic_energy;
+    c.dissipation_rate = body.dissipation_rate;
     if (body.turbulence == Turbulence::table) {
-        c.reynolds_factor = reynolds_factor<Real>(body);
-        c.turbulence_by_direction = turbulence_table<Real>(body);
+        c.reynolds_factor = reynolds_factor(body);
+        c.turbulence_by_direction = turbulence_table(body);
     }
     return c;
 }
-
-template FlightConstants<float> flight_constants<float>(const ImmersedBody&);
-template FlightConstants<double> flight_constants<double>(const ImmersedBody&);
 
 }  // namespace samara

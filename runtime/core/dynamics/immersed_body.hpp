@@ -68,11 +68,13 @@ struct ImmersedBody : TouchingBody {
     Langevin langevin = Langevin::wake;
 
     // Of all the above, as inverse_inertia, by prepare().
-    FlightConstants<double> constants;
+    FlightConstants constants;
 };
 inline constexpr int shadow_subdivisions = 16;
 
-/// Works out what the steps need of the members.
+/// What the steps need of the members.
+FlightConstants flight_constants(const ImmersedBody& body);
+/// Works it out, and keeps it.
 void prepare(ImmersedBody& body);
 
 /// Puts body, mass and fluid together. Without added mass, K_fluid is zero and the coefficients T and t with
@@ -81,5 +83,10 @@ void prepare(ImmersedBody& body);
 /// finite or out of its range (the message names the member), and where the inertia is not that of any body.
 ImmersedBody make_immersed_body(const Body& body, const BodyPhysics& physics, const Fluid& fluid,
                                 const std::string& name = "body");
+
+/// Throws Error, one line that names the body and the member, where a number that make_immersed_body needs is
+/// not finite or not in its range, or where tables or surface contradict themselves. What the body lacks
+/// altogether (Kirchhoff tensor, tables) is no fault here.
+void require_sound(const Body& body, const BodyPhysics& physics, const Fluid& fluid, const std::string& name);
 
 }  // namespace samara

@@ -7,10 +7,6 @@
 
 namespace samara {
 
-Matrix6d load_matrix(const ImmersedBody& body, const Vector6d& relative_velocity) noexcept {
-    return load_matrices(body, relative_velocity, Vector3d::Zero()).whole;
-}
-
 LoadMatrices load_matrices(const ImmersedBody& body, const Vector6d& velocity, const Vector3d& seen_rotation,
                            const Vector3d& slip, const WakeShares& shares) noexcept {
     if (body.loads == Loads::none) return {};
@@ -37,6 +33,11 @@ WakeRates wake_rates(const ImmersedBody& body, const Vector6d& relative_velocity
 
 double reynolds_number(const ImmersedBody& body, double speed) noexcept {
     return speed * body.length * body.fluid_density / body.viscosity;
+}
+
+TurbulenceLevel turbulence_level(const ImmersedBody& body, const Vector3d& velocity) noexcept {
+    if (body.turbulence == Turbulence::none) return {};
+    return kernel::turbulence_level(body.constants, velocity);
 }
 
 }  // namespace samara

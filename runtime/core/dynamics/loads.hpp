@@ -6,16 +6,12 @@
 
 namespace samara {
 
-/// The matrix D (6x6, order omega then v) with which the loads beyond the Kirchhoff terms are -D u: u holds
-/// the body's angular velocity and the velocity of its centroid relative to the fluid (rad/s, m/s; body
-/// axes), the load moment about the centroid and force (N m, N). D depends on u; its symmetric part is
-/// positive semidefinite, so the loads never make energy in still fluid. docs/theory, "Loads of a moving
-/// body". Never throws.
-Matrix6d load_matrix(const ImmersedBody& body, const Vector6d& relative_velocity) noexcept;
-
-/// D in a fluid that turns with `seen_rotation` (rad/s, body axes): the loads are
-/// -whole u + relative (seen_rotation, 0), where u holds the body's own angular velocity and the velocity of
-/// its centroid relative to the fluid, of which `slip` (m/s, body axes) is that of the wake. Never throws.
+/// The matrices D (6x6, order omega then v) with which the loads beyond the Kirchhoff terms, moment about the
+/// centroid and force (N m, N), are -D u; their symmetric part is positive semidefinite, so the loads never
+/// make energy in still fluid (docs/theory, "Loads of a moving body"). In a fluid that turns with
+/// `seen_rotation` (rad/s, body axes) they are -whole u + relative (seen_rotation, 0), where u holds the
+/// body's own angular velocity and the velocity of its centroid relative to the fluid, of which `slip` (m/s,
+/// body axes) is that of the wake. Never throws.
 LoadMatrices load_matrices(const ImmersedBody& body, const Vector6d& velocity, const Vector3d& seen_rotation,
                            const Vector3d& slip = Vector3d::Zero(), const WakeShares& shares = {}) noexcept;
 
@@ -23,7 +19,7 @@ LoadMatrices load_matrices(const ImmersedBody& body, const Vector6d& velocity, c
 /// forms").
 WakeShares shares_of(const Wake& wake) noexcept;
 
-/// How fast a wake changes, at the velocity u of load_matrix(). Zero where the loads do not wait for one to
+/// How fast a wake changes, at the velocity u of load_matrices(). Zero where the loads do not wait for one to
 /// form: their wake always has.
 struct WakeRates {
     double formation = 0.0;  ///< 1/s, at which Wake::formed tends to one
@@ -34,5 +30,9 @@ WakeRates wake_rates(const ImmersedBody& body, const Vector6d& relative_velocity
 
 /// U L / nu of a speed (m/s).
 double reynolds_number(const ImmersedBody& body, double speed) noexcept;
+
+/// The turbulence that the body meets at a velocity of its centroid relative to the mean current (m/s, body
+/// axes).
+TurbulenceLevel turbulence_level(const ImmersedBody& body, const Vector3d& velocity) noexcept;
 
 }  // namespace samara

@@ -14,7 +14,7 @@
 #include "samara/core/dynamics/loads.hpp"
 #include "samara/core/dynamics/prepared_bodies.hpp"
 #include "samara/core/flight/world_pose.hpp"
-#include "samara/core/integrator/fluid_load_of.hpp"
+#include "samara/core/integrator/step.hpp"
 
 namespace samara {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "samara/core/collision/hull_faces.hpp"
+#include "samara/core/collision/hull_pair.hpp"
 #include "samara/core/dynamics/immersed_body.hpp"
 #include "samara/core/dynamics/surroundings.hpp"
 #include "samara/core/flight/flight.hpp"

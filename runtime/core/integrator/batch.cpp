@@ -4,14 +4,12 @@
 #include <array>
 #include <limits>
 #include <mutex>
-#include <type_traits>
 #include <utility>
 
 #include "samara/core/base/parallel_for.hpp"
 #include "samara/core/contact/ground_contact.hpp"
 #include "samara/core/dynamics/body_size.hpp"
 #include "samara/core/dynamics/body_wind.hpp"
-#include "samara/core/dynamics/flight_constants_of.hpp"
 #include "samara/core/kernel/kernel.hpp"
 
 namespace samara {
@@ -20,9 +18,8 @@ namespace {
 constexpr std::size_t blocks_a_piece = 64;
 
 /// What the bodies of a batch touch.
-template <class Real>
 struct BatchGround {
-    const BasicBatch<Real>& batch;
+    const Batch& batch;
     const ImmersedBody& body;
     double largest;  ///< size
     const Surroundings& surroundings;
@@ -95,8 +92,7 @@ Wrench wrench_of(const kernel::ExternalLoads& external, std::size_t lane) noexce
 
 /// One body alone: to the same bits as in a vector of them, and sooner.
 BatchReport advance_alone(const ImmersedBody& body, const Surroundings& surroundings,
-                          const kernel::BlockSteps& task, ContactRecord* met,
-                          FlightBlock<double>& block) noexcept {
+                          const kernel::BlockSteps& task, ContactRecord* met, FlightBlock& block) noexcept {
     const Noise noise(std::array{block.noise[0][0], block.noise[1][0], block.noise[2][0], block.noise[3][0]});
     BatchReport report;
     BodyState state = state_of(block, 0);
@@ -127,38 +123,34 @@ BatchReport advance_alone(const ImmersedBody& body, const Surroundings& surround
 
 }  // namespace
 
-template <class Real>
-BasicBatch<Real>::BasicBatch(const ImmersedBody& body, std::size_t count)
+Batch::Batch(const ImmersedBody& body, std::size_t count)
     : body_(&body),
       size_(count),
-      constants_(flight_constants<Real>(body)),
-      blocks_((count + FlightBlock<Real>::size - 1) / FlightBlock<Real>::size) {
+      constants_(flight_constants(body)),
+      blocks_((count + FlightBlock::size - 1) / FlightBlock::size) {
     for (std::size_t i = 0; i < blocks_.size(); ++i) {
-        blocks_[i].bodies = std::min(FlightBlock<Real>::size, count - i * FlightBlock<Real>::size);
-        for (std::size_t lane = 0; lane < FlightBlock<Real>::size; ++lane) {
+        blocks_[i].bodies = std::min(FlightBlock::size, count - i * FlightBlock::size);
+        for (std::size_t lane = 0; lane < FlightBlock::size; ++lane) {
             keep_state(BodyState{}, blocks_[i], lane);
-            blocks_[i].size_of[lane] = Real{1};
+            blocks_[i].size_of[lane] = 1.0;
             blocks_[i].first_step[lane] = 0;
         }
-        blocks_[i].first_body = i * FlightBlock<Real>::size;
+        blocks_[i].first_body = i * FlightBlock::size;
         blocks_[i].last_start = 0;
     }
     for (std::size_t i = 0; i < count; ++i) set_noise(i, Noise(0, "", 0, 0));
 }
 
-template <class Real>
-void BasicBatch<Real>::set_sizes(std::vector<double> sizes, bool touch) {
+void Batch::set_sizes(std::vector<double> sizes, bool touch) {
     sizes_ = std::move(sizes);
     touching_.clear();
     for (std::size_t i = 0; i < size_; ++i) {
-        blocks_[i / FlightBlock<Real>::size].size_of[i % FlightBlock<Real>::size] =
-            static_cast<Real>(sizes_[i]);
+        blocks_[i / FlightBlock::size].size_of[i % FlightBlock::size] = sizes_[i];
         if (touch) touching_.push_back(touching_body(*body_, sizes_[i]));
     }
 }
 
-template <class Real>
-void BasicBatch<Real>::set_external(const std::vector<Wrench>& external) {
+void Batch::set_external(const std::vector<Wrench>& external) {
     external_.assign(external.empty() ? 0 : blocks_.size(), {});
     for (std::size_t i = 0; i < external.size(); ++i) {
         kernel::ExternalLoads& loads = external_[i / kernel::ExternalLoads::size];
@@ -170,47 +162,40 @@ void BasicBatch<Real>::set_external(const std::vector<Wrench>& external) {
     }
 }
 
-template <class Real>
-void BasicBatch<Real>::set_first_step(std::size_t index, std::uint64_t step) noexcept {
-    FlightBlock<Real>& block = blocks_[index / FlightBlock<Real>::size];
-    block.first_step[index % FlightBlock<Real>::size] = step;
-    block.last_start = *std::max_element(block.first_step, block.first_step + FlightBlock<Real>::size);
+void Batch::set_first_step(std::size_t index, std::uint64_t step) noexcept {
+    FlightBlock& block = blocks_[index / FlightBlock::size];
+    block.first_step[index % FlightBlock::size] = step;
+    block.last_start = *std::max_element(block.first_step, block.first_step + FlightBlock::size);
 }
 
-template <class Real>
-void BasicBatch<Real>::set_state(std::size_t index, const BodyState& state) noexcept {
+void Batch::set_state(std::size_t index, const BodyState& state) noexcept {
     const double size = size_of(index);
     keep_own_state(index, size == 1.0 ? state : in_own_units(state, size));
 }
 
-template <class Real>
-BodyState BasicBatch<Real>::state(std::size_t index) const noexcept {
+BodyState Batch::state(std::size_t index) const noexcept {
     const double size = size_of(index);
     return size == 1.0 ? own_state(index) : in_world_units(own_state(index), size);
 }
 
-template <class Real>
-void BasicBatch<Real>::keep_own_state(std::size_t index, const BodyState& state) noexcept {
-    keep_state(state, blocks_[index / FlightBlock<Real>::size], index % FlightBlock<Real>::size);
+void Batch::keep_own_state(std::size_t index, const BodyState& state) noexcept {
+    keep_state(state, blocks_[index / FlightBlock::size], index % FlightBlock::size);
 }
 
-template <class Real>
-BodyState BasicBatch<Real>::own_state(std::size_t index) const noexcept {
-    return state_of(blocks_[index / FlightBlock<Real>::size], index % FlightBlock<Real>::size);
+BodyState Batch::own_state(std::size_t index) const noexcept {
+    return state_of(blocks_[index / FlightBlock::size], index % FlightBlock::size);
 }
 
-template <class Real>
-void BasicBatch<Real>::set_noise(std::size_t index, const Noise& noise) noexcept {
+void Batch::set_noise(std::size_t index, const Noise& noise) noexcept {
     const auto words = noise.words();
-    FlightBlock<Real>& block = blocks_[index / FlightBlock<Real>::size];
+    FlightBlock& block = blocks_[index / FlightBlock::size];
     for (std::size_t word = 0; word < words.size(); ++word) {
-        block.noise[word][index % FlightBlock<Real>::size] = words[word];
+        block.noise[word][index % FlightBlock::size] = words[word];
     }
 }
 
-template <class Real>
-BatchReport BasicBatch<Real>::advance(const Surroundings& surroundings, double start, double time_step,
-                                      std::uint64_t first_step, std::uint64_t steps, int threads) {
+BatchReport Batch::advance(const Surroundings& surroundings, double start, double time_step,
+                           std::uint64_t first_step, std::uint64_t steps, int threads) {
     std::vector<Vector3d> gravities;
     for (std::uint64_t step = first_step; step < first_step + steps; ++step) {
         gravities.push_back(apparent_gravity(surroundings, step_time(start, time_step, step),
@@ -219,7 +204,7 @@ BatchReport BasicBatch<Real>::advance(const Surroundings& surroundings, double s
     const bool sized = !sizes_.empty();
     const double largest = sized ? *std::max_element(sizes_.begin(), sizes_.end()) : 1.0;
     ContactRecord* met = met_.empty() ? nullptr : met_.data();
-    const BatchGround<Real> ground{*this, *body_, largest, surroundings, met};
+    const BatchGround ground{*this, *body_, largest, surroundings, met};
     const WindMeeting wind(*body_, surroundings, start, time_step);
     const kernel::BlockSteps task{.gravities = gravities.data(),
                                   .start = start,
@@ -230,12 +215,10 @@ BatchReport BasicBatch<Real>::advance(const Surroundings& surroundings, double s
                                   .contact = ground.contact(start, time_step, first_step, steps),
                                   .wind = wind.source(),
                                   .external = external_.empty() ? nullptr : external_.data()};
-    if constexpr (std::is_same_v<Real, double>) {
-        if (size_ == 1 && !sized && !is_contact_left(0)) {
-            BatchReport alone = advance_alone(*body_, surroundings, task, met, blocks_.front());
-            alone.wind_is_sound = alone.wind_is_sound && wind.is_sound();
-            return alone;
-        }
+    if (size_ == 1 && !sized && !is_contact_left(0)) {
+        BatchReport alone = advance_alone(*body_, surroundings, task, met, blocks_.front());
+        alone.wind_is_sound = alone.wind_is_sound && wind.is_sound();
+        return alone;
     }
     BatchReport report;
     std::mutex mutex;
@@ -247,8 +230,5 @@ BatchReport BasicBatch<Real>::advance(const Surroundings& surroundings, double s
     report.wind_is_sound = wind.is_sound();
     return report;
 }
-
-template class BasicBatch<float>;
-template class BasicBatch<double>;
 
 }  // namespace samara

@@ -18,13 +18,11 @@ namespace samara {
 
 /// Many bodies of one kind that are stepped together, as many at a time as the machine's vectors hold. Each
 /// moves as advance() moves it alone, whatever its place in the batch, the number of threads and the way the
-/// steps are cut into calls: in double precision to the last bit; in single precision, for crowds, within
-/// what docs/theory states.
-template <class Real>
-class BasicBatch {
+/// steps are cut into calls, to the last bit.
+class Batch {
   public:
     /// `body` must outlive the batch. All start at rest at the origin.
-    BasicBatch(const ImmersedBody& body, std::size_t count);
+    Batch(const ImmersedBody& body, std::size_t count);
 
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
     void set_state(std::size_t index, const BodyState& state) noexcept;
@@ -80,19 +78,13 @@ class BasicBatch {
   private:
     const ImmersedBody* body_;
     std::size_t size_;
-    FlightConstants<Real> constants_;
-    std::vector<FlightBlock<Real>> blocks_;
+    FlightConstants constants_;
+    std::vector<FlightBlock> blocks_;
     std::vector<double> sizes_;                    ///< none where all are the shape's
     std::vector<TouchingBody> touching_;           ///< of each size, where there is something to touch
     std::vector<kernel::ExternalLoads> external_;  ///< of each block; none where nothing is pushed
     std::vector<ContactRecord> met_;               ///< of each body; none where it is not noted
     std::vector<std::uint8_t> left_;  ///< of each body 1 or 0; none where all touch by themselves
 };
-
-extern template class BasicBatch<float>;
-extern template class BasicBatch<double>;
-
-using Batch = BasicBatch<double>;
-using FloatBatch = BasicBatch<float>;
 
 }  // namespace samara

@@ -2,6 +2,7 @@
 
 #include "samara/core/contact/ground_contact.hpp"
 #include "samara/core/dynamics/body_wind.hpp"
+#include "samara/core/dynamics/loads.hpp"
 #include "samara/core/kernel/kernel.hpp"
 
 namespace samara {
@@ -67,8 +68,120 @@ StepResult advance(const ImmersedBody& body, const Surroundings& surroundings, d
     return result;
 }
 
-double kinetic_energy(const ImmersedBody& body, const BodyState& state) noexcept {
-    return 0.5 * state.velocity.dot(body.inertia * state.velocity);
+namespace {
+
+/// The inertia of the fluid alone about the centre of mass: K less the body's own.
+Matrix6d added_inertia_of(const ImmersedBody& body) {
+    Matrix6d added = body.inertia;
+    added.topLeftCorner<3, 3>() -= body.own_inertia;
+    added.bottomRightCorner<3, 3>() -= body.mass * Matrix3d::Identity();
+    return added;
+}
+
+/// The wind of the world as a body of another size meets it in its own lengths and times (body_size.hpp).
+struct SizedWind {
+    kernel::WindSource of_world;
+    double size = 1.0;
+
+    [[nodiscard]] kernel::WindSource source() const noexcept {
+        if (of_world.meet == nullptr || size == 1.0) return of_world;
+        return {meet, this};
+    }
+
+    static void meet(const void* context, std::uint64_t step, std::size_t count,
+                     kernel::MetWind& met) noexcept {
+        const auto& self = *static_cast<const SizedWind*>(context);
+        const auto scale = [count](auto& rows, double factor) {
+            for (auto& row : rows) {
+                for (std::size_t lane = 0; lane < count; ++lane) row[lane] *= factor;
+            }
+        };
+        scale(met.place, self.size);
+        self.of_world.meet(self.of_world.context, step, count, met);
+        scale(met.begin, self.size);
+        scale(met.end, self.size);
+        scale(met.rotation, self.size * self.size);
+    }
+};
+
+/// begin_step() of a body of that size, whose constant turbulence is the world's.
+kernel::SeenStream seen_stream(const ImmersedBody& body, double size, double own_step,
+                               const kernel::WindSource& wind, const Noise& noise, std::uint64_t step,
+                               BodyState& state) {
+    if (size == 1.0 || body.turbulence != Turbulence::constant) {
+        return kernel::begin_step(body.constants, own_step, wind, noise, step, state).stream;
+    }
+    FlightConstants constants = body.constants;
+    constants.turbulent_kinetic_energy *= size * size;
+    constants.dissipation_rate *= size * size * size * size;
+    return kernel::begin_step(constants, own_step, wind, noise, step, state).stream;
+}
+
+/// A matrix over (omega, v) in the lengths and times of the world; `linear`: the factor of its last block.
+Matrix6d in_world_units(const Matrix6d& matrix, double size, double linear) {
+    Matrix6d result = linear * matrix;
+    result.topRows<3>() *= size;
+    result.leftCols<3>() *= size;
+    return result;
+}
+
+}  // namespace
+
+FluidLoad fluid_load_of(const ImmersedBody& body, double size, const Surroundings& surroundings, double start,
+                        double time_step, const BodyState& state, const Noise& noise, std::uint64_t step) {
+    const double size_square = size * size;
+    const double own_step = time_step / size_square;
+    const WindMeeting meeting(body, surroundings, start, time_step);
+    const SizedWind wind{meeting.source(), size};
+    BodyState stirred = state;
+    kernel::SeenStream stream = seen_stream(body, size, own_step, wind.source(), noise, step, stirred);
+    if (!stream.moves) stream = {Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()};
+    const Matrix3d to_world = state.orientation.toRotationMatrix();
+    const Matrix3d to_body = to_world.transpose();
+    const Vector3d gravity = size * size_square * surroundings.gravity;
+    const Vector3d in_the_flow = size * size_square *
+                                 apparent_gravity(surroundings, step_time(start, time_step, step),
+                                                  step_time(start, time_step, step + 1));
+    // Of the stream that the body is in, in the world.
+    const Vector3d acceleration = to_body * ((stream.end - stream.begin) / own_step + gravity - in_the_flow);
+
+    const Matrix6d added = added_inertia_of(body);
+    const Vector3d omega = state.velocity.head<3>();
+    Vector6d relative = state.velocity;
+    relative.tail<3>() -= to_body * stream.begin;
+    const Vector3d moving = relative.tail<3>();
+    const Vector6d momentum = added * relative;
+    // The fluid's momentum in the turning axes, and the part of the acceleration relative to the stream, in
+    // these axes, that is not the body's own.
+    Vector6d transport;
+    transport << Vector3d::Zero(), omega.cross(moving) + acceleration;
+    Vector6d wrench = added * transport;
+    wrench.head<3>() += momentum.head<3>().cross(omega) + momentum.tail<3>().cross(moving);
+    wrench.tail<3>() += momentum.tail<3>().cross(omega);
+
+    const Vector3d lift = -body.fluid_density * body.volume * (to_body * gravity - acceleration);
+    wrench.head<3>() += body.center_of_buoyancy.cross(lift);
+    wrench.tail<3>() += lift;
+
+    Matrix6d damping = Matrix6d::Zero();
+    if (body.loads != Loads::none) {
+        const Vector6d of_centroid = body.to_centroid * relative;
+        const Vector3d seen_rotation = to_body * stream.rotation;
+        const LoadMatrices loads =
+            load_matrices(body, of_centroid, seen_rotation, to_body * stream.slip, shares_of(state.wake));
+        wrench += body.to_centroid.transpose() *
+                  (loads.relative.leftCols<3>() * seen_rotation - loads.whole * of_centroid);
+        damping = body.to_centroid.transpose() * loads.whole * body.to_centroid;
+    }
+    // Noise on the velocity itself, where that is the model.
+    wrench += body.inertia * (stirred.velocity - state.velocity) / own_step;
+
+    Matrix6d turn = Matrix6d::Zero();
+    turn.topLeftCorner<3, 3>() = to_world;
+    turn.bottomRightCorner<3, 3>() = to_world;
+    wrench.head<3>() *= size;
+    return {turn * wrench, turn * in_world_units(added, size, size * size_square) * turn.transpose(),
+            turn * in_world_units(damping, size, size) * turn.transpose()};
 }
 
 }  // namespace samara

@@ -8,6 +8,7 @@
 #include "samara/core/kernel/body_state.hpp"
 #include "samara/core/kernel/noise.hpp"
 #include "samara/core/physics/contact_record.hpp"
+#include "samara/core/physics/fluid_load.hpp"
 #include "samara/core/physics/wrench.hpp"
 
 namespace samara {
@@ -42,7 +43,11 @@ StepResult advance(const ImmersedBody& body, const Surroundings& surroundings, d
                    const BodyState& state, const Noise& noise, std::uint64_t step,
                    const Wrench* external = nullptr, ContactRecord* met = nullptr) noexcept;
 
-/// u K u / 2 (J): the kinetic energy of body and fluid.
-double kinetic_energy(const ImmersedBody& body, const BodyState& state) noexcept;
+/// What the fluid would do to a body of `size` times the shape's lengths in step number `step` of a flight
+/// that began at `start` (s), with the turbulence and wind of that step: the equations of docs/theory.md,
+/// "Hosts". The state is in the body's own units (body_size.hpp), start and step are the world's.
+/// Allocates for a body of another size in constant turbulence alone.
+FluidLoad fluid_load_of(const ImmersedBody& body, double size, const Surroundings& surroundings, double start,
+                        double time_step, const BodyState& state, const Noise& noise, std::uint64_t step);
 
 }  // namespace samara

@@ -15,12 +15,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace samara::HWY_NAMESPACE {
 
-template <class Tag>
-using BlockOf = FlightBlock<hn::TFromD<Tag>>;
-
 /// The lanes [first, first + N) of a block.
 template <class Tag>
-HWY_INLINE Flight<Lanes<Tag>> load_flight(Tag tag, const BlockOf<Tag>& block, std::size_t first) {
+HWY_INLINE Flight<Lanes<Tag>> load_flight(Tag tag, const FlightBlock& block, std::size_t first) {
     const auto field = [&](std::size_t i)
                            HWY_ATTR { return Lanes<Tag>(hn::Load(tag, block.numbers[i] + first)); };
     const auto triple = [&](std::size_t i) HWY_ATTR {
@@ -30,7 +27,7 @@ HWY_INLINE Flight<Lanes<Tag>> load_flight(Tag tag, const BlockOf<Tag>& block, st
             triple(22), {field(25), triple(26)}};
 }
 template <class Tag>
-HWY_INLINE void store_flight(Tag tag, const Flight<Lanes<Tag>>& flight, BlockOf<Tag>& block,
+HWY_INLINE void store_flight(Tag tag, const Flight<Lanes<Tag>>& flight, FlightBlock& block,
                              std::size_t first) {
     const auto keep = [&](std::size_t i, Lanes<Tag> value)
                           HWY_ATTR { hn::Store(value.raw, tag, block.numbers[i] + first); };
@@ -70,7 +67,7 @@ HWY_INLINE Flight<Lanes<Tag>> select_flight(hn::Mask<Tag> condition, const Fligh
 /// What random numbers Noise::normals would give each lane.
 template <class Tag>
 struct LaneDraw {
-    const BlockOf<Tag>& block;
+    const FlightBlock& block;
     std::size_t first;
     std::uint64_t step;
 
@@ -127,10 +124,9 @@ HWY_INLINE hn::Mask<Tag> near_ground(const kernel::Contact& contact, const Fligh
 }
 
 /// Lets the bodies of the lanes touch the ground. `before`: the block before the substep.
-template <class Real>
-void meet_ground(const kernel::Contact& contact, const FlightBlock<Real>& before, FlightBlock<Real>& block,
-                 std::size_t first, std::size_t lanes, int substep, const Real* substeps, double time,
-                 double h) {
+inline void meet_ground(const kernel::Contact& contact, const FlightBlock& before, FlightBlock& block,
+                        std::size_t first, std::size_t lanes, int substep, const double* substeps,
+                        double time, double h) {
     for (std::size_t lane = first; lane < std::min<std::size_t>(first + lanes, block.bodies); ++lane) {
         const double parts = static_cast<double>(substeps[lane - first]);
         if (substep >= parts) continue;
@@ -142,8 +138,8 @@ void meet_ground(const kernel::Contact& contact, const FlightBlock<Real>& before
 }
 
 /// The Langevin update of one step. `draw` gives its random numbers; `size_square`: of the body's size.
-template <class V, class Real, class Draw>
-HWY_INLINE void meet_turbulence(const FlightConstants<Real>& c, V h, const Draw& draw, V size_square,
+template <class V, class Draw>
+HWY_INLINE void meet_turbulence(const FlightConstants& c, V h, const Draw& draw, V size_square,
                                 Flight<V>& flight) {
     if (c.turbulence == Turbulence::none) {
         flight.seen_velocity = no_vector<V>();
@@ -171,8 +167,8 @@ HWY_INLINE Stream<V> no_stream() {
 }
 
 /// Where the centroid is halfway through a step, as far as its velocity says (m, in the flow's frame).
-template <class V, class Real>
-HWY_INLINE Triple<V> halfway(const FlightConstants<Real>& c, V h, const Flight<V>& flight) {
+template <class V>
+HWY_INLINE Triple<V> halfway(const FlightConstants& c, V h, const Flight<V>& flight) {
     const Square<V> to_world = rotation_matrix(flight.orientation);
     const Triple<V> way = (V(0.5) * h * V(c.length)) * centroid_velocity(c, flight);
     return flight.position + to_world * (broadcast<V>(c.center_of_buoyancy) + way);
@@ -180,9 +176,8 @@ HWY_INLINE Triple<V> halfway(const FlightConstants<Real>& c, V h, const Flight<V
 
 /// What a body sees between two steps: a stream that changes evenly; or a slip of its loads alone, which
 /// stands for the step and does not push by its change.
-template <class V, class Real>
-HWY_INLINE Stream<V> seen_stream(const FlightConstants<Real>& c, const Triple<V>& before,
-                                 const Flight<V>& flight) {
+template <class V>
+HWY_INLINE Stream<V> seen_stream(const FlightConstants& c, const Triple<V>& before, const Flight<V>& flight) {
     if (c.langevin != Langevin::wake) {
         return {before, flight.seen_velocity, flight.seen_rotation, false, no_vector<V>()};
     }
@@ -192,8 +187,8 @@ HWY_INLINE Stream<V> seen_stream(const FlightConstants<Real>& c, const Triple<V>
 
 /// The Langevin update of one step in a wind, or without (then `wind` is none), and the stream that the body
 /// is in. What turbulence a body meets is a matter of its velocity in the wind.
-template <class V, class Real, class Draw>
-HWY_INLINE Stream<V> meet_fluid(const FlightConstants<Real>& c, V h, bool windy, const Stream<V>& wind,
+template <class V, class Draw>
+HWY_INLINE Stream<V> meet_fluid(const FlightConstants& c, V h, bool windy, const Stream<V>& wind,
                                 const Draw& draw, V size_square, Flight<V>& flight) {
     const Triple<V> seen_before = flight.seen_velocity;
     if (!windy) {
@@ -212,21 +207,20 @@ HWY_INLINE Stream<V> meet_fluid(const FlightConstants<Real>& c, V h, bool windy,
 }
 
 /// The wind that the bodies of the lanes meet in a step.
-template <class Tag, class Real = hn::TFromD<Tag>>
-HWY_INLINE Stream<Lanes<Tag>> met_wind(Tag tag, const FlightConstants<Real>& c,
-                                       const kernel::WindSource& source, std::uint64_t step,
-                                       std::size_t bodies, Lanes<Tag> h, Lanes<Tag> size,
+template <class Tag>
+HWY_INLINE Stream<Lanes<Tag>> met_wind(Tag tag, const FlightConstants& c, const kernel::WindSource& source,
+                                       std::uint64_t step, std::size_t bodies, Lanes<Tag> h, Lanes<Tag> size,
                                        const Flight<Lanes<Tag>>& flight) {
     using V = Lanes<Tag>;
     if (source.meet == nullptr) return no_stream<V>();
-    HWY_ALIGN_MAX Real row[hn::MaxLanes(Tag())];
+    HWY_ALIGN_MAX double row[hn::MaxLanes(Tag())];
     kernel::MetWind met;
     const auto give = [&](V value, double* to) HWY_ATTR {
         hn::Store(value.raw, tag, row);
         for (std::size_t i = 0; i < bodies; ++i) to[i] = static_cast<double>(row[i]);
     };
     const auto take = [&](const double* from) HWY_ATTR {
-        for (std::size_t i = 0; i < hn::Lanes(tag); ++i) row[i] = static_cast<Real>(from[i]);
+        for (std::size_t i = 0; i < hn::Lanes(tag); ++i) row[i] = static_cast<double>(from[i]);
         return V(hn::Load(tag, row));
     };
     const Triple<V> place = size * halfway(c, h, flight);
@@ -243,13 +237,13 @@ HWY_INLINE Stream<Lanes<Tag>> met_wind(Tag tag, const FlightConstants<Real>& c,
 
 /// What pushes the bodies of the lanes, in the units of a body of the shape's size that moves alike
 /// (body_size.hpp).
-template <class Tag, class Real = hn::TFromD<Tag>>
+template <class Tag>
 HWY_INLINE Push<Lanes<Tag>> push_of(Tag tag, const kernel::ExternalLoads& external, std::size_t first,
                                     Lanes<Tag> size) {
     using V = Lanes<Tag>;
-    HWY_ALIGN_MAX Real row[hn::MaxLanes(Tag())];
+    HWY_ALIGN_MAX double row[hn::MaxLanes(Tag())];
     const auto take = [&](const double* from) HWY_ATTR {
-        for (std::size_t i = 0; i < hn::Lanes(tag); ++i) row[i] = static_cast<Real>(from[first + i]);
+        for (std::size_t i = 0; i < hn::Lanes(tag); ++i) row[i] = static_cast<double>(from[first + i]);
         return V(hn::Load(tag, row));
     };
     const auto three = [&](const double(&rows)[3][kernel::ExternalLoads::size]) HWY_ATTR {
@@ -260,12 +254,11 @@ HWY_INLINE Push<Lanes<Tag>> push_of(Tag tag, const kernel::ExternalLoads& extern
 
 /// Where bodies of the lanes [first, first + N) move: 1, and 0 in lanes without a body or with one that
 /// rests or waits.
-template <class Real>
 struct MovingLanes {
-    MovingLanes(const kernel::Contact& contact, const FlightBlock<Real>& block, std::uint64_t step,
+    MovingLanes(const kernel::Contact& contact, const FlightBlock& block, std::uint64_t step,
                 std::size_t first, std::size_t lanes) {
         if (contact.stay == nullptr && first + lanes <= block.bodies && step >= block.last_start) {
-            std::fill_n(moves, lanes, Real{1});
+            std::fill_n(moves, lanes, 1.0);
             any_moves = true;
             return;
         }
@@ -274,25 +267,24 @@ struct MovingLanes {
             const bool waits = used && step < block.first_step[first + lane];
             const bool rests =
                 used && !waits && contact.stay != nullptr && lies_in_stillness(block, first + lane);
-            moves[lane] = used && !rests && !waits ? Real{1} : Real{0};
-            any_moves = any_moves || moves[lane] != Real{0};
+            moves[lane] = used && !rests && !waits ? 1.0 : 0.0;
+            any_moves = any_moves || moves[lane] != 0.0;
             any_rests = any_rests || rests;
             any_waits = any_waits || waits;
         }
     }
-    HWY_ALIGN_MAX Real moves[FlightBlock<Real>::size];
+    HWY_ALIGN_MAX double moves[FlightBlock::size];
     bool any_moves = false;
     bool any_rests = false;
     bool any_waits = false;
 };
 
 /// Leaves the bodies of the lanes that rest on the ground there for a step.
-template <class Real>
-void stay_on_ground(const kernel::BlockSteps& task, std::uint64_t number, FlightBlock<Real>& block,
-                    std::size_t first, std::size_t lanes, const MovingLanes<Real>& lively) {
+inline void stay_on_ground(const kernel::BlockSteps& task, std::uint64_t number, FlightBlock& block,
+                           std::size_t first, std::size_t lanes, const MovingLanes& lively) {
     const std::uint64_t step = task.first_step + number;
     for (std::size_t lane = first; lane < std::min<std::size_t>(first + lanes, block.bodies); ++lane) {
-        if (lively.moves[lane - first] != Real{0} || step < block.first_step[lane]) continue;
+        if (lively.moves[lane - first] != 0.0 || step < block.first_step[lane]) continue;
         BodyState state = state_of(block, lane);
         task.contact.stay(task.contact.context, block.first_body + lane,
                           step_time(task.start, task.time_step, step),
@@ -302,13 +294,13 @@ void stay_on_ground(const kernel::BlockSteps& task, std::uint64_t number, Flight
 }
 
 /// One step of the lanes [first, first + N) of a block; adds to the report.
-template <class Tag, class Real = hn::TFromD<Tag>>
-HWY_INLINE void advance_lanes(Tag tag, const FlightConstants<Real>& c, const kernel::BlockSteps& task,
-                              std::uint64_t number, FlightBlock<Real>& block, std::size_t first,
+template <class Tag>
+HWY_INLINE void advance_lanes(Tag tag, const FlightConstants& c, const kernel::BlockSteps& task,
+                              std::uint64_t number, FlightBlock& block, std::size_t first,
                               Flight<Lanes<Tag>>& flight, BatchReport& report) {
     using V = Lanes<Tag>;
     const std::size_t lanes = hn::Lanes(tag);
-    const MovingLanes<Real> lively(task.contact, block, task.first_step + number, first, lanes);
+    const MovingLanes lively(task.contact, block, task.first_step + number, first, lanes);
     const auto let_others_stay = [&]() HWY_ATTR {
         if (!lively.any_rests || !task.contact.moves) return;
         store_flight(tag, flight, block, first);
@@ -323,7 +315,7 @@ HWY_INLINE void advance_lanes(Tag tag, const FlightConstants<Real>& c, const ker
     const V moves(hn::Load(tag, lively.moves));
     const bool meets = task.contact.resolve != nullptr;
     // Of long copies those alone that are needed.
-    FlightBlock<Real> before;
+    FlightBlock before;
     if (meets || lively.any_waits) store_flight(tag, flight, before, first);
     const std::size_t used_lanes = std::min<std::size_t>(lanes, block.bodies - first);
     const bool windy = task.wind.meet != nullptr;
@@ -338,7 +330,7 @@ HWY_INLINE void advance_lanes(Tag tag, const FlightConstants<Real>& c, const ker
         flight.seen_rotation = select(stirred, flight.seen_rotation, previous.seen_rotation);
     }
 
-    HWY_ALIGN_MAX Real parts[hn::MaxLanes(Tag())];
+    HWY_ALIGN_MAX double parts[hn::MaxLanes(Tag())];
     const bool sees_fluid = windy || sees_turbulence(c);
     const V substeps = moves * substeps_of(c, h, sees_fluid, met.begin, flight);
     hn::Store(substeps.raw, tag, parts);
@@ -363,7 +355,7 @@ HWY_INLINE void advance_lanes(Tag tag, const FlightConstants<Real>& c, const ker
     const bool pushed = task.external != nullptr;
     if (pushed) push = push_of(tag, task.external[block.first_body / block.size], first, size);
     for (int i = 0; i < most; ++i) {
-        FlightBlock<Real> kept;
+        FlightBlock kept;
         if (!all_whole) store_flight(tag, flight, kept, first);
         implicit_step(c, gravity, substep, sees_fluid, all_whole ? met : part_of(met, i, divisor),
                       pushed ? &push : nullptr, flight);
@@ -382,12 +374,11 @@ HWY_INLINE void advance_lanes(Tag tag, const FlightConstants<Real>& c, const ker
     let_others_stay();
 }
 
-template <class Real>
-BatchReport advance_all(const FlightConstants<Real>& c, const kernel::BlockSteps& task,
-                        FlightBlock<Real>* blocks, std::size_t count) {
-    const hn::CappedTag<Real, FlightBlock<Real>::size> tag;
+inline BatchReport advance_all(const FlightConstants& c, const kernel::BlockSteps& task, FlightBlock* blocks,
+                               std::size_t count) {
+    const hn::CappedTag<double, FlightBlock::size> tag;
     BatchReport report;
-    for (FlightBlock<Real>* block = blocks; block != blocks + count; ++block) {
+    for (FlightBlock* block = blocks; block != blocks + count; ++block) {
         for (std::size_t first = 0; first < block->bodies; first += hn::Lanes(tag)) {
             auto flight = load_flight(tag, *block, first);
             for (std::uint64_t number = 0; number < task.steps; ++number) {

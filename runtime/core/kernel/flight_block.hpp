@@ -30,17 +30,16 @@ struct BatchReport {
 };
 
 /// Up to 16 bodies that are stepped side by side: each field of their states is a row of lanes.
-template <class Real>
 struct alignas(64) FlightBlock {
     static constexpr std::size_t size = 16;
     static constexpr std::size_t fields = 29;
 
     /// Position, orientation (w, x, y, z), angular velocity, velocity, seen velocity, seen rotation,
     /// acceleration (angular, linear), formed wake, heading.
-    Real numbers[fields][size];
+    double numbers[fields][size];
     /// Of each body, over the shape's. The numbers of a body of another size are those of the shape's own
     /// that moves alike (body_size.hpp).
-    Real size_of[size];
+    double size_of[size];
     std::uint32_t noise[4][size];    ///< key (2), copy, run
     std::uint32_t at_rest[size];     ///< 0 or 1
     std::uint64_t bodies;            ///< lanes in use
@@ -49,9 +48,8 @@ struct alignas(64) FlightBlock {
     std::uint64_t last_start;        ///< the largest of them
 };
 
-template <class Real>
-BodyState state_of(const FlightBlock<Real>& block, std::size_t lane) noexcept {
-    const auto number = [&](std::size_t i) { return static_cast<double>(block.numbers[i][lane]); };
+inline BodyState state_of(const FlightBlock& block, std::size_t lane) noexcept {
+    const auto number = [&](std::size_t i) { return block.numbers[i][lane]; };
     BodyState state;
     state.position = {number(0), number(1), number(2)};
     state.orientation = Quaterniond(number(3), number(4), number(5), number(6));
@@ -64,11 +62,8 @@ BodyState state_of(const FlightBlock<Real>& block, std::size_t lane) noexcept {
     return state;
 }
 
-template <class Real>
-void keep_state(const BodyState& state, FlightBlock<Real>& block, std::size_t lane) noexcept {
-    const auto keep = [&](std::size_t i, double number) {
-        block.numbers[i][lane] = static_cast<Real>(number);
-    };
+inline void keep_state(const BodyState& state, FlightBlock& block, std::size_t lane) noexcept {
+    const auto keep = [&](std::size_t i, double number) { block.numbers[i][lane] = number; };
     const Quaterniond& q = state.orientation;
     keep(3, q.w());
     keep(4, q.x());
@@ -90,11 +85,10 @@ void keep_state(const BodyState& state, FlightBlock<Real>& block, std::size_t la
 }
 
 /// Whether a body rests on the ground and sees no turbulence.
-template <class Real>
-bool lies_in_stillness(const FlightBlock<Real>& block, std::size_t lane) noexcept {
+inline bool lies_in_stillness(const FlightBlock& block, std::size_t lane) noexcept {
     return block.at_rest[lane] != 0 &&
            std::all_of(block.numbers + 13, block.numbers + 19,
-                       [&](const Real(&row)[FlightBlock<Real>::size]) { return row[lane] == Real{0}; });
+                       [&](const double(&row)[FlightBlock::size]) { return row[lane] == 0.0; });
 }
 
 }  // namespace samara

@@ -130,8 +130,8 @@ struct OneDraw {
 #endif
 };
 
-BatchReport advance_double_blocks(const FlightConstants<double>& constants, const kernel::BlockSteps& steps,
-                                  FlightBlock<double>* blocks, std::size_t count) {
+BatchReport advance_double_blocks(const FlightConstants& constants, const kernel::BlockSteps& steps,
+                                  FlightBlock* blocks, std::size_t count) {
     return advance_all(constants, steps, blocks, count);
 }
 
@@ -141,9 +141,8 @@ HWY_INLINE Push<One> push_of_one(const Wrench* external) {
     return {triple_of(external->moment), triple_of(external->force)};
 }
 
-void step_one(const FlightConstants<double>& c, const Vector3d& gravity, double h,
-              const kernel::SeenStream& stream, int part, int parts, const Wrench* external,
-              BodyState& state) {
+void step_one(const FlightConstants& c, const Vector3d& gravity, double h, const kernel::SeenStream& stream,
+              int part, int parts, const Wrench* external, BodyState& state) {
     Flight<One> flight = flight_of(state);
     const Push<One> push = push_of_one(external);
     const Stream<One> whole{triple_of(stream.begin), triple_of(stream.end), triple_of(stream.rotation),
@@ -159,7 +158,7 @@ struct Beginning {
     bool sees_fluid;
     Stream<One> stream;
 };
-HWY_INLINE Beginning beginning(const FlightConstants<double>& c, double h, const kernel::WindSource& source,
+HWY_INLINE Beginning beginning(const FlightConstants& c, double h, const kernel::WindSource& source,
                                const Noise& noise, std::uint64_t step, Flight<One>& flight) {
     Stream<One> wind = no_stream<One>();
     const bool windy = source.meet != nullptr;
@@ -178,8 +177,8 @@ HWY_INLINE Beginning beginning(const FlightConstants<double>& c, double h, const
             stream};
 }
 
-void begin_one(const FlightConstants<double>& c, double h, const kernel::WindSource& source,
-               const Noise& noise, std::uint64_t step, BodyState& state, kernel::BegunStep& begun) {
+void begin_one(const FlightConstants& c, double h, const kernel::WindSource& source, const Noise& noise,
+               std::uint64_t step, BodyState& state, kernel::BegunStep& begun) {
     Flight<One> flight = flight_of(state);
     const Beginning b = beginning(c, h, source, noise, step, flight);
     keep(flight, state);
@@ -188,7 +187,7 @@ void begin_one(const FlightConstants<double>& c, double h, const kernel::WindSou
               b.stream.is_slip, vector_of(b.stream.slip)}};
 }
 
-void lone_steps(const FlightConstants<double>& c, const kernel::BlockSteps& task, const Noise& noise,
+void lone_steps(const FlightConstants& c, const kernel::BlockSteps& task, const Noise& noise,
                 const Wrench* external, BodyState& state, BatchReport& report) {
     Flight<One> flight = flight_of(state);
     const Push<One> push = push_of_one(external);
@@ -209,8 +208,7 @@ void lone_steps(const FlightConstants<double>& c, const kernel::BlockSteps& task
     keep(flight, state);
 }
 
-HWY_INLINE void keep_blocks(const FlightConstants<double>& c, const LoadBlocks<One>& blocks,
-                            Matrix6d& matrix) {
+HWY_INLINE void keep_blocks(const FlightConstants& c, const LoadBlocks<One>& blocks, Matrix6d& matrix) {
     const double moment = c.mass_scale * c.length;
     matrix.topLeftCorner<3, 3>() = moment * c.length * matrix_of(blocks.moment_by_turning);
     matrix.topRightCorner<3, 3>() = moment * matrix_of(blocks.moment_by_velocity);
@@ -218,7 +216,7 @@ HWY_INLINE void keep_blocks(const FlightConstants<double>& c, const LoadBlocks<O
     matrix.bottomRightCorner<3, 3>() = c.mass_scale * matrix_of(blocks.force_by_velocity);
 }
 
-void loads_of_one(const FlightConstants<double>& c, const Vector6d& velocity, const Vector3d& seen_rotation,
+void loads_of_one(const FlightConstants& c, const Vector6d& velocity, const Vector3d& seen_rotation,
                   const Vector3d& slip, const WakeShares& shares, LoadMatrices& loads) {
     const Triple<One> turning = triple_of(velocity.data());
     const Triple<One> moving = One(c.inverse_length) * triple_of(velocity.data() + 3);
@@ -233,20 +231,20 @@ void loads_of_one(const FlightConstants<double>& c, const Vector6d& velocity, co
     keep_blocks(c, blocks, loads.whole);
 }
 
-void turbulence_of_one(const FlightConstants<double>& c, const Vector3d& velocity, TurbulenceLevel& result) {
+void turbulence_of_one(const FlightConstants& c, const Vector3d& velocity, TurbulenceLevel& result) {
     const Level<One> level = turbulence_level(c, One(c.inverse_length) * triple_of(velocity));
     result = {lane(level.turbulent_kinetic_energy), lane(level.dissipation_rate)};
 }
 
-void seen_fluid_of_one(const FlightConstants<double>& c, const TurbulenceLevel& level, double h,
-                       const Noise& noise, std::uint64_t step, BodyState& state) {
+void seen_fluid_of_one(const FlightConstants& c, const TurbulenceLevel& level, double h, const Noise& noise,
+                       std::uint64_t step, BodyState& state) {
     Flight<One> flight = flight_of(state);
     advance_seen_fluid(c, Level<One>{One(level.turbulent_kinetic_energy), One(level.dissipation_rate)},
                        One(h), OneDraw{noise, step}.six(), flight);
     keep(flight, state);
 }
 
-void body_velocity_of_one(const FlightConstants<double>& c, const TurbulenceLevel& level, double h,
+void body_velocity_of_one(const FlightConstants& c, const TurbulenceLevel& level, double h,
                           const Noise& noise, std::uint64_t step, BodyState& state) {
     Flight<One> flight = flight_of(state);
     advance_body_velocity(c, Level<One>{One(level.turbulent_kinetic_energy), One(level.dissipation_rate)},
@@ -276,32 +274,32 @@ HWY_EXPORT(one_normal_pair);
 
 namespace kernel {
 
-BatchReport advance_blocks(const FlightConstants<double>& constants, const BlockSteps& steps,
-                           FlightBlock<double>* blocks, std::size_t count) noexcept {
+BatchReport advance_blocks(const FlightConstants& constants, const BlockSteps& steps, FlightBlock* blocks,
+                           std::size_t count) noexcept {
     return HWY_DYNAMIC_DISPATCH(advance_double_blocks)(constants, steps, blocks, count);
 }
 
-void implicit_step(const FlightConstants<double>& constants, const Vector3d& gravity, double h,
+void implicit_step(const FlightConstants& constants, const Vector3d& gravity, double h,
                    const SeenStream& stream, int part, int parts, const Wrench* external,
                    BodyState& state) noexcept {
     HWY_DYNAMIC_DISPATCH(step_one)(constants, gravity, h, stream, part, parts, external, state);
 }
 
-BegunStep begin_step(const FlightConstants<double>& constants, double h, const WindSource& wind,
-                     const Noise& noise, std::uint64_t step, BodyState& state) noexcept {
+BegunStep begin_step(const FlightConstants& constants, double h, const WindSource& wind, const Noise& noise,
+                     std::uint64_t step, BodyState& state) noexcept {
     BegunStep begun;
     HWY_DYNAMIC_DISPATCH(begin_one)(constants, h, wind, noise, step, state, begun);
     return begun;
 }
 
-BatchReport advance_one(const FlightConstants<double>& constants, const BlockSteps& steps, const Noise& noise,
+BatchReport advance_one(const FlightConstants& constants, const BlockSteps& steps, const Noise& noise,
                         const Wrench* external, BodyState& state) noexcept {
     BatchReport report;
     HWY_DYNAMIC_DISPATCH(lone_steps)(constants, steps, noise, external, state, report);
     return report;
 }
 
-LoadMatrices load_matrices(const FlightConstants<double>& constants, const Vector6d& velocity,
+LoadMatrices load_matrices(const FlightConstants& constants, const Vector6d& velocity,
                            const Vector3d& seen_rotation, const Vector3d& slip,
                            const WakeShares& shares) noexcept {
     LoadMatrices loads;
@@ -309,19 +307,18 @@ LoadMatrices load_matrices(const FlightConstants<double>& constants, const Vecto
     return loads;
 }
 
-TurbulenceLevel turbulence_level(const FlightConstants<double>& constants,
-                                 const Vector3d& velocity) noexcept {
+TurbulenceLevel turbulence_level(const FlightConstants& constants, const Vector3d& velocity) noexcept {
     TurbulenceLevel level;
     HWY_DYNAMIC_DISPATCH(turbulence_of_one)(constants, velocity, level);
     return level;
 }
 
-void advance_seen_fluid(const FlightConstants<double>& constants, const TurbulenceLevel& level, double h,
+void advance_seen_fluid(const FlightConstants& constants, const TurbulenceLevel& level, double h,
                         const Noise& noise, std::uint64_t step, BodyState& state) noexcept {
     HWY_DYNAMIC_DISPATCH(seen_fluid_of_one)(constants, level, h, noise, step, state);
 }
 
-void advance_body_velocity(const FlightConstants<double>& constants, const TurbulenceLevel& level, double h,
+void advance_body_velocity(const FlightConstants& constants, const TurbulenceLevel& level, double h,
                            const Noise& noise, std::uint64_t step, BodyState& state) noexcept {
     HWY_DYNAMIC_DISPATCH(body_velocity_of_one)(constants, level, h, noise, step, state);
 }

@@ -7,7 +7,6 @@
 #define SAMARA_LANGEVIN_INL_H
 #endif
 
-#include "samara/core/kernel/kolmogorov_constant.hpp"
 #include "samara/core/kernel/random-inl.h"
 #include "samara/core/kernel/step-inl.h"
 #include "samara/core/kernel/wake_noise.hpp"
@@ -21,8 +20,8 @@ struct Level {
     V turbulent_kinetic_energy, dissipation_rate;
 };
 
-template <class V, class Real>
-HWY_INLINE Level<V> turbulence_level(const FlightConstants<Real>& c, const Triple<V>& velocity) {
+template <class V>
+HWY_INLINE Level<V> turbulence_level(const FlightConstants& c, const Triple<V>& velocity) {
     if (c.turbulence != Turbulence::table) {
         return {V(c.turbulent_kinetic_energy), V(c.dissipation_rate)};
     }
@@ -38,7 +37,7 @@ HWY_INLINE Level<V> turbulence_level(const FlightConstants<Real>& c, const Tripl
 /// epsilon / k, zero where there is no turbulence.
 template <class V>
 HWY_INLINE V turbulence_rate(const Level<V>& level) {
-    const V least(in_single_precision<V> ? 1e-30 : 1e-200);
+    const V least(1e-200);
     return select(least < level.turbulent_kinetic_energy,
                   level.dissipation_rate / larger(least, level.turbulent_kinetic_energy), V(0.0));
 }
@@ -60,8 +59,8 @@ HWY_INLINE Renewal<V> renewal(V rate, V h) {
             select(alive, root(larger(zero, -lost * (V(2.0) + lost))), zero)};
 }
 
-template <class V, class Real>
-HWY_INLINE void advance_seen_fluid(const FlightConstants<Real>& c, const Level<V>& level, V h,
+template <class V>
+HWY_INLINE void advance_seen_fluid(const FlightConstants& c, const Level<V>& level, V h,
                                    const SixNormals<V>& normals, Flight<V>& flight) {
     const Renewal<V> now = renewal(V(0.75 * kolmogorov_constant) * turbulence_rate(level), h);
     const V deviation = now.added * root(V(2.0 / 3.0) * level.turbulent_kinetic_energy);
@@ -72,15 +71,15 @@ HWY_INLINE void advance_seen_fluid(const FlightConstants<Real>& c, const Level<V
 
 /// The slip of the wake, as lasting as the body takes to come so many of its lengths, and the weaker the more
 /// the body turns on its way (docs/studies/noise).
-template <class V, class Real>
-HWY_INLINE void advance_wake(const FlightConstants<Real>& c, const Level<V>& level, V h,
-                             const Triple<V>& normals, Flight<V>& flight) {
+template <class V>
+HWY_INLINE void advance_wake(const FlightConstants& c, const Level<V>& level, V h, const Triple<V>& normals,
+                             Flight<V>& flight) {
     const Triple<V> velocity = centroid_velocity(c, flight);
     const V lengths_per_second = V(c.length * c.inverse_eddy_length) * root(dot(velocity, velocity));
     const Renewal<V> now = renewal(V(1.0 / wake_persistence) * lengths_per_second, h);
     const V going = lengths_per_second * lengths_per_second;
     const V turning = V(wake_order * wake_order) * dot(flight.angular_velocity, flight.angular_velocity);
-    const V least(in_single_precision<V> ? 1e-30 : 1e-200);
+    const V least(1e-200);
     const V unordered = going / larger(least, going + turning);
     const V deviation =
         now.added * V(wake_slip) * unordered * root(V(2.0 / 3.0) * level.turbulent_kinetic_energy);
@@ -88,8 +87,8 @@ HWY_INLINE void advance_wake(const FlightConstants<Real>& c, const Level<V>& lev
     flight.seen_rotation = no_vector<V>();
 }
 
-template <class V, class Real>
-HWY_INLINE void advance_body_velocity(const FlightConstants<Real>& c, const Level<V>& level, V h,
+template <class V>
+HWY_INLINE void advance_body_velocity(const FlightConstants& c, const Level<V>& level, V h,
                                       const SixNormals<V>& normals, Flight<V>& flight) {
     const V zero(0.0);
     const V rate = V(0.5 + 0.75 * kolmogorov_constant) * turbulence_rate(level);

@@ -28,12 +28,12 @@ struct Heading {
 template <class V>
 HWY_INLINE Heading<V> heading_of(const Triple<V>& velocity) {
     const V speed = root(dot(velocity, velocity));
-    return {speed, (V(1.0) / larger(V(tiny<V>), speed)) * velocity};
+    return {speed, (V(1.0) / larger(V(tiny), speed)) * velocity};
 }
 
 /// Eq. 5 in its regular form: what a body of that area feels in a tow, over the dynamic pressure.
-template <class V, class Real>
-HWY_INLINE Triple<V> coefficient_force(const FlightConstants<Real>& c, const Triple<V>& direction, V area) {
+template <class V>
+HWY_INLINE Triple<V> coefficient_force(const FlightConstants& c, const Triple<V>& direction, V area) {
     const Triple<V> normal = broadcast<V>(c.normal);
     const V along = dot(direction, normal);
     const Triple<V> lift = (V(c.twice_lift_coefficient) * along) * (normal - along * direction);
@@ -52,9 +52,8 @@ struct TowCoefficients {
     Triple<V> force, moment;
 };
 
-template <bool with_moment, class V, class Real>
-HWY_INLINE TowCoefficients<V> tow_coefficients(const FlightConstants<Real>& c,
-                                               const DirectionTable<Real>& by_direction,
+template <bool with_moment, class V>
+HWY_INLINE TowCoefficients<V> tow_coefficients(const FlightConstants& c, const DirectionTable& by_direction,
                                                const Triple<V>& velocity, const Heading<V>& heading) {
     Place<V> place;
     find_place(by_direction, velocity, V(c.reynolds_factor) * heading.speed, place);
@@ -74,8 +73,8 @@ template <class V>
 struct PressurePoint {
     Triple<V> arm, moment_along_force;
 };
-template <class V, class Real>
-HWY_INLINE PressurePoint<V> pressure_point(const FlightConstants<Real>& c, const Triple<V>& velocity,
+template <class V>
+HWY_INLINE PressurePoint<V> pressure_point(const FlightConstants& c, const Triple<V>& velocity,
                                            const Heading<V>& heading, V share) {
     const TowCoefficients<V> tow = tow_coefficients<true>(c, c.loads_by_direction, velocity, heading);
     // What transport leaves, in a steady tow, of the Kirchhoff moment on the equations' left side.
@@ -83,7 +82,7 @@ HWY_INLINE PressurePoint<V> pressure_point(const FlightConstants<Real>& c, const
         cross(broadcast_symmetric<V>(c.potential_transport) * heading.direction, heading.direction);
     const Triple<V> moment = tow.moment - kirchhoff;
     const V square = dot(tow.force, tow.force);
-    const V scale = share / larger(V(tiny<V>), square);
+    const V scale = share / larger(V(tiny), square);
     return {scale * cross(tow.force, moment), (V(c.tow_factor) * scale * dot(moment, tow.force)) * tow.force};
 }
 
@@ -93,8 +92,8 @@ struct TowMatrix {
     V drag;
     Triple<V> side;
 };
-template <class V, class Real>
-HWY_INLINE TowMatrix<V> tow_matrix(const FlightConstants<Real>& c, const LoadPatch<Real>& patch,
+template <class V>
+HWY_INLINE TowMatrix<V> tow_matrix(const FlightConstants& c, const LoadPatch& patch,
                                    const Triple<V>& velocity) {
     const Heading<V> heading = heading_of(velocity);
     const bool own = !patch.force.rows.empty();
@@ -118,10 +117,10 @@ HWY_INLINE LoadBlocks<V> moved_by_arm(const TowMatrix<V>& tow, const Triple<V>& 
 /// The tow's matrix about the centroid, of a force that acts at the arm r: each patch of the surface feels
 /// its part of it at its own velocity and place. A steady tow is that of the whole body; no patch makes
 /// energy.
-template <class V, class Real>
-HWY_INLINE LoadBlocks<V> tow_blocks(const FlightConstants<Real>& c, const Triple<V>& omega,
+template <class V>
+HWY_INLINE LoadBlocks<V> tow_blocks(const FlightConstants& c, const Triple<V>& omega,
                                     const Triple<V>& velocity, const Triple<V>& r) {
-    const auto of_patch = [&](const LoadPatch<Real>& patch) HWY_ATTR {
+    const auto of_patch = [&](const LoadPatch& patch) HWY_ATTR {
         const Triple<V> arm = r + broadcast<V>(patch.place);
         return moved_by_arm(tow_matrix(c, patch, velocity + cross(omega, arm)), arm);
     };
@@ -149,9 +148,9 @@ HWY_INLINE void add_windmill(const Triple<V>& moment_along_force, const Triple<V
 /// workless. It acts on the turning of the body's axes themselves: these momenta belong to those of the
 /// equations' left side. `omega`: the body's own. `share`: that of the wake which has formed; before, the
 /// moment is the potential flow's and lacks nothing.
-template <class V, class Real>
-HWY_INLINE void add_transport(const FlightConstants<Real>& c, const Triple<V>& omega,
-                              const Triple<V>& velocity, V share, LoadBlocks<V>& blocks) {
+template <class V>
+HWY_INLINE void add_transport(const FlightConstants& c, const Triple<V>& omega, const Triple<V>& velocity,
+                              V share, LoadBlocks<V>& blocks) {
     // The isotropic part of T acts as a force alone, and as the tow's force from the first: its moment v x v
     // is none, and must not be made where D acts on another v than the one it was made with.
     blocks.force_by_velocity = plus_cross(blocks.force_by_velocity, -V(c.isotropic_transport) * omega);
@@ -170,31 +169,29 @@ HWY_INLINE void add_transport(const FlightConstants<Real>& c, const Triple<V>& o
 
 /// Adds the force across the path by which a wake that fluctuates pushes on the body's sides: workless.
 /// `slip`: of the wake (l/s, body axes).
-template <class V, class Real>
-HWY_INLINE void add_side_pressure(const FlightConstants<Real>& c, const Triple<V>& velocity,
-                                  const Triple<V>& slip, LoadBlocks<V>& blocks) {
+template <class V>
+HWY_INLINE void add_side_pressure(const FlightConstants& c, const Triple<V>& velocity, const Triple<V>& slip,
+                                  LoadBlocks<V>& blocks) {
     const Triple<V> pressed = broadcast_symmetric<V>(c.side_pressure) * slip;
     blocks.force_by_velocity =
         plus_cross(blocks.force_by_velocity, cross(pressed, heading_of(velocity).direction));
 }
 
 /// The speed of moving and turning together, in l a second.
-template <class V, class Real>
-HWY_INLINE V combined_speed(const FlightConstants<Real>& c, const Triple<V>& omega,
-                            const Triple<V>& velocity) {
+template <class V>
+HWY_INLINE V combined_speed(const FlightConstants& c, const Triple<V>& omega, const Triple<V>& velocity) {
     return root(dot(velocity, velocity) + V(c.half_length * c.half_length) * dot(omega, omega));
 }
 
 /// a / (a + b), and 0 where both are none.
 template <class V>
 HWY_INLINE V share_of(V a, V b) {
-    return a / larger(V(tiny<V>), a + b);
+    return a / larger(V(tiny), a + b);
 }
 
 /// Adds what the rotational drag of falls lacks about the way (docs/theory, "Turning about the way").
-template <class V, class Real>
-HWY_INLINE void add_roll_drag(const FlightConstants<Real>& c, const Heading<V>& heading,
-                              LoadBlocks<V>& blocks) {
+template <class V>
+HWY_INLINE void add_roll_drag(const FlightConstants& c, const Heading<V>& heading, LoadBlocks<V>& blocks) {
     const Triple<V>& way = heading.direction;
     const V lacking = dot(way, broadcast_symmetric<V>(c.lacking_roll_drag) * way);
     blocks.moment_by_turning = blocks.moment_by_turning + outer((heading.speed * lacking) * way, way);
@@ -204,8 +201,8 @@ HWY_INLINE void add_roll_drag(const FlightConstants<Real>& c, const Heading<V>& 
 /// velocity and that of its centroid, relative to the fluid. `turning`: the angular velocity itself, by which
 /// the flow ceases to be that of a tow; what turbulence turns is in the table already. `share`: that of the
 /// tow's moment which is there, without which its force has no arm.
-template <class V, class Real>
-HWY_INLINE LoadBlocks<V> relative_load_blocks(const FlightConstants<Real>& c, const Triple<V>& omega,
+template <class V>
+HWY_INLINE LoadBlocks<V> relative_load_blocks(const FlightConstants& c, const Triple<V>& omega,
                                               const Triple<V>& velocity, const Triple<V>& turning, V share) {
     const Heading<V> heading = heading_of(velocity);
     const V speed_square = dot(velocity, velocity);

@@ -29,7 +29,7 @@ struct Lanes {
 
     Lanes() = default;
     HWY_INLINE Lanes(hn::Vec<Tag> value) : raw(value) {}
-    HWY_INLINE Lanes(double value) : raw(hn::Set(Tag(), static_cast<hn::TFromD<Tag>>(value))) {}
+    HWY_INLINE Lanes(double value) : raw(hn::Set(Tag(), value)) {}
 
     friend HWY_INLINE Lanes operator+(Lanes a, Lanes b) { return hn::Add(a.raw, b.raw); }
     friend HWY_INLINE Lanes operator-(Lanes a, Lanes b) { return hn::Sub(a.raw, b.raw); }
@@ -86,7 +86,6 @@ template <class V>
 struct NumberTraits;
 template <>
 struct NumberTraits<double> {
-    using Real = double;
     using Mask = bool;
     static HWY_INLINE bool any_of(bool condition) { return condition; }
     static HWY_INLINE double power_of_two(double n) {
@@ -104,11 +103,10 @@ struct NumberTraits<double> {
 template <class Tag, bool of_one_body>
 struct NumberTraits<Lanes<Tag, of_one_body>> {
     using Number = Lanes<Tag, of_one_body>;
-    using Real = hn::TFromD<Tag>;
     using Mask = hn::Mask<Tag>;
     using Integers = hn::RebindToSigned<Tag>;
-    static constexpr int fraction_bits = std::numeric_limits<Real>::digits - 1;
-    static constexpr int bias = std::numeric_limits<Real>::max_exponent - 1;
+    static constexpr int fraction_bits = std::numeric_limits<double>::digits - 1;
+    static constexpr int bias = std::numeric_limits<double>::max_exponent - 1;
 
     static HWY_INLINE bool any_of(Mask condition) { return !hn::AllFalse(Tag(), condition); }
     static HWY_INLINE Number power_of_two(Number n) {
@@ -127,7 +125,7 @@ struct NumberTraits<Lanes<Tag, of_one_body>> {
         constexpr auto bits =
             static_cast<hn::TFromD<Integers>>((static_cast<hn::TFromD<Integers>>(1) << fraction_bits) - 1);
         const auto fraction = hn::And(hn::BitCast(integers, x.raw), hn::Set(integers, bits));
-        return hn::Or(hn::BitCast(Tag(), fraction), hn::Set(Tag(), Real{1}));
+        return hn::Or(hn::BitCast(Tag(), fraction), hn::Set(Tag(), 1.0));
     }
 
   private:
@@ -145,15 +143,9 @@ struct NumberTraits<Lanes<Tag, of_one_body>> {
     }
 };
 
-template <class V>
-using RealOf = typename NumberTraits<V>::Real;
-template <class V>
-inline constexpr bool in_single_precision = sizeof(RealOf<V>) == 4;
-
 /// A speed (1/s, lengths in body lengths) below which a direction has no meaning; its square is a normal
 /// number.
-template <class V>
-inline constexpr double tiny = in_single_precision<V> ? 1e-15 : 1e-140;
+inline constexpr double tiny = 1e-140;
 
 /// c[first] + c[first + stride] x + ... in pairs (Estrin's scheme): a short chain, where Horner's rule is a
 /// long one.
@@ -189,53 +181,39 @@ HWY_INLINE V logarithm_by(const double (&c)[N], V x) {
 /// To its last bits.
 template <class V>
 HWY_INLINE V logarithm(V x) {
-    if constexpr (in_single_precision<V>) {
-        return logarithm_by({2.0, 2.0 / 3, 2.0 / 5, 2.0 / 7, 2.0 / 9}, x);
-    } else {
-        return logarithm_by({2.0, 2.0 / 3, 2.0 / 5, 2.0 / 7, 2.0 / 9, 2.0 / 11, 2.0 / 13, 2.0 / 15, 2.0 / 17,
-                             2.0 / 19, 2.0 / 21},
-                            x);
-    }
+    return logarithm_by(
+        {2.0, 2.0 / 3, 2.0 / 5, 2.0 / 7, 2.0 / 9, 2.0 / 11, 2.0 / 13, 2.0 / 15, 2.0 / 17, 2.0 / 19, 2.0 / 21},
+        x);
 }
 /// To 1e-14, and in a shorter chain.
 template <class V>
 HWY_INLINE V short_logarithm(V x) {
-    if constexpr (in_single_precision<V>) {
-        return logarithm_by({2.0, 2.0 / 3, 2.0 / 5, 2.0 / 7}, x);
-    } else {
-        return logarithm_by({2.0, 2.0 / 3, 2.0 / 5, 2.0 / 7, 2.0 / 9, 2.0 / 11, 2.0 / 13, 2.0 / 15}, x);
-    }
+    return logarithm_by({2.0, 2.0 / 3, 2.0 / 5, 2.0 / 7, 2.0 / 9, 2.0 / 11, 2.0 / 13, 2.0 / 15}, x);
 }
 
 /// exp(x) - 1 for x <= 0, accurate near zero: Taylor's series about the nearest multiple of ln 2.
 template <class V>
 HWY_INLINE V exponential_less_one(V x) {
-    constexpr double lowest = in_single_precision<V> ? -80.0 : -700.0;
-    constexpr double ln2_high = in_single_precision<V> ? 0.693359375 : 0x1.62e42fee00000p-1;
-    constexpr double ln2_low = in_single_precision<V> ? -2.12194440054690583e-4 : 1.90821492927058770002e-10;
+    constexpr double lowest = -700.0;
+    constexpr double ln2_high = 0x1.62e42fee00000p-1;
+    constexpr double ln2_low = 1.90821492927058770002e-10;
     const V held = larger(x, V(lowest));
     const V n = whole_part(held * V(1.44269504088896340736) + V(0.5));
     const V y = held - n * V(ln2_high) - n * V(ln2_low);
-    V series;
-    if constexpr (in_single_precision<V>) {
-        constexpr double c[] = {1.0, 1.0 / 2, 1.0 / 6, 1.0 / 24, 1.0 / 120, 1.0 / 720, 1.0 / 5040};
-        series = y * polynomial(c, y);
-    } else {
-        constexpr double c[] = {1.0,
-                                1.0 / 2,
-                                1.0 / 6,
-                                1.0 / 24,
-                                1.0 / 120,
-                                1.0 / 720,
-                                1.0 / 5040,
-                                1.0 / 40320,
-                                1.0 / 362880,
-                                1.0 / 3628800,
-                                1.0 / 39916800,
-                                1.0 / 479001600,
-                                1.0 / 6227020800};
-        series = y * polynomial(c, y);
-    }
+    constexpr double c[] = {1.0,
+                            1.0 / 2,
+                            1.0 / 6,
+                            1.0 / 24,
+                            1.0 / 120,
+                            1.0 / 720,
+                            1.0 / 5040,
+                            1.0 / 40320,
+                            1.0 / 362880,
+                            1.0 / 3628800,
+                            1.0 / 39916800,
+                            1.0 / 479001600,
+                            1.0 / 6227020800};
+    const V series = y * polynomial(c, y);
     const V power = NumberTraits<V>::power_of_two(n);
     return power * series + (power - V(1.0));
 }
@@ -247,35 +225,26 @@ HWY_INLINE void cosine_and_sine_of_turn(V u, V& cosine, V& sine) {
     const V n = whole_part(quarters + V(0.5));
     const V angle = (quarters - n) * V(1.57079632679489661923);
     const V square = angle * angle;
-    V s;
-    V c;
-    if constexpr (in_single_precision<V>) {
-        constexpr double sines[] = {1.0, -1.0 / 6, 1.0 / 120, -1.0 / 5040, 1.0 / 362880};
-        constexpr double cosines[] = {1.0, -1.0 / 2, 1.0 / 24, -1.0 / 720, 1.0 / 40320};
-        s = angle * polynomial(sines, square);
-        c = polynomial(cosines, square);
-    } else {
-        constexpr double sines[] = {1.0,
-                                    -1.0 / 6,
-                                    1.0 / 120,
-                                    -1.0 / 5040,
-                                    1.0 / 362880,
-                                    -1.0 / 39916800,
-                                    1.0 / 6227020800,
-                                    -1.0 / 1307674368000,
-                                    1.0 / 355687428096000};
-        constexpr double cosines[] = {1.0,
-                                      -1.0 / 2,
-                                      1.0 / 24,
-                                      -1.0 / 720,
-                                      1.0 / 40320,
-                                      -1.0 / 3628800,
-                                      1.0 / 479001600,
-                                      -1.0 / 87178291200,
-                                      1.0 / 20922789888000};
-        s = angle * polynomial(sines, square);
-        c = polynomial(cosines, square);
-    }
+    constexpr double sines[] = {1.0,
+                                -1.0 / 6,
+                                1.0 / 120,
+                                -1.0 / 5040,
+                                1.0 / 362880,
+                                -1.0 / 39916800,
+                                1.0 / 6227020800,
+                                -1.0 / 1307674368000,
+                                1.0 / 355687428096000};
+    constexpr double cosines[] = {1.0,
+                                  -1.0 / 2,
+                                  1.0 / 24,
+                                  -1.0 / 720,
+                                  1.0 / 40320,
+                                  -1.0 / 3628800,
+                                  1.0 / 479001600,
+                                  -1.0 / 87178291200,
+                                  1.0 / 20922789888000};
+    const V s = angle * polynomial(sines, square);
+    const V c = polynomial(cosines, square);
     // n = 0 .. 4 quarters are behind the angle.
     const V odd = n - V(2.0) * whole_part(n * V(0.5));
     const auto swapped = V(0.5) < odd;

@@ -86,20 +86,15 @@ HWY_INLINE std::array<W, 4> philox(Words words, std::array<W, 4> counter, W key0
     return counter;
 }
 
-/// (bits + 1/2) / 2^32; in single precision of the first 24 bits alone, and the last may round to 1.
+/// (bits + 1/2) / 2^32.
 template <class Tag>
 HWY_INLINE Lanes<Tag> unit_interval(Tag tag, hn::Vec<hn::Rebind<std::uint32_t, Tag>> bits) {
     const hn::Rebind<std::uint32_t, Tag> words;
     const hn::Rebind<std::int32_t, Tag> integers;
-    if constexpr (sizeof(hn::TFromD<Tag>) == 4) {
-        const Lanes<Tag> number = hn::ConvertTo(tag, hn::BitCast(integers, hn::ShiftRight<8>(bits)));
-        return (number + Lanes<Tag>(0.5)) * Lanes<Tag>(0x1p-24);
-    } else {
-        // Signed numbers alone convert on all machines: the sign's bit is moved into the sum.
-        const auto centered = hn::BitCast(integers, hn::Xor(bits, hn::Set(words, 0x80000000U)));
-        const Lanes<Tag> number = hn::PromoteTo(tag, centered);
-        return (number + Lanes<Tag>(0x1p31 + 0.5)) * Lanes<Tag>(0x1p-32);
-    }
+    // Signed numbers alone convert on all machines: the sign's bit is moved into the sum.
+    const auto centered = hn::BitCast(integers, hn::Xor(bits, hn::Set(words, 0x80000000U)));
+    const Lanes<Tag> number = hn::PromoteTo(tag, centered);
+    return (number + Lanes<Tag>(0x1p31 + 0.5)) * Lanes<Tag>(0x1p-32);
 }
 
 }  // namespace samara::HWY_NAMESPACE

@@ -25,23 +25,23 @@ struct Flight {
 };
 
 /// The velocity (or acceleration) of the centroid from that of the centre of mass: l is taken out of it.
-template <class V, class Real>
-HWY_INLINE Triple<V> to_centroid(const FlightConstants<Real>& c, const Triple<V>& turning,
+template <class V>
+HWY_INLINE Triple<V> to_centroid(const FlightConstants& c, const Triple<V>& turning,
                                  const Triple<V>& velocity) {
     if (!c.off_center) return V(c.inverse_length) * velocity;
     return V(c.inverse_length) * (velocity + cross(turning, broadcast<V>(c.center_of_buoyancy)));
 }
 /// The reverse of to_centroid.
-template <class V, class Real>
-HWY_INLINE Triple<V> from_centroid(const FlightConstants<Real>& c, const Triple<V>& turning,
+template <class V>
+HWY_INLINE Triple<V> from_centroid(const FlightConstants& c, const Triple<V>& turning,
                                    const Triple<V>& velocity) {
     if (!c.off_center) return V(c.length) * velocity;
     return V(c.length) * velocity - cross(turning, broadcast<V>(c.center_of_buoyancy));
 }
 
 /// The velocity of the centroid, in l a second.
-template <class V, class Real>
-HWY_INLINE Triple<V> centroid_velocity(const FlightConstants<Real>& c, const Flight<V>& flight) {
+template <class V>
+HWY_INLINE Triple<V> centroid_velocity(const FlightConstants& c, const Flight<V>& flight) {
     return to_centroid(c, flight.angular_velocity, flight.velocity);
 }
 
@@ -111,9 +111,9 @@ template <class V>
 struct Stiffness {
     V turning, moving;
 };
-template <class V, class Real>
-HWY_INLINE Stiffness<V> stiffness(const FlightConstants<Real>& c, const LoadBlocks<V>& loads, V h) {
-    const auto of_block = [h](const Square<V>& block, const Triple<Real>& inverse_inertia) HWY_ATTR {
+template <class V>
+HWY_INLINE Stiffness<V> stiffness(const FlightConstants& c, const LoadBlocks<V>& loads, V h) {
+    const auto of_block = [h](const Square<V>& block, const Triple<double>& inverse_inertia) HWY_ATTR {
         return h * largest_of(product_of_each(diagonal_of(block), broadcast<V>(inverse_inertia)));
     };
     return {of_block(loads.moment_by_turning, c.inverse_turning),
@@ -124,17 +124,17 @@ HWY_INLINE Stiffness<V> stiffness(const FlightConstants<Real>& c, const LoadBloc
 template <class V>
 struct StepMatrix {
     Square<V> turning, coupling, back, moving;
-    Square<V> moving_factors, moving_by_turning, turning_factors;
+    Square<V> moving_inverse, moving_by_turning, turning_inverse;
 
     /// Eliminates the velocity, and then what is left for the turning.
     HWY_INLINE void factorise() {
-        moving_factors = factorised(moving);
-        moving_by_turning = solved(moving_factors, back);
-        turning_factors = factorised(turning - coupling * moving_by_turning);
+        moving_inverse = inverse(moving);
+        moving_by_turning = moving_inverse * back;
+        turning_inverse = inverse(turning - coupling * moving_by_turning);
     }
     [[nodiscard]] HWY_INLINE Velocities<V> solved_for(const Triple<V>& moment, const Triple<V>& force) const {
-        const Triple<V> rest = solved(moving_factors, force);
-        const Triple<V> omega = solved(turning_factors, moment - coupling * rest);
+        const Triple<V> rest = moving_inverse * force;
+        const Triple<V> omega = turning_inverse * (moment - coupling * rest);
         return {omega, rest - moving_by_turning * omega};
     }
 };
@@ -149,8 +149,8 @@ struct HalfTurn {
 /// Solves the step's system with the loads and the transport taken at the middle that was found or guessed
 /// before. Its unknowns are the velocities' changes: solving for the velocities themselves would drift by a
 /// rounding error a step.
-template <class V, class Real>
-HWY_INLINE void improve(const FlightConstants<Real>& c, const StepStart<V>& start, StepMiddle<V>& middle) {
+template <class V>
+HWY_INLINE void improve(const FlightConstants& c, const StepStart<V>& start, StepMiddle<V>& middle) {
     middle.half_turn = (V(0.5) * start.h) * middle.omega;
     const HalfTurn<V> under_body{middle.half_turn};
     const Triple<V> gravity = under_body(start.gravity);
@@ -248,8 +248,8 @@ HWY_INLINE StepMiddle<V> select(Condition condition, const StepMiddle<V>& a, con
 /// is not smooth, is off by more in a step than what the second pass would mend. Loads and transport go with
 /// the square of the velocity: to the first order, one made from a guess that was off by d is off by 2 d / u
 /// of the velocity's change. One pass is of second order too, where drag is not stiff.
-template <class V, class Real>
-HWY_INLINE typename NumberTraits<V>::Mask is_unsure(const FlightConstants<Real>& c, const StepStart<V>& start,
+template <class V>
+HWY_INLINE typename NumberTraits<V>::Mask is_unsure(const FlightConstants& c, const StepStart<V>& start,
                                                     const Velocities<V>& guess, const StepMiddle<V>& found) {
     const V tip_square(c.tip_square);
     const auto square = [&](const Triple<V>& omega, const Triple<V>& velocity)
@@ -264,10 +264,9 @@ HWY_INLINE typename NumberTraits<V>::Mask is_unsure(const FlightConstants<Real>&
 }
 
 /// The middle that a second pass finds, for those where it matters. Not inlined: most steps need none.
-template <class V, class Real>
-HWY_NOINLINE void find_again(const FlightConstants<Real>& c, const StepStart<V>& start,
-                             const Velocities<V>& guess, typename NumberTraits<V>::Mask unsure,
-                             StepMiddle<V>& middle) {
+template <class V>
+HWY_NOINLINE void find_again(const FlightConstants& c, const StepStart<V>& start, const Velocities<V>& guess,
+                             typename NumberTraits<V>::Mask unsure, StepMiddle<V>& middle) {
     StepMiddle<V> found = middle;
     // Where drag is stiff, one made from the speed alone would swing about the terminal speed: halfway to the
     // guess lies Newton's root. Where it is not, the middle stays, of second order.
@@ -279,8 +278,8 @@ HWY_NOINLINE void find_again(const FlightConstants<Real>& c, const StepStart<V>&
 }
 
 /// The middle of the step from velocities guessed there: by one pass, or where that says it matters by two.
-template <class V, class Real>
-HWY_INLINE StepMiddle<V> found_middle(const FlightConstants<Real>& c, const StepStart<V>& start,
+template <class V>
+HWY_INLINE StepMiddle<V> found_middle(const FlightConstants& c, const StepStart<V>& start,
                                       const Velocities<V>& guess) {
     StepMiddle<V> found;
     found.omega = guess.omega;
@@ -301,8 +300,8 @@ HWY_INLINE StepMiddle<V> found_middle(const FlightConstants<Real>& c, const Step
 
 /// What a step starts from. `gravity`: world axes; `velocity`: of the centre of mass, relative to the seen
 /// fluid.
-template <class V, class Real>
-HWY_INLINE StepStart<V> step_start(const FlightConstants<Real>& c, const Square<V>& to_world,
+template <class V>
+HWY_INLINE StepStart<V> step_start(const FlightConstants& c, const Square<V>& to_world,
                                    const Triple<V>& gravity, V h, bool fluid_turns,
                                    const Triple<V>& seen_rotation, const Triple<V>& velocity,
                                    const Flight<V>& flight) {
@@ -321,8 +320,8 @@ HWY_INLINE StepStart<V> step_start(const FlightConstants<Real>& c, const Square<
 }
 
 /// A push in body axes about the centroid, over m* and l.
-template <class V, class Real>
-HWY_INLINE Push<V> push_at_centroid(const FlightConstants<Real>& c, const Square<V>& to_world,
+template <class V>
+HWY_INLINE Push<V> push_at_centroid(const FlightConstants& c, const Square<V>& to_world,
                                     const Push<V>& push) {
     const V force_unit(c.inverse_length / c.mass_scale);
     const Triple<V> force = transposed_times(to_world, push.force);
@@ -332,8 +331,7 @@ HWY_INLINE Push<V> push_at_centroid(const FlightConstants<Real>& c, const Square
 }
 
 /// Whether a body that meets turbulence sees it as a moving fluid.
-template <class Real>
-HWY_INLINE bool sees_turbulence(const FlightConstants<Real>& c) {
+HWY_INLINE bool sees_turbulence(const FlightConstants& c) {
     return c.turbulence != Turbulence::none && c.langevin != Langevin::body_velocity;
 }
 
@@ -344,8 +342,8 @@ HWY_INLINE bool sees_turbulence(const FlightConstants<Real>& c) {
 /// Where the body sees fluid, the step is taken in the frame of that uniform stream, as in that of a current:
 /// velocities are relative to it, and its acceleration is taken off gravity, for body and displaced fluid
 /// alike (docs/theory, "The seen fluid"). `push`: null where there is none.
-template <class V, class Real>
-HWY_INLINE void implicit_step(const FlightConstants<Real>& c, const Triple<V>& gravity, V h, bool sees_fluid,
+template <class V>
+HWY_INLINE void implicit_step(const FlightConstants& c, const Triple<V>& gravity, V h, bool sees_fluid,
                               const Stream<V>& stream, const Push<V>* push, Flight<V>& flight) {
     const Square<V> to_world = rotation_matrix(flight.orientation);
     const V half = V(0.5) * h;
@@ -400,8 +398,8 @@ HWY_INLINE void implicit_step(const FlightConstants<Real>& c, const Triple<V>& g
 
 /// The rate (1/s) at which the body turns, or would turn by its Munk moment in a seen fluid (m/s, world
 /// axes).
-template <class V, class Real>
-HWY_INLINE V turning_rate(const FlightConstants<Real>& c, bool sees_fluid, const Triple<V>& seen_velocity,
+template <class V>
+HWY_INLINE V turning_rate(const FlightConstants& c, bool sees_fluid, const Triple<V>& seen_velocity,
                           const Flight<V>& flight) {
     Triple<V> velocity = centroid_velocity(c, flight);
     if (sees_fluid) {
@@ -414,8 +412,8 @@ HWY_INLINE V turning_rate(const FlightConstants<Real>& c, bool sees_fluid, const
 
 /// Into how many equal parts the step is cut: each turns the body by at most 0.3 rad, as far as the limit on
 /// their number allows. `seen_velocity`: when the step begins (m/s, world axes).
-template <class V, class Real>
-HWY_INLINE V substeps_of(const FlightConstants<Real>& c, V h, bool sees_fluid, const Triple<V>& seen_velocity,
+template <class V>
+HWY_INLINE V substeps_of(const FlightConstants& c, V h, bool sees_fluid, const Triple<V>& seen_velocity,
                          const Flight<V>& flight) {
     const V turns = h * turning_rate(c, sees_fluid, seen_velocity, flight) * V(1.0 / 0.3);
     return -whole_part(-smaller(V(most_substeps), larger(V(1.0), turns)));

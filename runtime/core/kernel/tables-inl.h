@@ -47,7 +47,7 @@ struct Place<double> {
 template <class Tag>
 struct Place<Lanes<Tag>> {
     HWY_ALIGN_MAX std::int32_t index[hn::MaxLanes(Tag())];
-    HWY_ALIGN_MAX hn::TFromD<Tag> weights[4][hn::MaxLanes(Tag())];
+    HWY_ALIGN_MAX double weights[4][hn::MaxLanes(Tag())];
     Lanes<Tag> plane_fraction;
 };
 
@@ -57,11 +57,7 @@ HWY_INLINE void keep_index(double index, Place<double>& place) {
 template <class Tag>
 HWY_INLINE void keep_index(Lanes<Tag> index, Place<Lanes<Tag>>& place) {
     const hn::Rebind<std::int32_t, Tag> integers;
-    if constexpr (sizeof(hn::TFromD<Tag>) == 4) {
-        hn::Store(hn::ConvertTo(integers, index.raw), integers, place.index);
-    } else {
-        hn::Store(hn::DemoteTo(integers, index.raw), integers, place.index);
-    }
+    hn::Store(hn::DemoteTo(integers, index.raw), integers, place.index);
 }
 HWY_INLINE void keep_weight(double weight, int corner, Place<double>& place) {
     place.weights[corner] = weight;
@@ -93,8 +89,8 @@ HWY_INLINE V cell_of(V place, V last, V& fraction) {
 }
 
 /// The plane below a Reynolds number, and how far it lies from there to the next.
-template <class V, class Real>
-HWY_INLINE V plane_of(const DirectionTable<Real>& table, V reynolds_number, V& fraction) {
+template <class V>
+HWY_INLINE V plane_of(const DirectionTable& table, V reynolds_number, V& fraction) {
     const V zero(0.0);
     fraction = zero;
     if (table.planes() < 2) return zero;
@@ -107,19 +103,19 @@ HWY_INLINE V plane_of(const DirectionTable<Real>& table, V reynolds_number, V& f
         begin = select(beyond, V(table.logarithms[i]), begin);
         per_difference = select(beyond, V(table.inverse_differences[i]), per_difference);
     }
-    const V logarithm_here = short_logarithm(larger(V(tiny<V>), reynolds_number));
+    const V logarithm_here = short_logarithm(larger(V(tiny), reynolds_number));
     fraction = smaller(V(1.0), larger(zero, (logarithm_here - begin) * per_difference));
     return plane;
 }
 
 /// octahedral_map.hpp and load_tables.hpp say what this does. `direction`: of any length.
-template <class V, class Real>
-HWY_INLINE void find_place(const DirectionTable<Real>& table, const Triple<V>& direction, V reynolds_number,
+template <class V>
+HWY_INLINE void find_place(const DirectionTable& table, const Triple<V>& direction, V reynolds_number,
                            Place<V>& place) {
     const V zero(0.0);
     const V one(1.0);
     const Triple<V> d = table.turned ? broadcast<V>(table.to_map_axes) * direction : direction;
-    const V norm = larger(magnitude(d.x) + magnitude(d.y) + magnitude(d.z), V(tiny<V>));
+    const V norm = larger(magnitude(d.x) + magnitude(d.y) + magnitude(d.z), V(tiny));
     const V inverse = one / norm;
     const V x = d.x * inverse;
     const V y = d.y * inverse;
@@ -142,9 +138,9 @@ HWY_INLINE void find_place(const DirectionTable<Real>& table, const Triple<V>& d
 }
 
 /// The first `quads` fours of numbers at the place's corners, weighted.
-template <int quads, bool of_two_planes>
+template <int quads>
 HWY_INLINE void corners_sum(const double* numbers, std::ptrdiff_t right, std::ptrdiff_t down,
-                            std::ptrdiff_t /*next_plane*/, const Place<double>& place, Quad<double>* sums) {
+                            const Place<double>& place, Quad<double>* sums) {
     const double* n = numbers + place.index;
     const auto sum = [&](int i) {
         return n[i] * place.weights[0] + n[i + right] * place.weights[1] + n[i + down] * place.weights[2] +
@@ -156,37 +152,19 @@ HWY_INLINE void corners_sum(const double* numbers, std::ptrdiff_t right, std::pt
 }
 
 #if HWY_TARGET == HWY_SCALAR
-template <class Tag, class Real = hn::TFromD<Tag>>
-HWY_INLINE Quad<Lanes<Tag>> fields_of(const Real* rows) {
+template <class Tag>
+HWY_INLINE Quad<Lanes<Tag>> fields_of(const double* rows) {
     return {Lanes<Tag>(hn::Set(Tag(), rows[0])), Lanes<Tag>(hn::Set(Tag(), rows[1])),
             Lanes<Tag>(hn::Set(Tag(), rows[2])), Lanes<Tag>(hn::Set(Tag(), rows[3]))};
 }
-template <class Piece, class Real = hn::TFromD<Piece>>
-HWY_INLINE void keep_pieces(Piece piece, hn::Vec<Piece> sum, std::size_t number, Real* rows,
+template <class Piece>
+HWY_INLINE void keep_pieces(Piece piece, hn::Vec<Piece> sum, std::size_t number, double* rows,
                             std::size_t /*lane*/, std::size_t /*lanes*/) {
     hn::Store(sum, piece, rows + number);
 }
 #else
 /// The fields of rows that stand as transposed blocks: rows[i] holds, for each block b of lanes, the numbers
 /// of its i-th lane.
-template <class Tag>
-HWY_INLINE Quad<Lanes<Tag>> fields_of(const float* rows) {
-    const Tag tag;
-    const hn::Repartition<std::uint64_t, Tag> pairs;
-    const std::size_t n = hn::Lanes(tag);
-    const auto r0 = hn::Load(tag, rows);
-    const auto r1 = hn::Load(tag, rows + n);
-    const auto r2 = hn::Load(tag, rows + 2 * n);
-    const auto r3 = hn::Load(tag, rows + 3 * n);
-    const auto low01 = hn::BitCast(pairs, hn::InterleaveLower(tag, r0, r1));
-    const auto low23 = hn::BitCast(pairs, hn::InterleaveLower(tag, r2, r3));
-    const auto high01 = hn::BitCast(pairs, hn::InterleaveUpper(tag, r0, r1));
-    const auto high23 = hn::BitCast(pairs, hn::InterleaveUpper(tag, r2, r3));
-    return {hn::BitCast(tag, hn::InterleaveLower(pairs, low01, low23)),
-            hn::BitCast(tag, hn::InterleaveUpper(pairs, low01, low23)),
-            hn::BitCast(tag, hn::InterleaveLower(pairs, high01, high23)),
-            hn::BitCast(tag, hn::InterleaveUpper(pairs, high01, high23))};
-}
 template <class Tag>
 HWY_INLINE Quad<Lanes<Tag>> fields_of(const double* rows) {
     const Tag tag;
@@ -201,50 +179,40 @@ HWY_INLINE Quad<Lanes<Tag>> fields_of(const double* rows) {
 
 /// Where the numbers of one lane go so that fields_of finds them: in blocks of the 128 bits within which
 /// Highway interleaves.
-template <class Real>
-HWY_INLINE Real* piece_of_lane(Real* rows, std::size_t lane, std::size_t lanes, std::size_t number) {
-    constexpr std::size_t block = 16 / sizeof(Real);
+HWY_INLINE double* piece_of_lane(double* rows, std::size_t lane, std::size_t lanes, std::size_t number) {
+    constexpr std::size_t block = 2;
     const std::size_t in_block = lane % block;
     const std::size_t row = in_block * (4 / block) + number / block;
     return rows + row * lanes + (lane - in_block);
 }
 /// Keeps a lane's numbers from `number` on, a piece of 16 bytes at a time.
-template <class Piece, class Real = hn::TFromD<Piece>>
-HWY_INLINE void keep_pieces(Piece piece, hn::Vec<Piece> sum, std::size_t number, Real* rows, std::size_t lane,
-                            std::size_t lanes) {
+template <class Piece>
+HWY_INLINE void keep_pieces(Piece piece, hn::Vec<Piece> sum, std::size_t number, double* rows,
+                            std::size_t lane, std::size_t lanes) {
     constexpr std::size_t half = hn::MaxLanes(Piece()) / 2;
-    if constexpr (half * sizeof(Real) >= 16) {
+    if constexpr (half >= 2) {
         const hn::Half<Piece> halves;
         keep_pieces(halves, hn::LowerHalf(halves, sum), number, rows, lane, lanes);
         keep_pieces(halves, hn::UpperHalf(halves, sum), number + half, rows, lane, lanes);
     } else {
-        Real* quad = rows + number / 4 * (4 * lanes);
+        double* quad = rows + number / 4 * (4 * lanes);
         hn::Store(sum, piece, piece_of_lane(quad, lane, lanes, number % 4));
     }
 }
 
 #endif
 
-/// Of eight corners where `next_plane` (numbers to the next plane) is not none.
-template <int quads, bool of_two_planes, class Tag, class Real = hn::TFromD<Tag>>
-HWY_INLINE void corners_sum(const Real* numbers, std::ptrdiff_t right, std::ptrdiff_t down,
-                            std::ptrdiff_t next_plane, const Place<Lanes<Tag>>& place,
-                            Quad<Lanes<Tag>>* sums) {
-    const hn::CappedTag<Real, std::size_t{4} * quads> piece;
+template <int quads, class Tag>
+HWY_INLINE void corners_sum(const double* numbers, std::ptrdiff_t right, std::ptrdiff_t down,
+                            const Place<Lanes<Tag>>& place, Quad<Lanes<Tag>>* sums) {
+    const hn::CappedTag<double, std::size_t{4} * quads> piece;
     constexpr std::size_t step = hn::MaxLanes(piece);
     const std::size_t lanes = hn::Lanes(Tag());
-    HWY_ALIGN_MAX Real rows[quads * 4 * hn::MaxLanes(Tag())];
-    HWY_ALIGN_MAX Real weights[of_two_planes ? 8 : 4][hn::MaxLanes(Tag())];
-    for (int corner = 0; corner < 4; ++corner) {
-        const Lanes<Tag> weight = hn::Load(Tag(), place.weights[corner]);
-        const Lanes<Tag> above = place.plane_fraction * weight;
-        hn::Store(of_two_planes ? (weight - above).raw : weight.raw, Tag(), weights[corner]);
-        if constexpr (of_two_planes) hn::Store(above.raw, Tag(), weights[4 + corner]);
-    }
+    HWY_ALIGN_MAX double rows[quads * 4 * hn::MaxLanes(Tag())];
     for (std::size_t lane = 0; lane < lanes; ++lane) {
-        const Real* n = numbers + place.index[lane];
+        const double* n = numbers + place.index[lane];
         const auto weighted = [&](std::ptrdiff_t at, int corner) HWY_ATTR {
-            return hn::Mul(hn::LoadU(piece, n + at), hn::Set(piece, weights[corner][lane]));
+            return hn::Mul(hn::LoadU(piece, n + at), hn::Set(piece, place.weights[corner][lane]));
         };
         for (std::size_t number = 0; number < std::size_t{4} * quads; number += step) {
             const auto i = static_cast<std::ptrdiff_t>(number);
@@ -252,13 +220,6 @@ HWY_INLINE void corners_sum(const Real* numbers, std::ptrdiff_t right, std::ptrd
             sum = hn::Add(sum, weighted(i + right, 1));
             sum = hn::Add(sum, weighted(i + down, 2));
             sum = hn::Add(sum, weighted(i + down + right, 3));
-            if constexpr (of_two_planes) {
-                auto above = weighted(i + next_plane, 4);
-                above = hn::Add(above, weighted(i + next_plane + right, 5));
-                above = hn::Add(above, weighted(i + next_plane + down, 6));
-                above = hn::Add(above, weighted(i + next_plane + down + right, 7));
-                sum = hn::Add(sum, above);
-            }
             keep_pieces(piece, sum, number, rows, lane, lanes);
         }
     }
@@ -266,22 +227,16 @@ HWY_INLINE void corners_sum(const Real* numbers, std::ptrdiff_t right, std::ptrd
 }
 
 /// The first `quads` fours of the rows' numbers, interpolated.
-template <int quads, class V, class Real>
-HWY_INLINE void look_up(const DirectionTable<Real>& table, const Place<V>& place, Quad<V>* result) {
+template <int quads, class V>
+HWY_INLINE void look_up(const DirectionTable& table, const Place<V>& place, Quad<V>* result) {
     const std::ptrdiff_t right = table.width;
     const std::ptrdiff_t down = right * table.side;
     const std::ptrdiff_t next_plane = down * table.side;
-    const Real* numbers = table.numbers();
-    // In single precision both planes at once; in double as for one body, to the same bits.
-    if constexpr (in_single_precision<V>) {
-        if (table.planes() > 1) {
-            return corners_sum<quads, true>(numbers, right, down, next_plane, place, result);
-        }
-    }
-    corners_sum<quads, false>(numbers, right, down, next_plane, place, result);
+    const double* numbers = table.numbers();
+    corners_sum<quads>(numbers, right, down, place, result);
     if (table.planes() < 2) return;
     Quad<V> next[quads];
-    corners_sum<quads, false>(numbers + next_plane, right, down, next_plane, place, next);
+    corners_sum<quads>(numbers + next_plane, right, down, place, next);
     const V f = place.plane_fraction;
     const V g = V(1.0) - f;
     for (int i = 0; i < quads; ++i) {
@@ -303,12 +258,12 @@ HWY_INLINE Packed first_three(const Quad<Spread>& quad) {
 }
 
 /// Of one body, both axes of the map side by side.
-HWY_INLINE void find_place(const DirectionTable<double>& table, const Packed& direction,
-                           Spread reynolds_number, Place<Spread>& place) {
+HWY_INLINE void find_place(const DirectionTable& table, const Packed& direction, Spread reynolds_number,
+                           Place<Spread>& place) {
     using Pair = Lanes<FourTag>;
     const Packed d = table.turned ? broadcast<Spread>(table.to_map_axes) * direction : direction;
     const Packed magnitudes = hn::Abs(d.raw);
-    const Spread norm = larger(sum_of(magnitudes), Spread(tiny<Spread>));
+    const Spread norm = larger(sum_of(magnitudes), Spread(tiny));
     const Pair there = ((Spread(1.0) / norm) * d).raw;
     const Pair zero(0.0);
     const Pair one(1.0);
@@ -334,8 +289,7 @@ HWY_INLINE void find_place(const DirectionTable<double>& table, const Packed& di
 }
 
 template <int quads>
-HWY_INLINE void look_up(const DirectionTable<double>& table, const Place<Spread>& place,
-                        Quad<Spread>* result) {
+HWY_INLINE void look_up(const DirectionTable& table, const Place<Spread>& place, Quad<Spread>* result) {
     const std::ptrdiff_t right = table.width;
     const std::ptrdiff_t down = right * table.side;
     const auto sum = [&](const double* n) HWY_ATTR {

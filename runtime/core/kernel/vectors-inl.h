@@ -23,8 +23,8 @@ inline constexpr bool is_packed = false;
 #endif
 
 /// Every lane the same.
-template <class V, class Real>
-HWY_INLINE Triple<V> broadcast(const Triple<Real>& a) {
+template <class V, class Number>
+HWY_INLINE Triple<V> broadcast(const Triple<Number>& a) {
     if constexpr (is_packed<V>) {
         return packed(a);
     } else {
@@ -32,12 +32,12 @@ HWY_INLINE Triple<V> broadcast(const Triple<Real>& a) {
     }
 }
 /// Of a symmetric matrix: its rows are its columns.
-template <class V, class Real>
-HWY_INLINE Square<V> broadcast_symmetric(const Square<Real>& a) {
+template <class V, class Number>
+HWY_INLINE Square<V> broadcast_symmetric(const Square<Number>& a) {
     return {broadcast<V>(a.x), broadcast<V>(a.y), broadcast<V>(a.z)};
 }
-template <class V, class Real>
-HWY_INLINE Square<V> broadcast(const Square<Real>& a) {
+template <class V, class Number>
+HWY_INLINE Square<V> broadcast(const Square<Number>& a) {
     if constexpr (is_packed<V>) {
         return transposed(broadcast_symmetric<V>(a));
     } else {
@@ -160,50 +160,6 @@ HWY_INLINE Square<V> inverse(const Square<V>& a) {
     const Triple<V> first = cross(a.y, a.z);
     const V scale = V(1.0) / dot(a.x, first);
     return transposed(Square<V>{scale * first, scale * cross(a.z, a.x), scale * cross(a.x, a.y)});
-}
-
-/// What systems of a matrix are solved with, whose symmetric part is positive definite: in double precision
-/// its inverse; in single, where that would lose too much, its L and U without pivoting, since no pivot is
-/// zero. Then the reciprocals of U's diagonal stand on the diagonal.
-template <class V>
-HWY_INLINE Square<V> factorised(const Square<V>& a) {
-    if constexpr (in_single_precision<V>) {
-        const V p = V(1.0) / a.x.x;
-        const V yx = a.y.x * p;
-        const V zx = a.z.x * p;
-        const V q = V(1.0) / (a.y.y - yx * a.x.y);
-        const V yz = a.y.z - yx * a.x.z;
-        const V zy = (a.z.y - zx * a.x.y) * q;
-        const V r = V(1.0) / (a.z.z - zx * a.x.z - zy * yz);
-        return {{p, a.x.y, a.x.z}, {yx, q, yz}, {zx, zy, r}};
-    } else {
-        return inverse(a);
-    }
-}
-template <class V>
-HWY_INLINE Triple<V> solved(const Square<V>& factors, const Triple<V>& b) {
-    if constexpr (in_single_precision<V>) {
-        const V y = b.y - factors.y.x * b.x;
-        const V z = b.z - factors.z.x * b.x - factors.z.y * y;
-        Triple<V> x;
-        x.z = z * factors.z.z;
-        x.y = (y - factors.y.z * x.z) * factors.y.y;
-        x.x = (b.x - factors.x.y * x.y - factors.x.z * x.z) * factors.x.x;
-        return x;
-    } else {
-        return factors * b;
-    }
-}
-/// Of each column of b.
-template <class V>
-HWY_INLINE Square<V> solved(const Square<V>& factors, const Square<V>& b) {
-    if constexpr (in_single_precision<V>) {
-        const Square<V> columns = transposed(b);
-        return transposed(
-            Square<V>{solved(factors, columns.x), solved(factors, columns.y), solved(factors, columns.z)});
-    } else {
-        return factors * b;
-    }
 }
 
 /// (1 + w^)^-1 a for a vector w.

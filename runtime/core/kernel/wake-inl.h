@@ -35,22 +35,22 @@ HWY_INLINE Shares<V> shares_of(const FlightWake<V>& wake) {
 /// The wake when the body has moved at these velocities over a time: its share tends to one and its heading
 /// to the direction of the velocity, what differs going as exp(-x), x the way over that in which a wake forms
 /// or a heading settles, here to the second order and never below zero.
-template <class V, class Real>
-HWY_INLINE FlightWake<V> wake_after(const FlightConstants<Real>& c, const FlightWake<V>& wake, V time,
+template <class V>
+HWY_INLINE FlightWake<V> wake_after(const FlightConstants& c, const FlightWake<V>& wake, V time,
                                     const Triple<V>& omega, const Triple<V>& velocity,
                                     const Triple<V>& direction) {
     const auto kept_after = [](V x) HWY_ATTR { return V(1.0) / (V(1.0) + x * (V(1.0) + V(0.5) * x)); };
     const V speed_square = dot(velocity, velocity);
     const V reach_square = dot(velocity, broadcast_symmetric<V>(c.squared_formation_way) * velocity);
     const V x =
-        time * combined_speed(c, omega, velocity) * root(speed_square / larger(V(tiny<V>), reach_square));
+        time * combined_speed(c, omega, velocity) * root(speed_square / larger(V(tiny), reach_square));
     return {V(1.0) + kept_after(x) * (wake.formed - V(1.0)),
             direction + kept_after(V(c.settling_over_formation) * x) * (wake.heading - direction)};
 }
 
 /// The wake in the middle of a step over h that begins with `wake` and moves at these velocities.
-template <class V, class Real>
-HWY_INLINE FlightWake<V> wake_in_the_middle(const FlightConstants<Real>& c, FlightWake<V> wake, V h,
+template <class V>
+HWY_INLINE FlightWake<V> wake_in_the_middle(const FlightConstants& c, FlightWake<V> wake, V h,
                                             const Triple<V>& omega, const Triple<V>& velocity,
                                             const Triple<V>& half_turn) {
     if (c.has_unseen_turning) {
@@ -60,8 +60,8 @@ HWY_INLINE FlightWake<V> wake_in_the_middle(const FlightConstants<Real>& c, Flig
 }
 
 /// And in its end.
-template <class V, class Real>
-HWY_INLINE FlightWake<V> wake_in_the_end(const FlightConstants<Real>& c, FlightWake<V> wake, V h,
+template <class V>
+HWY_INLINE FlightWake<V> wake_in_the_end(const FlightConstants& c, FlightWake<V> wake, V h,
                                          const Triple<V>& omega, const Triple<V>& velocity,
                                          const Triple<V>& half_turn) {
     Triple<V> direction = heading_of(velocity).direction;

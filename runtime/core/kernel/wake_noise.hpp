@@ -15,4 +15,7 @@ inline constexpr double wake_persistence = 2.5;
 /// ensembles of falls of two discs (docs/studies/noise).
 inline constexpr double wake_order = 4.0;
 
+/// C_k of the paper's eq. 7; Pope, Phys. Fluids 26 (1983).
+inline constexpr double kolmogorov_constant = 2.1;
+
 }  // namespace samara

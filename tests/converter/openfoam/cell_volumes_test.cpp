@@ -1,8 +1,7 @@
-#include "converter/openfoam/cell_volumes.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "converter/openfoam/poly_mesh.hpp"
 #include "samara/core/base/linear_algebra.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"

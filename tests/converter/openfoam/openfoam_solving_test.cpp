@@ -8,9 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "converter/cases/case_reduction.hpp"
-#include "converter/openfoam/cell_volumes.hpp"
 #include "converter/openfoam/foam_file.hpp"
 #include "converter/openfoam/foam_history.hpp"
+#include "converter/openfoam/poly_mesh.hpp"
 #include "paths.hpp"
 #include "samara/commands/shared/subprocess.hpp"
 #include "samara/core/files/content_hash.hpp"

@@ -1,8 +1,8 @@
-#include "converter/tables/reynolds_interpolation.hpp"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
+
+#include "converter/tables/table_filling.hpp"
 
 namespace samara {
 namespace {

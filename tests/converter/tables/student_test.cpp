@@ -1,6 +1,6 @@
-#include "converter/tables/student.hpp"
-
 #include <gtest/gtest.h>
+
+#include "converter/tables/standard_error.hpp"
 
 namespace samara {
 namespace {

@@ -1,5 +1,4 @@
 // Tables of few cases beside the loads of the body's surface.
-#include "converter/tables/surface_trend.hpp"
 
 #include <cmath>
 

@@ -10,7 +10,7 @@
 
 #include "converter/tables/direction_sampling.hpp"
 #include "samara/core/base/error.hpp"
-#include "samara/core/flight/terminal_speed.hpp"
+#include "samara/scene/terminal_speed.hpp"
 #include "support/expect_error.hpp"
 #include "test_bodies.hpp"
 

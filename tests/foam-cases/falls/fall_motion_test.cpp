@@ -1,8 +1,7 @@
-#include "foam-cases/falls/fall_motion.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "foam-cases/falls/validate.hpp"
 #include "support/expect_error.hpp"
 
 namespace samara {

@@ -7,8 +7,8 @@
 
 #include "foam-cases/falls/validate.hpp"
 #include "samara/core/base/error.hpp"
-#include "samara/core/flight/terminal_speed.hpp"
 #include "samara/core/flight/world_pose.hpp"
+#include "samara/scene/terminal_speed.hpp"
 #include "test_bodies.hpp"
 
 namespace samara {

@@ -12,7 +12,6 @@
 
 #include "foam-cases/falls/fall_plan.hpp"
 #include "foam-cases/farm/case_folder.hpp"
-#include "foam-cases/farm/case_surface.hpp"
 #include "paths.hpp"
 #include "samara/commands/shared/subprocess.hpp"
 #include "samara/core/body/body_file.hpp"

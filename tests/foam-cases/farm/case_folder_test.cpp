@@ -11,7 +11,6 @@
 #include <sys/stat.h>
 
 #include "foam-cases/farm/case_parameters.hpp"
-#include "foam-cases/farm/case_surface.hpp"
 #include "paths.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/files/content_hash.hpp"

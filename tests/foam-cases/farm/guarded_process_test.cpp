@@ -8,7 +8,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "foam-cases/farm/folder_lock.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/files/content_hash.hpp"
 #include "support/temporary_folder.hpp"

@@ -11,6 +11,7 @@
 #include "samara/core/surface/octahedral_map.hpp"
 #include "samara/kirchhoff/operators/hypersingular.hpp"
 #include "support/known_bodies.hpp"
+#include "support/reference_step.hpp"
 #include "support/test_shapes.hpp"
 
 namespace samara {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "samara/core/integrator/equations_of_motion.hpp"
+#include "support/reference_step.hpp"
 
 namespace samara::peers {
 

@@ -2,10 +2,10 @@
 
 #include "peers/peer_body.hpp"
 #include "samara/commands/shared/load_body.hpp"
-#include "samara/core/flight/terminal_speed.hpp"
 #include "samara/core/flight/world_pose.hpp"
-#include "samara/core/integrator/equations_of_motion.hpp"
 #include "samara/kirchhoff/kirchhoff_solver.hpp"
+#include "samara/scene/terminal_speed.hpp"
+#include "support/reference_step.hpp"
 
 namespace samara {
 namespace {

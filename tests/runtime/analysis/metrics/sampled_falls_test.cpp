@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "samara/analysis/metrics/ensemble.hpp"
-#include "samara/core/flight/terminal_speed.hpp"
+#include "samara/scene/terminal_speed.hpp"
 #include "support/hard_bodies.hpp"
 #include "support/known_bodies.hpp"
 

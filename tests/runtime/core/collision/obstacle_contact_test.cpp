@@ -11,6 +11,7 @@
 #include "support/compared_states.hpp"
 #include "support/ground_bodies.hpp"
 #include "support/obstacles.hpp"
+#include "support/reference_step.hpp"
 #include "support/test_shapes.hpp"
 
 namespace samara {

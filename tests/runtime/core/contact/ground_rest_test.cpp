@@ -13,6 +13,7 @@
 #include "samara/scene/simulation.hpp"
 #include "support/compared_states.hpp"
 #include "support/ground_bodies.hpp"
+#include "support/reference_step.hpp"
 #include "support/test_shapes.hpp"
 
 namespace samara {
@@ -299,18 +300,6 @@ TEST(GroundRest, InABatchIsThatOfABodyAloneWhateverTheThreadsAndCalls) {
         }
         EXPECT_GT(resting, count / 2);
     }
-}
-
-TEST(GroundRest, HoldsInSinglePrecisionToo) {
-    FloatBatch batch(leaf(), 20);
-    for (std::size_t i = 0; i < batch.size(); ++i) {
-        batch.set_state(i, test::above_ground(leaf(), turned(0.3 * static_cast<double>(i), {1, 2, 3}), 0.01));
-    }
-    batch.advance(ground_at_zero(), 0.0, 0.002, 0, 2000);
-    std::size_t resting = 0;
-    for (std::size_t i = 0; i < batch.size(); ++i) resting += batch.state(i).at_rest ? 1 : 0;
-    EXPECT_EQ(resting, batch.size());
-    EXPECT_EQ(batch.advance(ground_at_zero(), 0.0, 0.002, 2000, 10).implicit_steps, 0U);
 }
 
 }  // namespace

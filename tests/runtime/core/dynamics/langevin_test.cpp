@@ -1,5 +1,3 @@
-#include "samara/core/dynamics/langevin.hpp"
-
 #include <cmath>
 #include <cstdint>
 #include <utility>
@@ -7,8 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include "samara/core/dynamics/loads.hpp"
 #include "samara/core/integrator/step.hpp"
 #include "support/known_bodies.hpp"
+#include "support/reference_step.hpp"
 
 namespace samara {
 namespace {

@@ -10,6 +10,7 @@
 
 #include "samara/core/surface/octahedral_map.hpp"
 #include "support/known_bodies.hpp"
+#include "support/reference_step.hpp"
 
 namespace samara {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "samara/core/dynamics/loads.hpp"
 #include "support/known_bodies.hpp"
+#include "support/reference_step.hpp"
 
 // The terms of the loads of a body that turns, written out as docs/theory has them ("Loads of a moving
 // body"): moment about the centroid (N m) and force (N), body axes, of a motion (rad/s, m/s).

@@ -10,9 +10,8 @@
 
 #include "core/dynamics/moving_load_terms.hpp"
 #include "samara/core/dynamics/loads.hpp"
-#include "samara/core/integrator/batch.hpp"
-#include "samara/core/integrator/reference_step.hpp"
 #include "support/known_bodies.hpp"
+#include "support/reference_step.hpp"
 
 namespace samara {
 namespace {
@@ -217,33 +216,6 @@ TEST(MovingLoads, MoveABodyTheSameWayInWhateverAxesItIsGiven) {
         EXPECT_LT((r.transpose() * turned_loads.tail<3>() - loads.tail<3>()).norm(),
                   1e-11 * loads.tail<3>().norm());
     }
-}
-
-TEST(MovingLoads, OfSinglePrecisionAreFiniteWhereABodyRestsTurnsOrMovesAlone) {
-    const ImmersedBody body = test::lopsided_body();
-    const std::vector<Vector6d> starts = {
-        Vector6d::Zero(),
-        motion_of(Vector3d(1.0, 2.0, -3.0), Vector3d::Zero()),
-        motion_of(Vector3d::Zero(), Vector3d(0.1, 0.0, 0.2)),
-        motion_of(Vector3d(1e-18, 2e-19, 0.0), Vector3d(0.0, 1e-18, 0.0)),
-        motion_of(Vector3d(1e3, 0.0, -1e3), Vector3d(0.0, 1e-9, 0.0)),
-        motion_of(Vector3d(1e-9, 0.0, -1e-9), Vector3d(0.0, 1e2, 0.0)),
-    };
-    FloatBatch batch(body, starts.size());
-    for (std::size_t i = 0; i < starts.size(); ++i) {
-        BodyState state;
-        state.velocity = starts[i];
-        batch.set_state(i, state);
-    }
-    Surroundings still;
-    still.gravity.setZero();
-    batch.advance(still, 0.0, 0.002, 0, 5);
-    for (std::size_t i = 0; i < starts.size(); ++i) {
-        const BodyState state = batch.state(i);
-        EXPECT_TRUE(state.velocity.allFinite() && state.position.allFinite()) << i;
-        EXPECT_TRUE(state.orientation.coeffs().allFinite()) << i;
-    }
-    EXPECT_EQ(batch.state(0).velocity, Vector6d::Zero());
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "core/dynamics/moving_load_terms.hpp"
 #include "samara/core/dynamics/loads.hpp"
 #include "support/known_bodies.hpp"
+#include "support/reference_step.hpp"
 
 namespace samara {
 namespace {

@@ -9,6 +9,7 @@
 #include "samara/core/dynamics/dynamic_coefficients.hpp"
 #include "samara/core/dynamics/loads.hpp"
 #include "support/known_bodies.hpp"
+#include "support/reference_step.hpp"
 
 namespace samara {
 namespace {

@@ -5,13 +5,12 @@
 #include <gtest/gtest.h>
 
 #include "samara/core/integrator/batch.hpp"
-#include "samara/core/integrator/equations_of_motion.hpp"
-#include "samara/core/integrator/reference_step.hpp"
 #include "samara/core/integrator/step.hpp"
 #include "support/compared_states.hpp"
 #include "support/hard_bodies.hpp"
 #include "support/known_bodies.hpp"
 #include "support/random_bodies.hpp"
+#include "support/reference_step.hpp"
 
 namespace samara {
 namespace {

@@ -8,9 +8,9 @@
 
 #include <gtest/gtest.h>
 
-#include "samara/core/integrator/reference_step.hpp"
 #include "support/hard_bodies.hpp"
 #include "support/known_bodies.hpp"
+#include "support/reference_step.hpp"
 #include "support/stability_row.hpp"
 
 namespace samara {

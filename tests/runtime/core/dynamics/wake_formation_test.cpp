@@ -11,10 +11,10 @@
 
 #include "core/dynamics/moving_load_terms.hpp"
 #include "samara/core/dynamics/loads.hpp"
-#include "samara/core/integrator/equations_of_motion.hpp"
 #include "samara/core/integrator/step.hpp"
 #include "support/known_bodies.hpp"
 #include "support/random_bodies.hpp"
+#include "support/reference_step.hpp"
 
 namespace samara {
 namespace {

@@ -7,7 +7,7 @@
 #include "samara/motion/motion_file.hpp"
 #include "samara/scene/scene_flight.hpp"
 #include "samara/scene/simulation.hpp"
-#include "samara/scene/size_range.hpp"
+#include "samara/scene/terminal_speed.hpp"
 #include "support/expect_error.hpp"
 #include "support/known_bodies.hpp"
 #include "support/obstacles.hpp"

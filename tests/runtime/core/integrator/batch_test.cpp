@@ -61,9 +61,8 @@ Noise noise_of(std::size_t i) {
     return {7, "leaf", static_cast<std::uint32_t>(i % 3), static_cast<std::uint32_t>(i)};
 }
 
-template <class Real>
-BasicBatch<Real> started(const ImmersedBody& body, const std::vector<std::size_t>& bodies) {
-    BasicBatch<Real> batch(body, bodies.size());
+Batch started(const ImmersedBody& body, const std::vector<std::size_t>& bodies) {
+    Batch batch(body, bodies.size());
     for (std::size_t place = 0; place < bodies.size(); ++place) {
         batch.set_state(place, start_of(bodies[place]));
         batch.set_noise(place, noise_of(bodies[place]));
@@ -89,14 +88,14 @@ Surroundings windy() {
     return surroundings;
 }
 
-TEST(Batch, InDoublePrecisionMovesEachBodyAsAdvanceDoesToTheLastBit) {
+TEST(Batch, MovesEachBodyAsAdvanceDoesToTheLastBit) {
     for (const ImmersedBody& body :
          {noisy_body(), noisy_body(Turbulence::constant), noisy_body(Turbulence::none), noisy_lopsided_body(),
           noisy_patched_body(), coefficient_body(), test::ideal_ellipsoid()}) {
         constexpr std::size_t count = 37;
-        Batch batch = started<double>(body, first(count));
+        Batch batch = started(body, first(count));
         const BatchReport report = batch.advance(windy(), 0.5, h, 3, 50);
-        Batch alone = started<double>(body, first(1));
+        Batch alone = started(body, first(1));
         alone.advance(windy(), 0.5, h, 3, 50);
         ASSERT_TRUE(same_bits(alone.state(0), batch.state(0)));
         std::uint64_t implicit_steps = 0;
@@ -131,35 +130,30 @@ constexpr std::size_t many = 3000;
 TEST(Batch, DoesNotDependOnOrderNeighboursThreadsOrTheCuttingOfTime) {
     const ImmersedBody body = noisy_body();
     const std::vector<std::size_t> bodies = first(many);
-    Batch together = started<double>(body, bodies);
-    FloatBatch floats = started<float>(body, bodies);
+    Batch together = started(body, bodies);
     together.advance(windy(), 0.0, h, 0, 24, 1);
-    floats.advance(windy(), 0.0, h, 0, 24, 1);
 
     std::vector<std::size_t> shuffled = bodies;
     std::shuffle(shuffled.begin(), shuffled.end(), std::mt19937(5));
     shuffled.resize(many * 3 / 8);
-    Batch others = started<double>(body, shuffled);
-    FloatBatch other_floats = started<float>(body, shuffled);
+    Batch others = started(body, shuffled);
     std::uint64_t done = 0;
     for (const std::uint64_t steps : {1U, 7U, 16U}) {
         others.advance(windy(), 0.0, h, done, steps, 2);
-        other_floats.advance(windy(), 0.0, h, done, steps, 2);
         done += steps;
     }
     for (std::size_t place = 0; place < shuffled.size(); ++place) {
         ASSERT_TRUE(same_bits(others.state(place), together.state(shuffled[place])));
-        ASSERT_TRUE(same_bits(other_floats.state(place), floats.state(shuffled[place])));
     }
 }
 
 TEST(Batch, GoesOnFromAStateAsIfItHadNotStopped) {
     const ImmersedBody body = noisy_body();
-    Batch through = started<double>(body, first(20));
+    Batch through = started(body, first(20));
     through.advance(windy(), 0.0, h, 0, 40);
-    Batch before = started<double>(body, first(20));
+    Batch before = started(body, first(20));
     before.advance(windy(), 0.0, h, 0, 17);
-    Batch after = started<double>(body, first(20));
+    Batch after = started(body, first(20));
     for (std::size_t i = 0; i < after.size(); ++i) after.set_state(i, before.state(i));
     after.advance(windy(), 0.0, h, 17, 23);
     for (std::size_t i = 0; i < after.size(); ++i) {
@@ -173,11 +167,11 @@ TEST(Batch, GivesTheSameBytesOnEveryInstructionSet) {
     for (const auto target : hwy::SupportedAndGeneratedTargets()) {
         hwy::SetSupportedTargetsForTest(target);
         hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-        Batch batch = started<double>(body, first(50));
+        Batch batch = started(body, first(50));
         batch.advance(windy(), 0.0, h, 0, 50);
         ends.emplace_back();
         for (std::size_t i = 0; i < batch.size(); ++i) ends.back().push_back(batch.state(i));
-        Batch alone = started<double>(body, {7});
+        Batch alone = started(body, {7});
         alone.advance(windy(), 0.0, h, 0, 50);
         EXPECT_TRUE(same_bits(alone.state(0), ends.back()[7]));
     }
@@ -186,51 +180,6 @@ TEST(Batch, GivesTheSameBytesOnEveryInstructionSet) {
     ASSERT_GT(ends.size(), 1U);
     for (const std::vector<BodyState>& end : ends) {
         for (std::size_t i = 0; i < end.size(); ++i) EXPECT_TRUE(same_bits(end[i], ends.front()[i]));
-    }
-}
-
-TEST(FloatBatch, StaysWithinItsBoundOfTheDoublePath) {
-    // docs/theory states it: over 0.2 s of a fall of 4 cm bodies with noise, 1e-5 m and 1e-3 rad.
-    double farthest = 0.0;
-    double most_turned = 0.0;
-    for (const ImmersedBody& body : {noisy_body(), noisy_lopsided_body(), noisy_patched_body()}) {
-        FloatBatch floats = started<float>(body, first(200));
-        Batch doubles = started<double>(body, first(200));
-        floats.advance(windy(), 0.0, h, 0, 100);
-        doubles.advance(windy(), 0.0, h, 0, 100);
-        for (std::size_t i = 0; i < floats.size(); ++i) {
-            const BodyState a = floats.state(i);
-            const BodyState b = doubles.state(i);
-            farthest = std::max(farthest, (a.position - b.position).norm());
-            most_turned = std::max(most_turned, a.orientation.angularDistance(b.orientation));
-        }
-    }
-    RecordProperty("farthest", std::to_string(farthest));
-    RecordProperty("most_turned", std::to_string(most_turned));
-    EXPECT_LT(farthest, 1e-5);
-    EXPECT_LT(most_turned, 1e-3);
-}
-
-TEST(FloatBatch, KeepsTheEnergyOfFreeMotionAndNeverGainsWithLoads) {
-    const ImmersedBody ideal = test::ideal_ellipsoid();
-    FloatBatch batch = started<float>(ideal, first(16));
-    Surroundings still;
-    still.gravity.setZero();
-    const double energy = kinetic_energy(ideal, batch.state(5));
-    batch.advance(still, 0.0, h, 0, 10'000);
-    EXPECT_NEAR(kinetic_energy(ideal, batch.state(5)) / energy, 1.0, 2e-5);
-
-    for (const ImmersedBody& body : {noisy_body(Turbulence::none), noisy_lopsided_body(Turbulence::none)}) {
-        FloatBatch slowed = started<float>(body, first(64));
-        for (int i = 0; i < 50; ++i) {
-            std::vector<double> before;
-            for (std::size_t k = 0; k < slowed.size(); ++k)
-                before.push_back(kinetic_energy(body, slowed.state(k)));
-            slowed.advance(still, 0.0, 1.0 / 24.0, 0, 1);
-            for (std::size_t k = 0; k < slowed.size(); ++k) {
-                ASSERT_LE(kinetic_energy(body, slowed.state(k)), before[k] * (1.0 + 1e-5));
-            }
-        }
     }
 }
 

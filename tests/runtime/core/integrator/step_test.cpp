@@ -8,6 +8,7 @@
 
 #include "support/compared_states.hpp"
 #include "support/known_bodies.hpp"
+#include "support/reference_step.hpp"
 
 namespace samara {
 namespace {

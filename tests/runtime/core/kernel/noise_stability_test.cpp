@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "samara/core/dynamics/langevin.hpp"
 #include "samara/core/integrator/batch.hpp"
 #include "support/hard_bodies.hpp"
 #include "support/known_bodies.hpp"
+#include "support/reference_step.hpp"
 #include "support/stability_row.hpp"
 
 namespace samara {

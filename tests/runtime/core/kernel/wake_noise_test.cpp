@@ -7,10 +7,11 @@
 
 #include <gtest/gtest.h>
 
-#include "samara/core/dynamics/langevin.hpp"
+#include "samara/core/dynamics/loads.hpp"
 #include "samara/core/integrator/step.hpp"
 #include "samara/core/kernel/kernel.hpp"
 #include "support/hard_bodies.hpp"
+#include "support/reference_step.hpp"
 
 namespace samara {
 namespace {

@@ -1,4 +1,3 @@
-#include "samara/core/wind/gust_waves.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -12,6 +12,7 @@
 #include "support/ground_bodies.hpp"
 #include "support/hard_bodies.hpp"
 #include "support/known_bodies.hpp"
+#include "support/reference_step.hpp"
 #include "support/stability_row.hpp"
 
 namespace samara {

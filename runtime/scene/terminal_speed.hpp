@@ -1,7 +1,9 @@
 #pragma once
 
 #include "samara/core/body/body.hpp"
+#include "samara/core/flight/loaded_body.hpp"
 #include "samara/core/physics/fluid.hpp"
+#include "samara/scene/scene.hpp"
 
 namespace samara {
 
@@ -18,5 +20,11 @@ double largest_projected_area(const Body& body);
 /// in kg, `gravity` in m/s^2. 0 where the weight and the buoyancy are equal to 1e-6, or gravity is 0: then no
 /// speed belongs to the body.
 double terminal_speed(const Body& body, const Fluid& fluid, double mass, double gravity);
+
+/// Throws Error, which names the scene and the sizes that can be had, where copies of a body of a scene are
+/// so large or small that they would fall at more than twice the highest or less than half the lowest
+/// Reynolds number of its tables: by terminal_speed(), of each size. A body that reads them at one alone is
+/// let be.
+void require_sizes_in_tables(const Scene& scene, const SceneBody& scene_body, const LoadedBody& loaded);
 
 }  // namespace samara

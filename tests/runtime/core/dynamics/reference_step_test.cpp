@@ -1,11 +1,11 @@
-#include "samara/core/integrator/reference_step.hpp"
+
+#include "support/reference_step.hpp"
 
 #include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "samara/core/integrator/equations_of_motion.hpp"
 #include "support/compared_states.hpp"
 #include "support/hard_bodies.hpp"
 #include "support/known_bodies.hpp"

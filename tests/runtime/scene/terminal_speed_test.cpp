@@ -1,4 +1,4 @@
-#include "samara/core/flight/terminal_speed.hpp"
+#include "samara/scene/terminal_speed.hpp"
 
 #include <cmath>
 #include <numbers>

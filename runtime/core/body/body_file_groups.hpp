@@ -1,0 +1,50 @@
+#pragma once
+
+#include "samara/core/body/dynamic_coefficients.hpp"
+#include "samara/core/body/load_tables.hpp"
+#include "samara/core/body/planned_region.hpp"
+#include "samara/core/body/surface_loads.hpp"
+#include "samara/core/files/hdf5_reader.hpp"
+#include "samara/core/files/hdf5_writer.hpp"
+#include "samara/core/physics/mass_specification.hpp"
+
+namespace samara {
+
+/// Writes the coefficients and their standard errors as the group /dynamic_coefficients
+/// (docs/file-formats).
+void write_dynamic_coefficients(Hdf5Writer& file, const IdentifiedCoefficients& coefficients);
+
+/// Reads what write_dynamic_coefficients wrote. Throws Error, naming file and place, where a number is not
+/// finite, a tensor is not symmetric and positive semidefinite, the half-length is not positive or a standard
+/// error is negative.
+IdentifiedCoefficients read_dynamic_coefficients(const Hdf5Reader& file);
+
+/// Writes the group /mass of a body file (docs/file-formats.md).
+void write_mass(Hdf5Writer& file, const MassSpecification& mass);
+
+/// Reads it. Throws Error where it holds both a density and a mass, or neither.
+MassSpecification read_mass(const Hdf5Reader& file);
+
+/// Writes /tables/planned and /tables/plan (docs/file-formats) where the region is not all directions.
+void write_planned_region(Hdf5Writer& file, const PlannedRegion& region);
+
+/// Reads them; all directions where they are absent. Throws Error where the map is of no sane size.
+PlannedRegion read_planned_region(const Hdf5Reader& file);
+
+/// Writes the group /surface_loads of a body file (docs/file-formats.md).
+void write_surface_loads(Hdf5Writer& file, const SurfaceLoads& loads);
+
+/// Whether the file holds it; an earlier form, of forces by direction, counts as none.
+bool has_surface_loads(const Hdf5Reader& file);
+
+/// Reads it. Throws Error where it is no surface, or has lengths or potentials that none has.
+SurfaceLoads read_surface_loads(const Hdf5Reader& file);
+
+/// Writes /tables/error_sources and /tables/left_out of a body file, where the tables have any.
+void write_table_errors(Hdf5Writer& file, const LoadTables& tables);
+
+/// Reads them into the tables; files without them leave both empty. Throws Error where a source is unknown
+/// or a value breaks a rule.
+void read_table_errors(const Hdf5Reader& file, LoadTables& tables);
+
+}  // namespace samara
