@@ -157,14 +157,14 @@ nlohmann::json run_requests(const std::vector<BakeRequest>& requests, const Bake
         nlohmann::json one;
         if (options.dry_run) {
             const BakePreparation preparation = prepare_bake(request);
-            note_doubts(notes, request, preparation);
+            note_warnings(notes, request, preparation);
             if (!quiet) print_preparation(request, preparation, options.jobs);
             one = bake_as_json(request, preparation);
         } else {
             if (request.output.has_parent_path()) fs::create_directories(request.output.parent_path());
             const BakeResult result =
                 bake_body(request, {options.jobs, options.cluster}, [&](const BakePreparation& preparation) {
-                    note_doubts(notes, request, preparation);
+                    note_warnings(notes, request, preparation);
                     notes.print();
                 });
             warn_of_left_out_cases(request, result);

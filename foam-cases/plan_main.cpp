@@ -10,7 +10,7 @@
 #include "foam-cases/bake/bake_report.hpp"
 #include "foam-cases/scene/scene_plan_report.hpp"
 #include "foam-cases/scene/scene_requests.hpp"
-#include "samara/analysis/advice/density_doubt.hpp"
+#include "samara/analysis/advice/density_warning.hpp"
 #include "samara/analysis/advice/model_advice.hpp"
 #include "samara/commands/shared/arguments.hpp"
 #include "samara/commands/shared/print.hpp"
@@ -135,11 +135,11 @@ nlohmann::json run(const PlanOptions& options, const Arguments& arguments) {
     BodyNotes notes("samara plan");
     for (const BakeRequest& request : requests_for_scene(scene, folder, wanted)) {
         const BakePreparation preparation = prepare_bake(request);
-        note_doubts(notes, request, preparation);
+        note_warnings(notes, request, preparation);
         result["bodies"].push_back(plan_body(request, preparation, options, arguments.json(), picture));
         loaded.push_back(as_baked(request, preparation, !options.bodies.empty()));
         const SceneBody& body = scene.bodies[loaded.size() - 1];
-        const DensityDoubt density = density_doubt(body, *loaded.back().body, scene.fluid);
+        const DensityWarning density = density_warning(body, *loaded.back().body, scene.fluid);
         notes.add("density", body.name, density.ratio, density.text);
     }
     notes.print();

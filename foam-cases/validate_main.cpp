@@ -69,7 +69,7 @@ std::vector<std::filesystem::path> motions_of(const char* option, const std::str
     return files;
 }
 
-void warn_of_doubts(const ValidationResult& result) {
+void print_warnings(const ValidationResult& result) {
     const auto note = [](const std::string& text) { print_note("samara validate: note: {}\n", text); };
     const FallBalance balance = result.worst_balance();
     if (is_doubtful(balance)) {
@@ -148,7 +148,7 @@ nlohmann::json run_validation(const ValidateOptions& options, bool quiet) {
     make_folder_of(request.output);
     const ValidationResult result =
         validate_scene(request, {options.jobs, options.cluster, "solving"}, [](const BakePlan&) {});
-    warn_of_doubts(result);
+    print_warnings(result);
     const BodyMeasures measures = measure_all(result.motion, result.motion.bodies.front());
     nlohmann::json json = as_json(result.plan);
     json["output"] = options.output;

@@ -9,7 +9,7 @@
 
 #include "meshes/make_body.hpp"
 #include "meshes/symmetry/symmetry.hpp"
-#include "samara/analysis/advice/unit_doubts.hpp"
+#include "samara/analysis/advice/unit_warnings.hpp"
 #include "samara/commands/shared/arguments.hpp"
 #include "samara/commands/shared/body_notes.hpp"
 #include "samara/commands/shared/print.hpp"
@@ -136,7 +136,7 @@ int main(int argc, char** argv) {
         }();
         samara::write_body_file(output, body);
         samara::BodyNotes notes("samara mesh");
-        notes.add("units", body.name, 0.0, samara::size_doubts(body, samara::ScaleRemedy::option));
+        notes.add("units", body.name, 0.0, samara::size_warnings(body, samara::ScaleRemedy::option));
         notes.add("shape", body.name, 0.0, samara::shape_warning(body));
         notes.print();
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;

@@ -10,7 +10,7 @@
 #include "converter/falls/falling_body.hpp"
 #include "converter/falls/motion_parameters.hpp"
 #include "converter/tables/least_squares.hpp"
-#include "samara/analysis/metrics/figure_catalogue.hpp"
+#include "samara/analysis/metrics/metric_catalogue.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/dynamics/loads.hpp"
 
@@ -28,20 +28,20 @@ constexpr double first_segment = 0.5;
 constexpr double horizon = 3.0;
 constexpr double spacing = 0.5;
 constexpr double flown_step = 0.03;
-constexpr int looks = 4;                     // at the fall, in each segment
-constexpr Eigen::Index numbers_of_look = 9;  // velocity, tip speed, rotation
-constexpr double usual_miss = 0.2;           // beyond it a residual counts less
-constexpr double expected_miss = 0.1;        // as far as expectations weigh
+constexpr int samples = 4;                     // at the fall, in each segment
+constexpr Eigen::Index numbers_of_sample = 9;  // velocity, tip speed, rotation
+constexpr double usual_miss = 0.2;             // beyond it a residual counts less
+constexpr double expected_miss = 0.1;          // as far as expectations weigh
 // What the flights of segments miss is forgiven where the swings die: they are fitted best by a body that
 // swings less than it should. So the figures of the whole flight count too: as so many numbers of segments,
 // each where it is off by its fitted_miss as much as a number by `usual_miss`. 15 to 80 numbers in place of
 // the 40 give the same falls within their limits, 160 a disc that falls too fast (docs/studies/falls, "How
 // the coefficients are found").
-constexpr Eigen::Index figures_of_fall = fitted_figures.size();
-constexpr double count_of_figure = 40.0;
+constexpr Eigen::Index metrics_of_fall = fitted_metrics.size();
+constexpr double count_of_metric = 40.0;
 constexpr double least_count = 1e-3;  // of them, to begin with
 constexpr std::array growing_counts = {1e-2, 0.1, 1.0, 10.0};
-constexpr double farthest_figure = 10.0;  // over those
+constexpr double farthest_metric = 10.0;  // over those
 constexpr int stretches = identification_stretches;
 constexpr int least_segments = 2 * stretches;  // of each fall
 constexpr int excursion = 12;                  // iterations, to where another descent starts
@@ -89,9 +89,9 @@ double step_of(const ReadyFall& fall) {
     return fall.record.samples.front().time * fall.record.fall.time_unit();
 }
 
-int steps_to_look(const ReadyFall& fall) {
+int steps_to_sample(const ReadyFall& fall) {
     const double step = fall.record.samples.front().time * static_cast<double>(fall.stride);
-    return std::max(1, static_cast<int>(std::lround(horizon / looks / step)));
+    return std::max(1, static_cast<int>(std::lround(horizon / samples / step)));
 }
 
 std::vector<Segment> segments_of(const std::vector<ReadyFall>& falls) {
@@ -99,7 +99,7 @@ std::vector<Segment> segments_of(const std::vector<ReadyFall>& falls) {
     for (std::size_t i = 0; i < falls.size(); ++i) {
         const ReadyFall& fall = falls[i];
         const double step = fall.record.samples.front().time;
-        const std::size_t length = fall.stride * static_cast<std::size_t>(looks * steps_to_look(fall));
+        const std::size_t length = fall.stride * static_cast<std::size_t>(samples * steps_to_sample(fall));
         const auto every = static_cast<std::size_t>(std::max(1.0, std::round(spacing / step)));
         const std::size_t first = segments.size();
         for (auto begin = static_cast<std::size_t>(std::ceil(first_segment / step));
@@ -115,15 +115,15 @@ std::vector<Segment> segments_of(const std::vector<ReadyFall>& falls) {
     return segments;
 }
 
-// What the flight misses of the fall at one look, over the fall's scales.
-Eigen::Matrix<double, numbers_of_look, 1> miss(const ReadyFall& fall, const BodyState& flown,
-                                               const BodyState& solved) {
+// What the flight misses of the fall at one sample, over the fall's scales.
+Eigen::Matrix<double, numbers_of_sample, 1> miss(const ReadyFall& fall, const BodyState& flown,
+                                                 const BodyState& solved) {
     const double speed = fall.record.fall.speed;
     const double tip = fall.body.dynamic.half_length / speed;
     const Matrix3d to_world = flown.orientation.toRotationMatrix();
     const Matrix3d solved_to_world = solved.orientation.toRotationMatrix();
     const Eigen::AngleAxisd turn(Matrix3d(solved_to_world.transpose() * to_world));
-    Eigen::Matrix<double, numbers_of_look, 1> result;
+    Eigen::Matrix<double, numbers_of_sample, 1> result;
     result << (to_world * flown.velocity.tail<3>() - solved_to_world * solved.velocity.tail<3>()) / speed,
         (to_world * flown.velocity.head<3>() - solved_to_world * solved.velocity.head<3>()) * tip,
         turn.angle() * turn.axis();
@@ -134,13 +134,13 @@ Eigen::Matrix<double, numbers_of_look, 1> miss(const ReadyFall& fall, const Body
 void fly_segment(const ReadyFall& fall, const ImmersedBody& body, std::size_t begin,
                  Eigen::Ref<VectorXd> residuals) {
     const double time_step = step_of(fall) * static_cast<double>(fall.stride);
-    const int steps = steps_to_look(fall);
+    const int steps = steps_to_sample(fall);
     BodyState state = fall.states[begin];
     std::size_t at = begin;
-    for (int look = 0; look < looks; ++look) {
+    for (int sample = 0; sample < samples; ++sample) {
         for (int step = 0; step < steps; ++step) state = implicit_step(body, fall.gravity, time_step, state);
         at += fall.stride * static_cast<std::size_t>(steps);
-        residuals.segment<numbers_of_look>(numbers_of_look * look) = miss(fall, state, fall.states[at]);
+        residuals.segment<numbers_of_sample>(numbers_of_sample * sample) = miss(fall, state, fall.states[at]);
     }
 }
 
@@ -175,7 +175,7 @@ void set_wakes(const ImmersedBody& body, double time_step, std::vector<BodyState
         const Vector6d velocity = body.to_centroid * (0.5 * (states[i - 1].velocity + states[i].velocity));
         const WakeRates rates = wake_rates(body, velocity);
         const Vector3d direction = velocity.tail<3>().stableNormalized();
-        const Vector3d& unseen = rates.unseen_turning;
+        const Vector3d& unseen = rates.spin_about_symmetry;
         const Eigen::AngleAxisd back(-time_step * unseen.norm(), unseen.stableNormalized());
         const auto [formed, heading] = states[i - 1].wake;
         states[i].wake.formed = 1.0 + std::exp(-time_step * rates.formation) * (formed - 1.0);
@@ -184,15 +184,16 @@ void set_wakes(const ImmersedBody& body, double time_step, std::vector<BodyState
     }
 }
 
-// `settling_ways`: of the coefficients that are sought; without, the body's own.
-ReadyFall ready(const Body& body, const FallRecord& record, const std::optional<double>& settling_ways = {}) {
+// `settling_length`: of the coefficients that are sought; without, the body's own.
+ReadyFall ready(const Body& body, const FallRecord& record,
+                const std::optional<double>& settling_length = {}) {
     if (record.samples.empty()) throw too_short(record);
     require_even_steps(record);
     ReadyFall fall{record, falling_body(body, record.fall), states_of(record), gravity_of(record.fall), 1,
                    {}};
     const double step = record.samples.front().time;
     fall.stride = static_cast<std::size_t>(std::max(1.0, std::round(flown_step / step)));
-    if (settling_ways) fall.body.dynamic.settling_ways = *settling_ways;
+    if (settling_length) fall.body.dynamic.settling_length = *settling_length;
     set_wakes(fall.body, step_of(fall), fall.states);
     fall.measures = measures_of(motion_of(body, fall, solved_states(fall)));
     return fall;
@@ -210,32 +211,32 @@ Motion fly_whole(const Body& body, const ReadyFall& fall, const ImmersedBody& fl
 }
 
 // How far two figures are apart, over `usual`; as far as can be where there is but one of them.
-double figure_miss(double flown, double solved, double usual) {
+double metric_miss(double flown, double solved, double usual) {
     if (!(flown > 0.0) && !(solved > 0.0)) return 0.0;
     const double miss = std::log(flown / solved) / usual;
-    if (!std::isfinite(miss)) return farthest_figure;
-    return std::clamp(miss, -farthest_figure, farthest_figure);
+    if (!std::isfinite(miss)) return farthest_metric;
+    return std::clamp(miss, -farthest_metric, farthest_metric);
 }
 
-Eigen::Matrix<double, figures_of_fall, 1> figures_miss(const Measures& flown, const Measures& solved) {
-    Eigen::Matrix<double, figures_of_fall, 1> result;
+Eigen::Matrix<double, metrics_of_fall, 1> metrics_miss(const Measures& flown, const Measures& solved) {
+    Eigen::Matrix<double, metrics_of_fall, 1> result;
     Eigen::Index i = 0;
-    for (const Figure figure : fitted_figures) {
-        const CataloguedFigure& entry = catalogued(figure);
-        result[i++] = figure_miss(entry.measured(flown).value_or(0.0), entry.measured(solved).value_or(0.0),
+    for (const Metric metric : fitted_metrics) {
+        const CataloguedMetric& entry = catalogued(metric);
+        result[i++] = metric_miss(entry.measured(flown).value_or(0.0), entry.measured(solved).value_or(0.0),
                                   entry.fitted_miss);
     }
     return result;
 }
 
-constexpr Eigen::Index numbers_of_segment = looks * numbers_of_look;
+constexpr Eigen::Index numbers_of_segment = samples * numbers_of_sample;
 
 Eigen::Index count(const std::vector<Segment>& segments) {
     return numbers_of_segment * static_cast<Eigen::Index>(segments.size());
 }
 
-Eigen::Index figures_of(const std::vector<ReadyFall>& falls) {
-    return figures_of_fall * static_cast<Eigen::Index>(falls.size());
+Eigen::Index metrics_of(const std::vector<ReadyFall>& falls) {
+    return metrics_of_fall * static_cast<Eigen::Index>(falls.size());
 }
 
 // Of the segments, and of the figures of each fall as a whole.
@@ -248,7 +249,7 @@ VectorXd residuals_of(const Body& body, const std::vector<ReadyFall>& falls,
         flying.back().dynamic = coefficients;
         prepare(flying.back());
     }
-    VectorXd residuals(count(segments) + figures_of(falls));
+    VectorXd residuals(count(segments) + metrics_of(falls));
     Eigen::Index at = 0;
     for (const Segment& segment : segments) {
         fly_segment(falls[segment.fall], flying[segment.fall], segment.begin,
@@ -257,8 +258,8 @@ VectorXd residuals_of(const Body& body, const std::vector<ReadyFall>& falls,
     }
     for (std::size_t i = 0; i < falls.size(); ++i) {
         const Measures flown = measures_of(fly_whole(body, falls[i], flying[i]));
-        residuals.segment<figures_of_fall>(at) = usual_miss * figures_miss(flown, falls[i].measures);
-        at += figures_of_fall;
+        residuals.segment<metrics_of_fall>(at) = usual_miss * metrics_miss(flown, falls[i].measures);
+        at += metrics_of_fall;
     }
     return residuals;
 }
@@ -269,8 +270,8 @@ LeastSquaresProblem problem_of(const Body& body, const std::vector<ReadyFall>& f
     problem.residuals = [&body, &falls, &parameters, segments](const VectorXd& numbers) {
         return residuals_of(body, falls, segments, parameters.coefficients(numbers));
     };
-    problem.counts = VectorXd::Ones(count(segments) + figures_of(falls));
-    problem.counts.tail(figures_of(falls)).array() = count_of_figure;
+    problem.counts = VectorXd::Ones(count(segments) + metrics_of(falls));
+    problem.counts.tail(metrics_of(falls)).array() = count_of_metric;
     const auto size = static_cast<Eigen::Index>(parameters.all().size());
     problem.start = parameters.expected();
     problem.expected = problem.start;
@@ -284,7 +285,7 @@ LeastSquaresProblem problem_of(const Body& body, const std::vector<ReadyFall>& f
         problem.deviation[i] = parameter.deviation;
     }
     problem.scale = usual_miss;
-    // A segment's looks are not independent, nor are segments that overlap: about one number in a dozen is.
+    // A segment's samples are not independent, nor are segments that overlap: about one number in a dozen is.
     problem.prior_weight = 12.0 * expected_miss * expected_miss;
     return problem;
 }
@@ -295,16 +296,16 @@ std::vector<Segment> without_stretch(std::vector<Segment> segments, int stretch)
 }
 
 // Of the problem where the whole falls' `figures`, its last residuals, count next to nothing.
-VectorXd solution_of_segments(LeastSquaresProblem problem, Eigen::Index figures) {
-    problem.counts.tail(figures).setConstant(least_count);
+VectorXd solution_of_segments(LeastSquaresProblem problem, Eigen::Index metrics) {
+    problem.counts.tail(metrics).setConstant(least_count);
     return solve_least_squares(problem).x;
 }
 
 // Where the segments' solution moves as the figures count more and more, nearly as much as they do.
-VectorXd followed(LeastSquaresProblem problem, Eigen::Index figures, const VectorXd& of_segments) {
+VectorXd followed(LeastSquaresProblem problem, Eigen::Index metrics, const VectorXd& of_segments) {
     problem.start = of_segments;
     for (const double count : growing_counts) {
-        problem.counts.tail(figures).setConstant(count);
+        problem.counts.tail(metrics).setConstant(count);
         problem.start = solve_least_squares(problem).x;
     }
     return problem.start;
@@ -317,9 +318,9 @@ VectorXd followed(LeastSquaresProblem problem, Eigen::Index figures, const Vecto
 std::vector<VectorXd> starts_of(const Body& body, const std::vector<ReadyFall>& falls,
                                 const std::vector<Segment>& segments, const MotionParameters& parameters) {
     const LeastSquaresProblem whole = problem_of(body, falls, segments, parameters);
-    const VectorXd of_segments = solution_of_segments(whole, figures_of(falls));
+    const VectorXd of_segments = solution_of_segments(whole, metrics_of(falls));
     std::vector<VectorXd> starts = {of_segments, parameters.expected(),
-                                    followed(whole, figures_of(falls), of_segments)};
+                                    followed(whole, metrics_of(falls), of_segments)};
     for (int stretch = 0; stretch < stretches; ++stretch) {
         LeastSquaresProblem without = problem_of(body, falls, without_stretch(segments, stretch), parameters);
         without.start = of_segments;
@@ -344,8 +345,8 @@ VectorXd standard_errors_of(const Body& body, const std::vector<ReadyFall>& fall
         if (stretch == left_out) continue;
         LeastSquaresProblem problem = problem_of(body, falls, without_stretch(segments, stretch), parameters);
         problem.start = solution;
-        const Eigen::Index figures = figures_of(falls);
-        const VectorXd moved = followed(problem, figures, solution_of_segments(problem, figures));
+        const Eigen::Index metrics = metrics_of(falls);
+        const VectorXd moved = followed(problem, metrics, solution_of_segments(problem, metrics));
         problem.most_iterations = 8;
         const VectorXd x = lowest_solution(problem, {solution, moved}).x;
         count += 1.0;
@@ -422,7 +423,7 @@ Identification identify_motion(const Body& body, const std::vector<FallRecord>& 
     falls.reserve(records.size());
     const MotionParameters parameters(body, left_out.terms);
     for (const FallRecord& record : records) {
-        falls.push_back(ready(body, record, parameters.settling_ways()));
+        falls.push_back(ready(body, record, parameters.settling_length()));
     }
     std::vector<Segment> segments = segments_of(falls);
     if (left_out.stretch) segments = without_stretch(std::move(segments), *left_out.stretch);

@@ -19,7 +19,7 @@ nlohmann::json coefficients_as_json(const DynamicCoefficients& coefficients) {
     return json;
 }
 
-std::string figures(const char* what, const Measures& measures) {
+std::string metrics(const char* what, const Measures& measures) {
     return fmt::format(
         "    {:<9} descends at {:.4g} m/s, {} Hz, inclination up to {:.1f} degrees, {:.3g} rad/s rms, {}\n",
         what, measures.descent_speed, measures.frequency ? fmt::format("{:.3g}", *measures.frequency) : "-",
@@ -48,7 +48,7 @@ nlohmann::json identification_as_json(const Identification& identification) {
 std::string flown_fall_as_text(const FlownFall& fall) {
     return fmt::format("  {} (momenta balance to {:.1f} % and {:.1f} %)\n", fall.name,
                        100.0 * fall.balance.force, 100.0 * fall.balance.moment) +
-           figures("full CFD", fall.solved) + figures("flown", fall.flown);
+           metrics("full CFD", fall.solved) + metrics("flown", fall.flown);
 }
 
 std::string identification_as_text(const Identification& identification) {

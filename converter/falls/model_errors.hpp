@@ -22,7 +22,7 @@ struct LoadScale {
 
 /// One standard error for all directions, of which a load's is a fraction of its LoadScale; for k and epsilon
 /// that of their logarithms.
-using RelativeErrors = ErrorFigures;
+using RelativeErrors = ErrorMetrics;
 
 /// The cases of one purpose against the table's: which were solved in the same direction and at the same
 /// Reynolds number, on the same mesh (closures) or with the same closure (meshes). All `cases` already passed

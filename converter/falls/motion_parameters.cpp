@@ -16,7 +16,7 @@ constexpr const char* unsteady_factor = "unsteady factor";
 // Of these every body has what bodies have in common.
 constexpr const char* drag_in_motion = "drag in motion";
 constexpr const char* drag_in_spin = "drag in spin";
-constexpr const char* turning_transport = "turning transport";
+constexpr const char* transport_of_rotation = "turning transport";
 
 struct Expectation {
     Matrix3d DynamicCoefficients::*member;
@@ -63,7 +63,7 @@ Eigen::Vector3i tied_axes(const Matrix3d& axes, const Body& body, double half_le
 std::vector<std::string> MotionParameters::names() {
     std::vector<std::string> names;
     for (const Expectation& expectation : expectations) names.emplace_back(expectation.name);
-    for (const char* name : {unsteady_factor, drag_in_motion, drag_in_spin, turning_transport})
+    for (const char* name : {unsteady_factor, drag_in_motion, drag_in_spin, transport_of_rotation})
         names.emplace_back(name);
     return names;
 }
@@ -77,7 +77,7 @@ MotionParameters::MotionParameters(const Body& body, const std::vector<std::stri
     shared_.drag_in_motion = 0.5 * usual_drag_in_motion * (areas + areas.transpose());
     shared_.drag_in_spin = 0.5 * usual_drag_in_spin * (areas + areas.transpose());
     tied_ = tied_axes(axes_, body, shared_.half_length);
-    shared_.settling_ways = tied_.isZero() ? settling_ways_of_alike_axes : settling_ways_of_falls;
+    shared_.settling_length = tied_.isZero() ? settling_length_of_alike_axes : settling_length_of_falls;
     const Matrix3d added_mass = axes_.transpose() * body.kirchhoff->matrix.bottomRightCorner<3, 3>() * axes_;
     const double largest = added_mass.diagonal().maxCoeff();
     const Vector3d turning =
@@ -85,8 +85,8 @@ MotionParameters::MotionParameters(const Body& body, const std::vector<std::stri
     const Vector3d none = Vector3d::Zero();
     const Vector3d offsets[] = {added_mass.diagonal(), none, none};
     // A body of revolution has no rotational drag about its axis by its pressure: friction is a small share.
-    const Vector3d of_turning = turning.cwiseMax(0.02 * turning.maxCoeff());
-    const Vector3d units[] = {Vector3d::Constant(0.25 * largest), of_turning, of_turning};
+    const Vector3d of_rotation = turning.cwiseMax(0.02 * turning.maxCoeff());
+    const Vector3d units[] = {Vector3d::Constant(0.25 * largest), of_rotation, of_rotation};
     for (std::size_t t = 0; t < std::size(expectations); ++t) {
         const Expectation& expectation = expectations[t];
         Tensor tensor{expectation.member, offsets[t], units[t], {}};
@@ -112,7 +112,7 @@ void MotionParameters::leave_out(const std::string& name) {
     }
     if (name == drag_in_motion) shared_.drag_in_motion.setZero();
     if (name == drag_in_spin) shared_.drag_in_spin.setZero();
-    if (name == turning_transport) shared_.rotational_transport = 0.0;
+    if (name == transport_of_rotation) shared_.rotational_transport = 0.0;
     // Transport's numbers are added to the added mass; as in potential flow there is none.
     for (Tensor& tensor : tensors_) {
         if (name == "transport" && tensor.member == &DynamicCoefficients::transport) tensor.offset.setZero();
@@ -156,7 +156,7 @@ DynamicCoefficients MotionParameters::coefficients(const Eigen::VectorXd& number
 
 DynamicCoefficients MotionParameters::standard_errors(const Eigen::VectorXd& errors) const {
     DynamicCoefficients coefficients;
-    coefficients.settling_ways = 0.0;
+    coefficients.settling_length = 0.0;
     for (const Tensor& tensor : tensors_) {
         const Vector3d values = principal_values(tensor, errors);
         // Each entry is a sum of the values times squares or products of the axes' components.

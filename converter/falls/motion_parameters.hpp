@@ -38,7 +38,7 @@ class MotionParameters {
     /// Of the numbers' standard errors, which are taken as independent: each entry's.
     [[nodiscard]] DynamicCoefficients standard_errors(const Eigen::VectorXd& errors) const;
     /// That of DynamicCoefficients, which the body's symmetry decides.
-    [[nodiscard]] double settling_ways() const { return shared_.settling_ways; }
+    [[nodiscard]] double settling_length() const { return shared_.settling_length; }
     /// The numbers that are expected.
     [[nodiscard]] Eigen::VectorXd expected() const;
 

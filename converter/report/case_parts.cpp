@@ -275,7 +275,7 @@ void Folder::tell_histories(const Told& told) {
     told(1.0);
 }
 
-std::string figures_of(const Measures& measures) {
+std::string metrics_of(const Measures& measures) {
     return fmt::format("{:.3g} m/s, {} Hz, {:.0f}°, {:.3g} rad/s, {}", measures.descent_speed,
                        measures.frequency ? fmt::format("{:.3g}", *measures.frequency) : "-",
                        degrees * measures.inclination_amplitude, measures.rms_angular_speed,
@@ -352,7 +352,7 @@ void Folder::tell_falls(const Told& told) {
             worst = {std::max(worst.force, flown.balance.force),
                      std::max(worst.moment, flown.balance.moment)};
             rows.push_back(
-                {planned.name, figures_of(flown.solved), figures_of(flown.flown), per_cent(difference),
+                {planned.name, metrics_of(flown.solved), metrics_of(flown.flown), per_cent(difference),
                  fmt::format("{}, {}", per_cent(flown.balance.force), per_cent(flown.balance.moment)),
                  in_plain_digits(record.fall.mass / record.fall.volume * record.fall.fluid_density)});
             pictures.push_back(fall_picture(body_, record));

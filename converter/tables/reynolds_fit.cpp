@@ -81,10 +81,10 @@ ReynoldsFit::ReynoldsFit(const Symmetry& symmetry, const std::vector<DirectionSa
     : ReynoldsFit(symmetry, samples, static_cast<const ReynoldsFit*>(nullptr)) {
     if (!trend) return;
     trend_ = std::move(trend);
-    const ErrorFigures alone = scale_;
+    const ErrorMetrics alone = scale_;
     force_has_trend_ = moment_has_trend_ = true;
     set_values(samples);
-    const ErrorFigures with = left_out(symmetry, samples);
+    const ErrorMetrics with = left_out(symmetry, samples);
     force_has_trend_ = halves_the_variance(with.force, alone.force);
     moment_has_trend_ = halves_the_variance(with.moment, alone.moment);
     set_values(samples);
@@ -119,7 +119,7 @@ LoadEntry ReynoldsFit::at(const Vector3d& direction) const {
     return entry;
 }
 
-ErrorFigures ReynoldsFit::left_out(const Symmetry& symmetry,
+ErrorMetrics ReynoldsFit::left_out(const Symmetry& symmetry,
                                    const std::vector<DirectionSample>& samples) const {
     MeanSquare force;
     MeanSquare moment;
@@ -143,9 +143,9 @@ ErrorFigures ReynoldsFit::left_out(const Symmetry& symmetry,
             dissipation_rate.widened_root()};
 }
 
-ErrorFigures ReynoldsFit::interpolation_error(const Vector3d& direction) const {
+ErrorMetrics ReynoldsFit::interpolation_error(const Vector3d& direction) const {
     const double spread = fit_.spread(direction);
-    const ErrorFigures other = main_ == nullptr ? ErrorFigures{} : main_->interpolation_error(direction);
+    const ErrorMetrics other = main_ == nullptr ? ErrorMetrics{} : main_->interpolation_error(direction);
     return {hypot_scaled(scale_.force, spread, other.force),
             hypot_scaled(scale_.moment, spread, other.moment),
             hypot_scaled(scale_.turbulent_kinetic_energy, spread, other.turbulent_kinetic_energy),

@@ -29,7 +29,7 @@ class SurfaceTrend {
 
 /// One standard error for all components of a force or moment alike; those of k and epsilon are of their
 /// natural logarithms.
-struct ErrorFigures {
+struct ErrorMetrics {
     double force = 0.0;
     double moment = 0.0;
     double turbulent_kinetic_energy = 0.0;
@@ -67,7 +67,7 @@ class ReynoldsFit {
     /// (DirectionFit::spread) is scaled by leaving each sample out and predicting it from the others: the
     /// mean square of (error / spread) over the samples, for each allowed component, widened for their small
     /// number (student_widening). Beside a main fit, its errors and those of the differences in quadrature.
-    [[nodiscard]] ErrorFigures interpolation_error(const Vector3d& direction) const;
+    [[nodiscard]] ErrorMetrics interpolation_error(const Vector3d& direction) const;
 
     /// The standard errors of samples as they stand in a direction (DirectionFit::error_at).
     [[nodiscard]] LoadEntryError error_at(const std::vector<LoadEntryError>& errors,
@@ -87,12 +87,12 @@ class ReynoldsFit {
     [[nodiscard]] LoadEntry beside(const Vector3d& direction) const;
     void set_values(const std::vector<DirectionSample>& samples);
     /// The errors per spread that leaving out each sample tells of the values.
-    [[nodiscard]] ErrorFigures left_out(const Symmetry& symmetry,
+    [[nodiscard]] ErrorMetrics left_out(const Symmetry& symmetry,
                                         const std::vector<DirectionSample>& samples) const;
 
     DirectionFit fit_;
     std::vector<LoadEntry> values_;  ///< in logarithms; differences from what is beside
-    ErrorFigures scale_;             ///< of the error per spread
+    ErrorMetrics scale_;             ///< of the error per spread
     const ReynoldsFit* main_ = nullptr;
     std::optional<SurfaceTrend> trend_;
     bool force_has_trend_ = false;

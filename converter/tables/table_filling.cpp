@@ -28,10 +28,10 @@ const LoadEntryError& of(const SourceVariances& variances, ErrorSource source) {
 
 /// The variance of each component and logarithm from standard errors that are the same for all components
 /// that are free.
-LoadEntryError variance_of(const ErrorFigures& figures, const FreeComponents& free) {
-    return {figures.force * figures.force * free.force, figures.moment * figures.moment * free.moment,
-            figures.turbulent_kinetic_energy * figures.turbulent_kinetic_energy,
-            figures.dissipation_rate * figures.dissipation_rate};
+LoadEntryError variance_of(const ErrorMetrics& metrics, const FreeComponents& free) {
+    return {metrics.force * metrics.force * free.force, metrics.moment * metrics.moment * free.moment,
+            metrics.turbulent_kinetic_energy * metrics.turbulent_kinetic_energy,
+            metrics.dissipation_rate * metrics.dissipation_rate};
 }
 
 /// Standard errors from variances, those of k and epsilon from their logarithms' to their own.

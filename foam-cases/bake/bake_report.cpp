@@ -12,7 +12,7 @@
 #include "foam-cases/farm/case_record.hpp"
 #include "foam-cases/farm/disk_need.hpp"
 #include "foam-cases/scene/scene_plan_report.hpp"
-#include "samara/analysis/advice/unit_doubts.hpp"
+#include "samara/analysis/advice/unit_warnings.hpp"
 #include "samara/commands/shared/print.hpp"
 #include "samara/core/body/body_file.hpp"
 #include "samara/formats/json_text.hpp"
@@ -202,12 +202,12 @@ void print_result(const BakeRequest& request, const BakeResult& result) {
         result.conversion_seconds, case_folder_of(request.output).string());
 }
 
-void note_doubts(BodyNotes& notes, const BakeRequest& request, const BakePreparation& preparation) {
+void note_warnings(BodyNotes& notes, const BakeRequest& request, const BakePreparation& preparation) {
     const std::string& name = preparation.body.name;
-    const std::string units = unit_doubts(preparation.body, request.mass, request.fluid, request.gravity,
-                                          is_body_file_name(request.shape) ? ScaleRemedy::mesh_again
-                                          : request.name.empty()           ? ScaleRemedy::option
-                                                                           : ScaleRemedy::scene_key);
+    const std::string units = unit_warnings(preparation.body, request.mass, request.fluid, request.gravity,
+                                            is_body_file_name(request.shape) ? ScaleRemedy::mesh_again
+                                            : request.name.empty()           ? ScaleRemedy::option
+                                                                             : ScaleRemedy::scene_key);
     notes.add(units, name, 0.0, units);
     if (!preparation.plan || preparation.plan->main_reynolds_number >= laminar_reynolds_number) return;
     notes.add(

@@ -17,7 +17,7 @@ void print_result(const BakeRequest& request, const BakeResult& result);
 
 /// Notes where a figure looks as if it were in another unit, and where the Reynolds number is below
 /// laminar_reynolds_number.
-void note_doubts(BodyNotes& notes, const BakeRequest& request, const BakePreparation& preparation);
+void note_warnings(BodyNotes& notes, const BakeRequest& request, const BakePreparation& preparation);
 
 /// One line on standard error that names the cases that were left out.
 void warn_of_left_out_cases(const BakeRequest& request, const BakeResult& result);

@@ -42,10 +42,10 @@ double seconds_per_cell_and_step(Closure closure) {
 // FallModel::acceleration_relaxation): the largest root of its characteristic polynomial.
 double error_left(double share, double inertia_ratio) {
     const double answer = 0.25 * share * inertia_ratio;
-    Eigen::Matrix4d companion = Eigen::Matrix4d::Zero();
-    companion.row(0) << 1.0 - share, -9.0 * answer, 6.0 * answer, -answer;
-    companion.bottomLeftCorner<3, 3>().setIdentity();
-    return companion.eigenvalues().cwiseAbs().maxCoeff();
+    Eigen::Matrix4d island_body = Eigen::Matrix4d::Zero();
+    island_body.row(0) << 1.0 - share, -9.0 * answer, 6.0 * answer, -answer;
+    island_body.bottomLeftCorner<3, 3>().setIdentity();
+    return island_body.eigenvalues().cwiseAbs().maxCoeff();
 }
 
 // The largest share up to one with which errors die out.

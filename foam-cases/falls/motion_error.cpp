@@ -5,7 +5,7 @@
 
 #include "converter/tables/direction_fit.hpp"
 #include "converter/tables/symmetric_loads.hpp"
-#include "samara/analysis/metrics/fall_figures.hpp"
+#include "samara/analysis/metrics/fall_metrics.hpp"
 #include "samara/core/base/angles.hpp"
 #include "samara/core/kernel/noise.hpp"
 #include "samara/core/surface/octahedral_map.hpp"
@@ -51,19 +51,19 @@ std::vector<DirectionSample> drawn_samples(const LoadTables& tables, const Symme
 }
 
 /// A difference of a figure that nobody sees, in its SI unit.
-double unseen(const CataloguedFigure& entry, const SampledFalls& flight, double length) {
-    const auto descent = flight.mean(Figure::descent_speed);
-    if (entry.figure != Figure::rms_angular_speed || !descent) return entry.allowed.always;
+double unseen(const CataloguedMetric& entry, const SampledFalls& flight, double length) {
+    const auto descent = flight.mean(Metric::descent_speed);
+    if (entry.metric != Metric::rms_angular_speed || !descent) return entry.allowed.always;
     return degree * std::abs(descent->value) / length;
 }
 
 /// The largest error over what the tolerance allows.
-double largest_share(const MotionError& error, double tolerance, double MotionError::OfFigure::*member) {
+double largest_share(const MotionError& error, double tolerance, double MotionError::OfMetric::*member) {
     double largest = 0.0;
-    for (const Figure figure : baked_figures) {
-        const auto& one = error.figures[figure];
+    for (const Metric metric : baked_metrics) {
+        const auto& one = error.metrics[metric];
         if (!one) continue;
-        const double allowed = std::max(catalogued(figure).allowed.share * tolerance, one->always_allowed);
+        const double allowed = std::max(catalogued(metric).allowed.share * tolerance, one->always_allowed);
         largest = std::max(largest, (*one).*member / allowed);
     }
     return largest;
@@ -78,11 +78,11 @@ double variance_of(const std::vector<double>& values, double about) {
 }  // namespace
 
 double MotionError::worst(double tolerance) const {
-    return largest_share(*this, tolerance, &OfFigure::of_table);
+    return largest_share(*this, tolerance, &OfMetric::of_table);
 }
 
 double MotionError::worst_chance(double tolerance) const {
-    return largest_share(*this, tolerance, &OfFigure::of_chance);
+    return largest_share(*this, tolerance, &OfMetric::of_chance);
 }
 
 LoadTables drawn_tables(const LoadTables& tables, const Symmetry& symmetry, const UncertainTables& uncertain,
@@ -117,35 +117,35 @@ SampledFalls fly_for_bake(const Scene& scene, std::size_t body, const Body& of_b
 MotionError motion_error(const Scene& scene, std::size_t body, const Body& of_body,
                          const UncertainTables& uncertain, const SampledFalls& flight, int falls, int draws) {
     MotionError result;
-    PerFigure<std::vector<double>> drawn;
+    PerMetric<std::vector<double>> drawn;
     if (!uncertain.unsolved.empty()) {
         Body other = of_body;
         for (int draw = 0; draw < draws; ++draw) {
             other.tables =
                 drawn_tables(*of_body.tables, of_body.symmetry, uncertain, static_cast<std::uint32_t>(draw));
             const SampledFalls flown = fly_for_bake(scene, body, other, falls);
-            for (const Figure figure : baked_figures) {
-                if (const auto mean = flown.mean(figure)) drawn[figure].push_back(mean->value);
+            for (const Metric metric : baked_metrics) {
+                if (const auto mean = flown.mean(metric)) drawn[metric].push_back(mean->value);
             }
         }
     }
-    for (const Figure figure : baked_figures) {
-        const CataloguedFigure& entry = catalogued(figure);
-        const auto mean = flight.mean(figure);
+    for (const Metric metric : baked_metrics) {
+        const CataloguedMetric& entry = catalogued(metric);
+        const auto mean = flight.mean(metric);
         if (!mean || !(std::abs(mean->value) > 0.0) || !tells(entry.subject, of_body)) continue;
         const double value = mean->value;
         const double chance = mean->error.value_or(0.0);
         const double length = reference_length(of_body.moments.surface_area);
-        MotionError::OfFigure error{0.0, chance / std::abs(value),
+        MotionError::OfMetric error{0.0, chance / std::abs(value),
                                     unseen(entry, flight, length) / std::abs(value)};
-        if (2 * drawn[figure].size() > static_cast<std::size_t>(draws)) {
+        if (2 * drawn[metric].size() > static_cast<std::size_t>(draws)) {
             // Both ensembles of a difference have their chance, of which a few draws leave a part unseen.
             const double of_chance = 2.0 * chance * chance;
-            const double of_table = std::max(variance_of(drawn[figure], value) - of_chance, 0.0) +
+            const double of_table = std::max(variance_of(drawn[metric], value) - of_chance, 0.0) +
                                     of_chance * std::sqrt(2.0 / static_cast<double>(draws));
             error.of_table = std::sqrt(of_table) / std::abs(value);
         }
-        result.figures[figure] = error;
+        result.metrics[metric] = error;
     }
     return result;
 }

@@ -8,15 +8,15 @@
 
 namespace samara {
 
-/// What the few directions of a table leave uncertain in the motion: for each of baked_figures the standard
+/// What the few directions of a table leave uncertain in the motion: for each of baked_metrics the standard
 /// deviation over the figure (relative), and what of it chance alone makes.
 struct MotionError {
-    struct OfFigure {
+    struct OfMetric {
         double of_table = 0.0;        ///< from the table, less what chance makes
         double of_chance = 0.0;       ///< standard error of an ensemble's mean
         double always_allowed = 0.0;  ///< one degree of the amplitude, a turn by it in each L of the descent
     };
-    PerFigure<std::optional<OfFigure>> figures;
+    PerMetric<std::optional<OfMetric>> metrics;
 
     /// The largest of the figures' errors from the table over what the tolerance allows of it; 0 without
     /// figures.

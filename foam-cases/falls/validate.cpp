@@ -156,10 +156,10 @@ void require_falls_of_one_body(const Scene& scene) {
 
 Motion with_uncertainties(const fs::path& file, const OtherSolutions& beside) {
     Motion motion = read_motion_file(file);
-    std::vector<FigureUncertainty>& uncertainties = motion.bodies.front().uncertainties;
+    std::vector<MetricUncertainty>& uncertainties = motion.bodies.front().uncertainties;
     for (const auto& [cause, others] : beside) {
         std::erase_if(uncertainties,
-                      [&cause = cause](const FigureUncertainty& one) { return one.cause == cause; });
+                      [&cause = cause](const MetricUncertainty& one) { return one.cause == cause; });
         const fs::path& reference = others.size() > 1 ? others.back() : file;
         std::ranges::copy(uncertainty_beside(reference, others.front(), cause),
                           std::back_inserter(uncertainties));

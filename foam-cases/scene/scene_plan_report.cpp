@@ -17,21 +17,21 @@ namespace {
 /// The uncertainty that the tables leave in the measures, as words: "descent speed 3 %, ...".
 std::string errors_as_text(const MotionError& error) {
     std::string text;
-    for (const Figure figure : baked_figures) {
-        if (!error.figures[figure]) continue;
-        text += fmt::format("{}{} {:.2g} %", text.empty() ? "" : ", ", catalogued(figure).title,
-                            100.0 * error.figures[figure]->of_table);
+    for (const Metric metric : baked_metrics) {
+        if (!error.metrics[metric]) continue;
+        text += fmt::format("{}{} {:.2g} %", text.empty() ? "" : ", ", catalogued(metric).title,
+                            100.0 * error.metrics[metric]->of_table);
     }
     return text;
 }
 
 nlohmann::json measures_as_json(const PlanRound& round, double tolerance) {
     nlohmann::json json = nlohmann::json::object();
-    for (const Figure figure : baked_figures) {
-        const auto& error = round.error.figures[figure];
+    for (const Metric metric : baked_metrics) {
+        const auto& error = round.error.metrics[metric];
         if (!error) continue;
-        const CataloguedFigure& entry = catalogued(figure);
-        json[entry.key] = {{"value", round.flight.mean(figure)->value},
+        const CataloguedMetric& entry = catalogued(metric);
+        json[entry.key] = {{"value", round.flight.mean(metric)->value},
                            {"error_of_table", error->of_table},
                            {"error_of_chance", error->of_chance},
                            {"allowed", entry.allowed.share * tolerance}};

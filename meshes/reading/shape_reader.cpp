@@ -23,8 +23,8 @@
 #include "samara/core/body/body_file.hpp"
 #include "samara/core/surface/obj_file.hpp"
 #include "samara/core/surface/stl_file.hpp"
+#include "samara/formats/display_mesh_file.hpp"
 #include "samara/formats/glb_file.hpp"
-#include "samara/formats/look_file.hpp"
 
 namespace samara {
 namespace {

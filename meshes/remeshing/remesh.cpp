@@ -14,9 +14,9 @@
 #include "meshes/checks/shape_error.hpp"
 #include "meshes/checks/sound_surface.hpp"
 #include "meshes/remeshing/edge_middle.hpp"
-#include "meshes/remeshing/evened_surface.hpp"
 #include "meshes/remeshing/mesh_size_field.hpp"
 #include "meshes/remeshing/reduced_surface.hpp"
+#include "meshes/remeshing/remeshed_surface.hpp"
 #include "meshes/remeshing/smooth_shape.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/base/labelled.hpp"
@@ -210,7 +210,7 @@ MeshedShape remesh(const Surface& surface, const MeshOptions& options, const std
         std::vector<Surface> flat_results;
         for (const double angle : crease_angles) {
             const SmoothShape shape(flat, angle);
-            Surface flat_result = evened(base, shape, field, sizes, angle, [&](double share) {
+            Surface flat_result = remeshed(base, shape, field, sizes, angle, [&](double share) {
                 tell(share_of_reduction + (1.0 - share_of_reduction) * share);
             });
             if (attempts.holds(with_nodes_on(shape, flat_result, options.order))) return true;

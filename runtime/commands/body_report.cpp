@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "samara/analysis/advice/density_doubt.hpp"
+#include "samara/analysis/advice/density_warning.hpp"
 #include "samara/commands/provenance_summary.hpp"
 #include "samara/commands/shared/print.hpp"
 #include "samara/commands/table_errors_report.hpp"
@@ -91,7 +91,7 @@ void print_kirchhoff(const KirchhoffTensor& kirchhoff) {
 
 constexpr int print_subdivisions = 8;  // of directions to look for the largest in
 
-/// The largest force and moment of a tow by pressure (rho U^2 A / 2, and times L).
+/// The largest force and moment of a steady translation by pressure (rho U^2 A / 2, and times L).
 PressureLoads largest_of(const SurfaceLoads& loads) {
     PressureLoads largest;
     for (const PressureLoads& load : pressure_loads(loads, print_subdivisions)) {

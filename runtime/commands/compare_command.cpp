@@ -140,10 +140,10 @@ int compare_command(int argc, const char* const* argv) {
                      most);
     arguments.option("--reference-copy", request.reference_copy, "the reference's copy; all by default", 0,
                      most);
-    for (const Figure figure : compared_figures) {
-        const CataloguedFigure& entry = catalogued(figure);
+    for (const Metric metric : compared_metrics) {
+        const CataloguedMetric& entry = catalogued(metric);
         const std::string always = entry.allowed.always_words;
-        arguments.option(fmt::format("--{}-tolerance", entry.heading), request.settings.tolerances[figure],
+        arguments.option(fmt::format("--{}-tolerance", entry.heading), request.settings.tolerances[metric],
                          fmt::format("of the {}{}", entry.title,
                                      always.empty() ? "" : fmt::format("; {} is always allowed", always)),
                          0.0, 1e3);

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "samara/analysis/advice/unit_doubts.hpp"
+#include "samara/analysis/advice/unit_warnings.hpp"
 #include "samara/commands/commands.hpp"
 #include "samara/commands/shared/arguments.hpp"
 #include "samara/commands/shared/body_notes.hpp"

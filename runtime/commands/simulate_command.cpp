@@ -11,9 +11,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "samara/analysis/advice/density_doubt.hpp"
+#include "samara/analysis/advice/density_warning.hpp"
 #include "samara/analysis/advice/model_advice.hpp"
-#include "samara/analysis/advice/unit_doubts.hpp"
+#include "samara/analysis/advice/unit_warnings.hpp"
 #include "samara/analysis/metrics/description.hpp"
 #include "samara/commands/commands.hpp"
 #include "samara/commands/shared/arguments.hpp"
@@ -89,8 +89,8 @@ void note_doubtful_bodies(const Scene& scene, const std::vector<LoadedBody>& loa
     BodyNotes notes(program);
     for (std::size_t i = 0; i < loaded.size(); ++i) {
         const SceneBody& body = scene.bodies[i];
-        const std::string units = unit_doubts(*loaded[i].body, body.mass, scene.fluid, scene.gravity.norm(),
-                                              scale_remedy_in_scene(body.shape));
+        const std::string units = unit_warnings(*loaded[i].body, body.mass, scene.fluid, scene.gravity.norm(),
+                                                scale_remedy_in_scene(body.shape));
         notes.add(units, body.name, 0.0, units);
         notes.add("shape", body.name, 0.0,
                   is_body_file_name(body.shape) ? "" : shape_warning(*loaded[i].body));
@@ -99,7 +99,7 @@ void note_doubtful_bodies(const Scene& scene, const std::vector<LoadedBody>& loa
                       "has no tables, and flies by the pressure that potential flow tells of its surface "
                       "(docs/surface-loads.md); 'samara bake' makes tables");
         }
-        const DensityDoubt density = density_doubt(body, *loaded[i].body, scene.fluid);
+        const DensityWarning density = density_warning(body, *loaded[i].body, scene.fluid);
         notes.add("density", body.name, density.ratio, density.text);
         const double error = body.added_mass ? loaded[i].body->kirchhoff->error_estimate : 0.0;
         if (error <= doubtful) continue;
@@ -191,7 +191,7 @@ nlohmann::json body_result(const MotionReader& file, std::size_t index, const Bo
     nlohmann::json result = as_json(measures);
     result["name"] = body.name;
     result["models"] = body.models;
-    result["mean_descent_speed"] = measures.value(Figure::descent_speed);
+    result["mean_descent_speed"] = measures.value(Metric::descent_speed);
     result["final_position"] = as_json(file.poses(index, {}).back().position);
     result["highest_reynolds_number"] = report.highest_reynolds_number;
     result["share_below_table"] = report.share_below_table();

@@ -32,10 +32,11 @@ void require_body(const std::filesystem::path& file, const Motion& motion, const
     const double offset = size * body.center_of_mass.cwiseAbs().maxCoeff();
     require(size * reach_of(body.surface.vertices) <= farthest && offset <= farthest, file, body.name,
             "vertices");
-    if (body.look != nullptr) {
-        require(size * reach_of(body.look->positions) <= farthest, file, body.name, "vertices of the look");
-        require(reach_of(body.look->normals) <= farthest, file, body.name, "normals of the look");
-        for (const Eigen::Vector2d& place : body.look->texture) {
+    if (body.display != nullptr) {
+        require(size * reach_of(body.display->positions) <= farthest, file, body.name,
+                "vertices of the look");
+        require(reach_of(body.display->normals) <= farthest, file, body.name, "normals of the look");
+        for (const Eigen::Vector2d& place : body.display->texture) {
             require(place.cwiseAbs().maxCoeff() <= farthest, file, body.name, "texture coordinates");
         }
     }

@@ -13,7 +13,7 @@
 #include "samara/core/base/printable.hpp"
 #include "samara/core/base/version.hpp"
 #include "samara/core/files/replace_file.hpp"
-#include "samara/core/surface/look_image.hpp"
+#include "samara/core/surface/display_image.hpp"
 #include "samara/export/float_range.hpp"
 #include "samara/export/key_reduction.hpp"
 #include "samara/export/shaded_mesh.hpp"
@@ -76,7 +76,7 @@ class Builder {
     }
 
     /// A texture of an image file; returns its number.
-    int add_texture(const LookImage& image) {
+    int add_texture(const DisplayImage& image) {
         begin_view(0);
         bytes().insert(bytes().end(), image.bytes.begin(), image.bytes.end());
         model_.bufferViews.back().byteLength = image.bytes.size();
@@ -160,28 +160,28 @@ tinygltf::Material matte_material(const char* name, double grey) {
 }
 
 /// A mesh of as many parts as the look has materials in use; adds these to the model.
-int add_look(Builder& builder, const std::string& name, const LookMesh& look) {
+int add_display(Builder& builder, const std::string& name, const DisplayMesh& display) {
     tinygltf::Mesh mesh;
     mesh.name = printable(name);
     const auto first_material = static_cast<int>(builder.model().materials.size());
     std::map<std::string, int> attributes;
     builder.begin_view(TINYGLTF_TARGET_ARRAY_BUFFER);
-    attributes["POSITION"] = builder.add_floats(y_up_floats(look.positions), 3, TINYGLTF_TYPE_VEC3);
-    if (!look.normals.empty()) {
+    attributes["POSITION"] = builder.add_floats(y_up_floats(display.positions), 3, TINYGLTF_TYPE_VEC3);
+    if (!display.normals.empty()) {
         builder.begin_view(TINYGLTF_TARGET_ARRAY_BUFFER);
-        attributes["NORMAL"] = builder.add_floats(y_up_floats(look.normals), 3, TINYGLTF_TYPE_VEC3);
+        attributes["NORMAL"] = builder.add_floats(y_up_floats(display.normals), 3, TINYGLTF_TYPE_VEC3);
     }
-    if (!look.texture.empty()) {
+    if (!display.texture.empty()) {
         std::vector<float> values;
-        for (const Eigen::Vector2d& place : look.texture)
+        for (const Eigen::Vector2d& place : display.texture)
             append(values, Eigen::Vector2d(place.x(), 1.0 - place.y()));
         builder.begin_view(TINYGLTF_TARGET_ARRAY_BUFFER);
         attributes["TEXCOORD_0"] = builder.add_floats(values, 2, TINYGLTF_TYPE_VEC2);
     }
     std::vector<int> textures;
-    for (const LookImage& image : look.images) textures.push_back(builder.add_texture(image));
-    for (std::size_t slot = 0; slot < look.materials.size(); ++slot) {
-        const LookMaterial& material = look.materials[slot];
+    for (const DisplayImage& image : display.images) textures.push_back(builder.add_texture(image));
+    for (std::size_t slot = 0; slot < display.materials.size(); ++slot) {
+        const DisplayMaterial& material = display.materials[slot];
         builder.model().materials.push_back(matte_material(printable(material.name).c_str(), 1.0));
         tinygltf::Material& added = builder.model().materials.back();
         added.pbrMetallicRoughness.baseColorFactor.assign(material.color.begin(), material.color.end());
@@ -190,14 +190,14 @@ int add_look(Builder& builder, const std::string& name, const LookMesh& look) {
             added.pbrMetallicRoughness.baseColorTexture.index =
                 textures[static_cast<std::size_t>(material.image)];
         }
-        if (material.transparency == LookTransparency::cut_out) added.alphaMode = "MASK";
-        if (material.transparency == LookTransparency::blended || material.color[3] < 1.0) {
+        if (material.transparency == DisplayTransparency::cut_out) added.alphaMode = "MASK";
+        if (material.transparency == DisplayTransparency::blended || material.color[3] < 1.0) {
             added.alphaMode = "BLEND";
         }
         std::vector<std::array<std::uint32_t, 3>> triangles;
-        for (std::size_t i = 0; i < look.corners.size(); ++i) {
-            if (look.slots[i] != static_cast<std::int32_t>(slot)) continue;
-            const auto& [a, b, c] = look.corners[i];
+        for (std::size_t i = 0; i < display.corners.size(); ++i) {
+            if (display.slots[i] != static_cast<std::int32_t>(slot)) continue;
+            const auto& [a, b, c] = display.corners[i];
             triangles.push_back({static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b),
                                  static_cast<std::uint32_t>(c)});
         }
@@ -335,8 +335,8 @@ std::size_t write_glb(const std::filesystem::path& file, const Motion& motion, i
     Keys keys(builder, motion, times, animation);
     std::size_t count = 0;
     for (const BodyMotion& body : motion.bodies) {
-        const int mesh = body.look != nullptr ? add_look(builder, body.name, *body.look)
-                                              : add_mesh(builder, body.name, body.surface, 0, file);
+        const int mesh = body.display != nullptr ? add_display(builder, body.name, *body.display)
+                                                 : add_mesh(builder, body.name, body.surface, 0, file);
         const KeyTolerance body_tolerance = key_tolerance(body, tolerance);
         if (moves) builder.begin_view(0);
         for (int copy = 0; copy < body.copies; ++copy) {

@@ -11,7 +11,7 @@
 #include "samara/core/base/as_index.hpp"
 #include "samara/core/base/version.hpp"
 #include "samara/core/files/replace_file.hpp"
-#include "samara/core/surface/look_image.hpp"
+#include "samara/core/surface/display_image.hpp"
 #include "samara/export/float_range.hpp"
 #include "samara/export/key_reduction.hpp"
 #include "samara/export/prim_names.hpp"
@@ -45,8 +45,8 @@ ImageFiles write_images(const std::filesystem::path& stage, const Motion& motion
     ImageFiles files;
     for (const BodyMotion& body : motion.bodies) {
         files.emplace_back();
-        if (body.look == nullptr) continue;
-        for (const LookImage& image : body.look->images) {
+        if (body.display == nullptr) continue;
+        for (const DisplayImage& image : body.display->images) {
             const std::string name = names(image.name) + "." + image_type(image.bytes);
             const std::filesystem::path file = stage.parent_path() / folder / name;
             std::error_code fault;  // which the write will meet
@@ -93,9 +93,9 @@ class Stage {
     }
 
     [[nodiscard]] std::string shape_of(const BodyMotion& body, std::size_t indent) const {
-        if (body.look == nullptr) return usd_mesh(body.surface, indent);
+        if (body.display == nullptr) return usd_mesh(body.surface, indent);
         const auto number = static_cast<std::size_t>(&body - motion_.bodies.data());
-        return usd_look(*body.look, images_[number], indent);
+        return usd_display(*body.display, images_[number], indent);
     }
 
     void write_transforms(const BodyMotion& body, const KeyTolerance& tolerance) {
@@ -217,7 +217,7 @@ class Stage {
     /// The farthest that a point of any copy is from the shape's origin (m).
     [[nodiscard]] double reach_of(const BodyMotion& body) const {
         double reach = 0.0;
-        const auto& shown = body.look != nullptr ? body.look->positions : body.surface.vertices;
+        const auto& shown = body.display != nullptr ? body.display->positions : body.surface.vertices;
         for (const Vector3d& vertex : shown) reach = std::max(reach, vertex.norm());
         double largest = body.size(run_, 0);
         for (int copy = 1; copy < body.copies; ++copy) largest = std::max(largest, body.size(run_, copy));

@@ -48,14 +48,14 @@ std::string list_of(const Values& values, const std::string& indent, const InWor
 }
 
 /// Faces by material, for all that are in use: its number and theirs.
-std::map<std::int32_t, std::vector<std::size_t>> faces_by_slot(const LookMesh& look) {
+std::map<std::int32_t, std::vector<std::size_t>> faces_by_slot(const DisplayMesh& display) {
     std::map<std::int32_t, std::vector<std::size_t>> faces;
-    for (std::size_t i = 0; i < look.slots.size(); ++i) faces[look.slots[i]].push_back(i);
+    for (std::size_t i = 0; i < display.slots.size(); ++i) faces[display.slots[i]].push_back(i);
     return faces;
 }
 
 /// A preview surface; where there is an image, its texture and what reads the UVs.
-std::string usd_material(const std::string& name, const LookMaterial& material,
+std::string usd_material(const std::string& name, const DisplayMaterial& material,
                          const std::vector<std::string>& image_files, const std::string& outer) {
     const std::string inner = outer + "    ";
     const std::string innermost = inner + "    ";
@@ -73,10 +73,10 @@ std::string usd_material(const std::string& name, const LookMaterial& material,
             innermost, usd_float(color[0]), usd_float(color[1]), usd_float(color[2]), usd_float(color[3]));
     } else {
         fmt::format_to(line, "{0}color3f inputs:diffuseColor.connect = <../image.outputs:rgb>\n", innermost);
-        if (material.transparency != LookTransparency::none) {
+        if (material.transparency != DisplayTransparency::none) {
             fmt::format_to(line, "{}float inputs:opacity.connect = <../image.outputs:a>\n", innermost);
         }
-        if (material.transparency == LookTransparency::cut_out) {
+        if (material.transparency == DisplayTransparency::cut_out) {
             fmt::format_to(line, "{}float inputs:opacityThreshold = 0.5\n", innermost);
         }
     }
@@ -150,21 +150,23 @@ std::string usd_mesh(const Surface& surface, std::size_t indent, double grey, bo
     return fmt::to_string(text);
 }
 
-std::string usd_look(const LookMesh& look, const std::vector<std::string>& image_files, std::size_t indent) {
+std::string usd_display(const DisplayMesh& display, const std::vector<std::string>& image_files,
+                        std::size_t indent) {
     const std::string outer(indent, ' ');
     const std::string inner = outer + "    ";
     const std::string innermost = inner + "    ";
-    const auto faces = faces_by_slot(look);
+    const auto faces = faces_by_slot(display);
     PrimNames prim_name;
     prim_name("mesh");
     std::map<std::int32_t, std::string> names;
     for (const auto& [slot, of_slot] : faces) {
-        names[slot] = prim_name(look.materials[static_cast<std::size_t>(slot)].name);
+        names[slot] = prim_name(display.materials[static_cast<std::size_t>(slot)].name);
     }
     std::vector<std::int32_t> indices;
-    for (const auto& triangle : look.corners) indices.insert(indices.end(), triangle.begin(), triangle.end());
+    for (const auto& triangle : display.corners)
+        indices.insert(indices.end(), triangle.begin(), triangle.end());
     Eigen::AlignedBox3d box;
-    for (const Vector3d& position : look.positions) box.extend(position);
+    for (const Vector3d& position : display.positions) box.extend(position);
     const auto number = [](auto value) { return fmt::format("{}", value); };
 
     fmt::memory_buffer text;
@@ -173,19 +175,19 @@ std::string usd_look(const LookMesh& look, const std::vector<std::string>& image
     fmt::format_to(line, "{}float3[] extent = [{}, {}]\n", inner, usd_float3(box.min()),
                    usd_float3(box.max()));
     fmt::format_to(line, "{}int[] faceVertexCounts = {}\n", inner,
-                   list_of(look.corners, inner, [](const auto&) { return std::string("3"); }));
+                   list_of(display.corners, inner, [](const auto&) { return std::string("3"); }));
     fmt::format_to(line, "{}int[] faceVertexIndices = {}\n", inner, list_of(indices, inner, number));
-    if (!look.normals.empty()) {
+    if (!display.normals.empty()) {
         fmt::format_to(line, "{}normal3f[] normals = {} (\n{}    interpolation = \"vertex\"\n{})\n", inner,
-                       list_of(look.normals, inner, usd_float3), inner, inner);
+                       list_of(display.normals, inner, usd_float3), inner, inner);
     }
-    fmt::format_to(line, "{}point3f[] points = {}\n", inner, list_of(look.positions, inner, usd_float3));
-    if (!look.texture.empty()) {
+    fmt::format_to(line, "{}point3f[] points = {}\n", inner, list_of(display.positions, inner, usd_float3));
+    if (!display.texture.empty()) {
         const auto place = [](const Eigen::Vector2d& uv) {
             return fmt::format("({}, {})", usd_float(uv.x()), usd_float(uv.y()));
         };
         fmt::format_to(line, "{}texCoord2f[] primvars:st = {} (\n{}    interpolation = \"vertex\"\n{})\n",
-                       inner, list_of(look.texture, inner, place), inner, inner);
+                       inner, list_of(display.texture, inner, place), inner, inner);
     }
     fmt::format_to(
         line, "{0}uniform bool doubleSided = true\n{0}uniform token subdivisionScheme = \"none\"\n", inner);
@@ -200,7 +202,7 @@ std::string usd_look(const LookMesh& look, const std::vector<std::string>& image
     }
     fmt::format_to(line, "{}}}\n", outer);
     for (const auto& [slot, name] : names) {
-        const LookMaterial& material = look.materials[static_cast<std::size_t>(slot)];
+        const DisplayMaterial& material = display.materials[static_cast<std::size_t>(slot)];
         text.append(usd_material(name, material, image_files, outer));
     }
     return fmt::to_string(text);

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "samara/core/surface/look_mesh.hpp"
+#include "samara/core/surface/display_mesh.hpp"
 #include "samara/core/surface/surface.hpp"
 
 namespace samara {
@@ -22,6 +22,7 @@ std::string usd_mesh(const Surface& surface, std::size_t indent, double grey = 0
 
 /// The Mesh prim "mesh" of a look with its texture coordinates (primvars:st), a subset of faces for each of
 /// its materials in use, and these beside it. `image_files`: where its images are, from the stage's folder.
-std::string usd_look(const LookMesh& look, const std::vector<std::string>& image_files, std::size_t indent);
+std::string usd_display(const DisplayMesh& display, const std::vector<std::string>& image_files,
+                        std::size_t indent);
 
 }  // namespace samara

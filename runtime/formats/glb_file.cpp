@@ -14,7 +14,7 @@
 #include "samara/core/base/error.hpp"
 #include "samara/core/files/input_file.hpp"
 #include "samara/core/files/json_size.hpp"
-#include "samara/core/surface/look_image.hpp"
+#include "samara/core/surface/display_image.hpp"
 #include "samara/core/surface/unit_normal.hpp"
 #include "samara/formats/json_text.hpp"
 
@@ -115,7 +115,7 @@ class GlbReader {
         }
     }
 
-    LookMesh read() {
+    DisplayMesh read() {
         for (const std::string& extension : model_.extensionsRequired) {
             if (extension.starts_with("KHR_draco") || extension.starts_with("EXT_meshopt") ||
                 extension == "KHR_mesh_quantization") {
@@ -123,23 +123,23 @@ class GlbReader {
             }
         }
         for (const tinygltf::Material& material : model_.materials) {
-            LookMaterial& slot = look_.materials.emplace_back();
+            DisplayMaterial& slot = display_.materials.emplace_back();
             slot.name = material.name;
             const std::vector<double>& color = material.pbrMetallicRoughness.baseColorFactor;
             for (std::size_t i = 0; i < std::min<std::size_t>(4, color.size()); ++i) {
                 slot.color[i] = std::isfinite(color[i]) ? std::clamp(color[i], 0.0, 1.0) : 1.0;
             }
             slot.image = image_of(material.pbrMetallicRoughness.baseColorTexture);
-            if (material.alphaMode == "MASK") slot.transparency = LookTransparency::cut_out;
-            if (material.alphaMode == "BLEND") slot.transparency = LookTransparency::blended;
+            if (material.alphaMode == "MASK") slot.transparency = DisplayTransparency::cut_out;
+            if (material.alphaMode == "BLEND") slot.transparency = DisplayTransparency::blended;
         }
         if (model_.scenes.empty()) fail("shows no scene");
         const std::size_t shown = model_.defaultScene < 0 ? 0 : static_cast<std::size_t>(model_.defaultScene);
         if (shown >= model_.scenes.size()) fail("shows a scene that is not there");
         for (const int node : model_.scenes[shown].nodes) add_node(node, Eigen::Affine3d::Identity(), 0);
-        if (!has_normals_) look_.normals.clear();
-        if (!has_texture_) look_.texture.clear();
-        return std::move(look_);
+        if (!has_normals_) display_.normals.clear();
+        if (!has_texture_) display_.texture.clear();
+        return std::move(display_);
     }
 
   private:
@@ -178,8 +178,8 @@ class GlbReader {
         const tinygltf::Image& image = at(model_.images, texture.source, "image");
         const std::string_view bytes = bytes_of(image);
         if (image_type(bytes) == nullptr) return -1;
-        if (!add_image(look_, {image.name, std::string(bytes)})) fail(too_many_images);
-        known->second = static_cast<std::int32_t>(look_.images.size()) - 1;
+        if (!add_image(display_, {image.name, std::string(bytes)})) fail(too_many_images);
+        known->second = static_cast<std::int32_t>(display_.images.size()) - 1;
         return known->second;
     }
 
@@ -283,19 +283,19 @@ class GlbReader {
         };
         const tinygltf::Accessor* positions = attribute("POSITION");
         if (positions == nullptr) return;
-        const std::size_t first = look_.positions.size();
+        const std::size_t first = display_.positions.size();
         const std::vector<float> places = floats(*positions, TINYGLTF_TYPE_VEC3, 3);
         for (std::size_t i = 0; i < places.size(); i += 3) {
-            look_.positions.push_back(z_up(place * Vector3d(places[i], places[i + 1], places[i + 2])));
+            display_.positions.push_back(z_up(place * Vector3d(places[i], places[i + 1], places[i + 2])));
         }
-        const std::size_t end = look_.positions.size();
+        const std::size_t end = display_.positions.size();
         if (end > most_triangles) fail("has too many vertices");
         const Matrix3d turn = place.linear().inverse().transpose();
         if (const tinygltf::Accessor* normals = attribute("NORMAL"); normals != nullptr && turn.allFinite()) {
             const std::vector<float> values = floats(*normals, TINYGLTF_TYPE_VEC3, 3);
             for (std::size_t i = 0; i < values.size(); i += 3) {
                 const Vector3d normal = turn * Vector3d(values[i], values[i + 1], values[i + 2]);
-                look_.normals.push_back(unit_normal(z_up(normal)));
+                display_.normals.push_back(unit_normal(z_up(normal)));
             }
         } else {
             has_normals_ = false;
@@ -305,11 +305,11 @@ class GlbReader {
             has_texture_ = true;
             const std::vector<float> values = floats(*texture, TINYGLTF_TYPE_VEC2, 2);
             for (std::size_t i = 0; i < values.size(); i += 2) {
-                look_.texture.emplace_back(values[i], 1.0 - static_cast<double>(values[i + 1]));
+                display_.texture.emplace_back(values[i], 1.0 - static_cast<double>(values[i + 1]));
             }
         }
-        look_.normals.resize(end, Vector3d::UnitZ());
-        look_.texture.resize(end, Eigen::Vector2d::Zero());
+        display_.normals.resize(end, Vector3d::UnitZ());
+        display_.texture.resize(end, Eigen::Vector2d::Zero());
         add_triangles(part, first, end, place.linear().determinant() < 0.0);
     }
 
@@ -326,7 +326,7 @@ class GlbReader {
         }
         if (corners.size() % 3 != 0) fail("has a triangle without three corners");
         const std::int32_t slot = slot_of(part.material);
-        if (look_.corners.size() + corners.size() / 3 > most_triangles) fail("has too many triangles");
+        if (display_.corners.size() + corners.size() / 3 > most_triangles) fail("has too many triangles");
         for (std::size_t i = 0; i < corners.size(); i += 3) {
             std::array<std::int32_t, 3> triangle{};
             for (std::size_t k = 0; k < 3; ++k) {
@@ -334,8 +334,8 @@ class GlbReader {
                 triangle[k] = static_cast<std::int32_t>(first + corners[i + k]);
             }
             if (mirrored) std::swap(triangle[1], triangle[2]);
-            look_.corners.push_back(triangle);
-            look_.slots.push_back(slot);
+            display_.corners.push_back(triangle);
+            display_.slots.push_back(slot);
         }
     }
 
@@ -345,15 +345,15 @@ class GlbReader {
             return material;
         }
         if (plain_slot_ < 0) {
-            plain_slot_ = static_cast<std::int32_t>(look_.materials.size());
-            look_.materials.emplace_back().name = "body";
+            plain_slot_ = static_cast<std::int32_t>(display_.materials.size());
+            display_.materials.emplace_back().name = "body";
         }
         return plain_slot_;
     }
 
     std::string label_;
     tinygltf::Model model_;
-    LookMesh look_;
+    DisplayMesh display_;
     std::map<int, std::int32_t> images_;  // of the file: their numbers in the look
     std::size_t placed_ = 0;
     std::int32_t plain_slot_ = -1;
@@ -363,12 +363,12 @@ class GlbReader {
 
 }  // namespace
 
-LookMesh read_glb_file(const std::filesystem::path& file) {
+DisplayMesh read_glb_file(const std::filesystem::path& file) {
     constexpr bool may_be_text = false;
     return GlbReader(file, may_be_text).read();
 }
 
-LookMesh read_gltf_file(const std::filesystem::path& file) {
+DisplayMesh read_gltf_file(const std::filesystem::path& file) {
     constexpr bool may_be_text = true;
     return GlbReader(file, may_be_text).read();
 }

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "samara/core/surface/look_mesh.hpp"
+#include "samara/core/surface/display_mesh.hpp"
 
 namespace samara {
 
@@ -10,10 +10,10 @@ namespace samara {
 /// and animations are left out. Of images those of base colours are kept that lie in it as PNG or JPEG.
 /// Throws Error, which names the file, where it is no sound glTF 2.0, needs other files or extensions that
 /// change its triangles, or has no place for all of them.
-LookMesh read_glb_file(const std::filesystem::path& file);
+DisplayMesh read_glb_file(const std::filesystem::path& file);
 
 /// The same of a .gltf file too, which is text, with the files that it names, where these lie in its folder
 /// or beneath.
-LookMesh read_gltf_file(const std::filesystem::path& file);
+DisplayMesh read_gltf_file(const std::filesystem::path& file);
 
 }  // namespace samara

@@ -82,7 +82,7 @@ Turnovers find_turnovers(const Track& track) {
     Turnovers found;
     int side = 0;
     Vector3d turning = Vector3d::Zero();
-    Vector3d last_turning = Vector3d::Zero();
+    Vector3d last_rotation = Vector3d::Zero();
     for (int frame = track.begin; frame < track.end; ++frame) {
         const Vector3d axis = track.axis(frame);
         const double height = axis.dot(down);
@@ -93,10 +93,10 @@ Turnovers find_turnovers(const Track& track) {
         turning += transverse;
         if (!clear) continue;
         if (side != 0 && new_side != side) {
-            if (found.count > 0 && turning.dot(last_turning) < 0.0) ++found.reversals;
+            if (found.count > 0 && turning.dot(last_rotation) < 0.0) ++found.reversals;
             ++found.count;
             found.times.push_back(track.time(frame));
-            last_turning = turning;
+            last_rotation = turning;
         }
         side = new_side;
         turning = transverse;

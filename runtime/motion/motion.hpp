@@ -10,20 +10,20 @@
 #include "samara/core/body/contact_points.hpp"
 #include "samara/core/physics/obstacle.hpp"
 #include "samara/core/physics/pose.hpp"
-#include "samara/core/surface/look_mesh.hpp"
+#include "samara/core/surface/display_mesh.hpp"
 #include "samara/core/surface/surface.hpp"
 
 namespace samara {
 
 /// By how much a figure of a motion may be wrong for a reason that its own swings do not show, such as the
 /// mesh of a fall by full CFD: what it differs by from another solution, and the standard error of that.
-struct FigureUncertainty {
+struct MetricUncertainty {
     std::string cause;      ///< such as "mesh" or "closure"
-    std::string figure;     ///< as in JSON: descent_speed, frequency, ...
+    std::string metric;     ///< as in JSON: descent_speed, frequency, ...
     double relative = 0.0;  ///< the difference over the figure, 0 or more
     double chance = 0.0;    ///< its standard error over the figure, 0 or more
 
-    friend bool operator==(const FigureUncertainty&, const FigureUncertainty&) = default;
+    friend bool operator==(const MetricUncertainty&, const MetricUncertainty&) = default;
 };
 
 /// One body of the scene with all its copies, runs and frames.
@@ -36,12 +36,12 @@ struct BodyMotion {
     std::string body_hash;  ///< content hash of the body file that was flown
     std::string models;     ///< in words: the loads, turbulence and defaults that were used
     Surface surface;        ///< shape axes, so that a motion file can be shown by itself
-    std::shared_ptr<const LookMesh> look;  ///< what exports show in its place; null: nothing
-    ContactPoints contact_points;          ///< of the surface, where the motion has a ground
-    int copies = 1;                        ///< of the body, each with poses of its own
+    std::shared_ptr<const DisplayMesh> display;  ///< what exports show in its place; null: nothing
+    ContactPoints contact_points;                ///< of the surface, where the motion has a ground
+    int copies = 1;                              ///< of the body, each with poses of its own
     /// Of each copy over the surface's, index run * copies + copy; none where all have the surface's own.
     std::vector<double> sizes;
-    std::vector<FigureUncertainty> uncertainties;  ///< sorted by cause and figure; none where none are known
+    std::vector<MetricUncertainty> uncertainties;  ///< sorted by cause and figure; none where none are known
     std::vector<Pose> poses;                       ///< index ((run * frames) + frame) * copies + copy
 
     /// The lengths of a copy in a run, each counted from 0, over the surface's.

@@ -10,7 +10,7 @@
 #include "samara/core/body/surface_file.hpp"
 #include "samara/core/files/hdf5_reader.hpp"
 #include "samara/core/files/row_major.hpp"
-#include "samara/motion/look_group.hpp"
+#include "samara/motion/display_group.hpp"
 #include "samara/motion/motion_rules.hpp"
 #include "samara/motion/motion_writer.hpp"
 #include "samara/motion/obstacle_file.hpp"
@@ -35,17 +35,17 @@ std::vector<hsize_t> pose_dimensions(const Hdf5Reader& file, const std::string& 
     return shape;
 }
 
-std::vector<FigureUncertainty> read_uncertainties(const Hdf5Reader& file, const std::string& body) {
-    std::vector<FigureUncertainty> uncertainties;
+std::vector<MetricUncertainty> read_uncertainties(const Hdf5Reader& file, const std::string& body) {
+    std::vector<MetricUncertainty> uncertainties;
     const std::string group = uncertainty_group(body);
     if (!file.has(group)) return uncertainties;
     for (const std::string& cause : file.children(group)) {
-        for (const std::string& figure : file.children(fmt::format("{}/{}", group, cause))) {
-            const std::string name = fmt::format("{}/{}/{}", group, cause, figure);
+        for (const std::string& metric : file.children(fmt::format("{}/{}", group, cause))) {
+            const std::string name = fmt::format("{}/{}/{}", group, cause, metric);
             // Older files have no chance.
             const hsize_t count = file.shape(name) == std::vector<hsize_t>{1} ? 1 : 2;
             const std::vector<double> values = file.finite_doubles(name, {count});
-            uncertainties.push_back({cause, figure, values.front(), count == 2 ? values.back() : 0.0});
+            uncertainties.push_back({cause, metric, values.front(), count == 2 ? values.back() : 0.0});
         }
     }
     return uncertainties;
@@ -67,7 +67,7 @@ BodyMotion read_body_but_poses(const Hdf5Reader& file, const std::string& name, 
     body.center_of_mass = from_row_major<Vector3d>(file.finite_doubles(group + "/center_of_mass", {3}));
     body.shortest_axis = from_row_major<Vector3d>(file.finite_doubles(group + "/shortest_axis", {3}));
     body.surface = read_surface(file, group + "/surface");
-    body.look = read_look(file, group + "/look");
+    body.display = read_display(file, group + "/look");
     body.body_hash = file.text_attribute(group, "body_hash");
     body.models = file.text_attribute(group, "models");
     body.uncertainties = read_uncertainties(file, name);

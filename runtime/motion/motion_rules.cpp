@@ -53,9 +53,9 @@ void check_body(const std::filesystem::path& file, const BodyMotion& body, int r
     if (!is_one(body.shortest_axis.norm()))
         fail(file, place(body.name, "has a shortest_axis that is no unit vector"));
     std::set<std::pair<std::string, std::string>> known;
-    for (const FigureUncertainty& one : body.uncertainties) {
-        if (!is_link_name(one.cause) || !is_link_name(one.figure) ||
-            !known.emplace(one.cause, one.figure).second) {
+    for (const MetricUncertainty& one : body.uncertainties) {
+        if (!is_link_name(one.cause) || !is_link_name(one.metric) ||
+            !known.emplace(one.cause, one.metric).second) {
             fail(file, place(body.name, "has an uncertainty twice or without a name"));
         }
         if (!(one.relative >= 0.0 && one.chance >= 0.0) || !std::isfinite(one.relative + one.chance)) {

@@ -8,7 +8,7 @@
 #include "samara/core/base/version.hpp"
 #include "samara/core/body/surface_file.hpp"
 #include "samara/core/files/row_major.hpp"
-#include "samara/motion/look_group.hpp"
+#include "samara/motion/display_group.hpp"
 #include "samara/motion/motion_rules.hpp"
 #include "samara/motion/obstacle_file.hpp"
 
@@ -86,14 +86,14 @@ void write_body(Hdf5Writer& file, const Motion& motion, std::size_t index) {
     file.write(group + "/shortest_axis", row_major(body.shortest_axis), {3}, "1",
                "principal axis of the shortest extent, shape axes: the axis of the inclination");
     write_surface(file, group + "/surface", body.surface);
-    if (body.look != nullptr) write_look(file, group + "/look", *body.look);
+    if (body.display != nullptr) write_display(file, group + "/look", *body.display);
     if (!body.sizes.empty()) {
         file.write(group + "/size", body.sizes,
                    {static_cast<hsize_t>(motion.runs), static_cast<hsize_t>(body.copies)}, "1",
                    "lengths of each copy over the surface's: run, copy");
     }
-    for (const FigureUncertainty& one : body.uncertainties) {
-        const std::string name = fmt::format("{}/{}/{}", uncertainty_group(body.name), one.cause, one.figure);
+    for (const MetricUncertainty& one : body.uncertainties) {
+        const std::string name = fmt::format("{}/{}/{}", uncertainty_group(body.name), one.cause, one.metric);
         file.write(
             name, std::vector{one.relative, one.chance}, {2}, "1",
             "what the figure differs by from another solution and the standard error, over the figure");
@@ -118,7 +118,8 @@ std::uintmax_t expected_size(const Motion& motion) {
                                      rounded_up(static_cast<std::uintmax_t>(body.copies), chunk[2]);
         bytes += poses * pose_bytes + poses * pose_bytes / 1000;  // and the list of chunks
         bytes += body.surface.vertices.size() * 24 + body.surface.corners.size() * 24;
-        if (body.look != nullptr) bytes += body.look->positions.size() * 64 + body.look->corners.size() * 16;
+        if (body.display != nullptr)
+            bytes += body.display->positions.size() * 64 + body.display->corners.size() * 16;
     }
     for (const Obstacle& obstacle : motion.obstacles) {
         bytes += small_parts + obstacle.surface.vertices.size() * 24 + obstacle.surface.corners.size() * 24 +

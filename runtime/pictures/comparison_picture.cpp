@@ -15,7 +15,7 @@ constexpr std::size_t most_points = 4000;
 
 double drawn_time(const Comparison& all) {
     const double common = std::min(all.motion_lengths.shortest, all.reference_lengths.shortest);
-    const auto& frequency = all.reference.figures[Figure::frequency];
+    const auto& frequency = all.reference.metrics[Metric::frequency];
     return frequency ? std::min(common, most_swings * 0.5 / frequency->value) : common;
 }
 
@@ -46,7 +46,7 @@ json share_of_time(const FallSet& set) {
 }
 
 json side_as_json(const FallSet& set, const std::string& file, double end) {
-    const auto& frequency = set.figures[Figure::frequency];
+    const auto& frequency = set.metrics[Metric::frequency];
     json result = {{"file", file},
                    {"regime", name_of(set.regimes.commonest())},
                    {"distinct", set.distinct},
@@ -77,14 +77,14 @@ json comparison_picture(const Comparison& all, const std::string& motion, const 
                     {"distance", all.distribution.distance},
                     {"probability", nullptr}};
     if (all.distribution.chance) picture["probability"] = all.distribution.chance->probability;
-    for (const Figure figure : compared_figures) {
-        const FigureComparison& one = all.figures[figure];
+    for (const Metric metric : compared_metrics) {
+        const MetricComparison& one = all.metrics[metric];
         json error;
         if (one.difference_error && one.reference) {
             error = *one.difference_error / std::abs(one.reference->value);
         }
         picture["differences"].push_back(
-            {{"name", catalogued(figure).heading}, {"relative", or_null(one.relative)}, {"error", error}});
+            {{"name", catalogued(metric).heading}, {"relative", or_null(one.relative)}, {"error", error}});
     }
     return picture;
 }

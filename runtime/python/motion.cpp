@@ -196,8 +196,9 @@ py::object compared(const py::object& motion, const py::object& reference,
                                 if (!work.tell(done, total)) throw Error("the comparison was ended");
                             }));
     };
-    const std::filesystem::path& doubted = reading_fault(motion_file).empty() ? reference_file : motion_file;
-    const nlohmann::json result = work([&] { return on_input(compare_files, doubted); });
+    const std::filesystem::path& warned_of =
+        reading_fault(motion_file).empty() ? reference_file : motion_file;
+    const nlohmann::json result = work([&] { return on_input(compare_files, warned_of); });
     return as_python(result);
 }
 

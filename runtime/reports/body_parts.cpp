@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "samara/analysis/advice/density_doubt.hpp"
+#include "samara/analysis/advice/density_warning.hpp"
 #include "samara/analysis/verdicts/case_records.hpp"
 #include "samara/core/body/principal_extents.hpp"
 #include "samara/core/body/total_error.hpp"
@@ -103,7 +103,7 @@ std::string tensor_in_words(const Matrix3d& tensor, const char* unit) {
     return in_words(Vector3d(tensor.diagonal())) + ' ' + unit;
 }
 
-ReportPart part_of_turning(const Body& body) {
+ReportPart part_of_rotation(const Body& body) {
     if (!body.dynamic) {
         return {"The turning body",
                 {text_block("The file holds no coefficients of a turning body, for no "
@@ -224,7 +224,7 @@ std::vector<ReportPart> body_parts(const std::filesystem::path& file, const Body
              {picture_block("Drag, moment, k and the force's standard error over the sphere of directions",
                             body_picture("sphere", body))}},
             {"Convergence and errors", convergence},
-            part_of_turning(body),
+            part_of_rotation(body),
             part_of_cases(*body.tables),
             part_of_provenance(file, body)};
 }

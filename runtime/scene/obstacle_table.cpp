@@ -12,7 +12,7 @@
 #include "samara/core/surface/obj_file.hpp"
 #include "samara/core/surface/stl_file.hpp"
 #include "samara/core/surface/surface_check.hpp"
-#include "samara/formats/look_file.hpp"
+#include "samara/formats/display_mesh_file.hpp"
 
 namespace samara {
 namespace {
@@ -36,7 +36,7 @@ Surface read_mesh(const TomlTable& table, const std::filesystem::path& file) {
     try {
         Surface surface = mended(extension == ".stl"   ? read_stl_file(file)
                                  : extension == ".obj" ? read_obj_file(file)
-                                                       : surface_of(read_look_file(file)));
+                                                       : surface_of(read_display_mesh_file(file)));
         require_solid_surface(surface);
         return surface;
     } catch (const Error& fault) {

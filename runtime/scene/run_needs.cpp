@@ -8,7 +8,7 @@
 #include "samara/core/base/error.hpp"
 #include "samara/core/base/machine_memory.hpp"
 #include "samara/core/dynamics/prepared_bodies.hpp"
-#include "samara/core/kernel/flight_block.hpp"
+#include "samara/core/kernel/state_block.hpp"
 #include "samara/core/physics/pose.hpp"
 #include "samara/scene/table_errors_met.hpp"
 
@@ -16,7 +16,7 @@ namespace samara {
 namespace {
 
 // Of a copy in a run while it flies (body_flight.hpp), and of its poses in a block while that is written.
-constexpr double bytes_of_a_flight = static_cast<double>(sizeof(FlightBlock)) / FlightBlock::size +
+constexpr double bytes_of_a_flight = static_cast<double>(sizeof(StateBlock)) / StateBlock::size +
                                      2.0 * sizeof(Pose) + sizeof(Quaterniond) + sizeof(TableErrorsMet);
 constexpr double bytes_in_file = 13.0 * sizeof(double);
 constexpr double bytes_of_a_written_pose = sizeof(Pose) + 4.0 * sizeof(double);

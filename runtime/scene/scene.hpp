@@ -12,7 +12,7 @@
 #include "samara/core/physics/fluid.hpp"
 #include "samara/core/physics/obstacle.hpp"
 #include "samara/core/physics/release.hpp"
-#include "samara/core/surface/look_mesh.hpp"
+#include "samara/core/surface/display_mesh.hpp"
 #include "samara/core/wind/wind.hpp"
 
 namespace samara {
@@ -22,8 +22,9 @@ struct SceneBody : BodyPhysics, Release {
     std::string name;             ///< unique in the scene
     std::filesystem::path shape;  ///< a shape file or a .body.h5, as found from the scene file's folder
     double scale = 1.0;           ///< metres for one unit of the shape file
-    std::shared_ptr<const LookMesh> look;  ///< in metres and shape axes: what exports show; null: its surface
-    bool models_auto = false;              ///< what the model advice says is to be flown (docs/plan.md)
+    std::shared_ptr<const DisplayMesh>
+        display;               ///< in metres and shape axes: what exports show; null: its surface
+    bool models_auto = false;  ///< what the model advice says is to be flown (docs/plan.md)
     /// Whether the scene leaves the loads, or the turbulence, to what the body's file holds: tables, or else
     /// the loads of its surface, in still fluid.
     bool loads_by_default = false;

@@ -14,7 +14,7 @@
 #include "samara/core/body/body_file.hpp"
 #include "samara/core/files/input_file.hpp"
 #include "samara/core/surface/surface_patches.hpp"
-#include "samara/formats/look_file.hpp"
+#include "samara/formats/display_mesh_file.hpp"
 #include "samara/formats/toml_table.hpp"
 #include "samara/scene/choice.hpp"
 #include "samara/scene/obstacle_table.hpp"
@@ -165,7 +165,7 @@ void read_turbulence(TomlTable& table, SceneBody& body) {
         body.turbulence);
     body.langevin = choice<Langevin>(table, "langevin",
                                      {{"wake", Langevin::wake},
-                                      {"seen-fluid", Langevin::seen_fluid},
+                                      {"seen-fluid", Langevin::sampled_turbulence},
                                       {"body-velocity", Langevin::body_velocity}},
                                      body.langevin);
     body.turbulence_by_default = table.node("turbulence") == nullptr;
@@ -244,8 +244,8 @@ std::filesystem::path shape_file(const TomlTable& table, const std::string& shap
 }
 
 /// What exports show of a body; null where the scene says nothing.
-std::shared_ptr<const LookMesh> read_look(TomlTable& table, const std::filesystem::path& folder,
-                                          double shape_scale) {
+std::shared_ptr<const DisplayMesh> read_display(TomlTable& table, const std::filesystem::path& folder,
+                                                double shape_scale) {
     const auto name = table.text("look");
     const auto scale = table.number("look_scale", positive_number);
     if (!name) {
@@ -257,9 +257,9 @@ std::shared_ptr<const LookMesh> read_look(TomlTable& table, const std::filesyste
         throw table.fault("look", fmt::format("cannot be had: {}: {}", file.string(), fault));
     }
     try {
-        LookMesh look = read_look_file(file);
-        for (Vector3d& place : look.positions) place *= scale.value_or(shape_scale);
-        return std::make_shared<const LookMesh>(std::move(look));
+        DisplayMesh display = read_display_mesh_file(file);
+        for (Vector3d& place : display.positions) place *= scale.value_or(shape_scale);
+        return std::make_shared<const DisplayMesh>(std::move(display));
     } catch (const Error& fault) {
         throw table.fault("look", fmt::format("cannot be had: {}", fault.what()));
     }
@@ -278,7 +278,7 @@ SceneBody read_body(TomlTable& table, const std::filesystem::path& folder) {
             "shape", "is missing; give a shape file, a .body.h5 or a ready-baked body, as \"samara:leaf\"");
     body.shape = shape_file(table, *shape, folder);
     assign(body.scale, table.number("scale", positive_number));
-    body.look = read_look(table, folder, body.scale);
+    body.display = read_display(table, folder, body.scale);
     body.mass = read_mass(table);
     if (!body.mass.is_given() && !is_body_file_name(body.shape)) {
         throw table.fault("density", "is missing; give it, or mass");

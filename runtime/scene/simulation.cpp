@@ -11,7 +11,7 @@
 #include "samara/core/base/error.hpp"
 #include "samara/core/base/parallel_for.hpp"
 #include "samara/core/dynamics/body_size.hpp"
-#include "samara/core/flight/flight_kind.hpp"
+#include "samara/core/flight/body_group.hpp"
 #include "samara/motion/motion_writer.hpp"
 #include "samara/scene/scene_flight.hpp"
 
@@ -59,13 +59,13 @@ BodyMotion empty_motion(const SceneBody& scene_body, const ImmersedBody& immerse
     motion.body_hash = loaded.hash;
     motion.models = models_of(scene_body, immersed);
     motion.surface = loaded.body->surface;
-    motion.look = scene_body.look;
+    motion.display = scene_body.display;
     motion.copies = scene_body.count;
     return motion;
 }
 
 /// Steps that the bodies of a kind take until the end.
-double steps_of(const Scene& scene, const FlightKind& kind) {
+double steps_of(const Scene& scene, const BodyGroup& kind) {
     double seconds = 0.0;
     for (std::size_t i = 0; i < kind.size(); ++i) seconds += std::max(0.0, scene.duration - kind.start(i));
     return seconds / scene.step;
@@ -89,7 +89,7 @@ Simulation::Simulation(const Scene& scene, const std::vector<LoadedBody>& loaded
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         const SceneBody& scene_body = scene.bodies[i];
         flight_.add(loaded[i], scene_body, scene_body, scene_body.name);
-        const FlightKind& kind = *flight_.kinds().back();
+        const BodyGroup& kind = *flight_.kinds().back();
         motion_.bodies.push_back(empty_motion(scene_body, kind.body(), loaded[i]));
         if (scene.ground) motion_.bodies[i].contact_points = kind.body().contact_points;
         total_steps_ += steps_of(scene, kind);
@@ -103,7 +103,7 @@ Simulation::Simulation(const Scene& scene, const std::vector<LoadedBody>& loaded
 }
 
 void Simulation::take_frame(std::size_t index, double time, Pose* poses, std::size_t run_stride) {
-    const FlightKind& kind = *flight_.kinds()[index];
+    const BodyGroup& kind = *flight_.kinds()[index];
     Frames& frames = frames_[index];
     const auto copies = static_cast<std::size_t>(motion_.bodies[index].copies);
     const std::size_t judged = std::max<std::size_t>(1, kind.size() / judged_copies);

@@ -21,7 +21,7 @@ TargetMiss miss_of(const Scene& scene, const std::vector<LoadedBody>& loaded, st
     const auto copies = static_cast<std::size_t>(watched.copies);
     TargetWatch watch(target, watched.copies);
     std::vector<Vector3d> places(copies);
-    const auto look = [&](std::size_t index, std::size_t first, const std::vector<Pose>& poses) {
+    const auto display = [&](std::size_t index, std::size_t first, const std::vector<Pose>& poses) {
         if (index != body) return;
         for (std::size_t row = 0; row < poses.size() / copies; ++row) {
             for (std::size_t copy = 0; copy < copies; ++copy) {
@@ -30,7 +30,7 @@ TargetMiss miss_of(const Scene& scene, const std::vector<LoadedBody>& loaded, st
             watch.add(simulation.motion().times[first + row], places);
         }
     };
-    simulation.fly(look, [](double, double) { return true; });
+    simulation.fly(display, [](double, double) { return true; });
     TargetMiss miss = watch.nearest();
     miss.seed = scene.seed;
     return miss;

@@ -12,7 +12,8 @@ namespace samara {
 /// Drag, 1965, chapter 3).
 inline constexpr double terminal_drag_coefficient = 1.0;
 
-/// The largest area (m^2) of the body's shadow over the nodes of an octahedral map and the principal axes.
+/// The largest area (m^2) of the body's projected area over the nodes of an octahedral map and the principal
+/// axes.
 double largest_projected_area(const Body& body);
 
 /// The speed (m/s) at which the drag, with terminal_drag_coefficient on the largest projected area, balances

@@ -36,9 +36,9 @@ std::string write_scene(const test::TemporaryFolder& folder, const std::string& 
     return "scene.toml";
 }
 
-/// In a steady tow without rotation the runtime's loads and the Kirchhoff moment are the tabulated CFD
-/// values.
-void expect_tow_reproduces_tables(const Body& body) {
+/// In a steady translation without rotation the runtime's loads and the Kirchhoff moment are the tabulated
+/// CFD values.
+void expect_steady_loads_reproduce_tables(const Body& body) {
     SceneBody flown;
     flown.name = "rubber";
     flown.mass.density = 1197.8;
@@ -104,7 +104,7 @@ TEST(MainPath, AShapeBecomesABakedBodyThatFallsAndLeavesForOtherTools) {
                         std::pow(body.tables->reference_length, 2) / 4.0 / (std::numbers::pi * 0.02 * 0.04);
     EXPECT_GT(drag, 0.6);
     EXPECT_LT(drag, 2.2);
-    expect_tow_reproduces_tables(body);
+    expect_steady_loads_reproduce_tables(body);
 
     const auto fall = run_program_in(
         folder, {"samara", "simulate", "scene.toml", "--bodies", "bodies", "-o", "fall.h5", "--json"});

@@ -34,20 +34,22 @@ std::string container(std::string_view parts) {
            four_bytes(binary.size()) + std::string("BIN\0", 4) + binary;
 }
 
-void require_whole(const LookMesh& look) {
-    const auto vertices = static_cast<std::int32_t>(look.positions.size());
-    const auto materials = static_cast<std::int32_t>(look.materials.size());
-    require(look.normals.empty() || look.normals.size() == look.positions.size(), "a normal at each vertex");
-    require(look.texture.empty() || look.texture.size() == look.positions.size(),
+void require_whole(const DisplayMesh& display) {
+    const auto vertices = static_cast<std::int32_t>(display.positions.size());
+    const auto materials = static_cast<std::int32_t>(display.materials.size());
+    require(display.normals.empty() || display.normals.size() == display.positions.size(),
+            "a normal at each vertex");
+    require(display.texture.empty() || display.texture.size() == display.positions.size(),
             "a place on the image at each vertex");
-    require(look.slots.size() == look.corners.size(), "each triangle has a slot");
-    for (const auto& triangle : look.corners) {
+    require(display.slots.size() == display.corners.size(), "each triangle has a slot");
+    for (const auto& triangle : display.corners) {
         for (const std::int32_t corner : triangle)
             require(corner >= 0 && corner < vertices, "corners are there");
     }
-    for (const std::int32_t slot : look.slots) require(slot >= 0 && slot < materials, "materials are there");
-    for (const Vector3d& place : look.positions) require(place.allFinite(), "places are numbers");
-    for (const Vector3d& normal : look.normals)
+    for (const std::int32_t slot : display.slots)
+        require(slot >= 0 && slot < materials, "materials are there");
+    for (const Vector3d& place : display.positions) require(place.allFinite(), "places are numbers");
+    for (const Vector3d& normal : display.normals)
         require(std::abs(normal.norm() - 1.0) < 1e-6, "normals are of length one");
 }
 
@@ -58,8 +60,8 @@ void feed(std::string_view input) {
     const bool is_glb = input.starts_with("glTF") || input.starts_with('{');
     const std::filesystem::path file = folder / (is_glb ? "look.glb" : "look.obj");
     std::ofstream(file, std::ios::binary) << (input.starts_with('{') ? container(input) : std::string(input));
-    const auto look = accepted([&] { return is_glb ? read_glb_file(file) : read_obj_look(file); });
-    if (look) require_whole(*look);
+    const auto display = accepted([&] { return is_glb ? read_glb_file(file) : read_obj_display_mesh(file); });
+    if (display) require_whole(*display);
 }
 
 }  // namespace samara::fuzz

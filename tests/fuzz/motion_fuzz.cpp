@@ -16,18 +16,18 @@ namespace samara::fuzz {
 namespace {
 
 /// A triangle with all that a look can have.
-LookMesh small_look() {
-    LookMesh look;
-    look.positions = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
-    look.normals.assign(3, Vector3d::UnitZ());
-    look.texture.assign(3, Eigen::Vector2d(0.5, 0.5));
-    look.corners = {{0, 1, 2}};
-    look.slots = {0};
-    look.images = {{"leaf", test::painted_png()}};
-    look.materials.resize(1);
-    look.materials[0].name = "leaf";
-    look.materials[0].image = 0;
-    return look;
+DisplayMesh small_display() {
+    DisplayMesh display;
+    display.positions = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
+    display.normals.assign(3, Vector3d::UnitZ());
+    display.texture.assign(3, Eigen::Vector2d(0.5, 0.5));
+    display.corners = {{0, 1, 2}};
+    display.slots = {0};
+    display.images = {{"leaf", test::painted_png()}};
+    display.materials.resize(1);
+    display.materials[0].name = "leaf";
+    display.materials[0].image = 0;
+    return display;
 }
 
 /// Two bodies in two runs over a few frames, above ground and a table; one of several sizes, one with a look.
@@ -55,7 +55,7 @@ Motion small_motion() {
         motion.bodies.push_back(body);
     }
     motion.bodies[0].sizes = {1.0, 0.5, 2.0, 1.0};
-    motion.bodies[1].look = std::make_shared<const LookMesh>(small_look());
+    motion.bodies[1].display = std::make_shared<const DisplayMesh>(small_display());
     Obstacle table;
     table.name = "table";
     table.surface = test::box({1.0, 1.0, 0.1}, 1);

@@ -23,8 +23,8 @@ inline std::array<double, 29> numbers_of(const BodyState& state) {
     add(state.position);
     add(state.orientation.coeffs());
     add(state.velocity);
-    add(state.seen_fluid.velocity);
-    add(state.seen_fluid.angular_velocity);
+    add(state.sampled_turbulence.velocity);
+    add(state.sampled_turbulence.angular_velocity);
     add(state.acceleration);
     numbers[next++] = state.wake.formed;
     add(state.wake.heading);

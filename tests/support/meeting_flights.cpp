@@ -3,22 +3,22 @@
 #include <algorithm>
 
 #include "samara/core/collision/hull_pair.hpp"
-#include "samara/core/flight/flight_kind.hpp"
+#include "samara/core/flight/body_group.hpp"
 #include "support/test_shapes.hpp"
 
 namespace samara::test {
 namespace {
 
-const FlightKind& kind_of(const Flight& flight, std::size_t index) {
-    const FlightKind* found = nullptr;
+const BodyGroup& kind_of(const Flight& flight, std::size_t index) {
+    const BodyGroup* found = nullptr;
     for (const auto& kind : flight.kinds()) {
         if (kind->first() <= index) found = kind.get();
     }
     return *found;
 }
 
-MeetingHull hull_of(const Flight& flight, std::size_t index) {
-    const FlightKind& kind = kind_of(flight, index);
+CollisionHull hull_of(const Flight& flight, std::size_t index) {
+    const BodyGroup& kind = kind_of(flight, index);
     const Pose pose = flight.pose(index);
     return {{&kind.batch().touching(index - kind.first()).contact_points, pose.orientation.toRotationMatrix(),
              pose.position},
@@ -65,7 +65,7 @@ double energy_of(const Flight& flight, double gravity) {
 }
 
 double overlap_of(const Flight& flight, std::size_t first, std::size_t second) {
-    const Parting apart = parting(hull_of(flight, first), hull_of(flight, second), 0.0);
+    const PairSeparation apart = pair_separation(hull_of(flight, first), hull_of(flight, second), 0.0);
     return apart.overlap ? std::max(0.0, -apart.gap) : 0.0;
 }
 

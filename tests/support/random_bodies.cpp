@@ -58,7 +58,7 @@ DynamicCoefficients RandomBodies::coefficients(double size) {
     result.drag_in_motion = semidefinite(area * magnitude(0.01, 100.0));
     result.rotational_drag = semidefinite(area * area * magnitude(0.01, 100.0));
     result.unsteady_factor = magnitude(0.3, 3.0);
-    result.settling_ways = 0.8 + 20.0 * result.unsteady_factor;
+    result.settling_length = 0.8 + 20.0 * result.unsteady_factor;
     result.drag_in_spin = semidefinite(area * magnitude(0.01, 100.0));
     result.rotational_drag_in_spin = semidefinite(area * area * magnitude(0.01, 100.0));
     result.half_length = size * magnitude(0.1, 10.0);

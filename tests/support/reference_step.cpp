@@ -50,27 +50,27 @@ MotionVector motion_vector(const BodyState& state) noexcept {
     return motion;
 }
 
-BodyState body_state(const MotionVector& motion, const SeenFluid& seen_fluid) noexcept {
+BodyState body_state(const MotionVector& motion, const SampledTurbulence& sampled_turbulence) noexcept {
     BodyState state;
     state.velocity = motion.head<6>();
     state.orientation = Quaterniond(motion[6], motion[7], motion[8], motion[9]).normalized();
     state.position = motion.segment<3>(10);
     state.wake = wake_of(motion);
-    state.seen_fluid = seen_fluid;
+    state.sampled_turbulence = sampled_turbulence;
     return state;
 }
 
 EquationsOfMotion::EquationsOfMotion(const ImmersedBody& body, const Vector3d& gravity,
-                                     const SeenFluid& seen_fluid) noexcept
+                                     const SampledTurbulence& sampled_turbulence) noexcept
     : body_(&body),
       mobility_(body.inertia.llt().solve(Matrix6d::Identity())),
       gravity_(gravity),
-      seen_fluid_(seen_fluid) {}
+      sampled_turbulence_(sampled_turbulence) {}
 
 Vector6d EquationsOfMotion::load(const Vector6d& velocity, const Matrix3d& to_world,
                                  const WakeShares& shares) const noexcept {
     const Vector6d of_centroid = body_->to_centroid * velocity;
-    const Vector3d seen_rotation = to_world.transpose() * seen_fluid_.angular_velocity;
+    const Vector3d seen_rotation = to_world.transpose() * sampled_turbulence_.angular_velocity;
     const LoadMatrices loads = load_matrices(*body_, of_centroid, seen_rotation, Vector3d::Zero(), shares);
     return loads.relative.leftCols<3>() * seen_rotation - loads.whole * of_centroid;
 }
@@ -78,7 +78,7 @@ Vector6d EquationsOfMotion::load(const Vector6d& velocity, const Matrix3d& to_wo
 MotionVector EquationsOfMotion::rate(const MotionVector& motion) const noexcept {
     const Vector3d omega = motion.head<3>();
     const Matrix3d to_world = homogeneous_rotation(motion.segment<4>(6));
-    const Vector3d seen_velocity = to_world.transpose() * seen_fluid_.velocity;
+    const Vector3d seen_velocity = to_world.transpose() * sampled_turbulence_.velocity;
     Vector6d relative = motion.head<6>();
     relative.tail<3>() -= seen_velocity;
     const Vector6d momentum = body_->inertia * relative;
@@ -97,7 +97,8 @@ MotionVector EquationsOfMotion::rate(const MotionVector& motion) const noexcept 
     }
 
     Vector6d acceleration = mobility_ * momentum_rate;
-    acceleration.tail<3>() -= omega.cross(seen_velocity);  // the seen fluid turns past the body's axes
+    acceleration.tail<3>() -=
+        omega.cross(seen_velocity);  // the sampled turbulence turns past the body's axes
     MotionVector result;
     const Vector6d of_centroid = body_->to_centroid * relative;
     const auto [formed, heading] = wake_of(motion);
@@ -105,13 +106,13 @@ MotionVector EquationsOfMotion::rate(const MotionVector& motion) const noexcept 
     result << acceleration, quaternion_rate(motion.segment<4>(6), omega), to_world * motion.segment<3>(3),
         rates.formation * (1.0 - formed),
         rates.settling * (of_centroid.tail<3>().stableNormalized() - heading) +
-            heading.cross(rates.unseen_turning);
+            heading.cross(rates.spin_about_symmetry);
     return result;
 }
 
 Matrix6d EquationsOfMotion::acceleration_gradient(const MotionVector& motion) const noexcept {
     const Matrix3d to_world = homogeneous_rotation(motion.segment<4>(6));
-    const Vector3d seen_velocity = to_world.transpose() * seen_fluid_.velocity;
+    const Vector3d seen_velocity = to_world.transpose() * sampled_turbulence_.velocity;
     Vector6d relative = motion.head<6>();
     relative.tail<3>() -= seen_velocity;
     const Vector6d momentum = body_->inertia * relative;
@@ -128,7 +129,7 @@ Matrix6d EquationsOfMotion::acceleration_gradient(const MotionVector& motion) co
         const WakeShares shares = shares_of(wake_of(motion));
         const Vector6d load_here = load(relative, to_world, shares);
         // Differences of a millionth of the speeds that are there; any will do for a body at rest.
-        const double turning = relative.head<3>().norm() + seen_fluid_.angular_velocity.norm();
+        const double turning = relative.head<3>().norm() + sampled_turbulence_.angular_velocity.norm();
         const double speed = relative.tail<3>().norm() + body_->length * turning;
         const double difference = 1e-6 * speed + std::numeric_limits<double>::min() * 1e20;
         Matrix6d by_relative_velocity;
@@ -226,7 +227,7 @@ std::optional<BodyState> gauss_step(const ImmersedBody& body, const EquationsOfM
     const MotionVector start = motion_vector(state);
     const std::optional<Stages> rates = solved_rates(body, equations, start, h, predicted);
     if (!rates) return {};
-    return body_state(start + 0.5 * h * ((*rates)[0] + (*rates)[1]), state.seen_fluid);
+    return body_state(start + 0.5 * h * ((*rates)[0] + (*rates)[1]), state.sampled_turbulence);
 }
 
 void advance_part(const ImmersedBody& body, const EquationsOfMotion& equations, const Vector3d& gravity,
@@ -249,17 +250,18 @@ void advance_part(const ImmersedBody& body, const EquationsOfMotion& equations, 
 ReferenceResult reference_step(const ImmersedBody& body, const Vector3d& gravity, double time_step,
                                const BodyState& state) noexcept {
     ReferenceResult result{state, 1, true};
-    const EquationsOfMotion equations(body, gravity, state.seen_fluid);
+    const EquationsOfMotion equations(body, gravity, state.sampled_turbulence);
     advance_part(body, equations, gravity, time_step, reference_halvings, result);
     return result;
 }
 
-SeenFluid advance_seen_fluid(const ImmersedBody& body, const TurbulenceLevel& level, const SeenFluid& seen,
-                             double time_step, const Noise& noise, std::uint64_t step) noexcept {
+SampledTurbulence advance_sampled_turbulence(const ImmersedBody& body, const TurbulenceLevel& level,
+                                             const SampledTurbulence& seen, double time_step,
+                                             const Noise& noise, std::uint64_t step) noexcept {
     BodyState state;
-    state.seen_fluid = seen;
-    kernel::advance_seen_fluid(body.constants, level, time_step, noise, step, state);
-    return state.seen_fluid;
+    state.sampled_turbulence = seen;
+    kernel::advance_sampled_turbulence(body.constants, level, time_step, noise, step, state);
+    return state.sampled_turbulence;
 }
 
 Vector6d advance_body_velocity(const ImmersedBody& body, const TurbulenceLevel& level,

@@ -21,12 +21,12 @@ Matrix6d load_matrix(const ImmersedBody& body, const Vector6d& relative_velocity
 using MotionVector = Eigen::Matrix<double, 17, 1>;
 
 MotionVector motion_vector(const BodyState& state) noexcept;
-/// The state with these motions, its quaternion made a unit one; `seen_fluid` is passed on.
-BodyState body_state(const MotionVector& motion, const SeenFluid& seen_fluid) noexcept;
+/// The state with these motions, its quaternion made a unit one; `sampled_turbulence` is passed on.
+BodyState body_state(const MotionVector& motion, const SampledTurbulence& sampled_turbulence) noexcept;
 
 /// The body's equations as ordinary differential equations, for integrators that know nothing of bodies:
-/// those that implicit_step solves, with gravity and the seen fluid held (docs/theory, "The equations that
-/// are solved").
+/// those that implicit_step solves, with gravity and the sampled turbulence held (docs/theory, "The equations
+/// that are solved").
 ///
 /// R(q) is the homogeneous quadratic form of q, also where |q| is not 1 inside a step. Then u K u / 2, |p|^2,
 /// l . p and |q|^2 without loads, and with gravity the total energy, are quadratic in the MotionVector and
@@ -35,7 +35,7 @@ class EquationsOfMotion {
   public:
     /// `body` must outlive the equations. `gravity`: m/s^2, world axes.
     EquationsOfMotion(const ImmersedBody& body, const Vector3d& gravity,
-                      const SeenFluid& seen_fluid) noexcept;
+                      const SampledTurbulence& sampled_turbulence) noexcept;
 
     [[nodiscard]] MotionVector rate(const MotionVector& motion) const noexcept;
 
@@ -45,14 +45,14 @@ class EquationsOfMotion {
 
   private:
     /// The loads, moment and force about the centroid, at a velocity (omega, v) of the centre of mass of
-    /// which v is relative to the seen fluid.
+    /// which v is relative to the sampled turbulence.
     [[nodiscard]] Vector6d load(const Vector6d& velocity, const Matrix3d& to_world,
                                 const WakeShares& shares) const noexcept;
 
     const ImmersedBody* body_;
     Matrix6d mobility_;  // the inverse of the inertia
     Vector3d gravity_;
-    SeenFluid seen_fluid_;
+    SampledTurbulence sampled_turbulence_;
 };
 
 /// What a step of the reference integrator came to.
@@ -66,9 +66,9 @@ struct ReferenceResult {
 /// The shortest part of a reference step is the step over 2^reference_halvings.
 inline constexpr int reference_halvings = 10;
 
-/// The yardstick for implicit_step: the same equations, loads, gravity and seen fluid (held), by the Gauss
-/// method with two stages, of the fourth order where the loads are smooth (Hairer, Lubich, Wanner, Geometric
-/// Numerical Integration, 2nd ed., sections II.1.3 and IV.2).
+/// The yardstick for implicit_step: the same equations, loads, gravity and sampled turbulence (held), by the
+/// Gauss method with two stages, of the fourth order where the loads are smooth (Hairer, Lubich, Wanner,
+/// Geometric Numerical Integration, 2nd ed., sections II.1.3 and IV.2).
 ///
 /// It keeps quadratic invariants: without loads u K u / 2, |p|^2 and l . p to rounding, and with gravity the
 /// total energy. In still fluid the loads never make energy. The stages are solved to rounding by a
@@ -79,8 +79,9 @@ ReferenceResult reference_step(const ImmersedBody& body, const Vector3d& gravity
 /// The seen-fluid form: both velocities follow an Ornstein-Uhlenbeck process over the time step (s) by its
 /// exact update, with the rate a = 3/4 C_k epsilon/k and the variance 2 k/3 of each component of the
 /// velocity, and that over L^2 of the rotation. docs/theory, "Langevin".
-SeenFluid advance_seen_fluid(const ImmersedBody& body, const TurbulenceLevel& level, const SeenFluid& seen,
-                             double time_step, const Noise& noise, std::uint64_t step) noexcept;
+SampledTurbulence advance_sampled_turbulence(const ImmersedBody& body, const TurbulenceLevel& level,
+                                             const SampledTurbulence& seen, double time_step,
+                                             const Noise& noise, std::uint64_t step) noexcept;
 
 /// The paper's eq. 8: the body's own velocity (omega, v; body axes, relative to the mean current) drifts with
 /// (1/2 + 3/4 C_k) epsilon/k and diffuses with C_k epsilon by the exact update; its rotation diffuses without

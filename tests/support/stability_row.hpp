@@ -10,7 +10,7 @@ struct StabilityRow {
     std::string step;     ///< the time step, in words
     std::string checked;  ///< what the figure measures
     double bound;         ///< the figure must not be above it
-    double figure;
+    double metric;
 };
 
 /// Expects the figure to be a number not above the bound, and records the line with the running test, from

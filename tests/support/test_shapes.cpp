@@ -262,7 +262,7 @@ Body full_body() {
     dynamic.drag_in_motion << 0.3, 0.01, -0.02, 0.01, 0.2, 0.03, -0.02, 0.03, 0.1;
     dynamic.rotational_drag << 0.003, 0.0, 0.001, 0.0, 0.002, 0.0, 0.001, 0.0, 0.004;
     dynamic.unsteady_factor = 1.3;
-    dynamic.settling_ways = 12.5;
+    dynamic.settling_length = 12.5;
     dynamic.drag_in_spin = Vector3d(0.5, 0.6, 0.0).asDiagonal();
     dynamic.rotational_drag_in_spin = Vector3d(0.005, 0.006, 0.007).asDiagonal();
     dynamic.half_length = 0.41;
@@ -273,7 +273,7 @@ Body full_body() {
     errors.drag_in_motion = Matrix3d::Constant(0.007);
     errors.rotational_drag = Matrix3d::Constant(0.0008);
     errors.unsteady_factor = 0.05;
-    errors.settling_ways = 0.0;
+    errors.settling_length = 0.0;
     errors.drag_in_spin = Matrix3d::Constant(0.009);
     errors.rotational_drag_in_spin = Matrix3d::Constant(0.0003);
     body.dynamic = {.values = dynamic, .standard_errors = errors, .densities = {1.3, 9.5}};

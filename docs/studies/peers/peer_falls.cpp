@@ -117,18 +117,18 @@ Motion motion_of(const Fall& fall, const PeerFall& flown, const Coefficients& co
 
 /// What a fall misses of its reference, in the limits of `samara compare`; 0 where all its figures are alike.
 double misfit(const Fall& fall, const Coefficients& coefficients) {
-    const double figures = fall.judges_inclination ? 4.0 : 1.0;
+    const double metrics = fall.judges_inclination ? 4.0 : 1.0;
     const PeerFall flown = fall.body->fall(coefficients, 1);
-    if (flown.poses.empty()) return worst_loss * figures;
+    if (flown.poses.empty()) return worst_loss * metrics;
     const Motion motion = motion_of(fall, flown, coefficients);
     const Measures a = measure(motion, motion.bodies.front());
     double sum = 0.0;
-    for (const Figure figure : compared_figures) {
-        const CataloguedFigure& entry = catalogued(figure);
-        if (entry.subject == FigureSubject::inclination && !fall.judges_inclination) continue;
+    for (const Metric metric : compared_metrics) {
+        const CataloguedMetric& entry = catalogued(metric);
+        if (entry.subject == MetricSubject::inclination && !fall.judges_inclination) continue;
         const auto is = entry.measured(a);
         const auto should = entry.measured(fall.measures);
-        if (is && should) sum += loss(*is - *should, usual_tolerances()[figure] * std::abs(*should));
+        if (is && should) sum += loss(*is - *should, usual_tolerances()[metric] * std::abs(*should));
         if (is.has_value() != should.has_value()) sum += worst_loss;
     }
     return sum + (fall.judges_inclination && a.regime != fall.measures.regime ? 1.0 : 0.0);

@@ -60,10 +60,10 @@ using ExplicitStep = MotionVector (*)(const EquationsOfMotion&, double, const Mo
 
 Flight explicit_flight(ExplicitStep step) {
     return [step](const ImmersedBody& body, const BodyState& start, int steps) {
-        const EquationsOfMotion equations(body, surroundings.gravity, start.seen_fluid);
+        const EquationsOfMotion equations(body, surroundings.gravity, start.sampled_turbulence);
         MotionVector motion = motion_vector(start);
         for (int i = 0; i < steps; ++i) motion = step(equations, window / steps, motion);
-        return body_state(motion, start.seen_fluid);
+        return body_state(motion, start.sampled_turbulence);
     };
 }
 

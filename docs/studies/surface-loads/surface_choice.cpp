@@ -205,7 +205,7 @@ void print_falls(const Falls& falls, const Numbers& x, const std::string& only) 
 
 /// The loads of the surface beside a ready-baked body's tables at their highest Reynolds number: the rms of
 /// the difference over all directions, over that of the tables.
-void print_tows() {
+void print_translations() {
     for (const char* name : {"disc", "ellipsoid", "sheet"}) {
         const Body body = read_body_file(ready_body_file(name));
         const LoadTables estimated =
@@ -247,7 +247,7 @@ nlohmann::json run(const Request& request) {
     const double miss = falls.miss(x, request.without);
     print_result("numbers {:.3g}, miss {:.3g}\n", fmt::join(x, " "), miss);
     print_falls(falls, x, request.without);
-    if (request.rounds == 0) print_tows();
+    if (request.rounds == 0) print_translations();
     return {{"numbers", x}, {"miss", miss}};
 }
 

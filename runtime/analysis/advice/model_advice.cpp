@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "samara/analysis/metrics/fall_figures.hpp"
+#include "samara/analysis/metrics/fall_metrics.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/base/laminar_flow.hpp"
 #include "samara/core/dynamics/dynamic_coefficients.hpp"
@@ -156,8 +156,8 @@ class Advisor {
     void set_scale() {
         scale_.tolerance = options_.tolerance;
         scale_.half_length = no_dynamic_coefficients(*loaded_.body).half_length;
-        scale_.judges_inclination = tells(FigureSubject::inclination, *loaded_.body);
-        scale_.judges_turning = tells(FigureSubject::turning, *loaded_.body);
+        scale_.judges_inclination = tells(MetricSubject::inclination, *loaded_.body);
+        scale_.judges_rotation = tells(MetricSubject::turning, *loaded_.body);
     }
 
     bool is_long_enough() {

@@ -31,23 +31,23 @@ json as_json(const ModelSet& models) {
     return result;
 }
 
-json as_json(const FigureEffect& figure) {
+json as_json(const MetricEffect& metric) {
     const auto value_of = [](const std::optional<Estimate>& one) {
         return one ? json(one->value) : json(nullptr);
     };
-    return {{"reference", value_of(figure.reference)},
-            {"value", value_of(figure.value)},
-            {"change", value_of(figure.change)},
-            {"error", figure.change ? or_null(figure.change->error) : json(nullptr)},
-            {"scale", figure.scale},
-            {"limit", or_null(figure.limit)},
-            {"verdict", figure.limit ? json(name_of(figure.verdict)) : json(nullptr)}};
+    return {{"reference", value_of(metric.reference)},
+            {"value", value_of(metric.value)},
+            {"change", value_of(metric.change)},
+            {"error", metric.change ? or_null(metric.change->error) : json(nullptr)},
+            {"scale", metric.scale},
+            {"limit", or_null(metric.limit)},
+            {"verdict", metric.limit ? json(name_of(metric.verdict)) : json(nullptr)}};
 }
 
 json as_json(const ModelEffect& one) {
-    json figures;
-    for (const Figure figure : advised_figures) {
-        figures[catalogued(figure).key] = as_json(one.effect.figures[figure]);
+    json metrics;
+    for (const Metric metric : advised_metrics) {
+        metrics[catalogued(metric).key] = as_json(one.effect.metrics[metric]);
     }
     return {{"left_out", one.left_out.empty() ? json(nullptr) : json(one.left_out)},
             {"part", one.part ? json(name_of(*one.part)) : json(nullptr)},
@@ -60,7 +60,7 @@ json as_json(const ModelEffect& one) {
               {"kirchhoff", one.cost.kirchhoff}}},
             {"flies", one.flies},
             {"falls", one.effect.falls},
-            {"figures", figures},
+            {"figures", metrics},
             {"regime", name_of(one.effect.regime)},
             {"regime_share", one.effect.regime_share},
             {"regimes_agree", one.effect.regimes_agree},
@@ -69,24 +69,24 @@ json as_json(const ModelEffect& one) {
 }
 
 /// The change in percent of its scale with its error; "?" where not certain, "!" where beyond.
-std::string cell(const FigureEffect& figure) {
-    const char* mark = figure.verdict == EffectVerdict::within        ? ""
-                       : figure.verdict == EffectVerdict::not_certain ? " ?"
+std::string cell(const MetricEffect& metric) {
+    const char* mark = metric.verdict == EffectVerdict::within        ? ""
+                       : metric.verdict == EffectVerdict::not_certain ? " ?"
                                                                       : " !";
-    if (!figure.limit) return "-";
-    if (!figure.change || !(figure.scale > 0.0)) return std::string("-") + mark;
-    const double percent = 100.0 / figure.scale;
+    if (!metric.limit) return "-";
+    if (!metric.change || !(metric.scale > 0.0)) return std::string("-") + mark;
+    const double percent = 100.0 / metric.scale;
     const std::string error =
-        figure.change->error ? fmt::format(" +- {:.1f}", percent * *figure.change->error) : "";
-    return fmt::format("{:+.1f}{}{}", percent * figure.change->value, error, mark);
+        metric.change->error ? fmt::format(" +- {:.1f}", percent * *metric.change->error) : "";
+    return fmt::format("{:+.1f}{}{}", percent * metric.change->value, error, mark);
 }
 
 std::string row(const std::string& name, const ModelEffect& one) {
     std::string text = fmt::format("  {:<37}", name);
     if (!one.flies) return text + "leaves the range of numbers\n";
     if (one.effect.falls == 0) return text + "not flown\n";
-    for (const Figure figure : advised_figures)
-        text += fmt::format("{:<17}", cell(one.effect.figures[figure]));
+    for (const Metric metric : advised_metrics)
+        text += fmt::format("{:<17}", cell(one.effect.metrics[metric]));
     text += fmt::format("{:<13}",
                         std::string(name_of(one.effect.regime)) + (one.effect.regimes_agree ? "" : " !"));
     return text + fmt::format("{:<12}{:>6}{:>7.0f} ns\n", name_of(one.effect.verdict), one.effect.falls,
@@ -95,9 +95,9 @@ std::string row(const std::string& name, const ModelEffect& one) {
 
 std::string heading(double tolerance) {
     std::string text = fmt::format("  {:<37}", "without (changes in %)");
-    for (const Figure figure : advised_figures) {
-        const double limit = 100.0 * tolerance * catalogued(figure).allowed.share;
-        text += fmt::format("{:<17}", fmt::format("{} ({:g})", catalogued(figure).heading, limit));
+    for (const Metric metric : advised_metrics) {
+        const double limit = 100.0 * tolerance * catalogued(metric).allowed.share;
+        text += fmt::format("{:<17}", fmt::format("{} ({:g})", catalogued(metric).heading, limit));
     }
     return text + fmt::format("{:<13}{:<12}{:>6}{:>10}\n", "regime", "verdict", "falls", "a step");
 }
@@ -105,12 +105,12 @@ std::string heading(double tolerance) {
 /// What the fullest model does, in the figures' own units.
 std::string fullest_in_words(const ModelEffect& full) {
     std::vector<std::string> words = {name_of(full.effect.regime)};
-    for (const Figure which : advised_figures) {
-        const FigureEffect& figure = full.effect.figures[which];
-        if (!figure.limit || !figure.reference) continue;
-        const CataloguedFigure& entry = catalogued(which);
+    for (const Metric which : advised_metrics) {
+        const MetricEffect& metric = full.effect.metrics[which];
+        if (!metric.limit || !metric.reference) continue;
+        const CataloguedMetric& entry = catalogued(which);
         words.push_back(
-            fmt::format("{} {:.3g} {}", entry.heading, entry.in_unit * figure.reference->value, entry.unit));
+            fmt::format("{} {:.3g} {}", entry.heading, entry.in_unit * metric.reference->value, entry.unit));
     }
     words.push_back(fmt::format("{:.0f} ns a step", full.nanoseconds_per_step));
     return fmt::format("{}", fmt::join(words, ", "));

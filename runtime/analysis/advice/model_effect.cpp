@@ -12,31 +12,31 @@ constexpr std::size_t fewest_pairs = 8;
 using Falls = std::vector<const SampledFall*>;
 
 /// The mean of a figure over all falls but one.
-std::optional<Estimate> figure_without(const Falls& falls, Figure figure, std::size_t left_out) {
+std::optional<Estimate> metric_without(const Falls& falls, Metric metric, std::size_t left_out) {
     std::vector<Estimate> values;
     for (std::size_t i = 0; i < falls.size(); ++i) {
-        const auto& value = falls[i]->figures[figure];
+        const auto& value = falls[i]->metrics[metric];
         if (i != left_out && value) values.push_back({*value, {}, {}});
     }
-    return mean_of(values, catalogued(figure).mean);
+    return mean_of(values, catalogued(metric).mean);
 }
 
-bool most_have(const Falls& falls, Figure figure) {
+bool most_have(const Falls& falls, Metric metric) {
     return 2 * std::ranges::count_if(
-                   falls, [&](const SampledFall* fall) { return fall->figures[figure].has_value(); }) >=
+                   falls, [&](const SampledFall* fall) { return fall->metrics[metric].has_value(); }) >=
            std::ssize(falls);
 }
 
-std::optional<Estimate> change_of(const Falls& reference, const Falls& falls, Figure figure) {
+std::optional<Estimate> change_of(const Falls& reference, const Falls& falls, Metric metric) {
     const std::size_t none = falls.size();
-    const auto before = figure_without(reference, figure, none);
-    const auto after = figure_without(falls, figure, none);
+    const auto before = metric_without(reference, metric, none);
+    const auto after = metric_without(falls, metric, none);
     if (!before || !after) return std::nullopt;
     Estimate change{after->value - before->value, {}, {}};
     std::vector<double> values;
     for (std::size_t i = 0; i < falls.size(); ++i) {
-        const auto one = figure_without(reference, figure, i);
-        const auto other = figure_without(falls, figure, i);
+        const auto one = metric_without(reference, metric, i);
+        const auto other = metric_without(falls, metric, i);
         if (!one || !other) return change;
         values.push_back(other->value - one->value);
     }
@@ -47,9 +47,9 @@ std::optional<Estimate> change_of(const Falls& reference, const Falls& falls, Fi
 EffectVerdict verdict_of(const Estimate& change, double limit) {
     if (!change.error) return EffectVerdict::not_certain;
     const double distance = std::abs(change.value);
-    const double doubt = certain_errors * *change.error;
-    if (distance + doubt <= limit) return EffectVerdict::within;
-    return distance - doubt > limit ? EffectVerdict::beyond : EffectVerdict::not_certain;
+    const double warning = certain_errors * *change.error;
+    if (distance + warning <= limit) return EffectVerdict::within;
+    return distance - warning > limit ? EffectVerdict::beyond : EffectVerdict::not_certain;
 }
 
 RegimeCounts regimes_of(const Falls& falls) {
@@ -72,29 +72,29 @@ double mean_over(const Falls& falls, double SampledFall::*member) {
 }
 
 /// Whether a figure says something of these falls.
-bool is_judged(Figure figure, const EffectScale& scale, bool swings) {
-    if (figure == Figure::frequency && !swings) return false;
-    switch (catalogued(figure).subject) {
-        case FigureSubject::inclination:
+bool is_judged(Metric metric, const EffectScale& scale, bool swings) {
+    if (metric == Metric::frequency && !swings) return false;
+    switch (catalogued(metric).subject) {
+        case MetricSubject::inclination:
             return scale.judges_inclination;
-        case FigureSubject::turning:
-            return scale.judges_turning;
+        case MetricSubject::turning:
+            return scale.judges_rotation;
         default:
             return true;
     }
 }
 
-double scale_of(Figure figure, double reference, const Falls& falls, const EffectScale& scale) {
+double scale_of(Metric metric, double reference, const Falls& falls, const EffectScale& scale) {
     const double speed = mean_over(falls, &SampledFall::speed);
-    const AllowedError& allowed = catalogued(figure).allowed;
-    switch (figure) {
-        case Figure::descent_speed:
+    const AllowedError& allowed = catalogued(metric).allowed;
+    switch (metric) {
+        case Metric::descent_speed:
             return std::max(reference, speed);
-        case Figure::inclination_amplitude:
+        case Metric::inclination_amplitude:
             return std::max(reference, allowed.always / (allowed.share * scale.tolerance));
-        case Figure::rms_angular_speed:
+        case Metric::rms_angular_speed:
             return std::max(reference, speed / (allowed.share * scale.half_length));
-        case Figure::path_spread:
+        case Metric::path_spread:
             return std::max(reference, mean_over(falls, &SampledFall::distance) / allowed.share);
         default:
             return reference;
@@ -134,19 +134,19 @@ FallsEffect effect_of(const std::vector<SampledFall>& reference, const std::vect
     const bool swings = effect.regime != Regime::steady || effect.reference_regime != Regime::steady;
     if (scale.judges_inclination && !effect.regimes_agree) effect.verdict = EffectVerdict::beyond;
 
-    for (const Figure which : advised_figures) {
-        FigureEffect& figure = effect.figures[which];
-        figure.reference = figure_without(before, which, before.size());
-        figure.value = figure_without(after, which, after.size());
-        figure.change = change_of(before, after, which);
-        figure.scale =
-            scale_of(which, figure.reference ? std::abs(figure.reference->value) : 0.0, before, scale);
+    for (const Metric which : advised_metrics) {
+        MetricEffect& metric = effect.metrics[which];
+        metric.reference = metric_without(before, which, before.size());
+        metric.value = metric_without(after, which, after.size());
+        metric.change = change_of(before, after, which);
+        metric.scale =
+            scale_of(which, metric.reference ? std::abs(metric.reference->value) : 0.0, before, scale);
         const bool had = most_have(before, which);
         const bool has = most_have(after, which);
         if (!is_judged(which, scale, swings) || (!had && !has)) continue;
-        figure.limit = catalogued(which).allowed.share * scale.tolerance * figure.scale;
-        figure.verdict = had && has ? verdict_of(*figure.change, *figure.limit) : EffectVerdict::beyond;
-        effect.verdict = std::max(effect.verdict, figure.verdict);
+        metric.limit = catalogued(which).allowed.share * scale.tolerance * metric.scale;
+        metric.verdict = had && has ? verdict_of(*metric.change, *metric.limit) : EffectVerdict::beyond;
+        effect.verdict = std::max(effect.verdict, metric.verdict);
     }
     return effect;
 }

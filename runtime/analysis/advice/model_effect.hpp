@@ -13,7 +13,7 @@ enum class EffectVerdict { within, not_certain, beyond };
 const char* name_of(EffectVerdict verdict);
 
 /// What a change of models does to one figure of the falls.
-struct FigureEffect {
+struct MetricEffect {
     std::optional<Estimate> reference;  ///< of the fullest model
     std::optional<Estimate> value;      ///< of the other
     std::optional<Estimate> change;     ///< value - reference, its error from pairs of falls
@@ -24,7 +24,7 @@ struct FigureEffect {
 
 /// What a change of models does to a body's falls.
 struct FallsEffect {
-    PerFigure<FigureEffect> figures;           ///< of advised_figures
+    PerMetric<MetricEffect> metrics;           ///< of advised_metrics
     Regime reference_regime = Regime::steady;  ///< the commonest
     Regime regime = Regime::steady;
     double regime_share = 0.0;  ///< of the commonest regime of the fullest model, among the other's falls
@@ -38,7 +38,7 @@ struct EffectScale {
     double tolerance = 0.05;         ///< t, of the descent speed; the others' in the catalogue's proportions
     double half_length = 0.0;        ///< m: a tip speed below t of the way's speed is not noticed
     bool judges_inclination = true;  ///< false for bodies without a shortest axis
-    bool judges_turning = true;      ///< false for bodies that look the same however they are turned
+    bool judges_rotation = true;     ///< false for bodies that look the same however they are turned
 };
 
 /// Holds falls of another model against those of the fullest, fall i against fall i: the same draw of noise

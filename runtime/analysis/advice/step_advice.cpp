@@ -13,7 +13,7 @@
 #include "samara/core/base/parallel_for.hpp"
 #include "samara/core/dynamics/body_size.hpp"
 #include "samara/core/dynamics/loads.hpp"
-#include "samara/core/flight/flight_kind.hpp"
+#include "samara/core/flight/body_group.hpp"
 #include "samara/core/flight/world_pose.hpp"
 #include "samara/core/kernel/wake_noise.hpp"
 #include "samara/scene/scene_flight.hpp"
@@ -30,7 +30,7 @@ constexpr double finest_of_length = 0.01;  // of the way L that a body comes in 
 constexpr int fewest_halvings = 4;         // of the longest step, down to the finest
 constexpr int most_halvings = 14;
 constexpr int truth_halvings = 2;  // by which the finest flight is finer than the finest step that is judged
-constexpr double least_turning = 0.01;  // speed of a tip, over the body's: less is not judged
+constexpr double least_rotation = 0.01;  // speed of a tip, over the body's: less is not judged
 constexpr double turbulence_rate = 0.75 * kolmogorov_constant;  // times epsilon/k: docs/theory.md#langevin
 
 /// The flights of one body.
@@ -147,7 +147,7 @@ class JudgedBody {
             noisy = std::make_unique<Flight>(settings_at(step_of(halvings_ - truth_halvings)));
             add_to(*noisy, physics_);
         }
-        const FlightKind& kind = *flight.kinds()[0];
+        const BodyGroup& kind = *flight.kinds()[0];
         finest_.clear();
         way_ = 0.0;
         for (int w = 0; w < windows_; ++w) {
@@ -181,7 +181,7 @@ class JudgedBody {
         }
     }
 
-    void sample_rates(const FlightKind& kind, double time) {
+    void sample_rates(const BodyGroup& kind, double time) {
         if (!rated_) rated_ = std::make_unique<const ImmersedBody>(made());
         for (std::size_t i = 0; i < kind.size(); ++i) {
             if (time < kind.start(i)) continue;
@@ -216,7 +216,7 @@ class JudgedBody {
         Flight flight(settings_at(step_of(j)));
         add_to(flight, quiet_);
         double squares = 0.0;
-        double finest_turning = 0.0;
+        double finest_rotation = 0.0;
         double turning = 0.0;
         const auto compare_at = [&](double time, const std::vector<Pose>& finest) {
             flight.advance_to(time);
@@ -224,7 +224,7 @@ class JudgedBody {
             for (std::size_t i = 0; i < now.size(); ++i) {
                 const double off = distance(finest[i], now[i]);
                 squares += off * off;
-                finest_turning += finest[i].angular_velocity.squaredNorm();
+                finest_rotation += finest[i].angular_velocity.squaredNorm();
                 turning += now[i].angular_velocity.squaredNorm();
             }
         };
@@ -238,9 +238,9 @@ class JudgedBody {
         const double pieces = static_cast<double>(windows_) * static_cast<double>(flight.size());
         const double speed = way_ / pieces / (steps_in_window_ * longest_step);
         const double tip_speed = half_length_ * std::sqrt(0.5 * turning / pieces);
-        const double finest_tip_speed = half_length_ * std::sqrt(0.5 * finest_turning / pieces);
+        const double finest_tip_speed = half_length_ * std::sqrt(0.5 * finest_rotation / pieces);
         return {std::sqrt(0.5 * squares * pieces) / way_,
-                std::abs(tip_speed - finest_tip_speed) / std::max(finest_tip_speed, least_turning * speed)};
+                std::abs(tip_speed - finest_tip_speed) / std::max(finest_tip_speed, least_rotation * speed)};
     }
 
     static std::size_t as_place(int w) { return static_cast<std::size_t>(w); }

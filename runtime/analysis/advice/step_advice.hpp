@@ -34,7 +34,7 @@ struct StepAdvice {
 /// within one, over the mean way. Where there is noise the windows begin where a flight with it brings the
 /// bodies, and their rms angular speed may be off by no more either: noise turns a body as far as its step
 /// lets the turning last. Turbulence of the rate a allows the step sqrt(12 tolerance)/a: between two steps
-/// the seen fluid goes evenly, which makes the diffusion by it (a h)^2/12 too large
+/// the sampled turbulence goes evenly, which makes the diffusion by it (a h)^2/12 too large
 /// (docs/theory.md#the-step). Deterministic; `threads`: 0 for all cores.
 StepAdvice advise_step(const Scene& scene, const std::vector<LoadedBody>& loaded, int threads);
 

@@ -74,10 +74,10 @@ std::optional<double> error_beside(const Estimate& one, const Estimate& other) {
     return std::max(one.error.value_or(0.0), *other.deviation);
 }
 
-FigureComparison compare_turn(const std::optional<TurningPoint>& motion,
-                              const std::optional<TurningPoint>& reference, Estimate TurningPoint::*figure) {
-    return compare_figure(motion ? std::optional((*motion).*figure) : std::nullopt,
-                          reference ? std::optional((*reference).*figure) : std::nullopt);
+MetricComparison compare_turn(const std::optional<TurningPoint>& motion,
+                              const std::optional<TurningPoint>& reference, Estimate TurningPoint::*metric) {
+    return compare_metric(motion ? std::optional((*motion).*metric) : std::nullopt,
+                          reference ? std::optional((*reference).*metric) : std::nullopt);
 }
 
 /// Quarters of the depth (m) that all falls reach; none where one does not sink.
@@ -110,31 +110,31 @@ void judge(Comparison& all) {
     all.agrees = all.regimes_agree || !all.judges_inclination || all.regime_is_uncertain;
     bool all_certain = !(all.judges_inclination && all.regime_is_uncertain);
     bool surely_differs = !all.agrees;
-    for (const FigureComparison& figure : all.figures) {
-        if (!figure.verdict) continue;
-        all.agrees = all.agrees && figure.verdict->agrees;
-        all_certain = all_certain && figure.verdict->certain;
-        surely_differs = surely_differs || (!figure.verdict->agrees && figure.verdict->certain);
+    for (const MetricComparison& metric : all.metrics) {
+        if (!metric.verdict) continue;
+        all.agrees = all.agrees && metric.verdict->agrees;
+        all_certain = all_certain && metric.verdict->certain;
+        surely_differs = surely_differs || (!metric.verdict->agrees && metric.verdict->certain);
     }
     all.certain = all.agrees ? all_certain : surely_differs;
 }
 
-void compare_figures(Comparison& all, const BodyMotion& reference, const PerFigure<double>& tolerances) {
-    PerFigure<std::optional<double>> judged;
-    for (const Figure figure : compared_figures) {
-        if (all.judges_inclination || catalogued(figure).subject != FigureSubject::inclination) {
-            judged[figure] = tolerances[figure];
+void compare_metrics(Comparison& all, const BodyMotion& reference, const PerMetric<double>& tolerances) {
+    PerMetric<std::optional<double>> judged;
+    for (const Metric metric : compared_metrics) {
+        if (all.judges_inclination || catalogued(metric).subject != MetricSubject::inclination) {
+            judged[metric] = tolerances[metric];
         }
     }
-    for (const CataloguedFigure& entry : figure_catalogue) {
-        const Figure figure = entry.figure;
-        all.figures[figure] =
-            compare_figure(all.motion.figures[figure], all.reference.figures[figure], judged[figure],
+    for (const CataloguedMetric& entry : metric_catalogue) {
+        const Metric metric = entry.metric;
+        all.metrics[metric] =
+            compare_metric(all.motion.metrics[metric], all.reference.metrics[metric], judged[metric],
                            entry.allowed.always, uncertainty_of(reference, entry.key));
     }
     for (std::size_t q = 0; q < quantile_percents.size(); ++q) {
         all.quantiles[q] =
-            compare_figure(all.motion.inclination_quantiles[q], all.reference.inclination_quantiles[q]);
+            compare_metric(all.motion.inclination_quantiles[q], all.reference.inclination_quantiles[q]);
     }
     all.regime_is_uncertain = uncertainty_of(reference, regime_key) > 0.0;
     all.distribution = distribution_distance(all.motion.histograms, all.reference.histograms);
@@ -143,11 +143,11 @@ void compare_figures(Comparison& all, const BodyMotion& reference, const PerFigu
 
 }  // namespace
 
-FigureComparison compare_figure(const std::optional<Estimate>& motion,
+MetricComparison compare_metric(const std::optional<Estimate>& motion,
                                 const std::optional<Estimate>& reference,
                                 const std::optional<double>& tolerance, double least_limit,
                                 double uncertainty) {
-    FigureComparison result;
+    MetricComparison result;
     result.motion = motion;
     result.reference = reference;
     if (!motion && !reference) return result;
@@ -216,7 +216,7 @@ Comparison compare(const FallChoice& motion, const FallChoice& reference, const 
     }
     compare_first_swings(all);
     compare_all_landings(all, window.depths);
-    compare_figures(all, reference.of_body(), settings.tolerances);
+    compare_metrics(all, reference.of_body(), settings.tolerances);
     all.notes = comparison_notes(motion, reference, all);
     return all;
 }

@@ -14,16 +14,16 @@ namespace samara {
 
 /// How far a motion may be off the reference, relative to it: in the proportions of the catalogue, 0.1 of the
 /// descent speed.
-constexpr PerFigure<double> usual_tolerances() {
-    PerFigure<double> tolerances{};
-    for (const Figure figure : compared_figures) tolerances[figure] = catalogued(figure).allowed.share / 10.0;
+constexpr PerMetric<double> usual_tolerances() {
+    PerMetric<double> tolerances{};
+    for (const Metric metric : compared_metrics) tolerances[metric] = catalogued(metric).allowed.share / 10.0;
     return tolerances;
 }
 
 struct ComparisonSettings {
     std::optional<TimeWindow> window;  ///< s since the release; default: the last two thirds of the shortest
                                        ///< fall of either file
-    PerFigure<double> tolerances = usual_tolerances();  ///< relative, of compared_figures; beside them what
+    PerMetric<double> tolerances = usual_tolerances();  ///< relative, of compared_metrics; beside them what
                                                         ///< the catalogue always allows
 };
 
@@ -36,11 +36,11 @@ struct Verdict {
 };
 
 /// One figure of the motion beside that of the reference.
-struct FigureComparison {
+struct MetricComparison {
     std::optional<Estimate> motion;
     std::optional<Estimate> reference;
     std::optional<double> difference;        ///< motion - reference
-    std::optional<double> difference_error;  ///< standard error: see compare_figure()
+    std::optional<double> difference_error;  ///< standard error: see compare_metric()
     std::optional<double> relative;          ///< difference over the reference's magnitude
     std::optional<double> in_errors;         ///< the difference's magnitude over its standard error
     double reference_uncertainty = 0.0;      ///< of the reference, by all causes together; in its unit
@@ -50,10 +50,10 @@ struct FigureComparison {
 /// The first swings of both, and how far apart the paths are until the later turning point of the
 /// reference's. Nothing where one of the two shows none.
 struct FirstSwingComparison {
-    FigureComparison minimum_time;          ///< s since the release
-    FigureComparison minimum_inclination;   ///< rad
-    FigureComparison maximum_time;          ///< s
-    FigureComparison maximum_inclination;   ///< rad
+    MetricComparison minimum_time;          ///< s since the release
+    MetricComparison minimum_inclination;   ///< rad
+    MetricComparison maximum_time;          ///< s
+    MetricComparison maximum_inclination;   ///< rad
     std::optional<double> end;              ///< s since the release: until when the paths are compared
     std::optional<Estimate> path_distance;  ///< m, rms
     std::optional<double> way_fallen;       ///< m, of the reference along gravity by then
@@ -68,8 +68,8 @@ struct Comparison {
     FallLengths reference_lengths;
     FallSet motion;
     FallSet reference;
-    PerFigure<FigureComparison> figures;
-    std::array<FigureComparison, quantile_percents.size()> quantiles;  ///< of the inclination (rad)
+    PerMetric<MetricComparison> metrics;
+    std::array<MetricComparison, quantile_percents.size()> quantiles;  ///< of the inclination (rad)
     DistributionDistance distribution;
     FirstSwingComparison first_swing;
     /// At a quarter, a half, three quarters and the whole of the depth that all falls reach; none where
@@ -96,7 +96,7 @@ Comparison compare(const FallChoice& motion, const FallChoice& reference, const 
 /// counts as no less than the deviation of the others: its own swings may tell too little. The tolerance's
 /// limit is `tolerance` of the reference's magnitude, `least_limit` at least; no verdict where it is not
 /// given, nor of what neither has. `uncertainty`: of the reference, over its magnitude.
-FigureComparison compare_figure(const std::optional<Estimate>& motion,
+MetricComparison compare_metric(const std::optional<Estimate>& motion,
                                 const std::optional<Estimate>& reference,
                                 const std::optional<double>& tolerance = {}, double least_limit = 0.0,
                                 double uncertainty = 0.0);

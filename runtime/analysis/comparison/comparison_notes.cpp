@@ -42,7 +42,7 @@ std::vector<SideNote> notes_of_side(const char* which, const FallChoice& choice,
                                      set.distinct, set.distinct == 1 ? "s" : ""),
                          "; falls that repeat others do not count"});
     }
-    const auto& frequency = set.figures[Figure::frequency];
+    const auto& frequency = set.metrics[Metric::frequency];
     if (frequency && frequency->value > 0.0) {
         const double frames = 0.5 / frequency->value * choice.motion().frame_rate;
         if (frames < fewest_frames) {

@@ -22,18 +22,18 @@ json as_json(const std::optional<Estimate>& estimate) {
             {"deviation", or_null(estimate->deviation)}};
 }
 
-json as_json(const FigureComparison& figure) {
-    json result = {{"motion", as_json(figure.motion)},
-                   {"reference", as_json(figure.reference)},
-                   {"difference", or_null(figure.difference)},
-                   {"difference_error", or_null(figure.difference_error)},
-                   {"relative_difference", or_null(figure.relative)},
-                   {"standard_errors", or_null(figure.in_errors)},
-                   {"reference_uncertainty", figure.reference_uncertainty}};
-    if (figure.verdict) {
-        result["limit"] = figure.verdict->limit;
-        result["agrees"] = figure.verdict->agrees;
-        result["certain"] = figure.verdict->certain;
+json as_json(const MetricComparison& metric) {
+    json result = {{"motion", as_json(metric.motion)},
+                   {"reference", as_json(metric.reference)},
+                   {"difference", or_null(metric.difference)},
+                   {"difference_error", or_null(metric.difference_error)},
+                   {"relative_difference", or_null(metric.relative)},
+                   {"standard_errors", or_null(metric.in_errors)},
+                   {"reference_uncertainty", metric.reference_uncertainty}};
+    if (metric.verdict) {
+        result["limit"] = metric.verdict->limit;
+        result["agrees"] = metric.verdict->agrees;
+        result["certain"] = metric.verdict->certain;
     }
     return result;
 }
@@ -67,47 +67,47 @@ std::string estimate_text(const std::optional<Estimate>& estimate, double scale)
 }
 
 /// "-4.1 +- 1.2 %", or in the figure's own unit.
-std::string difference_text(const FigureComparison& figure, double scale, bool relative) {
-    if (!figure.difference) return "";
-    if (!relative || !figure.relative) {
-        const std::string text = with_error({*figure.difference, figure.difference_error, {}}, scale);
-        return *figure.difference > 0.0 ? '+' + text : text;
+std::string difference_text(const MetricComparison& metric, double scale, bool relative) {
+    if (!metric.difference) return "";
+    if (!relative || !metric.relative) {
+        const std::string text = with_error({*metric.difference, metric.difference_error, {}}, scale);
+        return *metric.difference > 0.0 ? '+' + text : text;
     }
-    std::string text = fmt::format("{:+.1f}", 100.0 * *figure.relative);
-    if (figure.difference_error) {
+    std::string text = fmt::format("{:+.1f}", 100.0 * *metric.relative);
+    if (metric.difference_error) {
         text +=
-            fmt::format(" +- {:.1f}", 100.0 * *figure.difference_error / std::abs(figure.reference->value));
+            fmt::format(" +- {:.1f}", 100.0 * *metric.difference_error / std::abs(metric.reference->value));
     }
     return text + " %";
 }
 
-std::string verdict_text(const FigureComparison& figure, double scale) {
-    if (!figure.verdict) {
-        return figure.in_errors ? fmt::format("{:.1f} standard errors", *figure.in_errors) : "";
+std::string verdict_text(const MetricComparison& metric, double scale) {
+    if (!metric.verdict) {
+        return metric.in_errors ? fmt::format("{:.1f} standard errors", *metric.in_errors) : "";
     }
-    const char* words = figure.verdict->agrees ? "agrees" : "differs";
-    if (!figure.motion || !figure.reference) return words;
-    const double magnitude = std::abs(figure.reference->value);
-    const double share = figure.verdict->limit / magnitude;
+    const char* words = metric.verdict->agrees ? "agrees" : "differs";
+    if (!metric.motion || !metric.reference) return words;
+    const double magnitude = std::abs(metric.reference->value);
+    const double share = metric.verdict->limit / magnitude;
     std::string limits = share < 1.0 ? fmt::format("{:.0f} %", 100.0 * share)
-                                     : fmt::format("{:.3g}", scale * figure.verdict->limit);
-    if (figure.reference_uncertainty > 0.0) {
+                                     : fmt::format("{:.3g}", scale * metric.verdict->limit);
+    if (metric.reference_uncertainty > 0.0) {
         limits += fmt::format(" beyond the reference's own {:.2g} %",
-                              100.0 * figure.reference_uncertainty / magnitude);
+                              100.0 * metric.reference_uncertainty / magnitude);
     }
-    return fmt::format("{}{} (limit {})", words, figure.verdict->certain ? "" : "?", limits);
+    return fmt::format("{}{} (limit {})", words, metric.verdict->certain ? "" : "?", limits);
 }
 
-std::string figure_row(const std::string& what, const FigureComparison& figure, double scale,
+std::string metric_row(const std::string& what, const MetricComparison& metric, double scale,
                        bool relative = false) {
-    return row(what, estimate_text(figure.motion, scale), estimate_text(figure.reference, scale),
-               difference_text(figure, scale, relative), verdict_text(figure, scale));
+    return row(what, estimate_text(metric.motion, scale), estimate_text(metric.reference, scale),
+               difference_text(metric, scale, relative), verdict_text(metric, scale));
 }
 
 std::string distribution_text(const Comparison& all) {
     std::string text = "inclination (degrees)\n";
     for (std::size_t q = 0; q < quantile_percents.size(); ++q) {
-        text += figure_row(fmt::format("  {:.0f} % of the time below", quantile_percents[q]),
+        text += metric_row(fmt::format("  {:.0f} % of the time below", quantile_percents[q]),
                            all.quantiles[q], degrees);
     }
     const DistributionDistance& distance = all.distribution;
@@ -123,10 +123,10 @@ std::string distribution_text(const Comparison& all) {
 std::string first_swing_text(const Comparison& all) {
     const FirstSwingComparison& swing = all.first_swing;
     std::string text = "first swing\n";
-    text += figure_row("  minimum at (s)", swing.minimum_time, 1.0);
-    text += figure_row("  minimum (degrees)", swing.minimum_inclination, degrees);
-    text += figure_row("  maximum at (s)", swing.maximum_time, 1.0);
-    text += figure_row("  maximum (degrees)", swing.maximum_inclination, degrees);
+    text += metric_row("  minimum at (s)", swing.minimum_time, 1.0);
+    text += metric_row("  minimum (degrees)", swing.minimum_inclination, degrees);
+    text += metric_row("  maximum at (s)", swing.maximum_time, 1.0);
+    text += metric_row("  maximum (degrees)", swing.maximum_inclination, degrees);
     if (swing.path_distance) {
         text +=
             fmt::format("  paths apart by {} mm (rms) until {:.3g} s, {:.1f} % of the {:.3g} m fallen\n",
@@ -154,9 +154,9 @@ json as_json(const LandingComparison& landing) {
 
 std::string landing_text(const LandingComparison& landing) {
     std::string text = fmt::format("landing {:.3g} m below the release\n", landing.depth);
-    text += figure_row("  after (s)", compare_figure(landing.motion.time, landing.reference.time), 1.0, true);
-    text += figure_row("  scattered by (mm)",
-                       compare_figure(landing.motion.scatter, landing.reference.scatter), 1000.0, true);
+    text += metric_row("  after (s)", compare_metric(landing.motion.time, landing.reference.time), 1.0, true);
+    text += metric_row("  scattered by (mm)",
+                       compare_metric(landing.motion.scatter, landing.reference.scatter), 1000.0, true);
     return text + fmt::format(
                       "  places apart by {:.3g} mm; falls by chance {:.3g}, 95 % of them below {:.3g} (p = "
                       "{:.3f})\n",
@@ -164,9 +164,9 @@ std::string landing_text(const LandingComparison& landing) {
                       landing.chance.probability);
 }
 
-bool has_doubts(const Comparison& all) {
-    return std::any_of(all.figures.begin(), all.figures.end(), [](const FigureComparison& figure) {
-        return figure.verdict && !figure.verdict->certain;
+bool has_warnings(const Comparison& all) {
+    return std::any_of(all.metrics.begin(), all.metrics.end(), [](const MetricComparison& metric) {
+        return metric.verdict && !metric.verdict->certain;
     });
 }
 
@@ -184,8 +184,8 @@ std::string with_error(const Estimate& estimate, double scale) {
 
 json as_json(const Comparison& all) {
     json measures;
-    for (const CataloguedFigure& entry : figure_catalogue) {
-        measures[entry.key] = as_json(all.figures[entry.figure]);
+    for (const CataloguedMetric& entry : metric_catalogue) {
+        measures[entry.key] = as_json(all.metrics[entry.metric]);
     }
     json quantiles = json::array();
     for (std::size_t q = 0; q < quantile_percents.size(); ++q) {
@@ -233,19 +233,19 @@ std::string as_text(const Comparison& all) {
                 : all.regime_is_uncertain ? "the reference's own is uncertain"
                 : all.regimes_agree       ? "agrees"
                                           : "differs");
-    for (const CataloguedFigure& entry : figure_catalogue) {
-        const FigureComparison& figure = all.figures[entry.figure];
-        if (is_of_autorotation(entry.figure) && !figure.motion && !figure.reference) continue;
+    for (const CataloguedMetric& entry : metric_catalogue) {
+        const MetricComparison& metric = all.metrics[entry.metric];
+        if (is_of_autorotation(entry.metric) && !metric.motion && !metric.reference) continue;
         const std::string what = entry.refines_last ? fmt::format("  {}", entry.title)
                                                     : fmt::format("{} ({})", entry.title, entry.unit);
-        text += figure_row(what, figure, entry.in_unit, entry.relative);
+        text += metric_row(what, metric, entry.in_unit, entry.relative);
     }
     text += distribution_text(all) + first_swing_text(all);
     for (const LandingComparison& landing : all.landings) text += landing_text(landing);
     for (const std::string& note : all.notes) text += "note: " + note + '\n';
     text += all.agrees ? "the motion agrees with the reference" : "the motion differs from the reference";
     if (!all.certain) text += ", but not for certain";
-    if (has_doubts(all))
+    if (has_warnings(all))
         text +=
             " (?: the limit is less than two standard errors away, or these are not known, or the "
             "reference's own "

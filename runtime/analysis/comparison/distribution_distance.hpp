@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "samara/analysis/comparison/chance.hpp"
-#include "samara/analysis/metrics/fall_figures.hpp"
+#include "samara/analysis/metrics/fall_metrics.hpp"
 
 namespace samara {
 

@@ -83,7 +83,7 @@ class Gathering {
     void add(FallSeries&& record) {
         ++set_.falls;
         if (!marks_.insert(mark_of(record)).second) return;
-        add_figures(record);
+        add_metrics(record);
         add_first_swing(record);
         if (path_) distances_.push_back({path_distance(record, *path_->first, path_->second), {}, {}});
         set_.regimes.add(record.measures.regime);
@@ -101,8 +101,8 @@ class Gathering {
 
     FallSet result() {
         set_.distinct = static_cast<int>(marks_.size());
-        for (const CataloguedFigure& entry : figure_catalogue) {
-            set_.figures[entry.figure] = mean_of(figures_[entry.figure], entry.mean);
+        for (const CataloguedMetric& entry : metric_catalogue) {
+            set_.metrics[entry.metric] = mean_of(metrics_[entry.metric], entry.mean);
         }
         for (std::size_t q = 0; q < quantile_percents.size(); ++q) {
             set_.inclination_quantiles[q] = mean_of(quantiles_[q]).value_or(Estimate{});
@@ -120,10 +120,10 @@ class Gathering {
         Estimates inclinations;
     };
 
-    void add_figures(const FallSeries& record) {
-        FallFigures one = fall_figures(record, window_.segment);
-        for (std::size_t i = 0; i < figure_count; ++i) {
-            if (one.figures[i]) figures_[i].push_back(*one.figures[i]);
+    void add_metrics(const FallSeries& record) {
+        FallMetrics one = fall_metrics(record, window_.segment);
+        for (std::size_t i = 0; i < metric_count; ++i) {
+            if (one.metrics[i]) metrics_[i].push_back(*one.metrics[i]);
         }
         for (std::size_t q = 0; q < quantile_percents.size(); ++q) {
             quantiles_[q].push_back(one.inclination_quantiles[q]);
@@ -153,7 +153,7 @@ class Gathering {
     std::optional<std::pair<const FallSeries*, double>> path_;
     FallSet set_;
     std::set<Mark> marks_;
-    PerFigure<Estimates> figures_;
+    PerMetric<Estimates> metrics_;
     std::array<Estimates, quantile_percents.size()> quantiles_;
     Estimates distances_;
     Turns minima_;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "samara/analysis/comparison/distribution_distance.hpp"
-#include "samara/analysis/metrics/fall_figures.hpp"
+#include "samara/analysis/metrics/fall_metrics.hpp"
 #include "samara/analysis/metrics/first_swing.hpp"
 #include "samara/analysis/metrics/passages.hpp"
 #include "samara/analysis/metrics/regime_counts.hpp"
@@ -56,7 +56,7 @@ struct FallWindow {
 struct FallSet {
     int falls = 0;     ///< that were chosen
     int distinct = 0;  ///< of them, to a ten-millionth of the way: the rest repeat these and do not count
-    PerFigure<std::optional<Estimate>> figures;
+    PerMetric<std::optional<Estimate>> metrics;
     std::array<Estimate, quantile_percents.size()> inclination_quantiles;
     PieceHistograms histograms;             ///< of all pieces
     Spectrum spectrum;                      ///< mean

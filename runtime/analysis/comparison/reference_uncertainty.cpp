@@ -27,17 +27,17 @@ void require_same_scene(const std::filesystem::path& reference, const Motion& a,
     }
 }
 
-std::optional<FigureUncertainty> uncertainty_of(const FigureComparison& figure, const std::string& cause,
+std::optional<MetricUncertainty> uncertainty_of(const MetricComparison& metric, const std::string& cause,
                                                 const char* key) {
-    if (!figure.motion && !figure.reference) return std::nullopt;
-    if (!figure.relative) return FigureUncertainty{cause, key, 1.0};
-    const double chance = figure.difference_error.value_or(0.0) / std::abs(figure.reference->value);
-    return FigureUncertainty{cause, key, std::abs(*figure.relative), chance};
+    if (!metric.motion && !metric.reference) return std::nullopt;
+    if (!metric.relative) return MetricUncertainty{cause, key, 1.0};
+    const double chance = metric.difference_error.value_or(0.0) / std::abs(metric.reference->value);
+    return MetricUncertainty{cause, key, std::abs(*metric.relative), chance};
 }
 
 }  // namespace
 
-std::vector<FigureUncertainty> uncertainty_beside(const std::filesystem::path& reference,
+std::vector<MetricUncertainty> uncertainty_beside(const std::filesystem::path& reference,
                                                   const std::filesystem::path& other,
                                                   const std::string& cause) {
     const MotionReader held(reference);
@@ -45,25 +45,25 @@ std::vector<FigureUncertainty> uncertainty_beside(const std::filesystem::path& r
     require_same_scene(reference, held.motion(), other, beside.motion());
     const Comparison comparison = compare({other.string(), &beside, 0, {}, {}},
                                           {reference.string(), &held, 0, {}, {}}, {}, [](double, double) {});
-    std::vector<FigureUncertainty> uncertainties;
-    for (const Figure figure : baked_figures) {
-        const CataloguedFigure& entry = catalogued(figure);
-        if (entry.subject != FigureSubject::path && !comparison.judges_inclination) continue;
-        const auto uncertainty = uncertainty_of(comparison.figures[figure], cause, entry.key);
+    std::vector<MetricUncertainty> uncertainties;
+    for (const Metric metric : baked_metrics) {
+        const CataloguedMetric& entry = catalogued(metric);
+        if (entry.subject != MetricSubject::path && !comparison.judges_inclination) continue;
+        const auto uncertainty = uncertainty_of(comparison.metrics[metric], cause, entry.key);
         if (uncertainty) uncertainties.push_back(*uncertainty);
     }
     if (comparison.judges_inclination) {
         uncertainties.push_back({cause, regime_key, comparison.regimes_agree ? 0.0 : 1.0});
     }
-    std::ranges::sort(uncertainties, {}, &FigureUncertainty::figure);
+    std::ranges::sort(uncertainties, {}, &MetricUncertainty::metric);
     return uncertainties;
 }
 
-double uncertainty_of(const BodyMotion& body, const std::string& figure) {
+double uncertainty_of(const BodyMotion& body, const std::string& metric) {
     double sum = 0.0;
     double chance = 0.0;
-    for (const FigureUncertainty& one : body.uncertainties) {
-        if (one.figure != figure) continue;
+    for (const MetricUncertainty& one : body.uncertainties) {
+        if (one.metric != metric) continue;
         sum += one.relative;
         chance = std::max(chance, one.chance);
     }

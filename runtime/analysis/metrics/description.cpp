@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-double told_by(const FigureUncertainty& one) {
+double told_by(const MetricUncertainty& one) {
     return std::max(one.relative, one.chance);
 }
 
@@ -25,8 +25,8 @@ json describe(const BodyMotion& body, const BodyMeasures& measures) {
                       {"center_of_mass", as_json(body.center_of_mass)},
                       {"body_hash", body.body_hash},
                       {"models", body.models}};
-    for (const FigureUncertainty& one : body.uncertainties) {
-        described["uncertainties"][one.cause][one.figure] = told_by(one);
+    for (const MetricUncertainty& one : body.uncertainties) {
+        described["uncertainties"][one.cause][one.metric] = told_by(one);
     }
     described.update(as_json(measures));
     return described;
@@ -40,11 +40,11 @@ std::string counted(int count, const char* noun) {
 std::string uncertainty_text(const BodyMotion& body) {
     std::string text;
     const std::string* cause = nullptr;
-    for (const FigureUncertainty& one : body.uncertainties) {
+    for (const MetricUncertainty& one : body.uncertainties) {
         const bool begins = cause == nullptr || *cause != one.cause;
         if (begins) text += fmt::format("{}  uncertain by its {}: ", text.empty() ? "" : "\n", one.cause);
         cause = &one.cause;
-        text += fmt::format("{}{} {:.2g} %", begins ? "" : ", ", one.figure, 100.0 * told_by(one));
+        text += fmt::format("{}{} {:.2g} %", begins ? "" : ", ", one.metric, 100.0 * told_by(one));
     }
     return text.empty() ? text : text + '\n';
 }
@@ -79,10 +79,10 @@ std::string ensemble_text(const BodyMeasures& all) {
 /// The figures of the flights that autorotate, at the catalogue's names and units.
 std::string autorotation_text(const BodyMeasures& all) {
     std::string text;
-    for (const CataloguedFigure& entry : figure_catalogue) {
-        if (!is_of_autorotation(entry.figure) || !all.figures[entry.figure]) continue;
+    for (const CataloguedMetric& entry : metric_catalogue) {
+        if (!is_of_autorotation(entry.metric) || !all.metrics[entry.metric]) continue;
         text += fmt::format("{}{} {:.4g} {}", text.empty() ? "  " : ", ", entry.title,
-                            entry.in_unit * all.value(entry.figure), entry.unit);
+                            entry.in_unit * all.value(entry.metric), entry.unit);
     }
     return text.empty() ? text : text + '\n';
 }
@@ -105,7 +105,7 @@ json as_json(const Measures& measures) {
                    {"swings", measures.swings},
                    {"turnovers", measures.turnovers},
                    {"regime", name_of(measures.regime)}};
-    for (const CataloguedFigure& entry : figure_catalogue) {
+    for (const CataloguedMetric& entry : metric_catalogue) {
         if (entry.measured) result[entry.key] = or_null(entry.measured(measures));
     }
     return result;
@@ -126,13 +126,13 @@ json as_json(const BodyMeasures& all) {
     json result = as_json(all.regimes);
     result["samples"] = all.samples;
     result["mean_velocity"] = as_json(all.mean_velocity);
-    for (const CataloguedFigure& entry : figure_catalogue) {
+    for (const CataloguedMetric& entry : metric_catalogue) {
         if (!entry.measured) continue;
-        const std::optional<Estimate>& figure = all.figures[entry.figure];
-        result[entry.key] = figure ? json(figure->value) : json();
+        const std::optional<Estimate>& metric = all.metrics[entry.metric];
+        result[entry.key] = metric ? json(metric->value) : json();
     }
-    const std::optional<Estimate>& descent = all.figures[Figure::descent_speed];
-    const std::optional<Estimate>& frequency = all.figures[Figure::frequency];
+    const std::optional<Estimate>& descent = all.metrics[Metric::descent_speed];
+    const std::optional<Estimate>& frequency = all.metrics[Metric::frequency];
     result["descent_speed_deviation"] = descent->deviation.value_or(0.0);
     result["descent_speed_error"] = descent->error.value_or(0.0);
     result["frequency_deviation"] = frequency ? frequency->deviation.value_or(0.0) : 0.0;
@@ -150,15 +150,15 @@ json as_json(const BodyMeasures& all) {
 
 std::string as_text(const BodyMeasures& all) {
     const bool many = all.samples > 1;
-    const Estimate& descent = *all.figures[Figure::descent_speed];
+    const Estimate& descent = *all.metrics[Metric::descent_speed];
     std::string text =
         fmt::format("  {}, {} at {:.4g}{} m/s, inclination up to {:.1f} degrees",
                     name_of(all.regimes.commonest()), descent.value < 0.0 ? "rises" : "descends",
                     std::abs(descent.value), many ? fmt::format(" +- {:.2g}", *descent.error) : "",
-                    degrees * all.value(Figure::inclination_amplitude));
-    if (const auto& frequency = all.figures[Figure::frequency])
+                    degrees * all.value(Metric::inclination_amplitude));
+    if (const auto& frequency = all.metrics[Metric::frequency])
         text += fmt::format(", {:.4g} Hz", frequency->value);
-    text += fmt::format(", rms angular speed {:.4g} rad/s\n", all.value(Figure::rms_angular_speed));
+    text += fmt::format(", rms angular speed {:.4g} rad/s\n", all.value(Metric::rms_angular_speed));
     text += autorotation_text(all);
     if (many) text += ensemble_text(all);
     if (all.landing.count > 0) text += landing_text(all.landing, all.samples);

@@ -61,10 +61,10 @@ void Ensemble::add(const Motion& motion, const BodyMotion& body, int threads) {
 void Ensemble::add_measures(const Measures& one) {
     ++sums_.samples;
     sums_.mean_velocity += one.mean_velocity;
-    for (const CataloguedFigure& entry : figure_catalogue) {
+    for (const CataloguedMetric& entry : metric_catalogue) {
         const auto value = entry.measured ? entry.measured(one) : std::nullopt;
         if (!value) continue;
-        FigureSum& sum = figures_[entry.figure];
+        MetricSum& sum = metrics_[entry.metric];
         sum.sum += *value;
         sum.squares += *value * *value;
         ++sum.count;
@@ -125,7 +125,7 @@ void Ensemble::measure_path(BodyMeasures& all) const {
     if (times.size() >= 2) all.path_spread_growth = slope(times, spreads);
 }
 
-Estimate Ensemble::FigureSum::mean(Mean mean) const {
+Estimate Ensemble::MetricSum::mean(Mean mean) const {
     Estimate all{mean == Mean::arithmetic ? sum / count : std::sqrt(squares / count), {}, {}};
     if (count == 1) return all;
     all.deviation = std::sqrt(std::max(0.0, (squares - sum * sum / count) / (count - 1)));
@@ -137,9 +137,9 @@ BodyMeasures Ensemble::measures() const {
     BodyMeasures all = sums_;
     const int count = all.samples;
     all.mean_velocity /= count;
-    for (const CataloguedFigure& entry : figure_catalogue) {
-        const FigureSum& sum = figures_[entry.figure];
-        if (sum.count > 0) all.figures[entry.figure] = sum.mean(entry.mean);
+    for (const CataloguedMetric& entry : metric_catalogue) {
+        const MetricSum& sum = metrics_[entry.metric];
+        if (sum.count > 0) all.metrics[entry.metric] = sum.mean(entry.mean);
     }
     if (count > 1) measure_path(all);
     Landing& landing = all.landing;

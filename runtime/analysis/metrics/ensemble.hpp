@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "samara/analysis/metrics/figure_catalogue.hpp"
+#include "samara/analysis/metrics/metric_catalogue.hpp"
 #include "samara/analysis/metrics/regime_counts.hpp"
 #include "samara/motion/motion_file.hpp"
 
@@ -22,7 +22,7 @@ struct Landing {
 struct BodyMeasures {
     int samples = 0;                             ///< copies x runs
     Vector3d mean_velocity = Vector3d::Zero();   ///< m/s, mean over copies and runs
-    PerFigure<std::optional<Estimate>> figures;  ///< those of Measures, over those falls that have them
+    PerMetric<std::optional<Estimate>> metrics;  ///< those of Measures, over those falls that have them
     RegimeCounts regimes;
     double path_spread = 0.0;  ///< m: rms horizontal distance from the mean path, starts laid on one another,
                                ///< at the end of the shortest fall; 0 for a single one
@@ -32,7 +32,7 @@ struct BodyMeasures {
     Landing landing;
 
     /// The value of a figure that every fall has.
-    [[nodiscard]] double value(Figure figure) const { return figures[figure]->value; }
+    [[nodiscard]] double value(Metric metric) const { return metrics[metric]->value; }
 };
 
 /// Gathers the measures of a body's copies and runs, in parts: what it keeps grows neither with time
@@ -52,7 +52,7 @@ class Ensemble {
         double square = 0.0;              ///< m^2
     };
     /// Of one figure, over those falls that have it.
-    struct FigureSum {
+    struct MetricSum {
         double sum = 0.0;
         double squares = 0.0;
         int count = 0;
@@ -66,7 +66,7 @@ class Ensemble {
     void measure_path(BodyMeasures& all) const;
 
     BodyMeasures sums_;
-    PerFigure<FigureSum> figures_;
+    PerMetric<MetricSum> metrics_;
     std::vector<Spot> spots_;
     TimeWindow shortest_fall_;
     double squared_landings_ = 0.0;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <ctime>
 
-#include "samara/analysis/metrics/fall_figures.hpp"
+#include "samara/analysis/metrics/fall_metrics.hpp"
 #include "samara/core/base/parallel_for.hpp"
 #include "samara/core/dynamics/loads.hpp"
 #include "samara/scene/scene_flight.hpp"
@@ -80,8 +80,8 @@ SampledFall sampled_fall(const Motion& motion, const BodyMotion& body, int copy,
     const FallSeries record = fall_series(motion, body, 0, copy, {length / 3.0, length});
     const Measures& measures = record.measures;
     sample.measured = true;
-    for (const CataloguedFigure& entry : figure_catalogue) {
-        sample.figures[entry.figure] = figure_value(entry.figure, record);
+    for (const CataloguedMetric& entry : metric_catalogue) {
+        sample.metrics[entry.metric] = metric_value(entry.metric, record);
     }
     sample.regime = measures.regime;
     sample.speed = (measures.mean_velocity - current).norm();
@@ -144,13 +144,13 @@ SceneBody guessed_before_bake(const Scene& scene, const SceneBody& scene_body, c
     return guessed;
 }
 
-std::optional<Estimate> SampledFalls::mean(Figure figure) const {
+std::optional<Estimate> SampledFalls::mean(Metric metric) const {
     std::vector<Estimate> values;
     for (const SampledFall& fall : falls) {
-        if (fall.figures[figure]) values.push_back({*fall.figures[figure], {}, {}});
+        if (fall.metrics[metric]) values.push_back({*fall.metrics[metric], {}, {}});
     }
     if (2 * values.size() < falls.size()) return std::nullopt;
-    return mean_of(values, catalogued(figure).mean);
+    return mean_of(values, catalogued(metric).mean);
 }
 
 RegimeCounts SampledFalls::regimes() const {

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "samara/analysis/metrics/figure_catalogue.hpp"
 #include "samara/analysis/metrics/flow_visits.hpp"
+#include "samara/analysis/metrics/metric_catalogue.hpp"
 #include "samara/analysis/metrics/regime_counts.hpp"
 #include "samara/scene/simulation.hpp"
 
@@ -14,7 +14,7 @@ namespace samara {
 /// One fall over the last two thirds of its way.
 struct SampledFall {
     bool measured = false;  ///< false where the fall is too short; then the rest says nothing
-    PerFigure<std::optional<double>> figures;  ///< those of figure_value()
+    PerMetric<std::optional<double>> metrics;  ///< those of metric_value()
     Regime regime = Regime::steady;
     double speed = 0.0;     ///< m/s: magnitude of the mean velocity, less the current
     double distance = 0.0;  ///< m: rms distance from the release
@@ -35,7 +35,7 @@ struct SampledFalls {
     double highest_reynolds_number = 0.0;
 
     /// The mean of a figure over the falls that have it; nothing where fewer than half of them do.
-    [[nodiscard]] std::optional<Estimate> mean(Figure figure) const;
+    [[nodiscard]] std::optional<Estimate> mean(Metric metric) const;
     /// Of the falls that are measured.
     [[nodiscard]] RegimeCounts regimes() const;
 };

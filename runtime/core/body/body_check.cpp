@@ -81,8 +81,8 @@ std::string fault_of(const Symmetry& symmetry) {
 }
 
 std::string fault_of(const ShapeError& error) {
-    for (const double figure : {error.distance, error.mean_distance, error.faceting}) {
-        if (!(figure >= 0.0) || !std::isfinite(figure)) {
+    for (const double metric : {error.distance, error.mean_distance, error.faceting}) {
+        if (!(metric >= 0.0) || !std::isfinite(metric)) {
             return "/surface has a distance from its shape that is negative or not finite";
         }
     }
@@ -107,8 +107,8 @@ std::string fault_of(const KirchhoffTensor& kirchhoff, double radius) {
     }
     // A body and the fluid that it moves weigh no more than the ball around it and what that moves: 2 pi.
     if (values.maxCoeff() > 4.0 * pi) return fmt::format("{} is too large for the body", place);
-    for (const double figure : {kirchhoff.error_estimate, kirchhoff.asymmetry}) {
-        if (!(figure >= 0.0) || !std::isfinite(figure)) {
+    for (const double metric : {kirchhoff.error_estimate, kirchhoff.asymmetry}) {
+        if (!(metric >= 0.0) || !std::isfinite(metric)) {
             return "/kirchhoff has an error_estimate or asymmetry that is negative or not finite";
         }
     }

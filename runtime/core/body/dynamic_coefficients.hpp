@@ -6,29 +6,29 @@
 
 namespace samara {
 
-/// (Q/|v|)^2 at which half of what a steady tow lacks is there: small, since a body need not turn fast beside
-/// its speed for its flow to be steady no more. Identified on the falls of docs/studies/falls, which give
-/// 0.003 to 0.1. Where |v| and Q have changed places, half of the tow's moment is gone.
+/// (Q/|v|)^2 at which half of what a steady translation lacks is there: small, since a body need not turn
+/// fast beside its speed for its flow to be steady no more. Identified on the falls of docs/studies/falls,
+/// which give 0.003 to 0.1. Where |v| and Q have changed places, half of the steady moment is gone.
 inline constexpr double motion_onset = 0.03;
 
 /// Over how long a way transport forms behind a body that starts in fluid at rest, over the body's extent
 /// along it (docs/theory, "A wake that forms"; chosen in docs/studies/falls, "The start").
 inline constexpr double wake_formation_ways = 1.0;
 
-/// Over how long a way the tow's own moment comes back behind a body that no longer swings, over its extent
-/// along it. Usual: so that from rest it is there after the 2.3 extents that tows by full CFD have in the
-/// median. Of bodies whose transport was identified from falls: these lack the tow's moment
+/// Over how long a way the steady own moment comes back behind a body that no longer swings, over its extent
+/// along it. Usual: so that from rest it is there after the 2.3 extents that steady translations by full CFD
+/// have in the median. Of bodies whose transport was identified from falls: these lack the steady moment
 /// (docs/studies/falls, "The start"); where all axes are alike, as a cube's, transport turns nothing and the
-/// tow's moment is all there is.
-inline constexpr double usual_settling_ways = 0.8;
-inline constexpr double settling_ways_of_falls = 20.0;
-inline constexpr double settling_ways_of_alike_axes = 5.0;
+/// steady moment is all there is.
+inline constexpr double usual_settling_length = 0.8;
+inline constexpr double settling_length_of_falls = 20.0;
+inline constexpr double settling_length_of_alike_axes = 5.0;
 
-/// What a free body feels beyond the tabulated loads of a steady tow (docs/theory, "Loads of a moving body");
-/// but for f none of it changes a steady tow without rotation. Body axes about the centroid of the volume;
-/// rho the fluid's density, v and omega relative to the fluid, H = sqrt(|v|^2 + c^2 |omega|^2). Q is the tip
-/// speed c |omega| of the body's own turning: what turbulence turns is in the table already. In still fluid
-/// they are one.
+/// What a free body feels beyond the tabulated loads of a steady translation (docs/theory, "Loads of a moving
+/// body"); but for f none of it changes a steady translation without rotation. Body axes about the centroid
+/// of the volume; rho the fluid's density, v and omega relative to the fluid, H = sqrt(|v|^2 + c^2
+/// |omega|^2). Q is the tip speed c |omega| of the body's own turning: what turbulence turns is in the table
+/// already. In still fluid they are one.
 struct DynamicCoefficients {
     /// T (m^3), symmetric: separated flow adds the force rho omega x (T v) and the moment rho v x (T v),
     /// which together do no work. T = M, the added mass, takes the potential flow's own away.
@@ -36,12 +36,12 @@ struct DynamicCoefficients {
     /// t: the same for the rest of the fluid's momenta, its angular momentum J omega + C v and the linear one
     /// C^T omega that turning makes; J, C: blocks of K_fluid. 1 takes the potential flow's own away.
     double rotational_transport = 0.0;
-    /// f: what the steady solution of a tow misses of the flow around a free body, which is never steady: the
-    /// tabulated force and moment are taken times f.
+    /// f: what the steady solution of a steady translation misses of the flow around a free body, which is
+    /// never steady: the tabulated force and moment are taken times f.
     double unsteady_factor = 1.0;
     /// Over how long a way, over the body's extent along it, the direction from which the fluid meets the
-    /// body counts in its mean: as far as that is steady the tow's moment is there.
-    double settling_ways = usual_settling_ways;
+    /// body counts in its mean: as far as that is steady the steady moment is there.
+    double settling_length = usual_settling_length;
     /// C_m A (m^2), symmetric and positive semidefinite: drag in motion, the force -rho/2 H s C_m A v with s
     /// = Q^2/(motion_onset |v|^2 + Q^2).
     Matrix3d drag_in_motion = Matrix3d::Zero();
@@ -89,7 +89,7 @@ struct NumberOfMotion {
 inline constexpr NumberOfMotion numbers_of_motion[] = {
     {&DynamicCoefficients::rotational_transport, "rotational_transport", "turning transport", false, false},
     {&DynamicCoefficients::unsteady_factor, "unsteady_factor", "unsteady factor", true, true},
-    {&DynamicCoefficients::settling_ways, "settling_ways", "settling ways", true, true},
+    {&DynamicCoefficients::settling_length, "settling_ways", "settling ways", true, true},
 };
 
 /// Of which densities the falls were that coefficients come from, over the fluid's; zero: not known.

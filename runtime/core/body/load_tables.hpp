@@ -14,7 +14,7 @@ namespace samara {
 struct LoadEntry {
     Vector3d force = Vector3d::Zero();  ///< F / (rho U^2 A / 2)
     Vector3d moment =
-        Vector3d::Zero();  ///< M / (rho U^2 A L / 2), the total moment of the fluid in a steady tow
+        Vector3d::Zero();  ///< M / (rho U^2 A L / 2), the total moment of the fluid in a steady translation
     double turbulent_kinetic_energy = 0.0;  ///< k / U^2, mean over the shell of volume from 0.05 L to 0.25 L
     double dissipation_rate = 0.0;          ///< epsilon L / U^3, mean over the same shell
 };

@@ -7,7 +7,7 @@
 
 namespace samara {
 
-/// A triangle of a surface in the potential flow of a tow, in lengths of L about the centroid.
+/// A triangle of a surface in the potential flow of a steady translation, in lengths of L about the centroid.
 struct SurfaceElement {
     Vector3d place = Vector3d::Zero();   ///< its centre
     Vector3d normal = Vector3d::Zero();  ///< outward; zero where it has no area
@@ -21,7 +21,7 @@ struct SurfaceElement {
 std::vector<SurfaceElement> surface_elements(const SurfaceLoads& loads);
 
 /// The pressure on the element over rho U^2 / 2 where the body moves along the unit vector `direction`
-/// (docs/surface-loads.md, "The tow").
+/// (docs/surface-loads.md, "The steady translation").
 double pressure_on(const SurfaceElement& element, const Vector3d& direction, const SurfacePressure& pressure);
 
 /// A over L^2.

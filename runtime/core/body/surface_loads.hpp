@@ -17,15 +17,15 @@ struct SurfacePressure {
                                     ///< wake
 };
 
-/// Force and moment of the pressure in a steady tow, over rho U^2 A / 2 and rho U^2 A L / 2; body axes, about
-/// the centroid of the volume.
+/// Force and moment of the pressure in a steady translation, over rho U^2 A / 2 and rho U^2 A L / 2; body
+/// axes, about the centroid of the volume.
 struct PressureLoads {
     Vector3d force = Vector3d::Zero();
     Vector3d moment = Vector3d::Zero();
 };
 
-/// What the loads of a steady tow are estimated from without CFD (docs/surface-loads.md): the potential flow
-/// over the surface. Nondimensional with L = sqrt(S/pi) and A = pi L^2/4.
+/// What the loads of a steady translation are estimated from without CFD (docs/surface-loads.md): the
+/// potential flow over the surface. Nondimensional with L = sqrt(S/pi) and A = pi L^2/4.
 struct SurfaceLoads {
     Surface surface;  ///< flat triangles, in lengths of L about the centroid of the volume, body axes
     /// At each vertex the potentials of the unit velocities along the three axes, over U L.

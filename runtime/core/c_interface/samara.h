@@ -155,7 +155,7 @@ enum {
     SAMARA_LANGEVIN_BODY_VELOCITY = 1,
     SAMARA_LANGEVIN_WAKE = 2 /* the body's own wake; with CONSTANT turbulence as SEEN_FLUID */
 };
-/* Whose coefficients give the loads of a body in motion beyond those of a steady tow. */
+/* Whose coefficients give the loads of a body in motion beyond those of a steady translation. */
 enum {
     SAMARA_DYNAMIC_OF_BODY = 0, /* the body file's, or the defaults where it has none */
     SAMARA_DYNAMIC_DEFAULT = 1, /* the defaults */

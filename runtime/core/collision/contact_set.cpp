@@ -15,7 +15,7 @@ void ContactSet::add_ground(const ContactPoints& points, double height, double m
              .friction = ground_friction,
              .obstacle = -1,
              .surface_velocity = Vector3d::Zero(),
-             .surface_turning = Vector3d::Zero()});
+             .surface_angular_velocity = Vector3d::Zero()});
     };
     for (const Vector3d& corner : points.corners) look_at(corner);
     if (!points.round.empty()) look_at(lowest_round_point(points, -up));

@@ -18,9 +18,9 @@ struct NearPoint {
     Vector3d normal;  ///< body axes: out of what it may meet
     double gap;       ///< m, along the normal
     double friction;
-    int obstacle;               ///< the number of the one that it may meet; -1: level ground
-    Vector3d surface_velocity;  ///< m/s, body axes: of what it may meet, relative to the ground
-    Vector3d surface_turning;   ///< rad/s, body axes: the same
+    int obstacle;                       ///< the number of the one that it may meet; -1: level ground
+    Vector3d surface_velocity;          ///< m/s, body axes: of what it may meet, relative to the ground
+    Vector3d surface_angular_velocity;  ///< rad/s, body axes: the same
 
     [[nodiscard]] bool on_ground() const noexcept { return obstacle < 0; }
 };

@@ -93,7 +93,7 @@ void FaceContacts::add_point(const Vector3d& of_body, const Vector3d& normal, do
                .friction = friction_,
                .obstacle = obstacle_,
                .surface_velocity = hull_.orientation.transpose() * surface_.at(place),
-               .surface_turning = hull_.orientation.transpose() * surface_.turning});
+               .surface_angular_velocity = hull_.orientation.transpose() * surface_.turning});
 }
 
 void FaceContacts::add_corners(const ObstacleTriangle& triangle, const Vector3d& normal,

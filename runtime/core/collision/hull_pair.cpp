@@ -21,7 +21,7 @@ Vector3d middle_of(const PlacedHull& hull) {
 
 /// The plane by which hulls that are each drawn in towards their middle are parted. Round sides are smoothed
 /// tables, of which two that touch may seem to overlap by less than that. False where even these overlap.
-bool parting_drawn_in(const MeetingHull& first, const MeetingHull& second, Parting& result) {
+bool separation_drawn_in(const CollisionHull& first, const CollisionHull& second, PairSeparation& result) {
     const Vector3d first_middle = middle_of(first.hull);
     const Vector3d second_middle = middle_of(second.hull);
     const auto of = [](const PlacedHull& hull, const Vector3d& middle) {
@@ -44,11 +44,11 @@ bool parting_drawn_in(const MeetingHull& first, const MeetingHull& second, Parti
 }
 
 /// Of hulls that seem to overlap the direction along which they do so least.
-Parting overlapping(const MeetingHull& first, const MeetingHull& second) {
-    Parting apart;
-    const bool barely = parting_drawn_in(first, second, apart);
+PairSeparation overlapping(const CollisionHull& first, const CollisionHull& second) {
+    PairSeparation apart;
+    const bool barely = separation_drawn_in(first, second, apart);
     if (barely && !apart.overlap) return apart;
-    Parting best{Vector3d::UnitZ(), -std::numeric_limits<double>::infinity(), Vector3d::Zero(), true};
+    PairSeparation best{Vector3d::UnitZ(), -std::numeric_limits<double>::infinity(), Vector3d::Zero(), true};
     const auto look_along = [&](const Vector3d& normal) {
         const double gap = gap_along(first.hull, second.hull, normal);
         if (gap <= best.gap) return;
@@ -67,7 +67,7 @@ Parting overlapping(const MeetingHull& first, const MeetingHull& second) {
 }
 
 /// The face of a hull that looks most along a unit vector; null where there is none.
-const HullFace* face_along(const MeetingHull& of, const Vector3d& direction, double& cosine) {
+const HullFace* face_along(const CollisionHull& of, const Vector3d& direction, double& cosine) {
     const Vector3d own = of.hull.orientation.transpose() * direction;
     const HullFace* found = nullptr;
     cosine = -1.0;
@@ -154,7 +154,7 @@ class PointChoice {
 
 /// The points of `lying`, a face of one hull, that lie over the face `carrying` of the other within reach.
 /// `normal`: of the carrying face, outwards; `swapped`: whether the carrying hull is the first.
-void add_shared(const MeetingHull& carrying, const HullFace& face, const MeetingHull& lying,
+void add_shared(const CollisionHull& carrying, const HullFace& face, const CollisionHull& lying,
                 const HullFace& other, const Vector3d& normal, double reach, bool swapped, Meeting& meeting) {
     Outline outline(lying.hull, other);
     for (std::size_t i = 0; i < face.outline.size(); ++i) {
@@ -175,7 +175,7 @@ void add_shared(const MeetingHull& carrying, const HullFace& face, const Meeting
 }
 
 /// Whether no round side stands out over the corners along a direction.
-bool ends_in_corners(const MeetingHull& of, const Vector3d& direction) {
+bool ends_in_corners(const CollisionHull& of, const Vector3d& direction) {
     const ContactPoints& points = *of.hull.points;
     if (points.round.empty()) return true;
     const Vector3d own = of.hull.orientation.transpose() * direction;
@@ -186,7 +186,7 @@ bool ends_in_corners(const MeetingHull& of, const Vector3d& direction) {
 
 }  // namespace
 
-Parting parting(const MeetingHull& first, const MeetingHull& second, double enough) noexcept {
+PairSeparation pair_separation(const CollisionHull& first, const CollisionHull& second, double enough) noexcept {
     Vector3d way = middle_of(first.hull) - middle_of(second.hull);
     if (way.norm() > 0.0) {
         const Vector3d normal = way.normalized();
@@ -203,8 +203,8 @@ Parting parting(const MeetingHull& first, const MeetingHull& second, double enou
     return {normal, gap, simplex.on_second(), false};
 }
 
-Meeting meeting(const MeetingHull& first, const MeetingHull& second, double reach) noexcept {
-    const Parting apart = parting(first, second, reach);
+Meeting meeting(const CollisionHull& first, const CollisionHull& second, double reach) noexcept {
+    const PairSeparation apart = pair_separation(first, second, reach);
     Meeting result;
     result.normal = apart.normal;
     result.gap = apart.gap;

@@ -22,13 +22,13 @@ struct HullFace {
 std::vector<HullFace> hull_faces(const ContactPoints& points);
 
 /// A hull that may meet others; all that meet are placed in the same axes.
-struct MeetingHull {
+struct CollisionHull {
     PlacedHull hull;
     const std::vector<HullFace>* faces;
 };
 
 /// The plane that parts two hulls.
-struct Parting {
+struct PairSeparation {
     Vector3d normal;     ///< of length one, from the second to the first
     double gap;          ///< m, along the normal; negative where they overlap
     Vector3d on_second;  ///< m: a point of the second that is nearest to the first
@@ -39,7 +39,7 @@ struct Parting {
 
 /// The plane that leaves the widest gap, or one with a gap above `enough` (m), found sooner. Never throws or
 /// allocates.
-Parting parting(const MeetingHull& first, const MeetingHull& second, double enough) noexcept;
+PairSeparation pair_separation(const CollisionHull& first, const CollisionHull& second, double enough) noexcept;
 
 /// The gap (m) between two hulls along a unit vector from the second to the first.
 inline double gap_along(const PlacedHull& first, const PlacedHull& second, const Vector3d& normal) noexcept {
@@ -60,6 +60,6 @@ struct Meeting {
 
 /// Where two hulls come within `reach` (m) of each other: of faces that face each other the outline of what
 /// they share, eight points of it at most, else the nearest points. Never throws or allocates.
-Meeting meeting(const MeetingHull& first, const MeetingHull& second, double reach) noexcept;
+Meeting meeting(const CollisionHull& first, const CollisionHull& second, double reach) noexcept;
 
 }  // namespace samara

@@ -274,7 +274,7 @@ class ImpulseSolver {
         contact.near = &near;
         contact.begin(near.on_ground() ? to_world_ : axes_about(near.normal),
                       moves ? near.surface_velocity : Vector3d::Zero(),
-                      moves ? near.surface_turning : Vector3d::Zero(), near.friction,
+                      moves ? near.surface_angular_velocity : Vector3d::Zero(), near.friction,
                       body_.contact_points.bounding_radius);
         contact.meant.z() = -candidate.allowed_speed;
         contact.along << -contact.axes * skew(near.point), contact.axes;
@@ -362,15 +362,15 @@ class ImpulseSolver {
 
 /// The velocities of bodies among others at a point where they may touch.
 struct JointMotion {
-    std::span<JointBody> bodies;
-    const JointPoint& point;
+    std::span<ContactBody> bodies;
+    const ContactBetween& point;
     const ContactImpulses& impulses;
 
     /// How fast the first passes the second at the point (m/s), or what it meets there.
     [[nodiscard]] Vector3d passing() const {
         const Vector6d& a = bodies[point.first].velocity;
         Vector3d rate = a.tail<3>() + a.head<3>().cross(point.first_arm);
-        if (point.second == JointPoint::none) return rate;
+        if (point.second == ContactBetween::none) return rate;
         const Vector6d& b = bodies[point.second].velocity;
         rate -= b.tail<3>() + b.head<3>().cross(point.second_arm);
         return rate;
@@ -381,13 +381,13 @@ struct JointMotion {
     }
     [[nodiscard]] Vector3d turn() const {
         Vector3d rate = bodies[point.first].velocity.head<3>();
-        if (point.second != JointPoint::none) rate -= bodies[point.second].velocity.head<3>();
+        if (point.second != ContactBetween::none) rate -= bodies[point.second].velocity.head<3>();
         return impulses.axes * rate - impulses.meant_turn;
     }
     template <typename Change>
     void add(const Change& change) const {
         bodies[point.first].velocity += change(impulses.first);
-        if (point.second != JointPoint::none) bodies[point.second].velocity -= change(impulses.second);
+        if (point.second != ContactBetween::none) bodies[point.second].velocity -= change(impulses.second);
     }
     void add_size(const Vector6d& size) const {
         add([&](const ContactImpulses::Side& side) -> Vector6d {
@@ -399,11 +399,11 @@ struct JointMotion {
 }  // namespace
 
 void ContactImpulses::begin(const Matrix3d& along, const Vector3d& surface_velocity,
-                            const Vector3d& surface_turning, double friction_coefficient,
+                            const Vector3d& surface_angular_velocity, double friction_coefficient,
                             double radius) noexcept {
     axes = along;
     meant = axes * surface_velocity;
-    meant_turn = axes * surface_turning;
+    meant_turn = axes * surface_angular_velocity;
     rising = meant.z();
     friction = friction_coefficient;
     lever = rolling_resistance * radius;
@@ -431,11 +431,11 @@ Vector6d after_impulses(const TouchingBody& body, const ContactSet& near, const 
     return velocity + (share == 1.0 ? change : Vector6d(share * change));
 }
 
-void JointImpulses::prepare(std::span<JointBody> bodies, std::span<const JointPoint> points,
+void ContactSolver::prepare(std::span<ContactBody> bodies, std::span<const ContactBetween> points,
                             std::size_t known) {
     rows_.resize(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
-        const JointPoint& point = points[i];
+        const ContactBetween& point = points[i];
         Row& row = rows_[i];
         row.direction.setZero();
         if (i < known) {
@@ -444,7 +444,7 @@ void JointImpulses::prepare(std::span<JointBody> bodies, std::span<const JointPo
         }
         const Matrix3d axes = axes_about(point.normal);
         const Matrix3d across = axes.transpose();
-        const auto respond = [&](const JointBody& body, const Vector3d& arm, ContactImpulses::Side& side) {
+        const auto respond = [&](const ContactBody& body, const Vector3d& arm, ContactImpulses::Side& side) {
             ContactImpulses::Response wrench;
             wrench << skew(arm) * across, across;
             side.push = body.inverse_inertia * wrench;
@@ -456,18 +456,18 @@ void JointImpulses::prepare(std::span<JointBody> bodies, std::span<const JointPo
         row.turn_mobility.setZero();
         respond(bodies[point.first], point.first_arm, row.first);
         double radius = bodies[point.first].radius;
-        if (point.second != JointPoint::none) {
-            const JointBody& second = bodies[point.second];
+        if (point.second != ContactBetween::none) {
+            const ContactBody& second = bodies[point.second];
             respond(second, point.second_arm, row.second);
             radius = std::min(radius, second.radius);
         }
-        row.begin(axes, point.surface_velocity, point.surface_turning, point.friction, radius);
+        row.begin(axes, point.surface_velocity, point.surface_angular_velocity, point.friction, radius);
         row.meant.z() -= point.allowed_speed;
         row.invert();
     }
 }
 
-void JointImpulses::sweep(std::span<JointBody> bodies, std::span<const JointPoint> points,
+void ContactSolver::sweep(std::span<ContactBody> bodies, std::span<const ContactBetween> points,
                           bool backwards) noexcept {
     for (std::size_t k = 0; k < points.size(); ++k) {
         const std::size_t i = backwards ? points.size() - 1 - k : k;
@@ -475,7 +475,7 @@ void JointImpulses::sweep(std::span<JointBody> bodies, std::span<const JointPoin
     }
 }
 
-bool JointImpulses::has_converged() const noexcept {
+bool ContactSolver::has_converged() const noexcept {
     double change = 0.0;
     double largest = 0.0;
     for (const Row& row : rows_) {
@@ -486,7 +486,8 @@ bool JointImpulses::has_converged() const noexcept {
     return change <= joint_converged * joint_converged * largest;
 }
 
-void JointImpulses::accelerate(std::span<JointBody> bodies, std::span<const JointPoint> points) noexcept {
+void ContactSolver::accelerate(std::span<ContactBody> bodies,
+                               std::span<const ContactBetween> points) noexcept {
     double square = 0.0;
     for (const Row& row : rows_) square += (row.size - row.before).squaredNorm();
     const double share = slope_ > 0.0 ? square / slope_ : 0.0;
@@ -505,18 +506,18 @@ void JointImpulses::accelerate(std::span<JointBody> bodies, std::span<const Join
     }
 }
 
-void JointImpulses::keep_passive(std::span<JointBody> bodies, std::span<JointPoint> points) {
+void ContactSolver::keep_passive(std::span<ContactBody> bodies, std::span<ContactBetween> points) {
     impulse_.assign(bodies.size(), Vector6d::Zero());
     double gain = 0.0;
     for (std::size_t i = 0; i < points.size(); ++i) {
-        const JointPoint& point = points[i];
+        const ContactBetween& point = points[i];
         const Row& row = rows_[i];
         const Vector3d push = row.push();
         const Vector3d turn = row.axes.transpose() * row.size.tail<3>();
         Vector6d wrench;
         wrench << point.first_arm.cross(push) + turn, push;
         impulse_[point.first] += wrench;
-        if (point.second != JointPoint::none) {
+        if (point.second != ContactBetween::none) {
             wrench << point.second_arm.cross(push) + turn, push;
             impulse_[point.second] -= wrench;
         } else {
@@ -535,10 +536,11 @@ void JointImpulses::keep_passive(std::span<JointBody> bodies, std::span<JointPoi
     for (std::size_t i = 0; i < points.size(); ++i) points[i].impulse = share * rows_[i].push();
 }
 
-void JointImpulses::solve(std::span<JointBody> bodies, std::span<JointPoint> points, std::size_t known) {
+void ContactSolver::solve(std::span<ContactBody> bodies, std::span<ContactBetween> points,
+                          std::size_t known) {
     if (points.empty()) return;
     start_.clear();
-    for (const JointBody& body : bodies) start_.push_back(body.velocity);
+    for (const ContactBody& body : bodies) start_.push_back(body.velocity);
     prepare(bodies, points, known);
     slope_ = 0.0;
     for (int i = 0; i < most_joint_sweeps; ++i) {

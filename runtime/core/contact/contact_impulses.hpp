@@ -60,8 +60,8 @@ struct ContactImpulses {
 
     /// Sets all but mobilities and responses, with impulses of none: a surface with a velocity (m/s) and an
     /// angular velocity (rad/s), between bodies the smaller of which is held by a sphere of a radius (m).
-    void begin(const Matrix3d& along, const Vector3d& surface_velocity, const Vector3d& surface_turning,
-               double friction_coefficient, double radius) noexcept;
+    void begin(const Matrix3d& along, const Vector3d& surface_velocity,
+               const Vector3d& surface_angular_velocity, double friction_coefficient, double radius) noexcept;
     /// What the mobilities are worth inverted: to be called once they are set.
     void invert() noexcept;
     /// What the first body is given (N s).
@@ -71,14 +71,14 @@ struct ContactImpulses {
 };
 
 /// A body among others that may touch, in world axes about its centre of mass.
-struct JointBody {
+struct ContactBody {
     Vector6d velocity;         ///< (omega, v), relative to the ground (rad/s, m/s)
     Matrix6d inverse_inertia;  ///< K^-1
     double radius;             ///< m: of the sphere that holds it
 };
 
 /// A point at which two bodies, or a body and the ground or an obstacle, may touch within a step.
-struct JointPoint {
+struct ContactBetween {
     static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
     std::size_t first;                             ///< number of the body
@@ -89,14 +89,14 @@ struct JointPoint {
     double allowed_speed;                          ///< m/s, from zero on: at which the two may come closer
     double friction;                               ///< Coulomb's coefficient
     Vector3d surface_velocity = Vector3d::Zero();  ///< m/s: of ground or obstacle
-    Vector3d surface_turning = Vector3d::Zero();   ///< rad/s
-    int obstacle = -1;                             ///< the number of the one that is met; -1: level ground
-    Vector3d impulse = Vector3d::Zero();           ///< N s: what the first was given
+    Vector3d surface_angular_velocity = Vector3d::Zero();  ///< rad/s
+    int obstacle = -1;                    ///< the number of the one that is met; -1: level ground
+    Vector3d impulse = Vector3d::Zero();  ///< N s: what the first was given
 };
 
 /// The impulses of after_impulses() on bodies that touch each other, ground and obstacles, all found
 /// together. Keeps its memory from call to call.
-class JointImpulses {
+class ContactSolver {
   public:
     /// Changes the bodies' velocities so that no point comes closer than is allowed, and notes the impulses.
     /// They never add energy but the work of obstacles that move: else the sum of w K w / 2 does not grow.
@@ -106,18 +106,19 @@ class JointImpulses {
     /// contact force problems, The Visual Computer 26 (2010).
     /// `known`: how many of the points were there in the call before, with bodies of the same inertia: what
     /// was found for them is where this one starts from.
-    void solve(std::span<JointBody> bodies, std::span<JointPoint> points, std::size_t known = 0);
+    void solve(std::span<ContactBody> bodies, std::span<ContactBetween> points, std::size_t known = 0);
 
   private:
     struct Row : ContactImpulses {
         Vector6d before, direction;  ///< of the sweep, and of the conjugate gradients
     };
 
-    void prepare(std::span<JointBody> bodies, std::span<const JointPoint> points, std::size_t known);
-    void sweep(std::span<JointBody> bodies, std::span<const JointPoint> points, bool backwards) noexcept;
-    void accelerate(std::span<JointBody> bodies, std::span<const JointPoint> points) noexcept;
+    void prepare(std::span<ContactBody> bodies, std::span<const ContactBetween> points, std::size_t known);
+    void sweep(std::span<ContactBody> bodies, std::span<const ContactBetween> points,
+               bool backwards) noexcept;
+    void accelerate(std::span<ContactBody> bodies, std::span<const ContactBetween> points) noexcept;
     [[nodiscard]] bool has_converged() const noexcept;
-    void keep_passive(std::span<JointBody> bodies, std::span<JointPoint> points);
+    void keep_passive(std::span<ContactBody> bodies, std::span<ContactBetween> points);
 
     std::vector<Row> rows_;
     std::vector<Vector6d> start_;    ///< the bodies' velocities before

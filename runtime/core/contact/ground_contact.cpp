@@ -30,7 +30,7 @@ bool rests(const TouchingBody& body, const ContactSet& stood, double time_step, 
     const bool is_moved = std::any_of(stood.begin(), stood.end(), [&](const NearPoint& point) {
         if (point.on_ground() && point.gap < -near) return true;  // the ground was raised over it
         return point.gap <= near &&
-               !(point.surface_velocity.isZero(0.0) && point.surface_turning.isZero(0.0));
+               !(point.surface_velocity.isZero(0.0) && point.surface_angular_velocity.isZero(0.0));
     });
     if (is_moved) return false;
     const Approach approach{.margin = near, .touching = near, .time_step = time_step};

@@ -11,8 +11,8 @@ BodyState in_units(const BodyState& state, double length) noexcept {
     result.position *= length;
     result.velocity.head<3>() *= turning;
     result.velocity.tail<3>() *= moving;
-    result.seen_fluid.velocity *= moving;
-    result.seen_fluid.angular_velocity *= turning;
+    result.sampled_turbulence.velocity *= moving;
+    result.sampled_turbulence.angular_velocity *= turning;
     result.acceleration.head<3>() *= turning * turning;
     result.acceleration.tail<3>() *= moving * turning;
     return result;

@@ -27,14 +27,14 @@ Vector3d wind_velocity(const ImmersedBody& body, const Surroundings& surrounding
     return column(block.velocity, 0);
 }
 
-kernel::WindSource WindMeeting::source() const noexcept {
+kernel::WindSource BodyWind::source() const noexcept {
     if (surroundings_->wind == nullptr) return {};
     return {meet, this};
 }
 
-void WindMeeting::meet(const void* context, std::uint64_t step, std::size_t count,
-                       kernel::MetWind& met) noexcept {
-    const auto& self = *static_cast<const WindMeeting*>(context);
+void BodyWind::meet(const void* context, std::uint64_t step, std::size_t count,
+                    kernel::MetWind& met) noexcept {
+    const auto& self = *static_cast<const BodyWind*>(context);
     const Surroundings& surroundings = *self.surroundings_;
     const double begin = step_time(self.start_, self.time_step_, step);
     const double time = 0.5 * (begin + step_time(self.start_, self.time_step_, step + 1));

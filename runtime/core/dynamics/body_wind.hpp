@@ -16,11 +16,11 @@ Vector3d wind_velocity(const ImmersedBody& body, const Surroundings& surrounding
                        double time) noexcept;
 
 /// What bodies of one kind meet of the wind of their surroundings in each step.
-class WindMeeting {
+class BodyWind {
   public:
     /// Body and surroundings must outlive the meeting. The flight began at `start` (s).
-    WindMeeting(const ImmersedBody& body, const Surroundings& surroundings, double start,
-                double time_step) noexcept
+    BodyWind(const ImmersedBody& body, const Surroundings& surroundings, double start,
+             double time_step) noexcept
         : body_(&body), surroundings_(&surroundings), start_(start), time_step_(time_step) {}
 
     /// Null where there is no wind.

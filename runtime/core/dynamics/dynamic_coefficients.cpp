@@ -16,12 +16,12 @@ double half_length_of(const Body& body) {
     return longest;
 }
 
-struct Shadow {
+struct ProjectedArea {
     Matrix3d areas;     // projected along the principal axes (m^2)
     double unevenness;  // 0 for a sphere, whose turning changes nothing in its stream, to 1 for a thin sheet
 };
 
-Shadow shadow_of(const Body& body) {
+ProjectedArea projected_area_of(const Body& body) {
     const Matrix3d axes = principal_axes(body.moments);
     Vector3d areas;
     for (int i = 0; i < 3; ++i) areas[i] = projected_area(body.surface, axes.col(i));
@@ -31,7 +31,7 @@ Shadow shadow_of(const Body& body) {
 }  // namespace
 
 Matrix3d projected_area_tensor(const Body& body) {
-    return shadow_of(body).areas;
+    return projected_area_of(body).areas;
 }
 
 Matrix3d rotational_drag_tensor(const Surface& surface, const Vector3d& centroid) {
@@ -65,7 +65,7 @@ DynamicCoefficients no_dynamic_coefficients(const Body& body) {
 DynamicCoefficients default_dynamic_coefficients(const Body& body) {
     DynamicCoefficients coefficients;
     coefficients.half_length = half_length_of(body);
-    const auto [areas, unevenness] = shadow_of(body);
+    const auto [areas, unevenness] = projected_area_of(body);
     if (body.kirchhoff) {
         coefficients.transport =
             usual_transport * unevenness * body.kirchhoff->matrix.bottomRightCorner<3, 3>();
@@ -83,7 +83,7 @@ DynamicCoefficients default_dynamic_coefficients(const Body& body) {
 DynamicCoefficients surface_dynamic_coefficients(const Body& body, const SurfaceMotion& motion) {
     DynamicCoefficients coefficients;
     coefficients.half_length = half_length_of(body);
-    const auto [areas, unevenness] = shadow_of(body);
+    const auto [areas, unevenness] = projected_area_of(body);
     if (body.kirchhoff) {
         const Matrix3d added_mass = body.kirchhoff->matrix.bottomRightCorner<3, 3>();
         coefficients.transport = motion.transport * added_mass +

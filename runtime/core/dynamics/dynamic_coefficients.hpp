@@ -36,7 +36,7 @@ DynamicCoefficients surface_dynamic_coefficients(const Body& body, const Surface
 /// Rotational drag alone, for loads by drag and lift coefficients: the same C_w D, and no other term.
 DynamicCoefficients rotational_drag_alone(const Body& body);
 
-/// None: a body whose flow is that of a steady tow at every instant, but for the creeping turn.
+/// None: a body whose flow is that of a steady translation at every instant, but for the creeping turn.
 DynamicCoefficients no_dynamic_coefficients(const Body& body);
 
 /// A: the areas projected along the body's principal axes (m^2), as a tensor in body axes.

@@ -28,7 +28,7 @@ Matrix6d body_inertia(const MassProperties& mass) {
     return inertia;
 }
 
-double turning_scale(const Matrix6d& inertia, const Matrix3d& added_mass) {
+double rotation_scale(const Matrix6d& inertia, const Matrix3d& added_mass) {
     const Vector3d masses = eigenvalues_of(added_mass);
     const Matrix3d rotational = inertia.topLeftCorner<3, 3>();
     const double smallest = eigenvalues_of(rotational).x();
@@ -75,7 +75,7 @@ std::vector<double> projected_areas(const Surface& surface) {
         area_vectors.row(static_cast<Eigen::Index>(t)) = area_vector(surface, t).transpose();
     }
     std::vector<double> areas;
-    for (const Vector3d& direction : octahedral_nodes(shadow_subdivisions)) {
+    for (const Vector3d& direction : octahedral_nodes(projection_subdivisions)) {
         areas.push_back(0.5 * (area_vectors * direction).cwiseAbs().sum());
     }
     return areas;
@@ -94,7 +94,7 @@ Matrix3d squared_formation_way(const VolumeMoments& moments) {
 constexpr double alike = 0.02;
 
 // ImmersedBody's: about the principal axes across which the other two moments are alike.
-Matrix3d unseen_turning(const VolumeMoments& moments) {
+Matrix3d spin_about_symmetry(const VolumeMoments& moments) {
     const PrincipalValues principal = principal_values(moments.second_moments);
     Vector3d unseen;
     for (Eigen::Index i = 0; i < 3; ++i) {
@@ -147,7 +147,7 @@ Matrix6d fluid_inertia_of(const Body& body, const BodyPhysics& physics, const Fl
 
 void prepare(ImmersedBody& body) {
     body.inverse_inertia = body.inertia.inverse();
-    body.constants = flight_constants(body);
+    body.constants = step_constants(body);
 }
 
 ImmersedBody make_immersed_body(const Body& body, const BodyPhysics& physics, const Fluid& fluid,
@@ -179,12 +179,12 @@ ImmersedBody make_immersed_body(const Body& body, const BodyPhysics& physics, co
             name));
     }
     result.contact_points = contact_points(body.surface, mass.center_of_mass);
-    result.turning_scale = turning_scale(result.inertia, result.added_mass);
+    result.rotation_scale = rotation_scale(result.inertia, result.added_mass);
     result.length = reference_length(body.moments.surface_area);
     result.reference_area = std::numbers::pi * result.length * result.length / 4.0;
-    result.shadows = projected_area_tensor(body);
+    result.projected_area_tensor = projected_area_tensor(body);
     result.squared_formation_way = squared_formation_way(body.moments);
-    result.unseen_turning = unseen_turning(body.moments);
+    result.spin_about_symmetry = spin_about_symmetry(body.moments);
 
     result.loads = physics.loads;
     result.coefficients = physics.coefficients;

@@ -7,8 +7,8 @@
 #include "samara/core/base/linear_algebra.hpp"
 #include "samara/core/body/body.hpp"
 #include "samara/core/body/contact_points.hpp"
-#include "samara/core/dynamics/tow_patches.hpp"
-#include "samara/core/kernel/flight_constants.hpp"
+#include "samara/core/dynamics/steady_patches.hpp"
+#include "samara/core/kernel/step_constants.hpp"
 #include "samara/core/physics/body_physics.hpp"
 #include "samara/core/physics/fluid.hpp"
 
@@ -40,27 +40,28 @@ struct ImmersedBody : TouchingBody {
     Matrix3d added_coupling = Matrix3d::Zero();   ///< rho_f C, its block of (omega, v) (kg m)
     double length = 1.0;                          ///< L = sqrt(S/pi) (m)
     double reference_area = 0.0;                  ///< A = pi L^2/4 (m^2)
-    Matrix3d shadows = Matrix3d::Zero();  ///< m^2, body axes: projected areas along the principal axes
+    Matrix3d projected_area_tensor =
+        Matrix3d::Zero();  ///< m^2, body axes: projected areas along the principal axes
     /// m^2, body axes: d.(squared_formation_way d) is the square of the way in which a wake forms behind a
     /// body that goes in the direction d (docs/theory, "A wake that forms").
     Matrix3d squared_formation_way = Matrix3d::Zero();
     /// The part of an angular velocity that the flow does not see: about axes across which the body reaches
     /// equally far, as a body of revolution's own.
-    Matrix3d unseen_turning = Matrix3d::Zero();
-    double turning_scale = 0.0;  ///< sqrt of the largest ratio of added-mass difference to inertia (1/m):
-                                 ///< with |v| the rate at which the Munk moment turns the body
+    Matrix3d spin_about_symmetry = Matrix3d::Zero();
+    double rotation_scale = 0.0;  ///< sqrt of the largest ratio of added-mass difference to inertia (1/m):
+                                  ///< with |v| the rate at which the Munk moment turns the body
 
     Loads loads = Loads::none;
     CoefficientLoads coefficients;  ///< where loads are coefficients; normal always set
-    /// m^2, where loads are coefficients without a reference area: the body's shadow along the nodes of an
-    /// octahedral map of `shadow_subdivisions`, row by row.
+    /// m^2, where loads are coefficients without a reference area: the body's projected area along the nodes
+    /// of an octahedral map of `projection_subdivisions`, row by row.
     std::vector<double> projected_areas;
     std::optional<LoadTables> tables;  ///< where loads or turbulence are from tables
     DynamicCoefficients dynamic;
     /// m^4, body axes: what the rotational drag of `dynamic` is at least about the way (docs/theory, "Turning
     /// about the way"); zero beside loads that know no such term.
     Matrix3d roll_drag = Matrix3d::Zero();
-    std::vector<TowPatch> patches{TowPatch()};  ///< of the surface; one stands for the whole
+    std::vector<SteadyPatch> patches{SteadyPatch()};  ///< of the surface; one stands for the whole
 
     Turbulence turbulence = Turbulence::none;
     double turbulent_kinetic_energy = 0.0;  ///< m^2/s^2, where turbulence is constant
@@ -68,12 +69,12 @@ struct ImmersedBody : TouchingBody {
     Langevin langevin = Langevin::wake;
 
     // Of all the above, as inverse_inertia, by prepare().
-    FlightConstants constants;
+    StepConstants constants;
 };
-inline constexpr int shadow_subdivisions = 16;
+inline constexpr int projection_subdivisions = 16;
 
 /// What the steps need of the members.
-FlightConstants flight_constants(const ImmersedBody& body);
+StepConstants step_constants(const ImmersedBody& body);
 /// Works it out, and keeps it.
 void prepare(ImmersedBody& body);
 

@@ -22,13 +22,13 @@ WakeShares shares_of(const Wake& wake) noexcept {
 
 WakeRates wake_rates(const ImmersedBody& body, const Vector6d& relative_velocity) noexcept {
     const Vector3d velocity = relative_velocity.tail<3>();
-    const Vector3d unseen = body.unseen_turning * relative_velocity.head<3>();
+    const Vector3d unseen = body.spin_about_symmetry * relative_velocity.head<3>();
     if (!body.constants.wake_forms || velocity.isZero(0.0)) return {0.0, 0.0, unseen};
     const double combined =
         std::hypot(velocity.norm(), body.dynamic.half_length * relative_velocity.head<3>().norm());
     const double formation =
         combined * velocity.norm() / std::sqrt(velocity.dot(body.squared_formation_way * velocity));
-    return {formation, formation * wake_formation_ways / body.dynamic.settling_ways, unseen};
+    return {formation, formation * wake_formation_ways / body.dynamic.settling_length, unseen};
 }
 
 double reynolds_number(const ImmersedBody& body, double speed) noexcept {

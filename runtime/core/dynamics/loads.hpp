@@ -24,7 +24,7 @@ WakeShares shares_of(const Wake& wake) noexcept;
 struct WakeRates {
     double formation = 0.0;  ///< 1/s, at which Wake::formed tends to one
     double settling = 0.0;   ///< 1/s, at which Wake::heading tends to the velocity's direction
-    Vector3d unseen_turning = Vector3d::Zero();  ///< rad/s: that of the body under its heading
+    Vector3d spin_about_symmetry = Vector3d::Zero();  ///< rad/s: that of the body under its heading
 };
 WakeRates wake_rates(const ImmersedBody& body, const Vector6d& relative_velocity) noexcept;
 

@@ -10,8 +10,8 @@
 #include "samara/core/base/as_index.hpp"
 #include "samara/core/base/parallel_for.hpp"
 #include "samara/core/files/content_hash.hpp"
-#include "samara/core/flight/encounters.hpp"
-#include "samara/core/flight/flight_kind.hpp"
+#include "samara/core/flight/body_group.hpp"
+#include "samara/core/flight/broadphase.hpp"
 #include "samara/core/flight/flight_surroundings.hpp"
 
 namespace samara {
@@ -68,12 +68,12 @@ struct Flight::Parts {
     std::uint64_t wind_seed;                 ///< for good: set_seed() is of the noise
     std::shared_ptr<ObstacleSet> obstacles;  ///< null: none. The kinds see what becomes of them
     Surroundings surroundings;
-    std::vector<std::unique_ptr<FlightKind>> kinds;
+    std::vector<std::unique_ptr<BodyGroup>> kinds;
     std::size_t size = 0;
     double time = 0.0;
     bool has_begun = false;
     bool watches_contacts = false;
-    Encounters encounters;  ///< where bodies meet
+    Broadphase broadphase;  ///< where bodies meet
     std::string stopped;    ///< why; empty: it has not
 };
 
@@ -96,7 +96,7 @@ Flight::Flight(const FlightSettings& settings) : parts_(std::make_unique<Parts>(
         refuse(FlightError::Kind::invalid_argument, "a flight needs a step above zero and one run at least");
     }
     parts_->settings = settings;
-    parts_->encounters = Encounters(settings.step, settings.runs, settings.threads);
+    parts_->broadphase = Broadphase(settings.step, settings.runs, settings.threads);
     parts_->wind_seed = settings.seed;
     parts_->settings.wind = settings.wind.seeded(parts_->wind_seed);
     if (!settings.obstacles.empty()) parts_->obstacles = std::make_shared<ObstacleSet>(settings.obstacles);
@@ -122,8 +122,8 @@ std::size_t Flight::add(const LoadedBody& body, const BodyPhysics& physics, cons
                fmt::format("the name '{}' is taken by another kind; give this one another", name));
     }
     const std::size_t first = parts_->size;
-    parts_->kinds.push_back(std::make_unique<FlightKind>(parts_->settings, parts_->surroundings, body,
-                                                         physics, release, name, first));
+    parts_->kinds.push_back(std::make_unique<BodyGroup>(parts_->settings, parts_->surroundings, body, physics,
+                                                        release, name, first));
     parts_->kinds.back()->watch_contacts(parts_->watches_contacts);
     parts_->size += parts_->kinds.back()->size();
     return first;
@@ -202,7 +202,7 @@ double Flight::time() const noexcept {
     return parts_->time;
 }
 
-const std::vector<std::unique_ptr<FlightKind>>& Flight::kinds() const noexcept {
+const std::vector<std::unique_ptr<BodyGroup>>& Flight::kinds() const noexcept {
     return parts_->kinds;
 }
 
@@ -266,7 +266,7 @@ void Flight::fly_together(double time) {
                 if (kind->grid_start() <= now) kind->note_poses();
             }
         }
-        parts_->encounters.take_step(kinds, parts_->surroundings, now);
+        parts_->broadphase.take_step(kinds, parts_->surroundings, now);
     }
     for (const auto& kind : kinds) kind->require_finite();
 }
@@ -278,14 +278,14 @@ void Flight::wake_all() {
     }
 }
 
-FlightKind& Flight::kind_of(std::size_t index) const {
+BodyGroup& Flight::kind_of(std::size_t index) const {
     const auto next = std::upper_bound(parts_->kinds.begin(), parts_->kinds.end(), index,
                                        [](std::size_t i, const auto& kind) { return i < kind->first(); });
     return **std::prev(next);
 }
 
 Pose Flight::pose(std::size_t index) const {
-    const FlightKind& kind = kind_of(index);
+    const BodyGroup& kind = kind_of(index);
     return kind.pose(index - kind.first(), parts_->time);
 }
 
@@ -296,35 +296,35 @@ void Flight::poses(std::size_t first, std::size_t count, Pose* poses) const {
 }
 
 void Flight::set_pose(std::size_t index, const Pose& pose) {
-    FlightKind& kind = kind_of(index);
+    BodyGroup& kind = kind_of(index);
     kind.set_pose(index - kind.first(), pose, parts_->time);
     wake_all();
 }
 
 void Flight::add_wrench(std::size_t index, const Wrench& wrench) {
-    FlightKind& kind = kind_of(index);
+    BodyGroup& kind = kind_of(index);
     kind.add_wrench(index - kind.first(), wrench);
 }
 
 void Flight::add_impulse(std::size_t index, const Wrench& impulse) {
-    FlightKind& kind = kind_of(index);
+    BodyGroup& kind = kind_of(index);
     kind.add_impulse(index - kind.first(), impulse, parts_->time);
     wake_all();
 }
 
 void Flight::remove(std::size_t index) {
-    FlightKind& kind = kind_of(index);
+    BodyGroup& kind = kind_of(index);
     kind.remove(index - kind.first(), parts_->time);
     wake_all();
 }
 
 bool Flight::is_removed(std::size_t index) const {
-    const FlightKind& kind = kind_of(index);
+    const BodyGroup& kind = kind_of(index);
     return kind.is_removed(index - kind.first());
 }
 
 bool Flight::is_at_rest(std::size_t index) const {
-    const FlightKind& kind = kind_of(index);
+    const BodyGroup& kind = kind_of(index);
     return kind.is_at_rest(index - kind.first());
 }
 
@@ -338,17 +338,17 @@ ContactRecord Flight::take_contacts(std::size_t index) {
         refuse(FlightError::Kind::invalid_argument,
                "contacts are not noted; call watch_contacts before they happen");
     }
-    FlightKind& kind = kind_of(index);
+    BodyGroup& kind = kind_of(index);
     return kind.take_contacts(index - kind.first());
 }
 
 FluidLoad Flight::fluid_load(std::size_t index) const {
-    const FlightKind& kind = kind_of(index);
+    const BodyGroup& kind = kind_of(index);
     return kind.fluid_load(index - kind.first(), parts_->time);
 }
 
 double Flight::size_of(std::size_t index) const {
-    const FlightKind& kind = kind_of(index);
+    const BodyGroup& kind = kind_of(index);
     return kind.size_of(index - kind.first());
 }
 
@@ -363,7 +363,7 @@ Matrix3d Flight::inertia(std::size_t index) const {
 }
 
 Vector3d Flight::center_of_mass(std::size_t index) const {
-    const FlightKind& kind = kind_of(index);
+    const BodyGroup& kind = kind_of(index);
     return size_of(index) * kind.body().center_of_mass;
 }
 

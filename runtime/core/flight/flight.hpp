@@ -74,7 +74,7 @@ class FlightError : public Error {
     Kind kind_;
 };
 
-class FlightKind;
+class BodyGroup;
 
 /// Bodies that fall. Those of a kind share their physics and fly on a grid of steps that begins at their
 /// start; until then they are held in place. Any time may be asked for: poses between two steps are
@@ -187,12 +187,12 @@ class Flight {
     /// Throws FlightError where the flight has stopped, since a body's motion left the range of numbers.
     void require_running() const;
 
-    /// The kinds in the order in which they were added (core/flight/flight_kind.hpp).
-    [[nodiscard]] const std::vector<std::unique_ptr<FlightKind>>& kinds() const noexcept;
+    /// The kinds in the order in which they were added (core/flight/body_group.hpp).
+    [[nodiscard]] const std::vector<std::unique_ptr<BodyGroup>>& kinds() const noexcept;
 
   private:
     struct Parts;
-    [[nodiscard]] FlightKind& kind_of(std::size_t index) const;
+    [[nodiscard]] BodyGroup& kind_of(std::size_t index) const;
     [[nodiscard]] std::string fingerprint() const;
     [[nodiscard]] std::size_t fixed_state_size() const;
     void renew_surroundings();

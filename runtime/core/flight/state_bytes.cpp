@@ -16,7 +16,7 @@ constexpr std::uint32_t byte_order = 0x01020304;
 constexpr std::size_t hash_size = 32;  // of content_hash
 
 // A member more would be lost: write it, and raise state_version.
-static_assert(sizeof(BodyState) == 256 && sizeof(SeenFluid) == 48);
+static_assert(sizeof(BodyState) == 256 && sizeof(SampledTurbulence) == 48);
 
 [[noreturn]] void refuse(const std::string& why) {
     throw FlightError(FlightError::Kind::foreign_state, why);
@@ -32,8 +32,8 @@ void visit_state(State& state, const Visit& visit) {
     for (auto& number : state.position) visit(number);
     for (auto& number : state.orientation.coeffs()) visit(number);
     for (auto& number : state.velocity) visit(number);
-    for (auto& number : state.seen_fluid.velocity) visit(number);
-    for (auto& number : state.seen_fluid.angular_velocity) visit(number);
+    for (auto& number : state.sampled_turbulence.velocity) visit(number);
+    for (auto& number : state.sampled_turbulence.angular_velocity) visit(number);
     for (auto& number : state.acceleration) visit(number);
     visit(state.wake.formed);
     for (auto& number : state.wake.heading) visit(number);
@@ -62,8 +62,9 @@ bool is_sound(const Wake& wake) {
 
 bool is_sound(const BodyState& state) {
     return state.position.allFinite() && is_unit(state.orientation) && state.velocity.allFinite() &&
-           state.seen_fluid.velocity.allFinite() && state.seen_fluid.angular_velocity.allFinite() &&
-           state.acceleration.allFinite() && is_sound(state.wake);
+           state.sampled_turbulence.velocity.allFinite() &&
+           state.sampled_turbulence.angular_velocity.allFinite() && state.acceleration.allFinite() &&
+           is_sound(state.wake);
 }
 
 bool is_sound(const Pose& pose) {

@@ -25,7 +25,7 @@ Pose in_flow(const Pose& in_world, const Surroundings& surroundings, double time
 /// A pose of the flow's frame whose velocity is made relative to the wind where the body is, at a time (s).
 Pose in_wind(const Pose& in_flow, const ImmersedBody& body, const Surroundings& surroundings, double time);
 
-/// The state of a pose in the flow's frame. The seen fluid is at rest.
+/// The state of a pose in the flow's frame. The sampled turbulence is at rest.
 BodyState state_of(const Pose& in_flow);
 
 /// The pose in the world of a body that is held at one of the flow's frame until its start (s).

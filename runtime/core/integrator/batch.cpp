@@ -92,7 +92,7 @@ Wrench wrench_of(const kernel::ExternalLoads& external, std::size_t lane) noexce
 
 /// One body alone: to the same bits as in a vector of them, and sooner.
 BatchReport advance_alone(const ImmersedBody& body, const Surroundings& surroundings,
-                          const kernel::BlockSteps& task, ContactRecord* met, FlightBlock& block) noexcept {
+                          const kernel::BlockSteps& task, ContactRecord* met, StateBlock& block) noexcept {
     const Noise noise(std::array{block.noise[0][0], block.noise[1][0], block.noise[2][0], block.noise[3][0]});
     BatchReport report;
     BodyState state = state_of(block, 0);
@@ -126,16 +126,16 @@ BatchReport advance_alone(const ImmersedBody& body, const Surroundings& surround
 Batch::Batch(const ImmersedBody& body, std::size_t count)
     : body_(&body),
       size_(count),
-      constants_(flight_constants(body)),
-      blocks_((count + FlightBlock::size - 1) / FlightBlock::size) {
+      constants_(step_constants(body)),
+      blocks_((count + StateBlock::size - 1) / StateBlock::size) {
     for (std::size_t i = 0; i < blocks_.size(); ++i) {
-        blocks_[i].bodies = std::min(FlightBlock::size, count - i * FlightBlock::size);
-        for (std::size_t lane = 0; lane < FlightBlock::size; ++lane) {
+        blocks_[i].bodies = std::min(StateBlock::size, count - i * StateBlock::size);
+        for (std::size_t lane = 0; lane < StateBlock::size; ++lane) {
             keep_state(BodyState{}, blocks_[i], lane);
             blocks_[i].size_of[lane] = 1.0;
             blocks_[i].first_step[lane] = 0;
         }
-        blocks_[i].first_body = i * FlightBlock::size;
+        blocks_[i].first_body = i * StateBlock::size;
         blocks_[i].last_start = 0;
     }
     for (std::size_t i = 0; i < count; ++i) set_noise(i, Noise(0, "", 0, 0));
@@ -145,7 +145,7 @@ void Batch::set_sizes(std::vector<double> sizes, bool touch) {
     sizes_ = std::move(sizes);
     touching_.clear();
     for (std::size_t i = 0; i < size_; ++i) {
-        blocks_[i / FlightBlock::size].size_of[i % FlightBlock::size] = sizes_[i];
+        blocks_[i / StateBlock::size].size_of[i % StateBlock::size] = sizes_[i];
         if (touch) touching_.push_back(touching_body(*body_, sizes_[i]));
     }
 }
@@ -163,9 +163,9 @@ void Batch::set_external(const std::vector<Wrench>& external) {
 }
 
 void Batch::set_first_step(std::size_t index, std::uint64_t step) noexcept {
-    FlightBlock& block = blocks_[index / FlightBlock::size];
-    block.first_step[index % FlightBlock::size] = step;
-    block.last_start = *std::max_element(block.first_step, block.first_step + FlightBlock::size);
+    StateBlock& block = blocks_[index / StateBlock::size];
+    block.first_step[index % StateBlock::size] = step;
+    block.last_start = *std::max_element(block.first_step, block.first_step + StateBlock::size);
 }
 
 void Batch::set_state(std::size_t index, const BodyState& state) noexcept {
@@ -179,18 +179,18 @@ BodyState Batch::state(std::size_t index) const noexcept {
 }
 
 void Batch::keep_own_state(std::size_t index, const BodyState& state) noexcept {
-    keep_state(state, blocks_[index / FlightBlock::size], index % FlightBlock::size);
+    keep_state(state, blocks_[index / StateBlock::size], index % StateBlock::size);
 }
 
 BodyState Batch::own_state(std::size_t index) const noexcept {
-    return state_of(blocks_[index / FlightBlock::size], index % FlightBlock::size);
+    return state_of(blocks_[index / StateBlock::size], index % StateBlock::size);
 }
 
 void Batch::set_noise(std::size_t index, const Noise& noise) noexcept {
     const auto words = noise.words();
-    FlightBlock& block = blocks_[index / FlightBlock::size];
+    StateBlock& block = blocks_[index / StateBlock::size];
     for (std::size_t word = 0; word < words.size(); ++word) {
-        block.noise[word][index % FlightBlock::size] = words[word];
+        block.noise[word][index % StateBlock::size] = words[word];
     }
 }
 
@@ -205,7 +205,7 @@ BatchReport Batch::advance(const Surroundings& surroundings, double start, doubl
     const double largest = sized ? *std::max_element(sizes_.begin(), sizes_.end()) : 1.0;
     ContactRecord* met = met_.empty() ? nullptr : met_.data();
     const BatchGround ground{*this, *body_, largest, surroundings, met};
-    const WindMeeting wind(*body_, surroundings, start, time_step);
+    const BodyWind wind(*body_, surroundings, start, time_step);
     const kernel::BlockSteps task{.gravities = gravities.data(),
                                   .start = start,
                                   .time_step = time_step,

@@ -8,9 +8,9 @@
 #include "samara/core/dynamics/immersed_body.hpp"
 #include "samara/core/dynamics/surroundings.hpp"
 #include "samara/core/integrator/step.hpp"
-#include "samara/core/kernel/flight_block.hpp"
 #include "samara/core/kernel/kernel.hpp"
 #include "samara/core/kernel/noise.hpp"
+#include "samara/core/kernel/state_block.hpp"
 #include "samara/core/physics/contact_record.hpp"
 #include "samara/core/physics/wrench.hpp"
 
@@ -78,8 +78,8 @@ class Batch {
   private:
     const ImmersedBody* body_;
     std::size_t size_;
-    FlightConstants constants_;
-    std::vector<FlightBlock> blocks_;
+    StepConstants constants_;
+    std::vector<StateBlock> blocks_;
     std::vector<double> sizes_;                    ///< none where all are the shape's
     std::vector<TouchingBody> touching_;           ///< of each size, where there is something to touch
     std::vector<kernel::ExternalLoads> external_;  ///< of each block; none where nothing is pushed

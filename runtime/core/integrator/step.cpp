@@ -9,19 +9,20 @@ namespace samara {
 
 BodyState implicit_step(const ImmersedBody& body, const Vector3d& gravity, double time_step,
                         const BodyState& state) noexcept {
-    return implicit_step(body, gravity, time_step, state, state.seen_fluid);
+    return implicit_step(body, gravity, time_step, state, state.sampled_turbulence);
 }
 
 BodyState implicit_step(const ImmersedBody& body, const Vector3d& gravity, double time_step,
-                        const BodyState& state, const SeenFluid& seen_fluid) noexcept {
+                        const BodyState& state, const SampledTurbulence& sampled_turbulence) noexcept {
     BodyState result = state;
-    result.seen_fluid = seen_fluid;
-    const bool moves = !state.seen_fluid.velocity.isZero(0.0) || !seen_fluid.velocity.isZero(0.0) ||
-                       !seen_fluid.angular_velocity.isZero(0.0);
-    kernel::implicit_step(
-        body.constants, gravity, time_step,
-        {state.seen_fluid.velocity, seen_fluid.velocity, seen_fluid.angular_velocity, moves, false}, 0, 1,
-        nullptr, result);
+    result.sampled_turbulence = sampled_turbulence;
+    const bool moves = !state.sampled_turbulence.velocity.isZero(0.0) ||
+                       !sampled_turbulence.velocity.isZero(0.0) ||
+                       !sampled_turbulence.angular_velocity.isZero(0.0);
+    kernel::implicit_step(body.constants, gravity, time_step,
+                          {state.sampled_turbulence.velocity, sampled_turbulence.velocity,
+                           sampled_turbulence.angular_velocity, moves, false},
+                          0, 1, nullptr, result);
     return result;
 }
 
@@ -31,13 +32,13 @@ StepResult advance(const ImmersedBody& body, const Surroundings& surroundings, d
     StepResult result{state, 0};
     const double time = step_time(start, time_step, step);
     const double end = step_time(start, time_step, step + 1);
-    const SeenFluid& seen = state.seen_fluid;
+    const SampledTurbulence& seen = state.sampled_turbulence;
     if (state.at_rest && seen.velocity.isZero(0.0) && seen.angular_velocity.isZero(0.0) &&
         is_steady(body, surroundings)) {
         stay_on(ground_in_flow(surroundings, time, end), result.state);
         return result;
     }
-    const WindMeeting wind(body, surroundings, start, time_step);
+    const BodyWind wind(body, surroundings, start, time_step);
     const Vector3d gravity = apparent_gravity(surroundings, time, end);
     if (!has_ground(surroundings)) {
         const kernel::BlockSteps whole{.gravities = &gravity,
@@ -111,7 +112,7 @@ kernel::SeenStream seen_stream(const ImmersedBody& body, double size, double own
     if (size == 1.0 || body.turbulence != Turbulence::constant) {
         return kernel::begin_step(body.constants, own_step, wind, noise, step, state).stream;
     }
-    FlightConstants constants = body.constants;
+    StepConstants constants = body.constants;
     constants.turbulent_kinetic_energy *= size * size;
     constants.dissipation_rate *= size * size * size * size;
     return kernel::begin_step(constants, own_step, wind, noise, step, state).stream;
@@ -131,7 +132,7 @@ FluidLoad fluid_load_of(const ImmersedBody& body, double size, const Surrounding
                         double time_step, const BodyState& state, const Noise& noise, std::uint64_t step) {
     const double size_square = size * size;
     const double own_step = time_step / size_square;
-    const WindMeeting meeting(body, surroundings, start, time_step);
+    const BodyWind meeting(body, surroundings, start, time_step);
     const SizedWind wind{meeting.source(), size};
     BodyState stirred = state;
     kernel::SeenStream stream = seen_stream(body, size, own_step, wind.source(), noise, step, stirred);

@@ -19,15 +19,15 @@ namespace samara {
 /// less buoyancy, and the loads, in one implicit solve that splits nothing: docs/theory, "The step". In still
 /// fluid without gravity the energy u K u / 2 never grows, whatever the step; without loads it is kept to
 /// rounding. Second order in the step. Never throws or allocates. Returns the state a time `time_step` (s)
-/// later; the seen fluid is held.
+/// later; the sampled turbulence is held.
 BodyState implicit_step(const ImmersedBody& body, const Vector3d& gravity, double time_step,
                         const BodyState& state) noexcept;
 
-/// The same while the seen fluid's velocity goes evenly from the state's to that of `seen_fluid`, which is
-/// the result's; its rotation is that of `seen_fluid` throughout. The body feels the stream's acceleration as
-/// it feels a gust's.
+/// The same while the sampled turbulence's velocity goes evenly from the state's to that of
+/// `sampled_turbulence`, which is the result's; its rotation is that of `sampled_turbulence` throughout. The
+/// body feels the stream's acceleration as it feels a gust's.
 BodyState implicit_step(const ImmersedBody& body, const Vector3d& gravity, double time_step,
-                        const BodyState& state, const SeenFluid& seen_fluid) noexcept;
+                        const BodyState& state, const SampledTurbulence& sampled_turbulence) noexcept;
 
 /// One step of the scene: the Langevin update over the time step, then implicit steps over equal parts of it,
 /// so short that the body turns by at most 0.3 rad in each, or as the limit on their number allows. `step` is

@@ -17,7 +17,7 @@ namespace samara::HWY_NAMESPACE {
 
 /// The lanes [first, first + N) of a block.
 template <class Tag>
-HWY_INLINE Flight<Lanes<Tag>> load_flight(Tag tag, const FlightBlock& block, std::size_t first) {
+HWY_INLINE Flight<Lanes<Tag>> load_flight(Tag tag, const StateBlock& block, std::size_t first) {
     const auto field = [&](std::size_t i)
                            HWY_ATTR { return Lanes<Tag>(hn::Load(tag, block.numbers[i] + first)); };
     const auto triple = [&](std::size_t i) HWY_ATTR {
@@ -27,7 +27,7 @@ HWY_INLINE Flight<Lanes<Tag>> load_flight(Tag tag, const FlightBlock& block, std
             triple(22), {field(25), triple(26)}};
 }
 template <class Tag>
-HWY_INLINE void store_flight(Tag tag, const Flight<Lanes<Tag>>& flight, FlightBlock& block,
+HWY_INLINE void store_flight(Tag tag, const Flight<Lanes<Tag>>& flight, StateBlock& block,
                              std::size_t first) {
     const auto keep = [&](std::size_t i, Lanes<Tag> value)
                           HWY_ATTR { hn::Store(value.raw, tag, block.numbers[i] + first); };
@@ -67,16 +67,16 @@ HWY_INLINE Flight<Lanes<Tag>> select_flight(hn::Mask<Tag> condition, const Fligh
 /// What random numbers Noise::normals would give each lane.
 template <class Tag>
 struct LaneDraw {
-    const FlightBlock& block;
+    const StateBlock& block;
     std::size_t first;
     std::uint64_t step;
 
     [[nodiscard]] HWY_INLINE Triple<Lanes<Tag>> three() const {
-        return three_normals(uniforms(NoiseStream::seen_fluid));
+        return three_normals(uniforms(NoiseStream::sampled_turbulence));
     }
     [[nodiscard]] HWY_INLINE SixNormals<Lanes<Tag>> six() const {
         const std::array<Lanes<Tag>, 4> rest = uniforms(NoiseStream::seen_rotation);
-        return six_normals(uniforms(NoiseStream::seen_fluid), rest[0], rest[1]);
+        return six_normals(uniforms(NoiseStream::sampled_turbulence), rest[0], rest[1]);
     }
 
   private:
@@ -124,7 +124,7 @@ HWY_INLINE hn::Mask<Tag> near_ground(const kernel::Contact& contact, const Fligh
 }
 
 /// Lets the bodies of the lanes touch the ground. `before`: the block before the substep.
-inline void meet_ground(const kernel::Contact& contact, const FlightBlock& before, FlightBlock& block,
+inline void meet_ground(const kernel::Contact& contact, const StateBlock& before, StateBlock& block,
                         std::size_t first, std::size_t lanes, int substep, const double* substeps,
                         double time, double h) {
     for (std::size_t lane = first; lane < std::min<std::size_t>(first + lanes, block.bodies); ++lane) {
@@ -139,7 +139,7 @@ inline void meet_ground(const kernel::Contact& contact, const FlightBlock& befor
 
 /// The Langevin update of one step. `draw` gives its random numbers; `size_square`: of the body's size.
 template <class V, class Draw>
-HWY_INLINE void meet_turbulence(const FlightConstants& c, V h, const Draw& draw, V size_square,
+HWY_INLINE void meet_turbulence(const StepConstants& c, V h, const Draw& draw, V size_square,
                                 Flight<V>& flight) {
     if (c.turbulence == Turbulence::none) {
         flight.seen_velocity = no_vector<V>();
@@ -153,8 +153,8 @@ HWY_INLINE void meet_turbulence(const FlightConstants& c, V h, const Draw& draw,
     }
     if (c.langevin == Langevin::wake) {
         advance_wake(c, level, h, draw.three(), flight);
-    } else if (c.langevin == Langevin::seen_fluid) {
-        advance_seen_fluid(c, level, h, draw.six(), flight);
+    } else if (c.langevin == Langevin::sampled_turbulence) {
+        advance_sampled_turbulence(c, level, h, draw.six(), flight);
     } else {
         advance_body_velocity(c, level, h, draw.six(), flight);
     }
@@ -168,7 +168,7 @@ HWY_INLINE Stream<V> no_stream() {
 
 /// Where the centroid is halfway through a step, as far as its velocity says (m, in the flow's frame).
 template <class V>
-HWY_INLINE Triple<V> halfway(const FlightConstants& c, V h, const Flight<V>& flight) {
+HWY_INLINE Triple<V> halfway(const StepConstants& c, V h, const Flight<V>& flight) {
     const Square<V> to_world = rotation_matrix(flight.orientation);
     const Triple<V> way = (V(0.5) * h * V(c.length)) * centroid_velocity(c, flight);
     return flight.position + to_world * (broadcast<V>(c.center_of_buoyancy) + way);
@@ -177,7 +177,7 @@ HWY_INLINE Triple<V> halfway(const FlightConstants& c, V h, const Flight<V>& fli
 /// What a body sees between two steps: a stream that changes evenly; or a slip of its loads alone, which
 /// stands for the step and does not push by its change.
 template <class V>
-HWY_INLINE Stream<V> seen_stream(const FlightConstants& c, const Triple<V>& before, const Flight<V>& flight) {
+HWY_INLINE Stream<V> seen_stream(const StepConstants& c, const Triple<V>& before, const Flight<V>& flight) {
     if (c.langevin != Langevin::wake) {
         return {before, flight.seen_velocity, flight.seen_rotation, false, no_vector<V>()};
     }
@@ -188,7 +188,7 @@ HWY_INLINE Stream<V> seen_stream(const FlightConstants& c, const Triple<V>& befo
 /// The Langevin update of one step in a wind, or without (then `wind` is none), and the stream that the body
 /// is in. What turbulence a body meets is a matter of its velocity in the wind.
 template <class V, class Draw>
-HWY_INLINE Stream<V> meet_fluid(const FlightConstants& c, V h, bool windy, const Stream<V>& wind,
+HWY_INLINE Stream<V> meet_fluid(const StepConstants& c, V h, bool windy, const Stream<V>& wind,
                                 const Draw& draw, V size_square, Flight<V>& flight) {
     const Triple<V> seen_before = flight.seen_velocity;
     if (!windy) {
@@ -208,7 +208,7 @@ HWY_INLINE Stream<V> meet_fluid(const FlightConstants& c, V h, bool windy, const
 
 /// The wind that the bodies of the lanes meet in a step.
 template <class Tag>
-HWY_INLINE Stream<Lanes<Tag>> met_wind(Tag tag, const FlightConstants& c, const kernel::WindSource& source,
+HWY_INLINE Stream<Lanes<Tag>> met_wind(Tag tag, const StepConstants& c, const kernel::WindSource& source,
                                        std::uint64_t step, std::size_t bodies, Lanes<Tag> h, Lanes<Tag> size,
                                        const Flight<Lanes<Tag>>& flight) {
     using V = Lanes<Tag>;
@@ -255,7 +255,7 @@ HWY_INLINE Push<Lanes<Tag>> push_of(Tag tag, const kernel::ExternalLoads& extern
 /// Where bodies of the lanes [first, first + N) move: 1, and 0 in lanes without a body or with one that
 /// rests or waits.
 struct MovingLanes {
-    MovingLanes(const kernel::Contact& contact, const FlightBlock& block, std::uint64_t step,
+    MovingLanes(const kernel::Contact& contact, const StateBlock& block, std::uint64_t step,
                 std::size_t first, std::size_t lanes) {
         if (contact.stay == nullptr && first + lanes <= block.bodies && step >= block.last_start) {
             std::fill_n(moves, lanes, 1.0);
@@ -273,14 +273,14 @@ struct MovingLanes {
             any_waits = any_waits || waits;
         }
     }
-    HWY_ALIGN_MAX double moves[FlightBlock::size];
+    HWY_ALIGN_MAX double moves[StateBlock::size];
     bool any_moves = false;
     bool any_rests = false;
     bool any_waits = false;
 };
 
 /// Leaves the bodies of the lanes that rest on the ground there for a step.
-inline void stay_on_ground(const kernel::BlockSteps& task, std::uint64_t number, FlightBlock& block,
+inline void stay_on_ground(const kernel::BlockSteps& task, std::uint64_t number, StateBlock& block,
                            std::size_t first, std::size_t lanes, const MovingLanes& lively) {
     const std::uint64_t step = task.first_step + number;
     for (std::size_t lane = first; lane < std::min<std::size_t>(first + lanes, block.bodies); ++lane) {
@@ -295,8 +295,8 @@ inline void stay_on_ground(const kernel::BlockSteps& task, std::uint64_t number,
 
 /// One step of the lanes [first, first + N) of a block; adds to the report.
 template <class Tag>
-HWY_INLINE void advance_lanes(Tag tag, const FlightConstants& c, const kernel::BlockSteps& task,
-                              std::uint64_t number, FlightBlock& block, std::size_t first,
+HWY_INLINE void advance_lanes(Tag tag, const StepConstants& c, const kernel::BlockSteps& task,
+                              std::uint64_t number, StateBlock& block, std::size_t first,
                               Flight<Lanes<Tag>>& flight, BatchReport& report) {
     using V = Lanes<Tag>;
     const std::size_t lanes = hn::Lanes(tag);
@@ -315,7 +315,7 @@ HWY_INLINE void advance_lanes(Tag tag, const FlightConstants& c, const kernel::B
     const V moves(hn::Load(tag, lively.moves));
     const bool meets = task.contact.resolve != nullptr;
     // Of long copies those alone that are needed.
-    FlightBlock before;
+    StateBlock before;
     if (meets || lively.any_waits) store_flight(tag, flight, before, first);
     const std::size_t used_lanes = std::min<std::size_t>(lanes, block.bodies - first);
     const bool windy = task.wind.meet != nullptr;
@@ -355,7 +355,7 @@ HWY_INLINE void advance_lanes(Tag tag, const FlightConstants& c, const kernel::B
     const bool pushed = task.external != nullptr;
     if (pushed) push = push_of(tag, task.external[block.first_body / block.size], first, size);
     for (int i = 0; i < most; ++i) {
-        FlightBlock kept;
+        StateBlock kept;
         if (!all_whole) store_flight(tag, flight, kept, first);
         implicit_step(c, gravity, substep, sees_fluid, all_whole ? met : part_of(met, i, divisor),
                       pushed ? &push : nullptr, flight);
@@ -374,11 +374,11 @@ HWY_INLINE void advance_lanes(Tag tag, const FlightConstants& c, const kernel::B
     let_others_stay();
 }
 
-inline BatchReport advance_all(const FlightConstants& c, const kernel::BlockSteps& task, FlightBlock* blocks,
+inline BatchReport advance_all(const StepConstants& c, const kernel::BlockSteps& task, StateBlock* blocks,
                                std::size_t count) {
-    const hn::CappedTag<double, FlightBlock::size> tag;
+    const hn::CappedTag<double, StateBlock::size> tag;
     BatchReport report;
-    for (FlightBlock* block = blocks; block != blocks + count; ++block) {
+    for (StateBlock* block = blocks; block != blocks + count; ++block) {
         for (std::size_t first = 0; first < block->bodies; first += hn::Lanes(tag)) {
             auto flight = load_flight(tag, *block, first);
             for (std::uint64_t number = 0; number < task.steps; ++number) {

@@ -7,7 +7,7 @@
 namespace samara {
 
 /// The fluid's turbulent velocity and rotation as one body sees them, world axes (m/s, rad/s).
-struct SeenFluid {
+struct SampledTurbulence {
     Vector3d velocity = Vector3d::Zero();
     Vector3d angular_velocity = Vector3d::Zero();
 };
@@ -27,7 +27,7 @@ struct BodyState {
     Vector3d position = Vector3d::Zero();               ///< of the centre of mass (m)
     Quaterniond orientation = Quaterniond::Identity();  ///< body to world
     Vector6d velocity = Vector6d::Zero();  ///< (omega, v) of the centre of mass, body axes (rad/s, m/s)
-    SeenFluid seen_fluid;
+    SampledTurbulence sampled_turbulence;
     /// The velocity's mean rate of change in the step before (rad/s^2, m/s^2), zero where there was none: it
     /// only helps the next step to guess its middle.
     Vector6d acceleration = Vector6d::Zero();
@@ -47,7 +47,7 @@ struct TurbulenceLevel {
 };
 
 /// The shares of what separation brings (docs/theory, "A wake that forms"): of the transport, by the wake
-/// that has formed, and of the tow's own moment, which is there where the body does not swing.
+/// that has formed, and of the steady own moment, which is there where the body does not swing.
 struct WakeShares {
     double transport = 1.0;
     double moment = 1.0;

@@ -5,9 +5,9 @@
 
 #include "samara/core/base/linear_algebra.hpp"
 #include "samara/core/kernel/body_state.hpp"
-#include "samara/core/kernel/flight_block.hpp"
-#include "samara/core/kernel/flight_constants.hpp"
 #include "samara/core/kernel/noise.hpp"
+#include "samara/core/kernel/state_block.hpp"
+#include "samara/core/kernel/step_constants.hpp"
 #include "samara/core/physics/wrench.hpp"
 
 /// The step's formulas, compiled for every instruction set and chosen once at run time. In double precision
@@ -72,21 +72,21 @@ struct BlockSteps {
     const ExternalLoads* external = nullptr;  ///< of every 16 bodies of the batch; null: none
 };
 
-BatchReport advance_blocks(const FlightConstants& constants, const BlockSteps& steps, FlightBlock* blocks,
+BatchReport advance_blocks(const StepConstants& constants, const BlockSteps& steps, StateBlock* blocks,
                            std::size_t count) noexcept;
 
-/// The seen fluid's velocity over a whole step (m/s, world axes): it changes evenly from `begin` to `end`,
-/// while its rotation (rad/s) is held.
+/// The sampled turbulence's velocity over a whole step (m/s, world axes): it changes evenly from `begin` to
+/// `end`, while its rotation (rad/s) is held.
 struct SeenStream {
     Vector3d begin, end, rotation;
-    bool moves = false;                ///< false: the seen fluid is taken to be at rest, and not to turn
-    bool is_slip = false;              ///< of the loads alone: it neither changes nor turns
+    bool moves = false;    ///< false: the sampled turbulence is taken to be at rest, and not to turn
+    bool is_slip = false;  ///< of the loads alone: it neither changes nor turns
     Vector3d slip = Vector3d::Zero();  ///< of the wake, in the stream: it presses on the body's sides
 };
 
 /// implicit_step() of step.hpp over h, which is the part `part` of `parts` equal ones of a whole step.
 /// `external`: null where there is none.
-void implicit_step(const FlightConstants& constants, const Vector3d& gravity, double h,
+void implicit_step(const StepConstants& constants, const Vector3d& gravity, double h,
                    const SeenStream& stream, int part, int parts, const Wrench* external,
                    BodyState& state) noexcept;
 
@@ -97,24 +97,24 @@ struct BegunStep {
 };
 
 /// Meets the wind and does the Langevin update over the whole step.
-BegunStep begin_step(const FlightConstants& constants, double h, const WindSource& wind, const Noise& noise,
+BegunStep begin_step(const StepConstants& constants, double h, const WindSource& wind, const Noise& noise,
                      std::uint64_t step, BodyState& state) noexcept;
 
 /// Whole steps of one body that nothing meets between their parts: `steps` without contact. Its external
 /// loads are `external`, null where there are none.
-BatchReport advance_one(const FlightConstants& constants, const BlockSteps& steps, const Noise& noise,
+BatchReport advance_one(const StepConstants& constants, const BlockSteps& steps, const Noise& noise,
                         const Wrench* external, BodyState& state) noexcept;
 
 /// load_matrices() of loads.hpp.
-LoadMatrices load_matrices(const FlightConstants& constants, const Vector6d& velocity,
+LoadMatrices load_matrices(const StepConstants& constants, const Vector6d& velocity,
                            const Vector3d& seen_rotation, const Vector3d& slip,
                            const WakeShares& shares) noexcept;
 
 /// The functions of langevin.hpp; the velocities are the state's.
-TurbulenceLevel turbulence_level(const FlightConstants& constants, const Vector3d& velocity) noexcept;
-void advance_seen_fluid(const FlightConstants& constants, const TurbulenceLevel& level, double h,
-                        const Noise& noise, std::uint64_t step, BodyState& state) noexcept;
-void advance_body_velocity(const FlightConstants& constants, const TurbulenceLevel& level, double h,
+TurbulenceLevel turbulence_level(const StepConstants& constants, const Vector3d& velocity) noexcept;
+void advance_sampled_turbulence(const StepConstants& constants, const TurbulenceLevel& level, double h,
+                                const Noise& noise, std::uint64_t step, BodyState& state) noexcept;
+void advance_body_velocity(const StepConstants& constants, const TurbulenceLevel& level, double h,
                            const Noise& noise, std::uint64_t step, BodyState& state) noexcept;
 
 /// Two independent normal numbers of two that are uniform in (0, 1): Box and Muller's.

@@ -69,8 +69,8 @@ HWY_INLINE Flight<One> flight_of(const BodyState& state) {
             {One(q.w()), triple_of(q.coeffs().data())},
             triple_of(state.velocity.data()),
             triple_of(state.velocity.data() + 3),
-            triple_of(state.seen_fluid.velocity),
-            triple_of(state.seen_fluid.angular_velocity),
+            triple_of(state.sampled_turbulence.velocity),
+            triple_of(state.sampled_turbulence.angular_velocity),
             triple_of(state.acceleration.data()),
             triple_of(state.acceleration.data() + 3),
             {One(state.wake.formed), triple_of(state.wake.heading)}};
@@ -81,8 +81,8 @@ HWY_INLINE void keep(const Flight<One>& flight, BodyState& state) {
     state.orientation.w() = lane(flight.orientation.w);
     keep(flight.angular_velocity, state.velocity.data());
     keep(flight.velocity, state.velocity.data() + 3);
-    keep(flight.seen_velocity, state.seen_fluid.velocity.data());
-    keep(flight.seen_rotation, state.seen_fluid.angular_velocity.data());
+    keep(flight.seen_velocity, state.sampled_turbulence.velocity.data());
+    keep(flight.seen_rotation, state.sampled_turbulence.angular_velocity.data());
     keep(flight.angular_acceleration, state.acceleration.data());
     keep(flight.acceleration, state.acceleration.data() + 3);
     state.wake.formed = lane(flight.wake.formed);
@@ -96,11 +96,11 @@ struct OneDraw {
 
 #if SAMARA_PACKS_ONE_BODY
     [[nodiscard]] HWY_INLINE Packed three() const {
-        const auto u = noise.uniforms(step, NoiseStream::seen_fluid);
+        const auto u = noise.uniforms(step, NoiseStream::sampled_turbulence);
         return packed_normals(u, u[0], u[1]).velocity;
     }
     [[nodiscard]] HWY_INLINE SixNormals<Spread> six() const {
-        const auto u = noise.uniforms(step, NoiseStream::seen_fluid);
+        const auto u = noise.uniforms(step, NoiseStream::sampled_turbulence);
         const auto rest = noise.uniforms(step, NoiseStream::seen_rotation);
         return packed_normals(u, rest[0], rest[1]);
     }
@@ -121,17 +121,17 @@ struct OneDraw {
     }
 #else
     [[nodiscard]] Triple<double> three() const {
-        return three_normals(noise.uniforms(step, NoiseStream::seen_fluid));
+        return three_normals(noise.uniforms(step, NoiseStream::sampled_turbulence));
     }
     [[nodiscard]] SixNormals<double> six() const {
         const std::array<double, 4> rest = noise.uniforms(step, NoiseStream::seen_rotation);
-        return six_normals(noise.uniforms(step, NoiseStream::seen_fluid), rest[0], rest[1]);
+        return six_normals(noise.uniforms(step, NoiseStream::sampled_turbulence), rest[0], rest[1]);
     }
 #endif
 };
 
-BatchReport advance_double_blocks(const FlightConstants& constants, const kernel::BlockSteps& steps,
-                                  FlightBlock* blocks, std::size_t count) {
+BatchReport advance_double_blocks(const StepConstants& constants, const kernel::BlockSteps& steps,
+                                  StateBlock* blocks, std::size_t count) {
     return advance_all(constants, steps, blocks, count);
 }
 
@@ -141,7 +141,7 @@ HWY_INLINE Push<One> push_of_one(const Wrench* external) {
     return {triple_of(external->moment), triple_of(external->force)};
 }
 
-void step_one(const FlightConstants& c, const Vector3d& gravity, double h, const kernel::SeenStream& stream,
+void step_one(const StepConstants& c, const Vector3d& gravity, double h, const kernel::SeenStream& stream,
               int part, int parts, const Wrench* external, BodyState& state) {
     Flight<One> flight = flight_of(state);
     const Push<One> push = push_of_one(external);
@@ -158,7 +158,7 @@ struct Beginning {
     bool sees_fluid;
     Stream<One> stream;
 };
-HWY_INLINE Beginning beginning(const FlightConstants& c, double h, const kernel::WindSource& source,
+HWY_INLINE Beginning beginning(const StepConstants& c, double h, const kernel::WindSource& source,
                                const Noise& noise, std::uint64_t step, Flight<One>& flight) {
     Stream<One> wind = no_stream<One>();
     const bool windy = source.meet != nullptr;
@@ -177,7 +177,7 @@ HWY_INLINE Beginning beginning(const FlightConstants& c, double h, const kernel:
             stream};
 }
 
-void begin_one(const FlightConstants& c, double h, const kernel::WindSource& source, const Noise& noise,
+void begin_one(const StepConstants& c, double h, const kernel::WindSource& source, const Noise& noise,
                std::uint64_t step, BodyState& state, kernel::BegunStep& begun) {
     Flight<One> flight = flight_of(state);
     const Beginning b = beginning(c, h, source, noise, step, flight);
@@ -187,7 +187,7 @@ void begin_one(const FlightConstants& c, double h, const kernel::WindSource& sou
               b.stream.is_slip, vector_of(b.stream.slip)}};
 }
 
-void lone_steps(const FlightConstants& c, const kernel::BlockSteps& task, const Noise& noise,
+void lone_steps(const StepConstants& c, const kernel::BlockSteps& task, const Noise& noise,
                 const Wrench* external, BodyState& state, BatchReport& report) {
     Flight<One> flight = flight_of(state);
     const Push<One> push = push_of_one(external);
@@ -208,15 +208,15 @@ void lone_steps(const FlightConstants& c, const kernel::BlockSteps& task, const 
     keep(flight, state);
 }
 
-HWY_INLINE void keep_blocks(const FlightConstants& c, const LoadBlocks<One>& blocks, Matrix6d& matrix) {
+HWY_INLINE void keep_blocks(const StepConstants& c, const LoadBlocks<One>& blocks, Matrix6d& matrix) {
     const double moment = c.mass_scale * c.length;
-    matrix.topLeftCorner<3, 3>() = moment * c.length * matrix_of(blocks.moment_by_turning);
+    matrix.topLeftCorner<3, 3>() = moment * c.length * matrix_of(blocks.moment_by_rotation);
     matrix.topRightCorner<3, 3>() = moment * matrix_of(blocks.moment_by_velocity);
-    matrix.bottomLeftCorner<3, 3>() = moment * matrix_of(blocks.force_by_turning);
+    matrix.bottomLeftCorner<3, 3>() = moment * matrix_of(blocks.force_by_rotation);
     matrix.bottomRightCorner<3, 3>() = c.mass_scale * matrix_of(blocks.force_by_velocity);
 }
 
-void loads_of_one(const FlightConstants& c, const Vector6d& velocity, const Vector3d& seen_rotation,
+void loads_of_one(const StepConstants& c, const Vector6d& velocity, const Vector3d& seen_rotation,
                   const Vector3d& slip, const WakeShares& shares, LoadMatrices& loads) {
     const Triple<One> turning = triple_of(velocity.data());
     const Triple<One> moving = One(c.inverse_length) * triple_of(velocity.data() + 3);
@@ -231,21 +231,22 @@ void loads_of_one(const FlightConstants& c, const Vector6d& velocity, const Vect
     keep_blocks(c, blocks, loads.whole);
 }
 
-void turbulence_of_one(const FlightConstants& c, const Vector3d& velocity, TurbulenceLevel& result) {
+void turbulence_of_one(const StepConstants& c, const Vector3d& velocity, TurbulenceLevel& result) {
     const Level<One> level = turbulence_level(c, One(c.inverse_length) * triple_of(velocity));
     result = {lane(level.turbulent_kinetic_energy), lane(level.dissipation_rate)};
 }
 
-void seen_fluid_of_one(const FlightConstants& c, const TurbulenceLevel& level, double h, const Noise& noise,
-                       std::uint64_t step, BodyState& state) {
+void sampled_turbulence_of_one(const StepConstants& c, const TurbulenceLevel& level, double h,
+                               const Noise& noise, std::uint64_t step, BodyState& state) {
     Flight<One> flight = flight_of(state);
-    advance_seen_fluid(c, Level<One>{One(level.turbulent_kinetic_energy), One(level.dissipation_rate)},
-                       One(h), OneDraw{noise, step}.six(), flight);
+    advance_sampled_turbulence(c,
+                               Level<One>{One(level.turbulent_kinetic_energy), One(level.dissipation_rate)},
+                               One(h), OneDraw{noise, step}.six(), flight);
     keep(flight, state);
 }
 
-void body_velocity_of_one(const FlightConstants& c, const TurbulenceLevel& level, double h,
-                          const Noise& noise, std::uint64_t step, BodyState& state) {
+void body_velocity_of_one(const StepConstants& c, const TurbulenceLevel& level, double h, const Noise& noise,
+                          std::uint64_t step, BodyState& state) {
     Flight<One> flight = flight_of(state);
     advance_body_velocity(c, Level<One>{One(level.turbulent_kinetic_energy), One(level.dissipation_rate)},
                           One(h), OneDraw{noise, step}.six(), flight);
@@ -268,38 +269,38 @@ HWY_EXPORT(begin_one);
 HWY_EXPORT(lone_steps);
 HWY_EXPORT(loads_of_one);
 HWY_EXPORT(turbulence_of_one);
-HWY_EXPORT(seen_fluid_of_one);
+HWY_EXPORT(sampled_turbulence_of_one);
 HWY_EXPORT(body_velocity_of_one);
 HWY_EXPORT(one_normal_pair);
 
 namespace kernel {
 
-BatchReport advance_blocks(const FlightConstants& constants, const BlockSteps& steps, FlightBlock* blocks,
+BatchReport advance_blocks(const StepConstants& constants, const BlockSteps& steps, StateBlock* blocks,
                            std::size_t count) noexcept {
     return HWY_DYNAMIC_DISPATCH(advance_double_blocks)(constants, steps, blocks, count);
 }
 
-void implicit_step(const FlightConstants& constants, const Vector3d& gravity, double h,
+void implicit_step(const StepConstants& constants, const Vector3d& gravity, double h,
                    const SeenStream& stream, int part, int parts, const Wrench* external,
                    BodyState& state) noexcept {
     HWY_DYNAMIC_DISPATCH(step_one)(constants, gravity, h, stream, part, parts, external, state);
 }
 
-BegunStep begin_step(const FlightConstants& constants, double h, const WindSource& wind, const Noise& noise,
+BegunStep begin_step(const StepConstants& constants, double h, const WindSource& wind, const Noise& noise,
                      std::uint64_t step, BodyState& state) noexcept {
     BegunStep begun;
     HWY_DYNAMIC_DISPATCH(begin_one)(constants, h, wind, noise, step, state, begun);
     return begun;
 }
 
-BatchReport advance_one(const FlightConstants& constants, const BlockSteps& steps, const Noise& noise,
+BatchReport advance_one(const StepConstants& constants, const BlockSteps& steps, const Noise& noise,
                         const Wrench* external, BodyState& state) noexcept {
     BatchReport report;
     HWY_DYNAMIC_DISPATCH(lone_steps)(constants, steps, noise, external, state, report);
     return report;
 }
 
-LoadMatrices load_matrices(const FlightConstants& constants, const Vector6d& velocity,
+LoadMatrices load_matrices(const StepConstants& constants, const Vector6d& velocity,
                            const Vector3d& seen_rotation, const Vector3d& slip,
                            const WakeShares& shares) noexcept {
     LoadMatrices loads;
@@ -307,18 +308,18 @@ LoadMatrices load_matrices(const FlightConstants& constants, const Vector6d& vel
     return loads;
 }
 
-TurbulenceLevel turbulence_level(const FlightConstants& constants, const Vector3d& velocity) noexcept {
+TurbulenceLevel turbulence_level(const StepConstants& constants, const Vector3d& velocity) noexcept {
     TurbulenceLevel level;
     HWY_DYNAMIC_DISPATCH(turbulence_of_one)(constants, velocity, level);
     return level;
 }
 
-void advance_seen_fluid(const FlightConstants& constants, const TurbulenceLevel& level, double h,
-                        const Noise& noise, std::uint64_t step, BodyState& state) noexcept {
-    HWY_DYNAMIC_DISPATCH(seen_fluid_of_one)(constants, level, h, noise, step, state);
+void advance_sampled_turbulence(const StepConstants& constants, const TurbulenceLevel& level, double h,
+                                const Noise& noise, std::uint64_t step, BodyState& state) noexcept {
+    HWY_DYNAMIC_DISPATCH(sampled_turbulence_of_one)(constants, level, h, noise, step, state);
 }
 
-void advance_body_velocity(const FlightConstants& constants, const TurbulenceLevel& level, double h,
+void advance_body_velocity(const StepConstants& constants, const TurbulenceLevel& level, double h,
                            const Noise& noise, std::uint64_t step, BodyState& state) noexcept {
     HWY_DYNAMIC_DISPATCH(body_velocity_of_one)(constants, level, h, noise, step, state);
 }

@@ -21,7 +21,7 @@ struct Level {
 };
 
 template <class V>
-HWY_INLINE Level<V> turbulence_level(const FlightConstants& c, const Triple<V>& velocity) {
+HWY_INLINE Level<V> turbulence_level(const StepConstants& c, const Triple<V>& velocity) {
     if (c.turbulence != Turbulence::table) {
         return {V(c.turbulent_kinetic_energy), V(c.dissipation_rate)};
     }
@@ -60,8 +60,8 @@ HWY_INLINE Renewal<V> renewal(V rate, V h) {
 }
 
 template <class V>
-HWY_INLINE void advance_seen_fluid(const FlightConstants& c, const Level<V>& level, V h,
-                                   const SixNormals<V>& normals, Flight<V>& flight) {
+HWY_INLINE void advance_sampled_turbulence(const StepConstants& c, const Level<V>& level, V h,
+                                           const SixNormals<V>& normals, Flight<V>& flight) {
     const Renewal<V> now = renewal(V(0.75 * kolmogorov_constant) * turbulence_rate(level), h);
     const V deviation = now.added * root(V(2.0 / 3.0) * level.turbulent_kinetic_energy);
     flight.seen_velocity = now.kept * flight.seen_velocity + deviation * normals.velocity;
@@ -72,7 +72,7 @@ HWY_INLINE void advance_seen_fluid(const FlightConstants& c, const Level<V>& lev
 /// The slip of the wake, as lasting as the body takes to come so many of its lengths, and the weaker the more
 /// the body turns on its way (docs/studies/noise).
 template <class V>
-HWY_INLINE void advance_wake(const FlightConstants& c, const Level<V>& level, V h, const Triple<V>& normals,
+HWY_INLINE void advance_wake(const StepConstants& c, const Level<V>& level, V h, const Triple<V>& normals,
                              Flight<V>& flight) {
     const Triple<V> velocity = centroid_velocity(c, flight);
     const V lengths_per_second = V(c.length * c.inverse_eddy_length) * root(dot(velocity, velocity));
@@ -88,7 +88,7 @@ HWY_INLINE void advance_wake(const FlightConstants& c, const Level<V>& level, V 
 }
 
 template <class V>
-HWY_INLINE void advance_body_velocity(const FlightConstants& c, const Level<V>& level, V h,
+HWY_INLINE void advance_body_velocity(const StepConstants& c, const Level<V>& level, V h,
                                       const SixNormals<V>& normals, Flight<V>& flight) {
     const V zero(0.0);
     const V rate = V(0.5 + 0.75 * kolmogorov_constant) * turbulence_rate(level);

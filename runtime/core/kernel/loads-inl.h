@@ -16,7 +16,7 @@ namespace samara::HWY_NAMESPACE {
 /// The blocks of D, with which the moment and force are -D (omega, v).
 template <class V>
 struct LoadBlocks {
-    Square<V> moment_by_turning, moment_by_velocity, force_by_turning, force_by_velocity;
+    Square<V> moment_by_rotation, moment_by_velocity, force_by_rotation, force_by_velocity;
 };
 
 /// A velocity's length and direction (shorter than one where it has none).
@@ -31,9 +31,10 @@ HWY_INLINE Heading<V> heading_of(const Triple<V>& velocity) {
     return {speed, (V(1.0) / larger(V(tiny), speed)) * velocity};
 }
 
-/// Eq. 5 in its regular form: what a body of that area feels in a tow, over the dynamic pressure.
+/// Eq. 5 in its regular form: what a body of that area feels in a steady translation, over the dynamic
+/// pressure.
 template <class V>
-HWY_INLINE Triple<V> coefficient_force(const FlightConstants& c, const Triple<V>& direction, V area) {
+HWY_INLINE Triple<V> coefficient_force(const StepConstants& c, const Triple<V>& direction, V area) {
     const Triple<V> normal = broadcast<V>(c.normal);
     const V along = dot(direction, normal);
     const Triple<V> lift = (V(c.twice_lift_coefficient) * along) * (normal - along * direction);
@@ -46,15 +47,17 @@ struct Shares {
     V transport, moment;
 };
 
-/// The force of a steady tow over rho A U^2 / 2, and its moment over rho A L U^2 / 2 about the centroid.
+/// The force of a steady translation over rho A U^2 / 2, and its moment over rho A L U^2 / 2 about the
+/// centroid.
 template <class V>
-struct TowCoefficients {
+struct SteadyCoefficients {
     Triple<V> force, moment;
 };
 
 template <bool with_moment, class V>
-HWY_INLINE TowCoefficients<V> tow_coefficients(const FlightConstants& c, const DirectionTable& by_direction,
-                                               const Triple<V>& velocity, const Heading<V>& heading) {
+HWY_INLINE SteadyCoefficients<V> steady_coefficients(const StepConstants& c,
+                                                     const DirectionTable& by_direction,
+                                                     const Triple<V>& velocity, const Heading<V>& heading) {
     Place<V> place;
     find_place(by_direction, velocity, V(c.reynolds_factor) * heading.speed, place);
     Quad<V> numbers[2];
@@ -68,44 +71,45 @@ HWY_INLINE TowCoefficients<V> tow_coefficients(const FlightConstants& c, const D
     return {force, no_vector<V>()};
 }
 
-/// Where the tow's force acts, and the part of its moment that no arm can give (over the speed squared).
+/// Where the steady force acts, and the part of its moment that no arm can give (over the speed squared).
 template <class V>
 struct PressurePoint {
     Triple<V> arm, moment_along_force;
 };
 template <class V>
-HWY_INLINE PressurePoint<V> pressure_point(const FlightConstants& c, const Triple<V>& velocity,
+HWY_INLINE PressurePoint<V> pressure_point(const StepConstants& c, const Triple<V>& velocity,
                                            const Heading<V>& heading, V share) {
-    const TowCoefficients<V> tow = tow_coefficients<true>(c, c.loads_by_direction, velocity, heading);
-    // What transport leaves, in a steady tow, of the Kirchhoff moment on the equations' left side.
+    const SteadyCoefficients<V> tow = steady_coefficients<true>(c, c.loads_by_direction, velocity, heading);
+    // What transport leaves, in a steady translation, of the Kirchhoff moment on the equations' left side.
     const Triple<V> kirchhoff =
         cross(broadcast_symmetric<V>(c.potential_transport) * heading.direction, heading.direction);
     const Triple<V> moment = tow.moment - kirchhoff;
     const V square = dot(tow.force, tow.force);
     const V scale = share / larger(V(tiny), square);
-    return {scale * cross(tow.force, moment), (V(c.tow_factor) * scale * dot(moment, tow.force)) * tow.force};
+    return {scale * cross(tow.force, moment),
+            (V(c.steady_factor) * scale * dot(moment, tow.force)) * tow.force};
 }
 
 /// A patch's force at its point as -(drag + side x): the lift turns with the flow and does no work.
 template <class V>
-struct TowMatrix {
+struct SteadyMatrix {
     V drag;
     Triple<V> side;
 };
 template <class V>
-HWY_INLINE TowMatrix<V> tow_matrix(const FlightConstants& c, const LoadPatch& patch,
-                                   const Triple<V>& velocity) {
+HWY_INLINE SteadyMatrix<V> steady_matrix(const StepConstants& c, const LoadPatch& patch,
+                                         const Triple<V>& velocity) {
     const Heading<V> heading = heading_of(velocity);
     const bool own = !patch.force.rows.empty();
     const Triple<V> force =
-        tow_coefficients<false>(c, own ? patch.force : c.loads_by_direction, velocity, heading).force;
-    const V scale = V(own ? c.tow_factor : patch.share * c.tow_factor) * heading.speed;
+        steady_coefficients<false>(c, own ? patch.force : c.loads_by_direction, velocity, heading).force;
+    const V scale = V(own ? c.steady_factor : patch.share * c.steady_factor) * heading.speed;
     return {scale * larger(V(0.0), -dot(force, heading.direction)), scale * cross(force, heading.direction)};
 }
 
-/// The tow's matrix about the centroid, for a force that acts at the arm r.
+/// The steady matrix about the centroid, for a force that acts at the arm r.
 template <class V>
-HWY_INLINE LoadBlocks<V> moved_by_arm(const TowMatrix<V>& tow, const Triple<V>& r) {
+HWY_INLINE LoadBlocks<V> moved_by_arm(const SteadyMatrix<V>& tow, const Triple<V>& r) {
     const V along = dot(r, tow.side);
     const Triple<V> drag_arm = tow.drag * r;
     return {plus_cross(plus_diagonal(-outer(drag_arm, r), dot(drag_arm, r)), along * r),
@@ -114,34 +118,34 @@ HWY_INLINE LoadBlocks<V> moved_by_arm(const TowMatrix<V>& tow, const Triple<V>& 
             scaling_and_cross(tow.drag, tow.side)};
 }
 
-/// The tow's matrix about the centroid, of a force that acts at the arm r: each patch of the surface feels
-/// its part of it at its own velocity and place. A steady tow is that of the whole body; no patch makes
-/// energy.
+/// The steady matrix about the centroid, of a force that acts at the arm r: each patch of the surface feels
+/// its part of it at its own velocity and place. A steady translation is that of the whole body; no patch
+/// makes energy.
 template <class V>
-HWY_INLINE LoadBlocks<V> tow_blocks(const FlightConstants& c, const Triple<V>& omega,
-                                    const Triple<V>& velocity, const Triple<V>& r) {
+HWY_INLINE LoadBlocks<V> steady_blocks(const StepConstants& c, const Triple<V>& omega,
+                                       const Triple<V>& velocity, const Triple<V>& r) {
     const auto of_patch = [&](const LoadPatch& patch) HWY_ATTR {
         const Triple<V> arm = r + broadcast<V>(patch.place);
-        return moved_by_arm(tow_matrix(c, patch, velocity + cross(omega, arm)), arm);
+        return moved_by_arm(steady_matrix(c, patch, velocity + cross(omega, arm)), arm);
     };
     LoadBlocks<V> blocks = of_patch(c.patches[0]);
     for (std::size_t i = 1; i < c.patches.size(); ++i) {
         const LoadBlocks<V> more = of_patch(c.patches[i]);
-        blocks.moment_by_turning = blocks.moment_by_turning + more.moment_by_turning;
+        blocks.moment_by_rotation = blocks.moment_by_rotation + more.moment_by_rotation;
         blocks.moment_by_velocity = blocks.moment_by_velocity + more.moment_by_velocity;
-        blocks.force_by_turning = blocks.force_by_turning + more.force_by_turning;
+        blocks.force_by_rotation = blocks.force_by_rotation + more.force_by_rotation;
         blocks.force_by_velocity = blocks.force_by_velocity + more.force_by_velocity;
     }
     return blocks;
 }
 
-/// Adds the part of the tow's moment that no arm gives. What it does on a turning body it takes from its
+/// Adds the part of the steady moment that no arm gives. What it does on a turning body it takes from its
 /// path, as wind does that turns a mill: workless.
 template <class V>
 HWY_INLINE void add_windmill(const Triple<V>& moment_along_force, const Triple<V>& velocity,
                              LoadBlocks<V>& blocks) {
     blocks.moment_by_velocity = blocks.moment_by_velocity - outer(moment_along_force, velocity);
-    blocks.force_by_turning = blocks.force_by_turning + outer(velocity, moment_along_force);
+    blocks.force_by_rotation = blocks.force_by_rotation + outer(velocity, moment_along_force);
 }
 
 /// Adds force omega x p and moment v x p + omega x l of the momenta (l, p) that separated flow lacks:
@@ -149,28 +153,28 @@ HWY_INLINE void add_windmill(const Triple<V>& moment_along_force, const Triple<V
 /// equations' left side. `omega`: the body's own. `share`: that of the wake which has formed; before, the
 /// moment is the potential flow's and lacks nothing.
 template <class V>
-HWY_INLINE void add_transport(const FlightConstants& c, const Triple<V>& omega, const Triple<V>& velocity,
+HWY_INLINE void add_transport(const StepConstants& c, const Triple<V>& omega, const Triple<V>& velocity,
                               V share, LoadBlocks<V>& blocks) {
-    // The isotropic part of T acts as a force alone, and as the tow's force from the first: its moment v x v
+    // The isotropic part of T acts as a force alone, and as the steady force from the first: its moment v x v
     // is none, and must not be made where D acts on another v than the one it was made with.
     blocks.force_by_velocity = plus_cross(blocks.force_by_velocity, -V(c.isotropic_transport) * omega);
     Triple<V> momentum = broadcast_symmetric<V>(c.directed_transport) * velocity;
-    if (c.transports_turning) {
+    if (c.transports_rotation) {
         const Square<V> coupling = broadcast<V>(c.coupling_transport);
         momentum = momentum + transposed_times(coupling, omega);
         const Triple<V> angular_momentum =
-            broadcast_symmetric<V>(c.turning_transport) * omega + coupling * velocity;
-        blocks.moment_by_turning = plus_cross(blocks.moment_by_turning, share * angular_momentum);
+            broadcast_symmetric<V>(c.transport_of_rotation) * omega + coupling * velocity;
+        blocks.moment_by_rotation = plus_cross(blocks.moment_by_rotation, share * angular_momentum);
     }
     momentum = share * momentum;
     blocks.moment_by_velocity = plus_cross(blocks.moment_by_velocity, momentum);
-    blocks.force_by_turning = plus_cross(blocks.force_by_turning, momentum);
+    blocks.force_by_rotation = plus_cross(blocks.force_by_rotation, momentum);
 }
 
 /// Adds the force across the path by which a wake that fluctuates pushes on the body's sides: workless.
 /// `slip`: of the wake (l/s, body axes).
 template <class V>
-HWY_INLINE void add_side_pressure(const FlightConstants& c, const Triple<V>& velocity, const Triple<V>& slip,
+HWY_INLINE void add_side_pressure(const StepConstants& c, const Triple<V>& velocity, const Triple<V>& slip,
                                   LoadBlocks<V>& blocks) {
     const Triple<V> pressed = broadcast_symmetric<V>(c.side_pressure) * slip;
     blocks.force_by_velocity =
@@ -179,7 +183,7 @@ HWY_INLINE void add_side_pressure(const FlightConstants& c, const Triple<V>& vel
 
 /// The speed of moving and turning together, in l a second.
 template <class V>
-HWY_INLINE V combined_speed(const FlightConstants& c, const Triple<V>& omega, const Triple<V>& velocity) {
+HWY_INLINE V combined_speed(const StepConstants& c, const Triple<V>& omega, const Triple<V>& velocity) {
     return root(dot(velocity, velocity) + V(c.half_length * c.half_length) * dot(omega, omega));
 }
 
@@ -191,18 +195,18 @@ HWY_INLINE V share_of(V a, V b) {
 
 /// Adds what the rotational drag of falls lacks about the way (docs/theory, "Turning about the way").
 template <class V>
-HWY_INLINE void add_roll_drag(const FlightConstants& c, const Heading<V>& heading, LoadBlocks<V>& blocks) {
+HWY_INLINE void add_roll_drag(const StepConstants& c, const Heading<V>& heading, LoadBlocks<V>& blocks) {
     const Triple<V>& way = heading.direction;
     const V lacking = dot(way, broadcast_symmetric<V>(c.lacking_roll_drag) * way);
-    blocks.moment_by_turning = blocks.moment_by_turning + outer((heading.speed * lacking) * way, way);
+    blocks.moment_by_rotation = blocks.moment_by_rotation + outer((heading.speed * lacking) * way, way);
 }
 
 /// The part of D that acts on what the body does relative to the fluid. `omega` and `velocity`: its angular
 /// velocity and that of its centroid, relative to the fluid. `turning`: the angular velocity itself, by which
-/// the flow ceases to be that of a tow; what turbulence turns is in the table already. `share`: that of the
-/// tow's moment which is there, without which its force has no arm.
+/// the flow ceases to be that of a steady translation; what turbulence turns is in the table already.
+/// `share`: that of the steady moment which is there, without which its force has no arm.
 template <class V>
-HWY_INLINE LoadBlocks<V> relative_load_blocks(const FlightConstants& c, const Triple<V>& omega,
+HWY_INLINE LoadBlocks<V> relative_load_blocks(const StepConstants& c, const Triple<V>& omega,
                                               const Triple<V>& velocity, const Triple<V>& turning, V share) {
     const Heading<V> heading = heading_of(velocity);
     const V speed_square = dot(velocity, velocity);
@@ -210,25 +214,25 @@ HWY_INLINE LoadBlocks<V> relative_load_blocks(const FlightConstants& c, const Tr
     const V tip_square = reach_square * dot(turning, turning);
     const V combined = combined_speed(c, omega, velocity);
 
-    // The tow's moment stays until the body does little but turn: a steady tow keeps it whole.
+    // The steady moment stays until the body does little but turn: a steady translation keeps it whole.
     const PressurePoint<V> point =
         pressure_point(c, velocity, heading, share * share_of(speed_square, V(motion_onset) * tip_square));
-    LoadBlocks<V> blocks = tow_blocks(c, omega, velocity, point.arm);
+    LoadBlocks<V> blocks = steady_blocks(c, omega, velocity, point.arm);
     add_windmill(point.moment_along_force, velocity, blocks);
 
     const V in_motion = combined * share_of(tip_square, V(motion_onset) * speed_square);
     const V creeping_drag =
         V(c.creeping_drag) *
         larger(V(0.0), V(1.0) - V(c.reynolds_factor) * heading.speed * V(c.creeping_fades));
-    blocks.moment_by_turning = plus_diagonal(
-        blocks.moment_by_turning + combined * broadcast_symmetric<V>(c.rotational_drag), V(c.creeping_turn));
+    blocks.moment_by_rotation = plus_diagonal(
+        blocks.moment_by_rotation + combined * broadcast_symmetric<V>(c.rotational_drag), V(c.creeping_turn));
     blocks.force_by_velocity = plus_diagonal(
         blocks.force_by_velocity + in_motion * broadcast_symmetric<V>(c.drag_in_motion), creeping_drag);
     if (c.has_roll_drag) add_roll_drag(c, heading, blocks);
     if (c.has_spin) {
         const V in_spin = combined * share_of(tip_square, speed_square);
-        blocks.moment_by_turning =
-            blocks.moment_by_turning + in_spin * broadcast_symmetric<V>(c.rotational_drag_in_spin);
+        blocks.moment_by_rotation =
+            blocks.moment_by_rotation + in_spin * broadcast_symmetric<V>(c.rotational_drag_in_spin);
         blocks.force_by_velocity =
             blocks.force_by_velocity + in_spin * broadcast_symmetric<V>(c.drag_in_spin);
     }

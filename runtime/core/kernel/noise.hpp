@@ -8,7 +8,7 @@ namespace samara {
 
 /// What a random number is for: numbers of different streams are independent.
 enum class NoiseStream : std::uint16_t {
-    seen_fluid = 0,
+    sampled_turbulence = 0,
     seen_rotation = 1,
     start_position = 2,
     start_angle = 3,

@@ -26,14 +26,14 @@ struct Flight {
 
 /// The velocity (or acceleration) of the centroid from that of the centre of mass: l is taken out of it.
 template <class V>
-HWY_INLINE Triple<V> to_centroid(const FlightConstants& c, const Triple<V>& turning,
+HWY_INLINE Triple<V> to_centroid(const StepConstants& c, const Triple<V>& turning,
                                  const Triple<V>& velocity) {
     if (!c.off_center) return V(c.inverse_length) * velocity;
     return V(c.inverse_length) * (velocity + cross(turning, broadcast<V>(c.center_of_buoyancy)));
 }
 /// The reverse of to_centroid.
 template <class V>
-HWY_INLINE Triple<V> from_centroid(const FlightConstants& c, const Triple<V>& turning,
+HWY_INLINE Triple<V> from_centroid(const StepConstants& c, const Triple<V>& turning,
                                    const Triple<V>& velocity) {
     if (!c.off_center) return V(c.length) * velocity;
     return V(c.length) * velocity - cross(turning, broadcast<V>(c.center_of_buoyancy));
@@ -41,7 +41,7 @@ HWY_INLINE Triple<V> from_centroid(const FlightConstants& c, const Triple<V>& tu
 
 /// The velocity of the centroid, in l a second.
 template <class V>
-HWY_INLINE Triple<V> centroid_velocity(const FlightConstants& c, const Flight<V>& flight) {
+HWY_INLINE Triple<V> centroid_velocity(const StepConstants& c, const Flight<V>& flight) {
     return to_centroid(c, flight.angular_velocity, flight.velocity);
 }
 
@@ -50,8 +50,8 @@ struct Velocities {
     Triple<V> omega, velocity;
 };
 
-/// The seen fluid's velocity (m/s, world axes) when a step begins and when it ends: between them it changes
-/// evenly. Its rotation (rad/s) is held. Where it is a slip of the loads alone it does neither.
+/// The sampled turbulence's velocity (m/s, world axes) when a step begins and when it ends: between them it
+/// changes evenly. Its rotation (rad/s) is held. Where it is a slip of the loads alone it does neither.
 template <class V>
 struct Stream {
     Triple<V> begin, end, rotation;
@@ -75,7 +75,7 @@ struct Push {
     Triple<V> moment, force;
 };
 
-/// What the passes over one step share: its start. Velocities are those relative to the seen fluid.
+/// What the passes over one step share: its start. Velocities are those relative to the sampled turbulence.
 template <class V>
 struct StepStart {
     V h;
@@ -112,30 +112,30 @@ struct Stiffness {
     V turning, moving;
 };
 template <class V>
-HWY_INLINE Stiffness<V> stiffness(const FlightConstants& c, const LoadBlocks<V>& loads, V h) {
+HWY_INLINE Stiffness<V> stiffness(const StepConstants& c, const LoadBlocks<V>& loads, V h) {
     const auto of_block = [h](const Square<V>& block, const Triple<double>& inverse_inertia) HWY_ATTR {
         return h * largest_of(product_of_each(diagonal_of(block), broadcast<V>(inverse_inertia)));
     };
-    return {of_block(loads.moment_by_turning, c.inverse_turning),
-            of_block(loads.force_by_velocity, c.inverse_moving)};
+    return {of_block(loads.moment_by_rotation, c.inverse_angular),
+            of_block(loads.force_by_velocity, c.inverse_linear)};
 }
 
 /// The step's matrix by its blocks, ready to solve with.
 template <class V>
 struct StepMatrix {
     Square<V> turning, coupling, back, moving;
-    Square<V> moving_inverse, moving_by_turning, turning_inverse;
+    Square<V> linear_inverse, linear_by_angular, angular_inverse;
 
     /// Eliminates the velocity, and then what is left for the turning.
     HWY_INLINE void factorise() {
-        moving_inverse = inverse(moving);
-        moving_by_turning = moving_inverse * back;
-        turning_inverse = inverse(turning - coupling * moving_by_turning);
+        linear_inverse = inverse(moving);
+        linear_by_angular = linear_inverse * back;
+        angular_inverse = inverse(turning - coupling * linear_by_angular);
     }
     [[nodiscard]] HWY_INLINE Velocities<V> solved_for(const Triple<V>& moment, const Triple<V>& force) const {
-        const Triple<V> rest = moving_inverse * force;
-        const Triple<V> omega = turning_inverse * (moment - coupling * rest);
-        return {omega, rest - moving_by_turning * omega};
+        const Triple<V> rest = linear_inverse * force;
+        const Triple<V> omega = angular_inverse * (moment - coupling * rest);
+        return {omega, rest - linear_by_angular * omega};
     }
 };
 
@@ -150,7 +150,7 @@ struct HalfTurn {
 /// before. Its unknowns are the velocities' changes: solving for the velocities themselves would drift by a
 /// rounding error a step.
 template <class V>
-HWY_INLINE void improve(const FlightConstants& c, const StepStart<V>& start, StepMiddle<V>& middle) {
+HWY_INLINE void improve(const StepConstants& c, const StepStart<V>& start, StepMiddle<V>& middle) {
     middle.half_turn = (V(0.5) * start.h) * middle.omega;
     const HalfTurn<V> under_body{middle.half_turn};
     const Triple<V> gravity = under_body(start.gravity);
@@ -158,7 +158,7 @@ HWY_INLINE void improve(const FlightConstants& c, const StepStart<V>& start, Ste
     // alone: as p x v its moment would vanish only where the v inside p and the one it acts on are parallel,
     // and else spin even a sphere.
     StepMatrix<V> matrix;
-    matrix.turning = broadcast_symmetric<V>(c.inertia_turning);
+    matrix.turning = broadcast_symmetric<V>(c.inertia_angular);
     const Square<V> directed_inertia = broadcast_symmetric<V>(c.directed_inertia);
     matrix.moving = plus_diagonal(directed_inertia, V(1.0));
     Triple<V> angular_momentum = matrix.turning * middle.omega;
@@ -190,11 +190,11 @@ HWY_INLINE void improve(const FlightConstants& c, const StepStart<V>& start, Ste
         }
         LoadBlocks<V> loads;
         if (start.fluid_turns) {
-            const Triple<V> fluid_turning = under_body(start.seen_rotation);
-            loads = relative_load_blocks(c, middle.omega - fluid_turning, middle.velocity, middle.omega,
+            const Triple<V> fluid_rotation = under_body(start.seen_rotation);
+            loads = relative_load_blocks(c, middle.omega - fluid_rotation, middle.velocity, middle.omega,
                                          shares.moment);
-            moment = moment + loads.moment_by_turning * fluid_turning;
-            force = force + loads.force_by_turning * fluid_turning;
+            moment = moment + loads.moment_by_rotation * fluid_rotation;
+            force = force + loads.force_by_rotation * fluid_rotation;
         } else {
             loads = relative_load_blocks(c, middle.omega, middle.velocity, middle.omega, shares.moment);
         }
@@ -205,12 +205,13 @@ HWY_INLINE void improve(const FlightConstants& c, const StepStart<V>& start, Ste
         middle.theta = (V(3.0) + z) / (V(6.0) + z);
         middle.stiffness = stiff.moving;
         step = middle.theta * start.h;
-        matrix.turning = matrix.turning + step * loads.moment_by_turning;
+        matrix.turning = matrix.turning + step * loads.moment_by_rotation;
         matrix.coupling = matrix.coupling + step * loads.moment_by_velocity;
-        matrix.back = matrix.back + step * loads.force_by_turning;
+        matrix.back = matrix.back + step * loads.force_by_rotation;
         matrix.moving = matrix.moving + step * loads.force_by_velocity;
-        moment = moment - (loads.moment_by_turning * start.omega + loads.moment_by_velocity * start.velocity);
-        force = force - (loads.force_by_turning * start.omega + loads.force_by_velocity * start.velocity);
+        moment =
+            moment - (loads.moment_by_rotation * start.omega + loads.moment_by_velocity * start.velocity);
+        force = force - (loads.force_by_rotation * start.omega + loads.force_by_velocity * start.velocity);
     }
     matrix.turning = plus_cross(matrix.turning, -step * angular_momentum);
     matrix.coupling = plus_cross(matrix.coupling, -step * momentum);
@@ -249,7 +250,7 @@ HWY_INLINE StepMiddle<V> select(Condition condition, const StepMiddle<V>& a, con
 /// the square of the velocity: to the first order, one made from a guess that was off by d is off by 2 d / u
 /// of the velocity's change. One pass is of second order too, where drag is not stiff.
 template <class V>
-HWY_INLINE typename NumberTraits<V>::Mask is_unsure(const FlightConstants& c, const StepStart<V>& start,
+HWY_INLINE typename NumberTraits<V>::Mask is_unsure(const StepConstants& c, const StepStart<V>& start,
                                                     const Velocities<V>& guess, const StepMiddle<V>& found) {
     const V tip_square(c.tip_square);
     const auto square = [&](const Triple<V>& omega, const Triple<V>& velocity)
@@ -265,7 +266,7 @@ HWY_INLINE typename NumberTraits<V>::Mask is_unsure(const FlightConstants& c, co
 
 /// The middle that a second pass finds, for those where it matters. Not inlined: most steps need none.
 template <class V>
-HWY_NOINLINE void find_again(const FlightConstants& c, const StepStart<V>& start, const Velocities<V>& guess,
+HWY_NOINLINE void find_again(const StepConstants& c, const StepStart<V>& start, const Velocities<V>& guess,
                              typename NumberTraits<V>::Mask unsure, StepMiddle<V>& middle) {
     StepMiddle<V> found = middle;
     // Where drag is stiff, one made from the speed alone would swing about the terminal speed: halfway to the
@@ -279,7 +280,7 @@ HWY_NOINLINE void find_again(const FlightConstants& c, const StepStart<V>& start
 
 /// The middle of the step from velocities guessed there: by one pass, or where that says it matters by two.
 template <class V>
-HWY_INLINE StepMiddle<V> found_middle(const FlightConstants& c, const StepStart<V>& start,
+HWY_INLINE StepMiddle<V> found_middle(const StepConstants& c, const StepStart<V>& start,
                                       const Velocities<V>& guess) {
     StepMiddle<V> found;
     found.omega = guess.omega;
@@ -301,7 +302,7 @@ HWY_INLINE StepMiddle<V> found_middle(const FlightConstants& c, const StepStart<
 /// What a step starts from. `gravity`: world axes; `velocity`: of the centre of mass, relative to the seen
 /// fluid.
 template <class V>
-HWY_INLINE StepStart<V> step_start(const FlightConstants& c, const Square<V>& to_world,
+HWY_INLINE StepStart<V> step_start(const StepConstants& c, const Square<V>& to_world,
                                    const Triple<V>& gravity, V h, bool fluid_turns,
                                    const Triple<V>& seen_rotation, const Triple<V>& velocity,
                                    const Flight<V>& flight) {
@@ -321,8 +322,7 @@ HWY_INLINE StepStart<V> step_start(const FlightConstants& c, const Square<V>& to
 
 /// A push in body axes about the centroid, over m* and l.
 template <class V>
-HWY_INLINE Push<V> push_at_centroid(const FlightConstants& c, const Square<V>& to_world,
-                                    const Push<V>& push) {
+HWY_INLINE Push<V> push_at_centroid(const StepConstants& c, const Square<V>& to_world, const Push<V>& push) {
     const V force_unit(c.inverse_length / c.mass_scale);
     const Triple<V> force = transposed_times(to_world, push.force);
     const Triple<V> moment =
@@ -331,7 +331,7 @@ HWY_INLINE Push<V> push_at_centroid(const FlightConstants& c, const Square<V>& t
 }
 
 /// Whether a body that meets turbulence sees it as a moving fluid.
-HWY_INLINE bool sees_turbulence(const FlightConstants& c) {
+HWY_INLINE bool sees_turbulence(const StepConstants& c) {
     return c.turbulence != Turbulence::none && c.langevin != Langevin::body_velocity;
 }
 
@@ -341,9 +341,9 @@ HWY_INLINE bool sees_turbulence(const FlightConstants& c) {
 ///
 /// Where the body sees fluid, the step is taken in the frame of that uniform stream, as in that of a current:
 /// velocities are relative to it, and its acceleration is taken off gravity, for body and displaced fluid
-/// alike (docs/theory, "The seen fluid"). `push`: null where there is none.
+/// alike (docs/theory, "The sampled turbulence"). `push`: null where there is none.
 template <class V>
-HWY_INLINE void implicit_step(const FlightConstants& c, const Triple<V>& gravity, V h, bool sees_fluid,
+HWY_INLINE void implicit_step(const StepConstants& c, const Triple<V>& gravity, V h, bool sees_fluid,
                               const Stream<V>& stream, const Push<V>* push, Flight<V>& flight) {
     const Square<V> to_world = rotation_matrix(flight.orientation);
     const V half = V(0.5) * h;
@@ -382,11 +382,11 @@ HWY_INLINE void implicit_step(const FlightConstants& c, const Triple<V>& gravity
     flight.position = flight.position + h * (to_world * turned_back(-found.half_turn, middle_velocity));
     flight.orientation = turned_by(flight.orientation, found.half_turn);
     const V whole = V(1.0) / found.theta;
-    const Triple<V> turning_change = whole * found.change.omega;
-    const Triple<V> velocity_change = from_centroid(c, turning_change, whole * found.change.velocity);
-    flight.angular_acceleration = rate * turning_change;
+    const Triple<V> rotation_change = whole * found.change.omega;
+    const Triple<V> velocity_change = from_centroid(c, rotation_change, whole * found.change.velocity);
+    flight.angular_acceleration = rate * rotation_change;
     flight.acceleration = rate * velocity_change;
-    flight.angular_velocity = flight.angular_velocity + turning_change;
+    flight.angular_velocity = flight.angular_velocity + rotation_change;
     flight.velocity = relative_velocity + velocity_change;
     if (sees_fluid) {
         flight.position =
@@ -396,11 +396,11 @@ HWY_INLINE void implicit_step(const FlightConstants& c, const Triple<V>& gravity
     if (fluid_changes) flight.acceleration = flight.acceleration - pushed;
 }
 
-/// The rate (1/s) at which the body turns, or would turn by its Munk moment in a seen fluid (m/s, world
-/// axes).
+/// The rate (1/s) at which the body turns, or would turn by its Munk moment in a sampled turbulence (m/s,
+/// world axes).
 template <class V>
-HWY_INLINE V turning_rate(const FlightConstants& c, bool sees_fluid, const Triple<V>& seen_velocity,
-                          const Flight<V>& flight) {
+HWY_INLINE V rotation_rate(const StepConstants& c, bool sees_fluid, const Triple<V>& seen_velocity,
+                           const Flight<V>& flight) {
     Triple<V> velocity = centroid_velocity(c, flight);
     if (sees_fluid) {
         velocity = velocity -
@@ -413,9 +413,9 @@ HWY_INLINE V turning_rate(const FlightConstants& c, bool sees_fluid, const Tripl
 /// Into how many equal parts the step is cut: each turns the body by at most 0.3 rad, as far as the limit on
 /// their number allows. `seen_velocity`: when the step begins (m/s, world axes).
 template <class V>
-HWY_INLINE V substeps_of(const FlightConstants& c, V h, bool sees_fluid, const Triple<V>& seen_velocity,
+HWY_INLINE V substeps_of(const StepConstants& c, V h, bool sees_fluid, const Triple<V>& seen_velocity,
                          const Flight<V>& flight) {
-    const V turns = h * turning_rate(c, sees_fluid, seen_velocity, flight) * V(1.0 / 0.3);
+    const V turns = h * rotation_rate(c, sees_fluid, seen_velocity, flight) * V(1.0 / 0.3);
     return -whole_part(-smaller(V(most_substeps), larger(V(1.0), turns)));
 }
 

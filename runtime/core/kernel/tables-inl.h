@@ -7,7 +7,7 @@
 #define SAMARA_TABLES_INL_H
 #endif
 
-#include "samara/core/kernel/flight_constants.hpp"
+#include "samara/core/kernel/step_constants.hpp"
 #include "samara/core/kernel/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();

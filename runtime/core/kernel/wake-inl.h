@@ -36,7 +36,7 @@ HWY_INLINE Shares<V> shares_of(const FlightWake<V>& wake) {
 /// to the direction of the velocity, what differs going as exp(-x), x the way over that in which a wake forms
 /// or a heading settles, here to the second order and never below zero.
 template <class V>
-HWY_INLINE FlightWake<V> wake_after(const FlightConstants& c, const FlightWake<V>& wake, V time,
+HWY_INLINE FlightWake<V> wake_after(const StepConstants& c, const FlightWake<V>& wake, V time,
                                     const Triple<V>& omega, const Triple<V>& velocity,
                                     const Triple<V>& direction) {
     const auto kept_after = [](V x) HWY_ATTR { return V(1.0) / (V(1.0) + x * (V(1.0) + V(0.5) * x)); };
@@ -50,23 +50,23 @@ HWY_INLINE FlightWake<V> wake_after(const FlightConstants& c, const FlightWake<V
 
 /// The wake in the middle of a step over h that begins with `wake` and moves at these velocities.
 template <class V>
-HWY_INLINE FlightWake<V> wake_in_the_middle(const FlightConstants& c, FlightWake<V> wake, V h,
+HWY_INLINE FlightWake<V> wake_in_the_middle(const StepConstants& c, FlightWake<V> wake, V h,
                                             const Triple<V>& omega, const Triple<V>& velocity,
                                             const Triple<V>& half_turn) {
-    if (c.has_unseen_turning) {
-        wake.heading = turned_back(broadcast_symmetric<V>(c.unseen_turning) * half_turn, wake.heading);
+    if (c.has_spin_about_symmetry) {
+        wake.heading = turned_back(broadcast_symmetric<V>(c.spin_about_symmetry) * half_turn, wake.heading);
     }
     return wake_after(c, wake, V(0.5) * h, omega, velocity, heading_of(velocity).direction);
 }
 
 /// And in its end.
 template <class V>
-HWY_INLINE FlightWake<V> wake_in_the_end(const FlightConstants& c, FlightWake<V> wake, V h,
+HWY_INLINE FlightWake<V> wake_in_the_end(const StepConstants& c, FlightWake<V> wake, V h,
                                          const Triple<V>& omega, const Triple<V>& velocity,
                                          const Triple<V>& half_turn) {
     Triple<V> direction = heading_of(velocity).direction;
-    if (c.has_unseen_turning) {
-        const Triple<V> unseen = broadcast_symmetric<V>(c.unseen_turning) * half_turn;
+    if (c.has_spin_about_symmetry) {
+        const Triple<V> unseen = broadcast_symmetric<V>(c.spin_about_symmetry) * half_turn;
         wake.heading = turned_back(unseen, wake.heading - cross(unseen, wake.heading));
         direction = turned_back(unseen, direction);
     }

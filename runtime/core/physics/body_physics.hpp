@@ -7,17 +7,17 @@
 
 namespace samara {
 
-/// Where the loads of a steady tow come from: nowhere, drag and lift coefficients, the body's tables, the
-/// pressure of the potential flow over its surface (docs/surface-loads.md).
+/// Where the loads of a steady translation come from: nowhere, drag and lift coefficients, the body's tables,
+/// the pressure of the potential flow over its surface (docs/surface-loads.md).
 enum class Loads { none, coefficients, table, surface };
 /// Where the turbulence around a body comes from: nowhere, constants, the body's tables.
 enum class Turbulence { none, constant, table };
 /// What the Langevin equation moves: the fluid that the body sees as one stream; (the paper's eq. 8) the body
 /// itself; the slip by which the body's own wake makes its loads fluctuate (docs/studies/noise), which only
 /// tables know: constant turbulence, of the fluid around, is a stream then.
-enum class Langevin { seen_fluid, body_velocity, wake };
-/// Whose coefficients give the loads of a body in motion beyond those of a steady tow: the body file's, or
-/// the defaults where it has none; the defaults; none.
+enum class Langevin { sampled_turbulence, body_velocity, wake };
+/// Whose coefficients give the loads of a body in motion beyond those of a steady translation: the body
+/// file's, or the defaults where it has none; the defaults; none.
 enum class Dynamic { of_body, by_default, none };
 
 /// The paper's eq. 5; what is absent is taken from the body (docs/theory.md).

@@ -15,7 +15,7 @@
 
 #include "samara/core/base/error.hpp"
 #include "samara/core/files/input_file.hpp"
-#include "samara/core/surface/look_image.hpp"
+#include "samara/core/surface/display_image.hpp"
 #include "samara/core/surface/mesh_text.hpp"
 #include "samara/core/surface/polygon_triangles.hpp"
 #include "samara/core/surface/unit_normal.hpp"
@@ -35,8 +35,8 @@ bool read_share(std::string_view word, double& number) {
 
 class ObjReader {
   public:
-    explicit ObjReader(std::string label, bool with_look = false)
-        : label_(std::move(label)), with_look_(with_look) {}
+    explicit ObjReader(std::string label, bool with_display = false)
+        : label_(std::move(label)), with_display_(with_display) {}
 
     Surface read(std::string_view text) {
         constexpr bool continued = true;
@@ -48,11 +48,11 @@ class ObjReader {
     }
 
     /// What was read besides the surface.
-    LookMesh look(const std::filesystem::path& folder) {
+    DisplayMesh display(const std::filesystem::path& folder) {
         for (const std::string& library : libraries_) read_materials(place_beneath(folder, library), folder);
-        if (!all_have_normals_) look_.normals.clear();
-        if (texture_.empty()) look_.texture.clear();
-        return std::move(look_);
+        if (!all_have_normals_) display_.normals.clear();
+        if (texture_.empty()) display_.texture.clear();
+        return std::move(display_);
     }
 
   private:
@@ -64,7 +64,7 @@ class ObjReader {
         Words numbers_alone(rest.substr(0, rest.find('#')));
         if (keyword == "v") add_vertex(numbers_alone);
         if (keyword == "f") add_face(numbers_alone);
-        if (!with_look_) return;
+        if (!with_display_) return;
         if (keyword == "vt") texture_.push_back(numbers<2>("vt", "two", numbers_alone));
         if (keyword == "vn") normals_.push_back(numbers<3>("vn", "three", numbers_alone));
         if (keyword == "usemtl") slot_ = slot_named(std::string(words.next()));
@@ -92,10 +92,10 @@ class ObjReader {
 
     std::int32_t slot_named(const std::string& name) {
         const auto [known, is_new] =
-            slots_.try_emplace(name, static_cast<std::int32_t>(look_.materials.size()));
+            slots_.try_emplace(name, static_cast<std::int32_t>(display_.materials.size()));
         if (!is_new) return known->second;
-        if (look_.materials.size() == most_materials) fail("too many materials");
-        look_.materials.emplace_back().name = name;
+        if (display_.materials.size() == most_materials) fail("too many materials");
+        display_.materials.emplace_back().name = name;
         return known->second;
     }
 
@@ -135,10 +135,10 @@ class ObjReader {
         if (input.size() > most_image_bytes) return -1;
         std::string bytes = input.bytes(most_image_bytes);
         if (image_type(bytes) == nullptr) return -1;
-        if (!add_image(look_, {file.stem().string(), std::move(bytes)})) {
+        if (!add_image(display_, {file.stem().string(), std::move(bytes)})) {
             throw Error(fmt::format("{}: {}", label_, too_many_images));
         }
-        known->second = static_cast<std::int32_t>(look_.images.size()) - 1;
+        known->second = static_cast<std::int32_t>(display_.images.size()) - 1;
         return known->second;
     }
 
@@ -147,7 +147,7 @@ class ObjReader {
         if (file.empty()) return;
         const InputFile input(file);
         require_beneath(input, folder);
-        LookMaterial* material = nullptr;
+        DisplayMaterial* material = nullptr;
         const std::string text = input.bytes(most_material_bytes);
         constexpr bool continued = false;
         visit_lines(without_byte_order_mark(text, file.string()), continued, [&](std::string_view line, int) {
@@ -155,8 +155,9 @@ class ObjReader {
             const std::string keyword = in_small_letters(words.next());
             if (keyword == "newmtl") {
                 const auto found = slots_.find(std::string(words.next()));
-                material = found == slots_.end() ? nullptr
-                                                 : &look_.materials[static_cast<std::size_t>(found->second)];
+                material = found == slots_.end()
+                               ? nullptr
+                               : &display_.materials[static_cast<std::size_t>(found->second)];
             }
             if (material == nullptr) return;
             double number = 0.0;
@@ -165,15 +166,15 @@ class ObjReader {
             }
             if (keyword == "d" && read_share(words.next(), number)) material->color[3] = number;
             if (keyword == "map_kd") material->image = image_named(words.rest(), folder);
-            if (keyword == "map_d") material->transparency = LookTransparency::cut_out;
+            if (keyword == "map_d") material->transparency = DisplayTransparency::cut_out;
         });
     }
 
     /// The vertex of the look that a face's word names: the same words are one.
-    std::int32_t look_vertex(const std::string& word, std::int32_t vertex) {
-        const auto [known, is_new] = known_.try_emplace(word, look_.positions.size());
+    std::int32_t display_vertex(const std::string& word, std::int32_t vertex) {
+        const auto [known, is_new] = known_.try_emplace(word, display_.positions.size());
         if (!is_new) return static_cast<std::int32_t>(known->second);
-        look_.positions.push_back(surface_.vertices[static_cast<std::size_t>(vertex)]);
+        display_.positions.push_back(surface_.vertices[static_cast<std::size_t>(vertex)]);
         const auto part = [&](int index) {
             std::string_view rest = word;
             for (int i = 0; i < index; ++i) {
@@ -183,21 +184,21 @@ class ObjReader {
             return rest.substr(0, rest.find('/'));
         };
         const std::string_view texture = part(1);
-        look_.texture.push_back(texture.empty() ? Eigen::Vector2d(0.0, 0.0)
-                                                : texture_[index_of(texture, texture_.size(), "texture")]);
+        display_.texture.push_back(texture.empty() ? Eigen::Vector2d(0.0, 0.0)
+                                                   : texture_[index_of(texture, texture_.size(), "texture")]);
         const std::string_view normal = part(2);
         all_have_normals_ = all_have_normals_ && !normal.empty();
-        look_.normals.push_back(normal.empty()
-                                    ? Vector3d::UnitZ()
-                                    : unit_normal(normals_[index_of(normal, normals_.size(), "normal")]));
-        return static_cast<std::int32_t>(look_.positions.size()) - 1;
+        display_.normals.push_back(normal.empty()
+                                       ? Vector3d::UnitZ()
+                                       : unit_normal(normals_[index_of(normal, normals_.size(), "normal")]));
+        return static_cast<std::int32_t>(display_.positions.size()) - 1;
     }
 
-    void add_to_look(const std::vector<std::array<std::int32_t, 3>>& triangles) {
+    void add_to_display(const std::vector<std::array<std::int32_t, 3>>& triangles) {
         if (slot_ < 0) slot_ = slot_named("body");
         std::vector<std::int32_t> vertices;
         for (std::size_t i = 0; i < corners_.size(); ++i)
-            vertices.push_back(look_vertex(words_[i], corners_[i]));
+            vertices.push_back(display_vertex(words_[i], corners_[i]));
         for (const auto& triangle : triangles) {
             std::array<std::int32_t, 3> corners{};
             for (std::size_t k = 0; k < 3; ++k) {
@@ -205,8 +206,8 @@ class ObjReader {
                     std::find(corners_.begin(), corners_.end(), triangle[k]) - corners_.begin();
                 corners[k] = vertices[static_cast<std::size_t>(place)];
             }
-            look_.corners.push_back(corners);
-            look_.slots.push_back(slot_);
+            display_.corners.push_back(corners);
+            display_.slots.push_back(slot_);
         }
     }
 
@@ -215,7 +216,7 @@ class ObjReader {
         words_.clear();
         for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
             corners_.push_back(static_cast<std::int32_t>(index_of(word, surface_.vertices.size(), "vertex")));
-            if (with_look_) words_.emplace_back(absolute(word));
+            if (with_display_) words_.emplace_back(absolute(word));
         }
         if (corners_.size() < 3)
             fail(fmt::format("a face has three or more corners, not {}", corners_.size()));
@@ -227,7 +228,7 @@ class ObjReader {
         }
         const auto triangles = polygon_triangles(surface_.vertices, corners_);
         surface_.corners.insert(surface_.corners.end(), triangles.begin(), triangles.end());
-        if (with_look_) add_to_look(triangles);
+        if (with_display_) add_to_display(triangles);
     }
 
     /// A face's word with numbers that count from 1: those that count back mean others on another line.
@@ -271,8 +272,8 @@ class ObjReader {
     std::vector<std::int32_t> corners_;  // of a face
     std::vector<std::string> words_;     // the same
 
-    bool with_look_;
-    LookMesh look_;
+    bool with_display_;
+    DisplayMesh display_;
     std::int32_t slot_ = -1;
     bool all_have_normals_ = true;
     std::vector<Eigen::Vector2d> texture_;
@@ -290,10 +291,10 @@ Surface read_obj_file(const std::filesystem::path& file) {
     return ObjReader(file.string()).read(read_at_most(file, most_mesh_bytes));
 }
 
-LookMesh read_obj_look(const std::filesystem::path& file) {
+DisplayMesh read_obj_display_mesh(const std::filesystem::path& file) {
     ObjReader reader(file.string(), true);
     reader.read(read_at_most(file, most_mesh_bytes));
-    return reader.look(file.parent_path());
+    return reader.display(file.parent_path());
 }
 
 }  // namespace samara

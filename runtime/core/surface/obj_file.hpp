@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 
-#include "samara/core/surface/look_mesh.hpp"
+#include "samara/core/surface/display_mesh.hpp"
 #include "samara/core/surface/surface.hpp"
 
 namespace samara {
@@ -18,6 +18,6 @@ Surface read_obj_file(const std::filesystem::path& file);
 /// The same with texture coordinates, normals (where all corners have one) and the materials that its faces
 /// use, in the order of their use; their colours are those of the .mtl files that it names, where these lie
 /// there. Throws Error besides where a texture coordinate or a normal is none.
-LookMesh read_obj_look(const std::filesystem::path& file);
+DisplayMesh read_obj_display_mesh(const std::filesystem::path& file);
 
 }  // namespace samara

@@ -37,8 +37,8 @@ double longest_edge(const Surface& surface, std::size_t triangle);
 /// The sum of the flat triangles' areas (m^2).
 double surface_area(const Surface& surface);
 
-/// The area (m^2) of the shadow of a convex body along the unit vector `direction`; for other bodies an upper
-/// bound, the sum of the faces turned towards it.
+/// The area (m^2) of the projected area of a convex body along the unit vector `direction`; for other bodies
+/// an upper bound, the sum of the faces turned towards it.
 double projected_area(const Surface& surface, const Vector3d& direction);
 
 /// L = sqrt(S / pi) (m): the diameter of the sphere with the same surface area S. The length scale of all

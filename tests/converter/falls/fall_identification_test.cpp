@@ -218,7 +218,7 @@ TEST_F(FallIdentification, ShowsAFallAndItsFlightWithGravityDownwards) {
     Body body = body_;
     body.dynamic = {.values = true_, .standard_errors = {}, .densities = {}};
     const FallMotions motions = fall_motions(body, record_);
-    const FlownFall figures = fly_fall(body, record_);
+    const FlownFall metrics = fly_fall(body, record_);
     EXPECT_EQ(motions.solved.times, motions.flown.times);
     for (const Motion* motion : {&motions.solved, &motions.flown}) {
         EXPECT_LT((motion->gravity.normalized() + Vector3d::UnitZ()).norm(), 1e-12);
@@ -226,8 +226,8 @@ TEST_F(FallIdentification, ShowsAFallAndItsFlightWithGravityDownwards) {
         EXPECT_LT(motion->bodies[0].poses.back().position.z(), 0.0);
     }
     const Measures measures = measure(motions.flown, motions.flown.bodies[0]);
-    EXPECT_NEAR(measures.descent_speed, figures.flown.descent_speed, 1e-9 * figures.flown.descent_speed);
-    EXPECT_NEAR(measures.inclination_amplitude, figures.flown.inclination_amplitude, 1e-9);
+    EXPECT_NEAR(measures.descent_speed, metrics.flown.descent_speed, 1e-9 * metrics.flown.descent_speed);
+    EXPECT_NEAR(measures.inclination_amplitude, metrics.flown.inclination_amplitude, 1e-9);
 }
 
 TEST_F(FallIdentification, LeavesOutTheTermsThatItIsToldTo) {
@@ -251,7 +251,7 @@ TEST_F(FallIdentification, LeavesOutAStretchOfTheFallAndFindsTheSame) {
 }
 
 // Fitted to its segments alone the body falls 8 % too slowly here, and swings a tenth too little.
-TEST_F(FallIdentification, KeepsTheFiguresOfTheWholeFallWhereTheModelCannotFollowIt) {
+TEST_F(FallIdentification, KeepsTheMetricsOfTheWholeFallWhereTheModelCannotFollowIt) {
     const Identification without = identify_motion(body_, {record_}, {.terms = {"rotational drag"}});
     EXPECT_GT(without.prediction_error, 5.0 * found_.prediction_error);
     const auto& [name, solved, flown, balance] = without.falls.front();

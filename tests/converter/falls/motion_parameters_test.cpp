@@ -74,7 +74,7 @@ TEST(MotionParameters, ExpectTheTransportThatTakesThePotentialFlowsOwnAway) {
     EXPECT_LT((expected.transport - added_mass).norm(), 1e-12 * added_mass.norm());
     EXPECT_EQ(expected.rotational_transport, 1.0);
     EXPECT_EQ(expected.unsteady_factor, 1.0);
-    EXPECT_EQ(expected.settling_ways, settling_ways_of_falls);
+    EXPECT_EQ(expected.settling_length, settling_length_of_falls);
     const Matrix3d areas = projected_area_tensor(body);
     EXPECT_LT((expected.drag_in_motion - usual_drag_in_motion * areas).norm(), 1e-12 * areas.norm());
     EXPECT_LT((expected.drag_in_spin - usual_drag_in_spin * areas).norm(), 1e-12 * areas.norm());
@@ -127,10 +127,11 @@ TEST(MotionParameters, OfASphereHaveOneNumberForAllAxes) {
     }
 }
 
-TEST(MotionParameters, LeaveABodyWhoseAxesAreAllAlikeTheTowsMomentThatAloneTurnsIt) {
-    EXPECT_EQ(MotionParameters(ellipsoid_of(Vector3d::Ones())).settling_ways(), settling_ways_of_alike_axes);
+TEST(MotionParameters, LeaveABodyWhoseAxesAreAllAlikeTheSteadyMomentThatAloneTurnsIt) {
+    EXPECT_EQ(MotionParameters(ellipsoid_of(Vector3d::Ones())).settling_length(),
+              settling_length_of_alike_axes);
     for (const Vector3d& semi_axes : {Vector3d(1.0, 4.0, 4.0), Vector3d(1.0, 1.0, 4.0), uneven}) {
-        EXPECT_EQ(MotionParameters(ellipsoid_of(semi_axes)).settling_ways(), settling_ways_of_falls);
+        EXPECT_EQ(MotionParameters(ellipsoid_of(semi_axes)).settling_length(), settling_length_of_falls);
     }
 }
 
@@ -151,8 +152,8 @@ TEST(MotionParameters, AreNothingWhereTheTermIsLeftOut) {
             name == "turning transport" || name == "drag in spin" || name == "drag in motion";
         EXPECT_EQ(fixed, is_shared ? 0 : name == "unsteady factor" ? 1 : 3) << name;
         EXPECT_EQ(coefficients.unsteady_factor, 1.0) << name;
-        const bool of_turning = name == "turning transport";
-        EXPECT_EQ(coefficients.rotational_transport, of_turning ? 0.0 : 1.0) << name;
+        const bool of_rotation = name == "turning transport";
+        EXPECT_EQ(coefficients.rotational_transport, of_rotation ? 0.0 : 1.0) << name;
         for (const TensorOfMotion& tensor : tensors_of_motion) {
             const bool is_none = coefficients.*tensor.member == Matrix3d::Zero();
             EXPECT_EQ(is_none, name == tensor.title) << name << ", " << tensor.title;
@@ -200,7 +201,7 @@ TEST(MotionParameters, GiveTheErrorOfEachEntryAlongPrincipalAxes) {
         EXPECT_LE((standard_errors.*tensor.member - change).norm(), 1e-9 * change.norm()) << tensor.name;
     }
     EXPECT_EQ(standard_errors.rotational_transport, 0.0);
-    EXPECT_EQ(standard_errors.settling_ways, 0.0);
+    EXPECT_EQ(standard_errors.settling_length, 0.0);
     EXPECT_EQ(standard_errors.drag_in_spin, Matrix3d::Zero());
     EXPECT_EQ(standard_errors.drag_in_motion, Matrix3d::Zero());
     EXPECT_NEAR(standard_errors.unsteady_factor, errors[errors.size() - 1], 1e-15);

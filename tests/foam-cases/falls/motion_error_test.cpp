@@ -51,13 +51,13 @@ MotionError error_of(const Scene& scene, const UncertainTables& uncertain, int f
 }
 
 double descent_error(const MotionError& error) {
-    return error.figures[Figure::descent_speed]->of_table;
+    return error.metrics[Metric::descent_speed]->of_table;
 }
 
 TEST(MotionError, VanishesForExactTables) {
     // One fall has no chance of its own; exact tables draw themselves.
     const MotionError error = error_of(short_scene(), all_uncertain(body_with_tables(), 0.0), 1, 4);
-    for (const auto& measure : error.figures) {
+    for (const auto& measure : error.metrics) {
         if (measure) {
             EXPECT_EQ(measure->of_table, 0.0);
         }
@@ -96,8 +96,8 @@ TEST(MotionError, OfABallsSpeedIsHalfThatOfItsDrag) {
     const MotionError error =
         motion_error(scene, 0, ball, uncertain, fly_for_bake(scene, 0, ball, 1), 1, draws);
     // Neither its inclination nor its turning says anything.
-    EXPECT_FALSE(error.figures[Figure::inclination_amplitude]);
-    EXPECT_FALSE(error.figures[Figure::rms_angular_speed]);
+    EXPECT_FALSE(error.metrics[Metric::inclination_amplitude]);
+    EXPECT_FALSE(error.metrics[Metric::rms_angular_speed]);
     // 1 %, as far as that many draws can tell.
     EXPECT_NEAR(descent_error(error), 0.5 * drag_error / 0.5, 0.01 * 3.0 / std::sqrt(2.0 * draws));
 }
@@ -109,8 +109,8 @@ TEST(MotionError, StatesWhatChanceMakesOfIt) {
     const SampledFalls flight = fly_for_bake(scene, 0, body, 4);
     constexpr int draws = 3;
     const MotionError error = motion_error(scene, 0, body, all_uncertain(body, 0.0), flight, 4, draws);
-    const Estimate descent = *flight.mean(Figure::descent_speed);
-    const auto& of_descent = *error.figures[Figure::descent_speed];
+    const Estimate descent = *flight.mean(Metric::descent_speed);
+    const auto& of_descent = *error.metrics[Metric::descent_speed];
     ASSERT_GT(*descent.error, 0.0);
     EXPECT_DOUBLE_EQ(of_descent.of_chance, *descent.error / std::abs(descent.value));
     // Exact tables: what is left is what three draws cannot tell from chance.
@@ -121,12 +121,12 @@ TEST(MotionError, StatesWhatChanceMakesOfIt) {
 TEST(MotionError, TheWorstIsTheLargestShareOfWhatIsAllowed) {
     MotionError error;
     EXPECT_EQ(error.worst(0.1), 0.0);
-    error.figures[Figure::descent_speed] = {0.05, 0.01, 0.0};
-    error.figures[Figure::frequency] = {0.12, 0.05, 0.0};
+    error.metrics[Metric::descent_speed] = {0.05, 0.01, 0.0};
+    error.metrics[Metric::frequency] = {0.12, 0.05, 0.0};
     EXPECT_DOUBLE_EQ(error.worst(0.1), 0.6);  // 0.12 of 0.2
     EXPECT_DOUBLE_EQ(error.worst_chance(0.1), 0.25);
     // An amplitude of which a degree is all: allowed.
-    error.figures[Figure::inclination_amplitude] = {0.9, 0.0, 1.0};
+    error.metrics[Metric::inclination_amplitude] = {0.9, 0.0, 1.0};
     EXPECT_DOUBLE_EQ(error.worst(0.1), 0.9);
 }
 

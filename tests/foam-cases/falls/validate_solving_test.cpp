@@ -272,8 +272,8 @@ TEST_F(Falls, ASolvedFallSaysWhatItDiffersFromAnotherSolutionBy) {
     ASSERT_EQ(validate("", {"--other-mesh", "other.h5", "--other-closure", "other.h5,out.h5"}).status, 0);
     const Motion known = read_motion_file(folder_ / "out.h5");
     ASSERT_EQ(known.bodies[0].uncertainties.size(), 2U);  // of a sphere the descent alone
-    for (const FigureUncertainty& one : known.bodies[0].uncertainties) {
-        EXPECT_EQ(one.figure, "descent_speed");
+    for (const MetricUncertainty& one : known.bodies[0].uncertainties) {
+        EXPECT_EQ(one.metric, "descent_speed");
         EXPECT_NEAR(one.relative, 0.1, 0.01) << one.cause;
     }
     EXPECT_EQ(known.bodies[0].poses.size(), other.bodies[0].poses.size());

@@ -51,7 +51,7 @@ std::uint32_t big_endian(const std::string& bytes, std::size_t place) {
     return value;
 }
 
-TEST_F(CompareCommand, ReportsFiguresWithErrorsAndVerdictsAsTextAndJson) {
+TEST_F(CompareCommand, ReportsMetricsWithErrorsAndVerdictsAsTextAndJson) {
     const ProgramRun text = run({"motion.h5", "reference.h5"});
     ASSERT_EQ(text.status, 0) << text.fault;
     EXPECT_THAT(text.output, HasSubstr("1.67 s to 5 s of fall"));

@@ -51,17 +51,17 @@ TEST_F(FloatRange, EndsForSizes) {
     expect_refusal(motion_, "vertices of 'ellipsoid' lie beyond");
 }
 
-TEST_F(FloatRange, EndsForLooks) {
-    LookMesh look;
-    look.positions = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, -1e300, 0.0}};
-    look.corners = {{0, 1, 2}};
-    look.slots = {0};
-    look.materials.resize(1);
-    body().look = std::make_shared<const LookMesh>(look);
+TEST_F(FloatRange, EndsForDisplayMeshes) {
+    DisplayMesh display;
+    display.positions = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, -1e300, 0.0}};
+    display.corners = {{0, 1, 2}};
+    display.slots = {0};
+    display.materials.resize(1);
+    body().display = std::make_shared<const DisplayMesh>(display);
     expect_refusal(motion_, "vertices of the look of 'ellipsoid' lie beyond");
-    look.positions[2].y() = 1.0;
-    look.texture.assign(3, Eigen::Vector2d(1e300, 0.0));
-    body().look = std::make_shared<const LookMesh>(look);
+    display.positions[2].y() = 1.0;
+    display.texture.assign(3, Eigen::Vector2d(1e300, 0.0));
+    body().display = std::make_shared<const DisplayMesh>(display);
     expect_refusal(motion_, "texture coordinates of 'ellipsoid' lie beyond");
 }
 

@@ -12,7 +12,7 @@
 #include "samara/core/files/content_hash.hpp"
 #include "samara/export/gltf_file.hpp"
 #include "samara/export/usd_file.hpp"
-#include "samara/formats/look_file.hpp"
+#include "samara/formats/display_mesh_file.hpp"
 #include "support/painted_mesh.hpp"
 #include "support/temporary_folder.hpp"
 #include "synthetic_motion.hpp"
@@ -30,12 +30,13 @@ Motion painted_motion(const TemporaryFolder& folder, int copies) {
     (void)folder.file("leaf.png", test::painted_png());
     Motion motion = test::motion_of(test::wander, 0.5);
     BodyMotion& body = motion.bodies[0];
-    body.look = std::make_shared<const LookMesh>(read_look_file(folder.file("leaf.obj", test::painted_obj)));
+    body.display = std::make_shared<const DisplayMesh>(
+        read_display_mesh_file(folder.file("leaf.obj", test::painted_obj)));
     test::let_wander(body, copies, motion.times);
     return motion;
 }
 
-TEST(Look, IsSoundToTheKhronosValidator) {
+TEST(Display, IsSoundToTheKhronosValidator) {
     const TemporaryFolder folder;
     write_glb(folder / "motion.glb", painted_motion(folder, 3), 0, 0.0);
     const int status = run_subprocess({"node", SAMARA_SOURCE_DIRECTORY "/tests/tools/validate_gltf.mjs",
@@ -52,7 +53,7 @@ TEST(Look, IsSoundToTheKhronosValidator) {
     EXPECT_THAT(resources, HasSubstr(R"("width":1)"));
 }
 
-TEST(Look, ArrivesInUsdWithItsSubsetsMaterialsAndUVs) {
+TEST(Display, ArrivesInUsdWithItsSubsetsMaterialsAndUVs) {
     const TemporaryFolder folder;
     for (const int copies : {2, most_usd_transforms + 1}) {
         write_usda(folder / "motion.usda", painted_motion(folder, copies), 0, 0.0);
@@ -73,7 +74,7 @@ TEST(Look, ArrivesInUsdWithItsSubsetsMaterialsAndUVs) {
     }
 }
 
-TEST(Look, ArrivesInBlenderWithItsSlotsAndUVs) {
+TEST(Display, ArrivesInBlenderWithItsSlotsAndUVs) {
     const TemporaryFolder folder;
     write_glb(folder / "motion.glb", painted_motion(folder, 1), 0, 0.0);
     ASSERT_EQ(run_subprocess({"blender", "-b", "--factory-startup", "--python",

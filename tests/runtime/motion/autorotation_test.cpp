@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "samara/analysis/metrics/ensemble.hpp"
-#include "samara/analysis/metrics/fall_figures.hpp"
+#include "samara/analysis/metrics/fall_metrics.hpp"
 #include "synthetic_motion.hpp"
 
 namespace samara {
@@ -89,10 +89,10 @@ TEST(Autorotation, IsNotWhereMostOfTheTurningIsAboutLevelAxesOrGoesToAndFro) {
 TEST(Autorotation, OfATumblingBodyIsNotLookedFor) {
     const Motion motion = motion_of([](double t) { return test::tumble(t, 12.0, 0.2); }, 6.0);
     EXPECT_FALSE(measure(motion, motion.bodies[0]).autorotation);
-    EXPECT_FALSE(measure_all(motion, motion.bodies[0]).figures[Figure::spin_rate]);
+    EXPECT_FALSE(measure_all(motion, motion.bodies[0]).metrics[Metric::spin_rate]);
 }
 
-TEST(Autorotation, IsAmongTheFiguresOfAFallWithTheErrorOfItsSpin) {
+TEST(Autorotation, IsAmongTheMetricsOfAFallWithTheErrorOfItsSpin) {
     const Motion motion = motion_of(
         [](double t) {
             Pose pose = seed(t + 1.0, 60.0, 0.3, 0.003, 0.8);
@@ -101,7 +101,7 @@ TEST(Autorotation, IsAmongTheFiguresOfAFallWithTheErrorOfItsSpin) {
         },
         9.0, 200.0);
     const FallSeries record = fall_series(motion, motion.bodies[0], 0, 0, {3.0, 9.0});
-    const auto spin = fall_figures(record, 1.0).figures[Figure::spin_rate];
+    const auto spin = fall_metrics(record, 1.0).metrics[Metric::spin_rate];
     ASSERT_TRUE(spin);
     EXPECT_NEAR(spin->value, 60.0, 2.0);
     ASSERT_TRUE(spin->error);

@@ -198,8 +198,8 @@ TEST(Measures, OfAllRunsAndCopiesAreMeansWithTheirDeviation) {
     auto& poses = motion.bodies[0].poses;
     poses.insert(poses.end(), other.bodies[0].poses.begin(), other.bodies[0].poses.end());
     const BodyMeasures all = measure_all(motion, motion.bodies[0]);
-    EXPECT_NEAR(all.value(Figure::descent_speed), 0.4, 1e-9);
-    EXPECT_NEAR(*all.figures[Figure::descent_speed]->deviation, 0.1 * std::numbers::sqrt2, 1e-9);
+    EXPECT_NEAR(all.value(Metric::descent_speed), 0.4, 1e-9);
+    EXPECT_NEAR(*all.metrics[Metric::descent_speed]->deviation, 0.1 * std::numbers::sqrt2, 1e-9);
     EXPECT_EQ(all.regimes.share(Regime::tumbling), 1.0);
 }
 

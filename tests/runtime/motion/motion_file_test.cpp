@@ -60,7 +60,7 @@ std::string reading_error(const std::filesystem::path& file) {
 
 TEST(MotionFile, RefusesUncertaintiesThatAreNone) {
     const TemporaryFolder folder;
-    const auto error_with = [&](const std::vector<FigureUncertainty>& uncertainties) {
+    const auto error_with = [&](const std::vector<MetricUncertainty>& uncertainties) {
         Motion motion = two_bodies();
         motion.bodies[0].uncertainties = uncertainties;
         return error_of([&] { write_motion_file(folder / "motion.h5", motion); });

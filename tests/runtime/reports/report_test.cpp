@@ -50,7 +50,7 @@ std::vector<std::string> of_grade(const BakeVerdict& verdict, Grade grade) {
     return names;
 }
 
-TEST(BakeVerdict, IsGoodForFiguresWhereErrorsAreSmallAndFallsWereSolved) {
+TEST(BakeVerdict, IsGoodForMetricsWhereErrorsAreSmallAndFallsWereSolved) {
     const BakeVerdict verdict = judge_bake(well_baked(0.08));
     EXPECT_EQ(verdict.grade, Grade::good) << as_json(verdict).dump(1);
     EXPECT_EQ(verdict.headline, "Good for figures of falls, and for pictures.");

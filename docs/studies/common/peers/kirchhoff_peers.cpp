@@ -89,7 +89,7 @@ class KirchhoffPeer : public PeerBody {
 };
 
 /// -d v and -d L^2 omega, each times a coefficient, with d = rho S U/8: a quarter of the surface is the
-/// body's mean shadow, and U its speed of fall at a drag coefficient of 1.
+/// body's mean projected area, and U its speed of fall at a drag coefficient of 1.
 Vector6d linear_drag(const Exposed& body, const std::vector<double>& coefficients,
                      const Vector3d& angular_velocity, const Vector3d& velocity) {
     const double drag = 0.125 * body.fluid_density * body.surface_area * body.terminal_speed;

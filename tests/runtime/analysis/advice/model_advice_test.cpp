@@ -44,7 +44,7 @@ const ModelEffect& omission(const BodyAdvice& advice, ModelPart part) {
 }
 
 double descent_change(const ModelEffect& effect) {
-    const FigureEffect& descent = effect.effect.figures[Figure::descent_speed];
+    const MetricEffect& descent = effect.effect.metrics[Metric::descent_speed];
     return descent.change->value / std::abs(descent.reference->value);
 }
 

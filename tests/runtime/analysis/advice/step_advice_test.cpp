@@ -126,7 +126,8 @@ TEST(StepAdvice, SeesWhatNoiseTurns) {
     EXPECT_EQ(advise_step(scene, {loaded}, 1).step, 0.04);
 }
 
-/// (a h)^2/12: the diffusion by a seen fluid that goes evenly between samples, over that by the process.
+/// (a h)^2/12: the diffusion by a sampled turbulence that goes evenly between samples, over that by the
+/// process.
 TEST(StepAdvice, KnowsByHowMuchEvenStretchesMakeTheDiffusionTooLarge) {
     for (const double x : {0.05, 0.1, 0.245}) {
         double sum = 1.0;

@@ -32,8 +32,8 @@ Motion flutter(double frequency, double amplitude, double speed, double duration
 
 ComparisonSettings narrow() {
     ComparisonSettings settings;
-    settings.tolerances[Figure::descent_speed] = 0.05;
-    settings.tolerances[Figure::frequency] = 0.05;
+    settings.tolerances[Metric::descent_speed] = 0.05;
+    settings.tolerances[Metric::frequency] = 0.05;
     return settings;
 }
 
@@ -60,8 +60,8 @@ Comparison compare_motions(const Motion& motion, const Motion& reference,
                    [](double, double) {});
 }
 
-const FigureComparison& figure(const Comparison& comparison, Figure which) {
-    return comparison.figures.at(static_cast<std::size_t>(which));
+const MetricComparison& metric(const Comparison& comparison, Metric which) {
+    return comparison.metrics.at(static_cast<std::size_t>(which));
 }
 
 TEST(Comparison, OfAMotionWithItselfShowsNoDifference) {
@@ -69,15 +69,15 @@ TEST(Comparison, OfAMotionWithItselfShowsNoDifference) {
     const Comparison comparison = compare_motions(motion, motion);
     EXPECT_TRUE(comparison.agrees);
     EXPECT_TRUE(comparison.notes.empty()) << comparison.notes.front();
-    for (const CataloguedFigure& entry : figure_catalogue) {
-        const FigureComparison& one = comparison.figures[entry.figure];
-        ASSERT_EQ(one.difference.has_value(), !is_of_autorotation(entry.figure)) << entry.title;
+    for (const CataloguedMetric& entry : metric_catalogue) {
+        const MetricComparison& one = comparison.metrics[entry.metric];
+        ASSERT_EQ(one.difference.has_value(), !is_of_autorotation(entry.metric)) << entry.title;
         if (!one.difference) continue;
         EXPECT_EQ(*one.difference, 0.0);
         ASSERT_TRUE(one.difference_error.has_value());
         EXPECT_DOUBLE_EQ(*one.difference_error, std::sqrt(2.0) * *one.motion->error);
     }
-    for (const FigureComparison& one : comparison.quantiles) EXPECT_EQ(one.difference, 0.0);
+    for (const MetricComparison& one : comparison.quantiles) EXPECT_EQ(one.difference, 0.0);
     EXPECT_EQ(comparison.distribution.distance, 0.0);
     EXPECT_EQ(comparison.distribution.chance->probability, 1.0);
     EXPECT_EQ(comparison.first_swing.minimum_time.difference, 0.0);
@@ -100,14 +100,14 @@ TEST(Comparison, HoldsTheLandingsOfSeveralFallsAgainstEachOther) {
 }
 
 // The window of 4 s holds whole swings of both.
-TEST(Comparison, ShowsByHowMuchFluttersOfKnownFiguresDiffer) {
+TEST(Comparison, ShowsByHowMuchFluttersOfKnownMetricsDiffer) {
     const Comparison comparison = compare_motions(flutter(1.375, 40.0 * degree, 0.198, 6.0, 240.0),
                                                   flutter(1.25, 32.0 * degree, 0.22, 6.0, 240.0));
-    EXPECT_NEAR(figure(comparison, Figure::frequency).relative.value(), 0.1, 2e-3);
-    EXPECT_NEAR(figure(comparison, Figure::spectral_frequency).relative.value(), 0.1, 0.01);
-    EXPECT_NEAR(figure(comparison, Figure::descent_speed).relative.value(), -0.1, 1e-9);
-    EXPECT_NEAR(figure(comparison, Figure::inclination_amplitude).relative.value(), 0.25, 5e-3);
-    EXPECT_NEAR(figure(comparison, Figure::rms_angular_speed).relative.value(), 1.1 * 1.25 - 1.0, 1e-3);
+    EXPECT_NEAR(metric(comparison, Metric::frequency).relative.value(), 0.1, 2e-3);
+    EXPECT_NEAR(metric(comparison, Metric::spectral_frequency).relative.value(), 0.1, 0.01);
+    EXPECT_NEAR(metric(comparison, Metric::descent_speed).relative.value(), -0.1, 1e-9);
+    EXPECT_NEAR(metric(comparison, Metric::inclination_amplitude).relative.value(), 0.25, 5e-3);
+    EXPECT_NEAR(metric(comparison, Metric::rms_angular_speed).relative.value(), 1.1 * 1.25 - 1.0, 1e-3);
     EXPECT_NEAR(comparison.first_swing.maximum_inclination.difference.value(), 8.0 * degree, 0.3 * degree);
     EXPECT_NEAR(comparison.first_swing.minimum_time.difference.value(), 0.25 / 1.375 - 0.25 / 1.25, 0.003);
     EXPECT_EQ(comparison.motion.regimes.commonest(), Regime::fluttering);
@@ -143,7 +143,7 @@ TEST(Comparison, ABodyThatWaitsForItsStartFallsLikeOneThatDoesNot) {
         motion.bodies[0].poses[static_cast<std::size_t>(i)].angular_velocity.setZero();
     const Comparison comparison = compare_motions(motion, flutter(1.3, 0.6, 0.2, 6.0));
     EXPECT_TRUE(comparison.agrees);
-    EXPECT_NEAR(figure(comparison, Figure::frequency).relative.value(), 0.0, 1e-3);
+    EXPECT_NEAR(metric(comparison, Metric::frequency).relative.value(), 0.0, 1e-3);
     // The release is the last frame at rest.
     EXPECT_NEAR(comparison.first_swing.minimum_time.difference.value(), 0.0, 1.0 / 60.0 + 1e-6);
 }
@@ -151,7 +151,7 @@ TEST(Comparison, ABodyThatWaitsForItsStartFallsLikeOneThatDoesNot) {
 TEST(Comparison, SeveralRunsHaveTheErrorOfTheirMeanByTheirScatter) {
     const Comparison comparison = compare_motions(runs_of(10, 12, 8.0), test::irregular_flutter(99, 8.0));
     EXPECT_EQ(comparison.motion.distinct, 12);
-    const FigureComparison& descent = figure(comparison, Figure::descent_speed);
+    const MetricComparison& descent = metric(comparison, Metric::descent_speed);
     EXPECT_DOUBLE_EQ(*descent.motion->error, *descent.motion->deviation / std::sqrt(12.0));
     // A single fall's error counts as no less than the runs' deviation.
     EXPECT_DOUBLE_EQ(
@@ -171,7 +171,7 @@ TEST(Comparison, RunsThatRepeatOneAnotherCountOnce) {
     const Comparison comparison = compare_motions(motion, test::irregular_flutter(8, 8.0));
     EXPECT_EQ(comparison.motion.falls, 4);
     EXPECT_EQ(comparison.motion.distinct, 1);
-    EXPECT_GT(figure(comparison, Figure::descent_speed).motion->error.value(), 0.0);
+    EXPECT_GT(metric(comparison, Metric::descent_speed).motion->error.value(), 0.0);
     EXPECT_THAT(comparison.notes, Contains(HasSubstr("of the motion's 4 falls 1 differs from the others")));
 }
 
@@ -181,10 +181,10 @@ TEST(Comparison, OtherRegimesDiffer) {
     EXPECT_FALSE(comparison.regimes_agree);
     EXPECT_FALSE(comparison.agrees);
     EXPECT_TRUE(comparison.certain);
-    EXPECT_EQ(figure(comparison, Figure::descent_speed).verdict->agrees, true);
+    EXPECT_EQ(metric(comparison, Metric::descent_speed).verdict->agrees, true);
 }
 
-TEST(Comparison, NamesWhatMakesFiguresDoubtful) {
+TEST(Comparison, NamesWhatMakesMetricsDoubtful) {
     const auto sparse = [](double t) { return test::flutter(t + 0.1, 3.1, 0.6, 0.2); };
     Motion other = test::motion_of(sparse, 1.0, 30.0);
     for (Vector3d& vertex : other.bodies[0].surface.vertices) vertex *= 1.2;
@@ -226,8 +226,8 @@ TEST(Comparison, OfASphereOrACubeJudgesTheDescentSpeedAlone) {
         EXPECT_FALSE(comparison.judges_inclination);
         EXPECT_TRUE(comparison.agrees);
         EXPECT_FALSE(comparison.regimes_agree);
-        EXPECT_FALSE(figure(comparison, Figure::inclination_amplitude).verdict.has_value());
-        EXPECT_TRUE(figure(comparison, Figure::descent_speed).verdict->agrees);
+        EXPECT_FALSE(metric(comparison, Metric::inclination_amplitude).verdict.has_value());
+        EXPECT_TRUE(metric(comparison, Metric::descent_speed).verdict->agrees);
         EXPECT_THAT(comparison.notes, Contains(HasSubstr("only the descent speed is judged")));
     }
 }
@@ -241,39 +241,39 @@ TEST(Inclination, OfAnEllipsoidWithAxesThatDifferByAFewPerCentHasAShortestAxis) 
     EXPECT_FALSE(has_shortest_axis(body.surface));
 }
 
-TEST(FigureComparison, AgreesWithinTheToleranceAndIsCertainTwoErrorsFromIt) {
+TEST(MetricComparison, AgreesWithinTheToleranceAndIsCertainTwoErrorsFromIt) {
     const Estimate reference{2.0, 0.03, {}};
     const auto verdict = [&](double value, double error) {
-        return compare_figure(Estimate{value, error, {}}, reference, 0.1).verdict.value();
+        return compare_metric(Estimate{value, error, {}}, reference, 0.1).verdict.value();
     };
     EXPECT_DOUBLE_EQ(verdict(2.0, 0.04).limit, 0.2);
     EXPECT_TRUE(verdict(2.09, 0.04).agrees && verdict(2.09, 0.04).certain);
     EXPECT_TRUE(verdict(2.15, 0.04).agrees && !verdict(2.15, 0.04).certain);
     EXPECT_TRUE(!verdict(2.25, 0.04).agrees && !verdict(2.25, 0.04).certain);
     EXPECT_TRUE(!verdict(1.65, 0.04).agrees && verdict(1.65, 0.04).certain);
-    EXPECT_NEAR(*compare_figure(Estimate{2.1, 0.04, {}}, reference, 0.1).in_errors, 2.0, 1e-12);
-    EXPECT_FALSE(compare_figure(Estimate{2.0, {}, {}}, reference, 0.1).verdict->certain);
+    EXPECT_NEAR(*compare_metric(Estimate{2.1, 0.04, {}}, reference, 0.1).in_errors, 2.0, 1e-12);
+    EXPECT_FALSE(compare_metric(Estimate{2.0, {}, {}}, reference, 0.1).verdict->certain);
 }
 
-TEST(FigureComparison, CountsWhatLiesBeyondTheReferencesOwnUncertainty) {
+TEST(MetricComparison, CountsWhatLiesBeyondTheReferencesOwnUncertainty) {
     const Estimate reference{2.0, 0.0, {}};
     const auto verdict = [&](double value) {
-        return compare_figure(Estimate{value, 0.01, {}}, reference, 0.1, 0.0, 0.05).verdict.value();
+        return compare_metric(Estimate{value, 0.01, {}}, reference, 0.1, 0.0, 0.05).verdict.value();
     };
     EXPECT_TRUE(verdict(2.05).agrees && verdict(2.05).certain);
     EXPECT_TRUE(verdict(2.15).agrees && !verdict(2.15).certain) << "the reference's may be 1.9";
     EXPECT_TRUE(verdict(2.29).agrees && !verdict(2.29).certain) << "the reference's may be 2.1";
     EXPECT_TRUE(!verdict(2.31).agrees && !verdict(2.31).certain);
     EXPECT_TRUE(!verdict(1.65).agrees && verdict(1.65).certain);
-    EXPECT_DOUBLE_EQ(compare_figure(Estimate{2.0, {}, {}}, reference, 0.1, 0.0, 0.05).reference_uncertainty,
+    EXPECT_DOUBLE_EQ(compare_metric(Estimate{2.0, {}, {}}, reference, 0.1, 0.0, 0.05).reference_uncertainty,
                      0.1);
 }
 
-TEST(FigureComparison, OfAReferenceThatMayHaveAFrequencyOrNoneIsUndecided) {
+TEST(MetricComparison, OfAReferenceThatMayHaveAFrequencyOrNoneIsUndecided) {
     for (const bool motion_has_it : {true, false}) {
         const auto one = motion_has_it ? std::optional(Estimate{1.0, {}, {}}) : std::nullopt;
         const auto other = motion_has_it ? std::nullopt : std::optional(Estimate{1.0, {}, {}});
-        const auto verdict = compare_figure(one, other, 0.2, 0.0, 1.0).verdict.value();
+        const auto verdict = compare_metric(one, other, 0.2, 0.0, 1.0).verdict.value();
         EXPECT_TRUE(verdict.agrees && !verdict.certain);
     }
 }
@@ -289,7 +289,7 @@ TEST(Comparison, SaysWhatTheReferenceIsUncertainBy) {
     const Comparison comparison = compare_motions(motion, reference, narrow());
     EXPECT_TRUE(comparison.agrees);
     EXPECT_FALSE(comparison.certain);
-    EXPECT_NEAR(figure(comparison, Figure::descent_speed).reference_uncertainty, 0.07 * 0.18, 1e-4);
+    EXPECT_NEAR(metric(comparison, Metric::descent_speed).reference_uncertainty, 0.07 * 0.18, 1e-4);
     EXPECT_THAT(as_text(comparison), HasSubstr("agrees? (limit 5 % beyond the reference's own 7 %)"));
 }
 
@@ -297,7 +297,7 @@ TEST(Comparison, LeavesTheRegimeOpenThatTheReferenceItselfIsUncertainOf) {
     const Motion motion = test::motion_of([](double t) { return test::tumble(t, 5.0, 0.2); }, 6.0, 240.0);
     Motion reference = flutter(1.25, 40.0 * degree, 0.2, 6.0, 240.0);
     ComparisonSettings wide;
-    for (const Figure one : compared_figures) wide.tolerances[one] = 10.0;
+    for (const Metric one : compared_metrics) wide.tolerances[one] = 10.0;
     EXPECT_FALSE(compare_motions(motion, reference, wide).agrees);
     reference.bodies[0].uncertainties = {{"mesh", "regime", 1.0}};
     const Comparison comparison = compare_motions(motion, reference, wide);
@@ -306,16 +306,16 @@ TEST(Comparison, LeavesTheRegimeOpenThatTheReferenceItselfIsUncertainOf) {
     EXPECT_THAT(as_text(comparison), HasSubstr("the reference's own is uncertain"));
 }
 
-TEST(FigureComparison, WithoutAFrequencyOnBothSidesIsNotJudgedAndOnOneSideDiffers) {
-    EXPECT_FALSE(compare_figure({}, {}, 0.2).verdict.has_value());
-    EXPECT_FALSE(compare_figure(Estimate{1.0, {}, {}}, {}, 0.2).verdict->agrees);
-    EXPECT_FALSE(compare_figure({}, Estimate{1.0, {}, {}}, 0.2).verdict->agrees);
-    EXPECT_FALSE(compare_figure({}, Estimate{1.0, {}, {}}).verdict.has_value());
+TEST(MetricComparison, WithoutAFrequencyOnBothSidesIsNotJudgedAndOnOneSideDiffers) {
+    EXPECT_FALSE(compare_metric({}, {}, 0.2).verdict.has_value());
+    EXPECT_FALSE(compare_metric(Estimate{1.0, {}, {}}, {}, 0.2).verdict->agrees);
+    EXPECT_FALSE(compare_metric({}, Estimate{1.0, {}, {}}, 0.2).verdict->agrees);
+    EXPECT_FALSE(compare_metric({}, Estimate{1.0, {}, {}}).verdict.has_value());
 }
 
-TEST(FigureComparison, SmallFiguresMayDifferByTheLeastLimit) {
-    EXPECT_TRUE(compare_figure(Estimate{0.9, {}, {}}, Estimate{0.0, {}, {}}, 0.3, 1.0).verdict->agrees);
-    EXPECT_FALSE(compare_figure(Estimate{1.1, {}, {}}, Estimate{0.0, {}, {}}, 0.3, 1.0).verdict->agrees);
+TEST(MetricComparison, SmallMetricsMayDifferByTheLeastLimit) {
+    EXPECT_TRUE(compare_metric(Estimate{0.9, {}, {}}, Estimate{0.0, {}, {}}, 0.3, 1.0).verdict->agrees);
+    EXPECT_FALSE(compare_metric(Estimate{1.1, {}, {}}, Estimate{0.0, {}, {}}, 0.3, 1.0).verdict->agrees);
 }
 
 TEST(DistributionDistance, ByChanceIsExceededAsOftenAsItsProbabilitySays) {
@@ -327,7 +327,7 @@ TEST(DistributionDistance, ByChanceIsExceededAsOftenAsItsProbabilitySays) {
         for (unsigned side = 0; side < 2; ++side) {
             const Motion motion = test::irregular_flutter(1000 + 2 * pair + side, 8.0);
             const FallSeries record = fall_series(motion, motion.bodies[0], 0, 0, {1.0, 8.0});
-            sides[side] = {fall_figures(record, 7.0).histograms};
+            sides[side] = {fall_metrics(record, 7.0).histograms};
         }
         const DistributionDistance distance = distribution_distance(sides[0], sides[1]);
         below_a_fifth += distance.chance->probability < 0.2 ? 1 : 0;
@@ -350,7 +350,7 @@ TEST(DistributionDistance, OfSeparateDistributionsIsOneAndNotByChance) {
     EXPECT_FALSE(distribution_distance({{low, low}}, {{high, high}}).chance.has_value());
 }
 
-TEST(ComparisonReport, WritesFiguresToTheDigitsThatTheirErrorsAllow) {
+TEST(ComparisonReport, WritesMetricsToTheDigitsThatTheirErrorsAllow) {
     EXPECT_EQ(with_error({0.183217, 0.00123, {}}), "0.1832 +- 0.0012");
     EXPECT_EQ(with_error({183.217, 12.3, {}}), "183 +- 12");
     EXPECT_EQ(with_error({0.5, 0.1, {}}, 180.0 / std::numbers::pi), "28.6 +- 5.7");

@@ -21,7 +21,7 @@ using ::testing::HasSubstr;
 
 class ReferenceUncertainty : public testing::Test {
   protected:
-    [[nodiscard]] std::vector<FigureUncertainty> beside(const Motion& reference, const Motion& other) const {
+    [[nodiscard]] std::vector<MetricUncertainty> beside(const Motion& reference, const Motion& other) const {
         write_motion_file(folder_ / "reference.h5", reference);
         write_motion_file(folder_ / "other.h5", other);
         return uncertainty_beside(folder_ / "reference.h5", folder_ / "other.h5", "mesh");
@@ -35,10 +35,10 @@ Motion flutter(double frequency, double amplitude, double speed) {
                            240.0);
 }
 
-double of(const std::vector<FigureUncertainty>& uncertainties, const char* figure) {
+double of(const std::vector<MetricUncertainty>& uncertainties, const char* metric) {
     BodyMotion body;
     body.uncertainties = uncertainties;
-    return uncertainty_of(body, figure);
+    return uncertainty_of(body, metric);
 }
 
 TEST_F(ReferenceUncertainty, IsTheWholeDifferenceToTheOtherSolution) {
@@ -47,19 +47,19 @@ TEST_F(ReferenceUncertainty, IsTheWholeDifferenceToTheOtherSolution) {
     EXPECT_NEAR(of(known, "frequency"), 0.1, 2e-3);
     EXPECT_NEAR(of(known, "inclination_amplitude"), 0.25, 5e-3);
     EXPECT_EQ(of(known, "regime"), 0.0);
-    EXPECT_THAT(known, Each(Field(&FigureUncertainty::cause, "mesh")));
-    EXPECT_TRUE(std::ranges::is_sorted(known, {}, &FigureUncertainty::figure));
+    EXPECT_THAT(known, Each(Field(&MetricUncertainty::cause, "mesh")));
+    EXPECT_TRUE(std::ranges::is_sorted(known, {}, &MetricUncertainty::metric));
 }
 
 TEST_F(ReferenceUncertainty, IsNoLessThanWhatChanceHides) {
     const Motion motion = test::irregular_flutter(5, 8.0);
     const auto known = beside(motion, motion);
-    EXPECT_THAT(known, Each(Field(&FigureUncertainty::relative, 0.0)));
+    EXPECT_THAT(known, Each(Field(&MetricUncertainty::relative, 0.0)));
     EXPECT_GT(of(known, "descent_speed"), 0.0);
     EXPECT_GT(of(known, "frequency"), 1e-3);
 }
 
-TEST_F(ReferenceUncertainty, OfTheRegimeAndOfAFigureThatOneOfTwoLacksIsWhole) {
+TEST_F(ReferenceUncertainty, OfTheRegimeAndOfAMetricThatOneOfTwoLacksIsWhole) {
     const Motion fluttering = flutter(1.25, 32.0 * degree, 0.22);
     const Motion steady =
         test::motion_of([](double t) { return test::flutter(t, 1.0, 0.0, 0.22); }, 6.0, 240.0);
@@ -80,7 +80,7 @@ TEST_F(ReferenceUncertainty, IsOfOneSceneAlone) {
     EXPECT_THAT(test::error_of([&] { (void)beside(reference, other); }), HasSubstr("holds several bodies"));
 }
 
-TEST(UncertaintyOf, AFigureHoldsItsChanceOnce) {
+TEST(UncertaintyOf, AMetricHoldsItsChanceOnce) {
     BodyMotion body;
     body.uncertainties = {{"closure", "frequency", 0.003, 0.04}, {"mesh", "frequency", 0.01, 0.05}};
     EXPECT_DOUBLE_EQ(uncertainty_of(body, "frequency"), 0.05);
@@ -88,7 +88,7 @@ TEST(UncertaintyOf, AFigureHoldsItsChanceOnce) {
     EXPECT_DOUBLE_EQ(uncertainty_of(body, "frequency"), 0.07);
 }
 
-TEST(UncertaintyOf, AFigureIsTheSumOverTheCauses) {
+TEST(UncertaintyOf, AMetricIsTheSumOverTheCauses) {
     BodyMotion body;
     EXPECT_EQ(uncertainty_of(body, "frequency"), 0.0);
     body.uncertainties = {

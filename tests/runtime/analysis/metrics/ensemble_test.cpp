@@ -42,7 +42,7 @@ TEST(Ensemble, GivesMeanDescentWithItsStandardError) {
     const BodyMeasures all = measure_all(motion, motion.bodies[0]);
     const double deviation = std::sqrt((0.04 * 0.04 + 0.06 * 0.06 + 0.01 * 0.01 + 0.03 * 0.03) / 3.0);
     EXPECT_EQ(all.samples, 4);
-    const Estimate& descent = *all.figures[Figure::descent_speed];
+    const Estimate& descent = *all.metrics[Metric::descent_speed];
     EXPECT_NEAR(descent.value, 0.24, 1e-9);
     EXPECT_NEAR(*descent.deviation, deviation, 1e-9);
     EXPECT_NEAR(*descent.error, deviation / 2.0, 1e-9);
@@ -118,7 +118,7 @@ TEST(Ensemble, LandingIsWhereABodyFirstTouchesTheGround) {
     EXPECT_EQ(all.landing.at_rest, 3);
     EXPECT_NEAR(all.landing.mean.x(), 0.1, 1e-12);
     EXPECT_NEAR(all.landing.spread, 0.1 * std::sqrt(2.0 / 3.0), 1e-9);
-    EXPECT_NEAR(all.value(Figure::descent_speed), 0.2, 1e-9);  // the time on the ground does not count
+    EXPECT_NEAR(all.value(Metric::descent_speed), 0.2, 1e-9);  // the time on the ground does not count
 }
 
 TEST(Ensemble, ABounceBetweenTwoFramesIsALanding) {
@@ -134,7 +134,7 @@ TEST(Ensemble, ABounceBetweenTwoFramesIsALanding) {
     body.contact_points = contact_points(body.surface, body.center_of_mass);
     EXPECT_EQ(landing_frame(motion, body, 0, 0), 28);
     EXPECT_NEAR(fall_of(motion, body, 0, 0).end, 27.0 / 60.0, 1e-12);
-    EXPECT_NEAR(measure_all(motion, body).value(Figure::descent_speed), 0.2, 1e-9);
+    EXPECT_NEAR(measure_all(motion, body).value(Metric::descent_speed), 0.2, 1e-9);
     motion.ground = -0.2 * touch - 0.012;  // it turns back above the ground
     EXPECT_FALSE(landing_frame(motion, body, 0, 0).has_value());
 }
@@ -153,8 +153,8 @@ TEST(Ensemble, InPartsIsTheSameAsAtOnce) {
     }
     const BodyMeasures parts = ensemble.measures();
     const BodyMeasures whole = measure_all(motion, motion.bodies[0]);
-    for (const Figure figure : {Figure::descent_speed, Figure::frequency}) {
-        EXPECT_EQ(parts.value(figure), whole.value(figure));
+    for (const Metric metric : {Metric::descent_speed, Metric::frequency}) {
+        EXPECT_EQ(parts.value(metric), whole.value(metric));
     }
     EXPECT_EQ(parts.path_spread, whole.path_spread);
     EXPECT_EQ(parts.regimes, whole.regimes);

@@ -45,8 +45,8 @@ SampledFalls falls_of(const Scene& scene, const LoadedBody& cast, std::uint64_t 
     return sample_falls(scene, 0, cast, sampling, batch);
 }
 
-double figure(const SampledFall& fall, Figure which) {
-    return *fall.figures[which];
+double metric(const SampledFall& fall, Metric which) {
+    return *fall.metrics[which];
 }
 
 /// An ellipsoid in its own turbulence.
@@ -84,9 +84,9 @@ TEST(SampledFalls, OfABallSinkAtItsTerminalSpeedOneLikeTheOther) {
     const double speed = terminal_speed_of_the_ball();
     for (const SampledFall& fall : sampled.falls) {
         ASSERT_TRUE(fall.measured);
-        EXPECT_NEAR(figure(fall, Figure::descent_speed), speed, 1e-4 * speed);
+        EXPECT_NEAR(metric(fall, Metric::descent_speed), speed, 1e-4 * speed);
         EXPECT_NEAR(fall.speed, speed, 1e-4 * speed);
-        EXPECT_NEAR(figure(fall, Figure::path_spread), 0.0, 1e-6);
+        EXPECT_NEAR(metric(fall, Metric::path_spread), 0.0, 1e-6);
         EXPECT_EQ(fall.regime, Regime::steady);
     }
     const double reynolds = speed * 2.0 * radius / test::water().kinematic_viscosity();
@@ -128,10 +128,10 @@ TEST(SampledFalls, AreTheSameForAnyNumberOfThreadsAndOthersInAnotherBatch) {
     const SampledFalls by_three = falls_of(scene, cast, 3, {.falls = 6, .threads = 3});
     const SampledFalls others = falls_of(scene, cast, 4, {.falls = 6, .threads = 1});
     for (std::size_t i = 0; i < 6; ++i) {
-        EXPECT_EQ(by_one.falls[i].figures, by_three.falls[i].figures);
+        EXPECT_EQ(by_one.falls[i].metrics, by_three.falls[i].metrics);
         EXPECT_EQ(by_one.falls[i].distance, by_three.falls[i].distance);
-        EXPECT_NE(by_one.falls[i].figures, others.falls[i].figures);
-        for (std::size_t j = 0; j < i; ++j) EXPECT_NE(by_one.falls[i].figures, by_one.falls[j].figures);
+        EXPECT_NE(by_one.falls[i].metrics, others.falls[i].metrics);
+        for (std::size_t j = 0; j < i; ++j) EXPECT_NE(by_one.falls[i].metrics, by_one.falls[j].metrics);
     }
     EXPECT_EQ(by_one.flow.reynolds_number, by_three.flow.reynolds_number);
 }
@@ -149,9 +149,9 @@ TEST(SampledFalls, AreTheSameDrawsWhateverTheModels) {
     double between = 0.0;
     double changed = 0.0;
     for (std::size_t i = 0; i < 16; ++i) {
-        const double here = figure(before.falls[i], Figure::descent_speed);
-        between += std::pow(here - figure(before.falls[(i + 1) % 16], Figure::descent_speed), 2);
-        changed += std::pow(here - figure(after.falls[i], Figure::descent_speed), 2);
+        const double here = metric(before.falls[i], Metric::descent_speed);
+        between += std::pow(here - metric(before.falls[(i + 1) % 16], Metric::descent_speed), 2);
+        changed += std::pow(here - metric(after.falls[i], Metric::descent_speed), 2);
     }
     EXPECT_GT(changed, 0.0);
     EXPECT_LT(changed, 0.01 * between);
@@ -197,10 +197,10 @@ void expect_falls_of(Scene scene, const LoadedBody& cast, const SampledFalls& sa
     scene.bodies[0].spread_angle = 0.05;
     const Motion motion = simulate(scene, {cast}, 1, [](double, double) { return true; }).motion;
     const BodyMeasures all = measure_all(motion, motion.bodies[0]);
-    for (const CataloguedFigure& entry : figure_catalogue) {
-        if (!entry.measured || entry.figure == Figure::frequency || is_of_autorotation(entry.figure))
+    for (const CataloguedMetric& entry : metric_catalogue) {
+        if (!entry.measured || entry.metric == Metric::frequency || is_of_autorotation(entry.metric))
             continue;
-        EXPECT_NEAR(sampled.mean(entry.figure)->value, all.value(entry.figure), 1e-10) << entry.key;
+        EXPECT_NEAR(sampled.mean(entry.metric)->value, all.value(entry.metric), 1e-10) << entry.key;
     }
     EXPECT_EQ(sampled.regimes(), all.regimes);
 }
@@ -251,8 +251,8 @@ TEST(SampledFalls, AreOfTheBodyAskedForAlone) {
     const SampledFalls alone = sample_falls(askew_scene(1200.0, 1.0), 0, ellipsoid(), sampling);
     const SampledFalls first = sample_falls(both, 0, ellipsoid(), sampling);
     for (std::size_t i = 0; i < 3; ++i) {
-        EXPECT_EQ(second.falls[i].figures, alone.falls[i].figures);
-        EXPECT_NE(second.falls[i].figures, first.falls[i].figures);
+        EXPECT_EQ(second.falls[i].metrics, alone.falls[i].metrics);
+        EXPECT_NE(second.falls[i].metrics, first.falls[i].metrics);
     }
 }
 
@@ -269,13 +269,13 @@ TEST(SampledFalls, VisitTheDirectionsThatTheBodyMovesIn) {
     }
 }
 
-TEST(SampledFalls, HaveNoFigureThatFewOfThemHave) {
+TEST(SampledFalls, HaveNoMetricThatFewOfThemHave) {
     SampledFalls sampled;
     sampled.falls.resize(5);
-    for (std::size_t i = 0; i < 2; ++i) sampled.falls[i].figures[Figure::frequency] = 1.0;
-    EXPECT_FALSE(sampled.mean(Figure::frequency));
-    sampled.falls[2].figures[Figure::frequency] = 4.0;
-    EXPECT_EQ(sampled.mean(Figure::frequency)->value, 2.0);
+    for (std::size_t i = 0; i < 2; ++i) sampled.falls[i].metrics[Metric::frequency] = 1.0;
+    EXPECT_FALSE(sampled.mean(Metric::frequency));
+    sampled.falls[2].metrics[Metric::frequency] = 4.0;
+    EXPECT_EQ(sampled.mean(Metric::frequency)->value, 2.0);
 }
 
 TEST(SampledFalls, OfASmallBodyHaveTheFramesToSeeItTurn) {

@@ -418,8 +418,8 @@ TEST(BodyFile, DynamicCoefficientsFromBeforeThereWereTheirLaterNumbersHaveThoseO
     }
     body.dynamic->values.unsteady_factor = 1.0;
     body.dynamic->standard_errors.unsteady_factor = 0.0;
-    body.dynamic->values.settling_ways = usual_settling_ways;
-    body.dynamic->standard_errors.settling_ways = 0.0;
+    body.dynamic->values.settling_length = usual_settling_length;
+    body.dynamic->standard_errors.settling_length = 0.0;
     expect_equal(read_body_file(folder / "a.body.h5"), body);
 }
 

@@ -16,17 +16,18 @@ namespace {
 constexpr TurbulenceLevel level = {.turbulent_kinetic_energy = 0.03, .dissipation_rate = 0.09};
 constexpr double seen_rate = 0.75 * 2.1 * 3.0;  // a = 3/4 C_k epsilon/k
 
-TEST(SeenFluid, HasTheVarianceOfTheTurbulenceWhateverTheStep) {
+TEST(SampledTurbulence, HasTheVarianceOfTheTurbulenceWhateverTheStep) {
     const ImmersedBody body = test::ideal_ellipsoid();
     const Noise noise(3, "variance", 0, 0);
     for (const double step_by_time_scale : {0.1, 1.0, 10.0}) {
         const double h = step_by_time_scale / seen_rate;
-        SeenFluid seen;
+        SampledTurbulence seen;
         double velocity = 0.0;
         double rotation = 0.0;
         constexpr int steps = 400'000;
         for (int step = -200; step < steps; ++step) {
-            seen = advance_seen_fluid(body, level, seen, h, noise, static_cast<std::uint64_t>(step) + 200U);
+            seen = advance_sampled_turbulence(body, level, seen, h, noise,
+                                              static_cast<std::uint64_t>(step) + 200U);
             if (step < 0) continue;
             velocity += seen.velocity.squaredNorm() / 3.0 / steps;
             rotation += seen.angular_velocity.squaredNorm() / 3.0 / steps;
@@ -37,16 +38,16 @@ TEST(SeenFluid, HasTheVarianceOfTheTurbulenceWhateverTheStep) {
     }
 }
 
-TEST(SeenFluid, ForgetsAtTheRateOfTheTurbulence) {
+TEST(SampledTurbulence, ForgetsAtTheRateOfTheTurbulence) {
     const ImmersedBody body = test::ideal_ellipsoid();
     const Noise noise(4, "correlation", 0, 0);
     const double h = 0.2 / seen_rate;
     constexpr int steps = 400'000;
     constexpr int lag = 5;  // one correlation time
-    SeenFluid seen;
+    SampledTurbulence seen;
     std::vector<Vector3d> history;
     for (int step = 0; step < steps; ++step) {
-        seen = advance_seen_fluid(body, level, seen, h, noise, static_cast<std::uint64_t>(step));
+        seen = advance_sampled_turbulence(body, level, seen, h, noise, static_cast<std::uint64_t>(step));
         history.push_back(seen.velocity);
     }
     double product = 0.0;
@@ -67,11 +68,11 @@ TEST(SeenFluid, ForgetsAtTheRateOfTheTurbulence) {
 double correlation(const ImmersedBody& body, double h, std::size_t lag, int steps) {
     const Noise noise(6, "correlation time", 0, 0);
     std::vector<Vector3d> last(lag, Vector3d::Zero());
-    SeenFluid seen;
+    SampledTurbulence seen;
     double product = 0.0;
     double square = 0.0;
     for (std::size_t step = 0; step < static_cast<std::size_t>(steps); ++step) {
-        seen = advance_seen_fluid(body, level, seen, h, noise, step);
+        seen = advance_sampled_turbulence(body, level, seen, h, noise, step);
         Vector3d& before = last[step % lag];
         product += seen.velocity.dot(before);
         square += seen.velocity.squaredNorm();
@@ -80,7 +81,7 @@ double correlation(const ImmersedBody& body, double h, std::size_t lag, int step
     return product / square;
 }
 
-TEST(SeenFluid, HasTheCorrelationTimeOfTheTurbulenceWhateverTheStep) {
+TEST(SampledTurbulence, HasTheCorrelationTimeOfTheTurbulenceWhateverTheStep) {
     const ImmersedBody body = test::ideal_ellipsoid();
     for (const auto& [step_by_time_scale, lag] : {std::pair(0.25, 4), {0.5, 2}, {1.0, 1}, {2.0, 1}}) {
         const double h = step_by_time_scale / seen_rate;
@@ -92,7 +93,7 @@ TEST(SeenFluid, HasTheCorrelationTimeOfTheTurbulenceWhateverTheStep) {
     EXPECT_NEAR(correlation(body, 10.0 / seen_rate, 1, 400'000), std::exp(-10.0), 0.005);
 }
 
-TEST(SeenFluid, IsIsotropicInTheWorldAroundASpinningBody) {
+TEST(SampledTurbulence, IsIsotropicInTheWorldAroundASpinningBody) {
     ImmersedBody body = test::ideal_ellipsoid();
     body.turbulence = Turbulence::constant;
     body.turbulent_kinetic_energy = level.turbulent_kinetic_energy;
@@ -105,8 +106,9 @@ TEST(SeenFluid, IsIsotropicInTheWorldAroundASpinningBody) {
     constexpr std::uint64_t steps = 100'000;
     for (std::uint64_t step = 0; step < steps; ++step) {
         state = advance(body, {.gravity = Vector3d::Zero()}, 0.0, 0.4, state, noise, step).state;
-        velocity += state.seen_fluid.velocity * state.seen_fluid.velocity.transpose() / steps;
-        rotation += state.seen_fluid.angular_velocity * state.seen_fluid.angular_velocity.transpose() / steps;
+        velocity += state.sampled_turbulence.velocity * state.sampled_turbulence.velocity.transpose() / steps;
+        rotation += state.sampled_turbulence.angular_velocity *
+                    state.sampled_turbulence.angular_velocity.transpose() / steps;
     }
     const double variance = 2.0 / 3.0 * level.turbulent_kinetic_energy;
     EXPECT_LT((velocity / variance - Matrix3d::Identity()).cwiseAbs().maxCoeff(), 0.02);
@@ -114,23 +116,23 @@ TEST(SeenFluid, IsIsotropicInTheWorldAroundASpinningBody) {
     EXPECT_LT((scaled - Matrix3d::Identity()).cwiseAbs().maxCoeff(), 0.02);
 }
 
-TEST(SeenFluid, RotatesTheFasterTheSmallerTheBody) {
+TEST(SampledTurbulence, RotatesTheFasterTheSmallerTheBody) {
     // The fluid turns over the body's length: half the length, twice the rotation.
     ImmersedBody body = test::ideal_ellipsoid();
     const Noise noise(8, "length", 0, 0);
-    const SeenFluid large = advance_seen_fluid(body, level, {}, 0.1, noise, 0);
+    const SampledTurbulence large = advance_sampled_turbulence(body, level, {}, 0.1, noise, 0);
     body.length *= 0.5;
     prepare(body);
-    const SeenFluid small = advance_seen_fluid(body, level, {}, 0.1, noise, 0);
+    const SampledTurbulence small = advance_sampled_turbulence(body, level, {}, 0.1, noise, 0);
     EXPECT_LT((small.angular_velocity - 2.0 * large.angular_velocity).norm(),
               1e-12 * small.angular_velocity.norm());
     EXPECT_EQ(small.velocity, large.velocity);
 }
 
-TEST(SeenFluid, IsStillWithoutTurbulence) {
+TEST(SampledTurbulence, IsStillWithoutTurbulence) {
     const ImmersedBody body = test::ideal_ellipsoid();
-    const SeenFluid before{Vector3d(1, 2, 3), Vector3d(4, 5, 6)};
-    const SeenFluid after = advance_seen_fluid(body, {}, before, 0.1, Noise(1, "", 0, 0), 0);
+    const SampledTurbulence before{Vector3d(1, 2, 3), Vector3d(4, 5, 6)};
+    const SampledTurbulence after = advance_sampled_turbulence(body, {}, before, 0.1, Noise(1, "", 0, 0), 0);
     EXPECT_EQ(after.velocity, Vector3d::Zero());
     EXPECT_EQ(after.angular_velocity, Vector3d::Zero());
 }

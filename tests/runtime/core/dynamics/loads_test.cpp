@@ -22,7 +22,7 @@ Vector3d random_vector(std::mt19937& generator) {
     return {x, y, normal(generator)};
 }
 
-/// Force and moment about the centroid on a body in a steady tow, the Kirchhoff moment included.
+/// Force and moment about the centroid on a body in a steady translation, the Kirchhoff moment included.
 Vector6d tow(const ImmersedBody& body, const Vector3d& velocity) {
     Vector6d motion = Vector6d::Zero();
     motion.tail<3>() = velocity;
@@ -31,12 +31,12 @@ Vector6d tow(const ImmersedBody& body, const Vector3d& velocity) {
     return load;
 }
 
-/// The loads' force on a body in a tow.
-Vector3d tow_force(const ImmersedBody& body, const Vector3d& velocity) {
+/// The loads' force on a body in a steady translation.
+Vector3d steady_force(const ImmersedBody& body, const Vector3d& velocity) {
     return tow(body, velocity).tail<3>();
 }
 
-TEST(TableLoads, ASteadyTowReproducesTheTabulatedForceAndMomentExactly) {
+TEST(TableLoads, ASteadyTranslationReproducesTheTabulatedForceAndMomentExactly) {
     const ImmersedBody body = test::blunt_ellipsoid();
     const double length = body.length;
     std::mt19937 generator(1);
@@ -103,16 +103,16 @@ TEST(CoefficientLoads, HaveNoSingularityNorJumpAndDoNotSeeTheSignOfTheNormal) {
     flipped.coefficients.normal = -Vector3d::UnitX();
     prepare(flipped);
 
-    const Vector3d along = tow_force(body, Vector3d::UnitX());
+    const Vector3d along = steady_force(body, Vector3d::UnitX());
     EXPECT_LT(along.tail<2>().norm(), 1e-15);
     for (int i = 0; i <= 360; ++i) {
         const double angle = i * std::numbers::pi / 180.0;
         const Vector3d direction(std::cos(angle), std::sin(angle), 0.0);
         const Vector3d next(std::cos(angle + 1e-6), std::sin(angle + 1e-6), 0.0);
-        const Vector3d force = tow_force(body, direction);
-        EXPECT_EQ(force, tow_force(flipped, direction));
+        const Vector3d force = steady_force(body, direction);
+        EXPECT_EQ(force, steady_force(flipped, direction));
         // Drag turns at the rate C_d = 1, lift changes by at most 2 C_l = 2.
-        EXPECT_LT((tow_force(body, next) - force).norm(), 3.01e-6 * along.norm());
+        EXPECT_LT((steady_force(body, next) - force).norm(), 3.01e-6 * along.norm());
         // The lift is C_l sin 2 alpha of the incidence alpha of the plate: 90 degrees less the angle to its
         // normal.
         const Vector3d across(-direction.y(), direction.x(), 0.0);
@@ -126,7 +126,7 @@ TEST(CoefficientLoads, TakeTheProjectedAreaWhereNoneIsGiven) {
     given.loads = Loads::coefficients;
     const ImmersedBody immersed = make_immersed_body(body, given, Fluid{});
     const double broadside = std::numbers::pi * 0.02 * 0.04;
-    const double force = -tow_force(immersed, Vector3d::UnitX()).x();
+    const double force = -steady_force(immersed, Vector3d::UnitX()).x();
     EXPECT_NEAR(force / (0.5 * 998.2 * broadside), 1.0, 0.01);
 }
 

@@ -105,7 +105,7 @@ inline Vector6d creeping_turn(const Motion& m) {
                      Vector3d::Zero());
 }
 
-/// Force and moment of a steady tow at a velocity, by the table.
+/// Force and moment of a steady translation at a velocity, by the table.
 inline std::pair<Vector3d, Vector3d> tabulated(const ImmersedBody& body, const Vector3d& velocity) {
     const double speed = velocity.norm();
     const LoadEntry entry = look_up(*body.tables, velocity / speed, reynolds_number(body, speed));
@@ -113,8 +113,8 @@ inline std::pair<Vector3d, Vector3d> tabulated(const ImmersedBody& body, const V
     return {pressure * entry.force, pressure * body.length * entry.moment};
 }
 
-/// Of a tow, on one patch.
-inline Vector3d patch_force(const ImmersedBody& body, const TowPatch& patch, const Vector3d& velocity) {
+/// Of a steady translation, on one patch.
+inline Vector3d patch_force(const ImmersedBody& body, const SteadyPatch& patch, const Vector3d& velocity) {
     if (patch.force.empty()) return patch.share * tabulated(body, velocity).first;
     ImmersedBody alone = body;
     for (std::size_t i = 0; i < patch.force.size(); ++i) alone.tables->entries[i].force = patch.force[i];
@@ -123,15 +123,16 @@ inline Vector3d patch_force(const ImmersedBody& body, const TowPatch& patch, con
 
 /// The static table's part, less what transport leaves of the Kirchhoff moment.
 inline Vector6d static_table(const Motion& m) {
-    const auto& [force, tow_moment] = tabulated(m.body, m.v);
+    const auto& [force, steady_moment] = tabulated(m.body, m.v);
     const Vector3d left = m.body.added_mass * m.v - m.body.fluid_density * m.body.dynamic.transport * m.v;
-    Vector3d moment = tow_moment - left.cross(m.v);
-    for (const TowPatch& patch : m.body.patches) moment -= patch.place.cross(patch_force(m.body, patch, m.v));
+    Vector3d moment = steady_moment - left.cross(m.v);
+    for (const SteadyPatch& patch : m.body.patches)
+        moment -= patch.place.cross(patch_force(m.body, patch, m.v));
     const double share = m.v.squaredNorm() / (m.v.squaredNorm() + motion_onset * m.tip * m.tip);
     const Vector3d arm = share * force.cross(moment) / force.squaredNorm();
     const Vector3d along = share * moment.dot(force) / force.squaredNorm() * force;
     Vector6d static_part = motion_of(along, -along.dot(m.omega) / m.v.squaredNorm() * m.v);
-    for (const TowPatch& patch : m.body.patches) {
+    for (const SteadyPatch& patch : m.body.patches) {
         const Vector3d place = arm + patch.place;
         const Vector3d local = patch_force(m.body, patch, m.v + m.omega.cross(place));
         static_part += motion_of(place.cross(local), local);

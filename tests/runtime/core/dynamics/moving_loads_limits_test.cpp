@@ -1,5 +1,5 @@
-// Loads of a body that turns, at their limits: on the spot, at rest, in a tow, in a fluid that turns, in
-// other axes.
+// Loads of a body that turns, at their limits: on the spot, at rest, in a steady translation, in a fluid that
+// turns, in other axes.
 
 #include <cmath>
 #include <random>
@@ -123,7 +123,7 @@ TEST(MovingLoads, KeepTheTablesMomentUntilTheBodyDoesLittleButTurn) {
     EXPECT_NEAR(share_at(1e-4 * motion_onset) / 1e-4, 1.0, 1e-3);
 }
 
-TEST(MovingLoads, TendToThoseOfTheTowAsTheBodyStopsTurning) {
+TEST(MovingLoads, TendToThoseOfSteadyTranslationAsTheBodyStopsTurning) {
     const ImmersedBody body = test::lopsided_body();
     const Vector3d velocity(0.1, -0.2, 0.2);
     const Vector6d tow = loads_at(body, motion_of(Vector3d::Zero(), velocity));

@@ -156,7 +156,7 @@ TEST(MovingLoads, TransportOfTheWholeAddedMassTakesThePotentialFlowsOwnAway) {
     }
 }
 
-TEST(MovingLoads, LeaveASteadyTowAsItIsTabulatedTimesTheUnsteadyFactorWhateverTheOtherCoefficients) {
+TEST(MovingLoads, LeaveASteadyTranslationAsItIsTabulatedTimesTheUnsteadyFactorWhateverTheOtherCoefficients) {
     std::mt19937 generator(6);
     const ImmersedBody lopsided = test::lopsided_body();
     for (int i = 0; i < 200; ++i) {
@@ -199,7 +199,7 @@ std::vector<ImmersedBody> lesser_bodies() {
     return bodies;
 }
 
-TEST(MovingLoads, LeaveASteadyTowAsItIsTabulatedWhateverIsLeftOut) {
+TEST(MovingLoads, LeaveASteadyTranslationAsItIsTabulatedWhateverIsLeftOut) {
     std::mt19937 generator(8);
     for (const ImmersedBody& body : lesser_bodies()) {
         for (int i = 0; i < 50; ++i) {

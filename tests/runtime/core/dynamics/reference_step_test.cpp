@@ -32,7 +32,7 @@ BodyState flown(const ImmersedBody& body, BodyState state, double time, int step
 }
 
 BodyState seeing_fluid(BodyState state) {
-    state.seen_fluid = {Vector3d(0.05, -0.02, 0.03), Vector3d(0.5, 0.2, -0.1)};
+    state.sampled_turbulence = {Vector3d(0.05, -0.02, 0.03), Vector3d(0.5, 0.2, -0.1)};
     return state;
 }
 
@@ -162,7 +162,7 @@ TEST(ReferenceStep, LeavesABodyAtRestWithoutWeightAtRest) {
 TEST(EquationsOfMotion, TheirGradientIsThatOfTheirAcceleration) {
     const ImmersedBody body = test::lopsided_body(Vector3d(0.002, 0.001, -0.004));
     const BodyState state = seeing_fluid(test::tumbling_state(0.2, 5.0));
-    const EquationsOfMotion equations(body, gravity, state.seen_fluid);
+    const EquationsOfMotion equations(body, gravity, state.sampled_turbulence);
     const MotionVector motion = motion_vector(state);
     const Matrix6d gradient = equations.acceleration_gradient(motion);
     for (int i = 0; i < 6; ++i) {
@@ -179,7 +179,7 @@ TEST(EquationsOfMotion, TheirGradientIsThatOfTheirAcceleration) {
 
 TEST(EquationsOfMotion, TheStateComesBackFromItsVector) {
     const BodyState state = seeing_fluid(test::tumbling_state(0.2, 5.0));
-    const BodyState back = body_state(motion_vector(state), state.seen_fluid);
+    const BodyState back = body_state(motion_vector(state), state.sampled_turbulence);
     EXPECT_EQ(back.velocity, state.velocity);
     EXPECT_EQ(back.position, state.position);
     EXPECT_LT((back.orientation.coeffs() - state.orientation.coeffs()).norm(), 1e-15);

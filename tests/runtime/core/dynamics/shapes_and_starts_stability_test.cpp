@@ -119,7 +119,7 @@ using Step = BodyState (*)(const ImmersedBody&, double, const BodyState&);
 /// higher.
 double missing_order(const ImmersedBody& body, double claimed, int fewest_steps, Step step) {
     BodyState start = test::tumbling_state(0.3, 8.0);
-    start.seen_fluid = {Vector3d(0.05, -0.02, 0.03), Vector3d(0.5, 0.2, -0.1)};
+    start.sampled_turbulence = {Vector3d(0.05, -0.02, 0.03), Vector3d(0.5, 0.2, -0.1)};
     const auto velocity_after = [&](int steps, Step by) {
         BodyState state = start;
         for (int i = 0; i < steps; ++i) state = by(body, 0.5 / steps, state);

@@ -1,6 +1,6 @@
 // The wake that forms behind a body (docs/theory, "A wake that forms"): until it has, the flow is potential;
-// once the fluid has long met the body from one side, the loads are those of a tow; in a swing the tow's own
-// moment is not there.
+// once the fluid has long met the body from one side, the loads are those of a steady translation; in a swing
+// the steady own moment is not there.
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,9 @@ namespace {
 const Vector3d offset(0.002, 0.001, -0.004);
 
 Vector6d acceleration_of(const ImmersedBody& body, const BodyState& state) {
-    return EquationsOfMotion(body, Vector3d::Zero(), state.seen_fluid).rate(motion_vector(state)).head<6>();
+    return EquationsOfMotion(body, Vector3d::Zero(), state.sampled_turbulence)
+        .rate(motion_vector(state))
+        .head<6>();
 }
 
 /// Moving without turning, askew to its axes, with such a share of transport and so steady a heading.
@@ -41,7 +43,7 @@ ImmersedBody heavy_ellipsoid() {
     return make_immersed_body(shape, test::scene_body(1e9), Fluid{});
 }
 
-TEST(WakeFormation, NoneLeavesTheMomentOfPotentialFlowAndTheTowsForce) {
+TEST(WakeFormation, NoneLeavesTheMomentOfPotentialFlowAndTheSteadyForce) {
     const ImmersedBody body = test::lopsided_body();
     const BodyState state = towed({0.1, 0.05, -0.2}, 0.0, 0.0);
     const Vector3d w = state.velocity.tail<3>();
@@ -60,7 +62,7 @@ TEST(WakeFormation, ThatHasFormedInASwingLeavesWhatTransportDoes) {
     EXPECT_LT((body.inertia * acceleration_of(body, state) - expected).norm(), 1e-12 * expected.norm());
 }
 
-TEST(WakeFormation, ThatIsWholeGivesTheTow) {
+TEST(WakeFormation, ThatIsWholeGivesTheSteadyLoads) {
     for (const ImmersedBody& body : {test::lopsided_body(offset), test::blunt_ellipsoid(offset)}) {
         const BodyState state = towed({0.1, 0.05, -0.2}, 1.0, 1.0);
         const Vector6d of_centroid = body.to_centroid * state.velocity;
@@ -86,24 +88,24 @@ TEST(WakeFormation, GoesOnAsAnExponentialOfTheWayOverTheExtentAlongIt) {
             for (int i = 0; i < steps; ++i)
                 state = implicit_step(body, Vector3d::Zero(), time / steps, state);
             EXPECT_NEAR(state.wake.formed, 1.0 - std::exp(-extents / wake_formation_ways), 1e-4) << extent;
-            const double settled = 1.0 - std::exp(-extents / usual_settling_ways);
+            const double settled = 1.0 - std::exp(-extents / usual_settling_length);
             EXPECT_LT((state.wake.heading - settled * direction).norm(), 1e-4) << extent;
         }
     }
 }
 
-TEST(WakeFormation, BringsTheTowsMomentFromRestAfterTheWayOfTows) {
+TEST(WakeFormation, BringsTheSteadyMomentFromRestAfterTheLengthOfTranslations) {
     // The median of docs/studies/falls, "The start".
-    constexpr double way_of_tows = 2.3;
-    const WakeShares shares =
-        shares_of({1.0, (1.0 - std::exp(-way_of_tows / usual_settling_ways)) * Vector3d::UnitX()});
+    constexpr double length_of_translations = 2.3;
+    const WakeShares shares = shares_of(
+        {1.0, (1.0 - std::exp(-length_of_translations / usual_settling_length)) * Vector3d::UnitX()});
     EXPECT_NEAR(shares.moment, 1.0 - std::exp(-1.0), 0.01);
 }
 
-TEST(WakeFormation, OfASwingHasLittleOfTheTowsMoment) {
+TEST(WakeFormation, OfASwingHasLittleOfTheSteadyMoment) {
     // The ellipsoid is rocked to and fro in its way: 40 degrees to either side, eight extents a swing.
     ImmersedBody body = heavy_ellipsoid();
-    body.dynamic.settling_ways = settling_ways_of_falls;
+    body.dynamic.settling_length = settling_length_of_falls;
     prepare(body);
     const double rate = 2.0 * std::numbers::pi * 0.5 / (8.0 * 0.04);
     const double largest = 40.0 / 180.0 * std::numbers::pi;
@@ -161,7 +163,7 @@ TEST(WakeFormation, IsOfTheWayThroughAStream) {
     BodyState still = test::tumbling_state(0.2, 5.0);
     BodyState carried = still;
     carried.velocity.tail<3>() += carried.orientation.conjugate() * stream;
-    carried.seen_fluid.velocity = stream;
+    carried.sampled_turbulence.velocity = stream;
     for (int i = 0; i < 100; ++i) {
         still = implicit_step(body, Vector3d(0.0, 0.0, -9.81), 0.002, still);
         carried = implicit_step(body, Vector3d(0.0, 0.0, -9.81), 0.002, carried);

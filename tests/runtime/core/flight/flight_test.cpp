@@ -11,7 +11,7 @@
 #include "paths.hpp"
 #include "samara/commands/shared/subprocess.hpp"
 #include "samara/core/files/content_hash.hpp"
-#include "samara/core/flight/flight_kind.hpp"
+#include "samara/core/flight/body_group.hpp"
 #include "samara/scene/simulation.hpp"
 #include "support/compared_states.hpp"
 #include "support/expect_error.hpp"

@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "samara/core/dynamics/immersed_body.hpp"
+#include "samara/core/flight/body_group.hpp"
 #include "samara/core/flight/flight.hpp"
-#include "samara/core/flight/flight_kind.hpp"
 #include "support/compared_states.hpp"
 #include "support/expect_error.hpp"
 #include "support/known_bodies.hpp"

@@ -52,12 +52,12 @@ TEST(ShippedBodies, FallAsTheyFell) {
         SCOPED_TRACE(fall.scene);
         const BodyMeasures measures = flown(fall);
         EXPECT_EQ(measures.regimes.commonest(), fall.regime);
-        EXPECT_NEAR(measures.value(Figure::descent_speed) / fall.descent, 1.0, tolerance);
+        EXPECT_NEAR(measures.value(Metric::descent_speed) / fall.descent, 1.0, tolerance);
         if (fall.frequency) {
-            EXPECT_NEAR(measures.value(Figure::frequency) / *fall.frequency, 1.0, tolerance);
+            EXPECT_NEAR(measures.value(Metric::frequency) / *fall.frequency, 1.0, tolerance);
         }
         if (fall.rms_angular_speed) {
-            EXPECT_NEAR(measures.value(Figure::rms_angular_speed) / *fall.rms_angular_speed, 1.0, tolerance);
+            EXPECT_NEAR(measures.value(Metric::rms_angular_speed) / *fall.rms_angular_speed, 1.0, tolerance);
         }
     }
 }

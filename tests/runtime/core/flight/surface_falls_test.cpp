@@ -45,7 +45,7 @@ TEST(SurfaceLoads, MakeBodiesFlutterTumbleAndAutorotateAsInFullCfd) {
         const BodyMeasures solved = measure_all(reference, reference.bodies.front());
         EXPECT_EQ(flown.regimes.commonest(), fall.regime);
         EXPECT_EQ(solved.regimes.commonest(), fall.regime);
-        EXPECT_NEAR(flown.value(Figure::descent_speed) / solved.value(Figure::descent_speed), 1.0,
+        EXPECT_NEAR(flown.value(Metric::descent_speed) / solved.value(Metric::descent_speed), 1.0,
                     fall.tolerance);
     }
 }

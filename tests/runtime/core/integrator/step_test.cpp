@@ -32,7 +32,7 @@ TEST(ImplicitStep, IsOfSecondOrderWithLoadsOffsetMassAndSeenFluid) {
     for (const ImmersedBody& body : {test::blunt_ellipsoid(Vector3d(0.002, 0.001, -0.004)),
                                      test::lopsided_body(Vector3d(0.002, 0.001, -0.004))}) {
         BodyState start = test::tumbling_state(0.2, 5.0);
-        start.seen_fluid = {Vector3d(0.05, -0.02, 0.03), Vector3d(0.5, 0.2, -0.1)};
+        start.sampled_turbulence = {Vector3d(0.05, -0.02, 0.03), Vector3d(0.5, 0.2, -0.1)};
         // Within one cell of the tables: their bilinear maps have kinks at the cells' edges.
         const double time = 0.02;
         const BodyState exact = flown(body, start, time, 4096);

@@ -82,7 +82,7 @@ TEST(Noise, ABallFallsInItsTurbulenceAsItDoesInStillFluid) {
 
 /// The root of the mean square of |omega| over a part of a flight, of which the steps are counted from the
 /// first.
-double rms_turning(const ImmersedBody& body, BodyState& state, std::uint64_t first, std::uint64_t steps) {
+double rms_rotation(const ImmersedBody& body, BodyState& state, std::uint64_t first, std::uint64_t steps) {
     const Noise noise(6, "turning", 0, 0);
     double sum = 0.0;
     for (std::uint64_t i = first; i < first + steps; ++i) {
@@ -97,10 +97,10 @@ TEST(Noise, DoesNotPumpTheSpinOverTenMinutes) {
         named.body.turbulence = Turbulence::table;
         prepare(named.body);
         BodyState state = test::tumbling_state(0.1, 3.0);
-        rms_turning(named.body, state, 0, 600);
-        const double early = rms_turning(named.body, state, 600, 6000);
-        rms_turning(named.body, state, 6600, 23'400);
-        const double late = rms_turning(named.body, state, 30'000, 6000);
+        rms_rotation(named.body, state, 0, 600);
+        const double early = rms_rotation(named.body, state, 600, 6000);
+        rms_rotation(named.body, state, 6600, 23'400);
+        const double late = rms_rotation(named.body, state, 30'000, 6000);
         test::expect_row({named.name + ", noise", "1/60 s", "rms omega at 500-600 s over that at 10-110 s",
                           1.25, late / early});
     }
@@ -112,13 +112,13 @@ TEST(Noise, TheSeenFluidHasItsVarianceAndItsTimeAtAnyStep) {
     const double rate = 0.75 * 2.1 * level.dissipation_rate / level.turbulent_kinetic_energy;
     const Noise noise(8, "seen fluid", 0, 0);
     for (const double step_over_time : {0.3, 1.0, 3.0, 10.0}) {
-        SeenFluid seen;
+        SampledTurbulence seen;
         double square = 0.0;
         double product = 0.0;
         constexpr std::uint64_t steps = 1'500'000;
         for (std::uint64_t step = 0; step < steps; ++step) {
             const Vector3d before = seen.velocity;
-            seen = advance_seen_fluid(body, level, seen, step_over_time / rate, noise, step);
+            seen = advance_sampled_turbulence(body, level, seen, step_over_time / rate, noise, step);
             square += seen.velocity.squaredNorm();
             product += seen.velocity.dot(before);
         }
@@ -139,7 +139,7 @@ double differing(const Batch& a, const Batch& b, const auto& place) {
         const BodyState second = b.state(place(i));
         const bool same = first.position == second.position && first.velocity == second.velocity &&
                           first.orientation.coeffs() == second.orientation.coeffs() &&
-                          first.seen_fluid.velocity == second.seen_fluid.velocity;
+                          first.sampled_turbulence.velocity == second.sampled_turbulence.velocity;
         count += same ? 0 : 1;
     }
     return count;

@@ -18,15 +18,16 @@ TEST(Noise, PhiloxGivesItsKnownAnswer) {
 }
 
 TEST(Noise, EverythingInTheKeyChangesTheNumbers) {
-    const auto base = Noise(1, "a", 0, 0).normals(5, NoiseStream::seen_fluid);
-    EXPECT_EQ(base, Noise(1, "a", 0, 0).normals(5, NoiseStream::seen_fluid));
-    EXPECT_NE(base, Noise(2, "a", 0, 0).normals(5, NoiseStream::seen_fluid));
-    EXPECT_NE(base, Noise(1, "b", 0, 0).normals(5, NoiseStream::seen_fluid));
-    EXPECT_NE(base, Noise(1, "a", 1, 0).normals(5, NoiseStream::seen_fluid));
-    EXPECT_NE(base, Noise(1, "a", 0, 1).normals(5, NoiseStream::seen_fluid));
-    EXPECT_NE(base, Noise(1, "a", 0, 0).normals(6, NoiseStream::seen_fluid));
+    const auto base = Noise(1, "a", 0, 0).normals(5, NoiseStream::sampled_turbulence);
+    EXPECT_EQ(base, Noise(1, "a", 0, 0).normals(5, NoiseStream::sampled_turbulence));
+    EXPECT_NE(base, Noise(2, "a", 0, 0).normals(5, NoiseStream::sampled_turbulence));
+    EXPECT_NE(base, Noise(1, "b", 0, 0).normals(5, NoiseStream::sampled_turbulence));
+    EXPECT_NE(base, Noise(1, "a", 1, 0).normals(5, NoiseStream::sampled_turbulence));
+    EXPECT_NE(base, Noise(1, "a", 0, 1).normals(5, NoiseStream::sampled_turbulence));
+    EXPECT_NE(base, Noise(1, "a", 0, 0).normals(6, NoiseStream::sampled_turbulence));
     EXPECT_NE(base, Noise(1, "a", 0, 0).normals(5, NoiseStream::seen_rotation));
-    EXPECT_NE(base, Noise(1, "a", 0, 0).normals(5 + (std::uint64_t{1} << 32U), NoiseStream::seen_fluid));
+    EXPECT_NE(base,
+              Noise(1, "a", 0, 0).normals(5 + (std::uint64_t{1} << 32U), NoiseStream::sampled_turbulence));
 }
 
 TEST(Noise, NormalsHaveTheMomentsOfTheNormalDistribution) {
@@ -34,7 +35,8 @@ TEST(Noise, NormalsHaveTheMomentsOfTheNormalDistribution) {
     constexpr int draws = 50'000;
     double moments[5] = {};
     for (int step = 0; step < draws; ++step) {
-        for (const double value : noise.normals(static_cast<std::uint64_t>(step), NoiseStream::seen_fluid)) {
+        for (const double value :
+             noise.normals(static_cast<std::uint64_t>(step), NoiseStream::sampled_turbulence)) {
             double power = 1.0;
             for (double& moment : moments) {
                 moment += power / (4.0 * draws);

@@ -46,13 +46,13 @@ WakeStatistics statistics_of(const ImmersedBody& body, const BodyState& moving, 
     WakeStatistics found;
     double product = 0.0;
     for (std::uint64_t step = 0; step < settling + steps; ++step) {
-        const Vector3d before = state.seen_fluid.velocity;
+        const Vector3d before = state.sampled_turbulence.velocity;
         state = advance(body, weightless, 0.0, h, state, noise, step).state;
         state.velocity = moving.velocity;
         state.orientation = Quaterniond::Identity();
-        EXPECT_EQ(state.seen_fluid.angular_velocity, Vector3d::Zero());
+        EXPECT_EQ(state.sampled_turbulence.angular_velocity, Vector3d::Zero());
         if (step < settling) continue;
-        const Vector3d& slip = state.seen_fluid.velocity;
+        const Vector3d& slip = state.sampled_turbulence.velocity;
         product += slip.dot(before);
         found.slip += slip * slip.transpose() / double{steps};
     }
@@ -92,7 +92,7 @@ TEST(WakeNoise, IsTheWeakerTheMoreTheBodyTurnsOnItsWay) {
 
 TEST(WakeNoise, PushesByTheLoadsAtTheSlipAndNotByItsChange) {
     ImmersedBody body = ellipsoid_with_a_wake(1200.0);
-    body.shadows.setZero();
+    body.projected_area_tensor.setZero();
     prepare(body);
     const Noise noise(12, "wake", 0, 0);
     const double h = 0.01;
@@ -102,13 +102,14 @@ TEST(WakeNoise, PushesByTheLoadsAtTheSlipAndNotByItsChange) {
         const BodyState after = advance(body, weightless, 0.0, h, state, noise, step).state;
         // The same step in the stream that stands between the two slips.
         BodyState frozen = state;
-        frozen.seen_fluid = after.seen_fluid;
-        frozen.seen_fluid.velocity = 0.5 * (state.seen_fluid.velocity + after.seen_fluid.velocity);
+        frozen.sampled_turbulence = after.sampled_turbulence;
+        frozen.sampled_turbulence.velocity =
+            0.5 * (state.sampled_turbulence.velocity + after.sampled_turbulence.velocity);
         EXPECT_EQ(implicit_step(body, Vector3d::Zero(), h, frozen).velocity, after.velocity);
-        EXPECT_GT(
-            (implicit_step(body, Vector3d::Zero(), h, state, after.seen_fluid).velocity - after.velocity)
-                .norm(),
-            1e-5);
+        EXPECT_GT((implicit_step(body, Vector3d::Zero(), h, state, after.sampled_turbulence).velocity -
+                   after.velocity)
+                      .norm(),
+                  1e-5);
         state = after;
     }
 }
@@ -132,9 +133,9 @@ TEST(WakeNoise, PressesOnTheSidesAcrossThePath) {
     const Vector3d seen = state.orientation.conjugate() * slip;
     const Vector3d relative = 0.22 * path - seen;
     const Vector3d pressed =
-        wake_side_pressure * 0.5 * body.fluid_density * relative.norm() * (body.shadows * seen);
+        wake_side_pressure * 0.5 * body.fluid_density * relative.norm() * (body.projected_area_tensor * seen);
     const Vector3d across = pressed - pressed.dot(relative) / relative.squaredNorm() * relative;
-    body.shadows.setZero();
+    body.projected_area_tensor.setZero();
     prepare(body);
     const Vector3d without = stepped(body, slip, h, state).velocity.tail<3>();
     EXPECT_LT(((with - without) * body.mass / h - across).norm(), 1e-3 * across.norm());
@@ -143,8 +144,11 @@ TEST(WakeNoise, PressesOnTheSidesAcrossThePath) {
 TEST(WakeNoise, HasTheShadowsAlongThePrincipalAxes) {
     const ImmersedBody body = ellipsoid_with_a_wake(1200.0);
     const Vector3d exact = std::numbers::pi * Vector3d(8e-4, 4e-4, 2e-4);
-    EXPECT_LT((body.shadows.diagonal() - exact).cwiseAbs().maxCoeff(), 0.03 * exact.x());  // flat triangles
-    EXPECT_LT((body.shadows - Matrix3d(body.shadows.diagonal().asDiagonal())).norm(), 1e-6 * exact.x());
+    EXPECT_LT((body.projected_area_tensor.diagonal() - exact).cwiseAbs().maxCoeff(),
+              0.03 * exact.x());  // flat triangles
+    EXPECT_LT(
+        (body.projected_area_tensor - Matrix3d(body.projected_area_tensor.diagonal().asDiagonal())).norm(),
+        1e-6 * exact.x());
 }
 
 // In the frame of the slip no load but drag changes the energy of body and fluid.
@@ -185,16 +189,16 @@ TEST(WakeNoise, DoesNothingToABodyWithoutLoads) {
         return Vector3d(state.orientation * state.velocity.tail<3>());
     };
     EXPECT_LT((flown(Langevin::wake) - velocity).norm(), 1e-13);
-    EXPECT_GT((flown(Langevin::seen_fluid) - velocity).norm(), 1e-3);
+    EXPECT_GT((flown(Langevin::sampled_turbulence) - velocity).norm(), 1e-3);
 }
 
 TEST(WakeNoise, IsNoneAroundABodyAtRest) {
     const ImmersedBody body = ellipsoid_with_a_wake(1200.0);
     BodyState state;
-    state.seen_fluid.velocity = Vector3d(0.1, 0.0, 0.0);
+    state.sampled_turbulence.velocity = Vector3d(0.1, 0.0, 0.0);
     state = advance(body, weightless, 0.0, 0.01, state, Noise(14, "wake", 0, 0), 0).state;
-    EXPECT_EQ(state.seen_fluid.velocity, Vector3d::Zero());
-    EXPECT_EQ(state.seen_fluid.angular_velocity, Vector3d::Zero());
+    EXPECT_EQ(state.sampled_turbulence.velocity, Vector3d::Zero());
+    EXPECT_EQ(state.sampled_turbulence.angular_velocity, Vector3d::Zero());
 }
 
 TEST(WakeNoise, IsNoneInLaminarFlow) {
@@ -207,7 +211,7 @@ TEST(WakeNoise, IsNoneInLaminarFlow) {
     BodyState state = moving_at({0.2, 0.0, 0.1});
     for (std::uint64_t step = 0; step < 20; ++step) {
         state = advance(body, weightless, 0.0, 0.01, state, Noise(16, "wake", 0, 0), step).state;
-        EXPECT_EQ(state.seen_fluid.velocity, Vector3d::Zero());
+        EXPECT_EQ(state.sampled_turbulence.velocity, Vector3d::Zero());
     }
 }
 
@@ -226,7 +230,7 @@ TEST(WakeNoise, OfTheFluidAroundIsItsStream) {
         }
         return state.velocity;
     };
-    EXPECT_EQ(flown(Langevin::wake), flown(Langevin::seen_fluid));
+    EXPECT_EQ(flown(Langevin::wake), flown(Langevin::sampled_turbulence));
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ ImmersedBody sphere(double density, Loads loads) {
     return make_immersed_body(test::exact_sphere(0.01), given, Fluid{});
 }
 
-ImmersedBody noisy_ellipsoid(Turbulence turbulence, Langevin langevin = Langevin::seen_fluid) {
+ImmersedBody noisy_ellipsoid(Turbulence turbulence, Langevin langevin = Langevin::sampled_turbulence) {
     ImmersedBody body = test::lopsided_body(Vector3d(0.001, -0.002, 0.003));
     body.turbulence = turbulence;
     body.turbulent_kinetic_energy = 0.003;

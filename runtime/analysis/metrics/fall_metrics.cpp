@@ -1,0 +1,304 @@
+#include "samara/analysis/metrics/fall_metrics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "samara/motion/inclination.hpp"
+
+namespace samara {
+namespace {
+
+constexpr std::size_t fewest_pieces = 3;
+constexpr std::size_t most_left_out = 16;
+constexpr std::size_t most_stretches = 64;
+
+/// What of a piece adds up: integrals over time.
+struct Sums {
+    double duration = 0.0;                     // s
+    double time = 0.0;                         // s^2, of the time
+    Vector3d displacement = Vector3d::Zero();  // m, of the velocity
+    Vector3d way = Vector3d::Zero();           // m s, of the way since the release
+    double inclination = 0.0;                  // rad s
+    double squared_spin = 0.0;                 // rad^2/s
+    double upright_turn = 0.0;                 // rad
+};
+
+Sums& operator+=(Sums& sum, const Sums& other) {
+    sum.duration += other.duration;
+    sum.time += other.time;
+    sum.displacement += other.displacement;
+    sum.way += other.way;
+    sum.inclination += other.inclination;
+    sum.squared_spin += other.squared_spin;
+    sum.upright_turn += other.upright_turn;
+    return sum;
+}
+
+/// By the trapezoidal rule.
+Sums sums_of(const FallSeries& record, const Piece& piece) {
+    Sums sums;
+    sums.displacement = record.ways[piece.end - 1] - record.ways[piece.begin];
+    for (std::size_t i = piece.begin + 1; i < piece.end; ++i) {
+        const double half = 0.5 * (record.times[i] - record.times[i - 1]);
+        sums.duration += 2.0 * half;
+        sums.time += half * (record.times[i - 1] + record.times[i]);
+        sums.way += half * (record.ways[i - 1] + record.ways[i]);
+        sums.inclination += half * (record.inclinations[i - 1] + record.inclinations[i]);
+        sums.squared_spin += half * (record.squared_spins[i - 1] + record.squared_spins[i]);
+        sums.upright_turn += half * (record.upright_spins[i - 1] + record.upright_spins[i]);
+    }
+    return sums;
+}
+
+Vector3d horizontal(const FallSeries& record, const Vector3d& vector) {
+    return vector - vector.dot(record.down) * record.down;
+}
+
+InclinationHistogram histogram_of(const FallSeries& record, const Piece& piece) {
+    InclinationHistogram histogram{};
+    for (std::size_t i = piece.begin + 1; i < piece.end; ++i) {
+        const double angle = 0.5 * (record.inclinations[i - 1] + record.inclinations[i]);
+        const auto bin = static_cast<std::size_t>(angle / (0.5 * std::numbers::pi) * inclination_bins);
+        histogram[std::min(bin, inclination_bins - 1)] += record.times[i] - record.times[i - 1];
+    }
+    return histogram;
+}
+
+/// The record with one stretch of neighbouring pieces left out at a time.
+class Jackknife {
+  public:
+    Jackknife(const FallSeries& record, const Pieces& pieces) : record_(record), pieces_(pieces) {
+        for (const Piece& piece : pieces.pieces) {
+            sums_.push_back(sums_of(record, piece));
+        }
+        const std::size_t count = pieces.pieces.size();
+        if (count < fewest_pieces) return;
+        left_out_ = std::clamp<std::size_t>((count + 1) / 3, 1, most_left_out);
+        stride_ = std::max<std::size_t>(1, count / most_stretches);
+    }
+
+    /// The error of a figure that `without` gives for the pieces [begin, end) left out; nothing where there
+    /// are too few pieces.
+    [[nodiscard]] std::optional<double> error(
+        const std::function<double(std::size_t begin, std::size_t end)>& without) const {
+        if (left_out_ == 0) return std::nullopt;
+        std::vector<double> values;
+        for (std::size_t i = 0; i + left_out_ <= sums_.size(); i += stride_) {
+            values.push_back(without(i, i + left_out_));
+        }
+        return jackknife_error(values, sums_.size(), left_out_);
+    }
+    /// That of a figure of the sums.
+    [[nodiscard]] std::optional<double> error_of_sums(
+        const std::function<double(const Sums&)>& metric) const {
+        return error([&](std::size_t begin, std::size_t end) { return metric(sums_without(begin, end)); });
+    }
+    /// The frames of the pieces [begin, end).
+    [[nodiscard]] Piece frames(std::size_t begin, std::size_t end) const {
+        return {pieces_.pieces[begin].begin, pieces_.pieces[end - 1].end};
+    }
+
+    /// m^2/s: how the variance of the horizontal way in a direction grows with time: by the
+    /// ways from period to period, each taken between the mean places of a period, two pieces, so that the
+    /// swing from side to side does not count.
+    [[nodiscard]] std::optional<double> spreading() const {
+        if (sums_.size() < fewest_pieces + 1) return std::nullopt;
+        std::vector<Sums> periods;
+        for (std::size_t i = 1; i < sums_.size(); ++i) {
+            periods.push_back(sums_[i - 1]);
+            periods.back() += sums_[i];
+        }
+        const auto place = [&](std::size_t i) -> Vector3d { return periods[i].way / periods[i].duration; };
+        const auto time = [&](std::size_t i) { return periods[i].time / periods[i].duration; };
+        const std::size_t steps = periods.size() - 1;
+        const std::size_t lag = std::min(left_out_, steps - 1);
+        const Vector3d drift = (place(steps) - place(0)) / (time(steps) - time(0));
+        double squares = 0.0;
+        double durations = 0.0;
+        for (std::size_t i = 0; i + lag <= steps; ++i) {
+            const double duration = time(i + lag) - time(i);
+            squares += horizontal(record_, place(i + lag) - place(i) - duration * drift).squaredNorm();
+            durations += duration;
+        }
+        return 0.5 * squares / durations * static_cast<double>(steps) / static_cast<double>(steps - lag);
+    }
+
+  private:
+    [[nodiscard]] Sums sums_without(std::size_t begin, std::size_t end) const {
+        Sums rest;
+        for (std::size_t i = 0; i < sums_.size(); ++i) {
+            if (i < begin || i >= end) rest += sums_[i];
+        }
+        return rest;
+    }
+
+    const FallSeries& record_;
+    const Pieces& pieces_;
+    std::vector<Sums> sums_;
+    std::size_t left_out_ = 0;
+    std::size_t stride_ = 1;
+};
+
+/// The frames of the window, [begin, end).
+Piece window_frames(const FallSeries& record) {
+    const double slack = 1e-9 * std::max(1.0, record.duration());
+    const auto begin =
+        std::lower_bound(record.times.begin(), record.times.end(), record.measures.window.begin - slack);
+    const auto end = std::upper_bound(begin, record.times.end(), record.measures.window.end + slack);
+    return {static_cast<std::size_t>(begin - record.times.begin()),
+            static_cast<std::size_t>(end - record.times.begin())};
+}
+
+struct Frame {
+    double inclination;
+    std::size_t index;
+};
+
+std::array<Estimate, quantile_percents.size()> quantiles_of(const FallSeries& record,
+                                                            const Jackknife& jackknife) {
+    std::vector<Frame> frames;
+    const Piece window = window_frames(record);
+    for (std::size_t i = window.begin; i < window.end; ++i) frames.push_back({record.inclinations[i], i});
+    std::sort(frames.begin(), frames.end(),
+              [](const Frame& a, const Frame& b) { return a.inclination < b.inclination; });
+    const auto without = [&](const Piece& piece) {
+        std::vector<double> values;
+        for (const Frame& frame : frames) {
+            if (frame.index < piece.begin || frame.index >= piece.end) values.push_back(frame.inclination);
+        }
+        return values;
+    };
+    const std::vector<double> all = without({});
+    std::array<Estimate, quantile_percents.size()> quantiles;
+    for (std::size_t q = 0; q < quantiles.size(); ++q) {
+        quantiles[q].value = percentile_of_sorted(all, quantile_percents[q]);
+        quantiles[q].error = jackknife.error([&](std::size_t begin, std::size_t end) {
+            return percentile_of_sorted(without(jackknife.frames(begin, end)), quantile_percents[q]);
+        });
+    }
+    return quantiles;
+}
+
+std::optional<Estimate> frequency_of(const FallSeries& record, const Pieces& pieces,
+                                     const Jackknife& jackknife) {
+    if (!record.measures.frequency) return std::nullopt;
+    Estimate frequency{*record.measures.frequency, {}, {}};
+    if (!pieces.by_swings) return frequency;
+    const std::vector<double>& minima = pieces.minima;
+    frequency.error = jackknife.error([&](std::size_t begin, std::size_t end) {
+        const double left = minima.back() - minima.front() - (minima[end] - minima[begin]);
+        return 0.5 * static_cast<double>(minima.size() - 1 - (end - begin)) / left;
+    });
+    return frequency;
+}
+
+std::optional<Estimate> spectral_frequency_of(const FallSeries& record, double segment,
+                                              const FallMetrics& metrics, const Jackknife& jackknife) {
+    if (!record.measures.frequency) return std::nullopt;
+    const double lowest = 0.5 * *record.measures.frequency;
+    const auto peak = peak_frequency(metrics.spectrum, lowest);
+    if (!peak) return std::nullopt;
+    const std::size_t first = window_frames(record).begin;
+    return Estimate{*peak,
+                    jackknife.error([&](std::size_t begin, std::size_t end) {
+                        const Piece piece = jackknife.frames(begin, end);
+                        return peak_frequency(
+                                   swing_spectrum(record, segment, {piece.begin - first, piece.end - first}),
+                                   lowest)
+                            .value_or(*peak);
+                    }),
+                    {}};
+}
+
+/// m, rms over the window.
+double path_spread(const FallSeries& record) {
+    const Piece window = window_frames(record);
+    double sum = 0.0;
+    for (std::size_t i = window.begin; i < window.end; ++i) {
+        sum += horizontal(record, record.ways[i]).squaredNorm();
+    }
+    return std::sqrt(sum / static_cast<double>(window.end - window.begin));
+}
+
+std::optional<double> path_spread_error(const FallSeries& record, const Jackknife& jackknife) {
+    const Piece window = window_frames(record);
+    double times = 0.0;
+    for (std::size_t i = window.begin; i < window.end; ++i) times += record.times[i];
+    const auto count = static_cast<double>(window.end - window.begin);
+    const auto rate = jackknife.spreading();
+    return rate ? std::optional(std::sqrt(*rate * times / count)) : std::nullopt;
+}
+
+std::optional<double> drift_speed_error(const FallSeries& record, const Jackknife& jackknife) {
+    const TimeWindow& window = record.measures.window;
+    const auto rate = jackknife.spreading();
+    return rate ? std::optional(std::sqrt(*rate / (window.end - window.begin))) : std::nullopt;
+}
+
+}  // namespace
+
+bool tells(MetricSubject subject, const Body& body) {
+    if (subject == MetricSubject::inclination) return has_shortest_axis(body.surface);
+    return subject == MetricSubject::path || body.symmetry.kind != Symmetry::Kind::spherical;
+}
+
+std::optional<double> metric_value(Metric metric, const FallSeries& record) {
+    if (metric == Metric::path_spread) return path_spread(record);
+    if (metric == Metric::drift_speed) return horizontal(record, record.measures.mean_velocity).norm();
+    const auto measured = catalogued(metric).measured;
+    return measured ? measured(record.measures) : std::nullopt;
+}
+
+Spectrum swing_spectrum(const FallSeries& record, double segment, const LeftOut& left_out) {
+    const Piece window = window_frames(record);
+    std::vector<double> squares;
+    for (std::size_t i = window.begin; i < window.end; ++i) {
+        squares.push_back(std::pow(std::cos(record.inclinations[i]), 2));
+    }
+    if (squares.size() < 2) return {};
+    const double step =
+        (record.times[window.end - 1] - record.times[window.begin]) / static_cast<double>(squares.size() - 1);
+    Spectrum spectrum =
+        power_spectrum(squares, step, static_cast<std::size_t>(std::lround(segment / step)) + 1, left_out);
+    spectrum.step *= 0.5;
+    spectrum.resolution *= 0.5;
+    for (double& power : spectrum.power) power *= 2.0;
+    return spectrum;
+}
+
+FallMetrics fall_metrics(const FallSeries& record, double segment) {
+    const Pieces pieces = pieces_of(record);
+    const Jackknife jackknife(record, pieces);
+    FallMetrics result;
+    result.pieces = pieces.pieces.size();
+    for (const Piece& piece : pieces.pieces) result.histograms.push_back(histogram_of(record, piece));
+    if (pieces.pieces.empty()) result.histograms.push_back(histogram_of(record, window_frames(record)));
+    result.inclination_quantiles = quantiles_of(record, jackknife);
+    result.spectrum = swing_spectrum(record, segment);
+
+    PerMetric<std::optional<Estimate>>& metrics = result.metrics;
+    for (const CataloguedMetric& entry : metric_catalogue) {
+        if (const auto value = metric_value(entry.metric, record))
+            metrics[entry.metric] = Estimate{*value, {}, {}};
+    }
+    metrics[Metric::descent_speed]->error =
+        jackknife.error_of_sums([&](const Sums& s) { return s.displacement.dot(record.down) / s.duration; });
+    metrics[Metric::frequency] = frequency_of(record, pieces, jackknife);
+    metrics[Metric::spectral_frequency] = spectral_frequency_of(record, segment, result, jackknife);
+    metrics[Metric::inclination_amplitude] = result.inclination_quantiles.back();
+    metrics[Metric::mean_inclination]->error =
+        jackknife.error_of_sums([](const Sums& s) { return s.inclination / s.duration; });
+    metrics[Metric::rms_angular_speed]->error =
+        jackknife.error_of_sums([](const Sums& s) { return std::sqrt(s.squared_spin / s.duration); });
+    if (auto& spin = metrics[Metric::spin_rate]) {
+        spin->error =
+            jackknife.error_of_sums([](const Sums& s) { return std::abs(s.upright_turn) / s.duration; });
+    }
+    metrics[Metric::path_spread]->error = path_spread_error(record, jackknife);
+    metrics[Metric::drift_speed]->error = drift_speed_error(record, jackknife);
+    return result;
+}
+
+}  // namespace samara

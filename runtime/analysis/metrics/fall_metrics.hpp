@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+
+#include "samara/analysis/metrics/fall_series.hpp"
+#include "samara/analysis/metrics/metric_catalogue.hpp"
+#include "samara/analysis/metrics/spectrum.hpp"
+#include "samara/core/body/body.hpp"
+
+namespace samara {
+
+/// The percentages of the quantiles by which distributions of the inclination are compared.
+inline constexpr std::array<double, 5> quantile_percents = {5.0, 25.0, 50.0, 75.0, 95.0};
+
+/// The share of the time that the inclination spends in each of equal intervals from 0 to pi/2.
+inline constexpr std::size_t inclination_bins = 90;
+using InclinationHistogram = std::array<double, inclination_bins>;
+
+/// The figures of one fall over its window, with the errors that the fall's own swings tell: by the jackknife
+/// with a third of the swings left out at a time, 16 at most, since swings that follow one another are alike.
+/// No error where the window shows fewer than three swings.
+///
+/// Falls whose amplitude comes and goes over many swings scatter more than a short record of one can tell: on
+/// 300 falls of an ellipsoid in its own turbulence the errors were 0.5 to 0.7 times the scatter between falls
+/// for windows of 5 to 11 swings, 0.7 to 0.9 times for 30.
+struct FallMetrics {
+    PerMetric<std::optional<Estimate>> metrics;
+    std::array<Estimate, quantile_percents.size()> inclination_quantiles;  ///< rad
+    std::vector<InclinationHistogram> histograms;  ///< s in each interval, one for each piece of the window
+    Spectrum spectrum;                             ///< swing_spectrum() of the window
+    std::size_t pieces = 0;                        ///< independent ones, see pieces_of()
+};
+
+/// Whether figures of a subject tell something of a body.
+bool tells(MetricSubject subject, const Body& body);
+
+/// A figure of one fall over its window, without its error; nothing where the fall has none, and of those
+/// that are from a spectrum.
+std::optional<double> metric_value(Metric metric, const FallSeries& record);
+
+/// `segment` (s): of the spectrum.
+FallMetrics fall_metrics(const FallSeries& record, double segment);
+
+/// The spectrum of cos^2 of the inclination, the squared vertical component of the shortest axis, over half
+/// its frequency (Hz): so that a flutter from side to side and a tumbling have their peak at the frequency of
+/// Measures, whichever way the body is turned about the vertical. cos^2 is smooth where the folded
+/// inclination has corners. `segment` (s): see power_spectrum(). Over the window, without the frames left
+/// out.
+Spectrum swing_spectrum(const FallSeries& record, double segment, const LeftOut& left_out = {});
+
+}  // namespace samara

@@ -1,0 +1,155 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <iterator>
+#include <numbers>
+#include <optional>
+
+#include "samara/analysis/metrics/estimate.hpp"
+#include "samara/core/base/angles.hpp"
+#include "samara/motion/measures.hpp"
+
+namespace samara {
+
+/// What falls are described and compared by.
+///
+/// To add a figure: a name here and its entry in metric_catalogue below, in the same order. What Measures
+/// holds is then computed, averaged, described and compared everywhere; any other figure is computed in
+/// fall_metrics.cpp. The lists at the end of this file say which figures are judged by whom.
+enum class Metric {
+    descent_speed,          ///< m/s
+    frequency,              ///< Hz, from the minima of the inclination
+    spectral_frequency,     ///< Hz, highest peak of swing_spectrum() above half the frequency
+    inclination_amplitude,  ///< rad, 95th percentile
+    mean_inclination,       ///< rad
+    rms_angular_speed,      ///< rad/s
+    path_spread,            ///< m, rms horizontal distance from the release over the window
+    drift_speed,            ///< m/s, horizontal mean velocity over the window, whatever its direction
+    spin_rate,              ///< rad/s, this and the following of what autorotates alone
+    coning_angle,           ///< rad
+    helix_radius,           ///< m
+    spin_up_height,         ///< m
+};
+
+/// What of a motion a figure tells. One of the inclination says nothing of a body without a shortest axis
+/// (has_shortest_axis()), one of the turning nothing of a body that looks the same however it is turned.
+enum class MetricSubject { path, inclination, turning };
+
+/// How far off a figure may be.
+struct AllowedError {
+    double share = 0.0;             ///< relative, in tolerances of the descent speed
+    double always = 0.0;            ///< in the SI unit: what is allowed of small figures too
+    const char* always_words = "";  ///< the same in words; empty for nothing
+};
+
+/// A figure as every command and report has it.
+struct CataloguedMetric {
+    Metric metric;
+    const char* key;           ///< in JSON
+    const char* title;         ///< in text
+    const char* heading = "";  ///< one word, for columns and options
+    const char* unit;          ///< in which people read it
+    double in_unit = 1.0;      ///< what the SI value is multiplied by to be in that unit
+    MetricSubject subject = MetricSubject::path;
+    Mean mean = Mean::arithmetic;  ///< of several falls
+    bool refines_last = false;     ///< whether it is the figure before it, seen in another way
+    bool relative = true;          ///< whether a difference is read in per cent; else in the unit
+    AllowedError allowed = {};     ///< none for figures that nobody judges
+    double fitted_miss = 0.0;      ///< relative: what a well fitted flight is off by (docs/studies/falls)
+    /// Its value; null where Measures does not hold it.
+    std::optional<double> (*measured)(const Measures& measures) = nullptr;
+};
+
+/// What Measures holds as `member`.
+template <auto member>
+std::optional<double> held(const Measures& measures) {
+    return measures.*member;
+}
+
+/// What it holds as `member` of its autorotation.
+template <auto member>
+std::optional<double> held_of_autorotation(const Measures& measures) {
+    if (!measures.autorotation) return std::nullopt;
+    return (*measures.autorotation).*member;
+}
+
+// clang-format off
+/// All figures, in the order of Figure.
+inline constexpr CataloguedMetric metric_catalogue[] = {
+    {.metric = Metric::descent_speed, .key = "descent_speed", .title = "descent speed", .heading = "descent",
+     .unit = "m/s", .allowed = {1.0}, .fitted_miss = 0.05, .measured = held<&Measures::descent_speed>},
+    {.metric = Metric::frequency, .key = "frequency", .title = "frequency", .heading = "frequency",
+     .unit = "Hz", .subject = MetricSubject::inclination, .allowed = {2.0}, .fitted_miss = 0.15,
+     .measured = held<&Measures::frequency>},
+    {.metric = Metric::spectral_frequency, .key = "spectral_frequency", .title = "by the spectrum's peak",
+     .unit = "Hz", .subject = MetricSubject::inclination, .refines_last = true},
+    {.metric = Metric::inclination_amplitude, .key = "inclination_amplitude", .title = "amplitude",
+     .heading = "amplitude", .unit = "degrees", .in_unit = degrees,
+     .subject = MetricSubject::inclination, .allowed = {3.0, degree, "one degree"},
+     .fitted_miss = 0.25, .measured = held<&Measures::inclination_amplitude>},
+    {.metric = Metric::mean_inclination, .key = "mean_inclination", .title = "mean inclination",
+     .unit = "degrees", .in_unit = degrees, .subject = MetricSubject::inclination,
+     .relative = false, .measured = held<&Measures::mean_inclination>},
+    {.metric = Metric::rms_angular_speed, .key = "rms_angular_speed", .title = "rms angular speed",
+     .heading = "turning", .unit = "rad/s", .subject = MetricSubject::turning, .mean = Mean::root_mean_square,
+     .allowed = {3.0}, .fitted_miss = 0.25, .measured = held<&Measures::rms_angular_speed>},
+    {.metric = Metric::path_spread, .key = "path_spread", .title = "path spread", .heading = "path",
+     .unit = "m", .mean = Mean::root_mean_square, .relative = false, .allowed = {3.0}},
+    {.metric = Metric::drift_speed, .key = "drift_speed", .title = "drift speed", .unit = "m/s",
+     .relative = false},
+    {.metric = Metric::spin_rate, .key = "spin_rate", .title = "spin about the vertical",
+     .unit = "turns/s", .in_unit = 1.0 / (2.0 * std::numbers::pi), .subject = MetricSubject::turning,
+     .measured = held_of_autorotation<&Autorotation::spin_rate>},
+    {.metric = Metric::coning_angle, .key = "coning_angle", .title = "coning angle", .unit = "degrees",
+     .in_unit = degrees, .subject = MetricSubject::inclination, .relative = false,
+     .measured = held_of_autorotation<&Autorotation::coning_angle>},
+    {.metric = Metric::helix_radius, .key = "helix_radius", .title = "helix radius", .unit = "mm",
+     .in_unit = 1000.0, .measured = held_of_autorotation<&Autorotation::helix_radius>},
+    {.metric = Metric::spin_up_height, .key = "spin_up_height", .title = "height lost until it spins",
+     .unit = "m", .measured = held_of_autorotation<&Autorotation::spin_up_height>},
+};
+// clang-format on
+inline constexpr std::size_t metric_count = std::size(metric_catalogue);
+
+/// The entry of a figure.
+constexpr const CataloguedMetric& catalogued(Metric metric) {
+    return metric_catalogue[static_cast<std::size_t>(metric)];
+}
+
+static_assert(std::ranges::all_of(metric_catalogue,
+                                  [](const CataloguedMetric& entry) {
+                                      return &entry == &catalogued(entry.metric);
+                                  }),
+              "the catalogue has the figures in the order of the enumeration");
+
+/// Whether a figure is one of Autorotation, which other falls do not have.
+constexpr bool is_of_autorotation(Metric metric) {
+    return metric >= Metric::spin_rate && metric <= Metric::spin_up_height;
+}
+
+/// One value for each figure.
+template <typename Value>
+struct PerMetric : std::array<Value, metric_count> {
+    using std::array<Value, metric_count>::operator[];
+    constexpr Value& operator[](Metric metric) { return (*this)[static_cast<std::size_t>(metric)]; }
+    constexpr const Value& operator[](Metric metric) const {
+        return (*this)[static_cast<std::size_t>(metric)];
+    }
+};
+
+/// What `samara compare` gives a verdict on, in the order of its options.
+inline constexpr std::array compared_metrics = {Metric::descent_speed, Metric::frequency,
+                                                Metric::inclination_amplitude};
+/// What sets of models are told apart by, in the order of the columns.
+inline constexpr std::array advised_metrics = {Metric::descent_speed, Metric::inclination_amplitude,
+                                               Metric::frequency, Metric::rms_angular_speed,
+                                               Metric::path_spread};
+/// What the tables of a bake answer for.
+inline constexpr std::array baked_metrics = {Metric::descent_speed, Metric::frequency,
+                                             Metric::inclination_amplitude, Metric::rms_angular_speed};
+/// What coefficients of motion are fitted to, beside the path. All of Measures.
+inline constexpr std::array fitted_metrics = baked_metrics;
+
+}  // namespace samara

@@ -1,0 +1,459 @@
+#include "samara/core/contact/island.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "samara/core/collision/contact_set.hpp"
+#include "samara/core/contact/ground_contact.hpp"
+
+namespace samara {
+namespace {
+
+// Chosen by trial: what they must give is what the tests Encounters and BroadphaseStability hold them to.
+constexpr double most_turn = 0.25;   // rad, in a part
+constexpr double most_way = 0.5;     // past another, over the smaller radius, in a part
+constexpr double most_fall = 0.005;  // from a standstill, over the radius, in a part
+constexpr int most_parts = 64;
+constexpr int most_attempts = 6;    // to find where bodies meet within a part
+constexpr double held_back = 0.25;  // of its kinetic energy, that one which stays keeps
+constexpr int most_stops =
+    24;  // in a step, times bodies: parts that end sooner, where some hit or would be held
+constexpr int most_tries = 6;  // of a part
+// In a step, times bodies. Heaps whose motion the parts can follow take up to 9,000, also at a step of 1/24
+// s.
+constexpr std::size_t most_work = 50000;
+constexpr std::size_t most_work_unfollowed = 500;  // where even the most parts are too few
+constexpr std::size_t work_of_point = 20;          // of an impulse found at a point, over a look at two hulls
+constexpr int most_rounds = 60;                    // in which bodies are moved apart
+constexpr double resting_way = 2e-4;               // in a step, over the radius, that counts as none
+constexpr double no_way = 2e-5;                    // the same, which what rests is taken back by
+constexpr double still = 1e-2;  // speed that counts as none, over what the step would give without contact
+constexpr double ground_touching = 1e-5;  // gap to the ground that counts as none, over the radius
+constexpr std::size_t most_ground_points = 12;
+
+Vector6d turned(const Quaterniond& rotation, const Vector6d& velocity) {
+    Vector6d result;
+    result << rotation * velocity.head<3>(), rotation * velocity.tail<3>();
+    return result;
+}
+
+/// Of points that are near the ground or obstacles those with the smallest gap, and with the greatest
+/// distance from those before.
+template <typename Visit>
+void visit_spread(const ContactSet& near, double radius, const Visit& visit) {
+    std::array<double, most_near_points> distance;
+    const auto count = static_cast<std::size_t>(near.end() - near.begin());
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        distance[i] = 1e300;
+        if (near.begin()[i].gap < near.begin()[next].gap) next = i;
+    }
+    for (std::size_t taken = 0; taken < std::min(count, most_ground_points); ++taken) {
+        const NearPoint& chosen = near.begin()[next];
+        visit(chosen);
+        for (std::size_t i = 0; i < count; ++i) {
+            const NearPoint& other = near.begin()[i];
+            distance[i] =
+                std::min(distance[i], (other.point - chosen.point).squaredNorm() +
+                                          radius * radius * (other.normal - chosen.normal).squaredNorm());
+        }
+        next = static_cast<std::size_t>(std::max_element(distance.begin(), distance.begin() + count) -
+                                        distance.begin());
+    }
+}
+
+}  // namespace
+
+CollisionHull IslandStep::hull(std::size_t i, const BodyPlace& place) const {
+    const IslandBody& island_body = island_bodies_[i];
+    // About the first of all, so that little is lost to rounding far from the origin.
+    return {{&island_body.body->contact_points, place.orientation.toRotationMatrix(),
+             place.position - island_bodies_.front().begin.position},
+            island_body.faces};
+}
+
+double IslandStep::energy_of(std::size_t i, const BodyPlace& place, const Vector6d& velocity) const {
+    const Vector6d own = turned(place.orientation.conjugate(), velocity);
+    return 0.5 * own.dot(island_bodies_[i].body->inertia * own);
+}
+
+double IslandStep::parts_wanted(std::span<const Pair> pairs, double time_step) const {
+    double parts = 1.0;
+    const auto at_both = [&](std::size_t i, const auto& function) {
+        return std::max(function(island_bodies_[i].begin_velocity), function(island_bodies_[i].end_velocity));
+    };
+    for (std::size_t i = 0; i < island_bodies_.size(); ++i) {
+        const double turn = at_both(i, [](const Vector6d& u) { return u.head<3>().norm(); });
+        parts = std::max(parts, time_step * turn / most_turn);
+        const Vector6d change = island_bodies_[i].end_velocity - island_bodies_[i].begin_velocity;
+        const double radius = island_bodies_[i].body->contact_points.bounding_radius;
+        parts = std::max(parts, std::sqrt(0.5 * time_step * change.tail<3>().norm() / (most_fall * radius)));
+    }
+    for (const auto& [a, b] : pairs) {
+        const IslandBody& first = island_bodies_[a];
+        const IslandBody& second = island_bodies_[b];
+        const double past = std::max((first.begin_velocity - second.begin_velocity).tail<3>().norm(),
+                                     (first.end_velocity - second.end_velocity).tail<3>().norm());
+        const double radius =
+            std::min(first.body->contact_points.bounding_radius, second.body->contact_points.bounding_radius);
+        parts = std::max(parts, time_step * past / (most_way * radius));
+    }
+    return parts;
+}
+
+void IslandStep::start(double time_step) {
+    movers_.resize(island_bodies_.size());
+    bodies_.resize(island_bodies_.size());
+    for (std::size_t i = 0; i < island_bodies_.size(); ++i) {
+        IslandBody& island_body = island_bodies_[i];
+        Mover& mover = movers_[i];
+        island_body.touched = false;
+        mover.met = {};
+        mover.place = island_body.begin;
+        mover.velocity = island_body.begin_velocity;
+        const Vector6d change = island_body.end_velocity - island_body.begin_velocity;
+        const Quaterniond& to_world = island_body.begin.orientation;
+        mover.own_velocity << to_world.conjugate() * island_body.begin_velocity.head<3>(),
+            island_body.begin_velocity.tail<3>();
+        mover.gain << island_body.end.orientation.conjugate() * island_body.end_velocity.head<3>() -
+                          mover.own_velocity.head<3>(),
+            change.tail<3>();
+        mover.gain /= time_step;
+        const Vector6d momentum = island_body.body->inertia * turned(to_world.conjugate(), change);
+        mover.load = to_world * momentum.tail<3>() / time_step;
+    }
+}
+
+/// Where a body comes from where it began, and with which velocity, if nothing loads it.
+PlacedMotion IslandStep::flown(std::size_t i, Vector6d velocity, double time) const {
+    velocity.tail<3>() -= flow_;
+    PlacedMotion end = free_flight(island_bodies_[i].body->inertia, {movers_[i].before, velocity}, time);
+    end.place.position += time * flow_;
+    end.velocity.tail<3>() += flow_;
+    return end;
+}
+
+/// How the velocity of a body that nothing loads changes in body axes, of which these are turned as it began.
+Vector6d IslandStep::changed_by_itself(std::size_t i, const Vector6d& velocity, double time) const {
+    const PlacedMotion end = flown(i, velocity, time);
+    const Quaterniond back = movers_[i].before.orientation * end.place.orientation.conjugate();
+    Vector6d change = end.velocity - velocity;
+    change.head<3>() = back * end.velocity.head<3>() - velocity.head<3>();
+    return change;
+}
+
+/// The velocity with what a step of the body alone gives in a time.
+Vector6d IslandStep::fed(const Mover& mover, double time) {
+    Vector6d velocity = mover.velocity_before;
+    velocity.head<3>() += mover.before.orientation * (time * mover.gain.head<3>());
+    velocity.tail<3>() += time * mover.gain.tail<3>();
+    return velocity;
+}
+
+void IslandStep::begin_part(double time_step) {
+    for (std::size_t i = 0; i < island_bodies_.size(); ++i) {
+        Mover& mover = movers_[i];
+        const TouchingBody& body = *island_bodies_[i].body;
+        mover.velocity_before = mover.velocity;
+        mover.before = mover.place;
+        bodies_[i] = {.velocity = fed(mover, time_step),
+                      .inverse_inertia = in_world(body.inverse_inertia, mover.place.orientation),
+                      .radius = body.contact_points.bounding_radius};
+        mover.energy_before = energy_of(i, mover.place, mover.velocity);
+        // Of what a step of the body alone gives, how its turning changes by itself is left to the way: it
+        // may turn otherwise by now.
+        Vector6d own = mover.own_velocity;
+        own.head<3>() = mover.before.orientation * own.head<3>();
+        mover.by_itself = changed_by_itself(i, own, time_step);
+        mover.alone = flown(i, bodies_[i].velocity, time_step).place;
+    }
+}
+
+void IslandStep::find_ground(const IslandGround& ground, double time, double time_step) {
+    for (std::size_t i = 0; i < island_bodies_.size(); ++i) {
+        const ContactPoints& points = island_bodies_[i].body->contact_points;
+        const double radius = points.bounding_radius;
+        const BodyPlace& place = movers_[i].place;
+        const double margin = 2.0 * time_step *
+                                  std::max(speed_of_points(movers_[i].velocity, radius),
+                                           speed_of_points(bodies_[i].velocity, radius)) +
+                              ground_touching * radius;
+        const Matrix3d to_world = place.orientation.toRotationMatrix();
+        ContactSet near(to_world);
+        if (ground.height && place.position.z() - *ground.height - radius <= margin) {
+            near.add_ground(points, place.position.z() - *ground.height, margin);
+        }
+        if (ground.obstacles != nullptr && passes_near(*ground.obstacles, points, place, place, margin)) {
+            add_obstacles(*ground.obstacles, points, place,
+                          turned(place.orientation.conjugate(), bodies_[i].velocity), time, time_step, margin,
+                          near);
+        }
+        if (near.empty()) continue;
+        visit_spread(near, radius, [&](const NearPoint& point) {
+            points_.push_back(
+                {.first = i,
+                 .first_arm = to_world * point.point,
+                 .normal = to_world * point.normal,
+                 .allowed_speed = std::max(0.0, point.gap - ground_touching * radius) / time_step,
+                 .friction = point.friction,
+                 .surface_velocity = to_world * point.surface_velocity,
+                 .surface_angular_velocity = to_world * point.surface_angular_velocity,
+                 .obstacle = point.obstacle});
+        });
+    }
+}
+
+void IslandStep::push(double time_step, std::size_t known) {
+    for (std::size_t i = 0; i < island_bodies_.size(); ++i) {
+        bodies_[i].velocity = fed(movers_[i], time_step);
+        movers_[i].pressed = island_bodies_[i].touched;
+    }
+    impulses_.solve(bodies_, points_, known);
+    for (const ContactBetween& point : points_) {
+        if (point.impulse.isZero(0.0)) continue;
+        movers_[point.first].pressed = true;
+        if (point.second != ContactBetween::none) movers_[point.second].pressed = true;
+    }
+    // What is pushed moves with the velocity after the part, what is not halfway between: those that touch
+    // must move alike.
+    for (bool spreads = true; spreads;) {
+        spreads = false;
+        for (const Near& near : near_) {
+            Mover& a = movers_[near.first];
+            Mover& b = movers_[near.second];
+            const double off =
+                time_step * time_step * std::max(a.gain.tail<3>().norm(), b.gain.tail<3>().norm());
+            if (a.pressed == b.pressed || near.gap > 2.0 * near.apart + off) continue;
+            a.pressed = b.pressed = spreads = true;
+        }
+    }
+}
+
+void IslandStep::move(double time_step, bool ends_step) {
+    for (std::size_t i = 0; i < island_bodies_.size(); ++i) {
+        Mover& mover = movers_[i];
+        // Nothing met: half of the loads before, half after, as the step of a body alone has it.
+        Vector6d later = Vector6d::Zero();
+        if (!mover.pressed) later = 0.5 * (bodies_[i].velocity - mover.velocity_before - mover.by_itself);
+        const PlacedMotion end = flown(i, bodies_[i].velocity - mover.by_itself - later, time_step);
+        later.head<3>() = end.place.orientation * (mover.before.orientation.conjugate() * later.head<3>());
+        mover.place = end.place;
+        mover.velocity = end.velocity + later;
+        if (ends_step && !mover.pressed) {
+            mover.place = island_bodies_[i].end;
+            mover.velocity = island_bodies_[i].end_velocity;
+        }
+        mover.energy = energy_of(i, mover.before, bodies_[i].velocity);
+        mover.shift.setZero();
+        mover.held = 0;
+    }
+}
+
+void IslandStep::part_from_ground(const IslandGround& ground, double time, double time_step, bool& moved) {
+    for (std::size_t i = 0; i < island_bodies_.size(); ++i) {
+        Mover& mover = movers_[i];
+        const ContactPoints& points = island_bodies_[i].body->contact_points;
+        const BodyPlace reached = mover.place;
+        if (ground.obstacles != nullptr &&
+            passes_near(*ground.obstacles, points, mover.before, mover.place, 0.0)) {
+            keep_out(*ground.obstacles, points, time, time + time_step, mover.before, mover.place);
+        }
+        if (ground.height) {
+            const Vector3d down = mover.place.orientation.conjugate() * -Vector3d::UnitZ();
+            const double lift = reach(points, down) - (mover.place.position.z() - *ground.height);
+            if (lift > 0.0) mover.place.position.z() += lift;
+        }
+        const Vector3d shift = mover.place.position - reached.position;
+        if (shift.isZero(0.0) && mover.place.orientation.coeffs() == reached.orientation.coeffs()) continue;
+        mover.shift += shift;
+        mover.pressed = true;
+        moved = moved || shift.norm() > closest * skin * bodies_[i].radius;
+    }
+}
+
+/// Takes energy (J) out of a body's turning, and where that is not enough out of all its motion.
+void IslandStep::slow(std::size_t i, double most) {
+    Mover& mover = movers_[i];
+    Vector6d moving = mover.velocity;
+    moving.head<3>().setZero();
+    Vector6d turning = mover.velocity - moving;
+    const double of_translation = energy_of(i, mover.place, moving);
+    const double of_rotation = energy_of(i, mover.place, turning);
+    const double of_both = energy_of(i, mover.place, mover.velocity) - of_translation - of_rotation;
+    const double discriminant = of_both * of_both - 4.0 * of_rotation * (of_translation - most);
+    if (mover.held == 0 && of_translation <= most && of_rotation > 0.0) {
+        const double share = (std::sqrt(discriminant) - of_both) / (2.0 * of_rotation);
+        mover.velocity = moving + std::min(1.0, share) * turning;
+    } else {
+        mover.velocity *= std::sqrt(most / (of_translation + of_both + of_rotation));
+    }
+}
+
+void IslandStep::pay() {
+    double owed = 0.0;
+    double left = 0.0;
+    for (std::size_t i = 0; i < island_bodies_.size(); ++i) {
+        Mover& mover = movers_[i];
+        if (!mover.pressed) continue;
+        island_bodies_[i].touched = true;
+        double most = mover.energy;
+        if (mover.held > 0) {
+            // No more than its weight did on the way.
+            const double work = mover.load.dot(mover.place.position - mover.before.position);
+            most = std::min(most, std::max(0.0, mover.energy_before + work));
+            // Slower they find a way: else the same would happen in the next part.
+            if (mover.held == 2) most *= held_back;
+        } else {
+            most -= std::max(0.0, -mover.load.dot(mover.shift));
+        }
+        owed += std::max(0.0, -most);
+        most = std::max(0.0, most);
+        // The inertia turns with the body, and that gives nothing either.
+        const double energy = energy_of(i, mover.place, mover.velocity);
+        if (energy > most) slow(i, most);
+        left += std::min(energy, most);
+    }
+    // What some cannot pay the others do.
+    if (owed == 0.0) return;
+    const double share = std::sqrt(std::max(0.0, 1.0 - owed / std::max(left, owed)));
+    for (Mover& mover : movers_) {
+        if (mover.pressed) mover.velocity *= share;
+    }
+}
+
+void IslandStep::note(double time) {
+    for (const ContactBetween& point : points_) {
+        if (point.impulse.isZero(0.0)) continue;
+        const auto add = [&](std::size_t i, std::size_t other, double sign, const Vector3d& arm) {
+            movers_[i].met.add({.impulse = sign * point.impulse,
+                                .strongest = point.impulse.norm(),
+                                .point = movers_[i].place.position + arm,
+                                .normal = sign * point.normal,
+                                .time = time,
+                                .obstacle = point.obstacle,
+                                .body = other == ContactBetween::none ? -1 : island_bodies_[other].number});
+        };
+        add(point.first, point.second, 1.0, point.first_arm);
+        if (point.second == ContactBetween::none) continue;
+        add(point.second, point.first, -1.0, point.second_arm);
+    }
+}
+
+void IslandStep::settle(double time_step) {
+    find_overlaps();
+    for (std::size_t i = 0; i < island_bodies_.size(); ++i) {
+        IslandBody& island_body = island_bodies_[i];
+        if (!island_body.touched) continue;
+        const Vector6d change = island_body.end_velocity - island_body.begin_velocity;
+        const double radius = island_body.body->contact_points.bounding_radius;
+        const double begun = energy_of(i, island_body.begin, island_body.begin_velocity);
+        const double left = energy_of(i, island_body.begin, movers_[i].velocity);
+        island_body.rests = !movers_[i].overlaps &&
+                            begun < resting_energy * movers_[i].load.norm() * radius &&
+                            left < still * still * energy_of(i, island_body.begin, change) &&
+                            time_step * speed_of_points(movers_[i].velocity, radius) < resting_way * radius;
+        if (island_body.met != nullptr && movers_[i].met.strongest > 0.0)
+            island_body.met->add(movers_[i].met);
+        const double way =
+            (movers_[i].place.position - island_body.begin.position).norm() +
+            radius * movers_[i].place.orientation.angularDistance(island_body.begin.orientation);
+        island_body.end = island_body.rests && way <= no_way * radius ? island_body.begin : movers_[i].place;
+        island_body.end_velocity = island_body.rests ? Vector6d::Zero() : movers_[i].velocity;
+    }
+}
+
+/// Whether the step has done all the work that it does.
+bool IslandStep::is_spent() const {
+    return work_ > most_work_;
+}
+
+/// Whether impulses turned a body by so much in a part that its ends say little of what is between.
+bool IslandStep::turned_far(double time_step) const {
+    return std::any_of(movers_.begin(), movers_.end(), [&](const Mover& mover) {
+        return mover.pressed && time_step * mover.velocity.head<3>().norm() > 2.0 * most_turn;
+    });
+}
+
+/// Moves the bodies for a part of the step, as they meet each other, ground and obstacles.
+void IslandStep::try_part(std::span<const Pair> pairs, const IslandGround& ground, double time, double part,
+                          bool ends_step, bool may_stop) {
+    begin_part(part);
+    points_.clear();
+    find_pairs(pairs, part, may_stop);
+    if (is_spent()) points_.clear();  // those that may meet are held back
+    find_ground(ground, time, part);
+    std::size_t known = 0;
+    for (int attempt = 0; attempt < most_attempts; ++attempt) {
+        push(part, known);
+        known = points_.size();
+        work_ += work_of_point * known;
+        move(part, ends_step);
+        if (is_spent() || (may_stop && free_of_hits() < 1.0) || !find_passages(part)) return;
+    }
+}
+
+void IslandStep::part_all(const IslandGround& ground, double time, double part) {
+    bool moved = true;
+    for (int round = 0; round < most_rounds && moved && (round == 0 || !is_spent()); ++round) {
+        moved = false;
+        part_pairs(part, round, moved);
+        part_from_ground(ground, time, part, moved);
+    }
+}
+
+void IslandStep::take_back() {
+    for (Mover& mover : movers_) {
+        mover.place = mover.before;
+        mover.velocity = mover.velocity_before;
+    }
+}
+
+/// Takes the step in so many parts; false where they should be more.
+bool IslandStep::take_parts(std::span<const Pair> pairs, const IslandGround& ground, double time_step,
+                            int parts) {
+    start(time_step);
+    double longest = time_step / parts;
+    int stops = 0;
+    for (double begun = 0.0; begun < time_step;) {
+        const double time = ground.time + begun;
+        const double rest = time_step - begun;
+        if (is_spent()) longest = rest;
+        // Not a sliver at the end.
+        double part = rest <= longest * (1.0 + 1e-9) ? rest : longest;
+        for (int tries = 1;; ++tries) {
+            const bool may_stop =
+                tries < most_tries && stops * static_cast<int>(movers_.size()) < most_stops && !is_spent();
+            try_part(pairs, ground, time, part, part == rest, may_stop);
+            const double free = may_stop ? free_of_hits() : 1.0;
+            if (free == 1.0) {
+                if (2 * parts <= most_parts && !is_spent() && turned_far(part)) return false;
+                part_all(ground, time, part);
+                if (!may_stop || is_spent() || all_come_through()) break;
+                longest = 0.5 * part;
+            }
+            part *= free < 1.0 ? free : 0.5;
+            ++stops;
+            take_back();
+        }
+        note(time + part);
+        hold_back();
+        pay();
+        for (Mover& mover : movers_) mover.own_velocity += part * mover.gain;
+        begun = part == rest ? time_step : begun + part;
+    }
+    return true;
+}
+
+void IslandStep::take(std::span<IslandBody> island_bodies, std::span<const Pair> pairs,
+                      const IslandGround& ground, double time_step) {
+    island_bodies_ = island_bodies;
+    flow_ = ground.flow;
+    const double wanted = parts_wanted(pairs, time_step);
+    work_ = 0;
+    most_work_ = island_bodies.size() * (wanted > most_parts ? most_work_unfollowed : most_work);
+    int parts = static_cast<int>(std::ceil(std::min(wanted, static_cast<double>(most_parts))));
+    while (!take_parts(pairs, ground, time_step, parts)) parts *= 2;
+    settle(time_step);
+}
+
+}  // namespace samara

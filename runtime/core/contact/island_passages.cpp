@@ -1,0 +1,292 @@
+// How two bodies of the island pass each other, or meet, within a part of a step.
+
+#include <algorithm>
+
+#include <Eigen/Cholesky>
+
+#include "samara/core/collision/contact_set.hpp"
+#include "samara/core/contact/island.hpp"
+
+namespace samara {
+namespace {
+
+// Chosen by trial: what they must give is what the tests Encounters and BroadphaseStability hold them to.
+constexpr double finest_piece = 1e-3;  // of a way, to which the place is found where two meet
+constexpr double quick =
+    0.02;  // way of two in a part, over the radius, from which their hit is met where it is
+constexpr double parted = 0.2;            // over the skin, to where those that come too close are moved
+constexpr double most_shift = 0.06;       // over the radius, to part those that turning brought together
+constexpr double most_separation = 0.5;   // over the skin, by which those that overlap are moved in a part
+constexpr double separation_speed = 1.0;  // radii a second at which bodies that overlapped are moved apart
+
+}  // namespace
+
+/// `may_stop`: whether those that are fast are to meet where they do.
+void IslandStep::find_pairs(std::span<const Pair> pairs, double time_step, bool may_stop) {
+    near_.clear();
+    const auto fastest = [&](std::size_t i) {
+        return std::max(speed_of_points(movers_[i].velocity, bodies_[i].radius),
+                        speed_of_points(bodies_[i].velocity, bodies_[i].radius));
+    };
+    double fastest_of_all = 0.0;
+    for (std::size_t i = 0; i < island_bodies_.size(); ++i)
+        fastest_of_all = std::max(fastest_of_all, fastest(i));
+    for (const auto& [a, b] : pairs) {
+        const double apart = skin * std::min(bodies_[a].radius, bodies_[b].radius);
+        // Impulses may stop either, or turn it twice as fast; and one that others strike comes as far as
+        // they.
+        const double reach = 2.0 * time_step * (fastest(a) + fastest(b)) + 2.0 * apart;
+        const double reach_if_struck = 4.0 * time_step * fastest_of_all + 2.0 * apart;
+        const double distance = (movers_[a].place.position - movers_[b].place.position).norm();
+        if (distance - bodies_[a].radius - bodies_[b].radius > reach_if_struck) continue;
+        const CollisionHull first = hull(a, movers_[a].place);
+        const CollisionHull second = hull(b, movers_[b].place);
+        const PairSeparation now = pair_separation(first, second, reach_if_struck);
+        ++work_;
+        if (now.gap > reach_if_struck) continue;
+        const double way = time_step * (fastest(a) + fastest(b));
+        const bool waits =
+            may_stop && now.gap > 2.0 * apart && way > quick * std::min(bodies_[a].radius, bodies_[b].radius);
+        near_.push_back({a, b, now.normal, now.gap, apart, waits});
+        if (waits || now.gap > reach || passes_by(near_.back())) continue;
+        add_points(near_.back(), meeting(first, second, reach), 0.0, time_step);
+    }
+}
+
+BodyPlace IslandStep::on_the_way(std::size_t i, double share) const {
+    const Mover& mover = movers_[i];
+    if (share == 0.0) return mover.before;
+    return {mover.before.position + share * (mover.place.position - mover.before.position),
+            mover.before.orientation.slerp(share, mover.place.orientation)};
+}
+
+/// Of two that meet at a share of their ways. Where they do not as the part begins, what turning adds to the
+/// way that velocities make is taken from the gap.
+void IslandStep::add_points(const Near& near, const Meeting& met, double share, double time_step) {
+    const auto arm = [&](std::size_t i, const Vector3d& point) {
+        const BodyPlace there = on_the_way(i, share);
+        const Vector3d of_centre = point + island_bodies_.front().begin.position - there.position;
+        if (share == 0.0) return of_centre;
+        return Vector3d(movers_[i].before.orientation * (there.orientation.conjugate() * of_centre));
+    };
+    const auto beyond_velocity = [&](std::size_t i, const Vector3d& of_centre) {
+        const Mover& mover = movers_[i];
+        const Vector3d own = mover.before.orientation.conjugate() * of_centre;
+        const Vector3d way = mover.place.orientation * own - of_centre;
+        return Vector3d(way - time_step * mover.velocity.head<3>().cross(of_centre));
+    };
+    for (std::size_t k = 0; k < met.count; ++k) {
+        Vector3d first_arm = arm(near.first, met.points[k].on_first);
+        Vector3d second_arm = arm(near.second, met.points[k].on_second);
+        double gap = met.normal.dot(movers_[near.first].before.position + first_arm -
+                                    movers_[near.second].before.position - second_arm);
+        if (share > 0.0) {
+            const double turned_by = met.normal.dot(beyond_velocity(near.first, first_arm) -
+                                                    beyond_velocity(near.second, second_arm));
+            gap += std::min(0.0, turned_by);
+        }
+        // At one place of the world, so that no angular momentum is lost between the two.
+        const Vector3d across = 0.5 * (movers_[near.second].before.position + second_arm -
+                                       movers_[near.first].before.position - first_arm);
+        first_arm += across;
+        second_arm -= across;
+        points_.push_back({.first = near.first,
+                           .second = near.second,
+                           .first_arm = first_arm,
+                           .second_arm = second_arm,
+                           .normal = met.normal,
+                           .allowed_speed = std::max(0.0, gap - near.apart) / time_step,
+                           .friction = ground_friction});
+    }
+}
+
+/// Whether two that would be beyond their plane after the part, left alone, are then parted by another that
+/// parts them before as well.
+bool IslandStep::passes_by(const Near& near) const {
+    if (near.gap <= near.apart) return false;
+    const CollisionHull first = hull(near.first, movers_[near.first].alone);
+    const CollisionHull second = hull(near.second, movers_[near.second].alone);
+    if (gap_along(first.hull, second.hull, near.normal) >= 0.0) return false;  // it may come to, otherwise
+    const PairSeparation later = pair_separation(first, second, near.apart);
+    ++work_;
+    return !later.overlap && parted_before(near, later.normal, near.apart) && later.gap >= near.apart;
+}
+
+/// Whether a plane parted two by a gap when the part began.
+bool IslandStep::parted_before(const Near& near, const Vector3d& normal, double gap) const {
+    return gap_along(hull(near.first, movers_[near.first].before).hull,
+                     hull(near.second, movers_[near.second].before).hull, normal) >= gap;
+}
+
+/// How much of their ways, up to 1, two surely come by without passing through each other: at both ends of
+/// each piece of it one plane leaves them a gap. Where all work is spent, none.
+double IslandStep::free_share(const Near& near) const {
+    if (is_spent()) return 0.0;
+    ++work_;
+    const double least = near.least();
+    const auto hulls = [&](double share) {
+        return std::pair(hull(near.first, on_the_way(near.first, share)),
+                         hull(near.second, on_the_way(near.second, share)));
+    };
+    auto [first, second] = hulls(0.0);
+    Vector3d normal = near.normal;
+    double share = 0.0;
+    double piece = 1.0;
+    while (share < 1.0 && piece >= finest_piece) {
+        ++work_;
+        const double next_share = std::min(1.0, share + piece);
+        const auto [next_first, next_second] = hulls(next_share);
+        if (gap_along(next_first.hull, next_second.hull, normal) < least) {
+            const PairSeparation there = pair_separation(next_first, next_second, near.apart);
+            const bool is_free = !there.overlap && there.gap >= least &&
+                                 gap_along(first.hull, second.hull, there.normal) >= 0.0;
+            if (!is_free) {
+                piece *= 0.5;
+                continue;
+            }
+            normal = there.normal;
+        }
+        share = next_share;
+        first = next_first;
+        second = next_second;
+    }
+    return share;
+}
+
+double IslandStep::Near::least() const {
+    return std::min(closest * apart, 0.5 * gap);
+}
+
+/// How much of their ways those surely come by that are to meet where they do; 1 where none of them meet.
+double IslandStep::free_of_hits() const {
+    double free = 1.0;
+    for (const Near& near : near_) {
+        if (!near.waits) continue;
+        const double share = free_share(near);
+        if (share > 0.0) free = std::min(free, share);
+    }
+    return free;
+}
+
+/// Whether none are to be held back.
+bool IslandStep::all_come_through() const {
+    return std::all_of(near_.begin(), near_.end(),
+                       [&](const Near& near) { return !near.began_parted() || free_share(near) >= 1.0; });
+}
+
+bool IslandStep::find_passages(double time_step) {
+    bool found = false;
+    for (const Near& near : near_) {
+        if (!near.began_parted()) continue;
+        const double share = free_share(near);
+        if (share >= 1.0) continue;
+        const Meeting met = meeting(hull(near.first, on_the_way(near.first, share)),
+                                    hull(near.second, on_the_way(near.second, share)), 4.0 * near.apart);
+        add_points(near, met, share, time_step);
+        found = true;
+    }
+    return found;
+}
+
+void IslandStep::part_pairs(double time_step, int round, bool& moved) {
+    for (const Near& near : near_) {
+        Mover& a = movers_[near.first];
+        Mover& b = movers_[near.second];
+        const double radius = std::min(bodies_[near.first].radius, bodies_[near.second].radius);
+        const bool began_parted = near.began_parted();
+        const double free = began_parted ? free_share(near) : 1.0;
+        if (began_parted && free >= 1.0) continue;
+        if (!began_parted && round > 0) continue;
+        ++work_;
+        const PairSeparation there = pair_separation(hull(near.first, on_the_way(near.first, free)),
+                                            hull(near.second, on_the_way(near.second, free)), near.apart);
+        const Vector3d normal = began_parted && there.overlap ? near.normal : there.normal;
+        const double gap = gap_along(hull(near.first, a.place).hull, hull(near.second, b.place).hull, normal);
+        double way = parted * near.apart - gap;
+        if (way <= 0.0 || (began_parted && way > most_shift * radius)) continue;
+        if (!began_parted)
+            way = std::min({way, most_separation * near.apart, time_step * separation_speed * radius});
+        const auto yields = [&](std::size_t i) {
+            return normal.dot(bodies_[i].inverse_inertia.bottomRightCorner<3, 3>() * normal);
+        };
+        const double share = yields(near.first) / (yields(near.first) + yields(near.second));
+        a.shift += share * way * normal;
+        a.place.position += share * way * normal;
+        b.shift -= (1.0 - share) * way * normal;
+        b.place.position -= (1.0 - share) * way * normal;
+        a.pressed = b.pressed = true;
+        moved = true;
+        keep_angular_momentum(near, share * way * normal, (share - 1.0) * way * normal);
+    }
+}
+
+/// Gives two that were moved apart the angular momentum that their moving took, as a turning of both as one
+/// body about where they are: it changes nothing between them. It takes energy as a rule; else it is let be.
+void IslandStep::keep_angular_momentum(const Near& near, const Vector3d& first_shift,
+                                       const Vector3d& second_shift) {
+    struct Part {
+        std::size_t number;
+        Vector3d shift;
+        Matrix6d by_rotation = Matrix6d::Identity();  ///< velocity by that of both as one body
+        double gain = 0.0;                            ///< J
+    };
+    Part parts[] = {{near.first, first_shift}, {near.second, second_shift}};
+    const Vector3d about = movers_[near.first].place.position;
+    Matrix6d inertia_of_both = Matrix6d::Zero();
+    Vector6d missed = Vector6d::Zero();
+    for (Part& part : parts) {
+        const Mover& mover = movers_[part.number];
+        const Matrix6d inertia = in_world(island_bodies_[part.number].body->inertia, mover.place.orientation);
+        part.by_rotation.bottomLeftCorner<3, 3>() = -skew(mover.place.position - about);
+        inertia_of_both += part.by_rotation.transpose() * inertia * part.by_rotation;
+        missed.head<3>() -= part.shift.cross((inertia * mover.velocity).tail<3>());
+    }
+    const Vector6d turning = Eigen::LLT<Matrix6d>(inertia_of_both).solve(missed);
+    double gain = 0.0;
+    for (Part& part : parts) {
+        const Mover& mover = movers_[part.number];
+        part.gain = energy_of(part.number, mover.place, mover.velocity + part.by_rotation * turning) -
+                    energy_of(part.number, mover.place, mover.velocity);
+        gain += part.gain;
+    }
+    if (gain > 0.0) return;
+    for (const Part& part : parts) {
+        movers_[part.number].velocity += part.by_rotation * turning;
+        movers_[part.number].energy += part.gain;
+    }
+}
+
+void IslandStep::find_overlaps() {
+    for (Mover& mover : movers_) mover.overlaps = false;
+    for (const Near& near : near_) {
+        const CollisionHull first = hull(near.first, movers_[near.first].place);
+        const CollisionHull second = hull(near.second, movers_[near.second].place);
+        if (gap_along(first.hull, second.hull, near.normal) > 0.0) continue;
+        if (!pair_separation(first, second, 0.0).overlap) continue;
+        movers_[near.first].overlaps = movers_[near.second].overlaps = true;
+    }
+}
+
+void IslandStep::hold_back() {
+    bool again = true;
+    while (again) {
+        again = false;
+        for (const Near& near : near_) {
+            Mover& a = movers_[near.first];
+            Mover& b = movers_[near.second];
+            if (!near.began_parted() || (a.held == 2 && b.held == 2)) continue;
+            const double share = free_share(near);
+            if (share >= 1.0) continue;
+            const BodyPlace places[] = {on_the_way(near.first, share), on_the_way(near.second, share)};
+            // As far as they come freely; where that is in another's way, not at all.
+            for (Mover* mover : {&a, &b}) {
+                mover->held = mover->held == 0 && share > 0.0 ? 1 : 2;
+                mover->place = mover->held == 2 ? mover->before : places[mover == &a ? 0 : 1];
+                mover->pressed = true;
+            }
+            again = true;
+        }
+    }
+}
+
+}  // namespace samara

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <vector>
+
+#include "samara/core/kernel/triple.hpp"
+#include "samara/core/physics/body_physics.hpp"
+
+namespace samara {
+
+/// What one load brings, of one cache line.
+struct alignas(4 * sizeof(double)) FourNumbers {
+    double numbers[4];
+};
+
+/// Rows of numbers over the octahedral map of directions and the logarithm of the Reynolds number
+/// (load_tables.hpp), as the step reads them: each node's numbers side by side.
+struct DirectionTable {
+    int width = 4;                            ///< numbers a node, a multiple of four
+    int side = 3;                             ///< nodes a side of the map
+    bool turned = false;                      ///< whether the map's axes are not the body's
+    Square<double> to_map_axes{};             ///< body axes -> map axes
+    std::vector<double> reynolds_numbers;     ///< ascending
+    std::vector<double> logarithms;           ///< of them
+    std::vector<double> inverse_differences;  ///< between neighbours of these
+    std::vector<FourNumbers> rows;            ///< ((plane * side + row) * side + column) * width / 4
+
+    [[nodiscard]] int planes() const { return static_cast<int>(logarithms.size()); }
+    [[nodiscard]] const double* numbers() const { return reinterpret_cast<const double*>(rows.data()); }
+};
+
+/// A part of the surface, which feels its part of a steady force at its own velocity.
+struct LoadPatch {
+    Triple<double> place{};  ///< over l, from the middle of all
+    double share = 1;        ///< all add up to one
+    DirectionTable force;    ///< on its own faces; without rows it feels its share of the whole's
+};
+
+/// What the step needs of a body, worked out once. Body axes about the centroid; lengths are in the power of
+/// two l (m) nearest to the body's L, so that they convert without rounding, and masses in m*, a third of the
+/// trace of K's linear block: all numbers are near one.
+struct StepConstants {
+    double length = 1;                    ///< l (m)
+    double inverse_length = 1;            ///< 1/m
+    double inverse_eddy_length = 1;       ///< 1/L (1/m): the turbulence's rotation is its velocity over L
+    double mass_scale = 1;                ///< m* (kg)
+    bool off_center = false;              ///< whether the centre of mass is not the centroid
+    bool coupled = false;                 ///< whether K has a block of (omega, v) about the centroid
+    Triple<double> center_of_buoyancy{};  ///< m, from the centre of mass to the centroid
+    Square<double> inertia_angular{};     ///< K's block of (omega, omega), over m* l^2
+    Square<double> inertia_coupling{};    ///< of (omega, v), over m* l
+    Square<double> directed_inertia{};    ///< of (v, v), over m*, less the unit matrix: its trace is zero
+    Triple<double> inverse_angular{};     ///< one over the diagonals, for the drag's stiffness
+    Triple<double> inverse_linear{};
+    double weight = 0;               ///< (m - rho_f V) / (m* l): times gravity the force
+    Triple<double> weight_moment{};  ///< m r / (m* l^2), r from the centroid to the centre of mass
+    double tip_square = 0;           ///< (L / (2 l))^2
+    double munk_rate = 0;            ///< times the speed: the rate at which the Munk moment turns the body
+
+    Loads loads = Loads::none;
+    double steady_factor = 0;           ///< rho_f A l / (2 m*)
+    double reynolds_factor = 0;         ///< L l / nu (s)
+    DirectionTable loads_by_direction;  ///< force, 0, moment L/l less what patches make of
+                                        ///< it, 0; or the area over A and zeros
+    std::vector<LoadPatch> patches;     ///< one at least
+    double drag_coefficient = 0;
+    double twice_lift_coefficient = 0;
+    Triple<double> normal{};
+    Triple<double> center_of_pressure{};  ///< over l, from the centroid
+
+    bool wake_forms = false;                 ///< whether the loads wait for the wake to form
+    Square<double> squared_formation_way{};  ///< ImmersedBody's, over l^2
+    double settling_over_formation = 1;      ///< the way of forming over that of settling
+    bool has_spin_about_symmetry = false;    ///< whether the next is not zero
+    Square<double> spin_about_symmetry{};    ///< ImmersedBody's
+    Square<double> potential_transport{};  ///< rho_f (M - T) / m* over steady_factor, less its isotropic part
+    Square<double> directed_transport{};   ///< rho_f T / m* less its isotropic part
+    double isotropic_transport = 0;        ///< a third of the trace of rho_f T / m*
+    bool transports_rotation = false;      ///< whether the next two are not zero
+    Square<double> transport_of_rotation{};  ///< t rho_f J / (m* l^2)
+    Square<double> coupling_transport{};     ///< t rho_f C / (m* l)
+    Square<double> drag_in_motion{};         ///< rho_f l C_m A / (2 m*)
+    Square<double> rotational_drag{};        ///< rho_f C_w D / (2 m* l)
+    bool has_roll_drag = false;              ///< whether the next is asked for
+    Square<double> lacking_roll_drag{};      ///< rho_f R / (2 m* l)
+    bool has_side_pressure = false;          ///< whether the next is not zero: of a wake that fluctuates
+    Square<double> side_pressure{};  ///< wake_side_pressure S/A steady_factor, S the projected areas (m^2)
+    bool has_spin = false;           ///< whether the next two are not zero
+    Square<double> drag_in_spin{};   ///< rho_f l C_s A / (2 m*)
+    Square<double> rotational_drag_in_spin{};  ///< rho_f C_r D / (2 m* l)
+    double half_length = 0;                    ///< c / l
+    double creeping_turn = 0;                  ///< pi mu L^3 / (m* l^2) (1/s)
+    double creeping_drag = 0;                  ///< 3 pi mu L / m* (1/s); 0 of loads by coefficients
+    double creeping_fades = 0;                 ///< 1/Re where that has faded out; 0: nowhere
+
+    Turbulence turbulence = Turbulence::none;
+    Langevin langevin = Langevin::sampled_turbulence;  ///< wake: of tables alone
+    DirectionTable turbulence_by_direction;            ///< k, epsilon l/L, 0, 0
+    double turbulent_kinetic_energy = 0;               ///< m^2/s^2, where constant
+    double dissipation_rate = 0;                       ///< m^2/s^3, where constant
+};
+
+}  // namespace samara
