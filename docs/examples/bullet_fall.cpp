@@ -31,7 +31,7 @@ struct Link {
     std::unique_ptr<btCollisionShape> shape;
     std::unique_ptr<btRigidBody> rigid;  // its frame: the centre of mass, with the shape's axes
     samara_mass_properties own;
-    Six by_contacts{};  // by how much joints changed its velocity in the last step
+    Six by_joints{};  // by how much joints changed its velocity in the last step
 };
 
 struct Host {
@@ -141,7 +141,7 @@ void meet_fluid(Host& host, std::size_t number) {
 
     const btVector3 turning = body.getAngularVelocity();
     const btVector3 gyroscopic = turning.cross(inertia * turning);
-    Six impulse = momentum_of(body, link.by_contacts);
+    Six impulse = momentum_of(body, link.by_joints);
     for (std::size_t row = 0; row < 6; ++row) {
         impulse[row] += host.step * (load.wrench[row] - (row < 3 ? gyroscopic[int(row)] : 0.0));
         for (std::size_t k = 0; k < 6; ++k) whole[row][k] += host.step * load.damping[6 * row + k];
@@ -149,7 +149,7 @@ void meet_fluid(Host& host, std::size_t number) {
     impulse[5] -= host.step * link.own.mass * 9.81;
     const Six change = solved(whole, impulse);
     Six velocity = velocity_of(body);
-    for (std::size_t row = 0; row < 6; ++row) velocity[row] += change[row] - link.by_contacts[row];
+    for (std::size_t row = 0; row < 6; ++row) velocity[row] += change[row] - link.by_joints[row];
     body.setAngularVelocity(vector_of(velocity.data()));
     body.setLinearVelocity(vector_of(velocity.data() + 3));
 }
@@ -161,8 +161,7 @@ void step_host(Host& host) {
     host.world.stepSimulation(btScalar(host.step), 0);
     for (std::size_t i = 0; i < host.links.size(); ++i) {
         const Six after = velocity_of(*host.links[i].rigid);
-        for (std::size_t row = 0; row < 6; ++row)
-            host.links[i].by_contacts[row] = after[row] - before[i][row];
+        for (std::size_t row = 0; row < 6; ++row) host.links[i].by_joints[row] = after[row] - before[i][row];
     }
     // Turbulence and wind go on; where samara took the bodies meanwhile is of no account.
     check(samara_advance_to(host.fluid, ++host.steps * host.step, error, sizeof error));
