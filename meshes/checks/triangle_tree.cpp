@@ -49,6 +49,7 @@ TriangleTree::TriangleTree(std::vector<Vector3d> vertices, std::vector<Triangle>
         order_.resize(boxes.size(), static_cast<std::uint32_t>(t));
     }
     std::vector<Vector3d> centres;
+    centres.reserve(boxes.size());
     for (const Box& box : boxes) centres.push_back(box.center());
     std::vector<std::uint32_t> pieces;
     tree_ = BoxTree(boxes, centres, pieces);

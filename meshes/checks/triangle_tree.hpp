@@ -23,9 +23,10 @@ void visit_middles(const Vector3d& a, const Vector3d& b, const Vector3d& c, doub
     const int n = 1 + static_cast<int>(std::sqrt(wanted));
     for (int i = 0; i < n; ++i) {
         for (int j = 0; j < 2 * (n - i) - 1; ++j) {
+            const int column = j / 2;
             const double third = (j % 2 == 0 ? 1.0 : 2.0) / 3.0;
             const double u = (i + third) / n;
-            const double v = (j / 2 + third) / n;
+            const double v = (column + third) / n;
             visit(Vector3d((1.0 - u - v) * a + u * b + v * c), n * n);
         }
     }

@@ -8,6 +8,7 @@
 #include "samara/analysis/metrics/description.hpp"
 #include "samara/analysis/metrics/tilt.hpp"
 #include "samara/core/base/error.hpp"
+#include "samara/core/surface/curved_surface.hpp"
 #include "samara/export/shaded_mesh.hpp"
 #include "samara/formats/vector_json.hpp"
 #include "samara/motion/inclination.hpp"

@@ -6,11 +6,11 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "samara/base/version.hpp"
 #include "samara/commands/shared/arguments.hpp"
 #include "samara/commands/shared/print.hpp"
 #include "samara/commands/shared/progress.hpp"
 #include "samara/core/base/error.hpp"
+#include "samara/core/base/version.hpp"
 #include "samara/core/body/body_file.hpp"
 #include "samara/pictures/draw.hpp"
 #include "samara/reports/body_parts.hpp"

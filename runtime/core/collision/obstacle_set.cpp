@@ -107,6 +107,7 @@ void ObstacleFaces::grow_tree() {
     std::vector<std::uint32_t> order;
     tree_ = BoxTree(boxes, middles, order);
     std::vector<ObstacleTriangle> ordered;
+    ordered.reserve(order.size());
     for (const std::uint32_t number : order) ordered.push_back(triangles_[number]);
     triangles_ = std::move(ordered);
 }
