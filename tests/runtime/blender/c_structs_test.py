@@ -23,7 +23,7 @@ TYPES = {"size_t": ctypes.c_size_t, "double": ctypes.c_double, "uint64_t": ctype
 
 
 def header():
-    with open(os.path.join(ROOT, "runtime", "samara.h"), encoding="utf-8") as file:
+    with open(os.path.join(ROOT, "runtime", "core", "c_interface", "samara.h"), encoding="utf-8") as file:
         return re.sub(r"/\*.*?\*/", "", file.read(), flags=re.DOTALL)
 
 
