@@ -15,7 +15,7 @@ inline constexpr double motion_onset = 0.03;
 /// along it (docs/theory, "A wake that forms"; chosen in docs/studies/falls, "The start").
 inline constexpr double wake_formation_ways = 1.0;
 
-/// Over how long a way the steady own moment comes back behind a body that no longer swings, over its extent
+/// Over how long a way the steady translation's own moment comes back behind a body that no longer swings, over its extent
 /// along it. Usual: so that from rest it is there after the 2.3 extents that steady translations by full CFD
 /// have in the median. Of bodies whose transport was identified from falls: these lack the steady moment
 /// (docs/studies/falls, "The start"); where all axes are alike, as a cube's, transport turns nothing and the

@@ -186,7 +186,8 @@ bool ends_in_corners(const CollisionHull& of, const Vector3d& direction) {
 
 }  // namespace
 
-PairSeparation pair_separation(const CollisionHull& first, const CollisionHull& second, double enough) noexcept {
+PairSeparation pair_separation(const CollisionHull& first, const CollisionHull& second,
+                               double enough) noexcept {
     Vector3d way = middle_of(first.hull) - middle_of(second.hull);
     if (way.norm() > 0.0) {
         const Vector3d normal = way.normalized();

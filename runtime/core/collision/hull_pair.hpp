@@ -39,7 +39,8 @@ struct PairSeparation {
 
 /// The plane that leaves the widest gap, or one with a gap above `enough` (m), found sooner. Never throws or
 /// allocates.
-PairSeparation pair_separation(const CollisionHull& first, const CollisionHull& second, double enough) noexcept;
+PairSeparation pair_separation(const CollisionHull& first, const CollisionHull& second,
+                               double enough) noexcept;
 
 /// The gap (m) between two hulls along a unit vector from the second to the first.
 inline double gap_along(const PlacedHull& first, const PlacedHull& second, const Vector3d& normal) noexcept {

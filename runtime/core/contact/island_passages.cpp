@@ -198,8 +198,9 @@ void IslandStep::part_pairs(double time_step, int round, bool& moved) {
         if (began_parted && free >= 1.0) continue;
         if (!began_parted && round > 0) continue;
         ++work_;
-        const PairSeparation there = pair_separation(hull(near.first, on_the_way(near.first, free)),
-                                            hull(near.second, on_the_way(near.second, free)), near.apart);
+        const PairSeparation there =
+            pair_separation(hull(near.first, on_the_way(near.first, free)),
+                            hull(near.second, on_the_way(near.second, free)), near.apart);
         const Vector3d normal = began_parted && there.overlap ? near.normal : there.normal;
         const double gap = gap_along(hull(near.first, a.place).hull, hull(near.second, b.place).hull, normal);
         double way = parted * near.apart - gap;

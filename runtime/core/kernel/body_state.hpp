@@ -47,7 +47,7 @@ struct TurbulenceLevel {
 };
 
 /// The shares of what separation brings (docs/theory, "A wake that forms"): of the transport, by the wake
-/// that has formed, and of the steady own moment, which is there where the body does not swing.
+/// that has formed, and of the steady translation's own moment, which is there where the body does not swing.
 struct WakeShares {
     double transport = 1.0;
     double moment = 1.0;
