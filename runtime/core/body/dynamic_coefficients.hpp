@@ -15,11 +15,11 @@ inline constexpr double motion_onset = 0.03;
 /// along it (docs/theory, "A wake that forms"; chosen in docs/studies/falls, "The start").
 inline constexpr double wake_formation_ways = 1.0;
 
-/// Over how long a way the steady translation's own moment comes back behind a body that no longer swings, over its extent
-/// along it. Usual: so that from rest it is there after the 2.3 extents that steady translations by full CFD
-/// have in the median. Of bodies whose transport was identified from falls: these lack the steady moment
-/// (docs/studies/falls, "The start"); where all axes are alike, as a cube's, transport turns nothing and the
-/// steady moment is all there is.
+/// Over how long a way the steady translation's own moment comes back behind a body that no longer swings,
+/// over its extent along it. Usual: so that from rest it is there after the 2.3 extents that steady
+/// translations by full CFD have in the median. Of bodies whose transport was identified from falls: these
+/// lack the steady moment (docs/studies/falls, "The start"); where all axes are alike, as a cube's, transport
+/// turns nothing and the steady moment is all there is.
 inline constexpr double usual_settling_length = 0.8;
 inline constexpr double settling_length_of_falls = 20.0;
 inline constexpr double settling_length_of_alike_axes = 5.0;

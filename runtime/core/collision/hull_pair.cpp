@@ -277,7 +277,7 @@ std::vector<HullFace> hull_faces(const ContactPoints& points) {
         return std::any_of(faces.begin(), faces.end(),
                            [&](const HullFace& face) { return face.normal.dot(normal) > 1.0 - 1e-9; });
     };
-    const auto look_at = [&](Vector3d normal, const Vector3d& place) {
+    const auto look_at = [&](const Vector3d& normal, const Vector3d& place) {
         if (is_known(normal)) return;
         Sides sides = sides_of(corners, normal, normal.dot(place), flat * radius);
         if (!sides.all_below) return;

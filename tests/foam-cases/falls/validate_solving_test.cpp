@@ -356,15 +356,18 @@ TEST_F(Falls, OneThatBlowsUpInAllAttemptsIsRefusedInOneLine) {
     const std::string templates = templates_with("accelerationRelaxation 1;", false);
     const test::ProgramRun run = validate(templates);
     EXPECT_EQ(run.status, 1);
-    EXPECT_TRUE(test::is_one_line(run.fault)) << run.fault;
-    EXPECT_THAT(run.fault, HasSubstr("out.cases/fall_00: blew up in all attempts"));
+    // Progress, on a machine that is busy, stands before it.
+    const std::string error =
+        run.fault.substr(std::min(run.fault.find("samara validate:"), run.fault.size()));
+    EXPECT_TRUE(test::is_one_line(error)) << run.fault;
+    EXPECT_THAT(error, HasSubstr("out.cases/fall_00: blew up in all attempts"));
     EXPECT_THAT(names_of_attempts(), ElementsAre("as planned", "half the step", "a quarter of the step"));
     EXPECT_FALSE(fs::exists(folder_.path() / "out.h5"));
     // Nothing would be otherwise the next time.
     const auto time = fs::last_write_time(fall_ / "attempts.json");
     const test::ProgramRun again = validate(templates);
     EXPECT_EQ(again.status, 1);
-    EXPECT_EQ(again.fault, run.fault);
+    EXPECT_EQ(again.fault, error);
     EXPECT_EQ(fs::last_write_time(fall_ / "attempts.json"), time);
 }
 

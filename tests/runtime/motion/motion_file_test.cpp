@@ -4,9 +4,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
-#include "samara/analysis/metrics/description.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/files/content_hash.hpp"
 #include "samara/core/files/hdf5_reader.hpp"
@@ -20,7 +18,6 @@ namespace samara {
 namespace {
 
 using test::TemporaryFolder;
-using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 Motion two_bodies() {
@@ -298,22 +295,6 @@ TEST(MotionFile, IsNotWrittenFromAMotionThatBreaksItsRules) {
     EXPECT_THAT(error([](Motion& m) { m.bodies[0].surface.corners.clear(); }), HasSubstr("triangles"));
     EXPECT_THAT(error([](Motion& m) { m.times.clear(); }), HasSubstr("no frame"));
     EXPECT_FALSE(std::filesystem::exists(folder / "motion.h5"));
-}
-
-TEST(MotionDescription, NamesBodiesRunsAndMeasures) {
-    const Motion motion = two_bodies();
-    std::vector<BodyMeasures> measures;
-    for (const BodyMotion& body : motion.bodies) measures.push_back(measure_all(motion, body));
-    const nlohmann::json json = describe_motion(motion, measures);
-    EXPECT_EQ(json["kind"], "motion");
-    EXPECT_EQ(json["runs"], 2);
-    EXPECT_EQ(json["seed"], motion.seed);
-    EXPECT_EQ(json["bodies"][1]["copies"], 2);
-    EXPECT_EQ(json["bodies"][0]["name"], "z first");
-    EXPECT_TRUE(json["bodies"][0]["descent_speed"].is_number());
-    const std::string text = describe_motion_text(motion, measures);
-    EXPECT_THAT(text, AllOf(HasSubstr("body z first"), HasSubstr("2 copies"), HasSubstr("m/s")));
-    EXPECT_EQ(text.back(), '\n');
 }
 
 }  // namespace
