@@ -335,7 +335,8 @@ SAMARA_API samara_status samara_set_obstacle_keys(samara_simulation* simulation,
  *     "position = [0, 0, 1]\n" ...
  *
  * Gusts without a seed have the settings' own. The path of a [file] is taken from the working folder; after
- * its last time that stays, unless it repeats. An empty text: none. At any time; bodies keep their motion. */
+ * its last time that stays, unless it repeats. An empty text: none. At any time; bodies keep their motion.
+ * In libsamara alone: libsamara-core, the core by itself, reads no TOML. */
 SAMARA_API samara_status samara_set_wind(samara_simulation* simulation, const char* wind, char* error,
                                          size_t error_size);
 

@@ -58,8 +58,8 @@ struct ImmersedBody : TouchingBody {
     std::vector<double> projected_areas;
     std::optional<LoadTables> tables;  ///< where loads or turbulence are from tables
     DynamicCoefficients dynamic;
-    /// m^4, body axes: what the rotational drag of `dynamic` is at least about the way (docs/theory, "Turning
-    /// about the way"); zero beside loads that know no such term.
+    /// m^4, body axes: what the rotational drag of `dynamic` is at least about the direction of motion
+    /// (docs/theory, "Rotation about the direction of motion"); zero beside loads that know no such term.
     Matrix3d roll_drag = Matrix3d::Zero();
     std::vector<SteadyPatch> patches{SteadyPatch()};  ///< of the surface; one stands for the whole
 

@@ -142,7 +142,8 @@ void set_transport(const ImmersedBody& body, double mass, double length, StepCon
     c.coupling_transport = square(share / length * body.added_coupling);
 }
 
-/// What the rotational drag of falls, in the mean over the axes, lacks of the least about the way (m^4).
+/// What the rotational drag of falls, in the mean over the axes, lacks of the least about the direction of
+/// motion (m^4).
 Matrix3d lacking_roll_drag(const ImmersedBody& body) {
     if (body.roll_drag.isZero(0.0)) return Matrix3d::Zero();
     const double share = body.dynamic.rotational_drag.trace() / body.roll_drag.trace();

@@ -193,7 +193,8 @@ HWY_INLINE V share_of(V a, V b) {
     return a / larger(V(tiny), a + b);
 }
 
-/// Adds what the rotational drag of falls lacks about the way (docs/theory, "Turning about the way").
+/// Adds what the rotational drag of falls lacks about the direction of motion (docs/theory, "Rotation about
+/// the direction of motion").
 template <class V>
 HWY_INLINE void add_roll_drag(const StepConstants& c, const Heading<V>& heading, LoadBlocks<V>& blocks) {
     const Triple<V>& way = heading.direction;

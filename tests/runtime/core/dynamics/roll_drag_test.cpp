@@ -1,4 +1,5 @@
-// What drags a turning about the way (docs/theory, "Turning about the way").
+// What drags a rotation about the direction of motion (docs/theory, "Rotation about the direction of
+// motion").
 
 #include <random>
 
@@ -24,7 +25,7 @@ ImmersedBody with_rotational_drag(double share) {
     return body;
 }
 
-/// The same loads but for the drag about the way.
+/// The same loads but for the drag about the direction of motion.
 ImmersedBody without_roll_drag(ImmersedBody body) {
     body.roll_drag.setZero();
     prepare(body);
