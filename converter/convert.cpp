@@ -111,9 +111,9 @@ Conversion convert_folder(const std::filesystem::path& folder,
         require_enough_directions(plan, conversion.body.symmetry, reduction);
         conversion.cases = std::move(reduction.cases);
         conversion.body.tables = make_tables(plan, conversion.body.symmetry, conversion);
-    } catch (const Error& fault) {
+    } catch (const Error& error) {
         throw Error(fmt::format(
-            "{}: {}; {}", (folder / "plan.json").string(), fault.what(),
+            "{}: {}; {}", (folder / "plan.json").string(), error.what(),
             plan.solved_by_user ? "solve what is missing and add it to 'cases'" : "run 'samara bake' again"));
     }
     conversion.left_out = std::move(reduction.left_out);

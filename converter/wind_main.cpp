@@ -37,14 +37,14 @@ double largest_speed(const WindGrid& grid) {
     return largest;
 }
 
-void refuse(const Arguments& arguments, const std::vector<std::string>& options, const std::string& whose) {
+void reject(const Arguments& arguments, const std::vector<std::string>& options, const std::string& whose) {
     for (const std::string& option : options) {
         if (arguments.given(option)) throw Error(fmt::format("{}: is for {}", option, whose));
     }
 }
 
 WindGrid of_vdb_files(Request& request, const Arguments& arguments) {
-    refuse(arguments, {"--box", "--latest"}, "a case of OpenFOAM");
+    reject(arguments, {"--box", "--latest"}, "a case of OpenFOAM");
     std::vector<std::filesystem::path> files;
     for (const std::string& input : request.inputs) {
         if (std::filesystem::path(input).extension() != ".vdb") {
@@ -74,7 +74,7 @@ Eigen::AlignedBox3d box_of(const std::string& words) {
 
 WindGrid of_case(const Request& request, const Arguments& arguments) {
     if (request.inputs.size() > 1) throw Error("INPUT: give one case of OpenFOAM alone");
-    refuse(arguments, {"--grid", "--frame-rate", "--voxel-size"}, ".vdb files");
+    reject(arguments, {"--grid", "--frame-rate", "--voxel-size"}, ".vdb files");
     if (!request.vdb.spacing) throw Error("--spacing: is missing; give the metres between the wind's nodes");
     Progress progress("reading the wind", "times");
     FoamWindOptions options;

@@ -73,13 +73,13 @@ nlohmann::json plan_body(const BakeRequest& request, const BakePreparation& prep
     }
     const ScenePlan& plan = *preparation.scene_plan;
     const std::vector<VisitedDirection> places =
-        visited_directions(preparation.flight.visits, preparation.body.symmetry, plan);
-    const RegimeCounts regimes = preparation.flight.regimes();
+        visited_directions(preparation.simulation.visits, preparation.body.symmetry, plan);
+    const RegimeCounts regimes = preparation.simulation.regimes();
     json["regime"] = name_of(regimes.commonest());
     json["visited"] = visits_as_json(places);
     json["whole_grid"] = cost_as_json(whole_grid(plan, false));
     json["symmetric_grid"] = cost_as_json(whole_grid(plan, true));
-    picture = plan_picture(request.name, preparation.flight.visits, preparation.body.symmetry, plan);
+    picture = plan_picture(request.name, preparation.simulation.visits, preparation.body.symmetry, plan);
     if (quiet) return json;
     const GridCost all = whole_grid(plan, false);
     const GridCost wedge = whole_grid(plan, true);

@@ -139,11 +139,11 @@ Body make_body(const std::filesystem::path& shape, const MeshOptions& options,
         mesh_triangles(body, shape, options, progress);
     }
     body.source = source_line(shape, options, body.surface.order());
-    if (const std::string fault = fault_of(body); !fault.empty()) {
+    if (const std::string error = error_of(body); !error.empty()) {
         throw Error(
             fmt::format("{}: {}; give the metres for one unit of the file: 'samara mesh --scale', or scale "
                         "beside its shape in a scene",
-                        shape.string(), fault));
+                        shape.string(), error));
     }
     return body;
 }

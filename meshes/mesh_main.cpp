@@ -39,7 +39,7 @@ nlohmann::json summary(const Body& body, const std::string& output, double secon
             {"surface_area", moments.surface_area},
             {"second_moments", rows(moments.second_moments)},
             {"symmetry",
-             {{"kind", samara::name_of(body.symmetry.kind)},
+             {{"kind", samara::name_of(body.symmetry.type)},
               {"elements", body.symmetry.elements.size()},
               {"tolerance", body.symmetry.tolerance}}},
             {"shape_error",

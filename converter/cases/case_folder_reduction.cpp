@@ -87,7 +87,7 @@ FolderReduction reduce_folder(const std::filesystem::path& folder, const CasePla
             reduction.left_out.push_back({planned.name, "is not solved yet"});
         }
     }
-    if (!missing.empty() && unsolved == UnsolvedCases::refuse) throw not_solved(folder, plan, missing);
+    if (!missing.empty() && unsolved == UnsolvedCases::reject) throw not_solved(folder, plan, missing);
 
     Shells shells;
     for (const PlannedCase* const planned : solved) {

@@ -21,7 +21,7 @@ struct FolderReduction {
 };
 
 /// What becomes of cases that are neither solved nor failed.
-enum class UnsolvedCases { refuse, leave_out };
+enum class UnsolvedCases { reject, leave_out };
 
 /// Reduces every case of the plan (reduce_case), each with the shell of the mesh FOLDER/MESH that it names,
 /// or of its own constant/polyMesh where there is no such folder; a mesh is read once. A case
@@ -31,7 +31,7 @@ enum class UnsolvedCases { refuse, leave_out };
 /// failed (the message names the first).
 FolderReduction reduce_folder(const std::filesystem::path& folder, const CasePlan& plan,
                               const std::function<void(std::size_t done, std::size_t total)>& progress = {},
-                              UnsolvedCases unsolved = UnsolvedCases::refuse);
+                              UnsolvedCases unsolved = UnsolvedCases::reject);
 
 /// Why the case or fall FOLDER/NAME failed, by its failed.json or that of FOLDER/MESH; nothing where neither
 /// is there, or it was solved after all. Throws Error where that file is damaged.

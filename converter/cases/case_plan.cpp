@@ -20,7 +20,7 @@
 namespace samara {
 namespace {
 
-Error fault(const std::filesystem::path& file, const std::string& what) {
+Error error(const std::filesystem::path& file, const std::string& what) {
     return Error(fmt::format(
         "{}: {}; make the cases again with 'samara bake', or, where the plan is yours, correct it",
         file.string(), what));
@@ -31,7 +31,7 @@ nlohmann::json read_json(const std::filesystem::path& file) {
     try {
         return parse_json(bytes);
     } catch (const Error& reason) {
-        throw fault(file, reason.what());
+        throw error(file, reason.what());
     }
 }
 
@@ -124,16 +124,16 @@ CasePlan as_plan(const nlohmann::json& values, const std::filesystem::path& fold
 void check_case(const PlannedCase& planned) {
     require_inside(planned.name, "case");
     require_inside(planned.mesh, "mesh");
-    const auto refuse = [&](const char* what) {
+    const auto reject = [&](const char* what) {
         return Error(fmt::format("the {} of case {} is not positive", what, planned.name));
     };
     if (!(std::abs(planned.direction.norm() - 1.0) < 1e-6)) {
         throw Error(fmt::format("the direction of case {} is no unit vector", planned.name));
     }
-    if (!(planned.reynolds_number > 0.0)) throw refuse("Reynolds number");
-    if (!(planned.scales.length > 0.0)) throw refuse("length");
-    if (!(planned.scales.speed > 0.0)) throw refuse("speed");
-    if (!(planned.scales.density > 0.0)) throw refuse("density");
+    if (!(planned.reynolds_number > 0.0)) throw reject("Reynolds number");
+    if (!(planned.scales.length > 0.0)) throw reject("length");
+    if (!(planned.scales.speed > 0.0)) throw reject("speed");
+    if (!(planned.scales.density > 0.0)) throw reject("density");
 }
 
 bool are_of_one_flow(const PlannedCase& a, const PlannedCase& b) {
@@ -233,9 +233,9 @@ CasePlan read_case_plan(const std::filesystem::path& folder) {
         check(plan);
         return plan;
     } catch (const nlohmann::json::exception& reason) {
-        throw fault(file, fmt::format("an entry is missing or of the wrong kind ({})", reason.what()));
+        throw error(file, fmt::format("an entry is missing or of the wrong kind ({})", reason.what()));
     } catch (const Error& reason) {
-        throw fault(file, reason.what());
+        throw error(file, reason.what());
     }
 }
 
@@ -245,9 +245,9 @@ namespace fs = std::filesystem;
 
 /// Where a link leads in the end, whether or not anything is there; empty for one that leads to itself.
 fs::path end_of(const fs::path& link) {
-    std::error_code fault;
-    const fs::path end = fs::weakly_canonical(link.parent_path() / fs::read_symlink(link, fault), fault);
-    return fault ? fs::path() : end;
+    std::error_code error;
+    const fs::path end = fs::weakly_canonical(link.parent_path() / fs::read_symlink(link, error), error);
+    return error ? fs::path() : end;
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ struct CaseSource {
         if (plan.solved_by_user) return "solve it again, or take it out of plan.json";
         return fmt::format("remove the folder {} and run 'samara bake' again", planned.name);
     }
-    [[nodiscard]] Error fault(const std::string& what) const {
+    [[nodiscard]] Error error(const std::string& what) const {
         return Error(fmt::format("{}: {}; {}", folder().string(), what, remedy()));
     }
 };
@@ -69,7 +69,7 @@ Tail tail_of(const CaseSource& source, const QuantityHistory& history, double st
             const double value = history.values[i][axis];
             if (!std::isfinite(value)) {
                 const fs::path& file = history.files.at(history.times[i]);
-                throw source.fault(fmt::format("diverged: {} holds {} at the time {:.10g}",
+                throw source.error(fmt::format("diverged: {} holds {} at the time {:.10g}",
                                                file.lexically_relative(source.folder()).string(), value,
                                                history.times[i]));
             }
@@ -88,7 +88,7 @@ Tail tail_of(const CaseSource& source, const QuantityHistory& history, double st
 void require_agreement(const CaseSource& source, const std::string& field, double in_fields,
                        double in_history, double time) {
     if (!(std::abs(in_fields - in_history) <= largest_disagreement * std::abs(in_history))) {
-        throw source.fault(fmt::format(
+        throw source.error(fmt::format(
             "the mean {} over the shell at the time {:.10g} is {:.6g} by the fields and {:.6g} by "
             "postProcessing/shell: they are of different runs",
             field, time, in_fields, in_history));
@@ -100,7 +100,7 @@ std::size_t place_of(const CaseSource& source, const QuantityHistory& history, d
     for (std::size_t i = 0; i < history.times.size(); ++i) {
         if (std::abs(history.times[i] - time) <= 1e-6 * time) return i;
     }
-    throw source.fault(
+    throw source.error(
         fmt::format("the fields were last written at the time {:.10g}, which postProcessing/shell does not "
                     "hold",
                     time));
@@ -181,7 +181,7 @@ void require_fields_agree(const CaseSource& source, const QuantityHistory& k, co
 void require_reach_of_fields(const CaseSource& source, const QuantityHistory& force) {
     const double written = last_written_time(source.folder());
     if (written <= force.times.back() * (1.0 + 1e-6)) return;
-    throw source.fault(
+    throw source.error(
         fmt::format("the fields were last written at the time {:.10g}, but postProcessing/forces ends at the "
                     "time {:.10g}",
                     written, force.times.back()));
@@ -202,7 +202,7 @@ std::vector<Tail> tails_of(const CaseSource& source, std::vector<QuantityHistory
 void require_noted(const CaseSource& source, const std::string& name, const Vector3d& mean,
                    const Vector3d& noted, double noise) {
     if ((mean - noted).norm() <= largest_drift * (noted.norm() + noise)) return;
-    throw source.fault(fmt::format(
+    throw source.error(fmt::format(
         "the mean {} over the times that count has changed by {:.3g} % since the case was solved: its "
         "history in postProcessing is damaged",
         name, 100.0 * (mean - noted).norm() / (noted.norm() + noise)));
@@ -226,7 +226,7 @@ void require_as_noted(const CaseSource& source, const nlohmann::json& provenance
         require_noted(source, "k", tails[2].mean, scalar(provenance.at("shell").at("k")), 0.0);
         require_noted(source, "epsilon", tails[3].mean, scalar(provenance.at("shell").at("epsilon")), 0.0);
     } catch (const nlohmann::json::exception& reason) {
-        throw source.fault(
+        throw source.error(
             fmt::format("in provenance.json an entry is missing or of the wrong kind ({})", reason.what()));
     }
 }
@@ -237,14 +237,14 @@ void require_as_planned(const CaseSource& source) {
     const Vector3d direction = source.plan.to_map_axes() * parameters.vector("direction");
     const double reynolds_number = parameters.number("reynoldsNumber");
     if (!((direction - planned.direction).norm() < 1e-6)) {
-        throw source.fault(
+        throw source.error(
             fmt::format("was solved for the direction ({:.6g}, {:.6g}, {:.6g}), but plan.json has ({:.6g}, "
                         "{:.6g}, {:.6g})",
                         direction.x(), direction.y(), direction.z(), planned.direction.x(),
                         planned.direction.y(), planned.direction.z()));
     }
     if (!(std::abs(reynolds_number - planned.reynolds_number) < 1e-6 * planned.reynolds_number)) {
-        throw source.fault(fmt::format("was solved for the Reynolds number {:.6g}, but plan.json has {:.6g}",
+        throw source.error(fmt::format("was solved for the Reynolds number {:.6g}, but plan.json has {:.6g}",
                                        reynolds_number, planned.reynolds_number));
     }
 }
@@ -305,18 +305,18 @@ void require_as_set_up(const CaseSource& source, Shells& shells) {
 }
 
 void require_sane(const CaseSource& source, const DirectionSample& sample, bool has_turbulence) {
-    const auto refuse = [&](const std::string& what) { return source.fault("diverged: " + what); };
+    const auto reject = [&](const std::string& what) { return source.error("diverged: " + what); };
     const double drag = -sample.entry.force.dot(sample.direction);
     if (!(drag > 0.0)) {
-        throw refuse(fmt::format("the drag coefficient is {:.4g}, not positive{}", drag,
+        throw reject(fmt::format("the drag coefficient is {:.4g}, not positive{}", drag,
                                  source.plan.solved_by_user
                                      ? ", or 'direction' in plan.json, that of the body's "
                                        "velocity, is the flow's"
                                      : ""));
     }
     if (!has_turbulence) return;
-    if (!(sample.entry.turbulent_kinetic_energy > 0.0)) throw refuse("k in the shell is not positive");
-    if (!(sample.entry.dissipation_rate > 0.0)) throw refuse("epsilon in the shell is not positive");
+    if (!(sample.entry.turbulent_kinetic_energy > 0.0)) throw reject("k in the shell is not positive");
+    if (!(sample.entry.dissipation_rate > 0.0)) throw reject("epsilon in the shell is not positive");
 }
 
 nlohmann::json read_provenance(const CaseSource& source) {
@@ -336,7 +336,7 @@ double averaging_start(const CaseSource& source, const nlohmann::json& provenanc
     if (source.planned.averaging_start) return *source.planned.averaging_start;
     if (provenance.contains("averaging_start")) {
         if (provenance["averaging_start"].is_number()) return provenance["averaging_start"].get<double>();
-        throw source.fault("'averaging_start' in provenance.json is no number");
+        throw source.error("'averaging_start' in provenance.json is no number");
     }
     return times[times.size() - (times.size() + 3) / 4];
 }
@@ -371,7 +371,7 @@ bool is_solved(const fs::path& folder) {
 SolvedCase reduce_case(const fs::path& folder, const CasePlan& plan, const PlannedCase& planned,
                        Shells& shells) {
     const CaseSource source{folder, plan, planned};
-    if (!fs::is_directory(source.folder())) throw source.fault("the case's folder is missing");
+    if (!fs::is_directory(source.folder())) throw source.error("the case's folder is missing");
     const nlohmann::json provenance = read_provenance(source);
     if (!plan.solved_by_user) require_as_planned(source);
     require_as_set_up(source, shells);

@@ -76,7 +76,7 @@ void require_whole(const std::vector<QuantityHistory>& histories, double start, 
 
 void require_plausible(const QuantityHistory& history, double start, const std::string& remedy) {
     const std::size_t first = first_index(history, start);
-    const auto refuse = [&](std::size_t i, const std::string& why) {
+    const auto reject = [&](std::size_t i, const std::string& why) {
         const double size = history.is_scalar ? history.values[i].x() : history.values[i].norm();
         throw Error(fmt::format(
             "{}: the {} {} {:.4g} at the time {:.10g}, {}; {}", history.files.at(history.times[i]).string(),
@@ -98,12 +98,12 @@ void require_plausible(const QuantityHistory& history, double start, const std::
         most_over_median * std::max(middle.norm(), history.noise) + most_over_scatter * scatter;
     for (std::size_t i = first; i < history.values.size(); ++i) {
         if (history.values[i].norm() > history.largest) {
-            refuse(i, fmt::format("beyond any flow's ({:.4g}): diverged or damaged", history.largest));
+            reject(i, fmt::format("beyond any flow's ({:.4g}): diverged or damaged", history.largest));
         }
         if (history.is_scalar && history.values[i].x() < 0.0)
-            refuse(i, "which is never negative: diverged or damaged");
+            reject(i, "which is never negative: diverged or damaged");
         if (distances[i - first] > most) {
-            refuse(i, fmt::format("far from the others (about {:.4g}): damaged, or not settled",
+            reject(i, fmt::format("far from the others (about {:.4g}): damaged, or not settled",
                                   history.is_scalar ? middle.x() : middle.norm()));
         }
     }

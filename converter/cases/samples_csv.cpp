@@ -108,8 +108,8 @@ std::vector<SolvedCase> read_samples_csv(const std::filesystem::path& file) {
         }
         try {
             cases.push_back(row_of(split(line)));
-        } catch (const Error& fault) {
-            throw Error(fmt::format("{}:{}: {}", file.string(), line_number, fault.what()));
+        } catch (const Error& error) {
+            throw Error(fmt::format("{}:{}: {}", file.string(), line_number, error.what()));
         }
     }
     if (cases.empty()) throw Error(fmt::format("{}: holds no case", file.string()));

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "samara/core/base/error.hpp"
-#include "samara/core/flight/world_pose.hpp"
+#include "samara/core/simulation/world_pose.hpp"
 #include "samara/core/surface/surface.hpp"
 
 namespace samara {

@@ -80,12 +80,12 @@ MotionParameters::MotionParameters(const Body& body, const std::vector<std::stri
     shared_.settling_length = tied_.isZero() ? settling_length_of_alike_axes : settling_length_of_falls;
     const Matrix3d added_mass = axes_.transpose() * body.kirchhoff->matrix.bottomRightCorner<3, 3>() * axes_;
     const double largest = added_mass.diagonal().maxCoeff();
-    const Vector3d turning =
+    const Vector3d rotation =
         (axes_.transpose() * rotational_drag_tensor(body.surface, body.moments.centroid) * axes_).diagonal();
     const Vector3d none = Vector3d::Zero();
     const Vector3d offsets[] = {added_mass.diagonal(), none, none};
     // A body of revolution has no rotational drag about its axis by its pressure: friction is a small share.
-    const Vector3d of_rotation = turning.cwiseMax(0.02 * turning.maxCoeff());
+    const Vector3d of_rotation = rotation.cwiseMax(0.02 * rotation.maxCoeff());
     const Vector3d units[] = {Vector3d::Constant(0.25 * largest), of_rotation, of_rotation};
     for (std::size_t t = 0; t < std::size(expectations); ++t) {
         const Expectation& expectation = expectations[t];

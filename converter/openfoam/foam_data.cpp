@@ -61,7 +61,7 @@ class DataScan {
     static bool is_digit(char c) { return c >= '0' && c <= '9'; }
     [[nodiscard]] char here() const { return place_ < text_.size() ? text_[place_] : '\0'; }
 
-    [[nodiscard]] Error fault(const std::string& what) const {
+    [[nodiscard]] Error error(const std::string& what) const {
         const auto end = text_.begin() + static_cast<std::ptrdiff_t>(std::min(place_, text_.size()));
         return Error(fmt::format("{}:{}: {}, which no solver writes there", path_.string(),
                                  1 + std::count(text_.begin(), end, '\n'), what));
@@ -101,14 +101,14 @@ class DataScan {
             if (here() == '\\') ++place_;
         }
         ++place_;
-        if (skip_blanks() && here() != ';') throw fault("holds a name in quotes");
+        if (skip_blanks() && here() != ';') throw error("holds a name in quotes");
     }
 
     void pass_token() {
         const char c = here();
         if (c == '#' || c == '$') {
             ++place_;
-            throw fault(fmt::format("holds '{}{}'", c, word()));
+            throw error(fmt::format("holds '{}{}'", c, word()));
         }
         if (c == '"') return pass_quoted();
         const std::string_view token = word();
@@ -117,11 +117,11 @@ class DataScan {
             return;
         }
         const bool names_code = std::ranges::find(names_of_code, token) != std::end(names_of_code);
-        if (names_code || token.starts_with(type_of_code)) throw fault(fmt::format("holds '{}'", token));
+        if (names_code || token.starts_with(type_of_code)) throw error(fmt::format("holds '{}'", token));
         if (is_binary_ && token.find("List<") != std::string_view::npos) {
             const BinaryValue* const value =
                 found_in(token, std::begin(values_of_lists), std::end(values_of_lists));
-            if (value == nullptr) throw fault(fmt::format("holds a binary '{}'", token));
+            if (value == nullptr) throw error(fmt::format("holds a binary '{}'", token));
             skip_values(*value);
         }
     }
@@ -135,10 +135,10 @@ class DataScan {
         std::size_t count = 0;
         const char* const last = text_.data() + text_.size();
         const auto [end, status] = std::from_chars(text_.data() + place_, last, count);
-        if (status != std::errc()) throw fault("holds a binary list without its length");
+        if (status != std::errc()) throw error("holds a binary list without its length");
         place_ = static_cast<std::size_t>(end - text_.data());
         if (!skip_blanks() || here() == '{' || (count == 0 && here() != '(')) return;
-        if (here() != '(') throw fault("holds a binary list that does not begin");
+        if (here() != '(') throw error("holds a binary list that does not begin");
         const std::size_t bytes = value.labels * label_bytes_ + value.scalars * scalar_bytes_;
         const std::size_t left = text_.size() - place_ - 1;
         if (count > left / bytes) {
@@ -146,7 +146,7 @@ class DataScan {
             return;
         }
         place_ += 1 + count * bytes;
-        if (place_ < text_.size() && here() != ')') throw fault("holds a binary list that does not end");
+        if (place_ < text_.size() && here() != ')') throw error("holds a binary list that does not end");
     }
 
     /// The value of an entry of the header.
@@ -160,7 +160,7 @@ class DataScan {
             word();
         }
         const std::string_view value = text_.substr(start, place_ - start);
-        if (skip_blanks() && here() != ';') throw fault("holds a header of another form");
+        if (skip_blanks() && here() != ';') throw error("holds a header of another form");
         ++place_;
         return value;
     }
@@ -168,7 +168,7 @@ class DataScan {
     void read_header() {
         if (!skip_blanks()) return;
         if (word() != "FoamFile" || !skip_blanks() || here() != '{')
-            throw fault("does not begin with FoamFile {");
+            throw error("does not begin with FoamFile {");
         ++place_;
         constexpr std::string_view known[] = {"version", "format", "class", "location",
                                               "object",  "arch",   "note"};
@@ -178,14 +178,14 @@ class DataScan {
             const bool is_known = std::ranges::find(known, std::string_view(name).substr(
                                                                0, name.size() - 1)) != std::end(known);
             if (!is_known || (" " + seen).find(" " + name) != std::string::npos) {
-                throw fault(
+                throw error(
                     fmt::format("holds a header with the entry '{}'", name.substr(0, name.size() - 1)));
             }
             seen += name;
             const std::string_view value = header_value();
             if (name == "format ") {
                 is_binary_ = value == "binary";
-                if (!is_binary_ && value != "ascii") throw fault("holds a header of another format");
+                if (!is_binary_ && value != "ascii") throw error("holds a header of another format");
             }
             if (name == "class ") {
                 of_class_ = found_in(value, std::begin(values_of_classes), std::end(values_of_classes));

@@ -42,7 +42,7 @@ FoamDictionary::FoamDictionary(std::filesystem::path path, FoamScanner& scanner,
 }
 
 void FoamDictionary::read(FoamScanner& scanner, int depth) {
-    if (depth > deepest) throw scanner.fault("dictionaries are nested too deep");
+    if (depth > deepest) throw scanner.error("dictionaries are nested too deep");
     while (depth > 0 ? !scanner.accept('}') : !scanner.at_end()) {
         const std::string name(scanner.word());
         if (name.starts_with('#')) {

@@ -23,7 +23,7 @@ void read_architecture(const FoamScanner& scanner, std::string_view words, FoamH
     constexpr const char* other_order = std::endian::native == std::endian::little ? "MSB" : "LSB";
     const auto has = [&](std::string_view word) { return words.find(word) != std::string_view::npos; };
     if (has(other_order)) {
-        throw scanner.fault(
+        throw scanner.error(
             "is binary in another machine's byte order; set 'writeFormat ascii' in system/controlDict there "
             "and run foamFormatConvert");
     }
@@ -44,7 +44,7 @@ void skip_entry(FoamScanner& scanner) {
 /// leave out.
 FoamHeader read_header(FoamScanner& scanner) {
     if (scanner.at_end() || scanner.peek() != 'F' || scanner.word() != "FoamFile") {
-        throw scanner.fault("is not an OpenFOAM file: it does not begin with FoamFile");
+        throw scanner.error("is not an OpenFOAM file: it does not begin with FoamFile");
     }
     FoamHeader header;
     std::string architecture;
@@ -62,7 +62,7 @@ FoamHeader read_header(FoamScanner& scanner) {
         if (key == "arch") architecture = value;
     }
     if (header.format != "ascii" && header.format != "binary") {
-        throw scanner.fault(
+        throw scanner.error(
             fmt::format("the format '{}' is neither ascii nor binary; convert the case with "
                         "foamFormatConvert",
                         header.format));
@@ -128,14 +128,14 @@ std::vector<Value> read_list(FoamScanner& scanner, const FoamHeader& header) {
     const std::int64_t stated = scanner.integer();
     // A cell takes more than a byte: a larger count is damage, not a reason to ask for all memory.
     if (stated < 0 || stated > (std::int64_t{1} << 33)) {
-        throw scanner.fault(fmt::format("a list cannot have {} values", stated));
+        throw scanner.error(fmt::format("a list cannot have {} values", stated));
     }
     const auto count = static_cast<std::size_t>(stated);
     if (scanner.accept('{')) {
         // No byte of the file vouches for the count: a few would ask for all memory.
         constexpr std::size_t most = 32'000'000;
         if (count > most) {
-            throw scanner.fault(fmt::format("a list in braces may have {} values, not {}", most, count));
+            throw scanner.error(fmt::format("a list in braces may have {} values, not {}", most, count));
         }
         const Value value = read_value<Value>(scanner);
         scanner.expect('}');
@@ -153,7 +153,7 @@ std::vector<Value> read_list(FoamScanner& scanner, const FoamHeader& header) {
         while (values.size() < count && scanner.peek() != ')') values.push_back(read_value<Value>(scanner));
     }
     if (!scanner.accept(')') || values.size() != count) {
-        throw scanner.fault(
+        throw scanner.error(
             fmt::format("the list should have {} values, but {}", count,
                         values.size() < count ? fmt::format("ends after {}", values.size()) : "goes on"));
     }
@@ -170,14 +170,14 @@ FoamField<Value> read_internal_field(FoamScanner& scanner, const FoamHeader& hea
     } else if (kind == "nonuniform") {
         field.values = read_list<Value>(scanner, header);
     } else {
-        throw scanner.fault(fmt::format("expected 'uniform' or 'nonuniform', found '{}'", kind));
+        throw scanner.error(fmt::format("expected 'uniform' or 'nonuniform', found '{}'", kind));
     }
     scanner.expect(';');
     return field;
 }
 
 Error wrong_class(const FoamScanner& scanner, const FoamHeader& header, const std::string& wanted) {
-    return scanner.fault(fmt::format(
+    return scanner.error(fmt::format(
         "holds a {}, not {}", header.class_name.empty() ? "thing of no class" : header.class_name, wanted));
 }
 
@@ -199,7 +199,7 @@ FoamField<Value> read_field(const std::filesystem::path& file, const std::string
             skip_entry(scanner);
         }
     }
-    throw scanner.fault("has no internalField");
+    throw scanner.error("has no internalField");
 }
 
 /// Reads "2 (4(0 1 2 3) 3(4 5 6))".
@@ -252,7 +252,7 @@ std::vector<std::int64_t> read_cell_zone(const std::filesystem::path& file, cons
         others += (others.empty() ? " (it has: " : ", ") + found;
     }
     if (!others.empty()) others += ")";
-    throw scanner.fault(
+    throw scanner.error(
         fmt::format("has no cell zone '{}'{}; make it with topoSet (cellZoneSet)", name, others));
 }
 
@@ -285,7 +285,7 @@ FoamFaces read_faces(const std::filesystem::path& file) {
     const bool ascending = std::is_sorted(faces.starts.begin(), faces.starts.end());
     if (faces.starts.empty() || !ascending || faces.starts.front() != 0 ||
         faces.starts.back() != static_cast<std::int64_t>(faces.points.size())) {
-        throw scanner.fault("its faces do not fit their points");
+        throw scanner.error("its faces do not fit their points");
     }
     return faces;
 }

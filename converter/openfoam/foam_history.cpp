@@ -129,13 +129,13 @@ FoamHistory read_rows(const std::filesystem::path& file, CutLine cut_line) {
             } else if (!cut) {
                 if (history.rows.empty()) name_components(history.columns, line);
                 append_row(history, numbers_in(line));
-            } else if (cut_line == CutLine::refuse) {
+            } else if (cut_line == CutLine::reject) {
                 throw Error(
                     "ends within this line, as where the solver was stopped while it wrote; let it go on, or "
                     "remove the line");
             }
-        } catch (const Error& fault) {
-            throw Error(fmt::format("{}:{}: {}", bytes.path.string(), line_number, fault.what()));
+        } catch (const Error& error) {
+            throw Error(fmt::format("{}:{}: {}", bytes.path.string(), line_number, error.what()));
         }
     }
     return history;
@@ -187,7 +187,7 @@ FoamHistory read_joined_history(const std::filesystem::path& folder, const std::
     }
     FoamHistory joined;
     for (const std::filesystem::path& file : files) {
-        FoamHistory part = read_rows(file, file == files.back() ? CutLine::refuse : CutLine::drop);
+        FoamHistory part = read_rows(file, file == files.back() ? CutLine::reject : CutLine::drop);
         joined.file = part.file;
         if (part.rows.empty()) continue;
         if (!joined.rows.empty() && part.columns != joined.columns) {

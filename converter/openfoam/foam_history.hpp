@@ -35,14 +35,14 @@ struct FoamHistory {
 };
 
 /// Whether a history that ends within a line, as one whose writer was killed, is refused or loses that line.
-enum class CutLine { refuse, drop };
+enum class CutLine { reject, drop };
 
 /// Reads one file postProcessing/NAME/TIME/FILE.dat: comments that begin with '#', of which the last before
 /// the numbers names the columns; brackets around vectors are passed over, so that the layouts of OpenFOAM
 /// v1912 (vectors in brackets) and v2112 (none) read alike. The heading "forces(pressure viscous)" of
 /// OpenFOAM 8 to 11 names the vectors forces_pressure_x, forces_pressure_y, ... Throws Error with file and
 /// line, and where the times do not ascend.
-FoamHistory read_history(const std::filesystem::path& file, CutLine cut_line = CutLine::refuse);
+FoamHistory read_history(const std::filesystem::path& file, CutLine cut_line = CutLine::reject);
 
 /// The files of a history in the order of the solver's runs: FOLDER/TIME/NAME.dat for every start time TIME
 /// in ascending order, each followed by NAME_TIME.dat, which OpenFOAM writes where a run starts at a time

@@ -29,7 +29,7 @@ FoamScanner::FoamScanner(FoamBytes bytes) : path_(std::move(bytes.path)), text_(
 void FoamScanner::skip_comment() {
     const bool to_line_end = text_[place_ + 1] == '/';
     const std::size_t end = to_line_end ? text_.find('\n', place_) : text_.find("*/", place_ + 2);
-    if (end == std::string::npos && !to_line_end) throw fault("this comment has no end");
+    if (end == std::string::npos && !to_line_end) throw error("this comment has no end");
     place_ = end == std::string::npos ? text_.size() : end + (to_line_end ? 1 : 2);
 }
 
@@ -61,7 +61,7 @@ bool FoamScanner::accept(char symbol) {
 }
 
 void FoamScanner::expect(char symbol) {
-    if (!accept(symbol)) throw fault(fmt::format("expected '{}', found {}", symbol, found()));
+    if (!accept(symbol)) throw error(fmt::format("expected '{}', found {}", symbol, found()));
 }
 
 std::string_view FoamScanner::word() {
@@ -69,12 +69,12 @@ std::string_view FoamScanner::word() {
     const std::size_t start = place_;
     if (start < text_.size() && text_[start] == '"') {
         const std::size_t end = text_.find('"', start + 1);
-        if (end == std::string::npos) throw fault("this text has no closing quotation mark");
+        if (end == std::string::npos) throw error("this text has no closing quotation mark");
         place_ = end + 1;
         return std::string_view(text_).substr(start + 1, end - start - 1);
     }
     while (place_ < text_.size() && !ends_word(text_[place_])) ++place_;
-    if (place_ == start) throw fault(fmt::format("expected a word, found {}", found()));
+    if (place_ == start) throw error(fmt::format("expected a word, found {}", found()));
     return std::string_view(text_).substr(start, place_ - start);
 }
 
@@ -84,7 +84,7 @@ double FoamScanner::number() {
     const char* const start = text_.data() + place_;
     const char* const end = read_foam_number(start, text_.data() + text_.size(), value);
     if (end == start || (*end != '\0' && !ends_word(*end))) {
-        throw fault(fmt::format("expected a number, found {}", found()));
+        throw error(fmt::format("expected a number, found {}", found()));
     }
     place_ += static_cast<std::size_t>(end - start);
     return value;
@@ -96,7 +96,7 @@ std::int64_t FoamScanner::integer() {
     const char* const start = text_.data() + place_;
     const auto [end, status] = std::from_chars(start, text_.data() + text_.size(), value);
     if (status != std::errc() || (*end != '\0' && !ends_word(*end))) {
-        throw fault(fmt::format("expected a whole number, found {}", found()));
+        throw error(fmt::format("expected a whole number, found {}", found()));
     }
     place_ += static_cast<std::size_t>(end - start);
     return value;
@@ -122,12 +122,12 @@ std::string_view FoamScanner::text_before(char symbol) {
         }
     }
     place_ = start;
-    throw fault(fmt::format("this entry is not ended by '{}'", symbol));
+    throw error(fmt::format("this entry is not ended by '{}'", symbol));
 }
 
 std::string_view FoamScanner::bytes(std::size_t count) {
     if (count > text_.size() - place_) {
-        throw fault(fmt::format("the file ends {} bytes too early", count - (text_.size() - place_)));
+        throw error(fmt::format("the file ends {} bytes too early", count - (text_.size() - place_)));
     }
     const std::string_view block = std::string_view(text_).substr(place_, count);
     place_ += count;
@@ -141,7 +141,7 @@ std::string FoamScanner::found() const {
     return fmt::format("'{}'", text_.substr(place_, end - place_));
 }
 
-Error FoamScanner::fault(std::string_view what) const {
+Error FoamScanner::error(std::string_view what) const {
     const auto end = text_.begin() + static_cast<std::ptrdiff_t>(std::min(place_, text_.size()));
     const auto line = 1 + std::count(text_.begin(), end, '\n');
     return Error(fmt::format("{}:{}: {}", path_.string(), line, what));

@@ -38,7 +38,7 @@ class FoamScanner {
     std::string_view bytes(std::size_t count);
 
     /// "FILE:LINE: what", for the place last read.
-    [[nodiscard]] Error fault(std::string_view what) const;
+    [[nodiscard]] Error error(std::string_view what) const;
 
   private:
     explicit FoamScanner(FoamBytes bytes);

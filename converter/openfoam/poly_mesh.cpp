@@ -14,7 +14,7 @@ namespace {
 /// The file boundary.
 std::vector<FoamPatch> read_patches(const std::filesystem::path& file) {
     FoamScanner scanner(file);
-    if (scanner.word() != "FoamFile") throw scanner.fault("is no OpenFOAM file");
+    if (scanner.word() != "FoamFile") throw scanner.error("is no OpenFOAM file");
     scanner.expect('{');
     scanner.text_before('}');
     const std::int64_t count = scanner.integer();
@@ -27,7 +27,7 @@ std::vector<FoamPatch> read_patches(const std::filesystem::path& file) {
             const std::string key(scanner.word());
             if (key == "nFaces" || key == "startFace") {
                 const std::int64_t number = scanner.integer();
-                if (number < 0) throw scanner.fault("a number of faces is negative");
+                if (number < 0) throw scanner.error("a number of faces is negative");
                 (key == "nFaces" ? patch.size : patch.start) = static_cast<std::size_t>(number);
                 scanner.expect(';');
             } else if (key == "type") {
@@ -39,7 +39,7 @@ std::vector<FoamPatch> read_patches(const std::filesystem::path& file) {
         patches.push_back(std::move(patch));
     }
     if (static_cast<std::int64_t>(patches.size()) != count) {
-        throw scanner.fault(fmt::format("holds {} patches, but says {}", patches.size(), count));
+        throw scanner.error(fmt::format("holds {} patches, but says {}", patches.size(), count));
     }
     return patches;
 }

@@ -100,8 +100,8 @@ class Folder {
     void or_missing(const Work& work) {
         try {
             work();
-        } catch (const Error& fault) {
-            report_.missing.emplace_back(fault.what());
+        } catch (const Error& error) {
+            report_.missing.emplace_back(error.what());
         }
     }
     [[nodiscard]] bool solved(const std::string& name) const {

@@ -10,12 +10,12 @@ namespace {
 
 std::variant<TurnedSample, ArcFit, ScatteredFit> fit_of(const Symmetry& symmetry,
                                                         const std::vector<Vector3d>& directions) {
-    switch (symmetry.kind) {
-        case Symmetry::Kind::spherical:
+    switch (symmetry.type) {
+        case Symmetry::Type::spherical:
             return TurnedSample{directions.front()};
-        case Symmetry::Kind::axial:
+        case Symmetry::Type::axial:
             return ArcFit(symmetry, directions);
-        case Symmetry::Kind::finite:
+        case Symmetry::Type::finite:
             break;
     }
     return ScatteredFit(symmetry, directions);

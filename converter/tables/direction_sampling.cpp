@@ -150,9 +150,9 @@ Matrix3d element_to_required(const Symmetry& symmetry, const Vector3d& direction
     const auto turn = [](const Vector3d& from, const Vector3d& to) {
         return Eigen::Quaterniond::FromTwoVectors(from, to).toRotationMatrix();
     };
-    if (symmetry.kind == Symmetry::Kind::spherical) return turn(direction, Vector3d::UnitX());
+    if (symmetry.type == Symmetry::Type::spherical) return turn(direction, Vector3d::UnitX());
     const double tolerance = direction_tolerance(symmetry);
-    if (symmetry.kind == Symmetry::Kind::axial) {
+    if (symmetry.type == Symmetry::Type::axial) {
         const AxialArc arc = axial_arc(symmetry, 1);
         const double along = direction.dot(arc.axis);
         const Vector3d across = direction - along * arc.axis;
@@ -177,12 +177,12 @@ Matrix3d element_to_required(const Symmetry& symmetry, const Vector3d& direction
 
 std::vector<Vector3d> required_directions(const Symmetry& symmetry, int subdivisions) {
     require_subdivisions(subdivisions);
-    switch (symmetry.kind) {
-        case Symmetry::Kind::spherical:
+    switch (symmetry.type) {
+        case Symmetry::Type::spherical:
             return {Vector3d::UnitX()};
-        case Symmetry::Kind::axial:
+        case Symmetry::Type::axial:
             return arc_directions(axial_arc(symmetry, subdivisions));
-        case Symmetry::Kind::finite:
+        case Symmetry::Type::finite:
             break;
     }
     return finite_directions(symmetry, subdivisions);

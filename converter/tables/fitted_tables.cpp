@@ -66,8 +66,8 @@ template <typename Beside>
 std::unique_ptr<ReynoldsFit> fit_of(const Symmetry& symmetry, const ReynoldsTable& table, Beside beside) {
     try {
         return std::make_unique<ReynoldsFit>(symmetry, table.samples, std::move(beside));
-    } catch (const Error& fault) {
-        throw Error(fmt::format("Reynolds number {:.6g}: {}", table.reynolds_number, fault.what()));
+    } catch (const Error& error) {
+        throw Error(fmt::format("Reynolds number {:.6g}: {}", table.reynolds_number, error.what()));
     }
 }
 
@@ -118,7 +118,7 @@ FittedTables fitted_tables(const Symmetry& symmetry, std::vector<SolvedCase>& ca
     }
     const std::vector<LoadEntryError> asymmetry = take_forbidden(symmetry, cases);
     std::optional<SurfaceTrend> trend;
-    if (surface && symmetry.kind == Symmetry::Kind::finite) trend.emplace(*surface, symmetry, main);
+    if (surface && symmetry.type == Symmetry::Type::finite) trend.emplace(*surface, symmetry, main);
     ReynoldsTable main_table = table_of(CasePurpose::table, main, cases, tail, asymmetry);
     if (main_table.samples.empty()) throw Error("has no solved case for the table");
     ReynoldsTable before = table_of(CasePurpose::mesh, main, cases, tail, asymmetry);

@@ -46,12 +46,12 @@ AllowedLoads allowed_about_axis(const Symmetry& symmetry, const Vector3d& direct
 }
 
 AllowedLoads allowed_loads(const Symmetry& symmetry, const Vector3d& direction) {
-    switch (symmetry.kind) {
-        case Symmetry::Kind::spherical:
+    switch (symmetry.type) {
+        case Symmetry::Type::spherical:
             return {direction * direction.transpose(), Matrix3d::Zero()};
-        case Symmetry::Kind::axial:
+        case Symmetry::Type::axial:
             return allowed_about_axis(symmetry, direction);
-        case Symmetry::Kind::finite:
+        case Symmetry::Type::finite:
             break;
     }
     return allowed_by_elements(symmetry, direction);
@@ -135,8 +135,8 @@ AllowedComponents allowed_components(const Symmetry& symmetry, const Vector3d& d
 }
 
 FreeComponents free_components(const Symmetry& symmetry, const Vector3d& direction) {
-    if (symmetry.kind == Symmetry::Kind::finite) return {Vector3d::Ones(), Vector3d::Ones()};
-    if (symmetry.kind == Symmetry::Kind::spherical) return {direction.cwiseAbs2(), Vector3d::Zero()};
+    if (symmetry.type == Symmetry::Type::finite) return {Vector3d::Ones(), Vector3d::Ones()};
+    if (symmetry.type == Symmetry::Type::spherical) return {direction.cwiseAbs2(), Vector3d::Zero()};
     const Vector3d axis = axial_arc(symmetry, 1).axis;
     const Vector3d normal = axis.cross(direction);
     // Around the axis itself the planes of all directions meet.

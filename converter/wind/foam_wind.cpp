@@ -134,11 +134,11 @@ Vector3d velocity_at(const Cells& cells, const FoamField<Vector3d>& field, std::
     Vector3d most = own;
     for (const CellFace& face : cells.faces(cell)) {
         if (face.neighbour == nowhere) continue;
-        const Vector3d way = cells.center(face.neighbour) - cells.center(cell);
+        const Vector3d offset = cells.center(face.neighbour) - cells.center(cell);
         const Vector3d change = field[face.neighbour] - own;
-        const double weight = 1.0 / way.squaredNorm();
-        squares += weight * way * way.transpose();
-        products += weight * change * way.transpose();
+        const double weight = 1.0 / offset.squaredNorm();
+        squares += weight * offset * offset.transpose();
+        products += weight * change * offset.transpose();
         least = least.cwiseMin(field[face.neighbour]);
         most = most.cwiseMax(field[face.neighbour]);
     }

@@ -11,7 +11,7 @@
 namespace samara {
 namespace {
 
-Error fault(const std::filesystem::path& file, const std::string& what) {
+Error error(const std::filesystem::path& file, const std::string& what) {
     return Error(fmt::format("{}: {}", file.string(), what));
 }
 
@@ -32,7 +32,7 @@ class VdbVelocity {
             opened.open(false);
             read(file, *opened.getGrids());
         } catch (const openvdb::Exception& failure) {
-            throw fault(file, fmt::format("cannot be read as OpenVDB: {}", failure.what()));
+            throw error(file, fmt::format("cannot be read as OpenVDB: {}", failure.what()));
         }
         for (const openvdb::GridBase::Ptr& part : parts_) place(file, *part);
     }
@@ -109,7 +109,7 @@ class VdbVelocity {
         }
         const std::string held =
             names.empty() ? "no grids" : fmt::format("the grids {}", fmt::join(names, ", "));
-        throw fault(
+        throw error(
             file,
             options_.grid.empty()
                 ? fmt::format("holds {}, of which none is known as a velocity; name one of vectors with "
@@ -121,12 +121,12 @@ class VdbVelocity {
     /// Puts a grid that is in index space in its place, or refuses it.
     void place(const std::filesystem::path& file, openvdb::GridBase& grid) const {
         if (!grid.transform().isLinear()) {
-            throw fault(file, fmt::format("the grid '{}' narrows like a camera's view; resample it to a box",
+            throw error(file, fmt::format("the grid '{}' narrows like a camera's view; resample it to a box",
                                           grid.getName()));
         }
         const bool in_index_space = grid.transform().isIdentity();
         if (in_index_space && !options_.voxel_size) {
-            throw fault(
+            throw error(
                 file,
                 fmt::format("the grid '{}' is in index space: it does not say how large its voxels are; give "
                             "--voxel-size in metres",
@@ -148,7 +148,7 @@ void append(const VdbVelocity& velocity, const std::filesystem::path& file, Wind
                 const Vector3d place = grid.origin + steps.cwiseProduct(grid.spacing);
                 const Vector3d there = velocity(place);
                 if (!there.allFinite()) {
-                    throw fault(
+                    throw error(
                         file,
                         fmt::format("the velocity at ({:.4g}, {:.4g}, {:.4g}) m is not finite; mend it where "
                                     "it was made",
@@ -182,7 +182,7 @@ WindGrid read_vdb_wind(const std::vector<std::filesystem::path>& files, const Vd
         velocity.widen(box);
         tell();
     }
-    if (box.isEmpty()) throw fault(files.front(), "has no active voxel, nor has another of the files");
+    if (box.isEmpty()) throw error(files.front(), "has no active voxel, nor has another of the files");
     const openvdb::Vec3d turned = z_up(*voxel, options.y_up);
     grid.spacing = Vector3d(turned.x(), turned.y(), turned.z()).cwiseAbs();
     if (options.spacing) grid.spacing.setConstant(*options.spacing);

@@ -116,7 +116,7 @@ Six momentum_of(const btRigidBody& body, const Six& change) {
 // Gives a body the velocity that it would have at the step's end, if joints went on as in the last step:
 // (M + A + h D) dv = h (weight, gyroscopic moment and wrench) + the joints' impulse. That impulse Bullet
 // finds anew, so what it changes there is taken off again.
-void meet_fluid(Host& host, std::size_t number) {
+void sample_fluid(Host& host, std::size_t number) {
     Link& link = host.links[number];
     btRigidBody& body = *link.rigid;
     const samara_pose pose = pose_of(link);
@@ -155,7 +155,7 @@ void meet_fluid(Host& host, std::size_t number) {
 }
 
 void step_host(Host& host) {
-    for (std::size_t i = 0; i < host.links.size(); ++i) meet_fluid(host, i);
+    for (std::size_t i = 0; i < host.links.size(); ++i) sample_fluid(host, i);
     std::vector<Six> before;
     for (const Link& link : host.links) before.push_back(velocity_of(*link.rigid));
     host.world.stepSimulation(btScalar(host.step), 0);
@@ -190,7 +190,7 @@ std::unique_ptr<Host> make_host(const samara_body* body, double step, int turbul
         const btVector3 center = place * (above + vector_of(link.own.center_of_mass));
         link.rigid->setWorldTransform(btTransform(turn, center));
         link.rigid->setActivationState(DISABLE_DEACTIVATION);
-        link.rigid->setFlags(0);  // its gyroscopic moment is in meet_fluid()
+        link.rigid->setFlags(0);  // its gyroscopic moment is in sample_fluid()
         host->world.addRigidBody(link.rigid.get());
     }
     if (host->links.size() > 1) {

@@ -23,22 +23,22 @@ static void check(samara_status status) {
 static samara_simulation* make_simulation(const samara_body* body) {
     samara_settings settings;
     samara_simulation* simulation;
-    samara_kind kind;
+    samara_body_group group;
 
     check(samara_default_settings(&settings, sizeof settings, error, sizeof error));
     settings.seed = 7;
     check(samara_simulation_create(&settings, &simulation, error, sizeof error));
 
-    check(samara_default_kind(&kind, sizeof kind, error, sizeof error));
-    kind.count = bodies;
-    kind.density = 1200.0;
-    kind.spread_position[0] = 0.1;
-    kind.spread_angle = 0.5;
+    check(samara_default_body_group(&group, sizeof group, error, sizeof error));
+    group.count = bodies;
+    group.density = 1200.0;
+    group.spread_position[0] = 0.1;
+    group.spread_angle = 0.5;
     if (!samara_body_has_tables(body)) {
-        kind.loads = SAMARA_LOADS_COEFFICIENTS;
-        kind.lift_coefficient = 1.0;
+        group.loads = SAMARA_LOADS_COEFFICIENTS;
+        group.lift_coefficient = 1.0;
     }
-    check(samara_simulation_add(simulation, body, &kind, NULL, error, sizeof error));
+    check(samara_simulation_add(simulation, body, &group, NULL, error, sizeof error));
     return simulation;
 }
 

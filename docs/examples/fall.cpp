@@ -9,19 +9,19 @@
 #include <cstdio>
 #include <vector>
 
-#include <samara/core/flight/flight.hpp>
+#include <samara/core/simulation/simulation.hpp>
 
 namespace {
 
 /// Plays frames `first` to `last` and returns the poses of the last one.
-std::vector<samara::Pose> play(samara::Flight& flight, int first, int last, bool print) {
-    std::vector<samara::Pose> poses(flight.size());
+std::vector<samara::Pose> play(samara::Simulation& simulation, int first, int last, bool print) {
+    std::vector<samara::Pose> poses(simulation.size());
     for (int frame = first; frame <= last; ++frame) {
-        flight.advance_to(frame / 24.0);
-        flight.poses(0, poses.size(), poses.data());
+        simulation.advance_to(frame / 24.0);
+        simulation.poses(0, poses.size(), poses.data());
         for (std::size_t i = 0; print && i < poses.size(); ++i) {
             const auto& at = poses[i].position;
-            std::printf("%.4f s  leaf %zu at %8.4f %8.4f %8.4f m\n", flight.time(), i, at.x(), at.y(),
+            std::printf("%.4f s  leaf %zu at %8.4f %8.4f %8.4f m\n", simulation.time(), i, at.x(), at.y(),
                         at.z());
         }
     }
@@ -37,27 +37,27 @@ int main(int count, char** words) {
     }
     try {
         const samara::LoadedBody leaf = samara::load_body_file(words[1]);
-        samara::Flight flight(
+        samara::Simulation simulation(
             {.fluid = *samara::fluid_preset("air"), .ground = -1.0, .step = 0.001, .seed = 7});
         samara::BodyPhysics physics;
         physics.mass.density = 600.0;
-        flight.add(leaf, physics, {.count = 3, .spread_angle = 0.5});
+        simulation.add(leaf, physics, {.count = 3, .spread_angle = 0.5});
 
-        play(flight, 0, 12, true);
-        const std::string half_way = flight.state();
-        const auto once = play(flight, 13, 24, true);
-        flight.set_state(half_way);
-        const auto again = play(flight, 13, 24, false);
+        play(simulation, 0, 12, true);
+        const std::string halfway = simulation.state();
+        const auto once = play(simulation, 13, 24, true);
+        simulation.set_state(halfway);
+        const auto again = play(simulation, 13, 24, false);
         for (std::size_t i = 0; i < once.size(); ++i) {
             if (once[i].position == again[i].position) continue;
             std::fputs("fall: the second half did not come out the same\n", stderr);
             return 1;
         }
-        const samara::FlightReport report = flight.report();
+        const samara::StepReport report = simulation.report();
         std::printf("%llu steps, Reynolds numbers up to %.0f\n",
                     static_cast<unsigned long long>(report.steps), report.highest_reynolds_number);
-    } catch (const samara::Error& fault) {
-        std::fprintf(stderr, "fall: %s\n", fault.what());
+    } catch (const samara::Error& error) {
+        std::fprintf(stderr, "fall: %s\n", error.what());
         return 1;
     }
     return 0;

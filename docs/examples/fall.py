@@ -15,10 +15,10 @@ class Settings(ctypes.Structure):  # samara_settings of samara.h
                 ("gravity", c_double * 3), ("step", c_double), ("seed", c_uint64), ("run", c_uint32),
                 ("threads", c_int32), ("has_ground", c_int32), ("ground", c_double),
                 ("wind", ctypes.c_void_p), ("wind_context", ctypes.c_void_p),
-                ("bodies_meet", ctypes.c_int32)]
+                ("bodies_collide", ctypes.c_int32)]
 
 
-class Kind(ctypes.Structure):  # samara_kind
+class BodyGroup(ctypes.Structure):  # samara_body_group
     _fields_ = [("size", c_size_t), ("name", ctypes.c_char_p), ("count", c_uint32), ("density", c_double),
                 ("mass", c_double), ("has_center_of_mass", c_int32), ("center_of_mass", c_double * 3),
                 ("inertia", c_double * 9), ("position", c_double * 3), ("orientation", c_double * 4),
@@ -39,8 +39,8 @@ class Pose(ctypes.Structure):  # samara_pose
 def main(library, body_file):
     try:
         samara = ctypes.CDLL(library)
-    except OSError as fault:
-        sys.exit(f"fall.py: {fault}")
+    except OSError as error:
+        sys.exit(f"fall.py: {error}")
     error = ctypes.create_string_buffer(256)
 
     def call(function, *words):
@@ -54,10 +54,10 @@ def main(library, body_file):
     call("samara_default_settings", ctypes.byref(settings), c_size_t(ctypes.sizeof(settings)))
     call("samara_simulation_create", ctypes.byref(settings), ctypes.byref(simulation))
 
-    kind = Kind()
-    call("samara_default_kind", ctypes.byref(kind), c_size_t(ctypes.sizeof(kind)))
-    kind.density = 1200.0
-    call("samara_simulation_add", simulation, body, ctypes.byref(kind), None)
+    group = BodyGroup()
+    call("samara_default_body_group", ctypes.byref(group), c_size_t(ctypes.sizeof(group)))
+    group.density = 1200.0
+    call("samara_simulation_add", simulation, body, ctypes.byref(group), None)
     samara.samara_body_free(body)
 
     pose = Pose()

@@ -46,7 +46,7 @@ static void motion_of(const host* h, int body, double jacobian[6][most_dofs], do
 
 /* Tells samara where a body is, and adds what the fluid does to it: J^T (A + h D) J to the mass matrix, and
  * J^T (wrench - A J' q') to the forces. */
-static void meet_fluid(host* h, int link, double matrix[most_dofs][most_dofs]) {
+static void sample_fluid(host* h, int link, double matrix[most_dofs][most_dofs]) {
     const int dofs = h->model->nv, body = link + 1;
     const double step = h->model->opt.timestep;
     double jacobian[6][most_dofs], velocity[6], acceleration[6], force[6];
@@ -91,7 +91,7 @@ static void step_host(host* h) {
     mju_zero(d->qacc, m->nv);
     mj_rnePostConstraint(m, d);
     mju_zero(d->qfrc_applied, m->nv);
-    for (i = 0; i < h->links; ++i) meet_fluid(h, i, matrix);
+    for (i = 0; i < h->links; ++i) sample_fluid(h, i, matrix);
     for (i = 0; i < m->nv; ++i) {
         entry = m->dof_Madr[i];
         for (k = i; k >= 0; k = m->dof_parentid[k]) d->qM[entry++] += 0.5 * (matrix[i][k] + matrix[k][i]);
@@ -129,7 +129,7 @@ static int write_link(char* text, size_t size, const samara_simulation* fluid, i
 
 static mjModel* model_of(const samara_simulation* fluid, double step, int links, double gap) {
     static const char file[] = "links.xml";
-    char xml[4096], fault[512];
+    char xml[4096], reason[512];
     size_t length;
     mjVFS* folder = malloc(sizeof *folder);
     mjModel* model;
@@ -145,11 +145,11 @@ static mjModel* model_of(const samara_simulation* fluid, double step, int links,
     mj_defaultVFS(folder);
     mj_makeEmptyFileVFS(folder, file, (int)length);
     memcpy(folder->filedata[mj_findFileVFS(folder, file)], xml, length);
-    model = mj_loadXML(file, folder, fault, sizeof fault);
+    model = mj_loadXML(file, folder, reason, sizeof reason);
     mj_deleteVFS(folder);
     free(folder);
     if (model != NULL) return model;
-    fprintf(stderr, "mujoco-fall: %s\n", fault);
+    fprintf(stderr, "mujoco-fall: %s\n", reason);
     exit(1);
 }
 

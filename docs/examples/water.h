@@ -20,23 +20,23 @@ static samara_simulation* water(const samara_body* body, double step, int turbul
                                 int count) {
     samara_settings settings;
     samara_simulation* simulation;
-    samara_kind kind;
+    samara_body_group group;
     char name[16];
     int i;
     check(samara_default_settings(&settings, sizeof settings, error, sizeof error));
     settings.step = step;
     check(samara_simulation_create(&settings, &simulation, error, sizeof error));
     for (i = 0; i < count; ++i) {
-        check(samara_default_kind(&kind, sizeof kind, error, sizeof error));
+        check(samara_default_body_group(&group, sizeof group, error, sizeof error));
         snprintf(name, sizeof name, "link-%d", i);
-        kind.name = name;
-        kind.density = densities[i];
-        if (!samara_body_has_tables(body)) kind.loads = SAMARA_LOADS_COEFFICIENTS;
-        if (!turbulent) kind.turbulence = SAMARA_TURBULENCE_NONE;
-        kind.orientation[0] = 0.9;
-        kind.orientation[1] = 0.3;
-        kind.orientation[2] = 0.3;
-        check(samara_simulation_add(simulation, body, &kind, NULL, error, sizeof error));
+        group.name = name;
+        group.density = densities[i];
+        if (!samara_body_has_tables(body)) group.loads = SAMARA_LOADS_COEFFICIENTS;
+        if (!turbulent) group.turbulence = SAMARA_TURBULENCE_NONE;
+        group.orientation[0] = 0.9;
+        group.orientation[1] = 0.3;
+        group.orientation[2] = 0.3;
+        check(samara_simulation_add(simulation, body, &group, NULL, error, sizeof error));
     }
     return simulation;
 }

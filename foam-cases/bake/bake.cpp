@@ -83,9 +83,10 @@ BakePreparation plan_of(const BakeRequest& request, const Body& body) {
         rounded_reynolds_number(preparation.terminal_speed * reference_length(body.moments.surface_area) /
                                 request.fluid.kinematic_viscosity());
     if (request.goal) {
-        preparation.flight = fly_for_bake(request.goal->scene, request.goal->body, body, request.goal->falls);
+        preparation.simulation =
+            fly_for_bake(request.goal->scene, request.goal->body, body, request.goal->falls);
         preparation.scene_plan =
-            first_plan(*request.goal, body, request.quality, request.inflow, preparation.flight);
+            first_plan(*request.goal, body, request.quality, request.inflow, preparation.simulation);
         preparation.plan = preparation.scene_plan->cases;
     } else if (request.probes > 0) {
         preparation.plan = plan_probes(body, request.quality, reynolds_number, request.probes);
@@ -118,7 +119,7 @@ class CaseSolving {
           farm_(std::move(farm)),
           result_(result),
           lock_(folder_) {
-        require_cases_of(CaseKind::bake, folder_);
+        require_cases_of(CaseType::bake, folder_);
         end_earlier_jobs(folder_);
     }
 

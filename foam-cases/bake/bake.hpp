@@ -41,7 +41,7 @@ struct BakePreparation {
     double terminal_speed = 0.0;          ///< m/s, an estimate (bake_speed())
     std::optional<BakePlan> plan;         ///< for a goal that of the first round
     std::optional<ScenePlan> scene_plan;  ///< for a goal
-    SampledFalls flight;                  ///< for a goal, before anything is baked
+    SampledFalls simulation;              ///< for a goal, before anything is baked
     Body body;                            ///< meshed, with its Kirchhoff tensor
 };
 

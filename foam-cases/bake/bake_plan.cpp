@@ -436,7 +436,7 @@ BakePlan plan_probes(const Body& body, const BakeQuality& quality, double reynol
 
 nlohmann::json plan_json(const BakePlan& plan) {
     nlohmann::json json;
-    json["quality"] = plan.kind == CaseKind::fall ? quality_of_fall : plan.quality.name;
+    json["quality"] = plan.type == CaseType::fall ? quality_of_fall : plan.quality.name;
     json["subdivisions"] = plan.subdivisions;
     json["reference_length"] = plan.reference_length;
     json["ranks"] = plan.ranks;
@@ -461,9 +461,9 @@ nlohmann::json plan_json(const BakePlan& plan) {
     return json;
 }
 
-CaseKind kind_of_plan(const nlohmann::json& json) {
+CaseType type_of_plan(const nlohmann::json& json) {
     const auto quality = json.find("quality");
-    return quality != json.end() && *quality == quality_of_fall ? CaseKind::fall : CaseKind::bake;
+    return quality != json.end() && *quality == quality_of_fall ? CaseType::fall : CaseType::bake;
 }
 
 }  // namespace samara

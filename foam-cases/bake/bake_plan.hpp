@@ -36,11 +36,11 @@ struct BakeCase : PlannedCase {
 };
 
 /// Whose cases a folder holds: those of a bake, perhaps with falls, or one fall alone.
-enum class CaseKind { bake, fall };
+enum class CaseType { bake, fall };
 
 /// The cases around one body. Case axes: x_case = axes^T (x_body - centroid) / L.
 struct BakePlan {
-    CaseKind kind = CaseKind::bake;
+    CaseType type = CaseType::bake;
     BakeQuality quality;            ///< its meshes fitted to the body
     int subdivisions = 1;           ///< of the stored map
     int solved_subdivisions = 1;    ///< of the map whose directions are solved; divides `subdivisions`
@@ -128,6 +128,6 @@ double cells_of(const BakePlan& plan, const std::string& mesh);
 nlohmann::json plan_json(const BakePlan& plan);
 
 /// The kind of the plan that plan_json wrote.
-CaseKind kind_of_plan(const nlohmann::json& json);
+CaseType type_of_plan(const nlohmann::json& json);
 
 }  // namespace samara

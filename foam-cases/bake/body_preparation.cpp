@@ -24,7 +24,7 @@ fs::path require_program(const std::string& name) {
 }
 
 // The last line that a program of samara printed is what went wrong; its own name before it is dropped.
-std::string fault_in(const fs::path& log, const std::string& program) {
+std::string error_in(const fs::path& log, const std::string& program) {
     std::istringstream lines(read_bytes(log));
     std::string last;
     for (std::string line; std::getline(lines, line);) {
@@ -36,7 +36,7 @@ std::string fault_in(const fs::path& log, const std::string& program) {
 }
 
 void run_stage(const std::vector<std::string>& words, const fs::path& log, const std::string& program) {
-    if (run_subprocess(words, log) != 0) throw Error(fault_in(log, program));
+    if (run_subprocess(words, log) != 0) throw Error(error_in(log, program));
 }
 
 }  // namespace

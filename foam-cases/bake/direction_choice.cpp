@@ -41,7 +41,7 @@ Wedge round_wedge(const Symmetry& symmetry) {
     Wedge wedge{required_directions(symmetry, weight_subdivisions), {}};
     const Vector3d axis = symmetry.axes.transpose() * symmetry.axis;
     const bool mirrored =
-        symmetry.kind == Symmetry::Kind::axial && axial_arc(symmetry, weight_subdivisions).mirrored;
+        symmetry.type == Symmetry::Type::axial && axial_arc(symmetry, weight_subdivisions).mirrored;
     const auto height = [&](const Vector3d& direction) {
         const double along = direction.dot(axis);
         return mirrored ? std::abs(along) : along;
@@ -59,7 +59,7 @@ Wedge round_wedge(const Symmetry& symmetry) {
 }
 
 Wedge wedge_of(const Symmetry& symmetry) {
-    return symmetry.kind == Symmetry::Kind::finite ? finite_wedge(symmetry) : round_wedge(symmetry);
+    return symmetry.type == Symmetry::Type::finite ? finite_wedge(symmetry) : round_wedge(symmetry);
 }
 
 }  // namespace
@@ -96,7 +96,7 @@ std::vector<WeightedDirection> direction_weights(const std::vector<FlowVisit>& v
 
 PlannedRegion visited_region(const std::vector<FlowVisit>& visits, const Symmetry& symmetry) {
     PlannedRegion region;
-    if (symmetry.kind == Symmetry::Kind::spherical) return region;
+    if (symmetry.type == Symmetry::Type::spherical) return region;
     const Wedge wedge = wedge_of(symmetry);
     std::vector<std::uint8_t> visited(wedge.directions.size(), 0);
     for (const FlowVisit& visit : visits) {

@@ -280,7 +280,7 @@ void add_falls(const Body& body, const Fluid& fluid, const std::vector<MassSpeci
 
 BakePlan plan_falls(const Body& body, double cells, std::vector<FreeFall> falls, const FallModel& model) {
     BakePlan plan = plan_of_mesh_of_falls(body, cells, falls.at(0).reynolds_number, model);
-    plan.kind = CaseKind::fall;
+    plan.type = CaseType::fall;
     plan.falls = std::move(falls);
     for (std::size_t i = 0; i < plan.falls.size(); ++i) {
         plan.falls[i].name = name_of_fall(i);

@@ -51,8 +51,8 @@ std::vector<DirectionSample> drawn_samples(const LoadTables& tables, const Symme
 }
 
 /// A difference of a figure that nobody sees, in its SI unit.
-double unseen(const CataloguedMetric& entry, const SampledFalls& flight, double length) {
-    const auto descent = flight.mean(Metric::descent_speed);
+double unseen(const CataloguedMetric& entry, const SampledFalls& simulation, double length) {
+    const auto descent = simulation.mean(Metric::descent_speed);
     if (entry.metric != Metric::rms_angular_speed || !descent) return entry.allowed.always;
     return degree * std::abs(descent->value) / length;
 }
@@ -115,7 +115,8 @@ SampledFalls fly_for_bake(const Scene& scene, std::size_t body, const Body& of_b
 }
 
 MotionError motion_error(const Scene& scene, std::size_t body, const Body& of_body,
-                         const UncertainTables& uncertain, const SampledFalls& flight, int falls, int draws) {
+                         const UncertainTables& uncertain, const SampledFalls& simulation, int falls,
+                         int draws) {
     MotionError result;
     PerMetric<std::vector<double>> drawn;
     if (!uncertain.unsolved.empty()) {
@@ -131,13 +132,13 @@ MotionError motion_error(const Scene& scene, std::size_t body, const Body& of_bo
     }
     for (const Metric metric : baked_metrics) {
         const CataloguedMetric& entry = catalogued(metric);
-        const auto mean = flight.mean(metric);
+        const auto mean = simulation.mean(metric);
         if (!mean || !(std::abs(mean->value) > 0.0) || !tells(entry.subject, of_body)) continue;
         const double value = mean->value;
         const double chance = mean->error.value_or(0.0);
         const double length = reference_length(of_body.moments.surface_area);
         MotionError::OfMetric error{0.0, chance / std::abs(value),
-                                    unseen(entry, flight, length) / std::abs(value)};
+                                    unseen(entry, simulation, length) / std::abs(value)};
         if (2 * drawn[metric].size() > static_cast<std::size_t>(draws)) {
             // Both ensembles of a difference have their chance, of which a few draws leave a part unseen.
             const double of_chance = 2.0 * chance * chance;

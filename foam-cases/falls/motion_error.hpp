@@ -46,6 +46,7 @@ SampledFalls fly_for_bake(const Scene& scene, std::size_t body, const Body& of_b
 /// their figures about `flight`, which is of the tables themselves. No error of what tells nothing of the
 /// body (tells()).
 MotionError motion_error(const Scene& scene, std::size_t body, const Body& of_body,
-                         const UncertainTables& uncertain, const SampledFalls& flight, int falls, int draws);
+                         const UncertainTables& uncertain, const SampledFalls& simulation, int falls,
+                         int draws);
 
 }  // namespace samara

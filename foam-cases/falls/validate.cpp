@@ -19,11 +19,11 @@
 #include "samara/core/base/error.hpp"
 #include "samara/core/files/content_hash.hpp"
 #include "samara/core/files/temporary_folder.hpp"
-#include "samara/core/flight/world_pose.hpp"
+#include "samara/core/simulation/world_pose.hpp"
 #include "samara/formats/json_text.hpp"
 #include "samara/motion/motion_file.hpp"
-#include "samara/scene/scene_flight.hpp"
-#include "samara/scene/simulation.hpp"
+#include "samara/scene/scene_settings.hpp"
+#include "samara/scene/scene_simulation.hpp"
 
 namespace samara {
 namespace {
@@ -110,7 +110,7 @@ FallSolution read_solution(const fs::path& fall_folder) {
 }
 
 Motion motion_of(const Falling& falling, const std::vector<SolvedFall>& falls, const fs::path& body_file) {
-    Simulation simulation(falling.scene, {LoadedBody{falling.body, file_content_hash(body_file)}}, 1, 1);
+    SceneSimulation simulation(falling.scene, {LoadedBody{falling.body, file_content_hash(body_file)}}, 1, 1);
     Motion motion = simulation.motion();
     motion.bodies.front().models =
         fmt::format("full CFD: OpenFOAM pimpleFoam with six degrees of freedom, {}, mesh {}",
@@ -135,23 +135,23 @@ double ValidationResult::largest_courant_number() const {
 }
 
 void require_falls_of_one_body(const Scene& scene) {
-    const auto refuse = [&](const char* what) {
+    const auto reject = [&](const char* what) {
         return Error(fmt::format("{}: {}", scene.file.string(), what));
     };
     if (scene.bodies.size() != 1) {
-        throw refuse("full CFD solves one body at a time; make a scene for each body");
+        throw reject("full CFD solves one body at a time; make a scene for each body");
     }
     const SceneBody& body = scene.bodies.front();
     if (body.spreads_size())
-        throw refuse("full CFD solves copies of the shape's own size; drop 'size' from 'spread'");
+        throw reject("full CFD solves copies of the shape's own size; drop 'size' from 'spread'");
     if (scene.ground)
-        throw refuse("full CFD knows no ground; drop 'ground' and let the scene end before the landing");
-    if (!scene.obstacles.empty()) throw refuse("full CFD knows no obstacles; drop [[obstacle]]");
+        throw reject("full CFD knows no ground; drop 'ground' and let the scene end before the landing");
+    if (!scene.obstacles.empty()) throw reject("full CFD knows no obstacles; drop [[obstacle]]");
     if (!scene.wind.is_calm())
-        throw refuse("full CFD knows no wind; drop [wind], or give a uniform one as 'current'");
-    if (scene.fluid.gust.amplitude.norm() > 0.0) throw refuse("full CFD knows no gust; drop 'gust'");
+        throw reject("full CFD knows no wind; drop [wind], or give a uniform one as 'current'");
+    if (scene.fluid.gust.amplitude.norm() > 0.0) throw reject("full CFD knows no gust; drop 'gust'");
     if (!(scene.duration > body.start + body.spread_start))
-        throw refuse("the scene ends before its body starts");
+        throw reject("the scene ends before its body starts");
 }
 
 Motion with_uncertainties(const fs::path& file, const OtherSolutions& beside) {
@@ -186,7 +186,7 @@ ValidationResult validate_scene(const ValidationRequest& request, const FarmOpti
     result.plan = plan_of(request, falling);
     planned(result.plan);
     const FolderLock lock(folder);
-    require_cases_of(CaseKind::fall, folder);
+    require_cases_of(CaseType::fall, folder);
     end_earlier_jobs(folder);
     write_case_folder(folder, falling.body, result.plan, foam_cases);
     result.reused = count_solved(folder, result.plan);

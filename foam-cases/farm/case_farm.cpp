@@ -80,7 +80,7 @@ std::string with_paths_from_here(std::string line, const fs::path& folder, const
 }
 
 // What went wrong with the mesh or case: the line that its script left, or that its cluster's job left.
-std::string fault_of(const fs::path& folder, const std::string& name, bool on_cluster) {
+std::string error_of(const fs::path& folder, const std::string& name, bool on_cluster) {
     const std::string line = last_line(folder / name / check_log);
     if (line.starts_with(name + ": ")) {
         return fmt::format("{}/{}", folder.string(), with_paths_from_here(line, folder, name));
@@ -145,10 +145,10 @@ bool is_settled(const fs::path& folder, const Job& entry) {
         return std::pair(is_settled(folder, *entry), !fs::exists(folder / entry->name / check_log));
     };
     const Job& first = **std::ranges::min_element(failed, std::less<>(), rank);
-    if (!fs::exists(folder / first.mesh / mesh_record)) throw Error(fault_of(folder, first.mesh, on_cluster));
-    if (plan.kind == CaseKind::fall) throw Error(fault_of(folder, first.name, on_cluster));
+    if (!fs::exists(folder / first.mesh / mesh_record)) throw Error(error_of(folder, first.mesh, on_cluster));
+    if (plan.type == CaseType::fall) throw Error(error_of(folder, first.name, on_cluster));
     throw Error(fmt::format("{} ({} of {} cases failed; the solved ones are kept for the next run)",
-                            fault_of(folder, first.name, on_cluster), failed.size(), jobs.size()));
+                            error_of(folder, first.name, on_cluster), failed.size(), jobs.size()));
 }
 
 // The iteration or time at which the last line of the last round's history of forces stands; 0 where there is
@@ -210,7 +210,7 @@ std::string absolute_python_path() {
 void run_snakemake(const fs::path& folder, const BakePlan& plan, const FarmOptions& options,
                    const fs::path& foam_cases) {
     const std::vector<Job> to_solve = unsettled(folder, plan);
-    const bool counts_steps = plan.kind == CaseKind::fall;
+    const bool counts_steps = plan.type == CaseType::fall;
     double all = counts_steps ? 0.0 : static_cast<double>(to_solve.size());
     if (counts_steps) {
         for (const FreeFall& fall : plan.falls) all += fall.duration / fall.time_step;
@@ -254,7 +254,7 @@ void run_snakemake(const fs::path& folder, const BakePlan& plan, const FarmOptio
     const auto status = run_guarded(words, folder / "log.snakemake", fs::current_path(), tick);
     end_earlier_jobs(folder);
     if (status) return;
-    if (plan.kind == CaseKind::fall) {
+    if (plan.type == CaseType::fall) {
         throw Error(
             fmt::format("interrupted: what is solved is kept in {}; the same command goes on from there",
                         folder.string()));

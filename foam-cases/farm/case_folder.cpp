@@ -176,7 +176,7 @@ void write_case(const fs::path& folder, const InputFolder& one) {
     write_files(folder, one.files);
     write_foam_file(folder);
     link_to_mesh(folder, one.mesh, "polyMesh");
-    if (one.kind == FolderKind::flow) link_to_mesh(folder, one.mesh, "triSurface");
+    if (one.type == FolderType::flow) link_to_mesh(folder, one.mesh, "triSurface");
 }
 
 // The folders of all that is planned, without the body file and the plan beside them.
@@ -189,14 +189,14 @@ InputFolders input_folders(const Body& body, const BakePlan& plan, const fs::pat
         files["parameters"] = mesh_case_parameters(files.at("parameters"), mesh);
         files["constant/triSurface/body.stl"] = stl;
         const std::string hash = mesh_hash(files);
-        folders[mesh.name] = {FolderKind::mesh, std::move(files), "", hash};
+        folders[mesh.name] = {FolderType::mesh, std::move(files), "", hash};
     }
     for (const BakeCase& entry : plan.cases) {
         CaseFiles files = body_flow;
         files["parameters"] = case_parameters(files.at("parameters"), plan, entry);
         const std::string start = entry.start_from.empty() ? "" : folders.at(entry.start_from).hash;
         const std::string hash = content_hash(folders.at(entry.mesh).hash + start + hash_of(files));
-        folders[entry.name] = {FolderKind::flow, std::move(files), entry.mesh, hash};
+        folders[entry.name] = {FolderType::flow, std::move(files), entry.mesh, hash};
     }
     if (plan.falls.empty()) return folders;
     const CaseFiles fall_template = read_template(foam_cases / "templates/free-fall");
@@ -206,7 +206,7 @@ InputFolders input_folders(const Body& body, const BakePlan& plan, const fs::pat
         files["parameters"] = fall_parameters(files.at("parameters"), plan, fall);
         files["fall.json"] = free_fall_json(fall);
         const std::string hash = content_hash(folders.at(fall.mesh).hash + hash_of(files));
-        folders[fall.name] = {FolderKind::fall, std::move(files), fall.mesh, hash};
+        folders[fall.name] = {FolderType::fall, std::move(files), fall.mesh, hash};
     }
     return folders;
 }
@@ -218,16 +218,16 @@ fs::path foam_cases_folder() {
                               SAMARA_FOAM_CASES_SOURCE});
 }
 
-void require_cases_of(CaseKind kind, const fs::path& folder) {
+void require_cases_of(CaseType type, const fs::path& folder) {
     const fs::path plan = folder / "plan.json";
     const nlohmann::json json = read_record(plan);
     if (json.empty()) return;
-    const CaseKind found = kind_of_plan(json);
-    if (found == kind) return;
+    const CaseType found = type_of_plan(json);
+    if (found == type) return;
     throw Error(fmt::format(
         "{}: holds the cases of samara {}, which would be lost; choose another name for the output, "
         "or remove the folder",
-        folder.string(), found == CaseKind::fall ? "validate" : "bake"));
+        folder.string(), found == CaseType::fall ? "validate" : "bake"));
 }
 
 void write_case_folder(const fs::path& folder, const Body& body, const BakePlan& plan,
@@ -245,7 +245,7 @@ void write_case_folder(const fs::path& folder, const Body& body, const BakePlan&
             const auto name = entry["name"].get<std::string>();
             const InputFolder& one = folders.at(name);
             entry["inputs_hash"] = one.hash;
-            if (one.kind == FolderKind::mesh) {
+            if (one.type == FolderType::mesh) {
                 write_mesh_case(folder / name, one);
             } else {
                 write_case(folder / name, one);

@@ -16,7 +16,7 @@ std::filesystem::path foam_cases_folder();
 
 /// Throws Error where the folder holds cases of the other kind, which would be removed: outputs of the same
 /// stem share their folder.
-void require_cases_of(CaseKind kind, const std::filesystem::path& folder);
+void require_cases_of(CaseType type, const std::filesystem::path& folder);
 
 /// What becomes of cases in a folder that the plan has not: a bake that goes in rounds may plan them yet.
 enum class Unplanned { removed, kept };

@@ -60,7 +60,7 @@ class FolderInspection {
     void run() const { look_into(fs::path()); }
 
   private:
-    [[nodiscard]] Error fault(const fs::path& file, const std::string& what) const {
+    [[nodiscard]] Error error(const fs::path& file, const std::string& what) const {
         return Error(fmt::format("{}: {}; remove it, or the whole of {}, which is then solved anew",
                                  file.string(), what, folder_.string()));
     }
@@ -75,7 +75,7 @@ class FolderInspection {
             } else if (status.type() == fs::file_type::regular && is_known_file(name)) {
                 if (is_read_by_solver(name)) require_data(name);
             } else {
-                throw fault(entry.path(), what_it_is(status.type()));
+                throw error(entry.path(), what_it_is(status.type()));
             }
         }
     }
@@ -90,21 +90,21 @@ class FolderInspection {
 
     /// A link to a mesh is made anew, one to a start is removed.
     [[nodiscard]] bool is_known_link(const fs::path& name) const {
-        if (planned_.kind == FolderKind::mesh) return false;
+        if (planned_.type == FolderType::mesh) return false;
         return name == "startCase" || name == "constant/polyMesh" ||
-               (planned_.kind == FolderKind::flow && name == "constant/triSurface");
+               (planned_.type == FolderType::flow && name == "constant/triSurface");
     }
 
     /// Of a time, a mesh or a history, below which any file may be.
     [[nodiscard]] bool is_of_solver(const fs::path& name) const {
         const std::string first = name.begin()->string();
-        const bool is_solved = planned_.kind != FolderKind::mesh;
+        const bool is_solved = planned_.type != FolderType::mesh;
         if (is_solved) return is_time(first) || first == "postProcessing" || is_of_processor(first);
         return (name / "").string().starts_with("constant/polyMesh/");
     }
 
     [[nodiscard]] bool is_known_folder(const fs::path& name) const {
-        if (is_of_solver(name) || (planned_.kind == FolderKind::mesh && name == made_by_surface_features[1]))
+        if (is_of_solver(name) || (planned_.type == FolderType::mesh && name == made_by_surface_features[1]))
             return true;
         return std::ranges::any_of(planned_.files, [&](const auto& file) {
             return file.first.string().starts_with(name.string() + "/");
@@ -115,7 +115,7 @@ class FolderInspection {
         if (planned_.files.contains(name) || is_temporary(name.filename().string())) return true;
         if (name.has_parent_path()) {
             const std::string path = name.string();
-            const bool is_edge = planned_.kind == FolderKind::mesh &&
+            const bool is_edge = planned_.type == FolderType::mesh &&
                                  std::ranges::any_of(made_by_surface_features, [&](std::string_view made) {
                                      return path.starts_with(made);
                                  });
@@ -123,7 +123,7 @@ class FolderInspection {
         }
         const std::string only = name.string();
         // `parameters` includes it: flows have none of their own.
-        if (only == "remedy") return planned_.kind != FolderKind::flow;
+        if (only == "remedy") return planned_.type != FolderType::flow;
         return is_one_of(only, records) || only.starts_with("log.");
     }
 

@@ -10,11 +10,11 @@ namespace samara {
 using CaseFiles = std::map<std::filesystem::path, std::string>;
 
 /// What stands in a folder of its own beside the others.
-enum class FolderKind { mesh, flow, fall };
+enum class FolderType { mesh, flow, fall };
 
 /// The folder of a mesh, a case or a fall, as it is to be.
 struct InputFolder {
-    FolderKind kind;
+    FolderType type;
     CaseFiles files;   ///< its inputs
     std::string mesh;  ///< whose folder it is linked to; of a mesh itself none
     std::string hash;  ///< of all that its solution depends on

@@ -14,20 +14,20 @@ import sys
 
 sys.path.append(os.path.dirname(os.path.realpath(__file__)))  # which python3 -I leaves out
 from farm_script import input_hash, mesh_record, run_on_folder, stopping_fault  # noqa: E402
-from case_files import Failure, Fault, parameter, read, read_record, word, write_json  # noqa: E402
+from case_files import Failure, CaseError, parameter, read, read_record, word, write_json  # noqa: E402
 
 
 def check_fall(folder):
     done = read_record(os.path.join(folder, "attempts.json"))
     if not done:
-        raise Fault(stopping_fault(folder, os.path.join(folder, "log.Allrun")))
+        raise CaseError(stopping_fault(folder, os.path.join(folder, "log.Allrun")))
     last = done["attempts"][-1]
     log = os.path.join(folder, "log.pimpleFoam")
     if done["verdict"] == "failed":
         tried = ", ".join(one["what"] for one in done["attempts"])
         raise Failure(f"blew up in all attempts ({tried}); the last: {last['end']}; a smaller --step may hold")
     if done["verdict"] is None:
-        raise Fault(stopping_fault(folder, log))
+        raise CaseError(stopping_fault(folder, log))
     text = read(log)
     parameters = read(os.path.join(folder, "parameters"))
     build = re.search(r"^Build\s*:\s*(.*)$", text, re.MULTILINE)

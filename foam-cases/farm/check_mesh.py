@@ -42,7 +42,7 @@ class Judgement:
 
     @property
     def verdict(self):
-        return "; ".join(self.fatal + [fault for fault in self.faults if fault not in self.fatal]) or "ok"
+        return "; ".join(self.fatal + [error for error in self.faults if error not in self.fatal]) or "ok"
 
 
 def judge_cells(judgement, folder, text):
@@ -57,7 +57,7 @@ def judge_cells(judgement, folder, text):
         "body_area_over_true_area": judgement.area,
     }
     judgement.faults += [line.strip(" *").rstrip(".") for line in text.splitlines() if line.startswith(" ***")]
-    judgement.fatal += [fault for fault in judgement.faults if any(word in fault for word in FATAL_FAULTS)]
+    judgement.fatal += [error for error in judgement.faults if any(word in error for word in FATAL_FAULTS)]
     if judgement.facts["shell_cells"] == 0:
         judgement.fatal.append("no cell lies from 0.05 L to 0.25 L of the body")
 
@@ -71,7 +71,7 @@ def judge_surface(judgement):
 
 
 def judge(folder):
-    """Judges the mesh in constant/polyMesh. Raises Fault where a program was stopped before its end."""
+    """Judges the mesh in constant/polyMesh. Raises CaseError where a program was stopped before its end."""
     judgement = Judgement()
     text = ""
     try:

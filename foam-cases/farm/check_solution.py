@@ -16,7 +16,7 @@ import sys
 
 sys.path.append(os.path.dirname(os.path.realpath(__file__)))  # which python3 -I leaves out
 from farm_script import input_hash, mesh_record, run_on_folder, stopping_fault  # noqa: E402
-from case_files import Failure, Fault, parameter, read, read_record, word, write_json  # noqa: E402
+from case_files import Failure, CaseError, parameter, read, read_record, word, write_json  # noqa: E402
 from stationarity import AREA_UNIT, has_k_and_epsilon, whole_histories  # noqa: E402
 
 
@@ -37,21 +37,21 @@ def final_residuals(log_text, log):
     for field, value in re.findall(r"Solving for (\w+), Initial residual = (\S+?),", log_text[last:]):
         found.setdefault(field, float(value))
     if not found:
-        raise Fault(f"no residual in {log}")
+        raise CaseError(f"no residual in {log}")
     return found
 
 
 def check_solution(folder):
     rounds = read_record(os.path.join(folder, "rounds.json"))
     if not rounds:
-        raise Fault("was stopped before its first round; run again to go on")
+        raise CaseError("was stopped before its first round; run again to go on")
     parameters = read(os.path.join(folder, "parameters"))
     log = os.path.join(folder, "log." + word(parameters, "solver"))
     last = rounds["attempts"][-1]
     if rounds["verdict"] == "failed":
         raise Failure(f"{last['end']} (attempts: {', '.join(one['what'] for one in rounds['attempts'])})")
     if rounds["verdict"] is None:
-        raise Fault(stopping_fault(folder, log))
+        raise CaseError(stopping_fault(folder, log))
     text = read(log)
     start = rounds["averaging_start"]
     turbulent = has_k_and_epsilon(parameters)

@@ -64,11 +64,11 @@ void require_sbatch(const std::string& command) {
 void require_slurm() {
     try {
         output_of({"squeue", "--noheader", "--name=samara"});
-    } catch (const Error& fault) {
+    } catch (const Error& error) {
         throw Error(
             fmt::format("--cluster: Slurm does not answer ({}); is this a machine of the cluster, or is "
                         "SLURM_CONF to be set?",
-                        fault.what()));
+                        error.what()));
     }
 }
 

@@ -5,7 +5,7 @@ import sys
 
 TEMPLATES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "templates")
 sys.path += [TEMPLATES, os.path.join(TEMPLATES, "body-flow")]  # what the scripts in a case share with those of the farm
-from case_files import Failure, Fault, read, read_record, say, write_json  # noqa: E402
+from case_files import Failure, CaseError, read, read_record, say, write_json  # noqa: E402
 
 
 def input_hash(folder):
@@ -32,7 +32,7 @@ def stopping_fault(folder, log):
 
 
 def run_on_folder(words, documentation, work):
-    """Runs work(FOLDER) for a script whose one argument is a folder; returns its exit status. A fault is printed
+    """Runs work(FOLDER) for a script whose one argument is a folder; returns its exit status. A error is printed
     in one line. A failure is also noted in FOLDER/failed.json, so that the farm leaves the case out."""
     if len(words) != 2:
         sys.stderr.write(documentation)
@@ -44,7 +44,7 @@ def run_on_folder(words, documentation, work):
         say(f"{folder}: {failure}")
         write_json(os.path.join(folder, "failed.json"), {"reason": str(failure), "inputs_hash": input_hash(folder)})
         return 1
-    except (Fault, OSError) as fault:
-        say(f"{folder}: {fault}")
+    except (CaseError, OSError) as error:
+        say(f"{folder}: {error}")
         return 1
     return 0

@@ -126,8 +126,8 @@ std::optional<int> run_guarded(const std::vector<std::string>& words, const std:
 }
 
 FolderLock::FolderLock(const std::filesystem::path& folder) {
-    std::error_code fault;
-    std::filesystem::create_directories(folder, fault);
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
     descriptor_ = ::open((folder / ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (descriptor_ < 0) {
         throw Error(fmt::format("{}: cannot be written: {}", folder.string(), std::strerror(errno)));

@@ -3,12 +3,12 @@
 
     make_mesh.py FOLDER   runs FOLDER/Allrun mesh and writes FOLDER/mesh.json where the mesh can be solved on
 
-A mesh is good where checkMesh finds no fault and the body's whole surface is there (check_mesh.py). Else the
+A mesh is good where checkMesh finds no error and the body's whole surface is there (check_mesh.py). Else the
 remedies below are tried, each in place of the one before, by a file `remedy` that `parameters` includes at its end;
 mesh.json says which were tried, and what each gave. Where none gives a good mesh, the one with the fewest faults is
 taken, if it can be solved on at all; its verdict says what is wrong with it.
 
-Else exit 1 with one line that says what is wrong; where the body is at fault (not where a program was only stopped)
+Else exit 1 with one line that says what is wrong; where the body is at error (not where a program was only stopped)
 also FOLDER/failed.json with that reason. mesh.json is written last and whole, so that its existence means success.
 """
 
@@ -20,7 +20,7 @@ import sys
 
 sys.path.append(os.path.dirname(os.path.realpath(__file__)))  # which python3 -I leaves out
 from farm_script import input_hash, run_on_folder  # noqa: E402
-from case_files import Failure, Fault, parameter, read, write_entries, write_json  # noqa: E402
+from case_files import Failure, CaseError, parameter, read, write_entries, write_json  # noqa: E402
 from check_mesh import PROGRAMS, judge  # noqa: E402
 
 # What `Allrun mesh` makes.
@@ -83,7 +83,7 @@ def planned(folder):
     plan["boxHalfWidth"] = parameter(text, "boxHalfWidth")
     shells = re.search(r"^refinementShells\s+(\(.*\));", text, re.MULTILINE)
     if not shells:
-        raise Fault("parameters: has no entry refinementShells")
+        raise CaseError("parameters: has no entry refinementShells")
     plan["refinementShells"] = shells.group(1)
     return plan
 
@@ -110,7 +110,7 @@ def attempt(folder, remedy, entries):
     result = subprocess.run([os.path.join(folder, "Allrun"), "mesh"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                             text=True, check=False)
     if not os.path.exists(os.path.join(folder, "log." + PROGRAMS[0])):
-        raise Fault((result.stdout.strip().splitlines() or ["Allrun mesh did nothing"])[-1])
+        raise CaseError((result.stdout.strip().splitlines() or ["Allrun mesh did nothing"])[-1])
     return judge(folder)
 
 

@@ -6,7 +6,7 @@ import os
 import re
 import sys
 
-from case_files import Fault, numbers, read
+from case_files import CaseError, numbers, read
 
 LABELS = {"32": "i", "64": "q"}
 SCALARS = {"32": "f", "64": "d"}
@@ -18,10 +18,10 @@ def read_file(path):
         with open(path, "rb") as file:
             content = file.read()
     except OSError as error:
-        raise Fault(f"{path}: {error.strerror}") from error
+        raise CaseError(f"{path}: {error.strerror}") from error
     header = re.search(rb"FoamFile\s*\{.*?\}", content, re.DOTALL)
     if not header:
-        raise Fault(f"{path}: is no file of OpenFOAM; make the mesh again")
+        raise CaseError(f"{path}: is no file of OpenFOAM; make the mesh again")
     return header.group(0).decode(errors="replace"), content[header.end():]
 
 
@@ -40,11 +40,11 @@ def binary_list(path, content, start, code, components=1):
     """The next list of a binary file from `start` on, `components` values to an entry; and where it ends."""
     opening = re.compile(rb"(\d+)\s*\(").search(content, start)
     if not opening:
-        raise Fault(f"{path}: is cut short; make the mesh again")
+        raise CaseError(f"{path}: is cut short; make the mesh again")
     values = array.array(code)
     end = opening.end() + int(opening.group(1)) * components * values.itemsize
     if end > len(content):
-        raise Fault(f"{path}: is cut short; make the mesh again")
+        raise CaseError(f"{path}: is cut short; make the mesh again")
     values.frombytes(content[opening.end():end])
     if sys.byteorder == "big":
         values.byteswap()
@@ -55,7 +55,7 @@ def ascii_entries(path, content):
     """The entries of a list in brackets, a line each, as lists of numbers."""
     parts = re.split(r"^\d+\s*^\(", content.decode(errors="replace"), maxsplit=1, flags=re.MULTILINE)
     if len(parts) != 2:
-        raise Fault(f"{path}: holds no list; make the mesh again")
+        raise CaseError(f"{path}: holds no list; make the mesh again")
     return [numbers(line) for line in parts[1].splitlines() if "(" in line]
 
 

@@ -166,17 +166,17 @@ bool adds_reynolds_numbers(const SceneGoal& goal, const LoadTables& tables, cons
 /// How many directions the next round adds: a sixth of what there is, up to half where the error is far
 /// beyond the tolerance; two at least.
 std::size_t next_count(const ScenePlan& plan, const Symmetry& symmetry, double worst) {
-    if (symmetry.kind == Symmetry::Kind::axial) return 1;
+    if (symmetry.type == Symmetry::Type::axial) return 1;
     const double share = std::clamp(worst, 1.0, 3.0) / 6.0;
     return std::max<std::size_t>(
         2, static_cast<std::size_t>(std::floor(share * static_cast<double>(plan.chosen.size()))));
 }
 
 /// Throws where the body meets no load within the scene, which so says nothing of what it needs.
-void require_loads(const SceneGoal& goal, const SampledFalls& flight) {
+void require_loads(const SceneGoal& goal, const SampledFalls& simulation) {
     const Scene& scene = goal.scene;
     const SceneBody& body = scene.bodies[goal.body];
-    const double mean = mean_reynolds_number(flight.visits);
+    const double mean = mean_reynolds_number(simulation.visits);
     if (scene.step <= scene.duration - body.start && mean > 0.0 && std::isfinite(mean)) return;
     throw Error(
         fmt::format("{}: the body '{}' does not move within the scene, which so says nothing of what it "
@@ -188,8 +188,8 @@ void require_loads(const SceneGoal& goal, const SampledFalls& flight) {
 }  // namespace
 
 ScenePlan first_plan(const SceneGoal& goal, const Body& body, const BakeQuality& quality,
-                     const Inflow& inflow, const SampledFalls& flight) {
-    require_loads(goal, flight);
+                     const Inflow& inflow, const SampledFalls& simulation) {
+    require_loads(goal, simulation);
     const Symmetry& symmetry = body.symmetry;
     ScenePlan plan;
     plan.candidates = candidate_directions(symmetry);
@@ -200,18 +200,19 @@ ScenePlan first_plan(const SceneGoal& goal, const Body& body, const BakeQuality&
     // In multiples, so that the map's nodes hold the candidates.
     const int solved = plan.candidates.subdivisions;
     plan.cases.subdivisions = solved * ((quality.table_subdivisions + solved - 1) / solved);
-    plan.cases.main_reynolds_number = rounded_reynolds_number(mean_reynolds_number(flight.visits));
-    plan.region = visited_region(flight.visits, symmetry);
+    plan.cases.main_reynolds_number = rounded_reynolds_number(mean_reynolds_number(simulation.visits));
+    plan.region = visited_region(simulation.visits, symmetry);
     add_directions(anchors(symmetry, plan.candidates), plan);
     const std::size_t few =
-        symmetry.kind == Symmetry::Kind::axial ? first_directions_of_arc : first_directions;
+        symmetry.type == Symmetry::Type::axial ? first_directions_of_arc : first_directions;
     add_directions(goal.whole_grid ? without(plan.chosen, plan.candidates.directions.size())
                                    : choose_directions(symmetry, plan.candidates.directions, plan.chosen,
-                                                       direction_weights(flight.visits, symmetry), few),
+                                                       direction_weights(simulation.visits, symmetry), few),
                    plan);
     const std::vector<std::size_t> order =
-        by_weight(direction_weights(flight.visits, symmetry), symmetry, plan);
-    if (const double far = far_reynolds_number(flight.visits, plan.cases.main_reynolds_number); far > 0.0) {
+        by_weight(direction_weights(simulation.visits, symmetry), symmetry, plan);
+    if (const double far = far_reynolds_number(simulation.visits, plan.cases.main_reynolds_number);
+        far > 0.0) {
         add_reynolds_number(far, 1, order, plan);
     }
     for (std::size_t i = 0; i < std::min(further_directions, order.size()); ++i) {
@@ -231,19 +232,19 @@ void judge_round(const SceneGoal& goal, const Conversion& conversion, double cpu
     const UncertainTables uncertain = uncertain_tables(conversion, plan);
     // Falls that differ much need more of them to see what the tables leave uncertain.
     for (int falls = goal.falls; falls <= most_falls_more * goal.falls; falls *= 2) {
-        round.flight = fly_for_bake(goal.scene, goal.body, conversion.body, falls);
-        round.error =
-            motion_error(goal.scene, goal.body, conversion.body, uncertain, round.flight, falls, goal.draws);
+        round.simulation = fly_for_bake(goal.scene, goal.body, conversion.body, falls);
+        round.error = motion_error(goal.scene, goal.body, conversion.body, uncertain, round.simulation, falls,
+                                   goal.draws);
         if (round.error.worst_chance(goal.tolerance) <= 0.5) break;
     }
-    round.strayed = share_strayed(round.flight.visits, plan);
-    const std::vector<FlowVisit> visits = std::move(round.flight.visits);
-    round.flight.visits = {};
+    round.strayed = share_strayed(round.simulation.visits, plan);
+    const std::vector<FlowVisit> visits = std::move(round.simulation.visits);
+    round.simulation.visits = {};
     const double worst = round.error.worst(goal.tolerance);
     const bool good = worst <= 1.0;
     plan.rounds.push_back(round);
     // Where it strays to is judged with the rest, and planned from now on.
-    if (symmetry.kind != Symmetry::Kind::spherical) merge(plan.region, visited_region(visits, symmetry));
+    if (symmetry.type != Symmetry::Type::spherical) merge(plan.region, visited_region(visits, symmetry));
     if (plan.rounds.size() >= static_cast<std::size_t>(goal.most_rounds)) {
         plan.stopped_because = fmt::format("{} rounds are the most there may be", goal.most_rounds);
     }

@@ -30,7 +30,7 @@ struct PlanRound {
     std::size_t cases = 0;               ///< so far, of all meshes and Reynolds numbers
     double estimated_cpu_seconds = 0.0;  ///< of these and the meshes
     double cpu_seconds = 0.0;            ///< that they took
-    SampledFalls flight;                 ///< with the tables of this round; its visits are dropped
+    SampledFalls simulation;             ///< with the tables of this round; its visits are dropped
     MotionError error;
     double strayed = 0.0;  ///< share of the frames outside of the planned region
 };
@@ -52,7 +52,7 @@ struct ScenePlan {
 /// more case at a Reynolds number far from it where they spread over a factor of more than two. `flight`: of
 /// the body without tables. Throws Error where it does not move in it.
 ScenePlan first_plan(const SceneGoal& goal, const Body& body, const BakeQuality& quality,
-                     const Inflow& inflow, const SampledFalls& flight);
+                     const Inflow& inflow, const SampledFalls& simulation);
 
 /// Judges a round: flies the baked body, works out what its tables leave uncertain, and either says why to
 /// stop or adds the directions (and Reynolds numbers) that would lower the uncertainty most.

@@ -31,7 +31,7 @@ nlohmann::json measures_as_json(const PlanRound& round, double tolerance) {
         const auto& error = round.error.metrics[metric];
         if (!error) continue;
         const CataloguedMetric& entry = catalogued(metric);
-        json[entry.key] = {{"value", round.flight.mean(metric)->value},
+        json[entry.key] = {{"value", round.simulation.mean(metric)->value},
                            {"error_of_table", error->of_table},
                            {"error_of_chance", error->of_chance},
                            {"allowed", entry.allowed.share * tolerance}};
@@ -48,7 +48,7 @@ std::size_t nearest_candidate(const Vector3d& direction, const std::vector<Vecto
     for (std::size_t i = 0; i < candidates.size(); ++i) {
         for (const Matrix3d& element : elements) {
             const Vector3d image = element * candidates[i];
-            const double closeness = symmetry.kind == Symmetry::Kind::axial
+            const double closeness = symmetry.type == Symmetry::Type::axial
                                          ? -std::abs(image.dot(axis) - direction.dot(axis))
                                          : image.dot(direction);
             // Rounding is not to decide between equals.
@@ -90,7 +90,7 @@ nlohmann::json scene_plan_as_json(const SceneGoal& goal, const ScenePlan& plan) 
     json["budget"] = goal.budget ? nlohmann::json(*goal.budget) : nlohmann::json();
     json["rounds"] = nlohmann::json::array();
     for (const PlanRound& round : plan.rounds) {
-        const RegimeCounts regimes = round.flight.regimes();
+        const RegimeCounts regimes = round.simulation.regimes();
         json["rounds"].push_back({{"directions", round.directions},
                                   {"cases", round.cases},
                                   {"estimated_cpu_seconds", std::round(round.estimated_cpu_seconds)},

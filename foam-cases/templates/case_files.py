@@ -1,4 +1,4 @@
-"""The files of a case, and how a fault is said: what the scripts in a case and the farm's scripts share. The writer of
+"""The files of a case, and how a error is said: what the scripts in a case and the farm's scripts share. The writer of
 cases puts a copy into each, so that a case can be run by itself."""
 
 import glob
@@ -14,13 +14,13 @@ TESTED_VERSION = "1912"  # of OpenFOAM
 MESH_FILES = ("points", "faces", "owner", "neighbour", "boundary")
 
 
-class Fault(Exception):
+class CaseError(Exception):
     """What is wrong, in one line for the user."""
 
 
-class Failure(Fault):
-    """A fault of the case itself, which would come again on the same inputs: the case is to be left out. Any
-    other fault (a program that was killed, a full disk) says nothing against the case."""
+class Failure(CaseError):
+    """A error of the case itself, which would come again on the same inputs: the case is to be left out. Any
+    other error (a program that was killed, a full disk) says nothing against the case."""
 
 
 def read(path):
@@ -28,7 +28,7 @@ def read(path):
         with open(path, errors="replace") as file:
             return file.read()
     except OSError as error:
-        raise Fault(f"{path}: {error.strerror}") from error
+        raise CaseError(f"{path}: {error.strerror}") from error
 
 
 def say(line, file=None):
@@ -84,7 +84,7 @@ def word(text, name):
     """The text of an entry of a case's file `parameters`."""
     match = re.search(rf"^{name}\s+([^;]+);", text, re.MULTILINE)
     if not match:
-        raise Fault(f"parameters: has no entry {name}; restore it")
+        raise CaseError(f"parameters: has no entry {name}; restore it")
     return match.group(1).strip()
 
 
@@ -107,9 +107,9 @@ def rows_of(path):
     try:
         rows = [numbers(line) for line in lines if line and not line.startswith("#")]
     except ValueError as error:
-        raise Fault(f"{path}: is damaged ({error}); ./Allclean starts over") from error
+        raise CaseError(f"{path}: is damaged ({error}); ./Allclean starts over") from error
     if any(len(row) != len(rows[0]) for row in rows):
-        raise Fault(f"{path}: is damaged: its rows are not of one length; ./Allclean starts over")
+        raise CaseError(f"{path}: is damaged: its rows are not of one length; ./Allclean starts over")
     return rows
 
 
@@ -139,7 +139,7 @@ def last_run(log):
 
 
 def other_version(log):
-    """In words for a fault, by which OpenFOAM the log's last run was, where the cases are not tested with it."""
+    """In words for a error, by which OpenFOAM the log's last run was, where the cases are not tested with it."""
     builds = re.findall(r"^Build\s*:\s*(.*?)\s*$", read(log), re.MULTILINE)
     if not builds or TESTED_VERSION in builds[-1]:
         return ""
@@ -154,8 +154,8 @@ def could_not_read_state(log):
 
 def breakdown(log, program, unit=None):
     """The exception for a program whose last run in the log did not reach its end: Failure where the case is at
-    fault, Fault where the program was stopped or could not read a file. `unit`: of a solver's steps ("iteration"),
-    before the first of which nothing says that its case is at fault."""
+    error, CaseError where the program was stopped or could not read a file. `unit`: of a solver's steps ("iteration"),
+    before the first of which nothing says that its case is at error."""
     text = last_run(log)
     times = re.findall(r"^Time = (\S+)", text, re.MULTILINE)
     where = f" at {unit} {times[-1]}" if unit and times else ""
@@ -165,11 +165,11 @@ def breakdown(log, program, unit=None):
         of_case = "IO" not in fatal.group(1) and (times or not unit)
         # Of a folder whose name OpenFOAM does not take, Allrun tells it this one.
         said = fatal.group(2).strip().rstrip(".").replace("/proc/self/cwd", os.path.dirname(log) or ".")
-        return (Failure if of_case else Fault)(f"{program} failed{where}: {said}{other_version(log)}{see}")
+        return (Failure if of_case else CaseError)(f"{program} failed{where}: {said}{other_version(log)}{see}")
     # The signal's handler, in the stack that OpenFOAM prints; its banner speaks of floating point exceptions too.
     if "sigFpe::sigHandler" in text:
         return Failure(f"{program} diverged (floating point exception){where}{see}")
-    return Fault(f"{program} was stopped{where}, before its end{see}")
+    return CaseError(f"{program} was stopped{where}, before its end{see}")
 
 
 def cpu_seconds(log_text):

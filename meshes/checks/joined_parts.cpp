@@ -154,7 +154,7 @@ class Parts {
     // Moves the sides of each part that lie on an earlier one, back to back, into that by twice the
     // tolerance.
     void push_together() {
-        std::vector<std::map<std::int32_t, std::vector<Vector3d>>> ways(parts_.size());
+        std::vector<std::map<std::int32_t, std::vector<Vector3d>>> facings(parts_.size());
         for (const auto& [one, two] : touching_) {
             visit_near(one, two, [&, &one = one, &two = two](std::size_t t, std::size_t u) {
                 const auto base = corners_of(one, t);
@@ -163,7 +163,7 @@ class Parts {
                 const bool back_to_back = (side[1] - side[0]).cross(side[2] - side[0]).dot(normal) < 0.0;
                 if (!back_to_back || !flush_patch(base, side, tolerance_)) return true;
                 for (const std::int32_t vertex : parts_[two].corners[u]) {
-                    auto& known = ways[two][vertex];
+                    auto& known = facings[two][vertex];
                     const bool is_new = std::none_of(known.begin(), known.end(), [&](const Vector3d& other) {
                         return other.dot(normal) > 0.99;
                     });
@@ -173,7 +173,7 @@ class Parts {
             });
         }
         for (std::size_t i = 0; i < parts_.size(); ++i) {
-            for (const auto& [vertex, normals] : ways[i]) {
+            for (const auto& [vertex, normals] : facings[i]) {
                 for (const Vector3d& normal : normals) {
                     parts_[i].vertices[as_index(vertex)] -= push * tolerance_ * normal;
                 }
@@ -311,7 +311,7 @@ std::optional<Surface> united(const Parts& parts, const std::vector<std::size_t>
 struct Union {
     Surface surface;
     bool is_sound = false;
-    std::string fault;  // empty where it is no surface at all, or faces of it meet
+    std::string error;  // empty where it is no surface at all, or faces of it meet
 };
 
 // `part`: of the diagonal, of the vertices that are one.
@@ -322,8 +322,8 @@ Union soundly_united(const Parts& parts, const std::vector<std::size_t>& group, 
     try {
         whole.surface = mended(*exact_union, part);
         require_bounding_surface(whole.surface);
-    } catch (const Error& fault) {
-        whole.fault = fault.what();
+    } catch (const Error& error) {
+        whole.error = error.what();
         return whole;
     }
     try {
@@ -356,14 +356,14 @@ Surface with_parts_joined(const Surface& surface) {
             continue;
         }
         Union whole = soundly_united(parts, group, welding_tolerance);
-        const std::string fault = whole.fault;
+        const std::string error = whole.error;
         if (!whole.is_sound) {
             if (!pushed) pushed.emplace(parts).push_together();
             whole = soundly_united(*pushed, group, 2.0 * push * welding_tolerance);
         }
         if (!whole.is_sound) {
             const std::string names = parts.names_of_two(group);
-            if (!fault.empty()) throw Error(fmt::format("{} touch or overlap: {}", names, fault));
+            if (!error.empty()) throw Error(fmt::format("{} touch or overlap: {}", names, error));
             labelled(names + " touch or overlap", [&] { require_bounding_surface(surface); });
             throw Error(fmt::format(
                 "{} touch or overlap so that they cannot be joined, as in an edge or a point alone; "

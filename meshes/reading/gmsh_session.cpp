@@ -73,12 +73,12 @@ void GmshSession::run(const std::string& label, const std::string& what, const s
         throw;
     } catch (const std::bad_alloc&) {
         throw;
-    } catch (const std::exception& fault) {
-        fail(label, what, fault.what());
-    } catch (const std::string& fault) {
-        fail(label, what, fault);
-    } catch (const char* fault) {
-        fail(label, what, fault);
+    } catch (const std::exception& error) {
+        fail(label, what, error.what());
+    } catch (const std::string& error) {
+        fail(label, what, error);
+    } catch (const char* error) {
+        fail(label, what, error);
     } catch (...) {
         fail(label, what, {});
     }

@@ -78,12 +78,12 @@ class Tokens {
     int line_ = 1;
 };
 
-[[noreturn]] void refuse(const std::string& label, const Token& token, std::string_view what) {
+[[noreturn]] void reject(const std::string& label, const Token& token, std::string_view what) {
     throw Error(fmt::format("{}: line {}: {} {}, which a shape may not; delete the statement", label,
                             token.line, token.text, what));
 }
 
-std::string_view refused_commands(std::string_view word) {
+std::string_view rejected_commands(std::string_view word) {
     if (is_one_of(word, {"SystemCall", "NonBlockingSystemCall", "System"})) return "starts a program";
     if (is_one_of(word, {"Save", "Print", "CreateDir"})) return "writes a file";
     if (word == "SendToServer") return "sends data away";
@@ -99,22 +99,22 @@ void require_shape_script(std::string_view script, const std::string& label) {
     Token printf_token;
     for (Token token = tokens.next(); !token.text.empty();) {
         const Token after = tokens.next();
-        if (token.text == "Exit") refuse(label, token, "ends gmsh");
-        if (token.text == "OnelabRun") refuse(label, token, "starts a program");
+        if (token.text == "Exit") reject(label, token, "ends gmsh");
+        if (token.text == "OnelabRun") reject(label, token, "starts a program");
         // The words of commands are no keywords: variables and macros may be called so.
         const bool is_name = is_one_of(before.text, {"For", "Macro", "Function", "Call"});
         if (!is_name && (after.is_text() || after.is_word())) {
-            const std::string_view what = refused_commands(token.text);
-            if (!what.empty()) refuse(label, token, what);
+            const std::string_view what = rejected_commands(token.text);
+            if (!what.empty()) reject(label, token, what);
         }
-        if (before.text == "=" && token.text == "ExternalProcess") refuse(label, token, "starts a program");
+        if (before.text == "=" && token.text == "ExternalProcess") reject(label, token, "starts a program");
         if (token.text == "Printf") {
             printf_token = token;
             depth_of_printf = 0;
         } else if (depth_of_printf >= 0) {
             if (token.text == "(") ++depth_of_printf;
             if (token.text == ")") --depth_of_printf;
-            if (depth_of_printf == 0 && token.text == ">") refuse(label, printf_token, "writes a file");
+            if (depth_of_printf == 0 && token.text == ">") reject(label, printf_token, "writes a file");
             if (depth_of_printf == 0 && token.text == ";") depth_of_printf = -1;
         }
         before = token;

@@ -146,11 +146,11 @@ class Attempts {
         try {
             require_sound_surface(result);
         } catch (const Error& reason) {
-            if (fault_.empty()) fault_ = reason.what();
+            if (error_.empty()) error_ = reason.what();
             return false;
         }
         if (sharpest_turn(result) > std::max(fold, sharpest_turn_)) {
-            if (fault_.empty()) fault_ = "the surface folds onto itself; ";
+            if (error_.empty()) error_ = "the surface folds onto itself; ";
             return false;
         }
         ShapeError error = shape_error(flat_, result);
@@ -171,7 +171,7 @@ class Attempts {
     // What nothing sound was found for: the remedies for a file's own faults do not help here.
     [[nodiscard]] Error unsound(const char* remedy) const {
         return Error(
-            fmt::format("{}: {} after remeshing; {}", label_, fault_.substr(0, fault_.rfind("; ")), remedy));
+            fmt::format("{}: {} after remeshing; {}", label_, error_.substr(0, error_.rfind("; ")), remedy));
     }
 
   private:
@@ -180,7 +180,7 @@ class Attempts {
     const std::string& label_;
     double sharpest_turn_;
     std::optional<MeshedShape> best_;
-    std::string fault_;
+    std::string error_;
     double smallest_miss_ = std::numeric_limits<double>::infinity();
 };
 

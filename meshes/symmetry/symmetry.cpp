@@ -64,7 +64,7 @@ std::optional<Vector3d> axis_of_revolution(const ImageComparison& images,
 
 Symmetry axial_symmetry(const ImageComparison& images, const Vector3d& axis) {
     Symmetry symmetry;
-    symmetry.kind = Symmetry::Kind::axial;
+    symmetry.type = Symmetry::Type::axial;
     symmetry.axis = axis;
     symmetry.axes = frame_about(axis);
     Eigen::Index column = 0;
@@ -237,7 +237,7 @@ Symmetry search(const ImageComparison& images, const VolumeMoments& moments) {
     if (principal.free_axis == 3) {
         if (is_spherical(images)) {
             Symmetry symmetry;
-            symmetry.kind = Symmetry::Kind::spherical;
+            symmetry.type = Symmetry::Type::spherical;
             symmetry.elements = {Matrix3d::Identity(), -Matrix3d::Identity()};
             return symmetry;
         }
@@ -259,8 +259,8 @@ Symmetry find_symmetry(const Surface& surface, const VolumeMoments& moments, dou
 }
 
 std::string describe(const Symmetry& symmetry) {
-    if (symmetry.kind == Symmetry::Kind::spherical) return "a sphere's: every rotation and reflection";
-    if (symmetry.kind == Symmetry::Kind::axial) {
+    if (symmetry.type == Symmetry::Type::spherical) return "a sphere's: every rotation and reflection";
+    if (symmetry.type == Symmetry::Type::axial) {
         return fmt::format("a body of revolution about ({:.4g}, {:.4g}, {:.4g}){}", symmetry.axis.x(),
                            symmetry.axis.y(), symmetry.axis.z(),
                            symmetry.elements.size() > 2 ? ", with a mirror plane across that axis" : "");

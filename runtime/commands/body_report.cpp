@@ -34,10 +34,10 @@ std::string in_words(const Symmetry& symmetry) {
     const std::string group =
         fmt::format("{} element{}", symmetry.elements.size(),
                     symmetry.elements.size() == 1 ? " (none beside the identity)" : "s");
-    switch (symmetry.kind) {
-        case Symmetry::Kind::spherical:
+    switch (symmetry.type) {
+        case Symmetry::Type::spherical:
             return "every rotation";
-        case Symmetry::Kind::axial:
+        case Symmetry::Type::axial:
             return fmt::format("every rotation about {}, and {}", in_words(symmetry.axis), group);
         default:
             return group;
@@ -280,14 +280,14 @@ nlohmann::json body_as_json(const Body& body) {
         {"centroid", as_json(moments.centroid)},
         {"surface_area", moments.surface_area},
         {"principal_extents", as_json(principal_extents(body))},
-        {"symmetry", {{"kind", name_of(body.symmetry.kind)}, {"elements", body.symmetry.elements.size()}}},
+        {"symmetry", {{"kind", name_of(body.symmetry.type)}, {"elements", body.symmetry.elements.size()}}},
         {"mass", nullptr},
         {"kirchhoff", nullptr},
         {"surface_loads", nullptr},
         {"tables", nullptr},
         {"dynamic_coefficients", nullptr},
     };
-    if (body.symmetry.kind == Symmetry::Kind::axial) result["symmetry"]["axis"] = as_json(body.symmetry.axis);
+    if (body.symmetry.type == Symmetry::Type::axial) result["symmetry"]["axis"] = as_json(body.symmetry.axis);
     if (body.mass) result["mass"] = mass_as_json(body);
     if (body.kirchhoff) {
         result["kirchhoff"] = {{"added_mass", rows_as_json(body.kirchhoff->matrix)},

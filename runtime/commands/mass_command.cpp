@@ -59,8 +59,8 @@ nlohmann::json run(const Request& request, bool json) {
         throw Error(fmt::format("{}: the name of a body file must end in .body.h5", output));
     }
     Body body = read_body_file(request.file);
-    if (const std::string fault = fault_of(mass, body.surface); !fault.empty()) {
-        throw Error(fmt::format("{}: {}", request.file, fault));
+    if (const std::string error = error_of(mass, body.surface); !error.empty()) {
+        throw Error(fmt::format("{}: {}", request.file, error));
     }
     body.mass = mass;
     write_body_file(output, body);

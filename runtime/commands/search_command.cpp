@@ -18,7 +18,7 @@
 #include "samara/core/base/error.hpp"
 #include "samara/motion/motion_writer.hpp"
 #include "samara/scene/scene_file.hpp"
-#include "samara/scene/simulation.hpp"
+#include "samara/scene/scene_simulation.hpp"
 #include "samara/scene/target_search.hpp"
 #include "samara/scene/terminal_speed.hpp"
 
@@ -47,8 +47,8 @@ std::vector<double> numbers_of(const std::string& option, const std::string& wor
     const char* const end = at + words.size();
     while (at != end) {
         double number = 0.0;
-        const auto [after, fault] = std::from_chars(at, end, number);
-        if (fault != std::errc() || !std::isfinite(number) || (after != end && *after != ',')) break;
+        const auto [after, error] = std::from_chars(at, end, number);
+        if (error != std::errc() || !std::isfinite(number) || (after != end && *after != ',')) break;
         numbers.push_back(number);
         at = after == end ? end : after + 1;
         if (after != end && at == end) break;  // a comma at the end
@@ -90,7 +90,7 @@ std::size_t body_of(const Scene& scene, const std::string& name) {
 }
 
 void write_best(const Scene& scene, const std::vector<LoadedBody>& loaded, const Request& request) {
-    Simulation simulation(scene, loaded, 1, request.threads);
+    SceneSimulation simulation(scene, loaded, 1, request.threads);
     write_motion_file(request.output, simulation.motion(), [&](MotionWriter& writer) {
         Progress progress("writing the best", "steps");
         simulation.fly([&](std::size_t body, std::size_t first,

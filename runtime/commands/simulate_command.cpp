@@ -31,7 +31,7 @@
 #include "samara/motion/motion_writer.hpp"
 #include "samara/scene/run_needs.hpp"
 #include "samara/scene/scene_file.hpp"
-#include "samara/scene/simulation.hpp"
+#include "samara/scene/scene_simulation.hpp"
 #include "samara/scene/terminal_speed.hpp"
 
 namespace samara {
@@ -160,7 +160,7 @@ void judge_needs(const RunNeeds& needs, const Request& request) {
 SimulationReport fly(const Scene& scene, const std::vector<LoadedBody>& loaded, const Request& request) {
     const std::string& output = request.output;
     const NotedInterrupts interrupts;
-    Simulation simulation(scene, loaded, request.runs, request.threads);
+    SceneSimulation simulation(scene, loaded, request.runs, request.threads);
     SimulationReport report;
     write_motion_file(output, simulation.motion(), [&](MotionWriter& writer) {
         Progress progress("simulating", "steps");
@@ -202,7 +202,7 @@ nlohmann::json body_result(const MotionReader& file, std::size_t index, const Bo
 nlohmann::json step_as_json(const StepAdvice& advice) {
     return {{"error", advice.error},
             {"tolerance", advice.tolerance},
-            {"within", advice.is_met},
+            {"within", advice.is_within},
             {"limit", advice.limit}};
 }
 

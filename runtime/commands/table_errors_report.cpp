@@ -16,8 +16,8 @@ namespace {
 constexpr double doubtful = 0.3;
 constexpr double worth_a_note = 0.1;  // of the flight, outside of what a bake was planned for
 
-bool used_tables(const std::optional<LoadTables>& tables, const TableErrorsMet& met) {
-    return tables && met.forces + met.turbulent_kinetic_energies > 0;
+bool used_tables(const std::optional<LoadTables>& tables, const TableErrorsOnPath& errors) {
+    return tables && errors.forces + errors.turbulent_kinetic_energies > 0;
 }
 
 std::vector<std::string_view> source_names(const LoadTables& tables) {
@@ -33,13 +33,13 @@ std::string error_sources_in_words(const LoadTables& tables) {
     return fmt::format("{}", fmt::join(source_names(tables), ", "));
 }
 
-std::string table_errors_as_text(const std::optional<LoadTables>& tables, const TableErrorsMet& met) {
-    if (!used_tables(tables, met)) return {};
+std::string table_errors_as_text(const std::optional<LoadTables>& tables, const TableErrorsOnPath& errors) {
+    if (!used_tables(tables, errors)) return {};
     std::string text = "  the tables' standard error along the flight:";
-    if (met.forces > 0) text += fmt::format(" {} of the force", per_cent(met.mean_force()));
-    if (met.forces > 0 && met.turbulent_kinetic_energies > 0) text += ",";
-    if (met.turbulent_kinetic_energies > 0) {
-        text += fmt::format(" {} of k", per_cent(met.mean_turbulent_kinetic_energy()));
+    if (errors.forces > 0) text += fmt::format(" {} of the force", per_cent(errors.mean_force()));
+    if (errors.forces > 0 && errors.turbulent_kinetic_energies > 0) text += ",";
+    if (errors.turbulent_kinetic_energies > 0) {
+        text += fmt::format(" {} of k", per_cent(errors.mean_turbulent_kinetic_energy()));
     }
     text += fmt::format("\n  it holds: {}\n", error_sources_in_words(*tables));
     if (const std::size_t left_out = left_out_cases(*tables).size(); left_out > 0) {
@@ -49,21 +49,22 @@ std::string table_errors_as_text(const std::optional<LoadTables>& tables, const 
     return text;
 }
 
-nlohmann::json table_errors_as_json(const std::optional<LoadTables>& tables, const TableErrorsMet& met) {
-    if (!used_tables(tables, met)) return nullptr;
+nlohmann::json table_errors_as_json(const std::optional<LoadTables>& tables,
+                                    const TableErrorsOnPath& errors) {
+    if (!used_tables(tables, errors)) return nullptr;
     nlohmann::json result = {{"force", nullptr}, {"turbulent_kinetic_energy", nullptr}};
-    if (met.forces > 0) result["force"] = met.mean_force();
-    if (met.turbulent_kinetic_energies > 0) {
-        result["turbulent_kinetic_energy"] = met.mean_turbulent_kinetic_energy();
+    if (errors.forces > 0) result["force"] = errors.mean_force();
+    if (errors.turbulent_kinetic_energies > 0) {
+        result["turbulent_kinetic_energy"] = errors.mean_turbulent_kinetic_energy();
     }
-    result["outside_of_plan"] = met.share_strayed();
+    result["outside_of_plan"] = errors.share_strayed();
     result["sources"] = source_names(*tables);
     result["left_out"] = nlohmann::json::array();
     for (const LeftOutCase& one : left_out_cases(*tables)) result["left_out"].push_back(one.name);
     return result;
 }
 
-void note_table_errors(BodyNotes& notes, const std::string& body, const TableErrorsMet& met) {
+void note_table_errors(BodyNotes& notes, const std::string& body, const TableErrorsOnPath& errors) {
     std::vector<std::string> quantities;
     double worst = 0.0;
     const auto look_at = [&](const char* quantity, double error) {
@@ -71,20 +72,20 @@ void note_table_errors(BodyNotes& notes, const std::string& body, const TableErr
         quantities.push_back(fmt::format("{:.0f} % of {}", 100.0 * error, quantity));
         worst = std::max(worst, error);
     };
-    look_at("the force", met.mean_force());
-    look_at("k", met.mean_turbulent_kinetic_energy());
+    look_at("the force", errors.mean_force());
+    look_at("k", errors.mean_turbulent_kinetic_energy());
     if (!quantities.empty()) {
         notes.add("tables", body, worst,
                   fmt::format("the tables are uncertain by {} along the flight (standard error); bake with a "
                               "higher quality",
                               fmt::join(quantities, " and ")));
     }
-    if (met.share_strayed() > worth_a_note) {
+    if (errors.share_strayed() > worth_a_note) {
         notes.add(
-            "strayed", body, met.share_strayed(),
+            "strayed", body, errors.share_strayed(),
             fmt::format("moved for {:.0f} % of the flight in directions that the bake was not planned for: "
                         "there its tables are extrapolated; bake this scene, or bake with --whole-grid",
-                        100.0 * met.share_strayed()));
+                        100.0 * errors.share_strayed()));
     }
 }
 

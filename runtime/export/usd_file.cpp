@@ -49,8 +49,8 @@ ImageFiles write_images(const std::filesystem::path& stage, const Motion& motion
         for (const DisplayImage& image : body.display->images) {
             const std::string name = names(image.name) + "." + image_type(image.bytes);
             const std::filesystem::path file = stage.parent_path() / folder / name;
-            std::error_code fault;  // which the write will meet
-            std::filesystem::create_directories(file.parent_path(), fault);
+            std::error_code error;  // which the write will meet
+            std::filesystem::create_directories(file.parent_path(), error);
             replace_file_with(file, image.bytes);
             files.back().push_back(fmt::format("./{}/{}", folder, name));
         }

@@ -57,8 +57,8 @@ tinygltf::FsCallbacks files_beneath(std::filesystem::path& folder) {
             const std::string read = input.bytes(most_mesh_bytes);
             bytes->assign(read.begin(), read.end());
             return true;
-        } catch (const Error& fault) {
-            if (error != nullptr) *error += fault.what();
+        } catch (const Error& caught) {
+            if (error != nullptr) *error += caught.what();
             return false;
         }
     };
@@ -156,8 +156,8 @@ class GlbReader {
             std::memcpy(&length, bytes.data() + 12, sizeof length);
             bytes = bytes.substr(header, length);
         }
-        const std::string fault = error_of_json_size(bytes);
-        if (!fault.empty()) fail("its JSON " + fault);
+        const std::string caught = error_of_json_size(bytes);
+        if (!caught.empty()) fail("its JSON " + caught);
     }
 
     template <typename Part>

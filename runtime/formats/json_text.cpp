@@ -8,7 +8,7 @@
 namespace samara {
 
 nlohmann::json parse_json(std::string_view text) {
-    if (const std::string fault = error_of_json_size(text); !fault.empty()) throw Error(fault);
+    if (const std::string error = error_of_json_size(text); !error.empty()) throw Error(error);
     try {
         return nlohmann::json::parse(text);
     } catch (const nlohmann::json::exception& reason) {

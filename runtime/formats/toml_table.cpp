@@ -14,15 +14,15 @@ toml::table parse_toml(std::string_view text, const std::string& file) {
     require_short_keys(text, file);
     try {
         return toml::parse(text, file);
-    } catch (const toml::parse_error& fault) {
-        throw Error(fmt::format("{}:{}: {}", file, fault.source().begin.line, fault.description()));
+    } catch (const toml::parse_error& error) {
+        throw Error(fmt::format("{}:{}: {}", file, error.source().begin.line, error.description()));
     }
 }
 
 TomlTable::TomlTable(const toml::table& table, std::string file, std::string where)
     : table_(&table), file_(std::move(file)), where_(std::move(where)) {}
 
-Error TomlTable::fault(std::string_view key, std::string_view what) const {
+Error TomlTable::error(std::string_view key, std::string_view what) const {
     const toml::node* found = table_->get(key);
     if (found == nullptr) require_no_slip(key);
     const auto line = (found != nullptr ? found->source() : table_->source()).begin.line;
@@ -56,11 +56,11 @@ double TomlTable::finite_number(std::string_view key, const toml::node& node,
     const bool fits =
         value && ((*value >= range.lowest && *value <= range.highest) || (range.or_zero && *value == 0.0));
     if (!fits && node.is_string()) {
-        throw fault(key,
+        throw error(key,
                     fmt::format("must be a number without a unit, in SI units (m, kg, s, rad), not \"{}\"",
                                 node.ref<std::string>()));
     }
-    if (!fits) throw fault(key, range.words);
+    if (!fits) throw error(key, range.words);
     return *value;
 }
 
@@ -77,7 +77,7 @@ std::optional<std::int64_t> TomlTable::integer(std::string_view key, std::int64_
     const std::optional<std::int64_t> value =
         found->is_integer() ? found->value<std::int64_t>() : std::nullopt;
     if (!value || *value < lowest || *value > highest) {
-        throw fault(key, fmt::format("must be a whole number from {} to {}", lowest, highest));
+        throw error(key, fmt::format("must be a whole number from {} to {}", lowest, highest));
     }
     return value;
 }
@@ -85,14 +85,14 @@ std::optional<std::int64_t> TomlTable::integer(std::string_view key, std::int64_
 std::optional<std::string> TomlTable::text(std::string_view key) {
     const toml::node* found = node(key);
     if (found == nullptr) return std::nullopt;
-    if (!found->is_string()) throw fault(key, "must be a text in quotes");
+    if (!found->is_string()) throw error(key, "must be a text in quotes");
     return found->value<std::string>();
 }
 
 std::optional<bool> TomlTable::boolean(std::string_view key) {
     const toml::node* found = node(key);
     if (found == nullptr) return std::nullopt;
-    if (!found->is_boolean()) throw fault(key, "must be true or false");
+    if (!found->is_boolean()) throw error(key, "must be true or false");
     return found->value<bool>();
 }
 
@@ -101,7 +101,7 @@ std::optional<std::vector<double>> TomlTable::numbers(std::string_view key, std:
     if (found == nullptr) return std::nullopt;
     const toml::array* array = found->as_array();
     if (array == nullptr || array->size() != length)
-        throw fault(key, fmt::format("must be a list of {} numbers", length));
+        throw error(key, fmt::format("must be a list of {} numbers", length));
     std::vector<double> values;
     for (const toml::node& element : *array) {
         values.push_back(finite_number(
@@ -120,14 +120,14 @@ std::optional<Quaterniond> TomlTable::quaternion(std::string_view key) {
     const auto values = numbers(key, 4);
     if (!values) return std::nullopt;
     const Quaterniond quaternion((*values)[0], (*values)[1], (*values)[2], (*values)[3]);
-    if (quaternion.norm() < 1e-6) throw fault(key, "must be a quaternion (w, x, y, z) that is not zero");
+    if (quaternion.norm() < 1e-6) throw error(key, "must be a quaternion (w, x, y, z) that is not zero");
     return quaternion.normalized();
 }
 
 std::optional<TomlTable> TomlTable::table(std::string_view key) {
     const toml::node* found = node(key);
     if (found == nullptr) return std::nullopt;
-    if (!found->is_table()) throw fault(key, "must be a table");
+    if (!found->is_table()) throw error(key, "must be a table");
     return TomlTable(*found->as_table(), file_, fmt::format("[{}]", key));
 }
 
@@ -135,7 +135,7 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key) {
     std::vector<TomlTable> result;
     const toml::node* found = node(key);
     if (found == nullptr) return result;
-    if (!found->is_array_of_tables()) throw fault(key, fmt::format("must be written as [[{}]]", key));
+    if (!found->is_array_of_tables()) throw error(key, fmt::format("must be written as [[{}]]", key));
     for (const toml::node& element : *found->as_array()) {
         result.emplace_back(*element.as_table(), file_, fmt::format("[[{}]]", key));
     }

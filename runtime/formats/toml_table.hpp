@@ -57,7 +57,7 @@ class TomlTable {
     void finish() const;
 
     /// What is wrong with a key; of one that is missing, the key that is it misspelt.
-    [[nodiscard]] Error fault(std::string_view key, std::string_view what) const;
+    [[nodiscard]] Error error(std::string_view key, std::string_view what) const;
 
   private:
     /// Throws where one of the unknown keys is this one misspelt.

@@ -28,7 +28,7 @@ constexpr double zero_block = 1e-3;
 
 // A sound surface's solid angles sum up better than this, even where it is very thin; one that overlaps
 // itself is off by 1.
-constexpr double most_closure_fault = 0.05;
+constexpr double most_closure_error = 0.05;
 // The curved method takes no more: its matrix takes 16 bytes for each pair of triangles.
 constexpr std::size_t most_curved_triangles = 6000;
 constexpr std::size_t most_flat_triangles = 120000;
@@ -213,11 +213,11 @@ class Solver {
         const BoundaryElementResult found = method == KirchhoffMethod::curved_collocation
                                                 ? solve_curved_collocation(surface, options)
                                                 : solve_hypersingular(without_edge_nodes(surface), options);
-        if (found.closure_fault > most_closure_fault) {
+        if (found.closure_error > most_closure_error) {
             throw OverlapError(fmt::format(
                 "the surface overlaps or touches itself: its solid angle is off by {:.1g}; join what "
                 "touches into one solid, or mesh a thin part with more triangles",
-                found.closure_fault));
+                found.closure_error));
         }
         Vector6d powers;
         powers << Vector3d::Constant(length_), Vector3d::Ones();

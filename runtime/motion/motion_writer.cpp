@@ -188,10 +188,10 @@ void write_motion_file(const std::filesystem::path& path, const Motion& motion_b
     write_hdf5(path, [&](Hdf5Writer& file) {
         try {
             file.expect_size(expected_size(motion_but_poses));
-        } catch (const Error& fault) {
+        } catch (const Error& error) {
             throw Error(
                 fmt::format("{}: {}; lower the duration, frame_rate, count or runs, or write elsewhere",
-                            path.string(), fault.what()));
+                            path.string(), error.what()));
         }
         MotionWriter writer(file, motion_but_poses);
         fill(writer);

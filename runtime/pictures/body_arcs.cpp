@@ -124,10 +124,10 @@ double shown_angle(const LoadTables& tables, const std::vector<BodyArc>& arcs, d
 std::vector<double> angles_on(const BodyArc& arc, const Symmetry& symmetry, const Vector3d& direction,
                               double most) {
     std::vector<double> angles;
-    if (symmetry.kind == Symmetry::Kind::spherical) return {0.0};
+    if (symmetry.type == Symmetry::Type::spherical) return {0.0};
     for (const Matrix3d& element : symmetry.elements) {
         std::vector<Vector3d> images = {element * direction};
-        if (symmetry.kind == Symmetry::Kind::axial) {
+        if (symmetry.type == Symmetry::Type::axial) {
             const auto turned = turned_into(arc, symmetry.axis, images.front());
             images.insert(images.end(), turned.begin(), turned.end());
         }

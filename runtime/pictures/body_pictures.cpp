@@ -66,7 +66,7 @@ json polars(const Body& body, double reynolds_number, const std::vector<CaseReco
     const std::vector<CaseRecord> cases = table_cases(records, reynolds_number);
     const std::vector<BodyArc> arcs = arcs_of(body, reynolds_number);
     const double most = shown_angle(*body.tables, arcs, reynolds_number);
-    json picture = {{"shown_angle", most}, {"spherical", body.symmetry.kind == Symmetry::Kind::spherical}};
+    json picture = {{"shown_angle", most}, {"spherical", body.symmetry.type == Symmetry::Type::spherical}};
     std::set<const CaseRecord*> on_arcs;
     for (const BodyArc& arc : arcs) {
         picture["arcs"].push_back(arc_as_json(body, arc, most, reynolds_number, cases, on_arcs));
@@ -127,7 +127,7 @@ json sphere(const Body& body, double reynolds_number, const std::vector<CaseReco
     picture["cases"] = solved.size();
     picture["planned"] = planned_area / all;
     const Symmetry& symmetry = body.symmetry;
-    picture["has_images"] = symmetry.elements.size() > 1 || symmetry.kind != Symmetry::Kind::finite;
+    picture["has_images"] = symmetry.elements.size() > 1 || symmetry.type != Symmetry::Type::finite;
     return picture;
 }
 
@@ -198,7 +198,7 @@ json convergence(const Body& body, double reynolds_number, const std::vector<Cas
                                             {"epsilon", share.dissipation_rate}});
     }
     const Matrix3d axes = principal_axes(body.moments);
-    if (body.symmetry.kind == Symmetry::Kind::spherical) {
+    if (body.symmetry.type == Symmetry::Type::spherical) {
         picture["axes"].push_back(axis_as_json(body, "any direction", axes.col(0)));
     } else {
         constexpr const char* names[] = {"short", "middle", "long"};

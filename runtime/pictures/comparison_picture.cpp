@@ -24,7 +24,7 @@ json fall_as_json(const FallSeries& fall, double end) {
     const std::size_t stride = 1 + fall.times.size() / most_points;
     for (std::size_t i = 0; i < fall.times.size() && fall.times[i] <= end; i += stride) {
         result["times"].push_back(fall.times[i]);
-        result["paths"].push_back(as_json(fall.ways[i]));
+        result["paths"].push_back(as_json(fall.displacements[i]));
         result["inclinations"].push_back(fall.inclinations[i]);
     }
     return result;

@@ -49,15 +49,15 @@ py::array pose_view(const Pose* poses, std::vector<py::ssize_t> leading, PoseMem
 }
 
 void require_runs_and_threads(int runs, int threads) {
-    if (runs < 1 || runs > 1'000'000) throw InputFault("runs: give 1 to 1000000");
-    if (threads < 0 || threads > 4096) throw InputFault("threads: give 0 for all cores, or up to 4096");
+    if (runs < 1 || runs > 1'000'000) throw RaisedInputError("runs: give 1 to 1000000");
+    if (threads < 0 || threads > 4096) throw RaisedInputError("threads: give 0 for all cores, or up to 4096");
 }
 
 std::vector<LoadedBody> bodies_of(Scene& scene, const std::filesystem::path& folder) {
     std::filesystem::path unreadable;
     for (const SceneBody& body : scene.bodies) {
         const std::filesystem::path file = folder.empty() ? body.shape : folder / (body.name + ".body.h5");
-        if (unreadable.empty() && !reading_fault(file).empty()) unreadable = file;
+        if (unreadable.empty() && !reading_error(file).empty()) unreadable = file;
     }
     return on_input([&] { return load_scene_bodies(scene, folder.string()); }, unreadable);
 }

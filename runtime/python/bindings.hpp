@@ -21,21 +21,21 @@
 
 #include "samara/core/base/error.hpp"
 #include "samara/core/files/input_file.hpp"
-#include "samara/core/flight/flight.hpp"
+#include "samara/core/simulation/simulation.hpp"
 #include "samara/motion/motion.hpp"
-#include "samara/scene/simulation.hpp"
+#include "samara/scene/scene_simulation.hpp"
 
 namespace samara::python {
 
 namespace py = pybind11;
 
 /// A fault of what a caller gave: samara.InputError, which is a ValueError too.
-class InputFault : public Error {
+class RaisedInputError : public Error {
     using Error::Error;
 };
 
 /// A fault of a file that cannot be read or written: samara.FileError, which is an OSError too.
-class FileFault : public Error {
+class RaisedFileError : public Error {
     using Error::Error;
 };
 
@@ -44,15 +44,15 @@ template <typename Work>
 auto on_input(const Work& work, const std::filesystem::path& file = {}) {
     try {
         return work();
-    } catch (const InputFault&) {
+    } catch (const RaisedInputError&) {
         throw;
-    } catch (const FileFault&) {
+    } catch (const RaisedFileError&) {
         throw;
-    } catch (const FlightError&) {
+    } catch (const SimulationError&) {
         throw;
-    } catch (const Error& fault) {
-        if (!file.empty() && !reading_fault(file).empty()) throw FileFault(fault.what());
-        throw InputFault(fault.what());
+    } catch (const Error& caught) {
+        if (!file.empty() && !reading_error(file).empty()) throw RaisedFileError(caught.what());
+        throw RaisedInputError(caught.what());
     }
 }
 
@@ -117,7 +117,7 @@ std::array<double, count> numbers_of(const py::handle& given, const char* name) 
 }
 
 /// A dict as TOML. `place`: what it is called where a value is none of TOML's, or nests without end, which
-/// throws InputFault.
+/// throws RaisedInputError.
 std::string toml_text(const py::dict& values, const std::string& place);
 
 /// Reads such a text by read(); its faults do not name the lines, which nobody wrote.
@@ -125,16 +125,16 @@ template <typename Read>
 auto read_dict(const std::string& place, const Read& read) {
     try {
         return read();
-    } catch (const Error& fault) {
-        std::string text = fault.what();
+    } catch (const Error& caught) {
+        std::string text = caught.what();
         const std::size_t end = text.find_first_not_of("0123456789", place.size() + 1);
         if (text.starts_with(place + ":") && end > place.size() + 1)
             text.erase(place.size(), end - place.size());
-        throw InputFault(text);
+        throw RaisedInputError(text);
     }
 }
 
-/// Throws InputFault where there are none or too many.
+/// Throws RaisedInputError where there are none or too many.
 void require_runs_and_threads(int runs, int threads);
 
 /// The bodies of a scene, as load_scene_bodies() gives them. The caller holds hdf5_mutex().
@@ -196,8 +196,8 @@ class LongWork {
 void bind_scene(py::module_& module);
 /// Motions: samara.Motion, BodyMotion, simulate, read_motion, compare.
 void bind_motion(py::module_& module);
-/// Live flights: samara.Flight.
-void bind_flight(py::module_& module);
+/// Live flights: samara.Simulation.
+void bind_simulation(py::module_& module);
 /// Body files: samara.Body.
 void bind_body(py::module_& module);
 

@@ -138,13 +138,13 @@ void bind_body(py::module_& module) {
             [](const Body& body, const py::object& given, double reynolds_number) {
                 const Vector3d direction(numbers_of<3>(given, "direction").data());
                 if (!body.tables)
-                    throw InputFault(
+                    throw RaisedInputError(
                         fmt::format("{}: has no tables; make them with 'samara bake'", body.name));
                 if (direction.isZero(0.0) || !direction.allFinite()) {
-                    throw InputFault("direction: give three finite numbers, not all zero");
+                    throw RaisedInputError("direction: give three finite numbers, not all zero");
                 }
                 if (!(reynolds_number > 0.0 && std::isfinite(reynolds_number))) {
-                    throw InputFault("reynolds_number: give a finite number above 0");
+                    throw RaisedInputError("reynolds_number: give a finite number above 0");
                 }
                 // In two steps, since the squares of its numbers may leave the range of numbers.
                 const Vector3d scaled = direction / direction.cwiseAbs().maxCoeff();

@@ -18,8 +18,8 @@ py::handle exception(py::module_& module, const char* name, const py::tuple& bas
     return made;
 }
 
-void set_error(const py::handle& kind, const Error& fault) {
-    PyErr_SetString(kind.ptr(), fault.what());
+void set_error(const py::handle& kind, const Error& caught) {
+    PyErr_SetString(kind.ptr(), caught.what());
 }
 
 void bind_errors(py::module_& module) {
@@ -34,15 +34,15 @@ void bind_errors(py::module_& module) {
     py::register_exception_translator([](std::exception_ptr thrown) {
         try {
             if (thrown) std::rethrow_exception(thrown);
-        } catch (const FileFault& fault) {
-            set_error(file_error, fault);
-        } catch (const InputFault& fault) {
-            set_error(input_error, fault);
-        } catch (const FlightError& fault) {
-            const bool is_lost = fault.kind() == FlightError::Kind::out_of_range;
-            set_error(is_lost ? error : input_error, fault);
-        } catch (const Error& fault) {
-            set_error(error, fault);
+        } catch (const RaisedFileError& caught) {
+            set_error(file_error, caught);
+        } catch (const RaisedInputError& caught) {
+            set_error(input_error, caught);
+        } catch (const SimulationError& caught) {
+            const bool is_lost = caught.reason() == SimulationError::Reason::out_of_range;
+            set_error(is_lost ? error : input_error, caught);
+        } catch (const Error& caught) {
+            set_error(error, caught);
         }
     });
 }
@@ -56,7 +56,7 @@ PYBIND11_MODULE(_samara, module) {
     bind_scene(module);
     bind_body(module);
     bind_motion(module);
-    bind_flight(module);
+    bind_simulation(module);
     py::module_::import("atexit").attr("register")(py::cpp_function(&LongWork::end_all));
 }
 

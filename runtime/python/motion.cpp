@@ -48,8 +48,8 @@ template <typename Work>
 void to_file(const Work& work) {
     try {
         work();
-    } catch (const Error& fault) {
-        throw FileFault(fault.what());
+    } catch (const Error& error) {
+        throw RaisedFileError(error.what());
     }
 }
 
@@ -62,7 +62,8 @@ void write(const FlownMotion& motion, const std::filesystem::path& file) {
 FlownMotion fly(Scene scene, int runs, std::optional<std::uint64_t> seed, std::optional<double> step,
                 int threads, const std::filesystem::path& bodies, py::object progress) {
     require_runs_and_threads(runs, threads);
-    if (step && !(*step >= 1e-9 && *step <= 1e3)) throw InputFault("step: give seconds, from 1e-9 to 1000");
+    if (step && !(*step >= 1e-9 && *step <= 1e3))
+        throw RaisedInputError("step: give seconds, from 1e-9 to 1000");
     if (seed) scene.seed = *seed;
     if (step) {
         scene.step = *step;
@@ -173,7 +174,7 @@ FallChoice choice_of(const MotionReader& file, const std::string& name,
     for (std::size_t i = 0; body && i < bodies.size(); ++i) {
         if (bodies[i].name == *body) return {name, &file, i, {}, {}};
     }
-    throw InputFault(
+    throw RaisedInputError(
         fmt::format("{}: holds the bodies {}; give one of these as body", name, names_of(file.motion())));
 }
 
@@ -197,7 +198,7 @@ py::object compared(const py::object& motion, const py::object& reference,
                             }));
     };
     const std::filesystem::path& warned_of =
-        reading_fault(motion_file).empty() ? reference_file : motion_file;
+        reading_error(motion_file).empty() ? reference_file : motion_file;
     const nlohmann::json result = work([&] { return on_input(compare_files, warned_of); });
     return as_python(result);
 }
@@ -253,7 +254,7 @@ void export_to(const FlownMotion& motion, const std::filesystem::path& file, int
                        fmt::format("{} frames per second", written.frame_rate));
         });
     } else {
-        throw InputFault(
+        throw RaisedInputError(
             fmt::format("{}: the format '{}' is unknown; end the name in .glb, .usda, .chan, .html or .csv",
                         file.string(), format));
     }

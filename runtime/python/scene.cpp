@@ -19,8 +19,8 @@ namespace {
 
 constexpr int most_levels = 32;  // of lists and dicts within each other; scenes need six
 
-InputFault no_toml(const std::string& place, const py::handle& value) {
-    return InputFault(
+RaisedInputError no_toml(const std::string& place, const py::handle& value) {
+    return RaisedInputError(
         fmt::format("{} is of the type {}; a scene holds numbers, texts, booleans, lists and dicts", place,
                     py::str(py::type::of(value).attr("__name__")).cast<std::string>()));
 }
@@ -28,7 +28,7 @@ InputFault no_toml(const std::string& place, const py::handle& value) {
 /// What `place` is called from, whatever a scene that nests without end adds to it.
 void require_levels(const std::string& place, int level) {
     if (level <= most_levels) return;
-    throw InputFault(
+    throw RaisedInputError(
         fmt::format("{}...: lists and dicts lie more than {} deep within each other; does one hold "
                     "itself?",
                     place.substr(0, place.find('[', place.find('[') + 1)), most_levels));
@@ -38,7 +38,7 @@ std::string text_of(const py::handle& text, const std::string& place) {
     try {
         return text.cast<std::string>();
     } catch (const py::cast_error&) {
-        throw InputFault(fmt::format("{} holds a text that is no Unicode", place));
+        throw RaisedInputError(fmt::format("{} holds a text that is no Unicode", place));
     }
 }
 
@@ -47,7 +47,7 @@ std::int64_t whole_number(const py::handle& value, const std::string& place) {
     if (!number) throw py::error_already_set();
     int overflow = 0;
     const long long result = PyLong_AsLongLongAndOverflow(number.ptr(), &overflow);
-    if (overflow != 0) throw InputFault(fmt::format("{} is a whole number beyond 64 bits", place));
+    if (overflow != 0) throw RaisedInputError(fmt::format("{} is a whole number beyond 64 bits", place));
     return result;
 }
 
@@ -56,7 +56,7 @@ double real_number(const py::handle& value, const std::string& place) {
     if (PyErr_Occurred() == nullptr) return number;
     if (PyErr_ExceptionMatches(PyExc_OverflowError) == 0) throw py::error_already_set();
     PyErr_Clear();
-    throw InputFault(fmt::format("{} is beyond the range of numbers", place));
+    throw RaisedInputError(fmt::format("{} is beyond the range of numbers", place));
 }
 
 /// Whether it is a number of numpy's or an array: numpy.bool_, numpy.float32(1), numpy.zeros(3).
@@ -108,7 +108,7 @@ toml::table as_toml_table(const py::dict& values, const std::string& place, int 
     toml::table table;
     for (const auto& [key, value] : values) {
         if (!py::isinstance<py::str>(key)) {
-            throw InputFault(
+            throw RaisedInputError(
                 fmt::format("{} has the key {}; keys are texts", place, py::repr(key).cast<std::string>()));
         }
         const std::string name = text_of(key, place);

@@ -118,12 +118,12 @@ void judge_cases(std::vector<Finding>& findings, const LoadTables& tables,
                       : Finding{Grade::limited, "cases",
                                 fmt::format("{} of {} swing about a mean that stays; their error holds it",
                                             restless, records.size())});
-    const auto faulty =
+    const auto errory =
         count([](const CaseRecord& one) { return !one.mesh_verdict.empty() && one.mesh_verdict != "ok"; });
-    if (faulty > 0) {
+    if (errory > 0) {
         findings.push_back(
             {Grade::limited, "meshes",
-             fmt::format("checkMesh finds faults in those of {} of {} cases", faulty, records.size())});
+             fmt::format("checkMesh finds faults in those of {} of {} cases", errory, records.size())});
     } else if (std::ranges::any_of(records, [](const CaseRecord& one) { return one.cells > 0.0; })) {
         findings.push_back({Grade::good, "meshes", "checkMesh finds no fault"});
     }
@@ -262,8 +262,8 @@ BakeVerdict judge_bake(const Body& body, const std::vector<Finding>& further) {
     BakeVerdict verdict;
     const LoadTables& tables = *body.tables;
     std::vector<Finding>& findings = verdict.findings;
-    if (const std::string fault = fault_of(body); !fault.empty()) {
-        findings.push_back({Grade::bad, "soundness", fault});
+    if (const std::string error = error_of(body); !error.empty()) {
+        findings.push_back({Grade::bad, "soundness", error});
     }
     judge_quality(findings, tables);
     judge_error(findings, tables, "force", &ErrorShare::force, ", half of which a speed of descent has");

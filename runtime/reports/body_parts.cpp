@@ -55,7 +55,7 @@ ReportPart part_of_body(const Body& body) {
          fmt::format("{} triangles of order {}", body.surface.triangle_count(), body.surface.order())},
         {"volume, area", fmt::format("{:.4g} m³, {:.4g} m²", body.moments.volume, body.moments.surface_area)},
         {"symmetry",
-         fmt::format("{}, {} elements", name_of(body.symmetry.kind), body.symmetry.elements.size())},
+         fmt::format("{}, {} elements", name_of(body.symmetry.type), body.symmetry.elements.size())},
         {"reference length L", fmt::format("{:.5g} m", tables.reference_length)}};
     if (body.kirchhoff) {
         const Matrix6d& added = body.kirchhoff->matrix;

@@ -23,14 +23,14 @@ samara_status samara_set_wind(samara_simulation* simulation, const char* wind, c
     return guarded(error, error_size, [&] {
         require(simulation, "simulation");
         require(wind, "wind");
-        samara::Flight& flight = simulation->flight;
-        flight.require_running();
+        samara::Simulation& core = simulation->core;
+        core.require_running();
         const toml::table document = samara::parse_toml(wind, "wind");
         samara::TomlTable table(document, "wind", "the wind");
         const std::lock_guard lock(samara::hdf5_mutex());  // of a wind file
-        samara::Wind given = samara::read_wind(table, ".", flight.ground().value_or(0.0), no_end);
-        given.function = flight.wind().function;
-        given.function_context = flight.wind().function_context;
-        flight.set_wind(given);
+        samara::Wind given = samara::read_wind(table, ".", core.ground().value_or(0.0), no_end);
+        given.function = core.wind().function;
+        given.function_context = core.wind().function_context;
+        core.set_wind(given);
     });
 }

@@ -27,7 +27,7 @@ Choice choice(TomlTable& table, std::string_view key, const Words<Choice>& words
     if (found != words.end()) return found->second;
     std::vector<std::string> names;
     for (const auto& [name, value] : words) names.push_back('"' + name + '"');
-    throw table.fault(key, fmt::format("must be one of {}, not \"{}\"", fmt::join(names, ", "), *text));
+    throw table.error(key, fmt::format("must be one of {}, not \"{}\"", fmt::join(names, ", "), *text));
 }
 
 }  // namespace samara

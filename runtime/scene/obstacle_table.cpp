@@ -27,11 +27,11 @@ std::string extension_of(const std::filesystem::path& file) {
 Surface read_mesh(const TomlTable& table, const std::filesystem::path& file) {
     const std::string extension = extension_of(file);
     if (extension != ".stl" && extension != ".obj" && extension != ".glb") {
-        throw table.fault(
+        throw table.error(
             "shape", fmt::format("must be a mesh, .stl, .obj or .glb, not '{}'", file.filename().string()));
     }
-    if (const std::string fault = reading_fault(file); !fault.empty()) {
-        throw table.fault("shape", fmt::format("cannot be had: {}: {}", file.string(), fault));
+    if (const std::string error = reading_error(file); !error.empty()) {
+        throw table.error("shape", fmt::format("cannot be had: {}: {}", file.string(), error));
     }
     try {
         Surface surface = mended(extension == ".stl"   ? read_stl_file(file)
@@ -39,8 +39,8 @@ Surface read_mesh(const TomlTable& table, const std::filesystem::path& file) {
                                                        : surface_of(read_display_mesh_file(file)));
         require_solid_surface(surface);
         return surface;
-    } catch (const Error& fault) {
-        throw table.fault("shape", fmt::format("is no sound surface: {}: {}", file.string(), fault.what()));
+    } catch (const Error& error) {
+        throw table.error("shape", fmt::format("is no sound surface: {}: {}", file.string(), error.what()));
     }
 }
 
@@ -53,9 +53,9 @@ std::vector<ObstacleKey> read_keys(TomlTable& table, const ObstaclePlace& place)
     std::vector<ObstacleKey> keys;
     for (TomlTable& each : table.tables("keys")) {
         const auto time = each.number("time", any_number);
-        if (!time) throw each.fault("time", "is missing; give the second at which it is there");
+        if (!time) throw each.error("time", "is missing; give the second at which it is there");
         if (!keys.empty() && !(*time > keys.back().time)) {
-            throw each.fault("time", "must be later than that of the key before");
+            throw each.error("time", "must be later than that of the key before");
         }
         keys.push_back({read_place(each, place), *time});
         each.finish();
@@ -67,15 +67,15 @@ std::vector<ObstacleKey> read_keys(TomlTable& table, const ObstaclePlace& place)
 void require_steady(const TomlTable& table, const Obstacle& obstacle) {
     try {
         require_steady_keys(obstacle);
-    } catch (const Error& fault) {
-        throw table.fault("keys", fault.what());
+    } catch (const Error& error) {
+        throw table.error("keys", error.what());
     }
 }
 
 /// Shape, scale, place and keys.
 void read_solid(TomlTable& table, const std::filesystem::path& folder, Obstacle& obstacle) {
     const auto shape = table.text("shape");
-    if (!shape) throw table.fault("shape", "is missing; give a mesh, .stl, .obj or .glb");
+    if (!shape) throw table.error("shape", "is missing; give a mesh, .stl, .obj or .glb");
     obstacle.surface = read_mesh(table, folder / *shape);
     const double scale = table.number("scale", positive_number).value_or(1.0);
     for (Vector3d& vertex : obstacle.surface.vertices) vertex *= scale;
@@ -97,9 +97,9 @@ Emitter read_emitter(TomlTable& table, const std::filesystem::path& folder) {
 Obstacle read_obstacle(TomlTable& table, const std::filesystem::path& folder) {
     Obstacle obstacle;
     const auto name = table.text("name");
-    if (!name) throw table.fault("name", "is missing; give the obstacle a name");
+    if (!name) throw table.error("name", "is missing; give the obstacle a name");
     if (!is_plain_name(*name)) {
-        throw table.fault("name", "may hold letters, digits, '-' and '_' alone, 64 at most");
+        throw table.error("name", "may hold letters, digits, '-' and '_' alone, 64 at most");
     }
     obstacle.name = *name;
     read_solid(table, folder, obstacle);

@@ -25,7 +25,7 @@ BodiesByName read_index(const fs::path& file) {
     TomlTable top(document, file.string(), "the index");
     for (TomlTable& table : top.tables("body")) {
         const auto name = table.text("name");
-        if (!name) throw table.fault("name", "is missing; give the body a name");
+        if (!name) throw table.error("name", "is missing; give the body a name");
         ReadyBody& body = bodies[*name];
         body.name = *name;
         body.fluid = table.text("fluid").value_or("");

@@ -10,14 +10,14 @@
 #include "samara/core/dynamics/prepared_bodies.hpp"
 #include "samara/core/kernel/state_block.hpp"
 #include "samara/core/physics/pose.hpp"
-#include "samara/scene/table_errors_met.hpp"
+#include "samara/scene/table_errors_on_path.hpp"
 
 namespace samara {
 namespace {
 
 // Of a copy in a run while it flies (body_flight.hpp), and of its poses in a block while that is written.
 constexpr double bytes_of_a_flight = static_cast<double>(sizeof(StateBlock)) / StateBlock::size +
-                                     2.0 * sizeof(Pose) + sizeof(Quaterniond) + sizeof(TableErrorsMet);
+                                     2.0 * sizeof(Pose) + sizeof(Quaterniond) + sizeof(TableErrorsOnPath);
 constexpr double bytes_in_file = 13.0 * sizeof(double);
 constexpr double bytes_of_a_written_pose = sizeof(Pose) + 4.0 * sizeof(double);
 constexpr double bytes_in_block = 64U << 20U;
@@ -27,7 +27,7 @@ constexpr double bytes_of_all_else = 60e6;
 
 /// Of what a copy of another size than the shape's touches ground, obstacles and others with.
 double bytes_of_a_touching_body(const Scene& scene, const SceneBody& body, const LoadedBody& loaded) {
-    const bool touches = scene.ground || !scene.obstacles.empty() || scene.bodies_meet;
+    const bool touches = scene.ground || !scene.obstacles.empty() || scene.bodies_collide;
     if (!touches || !body.spreads_size()) return 0.0;
     const auto made = loaded.prepared->get(*loaded.body, body, scene.fluid, body.name);
     const ContactPoints& points = made->contact_points;
@@ -48,14 +48,14 @@ RunNeeds needs_of(const Scene& scene, int runs, const std::vector<LoadedBody>& l
         if (!loaded.empty()) touching += copies * bytes_of_a_touching_body(scene, body, loaded[i]);
     }
     const double block = std::min(frames * samples, std::max(samples, bytes_in_block / bytes_in_file));
-    const double flight = samples * bytes_of_a_flight + touching + block * bytes_of_a_written_pose +
-                          frames * 2.0 * sizeof(double);
+    const double simulation = samples * bytes_of_a_flight + touching + block * bytes_of_a_written_pose +
+                              frames * 2.0 * sizeof(double);
     const double measuring =
         frames * bytes_of_a_measured_frame + std::min(frames * samples * sizeof(Pose), bytes_in_block);
     RunNeeds needs;
-    needs.memory = std::max(flight, measuring) + bytes_of_all_else;
+    needs.memory = std::max(simulation, measuring) + bytes_of_all_else;
     needs.disk = frames * samples * bytes_in_file + frames * sizeof(double);
-    needs.memory_for_copies = flight > measuring;
+    needs.memory_for_copies = simulation > measuring;
     return needs;
 }
 

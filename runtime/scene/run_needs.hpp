@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "samara/core/flight/loaded_body.hpp"
+#include "samara/core/simulation/loaded_body.hpp"
 #include "samara/scene/scene.hpp"
 
 namespace samara {

@@ -41,7 +41,7 @@ struct Scene {
     std::uint64_t seed = 1;                        ///< of the noise and the spread of starts
     Vector3d gravity = Vector3d(0.0, 0.0, -9.81);  ///< m/s^2
     std::optional<double> ground;                  ///< m: the height of level ground
-    bool bodies_meet = false;                      ///< whether the bodies of a run touch each other
+    bool bodies_collide = false;                   ///< whether the bodies of a run touch each other
     Fluid fluid;                                   ///< what the bodies are in
     Wind wind;                                     ///< beside current and gust
     std::vector<Obstacle> obstacles;               ///< in the file's order, with unlike names

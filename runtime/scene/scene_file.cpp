@@ -37,16 +37,16 @@ Fluid read_fluid(TomlTable& table) {
     const auto density = table.number("density", positive_number);
     const auto viscosity = table.number("viscosity", positive_number);
     if (preset && (density || viscosity)) {
-        throw table.fault("preset", "stands beside density or viscosity; give the preset or both of these");
+        throw table.error("preset", "stands beside density or viscosity; give the preset or both of these");
     }
     if (density.has_value() != viscosity.has_value()) {
-        throw table.fault(density ? "density" : "viscosity",
+        throw table.error(density ? "density" : "viscosity",
                           "stands alone; give density and viscosity, or a preset");
     }
     Fluid fluid = *fluid_preset("water");
     if (preset) {
         const auto known = fluid_preset(*preset);
-        if (!known) throw table.fault("preset", R"(must be "water" or "air")");
+        if (!known) throw table.error("preset", R"(must be "water" or "air")");
         fluid = *known;
     }
     assign(fluid.density, density);
@@ -56,7 +56,7 @@ Fluid read_fluid(TomlTable& table) {
         const auto amplitude = gust->vector("amplitude");
         const auto period = gust->number("period", positive_number);
         if (!amplitude || !period) {
-            throw gust->fault(amplitude ? "period" : "amplitude",
+            throw gust->error(amplitude ? "period" : "amplitude",
                               "is missing; a gust has an amplitude and a period");
         }
         fluid.gust = {.amplitude = *amplitude, .period = *period};
@@ -75,17 +75,17 @@ std::optional<Matrix3d> read_inertia(TomlTable& table) {
         Matrix3d inertia;
         for (std::size_t row = 0; row < 3; ++row) {
             const toml::array& values = *rows->get(row)->as_array();
-            if (values.size() != 3) throw table.fault("inertia", "must be three rows of three numbers");
+            if (values.size() != 3) throw table.error("inertia", "must be three rows of three numbers");
             for (std::size_t column = 0; column < 3; ++column) {
                 const auto value = values.get(column)->value<double>();
                 if (!value || !(std::abs(*value) <= largest_number)) {
-                    throw table.fault("inertia", "must hold finite numbers, 1e30 at most");
+                    throw table.error("inertia", "must hold finite numbers, 1e30 at most");
                 }
                 inertia(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)) = *value;
             }
         }
         if ((inertia - inertia.transpose()).norm() > 1e-9 * inertia.norm()) {
-            throw table.fault("inertia", "must be symmetric");
+            throw table.error("inertia", "must be symmetric");
         }
         return inertia;
     }
@@ -99,9 +99,9 @@ MassSpecification read_mass(TomlTable& table) {
     mass.mass = table.number("mass", positive_number);
     mass.center_of_mass = table.vector("center_of_mass");
     mass.inertia = read_inertia(table);
-    if (mass.density && mass.mass) throw table.fault("mass", "stands beside density; give one of the two");
+    if (mass.density && mass.mass) throw table.error("mass", "stands beside density; give one of the two");
     if (!mass.mass && (mass.center_of_mass || mass.inertia)) {
-        throw table.fault(mass.inertia ? "inertia" : "center_of_mass",
+        throw table.error(mass.inertia ? "inertia" : "center_of_mass",
                           mass.density ? "contradicts a uniform density; give mass instead of density"
                                        : "stands alone; give mass with it");
     }
@@ -124,7 +124,7 @@ void read_models(TomlTable& table, SceneBody& body) {
         body.dynamic);
     body.table_reynolds_number = table.number("table_reynolds_number", positive_number);
     if (const auto patches = table.integer("patches", 1, most_surface_patches)) {
-        if (body.loads == Loads::none) throw table.fault("patches", "is for loads, of which there are none");
+        if (body.loads == Loads::none) throw table.error("patches", "is for loads, of which there are none");
         body.patches = static_cast<int>(*patches);
     }
     body.models_auto = choice<bool>(table, "models", {{"auto", true}, {"given", false}}, false);
@@ -132,7 +132,7 @@ void read_models(TomlTable& table, SceneBody& body) {
     for (const char* key :
          {"loads", "added_mass", "dynamic_coefficients", "table_reynolds_number", "turbulence"}) {
         if (table.node(key) == nullptr) continue;
-        throw table.fault(key, R"(stands beside models = "auto", which chooses it; give one of the two)");
+        throw table.error(key, R"(stands beside models = "auto", which chooses it; give one of the two)");
     }
 }
 
@@ -141,7 +141,7 @@ CoefficientLoads read_coefficients(TomlTable& table, Loads loads) {
     for (const char* key :
          {"drag_coefficient", "lift_coefficient", "reference_area", "normal", "center_of_pressure"}) {
         if (table.node(key) != nullptr && loads != Loads::coefficients) {
-            throw table.fault(key, R"(is for loads = "coefficients" alone; remove it or change loads)");
+            throw table.error(key, R"(is for loads = "coefficients" alone; remove it or change loads)");
         }
     }
     assign(coefficients.drag_coefficient, table.number("drag_coefficient", non_negative_number));
@@ -150,7 +150,7 @@ CoefficientLoads read_coefficients(TomlTable& table, Loads loads) {
     coefficients.normal = table.vector("normal");
     if (coefficients.normal) {
         if (coefficients.normal->norm() < smallest_number)
-            throw table.fault("normal", "must not be the zero vector");
+            throw table.error("normal", "must not be the zero vector");
         coefficients.normal->normalize();
     }
     assign(coefficients.center_of_pressure, table.vector("center_of_pressure"));
@@ -170,21 +170,21 @@ void read_turbulence(TomlTable& table, SceneBody& body) {
                                      body.langevin);
     body.turbulence_by_default = table.node("turbulence") == nullptr;
     if (body.loads == Loads::surface && body.turbulence == Turbulence::table) {
-        throw table.fault("turbulence", R"(is of tables, and the loads are not; set loads = "table", or )"
+        throw table.error("turbulence", R"(is of tables, and the loads are not; set loads = "table", or )"
                                         R"(turbulence to "none" or "constant")");
     }
     const auto energy = table.number("turbulent_kinetic_energy", non_negative_number);
     const auto dissipation = table.number("dissipation_rate", non_negative_number);
     const bool constant = body.turbulence == Turbulence::constant;
     if (constant != energy.has_value() || constant != dissipation.has_value()) {
-        throw table.fault("turbulence",
+        throw table.error("turbulence",
                           constant ? "is constant: give turbulent_kinetic_energy and dissipation_rate"
                                    : R"(must be "constant" where its values are given)");
     }
     assign(body.turbulent_kinetic_energy, energy);
     assign(body.dissipation_rate, dissipation);
     if (constant && (*energy > 0.0) != (*dissipation > 0.0)) {
-        throw table.fault("dissipation_rate",
+        throw table.error("dissipation_rate",
                           "and turbulent_kinetic_energy must be both zero or both above zero");
     }
 }
@@ -194,7 +194,7 @@ void read_start(TomlTable& table, const std::filesystem::path& folder, SceneBody
     assign(body.position, position);
     if (auto emitter = table.table("emitter")) {
         if (position) {
-            throw table.fault("position", "stands beside emitter, which says where bodies start; give one");
+            throw table.error("position", "stands beside emitter, which says where bodies start; give one");
         }
         body.emitter = std::make_shared<const Emitter>(read_emitter(*emitter, folder));
     }
@@ -214,13 +214,13 @@ void read_start(TomlTable& table, const std::filesystem::path& folder, SceneBody
             constexpr double most = 1e3;  // beyond it a unit is wrong
             if (!(body.smallest_size >= 1.0 / most && body.smallest_size <= body.largest_size &&
                   body.largest_size <= most)) {
-                throw spread->fault("size",
+                throw spread->error("size",
                                     "must be the smallest and the largest size over the shape's, within "
                                     "0.001 and 1000, as [0.8, 1.25]");
             }
         }
         if (body.count == 1 && body.spreads()) {
-            throw table.fault("spread", "is of copies, and there is one; give a count above 1, or remove it");
+            throw table.error("spread", "is of copies, and there is one; give a count above 1, or remove it");
         }
         spread->finish();
     }
@@ -232,13 +232,13 @@ std::filesystem::path shape_file(const TomlTable& table, const std::string& shap
     if (shape.starts_with(ready_body_prefix)) {
         try {
             return ready_body_file(shape.substr(ready_body_prefix.size()));
-        } catch (const Error& fault) {
-            throw table.fault("shape", fmt::format("cannot be had: {}", fault.what()));
+        } catch (const Error& error) {
+            throw table.error("shape", fmt::format("cannot be had: {}", error.what()));
         }
     }
     const std::filesystem::path file = folder / shape;  // an absolute path stays as it is
-    if (const std::string fault = reading_fault(file); !fault.empty()) {
-        throw table.fault("shape", fmt::format("cannot be had: {}: {}", file.string(), fault));
+    if (const std::string error = reading_error(file); !error.empty()) {
+        throw table.error("shape", fmt::format("cannot be had: {}: {}", file.string(), error));
     }
     return file;
 }
@@ -249,46 +249,46 @@ std::shared_ptr<const DisplayMesh> read_display(TomlTable& table, const std::fil
     const auto name = table.text("look");
     const auto scale = table.number("look_scale", positive_number);
     if (!name) {
-        if (scale) throw table.fault("look_scale", "is of a look; give one, or remove it");
+        if (scale) throw table.error("look_scale", "is of a look; give one, or remove it");
         return nullptr;
     }
     const std::filesystem::path file = folder / *name;
-    if (const std::string fault = reading_fault(file); !fault.empty()) {
-        throw table.fault("look", fmt::format("cannot be had: {}: {}", file.string(), fault));
+    if (const std::string error = reading_error(file); !error.empty()) {
+        throw table.error("look", fmt::format("cannot be had: {}: {}", file.string(), error));
     }
     try {
         DisplayMesh display = read_display_mesh_file(file);
         for (Vector3d& place : display.positions) place *= scale.value_or(shape_scale);
         return std::make_shared<const DisplayMesh>(std::move(display));
-    } catch (const Error& fault) {
-        throw table.fault("look", fmt::format("cannot be had: {}", fault.what()));
+    } catch (const Error& error) {
+        throw table.error("look", fmt::format("cannot be had: {}", error.what()));
     }
 }
 
 SceneBody read_body(TomlTable& table, const std::filesystem::path& folder) {
     SceneBody body;
     const auto name = table.text("name");
-    if (!name) throw table.fault("name", "is missing; give the body a name");
+    if (!name) throw table.error("name", "is missing; give the body a name");
     if (!is_plain_name(*name))
-        throw table.fault("name", "may hold letters, digits, '-' and '_' alone, 64 at most");
+        throw table.error("name", "may hold letters, digits, '-' and '_' alone, 64 at most");
     body.name = *name;
     const auto shape = table.text("shape");
     if (!shape)
-        throw table.fault(
+        throw table.error(
             "shape", "is missing; give a shape file, a .body.h5 or a ready-baked body, as \"samara:leaf\"");
     body.shape = shape_file(table, *shape, folder);
     assign(body.scale, table.number("scale", positive_number));
     body.display = read_display(table, folder, body.scale);
     body.mass = read_mass(table);
     if (!body.mass.is_given() && !is_body_file_name(body.shape)) {
-        throw table.fault("density", "is missing; give it, or mass");
+        throw table.error("density", "is missing; give it, or mass");
     }
     read_start(table, folder, body);
     read_models(table, body);
     body.coefficients = read_coefficients(table, body.loads);
     read_turbulence(table, body);
     if (body.table_reynolds_number && body.loads != Loads::table && body.turbulence != Turbulence::table) {
-        throw table.fault(
+        throw table.error(
             "table_reynolds_number",
             "is for loads or turbulence from tables; remove it or set one of them to \"table\"");
     }
@@ -302,19 +302,19 @@ void read_step(TomlTable& table, Scene& scene) {
     if (!scene.step_auto) {
         assign(scene.step, table.number("step", positive_number));
     } else if (*table.text("step") != "auto") {
-        throw table.fault("step", "must be a number of seconds, or \"auto\"");
+        throw table.error("step", "must be a number of seconds, or \"auto\"");
     }
     const auto tolerance =
         table.number("step_tolerance", {1e-6, 0.1, "must lie between 1e-6 and 0.1: a share of the way"});
     if (tolerance && !scene.step_auto) {
-        throw table.fault("step_tolerance", "is for step = \"auto\"; remove it, or set step so");
+        throw table.error("step_tolerance", "is for step = \"auto\"; remove it, or set step so");
     }
     assign(scene.step_tolerance, tolerance);
 }
 
 void read_settings(TomlTable& table, Scene& scene) {
     const auto duration = table.number("duration", positive_number);
-    if (!duration) throw table.fault("duration", "is missing; give the seconds to simulate");
+    if (!duration) throw table.error("duration", "is missing; give the seconds to simulate");
     scene.duration = *duration;
     read_step(table, scene);
     assign(scene.frame_rate, table.number("frame_rate", positive_number));
@@ -323,9 +323,10 @@ void read_settings(TomlTable& table, Scene& scene) {
     }
     assign(scene.gravity, table.vector("gravity"));
     scene.ground = table.number("ground", any_number);
-    assign(scene.bodies_meet, table.boolean("bodies_meet"));
+    assign(scene.bodies_collide, table.boolean("bodies_meet"));  // its name in older scenes
+    assign(scene.bodies_collide, table.boolean("bodies_collide"));
     if (scene.duration * scene.frame_rate > 1e8 || scene.duration / scene.step > 1e10) {
-        throw table.fault("duration", "makes more than 1e8 frames or 1e10 steps; is a unit wrong?");
+        throw table.error("duration", "makes more than 1e8 frames or 1e10 steps; is a unit wrong?");
     }
     table.finish();
 }
@@ -334,10 +335,10 @@ toml::table parsed_scene(const Scene& scene) {
     const std::string file = scene.file.string();
     try {
         return parse_toml(scene.text, file);
-    } catch (const Error& fault) {
+    } catch (const Error& error) {
         const std::filesystem::path ending = scene.file.extension();
         if (ending.empty() || ending == ".toml") throw;
-        throw Error(fmt::format("{}; is this a scene file (.toml)?", fault.what()));
+        throw Error(fmt::format("{}; is this a scene file (.toml)?", error.what()));
     }
 }
 
@@ -355,7 +356,7 @@ Scene read_scene_text(std::string text, const std::string& name, const std::file
     const toml::table document = parsed_scene(scene);
     TomlTable top(document, name, "the scene");
     auto settings = top.table("scene");
-    if (!settings) throw top.fault("[scene]", "is missing; it holds at least the duration");
+    if (!settings) throw top.error("[scene]", "is missing; it holds at least the duration");
     read_settings(*settings, scene);
     if (auto fluid = top.table("fluid")) scene.fluid = read_fluid(*fluid);
     if (auto wind = top.table("wind"))
@@ -364,7 +365,7 @@ Scene read_scene_text(std::string text, const std::string& name, const std::file
     for (TomlTable& table : top.tables("body")) {
         scene.bodies.push_back(read_body(table, folder));
         if (!names.insert(scene.bodies.back().name).second) {
-            throw table.fault("name", fmt::format("'{}' is taken by another body", scene.bodies.back().name));
+            throw table.error("name", fmt::format("'{}' is taken by another body", scene.bodies.back().name));
         }
     }
     std::set<std::string> obstacle_names;
@@ -372,7 +373,7 @@ Scene read_scene_text(std::string text, const std::string& name, const std::file
         scene.obstacles.push_back(read_obstacle(table, folder));
         const std::string& obstacle = scene.obstacles.back().name;
         if (obstacle_names.insert(obstacle).second) continue;
-        throw table.fault("name",
+        throw table.error("name",
                           fmt::format("'{}' is taken by another obstacle; give this one another", obstacle));
     }
     top.finish();

@@ -5,7 +5,7 @@
 
 #include "samara/core/base/error.hpp"
 #include "samara/core/base/parallel_for.hpp"
-#include "samara/scene/simulation.hpp"
+#include "samara/scene/scene_simulation.hpp"
 
 namespace samara {
 namespace {
@@ -16,7 +16,7 @@ bool is_nearer(const TargetMiss& a, const TargetMiss& b) {
 
 TargetMiss miss_of(const Scene& scene, const std::vector<LoadedBody>& loaded, std::size_t body,
                    const Target& target) {
-    Simulation simulation(scene, loaded, 1, 1);
+    SceneSimulation simulation(scene, loaded, 1, 1);
     const BodyMotion& watched = simulation.motion().bodies[body];
     const auto copies = static_cast<std::size_t>(watched.copies);
     TargetWatch watch(target, watched.copies);
@@ -47,7 +47,7 @@ bool is_drawn(const SceneBody& body) {
 bool depends_on_seed(const Scene& scene, std::size_t body) {
     const auto& gusts = scene.wind.gusts;
     if (gusts && !gusts->seed && gusts->rms > 0.0) return true;
-    if (!scene.bodies_meet) return is_drawn(scene.bodies[body]);
+    if (!scene.bodies_collide) return is_drawn(scene.bodies[body]);
     return std::any_of(scene.bodies.begin(), scene.bodies.end(), is_drawn);
 }
 
@@ -95,7 +95,7 @@ std::vector<TargetMiss> search_target(const Scene& scene, const std::vector<Load
                                       std::size_t body, const Target& target, int tries, int threads,
                                       const std::function<void(double)>& progress) {
     std::vector<TargetMiss> misses(static_cast<std::size_t>(tries));
-    std::vector<std::string> faults(misses.size());
+    std::vector<std::string> errors(misses.size());
     parallel_for(
         misses.size(), 1, threads,
         [&](std::size_t begin, std::size_t end) {
@@ -104,14 +104,14 @@ std::vector<TargetMiss> search_target(const Scene& scene, const std::vector<Load
                 one.seed = scene.seed + i;
                 try {
                     misses[i] = miss_of(one, loaded, body, target);
-                } catch (const std::exception& fault) {
-                    faults[i] = fault.what();
+                } catch (const std::exception& error) {
+                    errors[i] = error.what();
                 }
             }
         },
         progress);
-    for (const std::string& fault : faults) {
-        if (!fault.empty()) throw Error(fault);
+    for (const std::string& error : errors) {
+        if (!error.empty()) throw Error(error);
     }
     std::stable_sort(misses.begin(), misses.end(), is_nearer);
     return misses;

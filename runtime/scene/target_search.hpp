@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "samara/core/flight/loaded_body.hpp"
+#include "samara/core/simulation/loaded_body.hpp"
 #include "samara/scene/scene.hpp"
 
 namespace samara {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "samara/core/body/body.hpp"
-#include "samara/core/flight/loaded_body.hpp"
 #include "samara/core/physics/fluid.hpp"
+#include "samara/core/simulation/loaded_body.hpp"
 #include "samara/scene/scene.hpp"
 
 namespace samara {

@@ -17,30 +17,30 @@ constexpr NumberRange exponent_range = {smallest_number, 1.0, "must be a number 
 
 double required(TomlTable& table, std::string_view key, const NumberRange& range, std::string_view remedy) {
     const auto number = table.number(key, range);
-    if (!number) throw table.fault(key, remedy);
+    if (!number) throw table.error(key, remedy);
     return *number;
 }
 
 Vector3d required_vector(TomlTable& table, std::string_view key, std::string_view remedy) {
     const auto vector = table.vector(key);
-    if (!vector) throw table.fault(key, remedy);
+    if (!vector) throw table.error(key, remedy);
     return *vector;
 }
 
 Vector3d direction(TomlTable& table, std::string_view key, const Vector3d& given) {
-    if (given.norm() < smallest_number) throw table.fault(key, "must not be the zero vector");
+    if (given.norm() < smallest_number) throw table.error(key, "must not be the zero vector");
     return given.normalized();
 }
 
 WindProfile read_profile(TomlTable& table, double ground) {
     using Law = WindProfile::Law;
     WindProfile profile;
-    if (!table.text("law")) throw table.fault("law", R"(is missing; give "log" or "power")");
+    if (!table.text("law")) throw table.error("law", R"(is missing; give "log" or "power")");
     profile.law = choice<Law>(table, "law", {{"log", Law::logarithmic}, {"power", Law::power}}, profile.law);
     const bool logarithmic = profile.law == Law::logarithmic;
     const char* foreign = logarithmic ? "exponent" : "roughness";
     if (table.node(foreign) != nullptr) {
-        throw table.fault(
+        throw table.error(
             foreign, logarithmic ? R"(is for law = "power"; remove it)" : R"(is for law = "log"; remove it)");
     }
     if (logarithmic) {
@@ -100,7 +100,7 @@ WindFile read_file(TomlTable& table, const std::filesystem::path& folder, double
     using Outside = WindFile::Outside;
     WindFile file;
     const auto path = table.text("path");
-    if (!path) throw table.fault("path", "is missing; give a wind file, from 'samara wind'");
+    if (!path) throw table.error("path", "is missing; give a wind file, from 'samara wind'");
     file.grid = std::make_shared<const WindGrid>(read_wind_file(folder / *path));
     file.position = table.vector("position").value_or(file.position);
     file.start = table.number("start", any_number).value_or(file.start);
@@ -110,7 +110,7 @@ WindFile read_file(TomlTable& table, const std::filesystem::path& folder, double
     const bool is_steady = file.grid->frames == 1;
     const double file_end = file.start + file.grid->duration();
     if (!is_steady && !file.repeats && file_end < end * (1.0 - 1e-9)) {
-        throw table.fault("path",
+        throw table.error("path",
                           fmt::format("holds the wind until {:g} s, and the scene ends at {:g} s; give "
                                       "repeat = true, a shorter duration or a longer file",
                                       file_end, end));
@@ -127,10 +127,10 @@ Wind read_wind(TomlTable& table, const std::filesystem::path& folder, double gro
     if (auto profile = table.table("profile")) {
         wind.profile = read_profile(*profile, ground);
         if (wind.velocity.isZero(0.0)) {
-            throw table.fault("velocity", "is missing; a profile is that of a velocity");
+            throw table.error("velocity", "is missing; a profile is that of a velocity");
         }
         if (wind.velocity.z() != 0.0) {
-            throw table.fault("velocity", "must be level (its z 0) where it has a profile over the ground");
+            throw table.error("velocity", "must be level (its z 0) where it has a profile over the ground");
         }
     }
     if (auto gusts = table.table("gusts")) wind.gusts = read_gusts(*gusts);

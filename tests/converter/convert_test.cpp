@@ -46,7 +46,7 @@ Body turned_box() {
 
 class Convert : public testing::Test {
   protected:
-    std::string fault() const {
+    std::string error() const {
         return test::error_of([&] { convert_folder(folder_.path()); });
     }
 
@@ -128,7 +128,7 @@ TEST_F(Convert, SaysHowFarItIs) {
 TEST_F(Convert, NamesTheFirstCaseThatIsNotSolved) {
     std::filesystem::remove(folder_.case_path(3) / "provenance.json");
     std::filesystem::remove(folder_.case_path(5) / "provenance.json");
-    EXPECT_EQ(fault(),
+    EXPECT_EQ(error(),
               folder_.path().string() +
                   ": the case case_03 is not solved (2 of 12 are not); run 'samara bake' again, which goes "
                   "on where it stopped");
@@ -176,16 +176,16 @@ TEST_F(Convert, RefusesAFallThatIsNeitherSolvedNorFailed) {
     plan_falls(folder_, {{{"name", "fall_00"}, {"mesh", "mesh"}}, {{"name", "fall_01"}, {"mesh", "mesh"}}});
     folder_.write("fall_00/failed.json", R"({"reason": "the solver stopped"})");
     EXPECT_EQ(
-        fault(),
+        error(),
         folder_.path().string() +
             ": the fall fall_01 is not solved; run 'samara bake' again, which goes on where it stopped");
 }
 
 TEST_F(Convert, RefusesAFallWithTheNameOfACase) {
     plan_falls(folder_, {{{"name", "case_00"}, {"mesh", "mesh"}}});
-    EXPECT_THAT(fault(), HasSubstr("plan.json: two cases or falls are named case_00;"));
+    EXPECT_THAT(error(), HasSubstr("plan.json: two cases or falls are named case_00;"));
     plan_falls(folder_, {{{"mesh", "mesh"}}});
-    EXPECT_THAT(fault(), HasSubstr("plan.json: an entry is missing or of the wrong kind"));
+    EXPECT_THAT(error(), HasSubstr("plan.json: an entry is missing or of the wrong kind"));
 }
 
 std::string state_history(const FallRecord& record) {
@@ -255,7 +255,7 @@ TEST_F(Convert, RefusesWhereMoreThanOneDirectionInFiveCouldNotBeSolved) {
         std::filesystem::remove(folder_.case_path(index) / "provenance.json");
         folder_.write(folder_.names()[index] + "/failed.json", R"({"reason": "never settled"})");
     }
-    EXPECT_EQ(fault(),
+    EXPECT_EQ(error(),
               (folder_.path() / "plan.json").string() +
                   ": 4 of the 6 directions at Reynolds number 1000 could not be solved, more than one "
                   "in five; the first is case_00: never settled; run 'samara bake' again");
@@ -282,7 +282,7 @@ TEST_F(Convert, NamesTheCaseThatDiverged) {
     const std::string text = read_bytes(folder_.path() / forces);
     folder_.write(forces, text.substr(0, text.rfind("20\t(")) + "20\t(nan nan nan)\t(0 0 0)\t(0 0 0)\n");
     EXPECT_THAT(
-        fault(),
+        error(),
         HasSubstr("case_02: diverged: postProcessing/forces/0/force.dat holds nan at the time 20; remove"));
 }
 
@@ -290,41 +290,41 @@ TEST_F(Convert, RefusesThrust) {
     std::string rows = "# Time total_x total_y total_z\n";
     for (int i = 1; i <= 20; ++i) rows += fmt::format("{} 1 0 0\n", i);
     folder_.write("case_00/postProcessing/forces/0/force.dat", rows);
-    EXPECT_THAT(fault(), HasSubstr("case_00: diverged: the drag coefficient is -2.546, not positive"));
+    EXPECT_THAT(error(), HasSubstr("case_00: diverged: the drag coefficient is -2.546, not positive"));
 }
 
 TEST_F(Convert, RefusesFieldsAndHistoriesOfDifferentRuns) {
     std::string rows = "# Time volAverage(k) volAverage(epsilon)\n";
     for (int i = 1; i <= 20; ++i) rows += fmt::format("{} 1 1\n", i);
     folder_.write("case_01/postProcessing/shell/0/volFieldValue.dat", rows);
-    EXPECT_THAT(fault(), HasSubstr("case_01: the mean k over the shell at the time 20 is"));
-    EXPECT_THAT(fault(), HasSubstr("they are of different runs"));
+    EXPECT_THAT(error(), HasSubstr("case_01: the mean k over the shell at the time 20 is"));
+    EXPECT_THAT(error(), HasSubstr("they are of different runs"));
 }
 
 TEST_F(Convert, RefusesCasesOfAnotherDirectionOrReynoldsNumberThanPlanned) {
     folder_.replace("case_01/parameters", "reynoldsNumber 1000", "reynoldsNumber 2000");
-    EXPECT_THAT(fault(),
+    EXPECT_THAT(error(),
                 HasSubstr("case_01: was solved for the Reynolds number 2000, but plan.json has 1000"));
     folder_.replace("case_00/parameters", "direction (1 ", "direction (-1 ");
-    EXPECT_THAT(fault(),
+    EXPECT_THAT(error(),
                 HasSubstr("case_00: was solved for the direction (-1, 0, 0), but plan.json has (1, 0, 0)"));
 }
 
 TEST_F(Convert, RefusesTooFewIterations) {
     folder_.replace("case_00/provenance.json", "\"averaging_start\": 10", "\"averaging_start\": 18");
-    EXPECT_THAT(fault(), HasSubstr("force.dat: has 3 iterations from 18 on, too few"));
+    EXPECT_THAT(error(), HasSubstr("force.dat: has 3 iterations from 18 on, too few"));
 }
 
 TEST_F(Convert, RefusesMeshesAndFieldsThatDoNotBelongTogether) {
     folder_.replace("mesh/constant/polyMesh/cellZones", "3(1 2 4)", "3(1 2 5)");
-    EXPECT_THAT(fault(), HasSubstr("/V: has no value for cell 5 of the shell"));
+    EXPECT_THAT(error(), HasSubstr("/V: has no value for cell 5 of the shell"));
     folder_.replace("mesh/constant/polyMesh/cellZones", "3(1 2 5)", "0()");
-    EXPECT_THAT(fault(), HasSubstr("cellZones: the zone 'shell' has no cells"));
+    EXPECT_THAT(error(), HasSubstr("cellZones: the zone 'shell' has no cells"));
 }
 
 TEST_F(Convert, RefusesAPlanOfAnotherBody) {
     write_body_file(folder_.path() / "body.body.h5", test::box_body(Vector3d(0.01, 0.02, 0.05)));
-    EXPECT_THAT(fault(), HasSubstr("plan.json and body.body.h5 are of different bodies"));
+    EXPECT_THAT(error(), HasSubstr("plan.json and body.body.h5 are of different bodies"));
 }
 
 TEST_F(Convert, NamesADirectionThatThePlanForgot) {
@@ -332,15 +332,15 @@ TEST_F(Convert, NamesADirectionThatThePlanForgot) {
     plan["cases"].erase(6);
     plan["cases"].erase(0);
     folder_.write("plan.json", plan.dump());
-    EXPECT_THAT(fault(),
+    EXPECT_THAT(error(),
                 HasSubstr("plan.json: Reynolds number 1000: no case in the direction (1, 0, 0), which"));
 }
 
 TEST_F(Convert, RefusesDamagedPlansInOneLine) {
     const std::string plan = read_bytes(folder_.path() / "plan.json");
-    const auto fault_of = [&](const std::string& text) {
+    const auto error_of = [&](const std::string& text) {
         folder_.write("plan.json", text);
-        std::string message = fault();
+        std::string message = error();
         EXPECT_EQ(message.find('\n'), std::string::npos) << message;
         EXPECT_THAT(
             message,
@@ -352,16 +352,16 @@ TEST_F(Convert, RefusesDamagedPlansInOneLine) {
         content[nlohmann::json::json_pointer(entry)] = value;
         return content.dump();
     };
-    EXPECT_THAT(fault_of(plan.substr(0, 100)), HasSubstr("plan.json: is no JSON ("));
-    EXPECT_THAT(fault_of("{}"), HasSubstr("an entry is missing or of the wrong kind"));
-    EXPECT_THAT(fault_of(changed("/quality", 3)), HasSubstr("an entry is missing or of the wrong kind"));
-    EXPECT_THAT(fault_of(changed("/subdivisions", 0)), HasSubstr("'subdivisions' is not sane"));
-    EXPECT_THAT(fault_of(changed("/reference_length", -1)), HasSubstr("'reference_length' is not positive"));
-    EXPECT_THAT(fault_of(changed("/axes/0/0", 2)), HasSubstr("'axes' is no rotation"));
-    EXPECT_THAT(fault_of(changed("/cases", nlohmann::json::array())), HasSubstr("'cases' is empty"));
-    EXPECT_THAT(fault_of(changed("/cases/1/name", "case_00")), HasSubstr("two cases are named case_00"));
-    EXPECT_THAT(fault_of(changed("/cases/1/direction", {1, 1, 0})), HasSubstr("case_01 is no unit vector"));
-    EXPECT_THAT(fault_of(changed("/cases/1/reynolds_number", 0)), HasSubstr("case_01 is not positive"));
+    EXPECT_THAT(error_of(plan.substr(0, 100)), HasSubstr("plan.json: is no JSON ("));
+    EXPECT_THAT(error_of("{}"), HasSubstr("an entry is missing or of the wrong kind"));
+    EXPECT_THAT(error_of(changed("/quality", 3)), HasSubstr("an entry is missing or of the wrong kind"));
+    EXPECT_THAT(error_of(changed("/subdivisions", 0)), HasSubstr("'subdivisions' is not sane"));
+    EXPECT_THAT(error_of(changed("/reference_length", -1)), HasSubstr("'reference_length' is not positive"));
+    EXPECT_THAT(error_of(changed("/axes/0/0", 2)), HasSubstr("'axes' is no rotation"));
+    EXPECT_THAT(error_of(changed("/cases", nlohmann::json::array())), HasSubstr("'cases' is empty"));
+    EXPECT_THAT(error_of(changed("/cases/1/name", "case_00")), HasSubstr("two cases are named case_00"));
+    EXPECT_THAT(error_of(changed("/cases/1/direction", {1, 1, 0})), HasSubstr("case_01 is no unit vector"));
+    EXPECT_THAT(error_of(changed("/cases/1/reynolds_number", 0)), HasSubstr("case_01 is not positive"));
 }
 
 TEST_F(Convert, ReadsThroughNoLinkOutOfTheFolderAndWaitsForNoPipe) {
@@ -369,11 +369,11 @@ TEST_F(Convert, ReadsThroughNoLinkOutOfTheFolderAndWaitsForNoPipe) {
     const std::filesystem::path force = folder_.case_path(0) / "postProcessing/forces/0/force.dat";
     std::filesystem::rename(force, elsewhere / "force.dat");
     std::filesystem::create_symlink(elsewhere / "force.dat", force);
-    EXPECT_EQ(fault(), force.string() + ": is a link that leads out of " + folder_.path().string() +
+    EXPECT_EQ(error(), force.string() + ": is a link that leads out of " + folder_.path().string() +
                            ", and is not followed; put there what it leads to, or remove it");
     std::filesystem::remove(force);
     ASSERT_EQ(::mkfifo(force.c_str(), 0600), 0);
-    EXPECT_EQ(fault(), force.string() + ": is neither a file nor a folder; remove it");
+    EXPECT_EQ(error(), force.string() + ": is neither a file nor a folder; remove it");
     std::filesystem::remove(force);
     std::filesystem::rename(elsewhere / "force.dat", folder_.path() / "kept.dat");
     std::filesystem::create_symlink(folder_.path() / "kept.dat", force);
@@ -384,7 +384,7 @@ TEST_F(Convert, ReadsNoFolderBesideTheCases) {
     for (const char* name : {"../case_00", "/tmp", ""}) {
         for (const char* key : {"name", "mesh"}) {
             folder_.change_plan([&](nlohmann::json& plan) { plan["cases"][0][key] = name; });
-            EXPECT_THAT(fault(), HasSubstr("' is no name of a folder beside plan.json"));
+            EXPECT_THAT(error(), HasSubstr("' is no name of a folder beside plan.json"));
             folder_.change_plan([&](nlohmann::json& plan) { plan["cases"][0][key] = "case_00"; });
         }
     }
@@ -392,13 +392,13 @@ TEST_F(Convert, ReadsNoFolderBesideTheCases) {
 
 TEST_F(Convert, NamesAKeyOfThePlanThatItDoesNotKnow) {
     folder_.change_plan([](nlohmann::json& plan) { plan["cases"][0]["lenght"] = 2.0; });
-    EXPECT_THAT(fault(), HasSubstr("plan.json: a case has the unknown key 'lenght'; did you mean 'length'?"));
+    EXPECT_THAT(error(), HasSubstr("plan.json: a case has the unknown key 'lenght'; did you mean 'length'?"));
     folder_.change_plan([](nlohmann::json& plan) {
         plan["cases"][0].erase("lenght");
         plan["sub_divisions"] = 2;
     });
     EXPECT_THAT(
-        fault(),
+        error(),
         HasSubstr("plan.json: the plan has the unknown key 'sub_divisions'; did you mean 'subdivisions'?"));
 }
 
@@ -446,10 +446,10 @@ class ConvertOfAUsersCases : public Convert {
                           "functions { forces { type forces; patches (cube); rho rhoInf; " + density +
                           "; } }\n");
     }
-    std::string fault_with(const char* key, const nlohmann::json& value) {
+    std::string error_with(const char* key, const nlohmann::json& value) {
         nlohmann::json before;
         folder_.change_plan([&](nlohmann::json& plan) { before = std::exchange(plan[key], value); });
-        std::string said = fault();
+        std::string said = error();
         folder_.change_plan([&](nlohmann::json& plan) { plan[key] = before; });
         EXPECT_THAT(said, testing::StartsWith(folder_.case_path(0).string() + ": "));
         return said;
@@ -464,22 +464,22 @@ TEST_F(ConvertOfAUsersCases, TakesThePlanThatIsOfThem) {
         folder_.write(file, read_bytes(folder_.path() / file) + "#include \"../numbers\"\n");
     }
     EXPECT_NO_THROW(convert_folder(folder_.path()));
-    EXPECT_THAT(fault_with("speed", 5.0),
+    EXPECT_THAT(error_with("speed", 5.0),
                 HasSubstr("the speed of the flow far from the body is 3, but plan.json has the "
                           "'speed' 5; correct the plan, or solve the case for it"));
 }
 
 TEST_F(ConvertOfAUsersCases, RefusesAPlanWhoseNumbersAreNotTheirs) {
-    EXPECT_THAT(fault_with("length", 13.8),
+    EXPECT_THAT(error_with("length", 13.8),
                 HasSubstr("sqrt(S/pi) of the body's area S in the mesh is 2, but plan.json has "
                           "the 'length' 13.8"));
-    EXPECT_THAT(fault_with("speed", 5.0), HasSubstr("is 3, but plan.json has the 'speed' 5"));
-    EXPECT_THAT(fault_with("density", 1.0),
+    EXPECT_THAT(error_with("speed", 5.0), HasSubstr("is 3, but plan.json has the 'speed' 5"));
+    EXPECT_THAT(error_with("density", 1.0),
                 HasSubstr("(rhoInf of the function object forces) is 5, but plan.json has the "
                           "'density' 1"));
     set_up("uniform (-3 0 0)", "nu 0.01", "rhoInf 5");
     EXPECT_THAT(
-        fault(),
+        error(),
         HasSubstr("with its viscosity of 0.01, the length 2 and the speed 3 the Reynolds number is 600, but "
                   "plan.json has the 'reynolds_number' 1000"));
 }
@@ -487,11 +487,11 @@ TEST_F(ConvertOfAUsersCases, RefusesAPlanWhoseNumbersAreNotTheirs) {
 TEST_F(ConvertOfAUsersCases, SaysWhichWayTheirFlowGoes) {
     set_up("uniform (3 0 0)", "nu 6e-3", "rhoInf 5");
     EXPECT_THAT(
-        fault(),
+        error(),
         HasSubstr("case_00: the flow goes the other way: along [1, 0, 0], and so the body along [-1, 0, 0], "
                   "but plan.json has the 'direction' [1, 0, 0], which is that of the body's velocity"));
     set_up("uniform (0 -3 0)", "nu 6e-3", "rhoInf 5");
-    EXPECT_THAT(fault(), HasSubstr("the flow goes along [0, -1, 0], and so the body along [0, 1, 0], but"));
+    EXPECT_THAT(error(), HasSubstr("the flow goes along [0, -1, 0], and so the body along [0, 1, 0], but"));
 }
 
 TEST_F(ConvertOfAUsersCases, HoldsNothingAgainstWhatTheyDoNotSayPlainly) {

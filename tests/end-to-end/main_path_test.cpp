@@ -60,12 +60,12 @@ void expect_steady_loads_reproduce_tables(const Body& body) {
 }
 
 /// Runs words that must be refused: exit 1, one line that holds `expected`, and no output file.
-void expect_refusal(const test::TemporaryFolder& folder, const std::vector<std::string>& words,
-                    const std::string& expected) {
+void expect_rejection(const test::TemporaryFolder& folder, const std::vector<std::string>& words,
+                      const std::string& expected) {
     const auto run = run_program_in(folder, words);
-    EXPECT_EQ(run.status, 1) << run.fault;
-    EXPECT_TRUE(is_one_line(run.fault)) << run.fault;
-    EXPECT_THAT(run.fault, HasSubstr(expected));
+    EXPECT_EQ(run.status, 1) << run.error;
+    EXPECT_TRUE(is_one_line(run.error)) << run.error;
+    EXPECT_THAT(run.error, HasSubstr(expected));
     EXPECT_EQ(run.output, "");
     EXPECT_FALSE(std::filesystem::exists(folder / "out.h5"));
     EXPECT_FALSE(std::filesystem::exists(folder / "out.body.h5"));
@@ -77,7 +77,7 @@ TEST(MainPath, AShapeIsMeshedOnceForAllRunsOfAScene) {
     const auto flown = [&](const char* environment) {
         const auto run =
             run_program_in(folder, {"samara", "simulate", "scene.toml", "-o", "out.h5"}, environment);
-        EXPECT_EQ(run.status, 0) << run.fault;
+        EXPECT_EQ(run.status, 0) << run.error;
         return file_content_hash(folder / "out.h5");
     };
     const std::string first = flown("SAMARA_CACHE=cache");
@@ -95,7 +95,7 @@ TEST(MainPath, AShapeBecomesABakedBodyThatFallsAndLeavesForOtherTools) {
 
     const auto bake = run_program_in(
         folder, {"samara", "bake", "scene.toml", "-o", "bodies", "--quality", "smoke", "--json"});
-    ASSERT_EQ(bake.status, 0) << bake.fault;
+    ASSERT_EQ(bake.status, 0) << bake.error;
     const Body body = read_body_file(folder / "bodies/rubber.body.h5");
     ASSERT_TRUE(body.kirchhoff && body.tables);
     // Broadside drag on the broad face: the literature's disc has 1.17, bluff RANS on a coarse mesh up to
@@ -108,7 +108,7 @@ TEST(MainPath, AShapeBecomesABakedBodyThatFallsAndLeavesForOtherTools) {
 
     const auto fall = run_program_in(
         folder, {"samara", "simulate", "scene.toml", "--bodies", "bodies", "-o", "fall.h5", "--json"});
-    ASSERT_EQ(fall.status, 0) << fall.fault;
+    ASSERT_EQ(fall.status, 0) << fall.error;
     const nlohmann::json rubber = fall.json()["bodies"][0];
     EXPECT_EQ(rubber["name"], "rubber");
     EXPECT_GT(rubber["mean_descent_speed"].get<double>(), 0.1);
@@ -117,77 +117,78 @@ TEST(MainPath, AShapeBecomesABakedBodyThatFallsAndLeavesForOtherTools) {
 
     const auto again =
         run_program_in(folder, {"samara", "simulate", "scene.toml", "--bodies", "bodies", "-o", "again.h5"});
-    ASSERT_EQ(again.status, 0) << again.fault;
+    ASSERT_EQ(again.status, 0) << again.error;
     EXPECT_EQ(file_content_hash(folder / "fall.h5"), file_content_hash(folder / "again.h5"))
         << "same seed, same bytes";
     const auto other = run_program_in(
         folder, {"samara", "simulate", "scene.toml", "--bodies", "bodies", "--seed", "2", "-o", "other.h5"});
-    ASSERT_EQ(other.status, 0) << other.fault;
+    ASSERT_EQ(other.status, 0) << other.error;
     EXPECT_NE(file_content_hash(folder / "fall.h5"), file_content_hash(folder / "other.h5"));
 
     write_scene(folder, shapes + "sphere.geo");
     const auto changed =
         run_program_in(folder, {"samara", "simulate", "scene.toml", "--bodies", "bodies", "-o", "x.h5"});
     EXPECT_EQ(changed.status, 1);
-    EXPECT_THAT(changed.fault, HasSubstr("bake the scene again"));
+    EXPECT_THAT(changed.error, HasSubstr("bake the scene again"));
 
     for (const char* file : {"fall.glb", "fall.csv", "fall.usda", "fall.chan", "fall.html"}) {
         const auto written = run_program_in(folder, {"samara", "export", "fall.h5", "-o", file, "--json"});
-        EXPECT_EQ(written.status, 0) << written.fault;
+        EXPECT_EQ(written.status, 0) << written.error;
     }
     EXPECT_THAT(read_bytes(folder / "fall.glb"), StartsWith("glTF"));
     EXPECT_THAT(read_bytes(folder / "fall.csv"), StartsWith("run,body,copy,time,position_x"));
     const auto picture = run_program_in(folder, {"samara", "plot", "fall.h5", "-o", "fall.png", "--json"});
-    ASSERT_EQ(picture.status, 0) << picture.fault;
+    ASSERT_EQ(picture.status, 0) << picture.error;
     EXPECT_THAT(read_bytes(folder / "fall.png"), StartsWith("\x89PNG"));
     for (const char* file : {"fall.h5", "bodies/rubber.body.h5"}) {
         const auto info = run_program_in(folder, {"samara", "info", file, "--json"});
-        EXPECT_EQ(info.status, 0) << info.fault;
+        EXPECT_EQ(info.status, 0) << info.error;
         EXPECT_TRUE(info.json().is_object());
     }
     const auto lookup =
         run_program_in(folder, {"samara", "info", "bodies/rubber.body.h5", "--direction", "1,0,0", "--json"});
-    ASSERT_EQ(lookup.status, 0) << lookup.fault;
+    ASSERT_EQ(lookup.status, 0) << lookup.error;
     EXPECT_GT(lookup.json()["drag_coefficient"].get<double>(), 0.5);
     EXPECT_GT(lookup.json()["drag_coefficient_error"].get<double>(), 0.0);
-    expect_refusal(folder, {"samara", "info", "bodies/rubber.body.h5", "--direction", "up"}, "no direction");
+    expect_rejection(folder, {"samara", "info", "bodies/rubber.body.h5", "--direction", "up"},
+                     "no direction");
 }
 
 TEST(MainPath, ARawShapeFliesWithCoefficientsAndWithoutABake) {
     const test::TemporaryFolder folder;
     write_scene(folder, shapes + "cube.geo", "loads = \"coefficients\"\ndrag_coefficient = 1.05");
     const auto fall = run_program_in(folder, {"samara", "simulate", "scene.toml", "-o", "fall.h5", "--json"});
-    ASSERT_EQ(fall.status, 0) << fall.fault;
+    ASSERT_EQ(fall.status, 0) << fall.error;
     EXPECT_GT(fall.json()["bodies"][0]["mean_descent_speed"].get<double>(), 0.05);
 }
 
 TEST(BadInput, OfASceneIsNamedInOneLine) {
     const test::TemporaryFolder folder;
     const std::vector<std::string> words = {"samara", "simulate", "scene.toml", "-o", "out.h5"};
-    expect_refusal(folder, words, "scene.toml");
+    expect_rejection(folder, words, "scene.toml");
     write_scene(folder, shapes + "cube.geo", "colour = 1");
-    expect_refusal(folder, words, "scene.toml:8: unknown key 'colour'");
+    expect_rejection(folder, words, "scene.toml:8: unknown key 'colour'");
     write_scene(folder, "gone.stl");
-    expect_refusal(folder, words, "gone.stl");
+    expect_rejection(folder, words, "gone.stl");
     std::ofstream(folder / "scene.toml") << "[scene]\nduration = 1\n[[body]]\nname = \"a\"\nshape = \""
                                          << shapes << "cube.geo\"\ndensity = -5\n";
-    expect_refusal(folder, words, "scene.toml:6: density");
+    expect_rejection(folder, words, "scene.toml:6: density");
 }
 
 TEST(BadInput, ASceneWithTableLoadsAndNoTablesNamesTheBake) {
     const test::TemporaryFolder folder;
     write_scene(folder, shapes + "cube.geo", "loads = \"table\"");
-    expect_refusal(folder, {"samara", "simulate", "scene.toml", "-o", "out.h5"}, "samara bake");
-    expect_refusal(folder, {"samara", "simulate", "scene.toml", "--bodies", "none", "-o", "out.h5"},
-                   "samara bake");
+    expect_rejection(folder, {"samara", "simulate", "scene.toml", "-o", "out.h5"}, "samara bake");
+    expect_rejection(folder, {"samara", "simulate", "scene.toml", "--bodies", "none", "-o", "out.h5"},
+                     "samara bake");
 }
 
 TEST(BadInput, InAnotherUnitGetsANoteThatNamesTheRemedy) {
     const test::TemporaryFolder folder;
     const auto note = [&](const std::vector<std::string>& words) {
         const auto done = run_program_in(folder, words);
-        EXPECT_EQ(done.status, 0) << done.fault;
-        return done.fault;
+        EXPECT_EQ(done.status, 0) << done.error;
+        return done.error;
     };
     const std::string cube = shapes + "cube.geo";  // of 2 cm
     EXPECT_EQ(note({"samara", "mesh", cube, "-o", "cube.body.h5"}), "");
@@ -213,29 +214,29 @@ TEST(BadInput, InAnotherUnitGetsANoteThatNamesTheRemedy) {
 
 TEST(BadInput, AShapeToPlanIsRefusedWithWhatToDo) {
     const test::TemporaryFolder folder;
-    expect_refusal(folder, {"samara", "plan", shapes + "cube.geo"}, "--dry-run");
+    expect_rejection(folder, {"samara", "plan", shapes + "cube.geo"}, "--dry-run");
 }
 
 TEST(BadInput, ATruncatedOrForeignFileIsNamedInOneLine) {
     const test::TemporaryFolder folder;
     std::ofstream(folder / "text.body.h5") << "no HDF5 at all";
-    expect_refusal(folder, {"samara", "info", "text.body.h5"}, "text.body.h5");
-    expect_refusal(folder, {"samara", "plot", "text.body.h5", "-o", "out.png"}, "text.body.h5");
-    expect_refusal(folder, {"samara", "export", "text.body.h5", "-o", "out.glb"}, "text.body.h5");
-    expect_refusal(folder, {"samara", "convert", "nowhere", "-o", "out.body.h5"}, "nowhere");
-    expect_refusal(folder, {"samara", "convert", "nowhere", "-o", "out.csv", "--fluctuations"},
-                   "holds no case that was solved in time");
-    expect_refusal(folder, {"samara", "convert", "nowhere", "-o", "out.body.h5", "--fluctuations"},
-                   "name it NAME.csv");
-    expect_refusal(folder, {"samara", "convert", "nowhere", "-o", "out.csv", "--from", "3"},
-                   "--from goes with --fluctuations");
+    expect_rejection(folder, {"samara", "info", "text.body.h5"}, "text.body.h5");
+    expect_rejection(folder, {"samara", "plot", "text.body.h5", "-o", "out.png"}, "text.body.h5");
+    expect_rejection(folder, {"samara", "export", "text.body.h5", "-o", "out.glb"}, "text.body.h5");
+    expect_rejection(folder, {"samara", "convert", "nowhere", "-o", "out.body.h5"}, "nowhere");
+    expect_rejection(folder, {"samara", "convert", "nowhere", "-o", "out.csv", "--fluctuations"},
+                     "holds no case that was solved in time");
+    expect_rejection(folder, {"samara", "convert", "nowhere", "-o", "out.body.h5", "--fluctuations"},
+                     "name it NAME.csv");
+    expect_rejection(folder, {"samara", "convert", "nowhere", "-o", "out.csv", "--from", "3"},
+                     "--from goes with --fluctuations");
 }
 
 TEST(BadInput, AnUnknownCommandOrOptionIsNamedInOneLine) {
     const test::TemporaryFolder folder;
-    expect_refusal(folder, {"samara", "fly"}, "no command 'fly'");
-    expect_refusal(folder, {"samara", "simulate", "a.toml", "-o", "out.h5", "--fast"}, "--fast");
-    expect_refusal(folder, {"samara", "simulate", "a.toml", "-o", "out.h5", "--step", "-1"}, "--step");
+    expect_rejection(folder, {"samara", "fly"}, "no command 'fly'");
+    expect_rejection(folder, {"samara", "simulate", "a.toml", "-o", "out.h5", "--fast"}, "--fast");
+    expect_rejection(folder, {"samara", "simulate", "a.toml", "-o", "out.h5", "--step", "-1"}, "--step");
 }
 
 TEST(Help, OfEveryCommandWorks) {
@@ -244,7 +245,7 @@ TEST(Help, OfEveryCommandWorks) {
          {"mesh", "kirchhoff", "plan", "bake", "convert", "identify", "validate", "check-tables", "simulate",
           "export", "plot", "compare", "info", "report", "wind"}) {
         const auto help = run_program_in(folder, {"samara", command, "--help"});
-        EXPECT_EQ(help.status, 0) << help.fault;
+        EXPECT_EQ(help.status, 0) << help.error;
         EXPECT_THAT(help.output, HasSubstr("--json")) << command;
         EXPECT_THAT(help.output, HasSubstr("Usage: samara " + std::string(command) + " ")) << command;
     }

@@ -55,7 +55,7 @@ def base_scenes():
                                             "gust": {"amplitude": [0.1, 0.0, 0.0], "period": 0.5}}),
            ("[[body]]", {**BODY, "shape": "samara:sphere", "loads": "coefficients", "turbulence": "constant",
                          "turbulent_kinetic_energy": 0.01, "dissipation_rate": 0.02, "velocity": [0.1, 0.0, 0.0]})]
-    yield [("[scene]", {**scene, "bodies_meet": True}), ("[fluid]", water),
+    yield [("[scene]", {**scene, "bodies_collide": True}), ("[fluid]", water),
            ("[[body]]", {**BODY, "mass": 0.01, "density": None, "start": 0.01}),
            ("[[body]]", {**BODY, "name": "other", "shape": "samara:cube", "position": [0.0, 0.0, 0.2], "loads": "surface",
                          "turbulence": "none", "angular_velocity": [3.0, 0.0, 1.0]})]
@@ -78,7 +78,7 @@ NUMBERS = [0.0, -0.0, -1.0, 1.0, 5e-324, 1e-300, 1e-60, 1e-31, 1e-12, 1e-6, 1e-3
 OTHERS = ["", "x", "samara:", "samara:none", "../none.obj", "auto", "none", "table", "\u202e", "a" * 300, True, False, [], {},
           [0.0, 0.0, 0.0], [1e30, -1e30, 1e-60], [math.nan, 0.0, 0.0], [1.0], [1.0, 2.0, 3.0, 4.0], [[1.0]], {"position": 1.0}]
 MORE_KEYS = {
-    "[scene]": ["ground", "gravity", "seed", "step", "duration", "frame_rate", "bodies_meet", "step_tolerance"],
+    "[scene]": ["ground", "gravity", "seed", "step", "duration", "frame_rate", "bodies_collide", "step_tolerance"],
     "[fluid]": ["density", "viscosity", "current", "gust", "preset"],
     "[[body]]": ["mass", "density", "center_of_mass", "inertia", "scale", "count", "spread", "start", "loads", "turbulence",
                  "added_mass", "dynamic_coefficients", "table_reynolds_number", "patches", "langevin", "drag_coefficient",
@@ -245,7 +245,7 @@ def unknown_numbers(result, name=""):
     return [name] if name in FINITE and (result is None or result < 0) else []
 
 
-def fault_of(command, status, output, said):
+def error_of(command, status, output, said):
     """What is wrong with how a command ended; nothing where it ended as it should."""
     notes = [line for line in said.splitlines() if ": note: " not in line and not PROGRESS.match(line)]
     if status == 0:
@@ -287,12 +287,12 @@ class OddScenes:
             try:
                 done = subprocess.run([os.path.join(self.programs, program), *first, file, *rest], capture_output=True,
                                       preexec_fn=limits, timeout=MOST_SECONDS, check=False)
-                fault = fault_of(command, done.returncode, done.stdout.decode(errors="replace"),
+                error = error_of(command, done.returncode, done.stdout.decode(errors="replace"),
                                  done.stderr.decode(errors="replace"))
             except subprocess.TimeoutExpired:
-                fault = f"no end within {MOST_SECONDS} s"
-            if fault:
-                found.append(f"scene {number}, samara {command}: {fault}")
+                error = f"no end within {MOST_SECONDS} s"
+            if error:
+                found.append(f"scene {number}, samara {command}: {error}")
         return found + ([text] if found else [])
 
 

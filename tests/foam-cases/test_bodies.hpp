@@ -73,7 +73,7 @@ inline Body ellipsoid(const Vector3d& semi_axes, const Vector3d& center = Vector
 inline Body sphere(double radius, int rounds = 3) {
     Body body = ellipsoid(Vector3d::Constant(radius), Vector3d::Zero(), rounds);
     body.name = "sphere";
-    body.symmetry.kind = Symmetry::Kind::spherical;
+    body.symmetry.type = Symmetry::Type::spherical;
     return body;
 }
 

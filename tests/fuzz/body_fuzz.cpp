@@ -17,9 +17,9 @@ namespace {
 /// A body that the interface loads flies, or one line says why not.
 void fly(const samara_body* body) {
     samara_settings settings;
-    samara_kind kind;
+    samara_body_group kind;
     samara_default_settings(&settings, sizeof settings, nullptr, 0);
-    samara_default_kind(&kind, sizeof kind, nullptr, 0);
+    samara_default_body_group(&kind, sizeof kind, nullptr, 0);
     kind.density = 1200.0;
     samara_simulation* simulation = nullptr;
     require(samara_simulation_create(&settings, &simulation, nullptr, 0) == SAMARA_OK, "sound settings do");

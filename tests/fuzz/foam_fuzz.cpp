@@ -35,7 +35,7 @@ void read_faces_of_mesh(const std::filesystem::path& file) {
 }
 
 void read_rows(const std::filesystem::path& file) {
-    for (const CutLine cut : {CutLine::refuse, CutLine::drop}) {
+    for (const CutLine cut : {CutLine::reject, CutLine::drop}) {
         const auto history = accepted([&] { return read_history(file, cut); });
         if (!history) continue;
         for (const auto& row : history->rows) {

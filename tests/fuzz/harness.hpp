@@ -36,8 +36,8 @@ auto accepted(const Read& read) {
         } else {
             result = read();
         }
-    } catch (const Error& fault) {
-        const std::string_view line = fault.what();
+    } catch (const Error& error) {
+        const std::string_view line = error.what();
         require(!line.empty(), "an Error says what is wrong");
     }
     return result;

@@ -8,7 +8,7 @@
 #include "samara/core/body/body_file.hpp"
 #include "samara/core/files/temporary_folder.hpp"
 #include "samara/scene/scene_file.hpp"
-#include "samara/scene/simulation.hpp"
+#include "samara/scene/scene_simulation.hpp"
 #include "support/known_bodies.hpp"
 
 namespace samara::fuzz {

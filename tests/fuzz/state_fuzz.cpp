@@ -11,7 +11,7 @@
 #include "samara/core/body/body_file.hpp"
 #include "samara/core/files/content_hash.hpp"
 #include "samara/core/files/temporary_folder.hpp"
-#include "samara/core/flight/state_bytes.hpp"
+#include "samara/core/simulation/state_bytes.hpp"
 #include "support/known_bodies.hpp"
 
 namespace samara::fuzz {
@@ -20,9 +20,9 @@ namespace {
 constexpr std::size_t hash_size = 32;
 
 /// Two kinds of bodies, one on the ground, in the middle of a step.
-class Flight {
+class Simulation {
   public:
-    Flight() {
+    Simulation() {
         Body body = test::rubber_ellipsoid();
         body.name = "rubber";
         body.source = "invented";
@@ -36,8 +36,8 @@ class Flight {
         settings.has_ground = 1;
         settings.ground = -0.05;
         succeed(samara_simulation_create(&settings, &simulation_, nullptr, 0));
-        samara_kind kind;
-        succeed(samara_default_kind(&kind, sizeof kind, nullptr, 0));
+        samara_body_group kind;
+        succeed(samara_default_body_group(&kind, sizeof kind, nullptr, 0));
         kind.density = 1200.0;
         kind.count = 2;
         kind.name = "falling";
@@ -52,9 +52,9 @@ class Flight {
         succeed(samara_advance_to(simulation_, 0.0131, nullptr, 0));
         state_ = state();
     }
-    ~Flight() { samara_simulation_free(simulation_); }
-    Flight(const Flight&) = delete;
-    Flight& operator=(const Flight&) = delete;
+    ~Simulation() { samara_simulation_free(simulation_); }
+    Simulation(const Simulation&) = delete;
+    Simulation& operator=(const Simulation&) = delete;
 
     [[nodiscard]] const std::string& sound_state() const { return state_; }
 
@@ -116,10 +116,11 @@ std::string overwritten(std::string bytes, std::string_view edits) {
 
 /// The first byte: 'r' for raw bytes, else edits of a sound state.
 void feed(std::string_view input) {
-    static Flight flight;
+    static Simulation simulation;
     if (input.empty()) return;
     const std::string_view rest = input.substr(1);
-    flight.try_state(input.front() == 'r' ? std::string(rest) : overwritten(flight.sound_state(), rest));
+    simulation.try_state(input.front() == 'r' ? std::string(rest)
+                                              : overwritten(simulation.sound_state(), rest));
 }
 
 }  // namespace samara::fuzz

@@ -158,7 +158,7 @@ TEST(ExactShapes, ARingOfExactGeometryIsGivenTheTrianglesThatItNeeds) {
     const double volume = 2.0 * pi * pi * 0.0025;
     EXPECT_NEAR(ring.moments.volume, volume, 0.005 * volume);
     EXPECT_NEAR(ring.moments.centroid.norm(), 0.0, 1e-3);
-    EXPECT_EQ(ring.symmetry.kind, Symmetry::Kind::axial);
+    EXPECT_EQ(ring.symmetry.type, Symmetry::Type::axial);
     EXPECT_GT(ring.surface.triangle_count(), 2000U);
 }
 

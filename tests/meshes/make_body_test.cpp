@@ -47,7 +47,7 @@ struct Shape {
     const char* file;
     double volume;
     double tolerance;  // relative: what flat triangles leave out of a curved body, or rounding
-    Symmetry::Kind kind;
+    Symmetry::Type kind;
     std::size_t elements;
 };
 
@@ -59,7 +59,7 @@ TEST_P(ShapeOfSamara, MakesAValidBody) {
     EXPECT_NEAR(static_cast<double>(body.surface.triangle_count()), 1280.0, 0.1 * 1280.0);
     EXPECT_NO_THROW(require_sound_surface(body.surface));
     EXPECT_NEAR(body.moments.volume, shape.volume, shape.tolerance * shape.volume);
-    EXPECT_EQ(body.symmetry.kind, shape.kind);
+    EXPECT_EQ(body.symmetry.type, shape.kind);
     EXPECT_EQ(body.symmetry.elements.size(), shape.elements);
     EXPECT_TRUE(body.symmetry.axes.isIdentity(0.0));
     EXPECT_EQ(body.name, std::filesystem::path(shape.file).stem());
@@ -69,15 +69,15 @@ TEST_P(ShapeOfSamara, MakesAValidBody) {
 // The leaf and the samara have no closed form: their volumes are of meshes of 20,000 curved triangles.
 INSTANTIATE_TEST_SUITE_P(
     , ShapeOfSamara,
-    ::testing::Values(Shape{"sphere.geo", 4.0 / 3.0 * pi * 8e-6, 0.015, Symmetry::Kind::spherical, 2},
-                      Shape{"ellipsoid.geo", ellipsoid_volume, 0.02, Symmetry::Kind::finite, 8},
-                      Shape{"disc.geo", pi * 4e-4 * 0.002, 0.005, Symmetry::Kind::axial, 4},
-                      Shape{"sheet.geo", 0.083 * 0.083 * 0.0001, 1e-9, Symmetry::Kind::finite, 16},
-                      Shape{"cube.geo", 8e-6, 1e-9, Symmetry::Kind::finite, 48},
+    ::testing::Values(Shape{"sphere.geo", 4.0 / 3.0 * pi * 8e-6, 0.015, Symmetry::Type::spherical, 2},
+                      Shape{"ellipsoid.geo", ellipsoid_volume, 0.02, Symmetry::Type::finite, 8},
+                      Shape{"disc.geo", pi * 4e-4 * 0.002, 0.005, Symmetry::Type::axial, 4},
+                      Shape{"sheet.geo", 0.083 * 0.083 * 0.0001, 1e-9, Symmetry::Type::finite, 16},
+                      Shape{"cube.geo", 8e-6, 1e-9, Symmetry::Type::finite, 48},
                       // The folded sheet's own volume, but for the corners of the cut edges.
-                      Shape{"airplane.geo", 0.083 * 0.083 * 0.0001, 0.005, Symmetry::Kind::finite, 2},
-                      Shape{"leaf.geo", 3.8565e-7, 0.02, Symmetry::Kind::finite, 2},
-                      Shape{"samara.geo", 2.5554e-7, 0.04, Symmetry::Kind::finite, 2}),
+                      Shape{"airplane.geo", 0.083 * 0.083 * 0.0001, 0.005, Symmetry::Type::finite, 2},
+                      Shape{"leaf.geo", 3.8565e-7, 0.02, Symmetry::Type::finite, 2},
+                      Shape{"samara.geo", 2.5554e-7, 0.04, Symmetry::Type::finite, 2}),
     [](const auto& shape) { return std::filesystem::path(shape.param.file).stem().string(); });
 
 TEST(MakeBody, MeetsTheCountOfTrianglesFromHundredsToThousands) {
@@ -275,7 +275,7 @@ TEST(MakeBody, HonoursTheUnitOfAStepFile) {
     });
     const Body body = make_body(folder / "ball.step", with_triangles(1280, 2));
     EXPECT_NEAR(body.moments.volume, 4.0 / 3.0 * pi * 8e-6, 1e-4 * 3.35e-5);
-    EXPECT_EQ(body.symmetry.kind, Symmetry::Kind::spherical);
+    EXPECT_EQ(body.symmetry.type, Symmetry::Type::spherical);
 }
 
 TEST(MakeBody, TheSymmetryOfAStepFileIsTheSameInAnyUnit) {
@@ -287,7 +287,7 @@ TEST(MakeBody, TheSymmetryOfAStepFileIsTheSameInAnyUnit) {
         });
         const Body body = make_body(folder / "cone.step");
         const double metres = 1e-3 * size;
-        EXPECT_EQ(body.symmetry.kind, Symmetry::Kind::axial) << size;
+        EXPECT_EQ(body.symmetry.type, Symmetry::Type::axial) << size;
         EXPECT_NEAR(body.moments.volume / (metres * metres * metres), 2.0 / 3.0 * pi, 1e-3) << size;
     }
 }
@@ -382,13 +382,13 @@ TEST(MakeBody, IsTheSameEachTime) {
     EXPECT_EQ(surface_hash(one.surface), surface_hash(two.surface));
 }
 
-std::string fault_of_text(const std::string& name, const std::string& text) {
+std::string error_of_text(const std::string& name, const std::string& text) {
     const test::TemporaryFolder folder;
     std::ofstream(folder / name) << text;
-    const std::string fault = test::error_of([&] { make_body(folder / name); });
-    EXPECT_THAT(fault, ::testing::StartsWith((folder / name).string() + ": "));
-    EXPECT_THAT(fault, ::testing::Not(HasSubstr("\n")));
-    return fault;
+    const std::string error = test::error_of([&] { make_body(folder / name); });
+    EXPECT_THAT(error, ::testing::StartsWith((folder / name).string() + ": "));
+    EXPECT_THAT(error, ::testing::Not(HasSubstr("\n")));
+    return error;
 }
 
 TEST(MakeBody, NamesWhatIsWrongWithAFile) {
@@ -396,22 +396,22 @@ TEST(MakeBody, NamesWhatIsWrongWithAFile) {
                 HasSubstr("missing.stl: does not exist"));
     EXPECT_THAT(test::error_of([] { make_body(std::filesystem::temp_directory_path() / "x.blend"); }),
                 HasSubstr("is of no known kind; give a .geo"));
-    EXPECT_THAT(fault_of_text("empty.stl", ""), HasSubstr("is empty"));
-    EXPECT_THAT(fault_of_text("words.stl", "these are no triangles"), HasSubstr("is no STL file"));
+    EXPECT_THAT(error_of_text("empty.stl", ""), HasSubstr("is empty"));
+    EXPECT_THAT(error_of_text("words.stl", "these are no triangles"), HasSubstr("is no STL file"));
     EXPECT_THAT(
-        fault_of_text("cut.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"),
+        error_of_text("cut.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"),
         HasSubstr("is cut short within a face at line 5"));
-    EXPECT_THAT(fault_of_text("word.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 zero 0\n"),
+    EXPECT_THAT(error_of_text("word.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 zero 0\n"),
                 HasSubstr("line 4: 'vertex' needs three numbers, not 'zero'"));
-    EXPECT_THAT(fault_of_text("none.obj", "# nothing\n"), HasSubstr("holds no triangles"));
-    EXPECT_THAT(fault_of_text("range.obj", "v 0 0 0\nv 1 0 0\nf 1 2 7\n"), HasSubstr("range.obj"));
-    EXPECT_THAT(fault_of_text("wrong.geo", "Sphere(1) = {0, 0, nonsense, 1};\n"), HasSubstr("nonsense"));
-    EXPECT_THAT(fault_of_text("none.geo", "Point(1) = {0, 0, 0, 1};\n"), HasSubstr("holds no surface"));
-    EXPECT_THAT(fault_of_text("open.geo", "SetFactory(\"OpenCASCADE\"); Rectangle(1) = {0, 0, 0, 1, 1};\n"),
+    EXPECT_THAT(error_of_text("none.obj", "# nothing\n"), HasSubstr("holds no triangles"));
+    EXPECT_THAT(error_of_text("range.obj", "v 0 0 0\nv 1 0 0\nf 1 2 7\n"), HasSubstr("range.obj"));
+    EXPECT_THAT(error_of_text("wrong.geo", "Sphere(1) = {0, 0, nonsense, 1};\n"), HasSubstr("nonsense"));
+    EXPECT_THAT(error_of_text("none.geo", "Point(1) = {0, 0, 0, 1};\n"), HasSubstr("holds no surface"));
+    EXPECT_THAT(error_of_text("open.geo", "SetFactory(\"OpenCASCADE\"); Rectangle(1) = {0, 0, 0, 1, 1};\n"),
                 HasSubstr("is not closed"));
-    EXPECT_THAT(fault_of_text("a.step", "ISO-10303-21; cut short"), HasSubstr("a.step"));
-    EXPECT_THAT(fault_of_text("a.msh", "$MeshFormat\nnonsense\n"), HasSubstr("a.msh"));
-    EXPECT_THAT(fault_of_text("a.body.h5", "not HDF5"), HasSubstr("is not an HDF5 file"));
+    EXPECT_THAT(error_of_text("a.step", "ISO-10303-21; cut short"), HasSubstr("a.step"));
+    EXPECT_THAT(error_of_text("a.msh", "$MeshFormat\nnonsense\n"), HasSubstr("a.msh"));
+    EXPECT_THAT(error_of_text("a.body.h5", "not HDF5"), HasSubstr("is not an HDF5 file"));
 }
 
 TEST(MakeBody, RefusesOptionsOutOfRange) {

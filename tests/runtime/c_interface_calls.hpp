@@ -26,7 +26,7 @@ struct Text {
 };
 
 // Calls a function of the interface with a buffer at its end.
-#define CALL(function, ...) function(__VA_ARGS__, fault.bytes.data(), fault.bytes.size())
+#define CALL(function, ...) function(__VA_ARGS__, error.bytes.data(), error.bytes.size())
 
 using BodyPointer = std::unique_ptr<samara_body, void (*)(samara_body*)>;
 using SimulationPointer = std::unique_ptr<samara_simulation, void (*)(samara_simulation*)>;
@@ -51,9 +51,9 @@ class BodyOnDisk {
   public:
     explicit BodyOnDisk(const Body& body = rubber()) {
         write_body_file(file(), body);
-        Text fault;
+        Text error;
         samara_body* loaded = nullptr;
-        EXPECT_EQ(CALL(samara_body_load, file().c_str(), &loaded), SAMARA_OK) << fault.text();
+        EXPECT_EQ(CALL(samara_body_load, file().c_str(), &loaded), SAMARA_OK) << error.text();
         body_.reset(loaded);
     }
     [[nodiscard]] std::filesystem::path file() const { return folder_.path() / "rubber.body.h5"; }
@@ -70,9 +70,9 @@ inline samara_settings default_settings() {
     return settings;
 }
 
-inline samara_kind rubber_kind(std::uint32_t count = 1) {
-    samara_kind kind;
-    EXPECT_EQ(samara_default_kind(&kind, sizeof kind, nullptr, 0), SAMARA_OK);
+inline samara_body_group rubber_group(std::uint32_t count = 1) {
+    samara_body_group kind;
+    EXPECT_EQ(samara_default_body_group(&kind, sizeof kind, nullptr, 0), SAMARA_OK);
     kind.density = 1200.0;
     kind.count = count;
     kind.orientation[0] = 0.8;
@@ -85,32 +85,32 @@ inline samara_kind rubber_kind(std::uint32_t count = 1) {
 }
 
 inline SimulationPointer empty_simulation(const samara_settings& settings = default_settings()) {
-    Text fault;
+    Text error;
     samara_simulation* simulation = nullptr;
-    EXPECT_EQ(CALL(samara_simulation_create, &settings, &simulation), SAMARA_OK) << fault.text();
+    EXPECT_EQ(CALL(samara_simulation_create, &settings, &simulation), SAMARA_OK) << error.text();
     return {simulation, samara_simulation_free};
 }
 
-inline SimulationPointer simulation_of(const BodyOnDisk& body, const samara_kind& kind,
+inline SimulationPointer simulation_of(const BodyOnDisk& body, const samara_body_group& kind,
                                        const samara_settings& settings = default_settings()) {
     SimulationPointer simulation = empty_simulation(settings);
-    Text fault;
+    Text error;
     EXPECT_EQ(CALL(samara_simulation_add, simulation.get(), body.get(), &kind, nullptr), SAMARA_OK)
-        << fault.text();
+        << error.text();
     return simulation;
 }
 
 inline std::vector<samara_pose> poses_of(const SimulationPointer& simulation) {
     std::vector<samara_pose> poses(samara_simulation_count(simulation.get()));
-    Text fault;
+    Text error;
     EXPECT_EQ(CALL(samara_get_poses, simulation.get(), 0, poses.size(), poses.data(), 0), SAMARA_OK)
-        << fault.text();
+        << error.text();
     return poses;
 }
 
 inline std::vector<samara_pose> poses_at(const SimulationPointer& simulation, double time) {
-    Text fault;
-    EXPECT_EQ(CALL(samara_advance_to, simulation.get(), time), SAMARA_OK) << fault.text();
+    Text error;
+    EXPECT_EQ(CALL(samara_advance_to, simulation.get(), time), SAMARA_OK) << error.text();
     return poses_of(simulation);
 }
 
@@ -120,13 +120,13 @@ inline bool same_bytes(const std::vector<samara_pose>& a, const std::vector<sama
 
 inline std::string state_of(const SimulationPointer& simulation) {
     std::string bytes(samara_state_size(simulation.get()), '\0');
-    Text fault;
+    Text error;
     EXPECT_EQ(CALL(samara_get_state, simulation.get(), bytes.data(), bytes.size()), SAMARA_OK)
-        << fault.text();
+        << error.text();
     return bytes;
 }
 
-inline samara_status set_state(const SimulationPointer& simulation, const std::string& bytes, Text& fault) {
+inline samara_status set_state(const SimulationPointer& simulation, const std::string& bytes, Text& error) {
     return CALL(samara_set_state, simulation.get(), bytes.data(), bytes.size());
 }
 

@@ -13,8 +13,8 @@ template <typename Call>
 std::string error_of(const Call& call) {
     try {
         call();
-    } catch (const Error& fault) {
-        return fault.what();
+    } catch (const Error& error) {
+        return error.what();
     }
     ADD_FAILURE() << "no Error was thrown";
     return {};

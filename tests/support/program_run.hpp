@@ -13,7 +13,7 @@ namespace samara::test {
 struct ProgramRun {
     int status = 0;
     std::string output;  ///< standard output
-    std::string fault;   ///< standard error
+    std::string error;   ///< standard error
     [[nodiscard]] nlohmann::json json() const { return nlohmann::json::parse(output); }
 };
 

@@ -117,9 +117,9 @@ ImmersedBody RandomBodies::body() {
                   .mass = mass,
                   .center_of_mass = Vector3d(magnitude(1e-3, 2.0) * size * vector()),
                   .inertia = Matrix3d(0.5 * (inertia + inertia.transpose()))};
-    const double kind = uniform(0.0, 1.0);
-    if (kind < 0.1) given.loads = Loads::none;
-    if (kind > 0.8) {
+    const double group = uniform(0.0, 1.0);
+    if (group < 0.1) given.loads = Loads::none;
+    if (group > 0.8) {
         given.loads = Loads::coefficients;
         given.coefficients = {.drag_coefficient = magnitude(0.01, 100.0),
                               .lift_coefficient = uniform(-10.0, 10.0),

@@ -235,7 +235,7 @@ Body full_body() {
     body.source = "pebble.stl (hash 0123456789abcdef), 80 triangles";
     body.surface = curved_ellipsoid({0.1, 0.2, 0.4}, 1);
     body.moments = moments_of(body.surface);
-    body.symmetry.kind = Symmetry::Kind::axial;
+    body.symmetry.type = Symmetry::Type::axial;
     body.symmetry.axis = Vector3d(1.0, 2.0, 2.0) / 3.0;
     body.symmetry.elements = {Matrix3d::Identity(), Vector3d(-1.0, -1.0, 1.0).asDiagonal()};
     body.symmetry.axes = Eigen::AngleAxisd(0.3, Vector3d::UnitY()).toRotationMatrix();

@@ -19,7 +19,7 @@ NANOSECONDS = {"ns": 1.0, "us": 1e3, "ms": 1e6, "s": 1e9}
 SAME_MACHINE = ("num_cpus", "mhz_per_cpu", "host_name")
 
 
-class Fault(Exception):
+class ReportError(Exception):
     """What is said in one line."""
 
 
@@ -33,10 +33,10 @@ def read(path):
             if one.get("run_type", "iteration") == "iteration" and not one.get("error_occurred"):
                 times.setdefault(one.get("run_name", one["name"]), []).append(one["cpu_time"] * NANOSECONDS[one["time_unit"]])
         return found.get("context", {}), times
-    except OSError as fault:
-        raise Fault(f"{path}: {fault.strerror}; write one by ./dev bench --save {path}") from fault
-    except (ValueError, KeyError, TypeError, AttributeError) as fault:
-        raise Fault(f"{path}: is no result of the benchmarks; write one by ./dev bench --save {path}") from fault
+    except OSError as error:
+        raise ReportError(f"{path}: {error.strerror}; write one by ./dev bench --save {path}") from error
+    except (ValueError, KeyError, TypeError, AttributeError) as error:
+        raise ReportError(f"{path}: is no result of the benchmarks; write one by ./dev bench --save {path}") from error
 
 
 def ratio_of(old, new):
@@ -70,7 +70,7 @@ def compared(old, new):
     """The lines of the table, and the names of what is slower for certain."""
     names = [name for name in new if name in old]
     if not names:
-        raise Fault("the two files have no benchmark in common")
+        raise ReportError("the two files have no benchmark in common")
     width = max(map(len, names))
     lines, slower = [f"{'benchmark':<{width}}  {'old':>8}  {'new':>8}  ratio"], []
     for name in names:
@@ -90,8 +90,8 @@ def main(words):
     try:
         (old_context, old), (new_context, new) = read(words[1]), read(words[2])
         lines, slower = compared(old, new)
-    except Fault as fault:
-        sys.stderr.write(f"compare_benchmarks: {fault}\n")
+    except ReportError as error:
+        sys.stderr.write(f"compare_benchmarks: {error}\n")
         return 2
     print("\n".join(lines))
     for name in sorted(set(old) - set(new)):

@@ -80,7 +80,7 @@ FIGURES = ("descent_speed", "frequency", "inclination_amplitude", "rms_angular_s
 
 
 def run(words):
-    """What a program prints as JSON; its one line of fault goes on."""
+    """What a program prints as JSON; its one line of error goes on."""
     return json.loads(subprocess.run(words, check=True, stdout=subprocess.PIPE).stdout)
 
 

@@ -74,11 +74,11 @@ Mujoco mujoco_ellipsoid(int integrator) {
     mj_defaultVFS(files.get());
     mj_makeEmptyFileVFS(files.get(), "body.xml", static_cast<int>(text.size()));
     std::memcpy(files->filedata[0], text.data(), text.size());
-    std::array<char, 1000> fault{};
-    const std::shared_ptr<mjModel> model(mj_loadXML("body.xml", files.get(), fault.data(), fault.size()),
+    std::array<char, 1000> error{};
+    const std::shared_ptr<mjModel> model(mj_loadXML("body.xml", files.get(), error.data(), error.size()),
                                          mj_deleteModel);
     mj_deleteVFS(files.get());
-    if (!model) throw std::runtime_error(fault.data());
+    if (!model) throw std::runtime_error(error.data());
     model->opt.integrator = integrator;
     model->opt.disableflags = mjDSBL_CONSTRAINT | mjDSBL_EQUALITY | mjDSBL_FRICTIONLOSS | mjDSBL_LIMIT |
                               mjDSBL_CONTACT | mjDSBL_CLAMPCTRL | mjDSBL_WARMSTART | mjDSBL_ACTUATION |
@@ -100,8 +100,8 @@ Place mujoco_fall(const Mujoco& mujoco, int steps, double perturbation) {
     bool broke = false;
     for (int i = 0; i < steps; ++i) {
         mj_step(model, data);
-        for (const int fault : {mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC}) {
-            broke = broke || data->warning[fault].number > 0;
+        for (const int error : {mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC}) {
+            broke = broke || data->warning[error].number > 0;
         }
     }
     const double seconds = cpu_time() - begin;
@@ -273,8 +273,8 @@ int main(int count, char** words) {
     try {
         samara::compare(count > 1 ? words[1] : nullptr);
         return 0;
-    } catch (const std::exception& fault) {
-        std::fprintf(stderr, "samara-mujoco-comparison: %s\n", fault.what());
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "samara-mujoco-comparison: %s\n", error.what());
         return 1;
     }
 }

@@ -21,11 +21,11 @@ std::shared_ptr<mjModel> model_of(const std::string& text) {
     mj_defaultVFS(files.get());
     mj_makeEmptyFileVFS(files.get(), "body.xml", static_cast<int>(text.size()));
     std::memcpy(files->filedata[0], text.data(), text.size());
-    std::array<char, 1000> fault{};
-    std::shared_ptr<mjModel> model(mj_loadXML("body.xml", files.get(), fault.data(), fault.size()),
+    std::array<char, 1000> error{};
+    std::shared_ptr<mjModel> model(mj_loadXML("body.xml", files.get(), error.data(), error.size()),
                                    mj_deleteModel);
     mj_deleteVFS(files.get());
-    if (!model) throw Error(fmt::format("MuJoCo refuses the body: {}", fault.data()));
+    if (!model) throw Error(fmt::format("MuJoCo refuses the body: {}", error.data()));
     return model;
 }
 
@@ -123,7 +123,7 @@ PeerFall MujocoBody::fall(const std::vector<double>& coefficients, int cuts) con
     const auto advance = [model, data] {
         mj_step(model, data);
         return std::ranges::none_of(std::array{mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC},
-                                    [data](int fault) { return data->warning[fault].number > 0; });
+                                    [data](int error) { return data->warning[error].number > 0; });
     };
     return flown_through(times_, model->opt.timestep, advance, [this] { return pose(); });
 }

@@ -30,7 +30,7 @@ RUNS = "32"
 
 
 def run(words):
-    """What a program prints as JSON; its one line of fault goes on."""
+    """What a program prints as JSON; its one line of error goes on."""
     return json.loads(subprocess.run(words, check=True, stdout=subprocess.PIPE).stdout)
 
 

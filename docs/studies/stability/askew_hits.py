@@ -60,7 +60,7 @@ for step in (0.0005, 0.002, 0.01, 1 / 24):
     misses = []
     for pair in starts(30):
         scene = {
-            "scene": {"duration": 1, "step": step, "gravity": [0, 0, 0], "bodies_meet": True},
+            "scene": {"duration": 1, "step": step, "gravity": [0, 0, 0], "bodies_collide": True},
             "fluid": {"density": 1e-6, "viscosity": 1e-9},
             "body": [body(name, density, start) for name, density, start in zip(NAMES, (700, 900), pair)],
         }

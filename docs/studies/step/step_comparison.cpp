@@ -36,7 +36,7 @@ struct Row {
 };
 
 /// Where a body is after `steps` steps of the window.
-using Flight = std::function<BodyState(const ImmersedBody&, const BodyState& start, int steps)>;
+using Simulation = std::function<BodyState(const ImmersedBody&, const BodyState& start, int steps)>;
 
 BodyState implicit_flight(const ImmersedBody& body, const BodyState& start, int steps) {
     const Noise noise(1, "body", 0, 0);
@@ -58,7 +58,7 @@ BodyState reference_flight(const ImmersedBody& body, const BodyState& start, int
 
 using ExplicitStep = MotionVector (*)(const EquationsOfMotion&, double, const MotionVector&);
 
-Flight explicit_flight(ExplicitStep step) {
+Simulation explicit_flight(ExplicitStep step) {
     return [step](const ImmersedBody& body, const BodyState& start, int steps) {
         const EquationsOfMotion equations(body, surroundings.gravity, start.sampled_turbulence);
         MotionVector motion = motion_vector(start);
@@ -69,7 +69,7 @@ Flight explicit_flight(ExplicitStep step) {
 
 struct Method {
     const char* name;
-    Flight fly;
+    Simulation fly;
 };
 
 std::vector<Method> methods() {

@@ -21,7 +21,7 @@ import sys
 
 # After Python's own folders, so that no file of this one takes the place of a module of theirs.
 sys.path.append(os.path.dirname(os.path.realpath(__file__)))
-from case_files import (Failure, Fault, are_attempts, breakdown, could_not_read_state,  # noqa: E402
+from case_files import (Failure, CaseError, are_attempts, breakdown, could_not_read_state,  # noqa: E402
                         hash_of_inputs, read, read_record, say, time_folders, word, write_entries, write_json)
 from stationarity import has_k_and_epsilon, whole_histories, worst_quantity  # noqa: E402
 
@@ -104,7 +104,7 @@ class Rounds:
     def histories_are_whole(self):
         try:
             whole_histories(".", self.attempt["iterations"], self.turbulent, self.time_step)
-        except Fault:
+        except CaseError:
             return False
         return True
 
@@ -146,7 +146,7 @@ class Rounds:
             status, seconds = run_program(["./Allrun", "map", source], "log.mapFields")
             self.state["cpu_seconds"] += seconds
             if status != 0:
-                raise Fault(f"mapFields failed; see {os.path.abspath('log.mapFields')}")
+                raise CaseError(f"mapFields failed; see {os.path.abspath('log.mapFields')}")
 
     def run_round(self):
         """One more round, and what it says of the case: a verdict, the end of the attempt, or neither."""
@@ -202,7 +202,7 @@ class Rounds:
             except Failure as cause:
                 self.attempt.pop("unsteadiness_over_tolerance", None)
                 self.after(str(cause), AFTER_DIVERGENCE_IN_TIME if self.unsteady else AFTER_DIVERGENCE)
-            except Fault:
+            except CaseError:
                 # As where the disk was full when an earlier run wrote its last round.
                 if not self.goes_on or not could_not_read_state(self.log):
                     raise
@@ -215,8 +215,8 @@ def main():
     try:
         rounds = Rounds()
         rounds.run()
-    except (Fault, OSError) as fault:
-        say(fault, sys.stderr)
+    except (CaseError, OSError) as error:
+        say(error, sys.stderr)
         return 1
     if rounds.state["verdict"] == "failed":
         attempts = ", ".join(one["what"] for one in rounds.state["attempts"])

@@ -8,7 +8,7 @@ the standard error from six batches (an oscillation) are both within the toleran
 
 import math
 
-from case_files import Failure, Fault, history, word
+from case_files import Failure, CaseError, history, word
 
 # k and epsilon settle later than forces and are less certain in any case: their tolerance over that of forces.
 TURBULENCE_TOLERANCES = 3.0
@@ -46,13 +46,13 @@ def has_k_and_epsilon(parameters):
 
 
 def whole_history(folder, name, file, last, time_step=1.0):
-    """The history, one row [iteration, values...] for each iteration up to the `last`. Raises Fault where any is missing.
+    """The history, one row [iteration, values...] for each iteration up to the `last`. Raises CaseError where any is missing.
 
     `time_step`: the time that an iteration takes in the case."""
     rows = history(folder, name, file)
     for iteration in range(1, int(last) + 1):
         if len(rows) < iteration or abs(rows[iteration - 1][0] / time_step - iteration) > 0.01:
-            raise Fault(f"postProcessing/{name}: {file} has no iteration {iteration} of {last:g}; was the disk full? "
+            raise CaseError(f"postProcessing/{name}: {file} has no iteration {iteration} of {last:g}; was the disk full? "
                         "./Allclean starts over")
     return [[iteration, *row[1:]] for iteration, row in enumerate(rows, 1)]
 
@@ -69,7 +69,7 @@ def worst_quantity(folder, first, last, tolerance, turbulent, time_step=1.0):
     """(unsteadiness over tolerance, its quantity, first iteration of the window) of the worst quantity.
 
     `first`: the iteration after which the present settings were used; `last`: the one that was reached. Raises Diverged
-    where the values are not finite, not positive (k, epsilon) or absurd, Fault where a history is not whole."""
+    where the values are not finite, not positive (k, epsilon) or absurd, CaseError where a history is not whole."""
     forces, moments, shell = whole_histories(folder, last, turbulent, time_step)
     for row in forces + moments + shell:
         if not all(map(math.isfinite, row)):

@@ -22,7 +22,7 @@ import sys
 
 # After Python's own folders, so that no file of this one takes the place of a module of theirs.
 sys.path.append(os.path.dirname(os.path.realpath(__file__)))
-from case_files import (Failure, Fault, are_attempts, breakdown, could_not_read_state, cpu_seconds,  # noqa: E402
+from case_files import (Failure, CaseError, are_attempts, breakdown, could_not_read_state, cpu_seconds,  # noqa: E402
                         hash_of_inputs, numbers, parameter, read, read_record, say, time_folders, write_entries,
                         write_json)
 
@@ -181,9 +181,9 @@ class Fall:
             except subprocess.TimeoutExpired:
                 pass
             reached = last_state()
-            fault = reached and blow_up(reached[1], start_speed)
-            if fault:
-                raise Failure(f"the fall blew up at time {reached[0]:g}: {fault}; see {os.path.abspath(LOG)}")
+            error = reached and blow_up(reached[1], start_speed)
+            if error:
+                raise Failure(f"the fall blew up at time {reached[0]:g}: {error}; see {os.path.abspath(LOG)}")
 
     def run_solver(self):
         """Runs the solver to the end of the fall; its log goes on where that of an earlier run ended."""
@@ -198,7 +198,7 @@ class Fall:
         if solver.returncode != 0:
             raise breakdown(os.path.abspath(LOG), SOLVER, "time")
         if not self.is_at_end():
-            raise Fault(f"postProcessing/state ends before the fall does; is the disk full? See {os.path.abspath(LOG)}")
+            raise CaseError(f"postProcessing/state ends before the fall does; is the disk full? See {os.path.abspath(LOG)}")
 
     def note_cost(self):
         """Of all the runs of this attempt, by its log."""
@@ -226,7 +226,7 @@ class Fall:
             self.attempt["end"] = str(cause).replace(LOG, kept)
             write_json("attempts.json", self.state)
             self.after_blow_up()
-        except Fault:
+        except CaseError:
             if not states() or not could_not_read_state(LOG):
                 raise
             self.go_on(before=max(states()))
@@ -247,8 +247,8 @@ def main():
     except KeyboardInterrupt:
         print("stopped; ./Allrun goes on from the last state", file=sys.stderr)
         return 1
-    except (Fault, OSError) as fault:
-        say(fault, sys.stderr)
+    except (CaseError, OSError) as error:
+        say(error, sys.stderr)
         return 1
     if fall.state["verdict"] == "failed":
         say(fall.attempt["end"], sys.stderr)

@@ -59,7 +59,7 @@ struct Reduction {
 struct FlownSet {
     ModelSet models;
     std::vector<SampledFall> falls = {};
-    FlowMet flow = {};                     ///< in the first batch
+    FlowOnPath flow = {};                  ///< in the first batch
     double highest_reynolds_number = 0.0;  ///< likewise
     std::uint64_t batches = 0;
     bool flies = true;
@@ -80,7 +80,7 @@ class Advisor {
     BodyAdvice advice() {
         advice_.name = scene_body_.name;
         advice_.duration = sampled_duration(scene_, scene_body_, options_.sampling);
-        advice_.one_direction = loaded_.body->symmetry.kind == Symmetry::Kind::spherical;
+        advice_.one_direction = loaded_.body->symmetry.type == Symmetry::Type::spherical;
         full_ = fullest();
         set_scale();
         advice_.full = unflown(full_, "");
@@ -157,7 +157,7 @@ class Advisor {
         scale_.tolerance = options_.tolerance;
         scale_.half_length = no_dynamic_coefficients(*loaded_.body).half_length;
         scale_.judges_inclination = tells(MetricSubject::inclination, *loaded_.body);
-        scale_.judges_rotation = tells(MetricSubject::turning, *loaded_.body);
+        scale_.judges_rotation = tells(MetricSubject::rotation, *loaded_.body);
     }
 
     bool is_long_enough() {
@@ -240,7 +240,7 @@ class Advisor {
             if (cost_of(models, *loaded_.body) < cost_of(from, *loaded_.body))
                 all.push_back({part, left_out, models});
         };
-        const FlowMet& flow = advice_.flow;
+        const FlowOnPath& flow = advice_.flow;
         if (judges_all_) {
             if (cost_of(from, *loaded_.body).falls) {
                 add(ModelPart::identified_coefficients, "identified coefficients (default)",

@@ -9,7 +9,7 @@
 #include "samara/analysis/advice/model_effect.hpp"
 #include "samara/analysis/advice/model_set.hpp"
 #include "samara/analysis/metrics/sampled_falls.hpp"
-#include "samara/scene/simulation.hpp"
+#include "samara/scene/scene_simulation.hpp"
 
 namespace samara {
 
@@ -38,7 +38,7 @@ struct BodyAdvice {
     ModelEffect full;                    ///< the fullest model; its effect is none
     std::vector<ModelEffect> omissions;  ///< of one part at a time, dearest first
     ModelEffect recommended;             ///< the cheapest set found, flown and checked as a whole
-    FlowMet flow;                        ///< that the fullest model meets
+    FlowOnPath flow;                     ///< that the fullest model meets
     double duration = 0.0;               ///< s, of each fall
     std::vector<std::string> notes;      ///< what was not judged, or needed no flight, a sentence each
     bool one_direction = false;          ///< whether tables need one direction: the shape is a sphere's

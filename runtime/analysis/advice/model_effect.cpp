@@ -77,7 +77,7 @@ bool is_judged(Metric metric, const EffectScale& scale, bool swings) {
     switch (catalogued(metric).subject) {
         case MetricSubject::inclination:
             return scale.judges_inclination;
-        case MetricSubject::turning:
+        case MetricSubject::rotation:
             return scale.judges_rotation;
         default:
             return true;

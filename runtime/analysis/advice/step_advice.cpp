@@ -13,10 +13,10 @@
 #include "samara/core/base/parallel_for.hpp"
 #include "samara/core/dynamics/body_size.hpp"
 #include "samara/core/dynamics/loads.hpp"
-#include "samara/core/flight/body_group.hpp"
-#include "samara/core/flight/world_pose.hpp"
 #include "samara/core/kernel/wake_noise.hpp"
-#include "samara/scene/scene_flight.hpp"
+#include "samara/core/simulation/body_group.hpp"
+#include "samara/core/simulation/world_pose.hpp"
+#include "samara/scene/scene_settings.hpp"
 #include "samara/scene/terminal_speed.hpp"
 
 namespace samara {
@@ -52,8 +52,8 @@ class JudgedBody {
         errors_.clear();
         for (int j = 0; j <= halvings_ - truth_halvings; ++j) errors_.push_back(errors_at(j));
         result.motion = longest_within(&StepErrors::motion);
-        result.turning =
-            turbulent_ ? longest_within(&StepErrors::turning) : std::numeric_limits<double>::infinity();
+        result.rotation =
+            turbulent_ ? longest_within(&StepErrors::rotation) : std::numeric_limits<double>::infinity();
         result.turbulence = std::numeric_limits<double>::infinity();
         if (turbulent_ && samples_ > 0 && squared_rates_ > 0.0) {
             const double rate = std::sqrt(squared_rates_ / static_cast<double>(samples_));
@@ -67,7 +67,7 @@ class JudgedBody {
         const auto j = static_cast<std::size_t>(std::max(0L, std::lround(std::log2(longest_step / step))));
         return errors_[std::min(j, errors_.size() - 1)].motion;
     }
-    [[nodiscard]] bool is_met() const { return is_met_; }
+    [[nodiscard]] bool is_within() const { return is_within_; }
 
   private:
     /// The finest flight through a window: what it begins and ends with, and poses within steps.
@@ -76,8 +76,8 @@ class JudgedBody {
         std::vector<std::vector<Pose>> middle;  // half a step before, for each step that is judged
     };
     struct StepErrors {
-        double motion;   ///< of place and tip, over the way
-        double turning;  ///< of the rms angular speed
+        double motion;    ///< of place and tip, over the way
+        double rotation;  ///< of the rms angular speed
     };
 
     static double step_of(int halvings) { return longest_step / std::exp2(halvings); }
@@ -89,25 +89,25 @@ class JudgedBody {
         for (int j = 0; j <= shortest; ++j) {
             if (errors_[as_place(j)].*error > scene_.step_tolerance) longest = j + 1;
         }
-        is_met_ = is_met_ && longest <= shortest;
+        is_within_ = is_within_ && longest <= shortest;
         return step_of(std::min(longest, shortest));
     }
 
     void set_scales() {
-        Flight flight(settings_at(longest_step));
-        add_to(flight, quiet_);
-        const ImmersedBody& body = flight.kinds()[0]->body();
-        double smallest = flight.size_of(0);
+        Simulation simulation(settings_at(longest_step));
+        add_to(simulation, quiet_);
+        const ImmersedBody& body = simulation.groups()[0]->body();
+        double smallest = simulation.size_of(0);
         double largest = smallest;
-        for (std::size_t i = 1; i < flight.size(); ++i) {
-            smallest = std::min(smallest, flight.size_of(i));
-            largest = std::max(largest, flight.size_of(i));
+        for (std::size_t i = 1; i < simulation.size(); ++i) {
+            smallest = std::min(smallest, simulation.size_of(i));
+            largest = std::max(largest, simulation.size_of(i));
         }
         half_length_ = 0.5 * largest * body.length;
         double speed = std::sqrt(largest) *
                        terminal_speed(*loaded_.body, scene_.fluid, body.mass, scene_.gravity.norm());
-        for (std::size_t i = 0; i < flight.size(); ++i) {
-            const Pose start = flight.kinds()[0]->pose_in_wind(i, flight.kinds()[0]->start(i));
+        for (std::size_t i = 0; i < simulation.size(); ++i) {
+            const Pose start = simulation.groups()[0]->pose_in_wind(i, simulation.groups()[0]->start(i));
             speed = std::max(speed, start.velocity.norm() + half_length_ * start.angular_velocity.norm());
         }
         const double length = smallest * body.length;
@@ -121,15 +121,15 @@ class JudgedBody {
         windows_ =
             static_cast<int>(std::clamp(std::floor(steps / steps_in_window_), 1.0, double{most_windows}));
     }
-    [[nodiscard]] FlightSettings settings_at(double step) const {
-        FlightSettings settings = flight_settings(scene_, 1, 1);
+    [[nodiscard]] SimulationSettings settings_at(double step) const {
+        SimulationSettings settings = simulation_settings(scene_, 1, 1);
         settings.ground.reset();
         settings.obstacles.clear();
         settings.step = step;
         return settings;
     }
-    void add_to(Flight& flight, const BodyPhysics& physics) const {
-        flight.add(loaded_, physics, release_, name_);
+    void add_to(Simulation& simulation, const BodyPhysics& physics) const {
+        simulation.add(loaded_, physics, release_, name_);
     }
 
     /// The end of window number w (s).
@@ -140,29 +140,29 @@ class JudgedBody {
     /// From where the windows begin: with noise from where it brings the bodies, since it may be what turns
     /// them.
     void fly_finest() {
-        Flight flight(settings_at(step_of(halvings_)));
-        add_to(flight, quiet_);
-        std::unique_ptr<Flight> noisy;
+        Simulation simulation(settings_at(step_of(halvings_)));
+        add_to(simulation, quiet_);
+        std::unique_ptr<Simulation> noisy;
         if (turbulent_) {
-            noisy = std::make_unique<Flight>(settings_at(step_of(halvings_ - truth_halvings)));
+            noisy = std::make_unique<Simulation>(settings_at(step_of(halvings_ - truth_halvings)));
             add_to(*noisy, physics_);
         }
-        const BodyGroup& kind = *flight.kinds()[0];
+        const BodyGroup& group = *simulation.groups()[0];
         finest_.clear();
-        way_ = 0.0;
+        distance_ = 0.0;
         for (int w = 0; w < windows_; ++w) {
             if (noisy && w > 0) {
                 noisy->advance_to(end_of(w));
-                put(flight, poses_of(*noisy), end_of(w));
+                put(simulation, poses_of(*noisy), end_of(w));
             }
-            Window window{poses_of(flight), {}, {}};
+            Window window{poses_of(simulation), {}, {}};
             std::vector<Pose> before = window.begin;
             const auto go_on_to = [&](double time) {
-                flight.advance_to(time);
-                std::vector<Pose> now = poses_of(flight);
-                for (std::size_t i = 0; i < now.size(); ++i) way_ += distance(before[i], now[i]);
+                simulation.advance_to(time);
+                std::vector<Pose> now = poses_of(simulation);
+                for (std::size_t i = 0; i < now.size(); ++i) distance_ += distance(before[i], now[i]);
                 before = now;
-                if (turbulent_) sample_rates(kind, time);
+                if (turbulent_) sample_rates(group, time);
                 return now;
             };
             for (int step = 1; step < steps_in_window_; ++step) go_on_to(end_of(w) + step * longest_step);
@@ -175,18 +175,18 @@ class JudgedBody {
     }
 
     /// Puts those that have started by the time (s) where they are to be.
-    static void put(Flight& flight, const std::vector<Pose>& poses, double time) {
-        for (std::size_t i = 0; i < flight.size(); ++i) {
-            if (time > flight.kinds()[0]->start(i)) flight.set_pose(i, poses[i]);
+    static void put(Simulation& simulation, const std::vector<Pose>& poses, double time) {
+        for (std::size_t i = 0; i < simulation.size(); ++i) {
+            if (time > simulation.groups()[0]->start(i)) simulation.set_pose(i, poses[i]);
         }
     }
 
-    void sample_rates(const BodyGroup& kind, double time) {
+    void sample_rates(const BodyGroup& group, double time) {
         if (!rated_) rated_ = std::make_unique<const ImmersedBody>(made());
-        for (std::size_t i = 0; i < kind.size(); ++i) {
-            if (time < kind.start(i)) continue;
-            const double size = kind.size_of(i);
-            const Pose pose = in_own_units(kind.pose_in_wind(i, time), size);
+        for (std::size_t i = 0; i < group.size(); ++i) {
+            if (time < group.start(i)) continue;
+            const double size = group.size_of(i);
+            const Pose pose = in_own_units(group.pose_in_wind(i, time), size);
             const TurbulenceLevel level = turbulence_level(*rated_, centroid_velocity(pose, *rated_));
             if (!(level.turbulent_kinetic_energy > 0.0)) continue;
             const double per_size = physics_.turbulence == Turbulence::table ? 1.0 / (size * size)
@@ -207,46 +207,46 @@ class JudgedBody {
     StepErrors errors_at(int j) {
         try {
             return errors_of_flight(j);
-        } catch (const FlightError&) {
+        } catch (const SimulationError&) {
             return {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
         }
     }
 
     StepErrors errors_of_flight(int j) {
-        Flight flight(settings_at(step_of(j)));
-        add_to(flight, quiet_);
+        Simulation simulation(settings_at(step_of(j)));
+        add_to(simulation, quiet_);
         double squares = 0.0;
         double finest_rotation = 0.0;
-        double turning = 0.0;
+        double rotation = 0.0;
         const auto compare_at = [&](double time, const std::vector<Pose>& finest) {
-            flight.advance_to(time);
-            const std::vector<Pose> now = poses_of(flight);
+            simulation.advance_to(time);
+            const std::vector<Pose> now = poses_of(simulation);
             for (std::size_t i = 0; i < now.size(); ++i) {
                 const double off = distance(finest[i], now[i]);
                 squares += off * off;
                 finest_rotation += finest[i].angular_velocity.squaredNorm();
-                turning += now[i].angular_velocity.squaredNorm();
+                rotation += now[i].angular_velocity.squaredNorm();
             }
         };
         for (int w = 0; w < windows_; ++w) {
             const Window& finest = finest_[as_place(w)];
-            if (w > 0) put(flight, finest.begin, end_of(w));
+            if (w > 0) put(simulation, finest.begin, end_of(w));
             compare_at(end_of(w + 1) - 0.5 * step_of(j), finest.middle[as_place(j)]);
             compare_at(end_of(w + 1), finest.end);
         }
-        if (!(way_ > 0.0)) return {0.0, 0.0};
-        const double pieces = static_cast<double>(windows_) * static_cast<double>(flight.size());
-        const double speed = way_ / pieces / (steps_in_window_ * longest_step);
-        const double tip_speed = half_length_ * std::sqrt(0.5 * turning / pieces);
+        if (!(distance_ > 0.0)) return {0.0, 0.0};
+        const double pieces = static_cast<double>(windows_) * static_cast<double>(simulation.size());
+        const double speed = distance_ / pieces / (steps_in_window_ * longest_step);
+        const double tip_speed = half_length_ * std::sqrt(0.5 * rotation / pieces);
         const double finest_tip_speed = half_length_ * std::sqrt(0.5 * finest_rotation / pieces);
-        return {std::sqrt(0.5 * squares * pieces) / way_,
+        return {std::sqrt(0.5 * squares * pieces) / distance_,
                 std::abs(tip_speed - finest_tip_speed) / std::max(finest_tip_speed, least_rotation * speed)};
     }
 
     static std::size_t as_place(int w) { return static_cast<std::size_t>(w); }
-    static std::vector<Pose> poses_of(const Flight& flight) {
-        std::vector<Pose> poses(flight.size());
-        flight.poses(0, poses.size(), poses.data());
+    static std::vector<Pose> poses_of(const Simulation& simulation) {
+        std::vector<Pose> poses(simulation.size());
+        simulation.poses(0, poses.size(), poses.data());
         return poses;
     }
     /// Of place and tip.
@@ -266,12 +266,12 @@ class JudgedBody {
     int steps_in_window_ = 1;
     int windows_ = 1;
     std::vector<Window> finest_;
-    double way_ = 0.0;  // of all copies through all windows
+    double distance_ = 0.0;  // of all copies through all windows
     std::unique_ptr<const ImmersedBody> rated_;
     double squared_rates_ = 0.0;
     std::size_t samples_ = 0;
     std::vector<StepErrors> errors_;
-    bool is_met_ = true;
+    bool is_within_ = true;
 };
 
 }  // namespace
@@ -281,18 +281,18 @@ StepAdvice advise_step(const Scene& scene, const std::vector<LoadedBody>& loaded
     for (std::size_t i = 0; i < loaded.size(); ++i) judged.emplace_back(scene, scene.bodies[i], loaded[i]);
     StepAdvice advice{.step = longest_step, .tolerance = scene.step_tolerance};
     advice.bodies.resize(judged.size());
-    std::vector<std::exception_ptr> faults(judged.size());
+    std::vector<std::exception_ptr> errors(judged.size());
     parallel_for(judged.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             try {
                 advice.bodies[i] = judged[i].judge();
             } catch (...) {
-                faults[i] = std::current_exception();
+                errors[i] = std::current_exception();
             }
         }
     });
-    for (const std::exception_ptr& fault : faults) {
-        if (fault != nullptr) std::rethrow_exception(fault);
+    for (const std::exception_ptr& error : errors) {
+        if (error != nullptr) std::rethrow_exception(error);
     }
     for (const BodyStep& body : advice.bodies) {
         const auto limit_to = [&](double step, const char* what) {
@@ -301,21 +301,21 @@ StepAdvice advise_step(const Scene& scene, const std::vector<LoadedBody>& loaded
             advice.limit = fmt::format("the {} of '{}'", what, body.name);
         };
         limit_to(body.motion, "motion");
-        limit_to(body.turning, "turning");
+        limit_to(body.rotation, "turning");
         limit_to(body.turbulence, "turbulence");
     }
     advice.step = longest_step / std::exp2(std::ceil(std::log2(longest_step / advice.step) - 1e-9));
     for (std::size_t i = 0; i < judged.size(); ++i) {
         advice.bodies[i].error = judged[i].error_of(advice.step);
         advice.error = std::max(advice.error, advice.bodies[i].error);
-        advice.is_met = advice.is_met && judged[i].is_met();
+        advice.is_within = advice.is_within && judged[i].is_within();
     }
     return advice;
 }
 
 std::string as_text(const StepAdvice& advice) {
     const std::string missed =
-        advice.is_met ? "" : fmt::format(", not within {:.2g} %", 100.0 * advice.tolerance);
+        advice.is_within ? "" : fmt::format(", not within {:.2g} %", 100.0 * advice.tolerance);
     const std::string limit =
         advice.limit.empty() ? "the longest there is" : fmt::format("{} allows no longer one", advice.limit);
     return fmt::format("{:.4g} ms, off by {:.2g} % of the way{}; {}", 1e3 * advice.step, 100.0 * advice.error,

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "samara/core/flight/loaded_body.hpp"
+#include "samara/core/simulation/loaded_body.hpp"
 #include "samara/scene/scene.hpp"
 
 namespace samara {
@@ -12,7 +12,7 @@ namespace samara {
 struct BodyStep {
     std::string name;
     double motion = 0.0;      ///< s: the longest step whose error in the motion is within the tolerance
-    double turning = 0.0;     ///< s: the same of its turning, where noise turns it; infinite without any
+    double rotation = 0.0;    ///< s: the same of its turning, where noise turns it; infinite without any
     double turbulence = 0.0;  ///< s: the longest that its turbulence allows; infinite without any
     double error = 0.0;       ///< of the motion at the scene's step, over the way
 };
@@ -22,7 +22,7 @@ struct StepAdvice {
     double step = 0.0;       ///< s: 40 ms over a power of two
     double error = 0.0;      ///< the largest of the bodies'
     double tolerance = 0.0;  ///< what it was to stay within
-    bool is_met = true;      ///< false: even the shortest step that was tried is off by more
+    bool is_within = true;   ///< false: even the shortest step that was tried is off by more
     std::string limit = {};  ///< what allows no longer one: "the motion of 'leaf'"; empty: nothing does
     std::vector<BodyStep> bodies = {};  ///< in the scene's order
 };

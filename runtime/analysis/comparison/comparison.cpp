@@ -204,13 +204,13 @@ Comparison compare(const FallChoice& motion, const FallChoice& reference, const 
     all.reference = measure_falls(reference, window, std::nullopt, count);
     all.first_swing.end = end_of(all.reference.first_swing);
     FallSeries path = all.reference.example;
-    path.ways = all.reference.mean_ways;
+    path.displacements = all.reference.mean_displacements;
     if (all.first_swing.end) {
         *all.first_swing.end = std::min(
             *all.first_swing.end, std::min(all.motion_lengths.shortest, all.reference_lengths.shortest));
         all.motion = measure_falls(motion, window, std::pair(&path, *all.first_swing.end), count);
         all.first_swing.path_distance = all.motion.path_distance;
-        all.first_swing.way_fallen = way_at(path, *all.first_swing.end).dot(path.down);
+        all.first_swing.distance_fallen = displacement_at(path, *all.first_swing.end).dot(path.down);
     } else {
         all.motion = measure_falls(motion, window, std::nullopt, count);
     }

@@ -56,7 +56,7 @@ struct FirstSwingComparison {
     MetricComparison maximum_inclination;   ///< rad
     std::optional<double> end;              ///< s since the release: until when the paths are compared
     std::optional<Estimate> path_distance;  ///< m, rms
-    std::optional<double> way_fallen;       ///< m, of the reference along gravity by then
+    std::optional<double> distance_fallen;  ///< m, of the reference along gravity by then
 };
 
 /// A motion held against a reference.

@@ -128,10 +128,10 @@ std::string first_swing_text(const Comparison& all) {
     text += metric_row("  maximum at (s)", swing.maximum_time, 1.0);
     text += metric_row("  maximum (degrees)", swing.maximum_inclination, degrees);
     if (swing.path_distance) {
-        text +=
-            fmt::format("  paths apart by {} mm (rms) until {:.3g} s, {:.1f} % of the {:.3g} m fallen\n",
-                        with_error(*swing.path_distance, 1000.0), *swing.end,
-                        100.0 * swing.path_distance->value / std::abs(*swing.way_fallen), *swing.way_fallen);
+        text += fmt::format("  paths apart by {} mm (rms) until {:.3g} s, {:.1f} % of the {:.3g} m fallen\n",
+                            with_error(*swing.path_distance, 1000.0), *swing.end,
+                            100.0 * swing.path_distance->value / std::abs(*swing.distance_fallen),
+                            *swing.distance_fallen);
     }
     return text;
 }
@@ -215,7 +215,7 @@ json as_json(const Comparison& all) {
               {"maximum_inclination", as_json(swing.maximum_inclination)},
               {"end", or_null(swing.end)},
               {"path_distance", as_json(swing.path_distance)},
-              {"way_fallen", or_null(swing.way_fallen)}}},
+              {"way_fallen", or_null(swing.distance_fallen)}}},
             {"landings", landings},
             {"judges_inclination", all.judges_inclination},
             {"regimes_agree", all.regimes_agree},

@@ -15,16 +15,17 @@ namespace samara {
 namespace {
 
 constexpr std::size_t most_more = 19;
-constexpr double same_way = 1e-7;
+constexpr double same_displacement = 1e-7;
 
 /// What two falls share only if they are the same.
 using Mark = std::array<long long, 4>;
 
 Mark mark_of(const FallSeries& record) {
-    const Vector3d& way = record.ways.back();
-    const double scale = same_way * std::max(way.norm(), 1e-300);
-    return {std::llround(way.x() / scale), std::llround(way.y() / scale), std::llround(way.z() / scale),
-            std::llround(record.inclinations.back() / same_way)};
+    const Vector3d& displacement = record.displacements.back();
+    const double scale = same_displacement * std::max(displacement.norm(), 1e-300);
+    return {std::llround(displacement.x() / scale), std::llround(displacement.y() / scale),
+            std::llround(displacement.z() / scale),
+            std::llround(record.inclinations.back() / same_displacement)};
 }
 
 /// The largest rate (rad/s) at which the shortest axis turns in a fall.
@@ -90,11 +91,11 @@ class Gathering {
         const std::vector<Passage> passages = passages_of(record, window_.depths);
         for (std::size_t i = 0; i < passages.size(); ++i) set_.passages[i].push_back(passages[i]);
         if (marks_.size() == 1) {
-            set_.mean_ways.assign(record.times.size(), Vector3d::Zero());
+            set_.mean_displacements.assign(record.times.size(), Vector3d::Zero());
             set_.example = record;
         }
-        for (std::size_t i = 0; i < set_.mean_ways.size(); ++i) {
-            set_.mean_ways[i] += way_at(record, set_.example.times[i]);
+        for (std::size_t i = 0; i < set_.mean_displacements.size(); ++i) {
+            set_.mean_displacements[i] += displacement_at(record, set_.example.times[i]);
         }
         if (marks_.size() > 1 && set_.more.size() < most_more) set_.more.push_back(std::move(record));
     }
@@ -107,7 +108,7 @@ class Gathering {
         for (std::size_t q = 0; q < quantile_percents.size(); ++q) {
             set_.inclination_quantiles[q] = mean_of(quantiles_[q]).value_or(Estimate{});
         }
-        for (Vector3d& way : set_.mean_ways) way /= set_.distinct;
+        for (Vector3d& displacement : set_.mean_displacements) displacement /= set_.distinct;
         for (double& power : set_.spectrum.power) power /= set_.distinct;
         set_.path_distance = mean_of(distances_);
         set_.first_swing = {turning_point(minima_), turning_point(maxima_)};

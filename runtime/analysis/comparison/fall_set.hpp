@@ -58,15 +58,15 @@ struct FallSet {
     int distinct = 0;  ///< of them, to a ten-millionth of the way: the rest repeat these and do not count
     PerMetric<std::optional<Estimate>> metrics;
     std::array<Estimate, quantile_percents.size()> inclination_quantiles;
-    PieceHistograms histograms;             ///< of all pieces
-    Spectrum spectrum;                      ///< mean
-    std::size_t pieces = 0;                 ///< independent ones in all
-    RegimeCounts regimes;                   ///< of the distinct falls
-    FirstSwing first_swing;                 ///< means over the falls that show its turning points
-    std::optional<Estimate> path_distance;  ///< m, from the path given, see measure_falls()
-    FallSeries example;                     ///< the first fall
-    std::vector<FallSeries> more;           ///< some of the others, for pictures
-    std::vector<Vector3d> mean_ways;        ///< m, at the example's times
+    PieceHistograms histograms;                ///< of all pieces
+    Spectrum spectrum;                         ///< mean
+    std::size_t pieces = 0;                    ///< independent ones in all
+    RegimeCounts regimes;                      ///< of the distinct falls
+    FirstSwing first_swing;                    ///< means over the falls that show its turning points
+    std::optional<Estimate> path_distance;     ///< m, from the path given, see measure_falls()
+    FallSeries example;                        ///< the first fall
+    std::vector<FallSeries> more;              ///< some of the others, for pictures
+    std::vector<Vector3d> mean_displacements;  ///< m, at the example's times
     /// By level, of the distinct falls that pass it.
     std::vector<std::vector<Passage>> passages;
 };

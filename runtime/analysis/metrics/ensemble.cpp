@@ -84,10 +84,10 @@ void Ensemble::add_path(const Motion& motion, const BodyMotion& body, int run, i
     const Vector3d start = motion.pose(body, run, 0, copy).position;
     for (std::size_t i = 0; i < spots_.size(); ++i) {
         const std::size_t frame = i * (frames - 1) / std::max<std::size_t>(spots_.size() - 1, 1);
-        const Vector3d way =
+        const Vector3d displacement =
             horizontal(motion.pose(body, run, static_cast<int>(frame), copy).position - start, down);
-        spots_[i].way += way;
-        spots_[i].square += way.squaredNorm();
+        spots_[i].displacement += displacement;
+        spots_[i].square += displacement.squaredNorm();
     }
 }
 
@@ -105,7 +105,7 @@ void Ensemble::add_landing(const Motion& motion, const BodyMotion& body, int run
 double Ensemble::spread_at(const Spot& spot) const {
     const double count = sums_.samples;
     const double square = spot.square / count;
-    const double spread = square - (spot.way / count).squaredNorm();
+    const double spread = square - (spot.displacement / count).squaredNorm();
     return spread > least_spread * least_spread * square ? std::sqrt(spread) : 0.0;
 }
 

@@ -48,8 +48,8 @@ class Ensemble {
     /// Sums over the copies and runs at one time.
     struct Spot {
         double time = 0.0;
-        Vector3d way = Vector3d::Zero();  ///< m, horizontal, since the start
-        double square = 0.0;              ///< m^2
+        Vector3d displacement = Vector3d::Zero();  ///< m, horizontal, since the start
+        double square = 0.0;                       ///< m^2
     };
     /// Of one figure, over those falls that have it.
     struct MetricSum {

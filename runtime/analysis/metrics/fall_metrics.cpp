@@ -16,20 +16,20 @@ constexpr std::size_t most_stretches = 64;
 
 /// What of a piece adds up: integrals over time.
 struct Sums {
-    double duration = 0.0;                     // s
-    double time = 0.0;                         // s^2, of the time
-    Vector3d displacement = Vector3d::Zero();  // m, of the velocity
-    Vector3d way = Vector3d::Zero();           // m s, of the way since the release
-    double inclination = 0.0;                  // rad s
-    double squared_spin = 0.0;                 // rad^2/s
-    double upright_turn = 0.0;                 // rad
+    double duration = 0.0;                              // s
+    double time = 0.0;                                  // s^2, of the time
+    Vector3d displacement = Vector3d::Zero();           // m, of the velocity
+    Vector3d displacement_integral = Vector3d::Zero();  // m s, of the way since the release
+    double inclination = 0.0;                           // rad s
+    double squared_spin = 0.0;                          // rad^2/s
+    double upright_turn = 0.0;                          // rad
 };
 
 Sums& operator+=(Sums& sum, const Sums& other) {
     sum.duration += other.duration;
     sum.time += other.time;
     sum.displacement += other.displacement;
-    sum.way += other.way;
+    sum.displacement_integral += other.displacement_integral;
     sum.inclination += other.inclination;
     sum.squared_spin += other.squared_spin;
     sum.upright_turn += other.upright_turn;
@@ -39,12 +39,12 @@ Sums& operator+=(Sums& sum, const Sums& other) {
 /// By the trapezoidal rule.
 Sums sums_of(const FallSeries& record, const Piece& piece) {
     Sums sums;
-    sums.displacement = record.ways[piece.end - 1] - record.ways[piece.begin];
+    sums.displacement = record.displacements[piece.end - 1] - record.displacements[piece.begin];
     for (std::size_t i = piece.begin + 1; i < piece.end; ++i) {
         const double half = 0.5 * (record.times[i] - record.times[i - 1]);
         sums.duration += 2.0 * half;
         sums.time += half * (record.times[i - 1] + record.times[i]);
-        sums.way += half * (record.ways[i - 1] + record.ways[i]);
+        sums.displacement_integral += half * (record.displacements[i - 1] + record.displacements[i]);
         sums.inclination += half * (record.inclinations[i - 1] + record.inclinations[i]);
         sums.squared_spin += half * (record.squared_spins[i - 1] + record.squared_spins[i]);
         sums.upright_turn += half * (record.upright_spins[i - 1] + record.upright_spins[i]);
@@ -110,7 +110,9 @@ class Jackknife {
             periods.push_back(sums_[i - 1]);
             periods.back() += sums_[i];
         }
-        const auto place = [&](std::size_t i) -> Vector3d { return periods[i].way / periods[i].duration; };
+        const auto place = [&](std::size_t i) -> Vector3d {
+            return periods[i].displacement_integral / periods[i].duration;
+        };
         const auto time = [&](std::size_t i) { return periods[i].time / periods[i].duration; };
         const std::size_t steps = periods.size() - 1;
         const std::size_t lag = std::min(left_out_, steps - 1);
@@ -217,7 +219,7 @@ double path_spread(const FallSeries& record) {
     const Piece window = window_frames(record);
     double sum = 0.0;
     for (std::size_t i = window.begin; i < window.end; ++i) {
-        sum += horizontal(record, record.ways[i]).squaredNorm();
+        sum += horizontal(record, record.displacements[i]).squaredNorm();
     }
     return std::sqrt(sum / static_cast<double>(window.end - window.begin));
 }
@@ -241,7 +243,7 @@ std::optional<double> drift_speed_error(const FallSeries& record, const Jackknif
 
 bool tells(MetricSubject subject, const Body& body) {
     if (subject == MetricSubject::inclination) return has_shortest_axis(body.surface);
-    return subject == MetricSubject::path || body.symmetry.kind != Symmetry::Kind::spherical;
+    return subject == MetricSubject::path || body.symmetry.type != Symmetry::Type::spherical;
 }
 
 std::optional<double> metric_value(Metric metric, const FallSeries& record) {

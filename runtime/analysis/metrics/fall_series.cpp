@@ -40,7 +40,7 @@ FallSeries fall_series(const Motion& motion, const BodyMotion& body, int run, in
         const Pose& pose = motion.pose(body, run, frame, copy);
         if (record.times.empty()) start = pose.position;
         record.times.push_back(time - fall.begin);
-        record.ways.emplace_back(pose.position - start);
+        record.displacements.emplace_back(pose.position - start);
         record.inclinations.push_back(inclination(motion, body, pose));
         record.squared_spins.push_back(pose.angular_velocity.squaredNorm());
         record.upright_spins.push_back(pose.angular_velocity.dot(record.down));
@@ -53,13 +53,13 @@ FallSeries fall_series(const Motion& motion, const BodyMotion& body, int run, in
     return record;
 }
 
-Vector3d way_at(const FallSeries& record, double time) {
+Vector3d displacement_at(const FallSeries& record, double time) {
     const auto after = std::upper_bound(record.times.begin(), record.times.end(), time);
-    if (after == record.times.begin()) return record.ways.front();
-    if (after == record.times.end()) return record.ways.back();
+    if (after == record.times.begin()) return record.displacements.front();
+    if (after == record.times.end()) return record.displacements.back();
     const auto i = static_cast<std::size_t>(after - record.times.begin());
     const double share = (time - record.times[i - 1]) / (record.times[i] - record.times[i - 1]);
-    return record.ways[i - 1] + share * (record.ways[i] - record.ways[i - 1]);
+    return record.displacements[i - 1] + share * (record.displacements[i] - record.displacements[i - 1]);
 }
 
 Pieces pieces_of(const FallSeries& record) {

@@ -8,13 +8,13 @@ namespace samara {
 
 /// One fall as series over the time since the release, which is the begin of fall_of().
 struct FallSeries {
-    double release = 0.0;               ///< s, in the motion's time
-    std::vector<double> times;          ///< s since the release, ascending from 0
-    std::vector<Vector3d> ways;         ///< m, world: of the centre of mass since the release
-    std::vector<double> inclinations;   ///< rad
-    std::vector<double> squared_spins;  ///< rad^2/s^2
-    std::vector<double> upright_spins;  ///< rad/s: about the down direction
-    std::vector<Vector3d> axes;         ///< the shortest axis, world
+    double release = 0.0;                 ///< s, in the motion's time
+    std::vector<double> times;            ///< s since the release, ascending from 0
+    std::vector<Vector3d> displacements;  ///< m, world: of the centre of mass since the release
+    std::vector<double> inclinations;     ///< rad
+    std::vector<double> squared_spins;    ///< rad^2/s^2
+    std::vector<double> upright_spins;    ///< rad/s: about the down direction
+    std::vector<Vector3d> axes;           ///< the shortest axis, world
     Vector3d down = Vector3d(0.0, 0.0, -1.0);
     Measures measures;  ///< of the window (measures.hpp), whose times count from the release
 
@@ -27,7 +27,7 @@ FallSeries fall_series(const Motion& motion, const BodyMotion& body, int run, in
                        const TimeWindow& window);
 
 /// The way at a time since the release (m, world), linear between the frames and held beyond them.
-Vector3d way_at(const FallSeries& record, double time);
+Vector3d displacement_at(const FallSeries& record, double time);
 
 /// A stretch of a record's frames, [begin, end), the last of which is the first of the next stretch.
 struct Piece {

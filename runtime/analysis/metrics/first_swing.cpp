@@ -49,7 +49,7 @@ double path_distance(const FallSeries& fall, const FallSeries& reference, double
     double sum = 0.0;
     double count = 0.0;
     for (std::size_t i = 0; i < reference.times.size() && reference.times[i] <= end; ++i) {
-        sum += (way_at(fall, reference.times[i]) - reference.ways[i]).squaredNorm();
+        sum += (displacement_at(fall, reference.times[i]) - reference.displacements[i]).squaredNorm();
         count += 1.0;
     }
     return std::sqrt(sum / count);

@@ -2,15 +2,15 @@
 
 #include "samara/core/dynamics/body_size.hpp"
 #include "samara/core/dynamics/loads.hpp"
-#include "samara/core/flight/world_pose.hpp"
+#include "samara/core/simulation/world_pose.hpp"
 
 namespace samara {
 
 std::optional<FlowVisit> flow_visit(const Pose& pose, double time, const ImmersedBody& immersed,
                                     const Surroundings& surroundings, double size) {
-    const Pose met =
+    const Pose sampled =
         in_own_units(in_wind(in_flow(pose, surroundings, time), immersed, surroundings, time), size);
-    const Vector3d velocity = centroid_velocity(met, immersed);
+    const Vector3d velocity = centroid_velocity(sampled, immersed);
     const double speed = velocity.norm();
     if (!(speed > 0.0)) return std::nullopt;
     return FlowVisit{velocity / speed, reynolds_number(immersed, speed),

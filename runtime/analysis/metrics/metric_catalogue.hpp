@@ -35,7 +35,7 @@ enum class Metric {
 
 /// What of a motion a figure tells. One of the inclination says nothing of a body without a shortest axis
 /// (has_shortest_axis()), one of the turning nothing of a body that looks the same however it is turned.
-enum class MetricSubject { path, inclination, turning };
+enum class MetricSubject { path, inclination, rotation };
 
 /// How far off a figure may be.
 struct AllowedError {
@@ -93,14 +93,14 @@ inline constexpr CataloguedMetric metric_catalogue[] = {
      .unit = "degrees", .in_unit = degrees, .subject = MetricSubject::inclination,
      .relative = false, .measured = held<&Measures::mean_inclination>},
     {.metric = Metric::rms_angular_speed, .key = "rms_angular_speed", .title = "rms angular speed",
-     .heading = "turning", .unit = "rad/s", .subject = MetricSubject::turning, .mean = Mean::root_mean_square,
+     .heading = "turning", .unit = "rad/s", .subject = MetricSubject::rotation, .mean = Mean::root_mean_square,
      .allowed = {3.0}, .fitted_miss = 0.25, .measured = held<&Measures::rms_angular_speed>},
     {.metric = Metric::path_spread, .key = "path_spread", .title = "path spread", .heading = "path",
      .unit = "m", .mean = Mean::root_mean_square, .relative = false, .allowed = {3.0}},
     {.metric = Metric::drift_speed, .key = "drift_speed", .title = "drift speed", .unit = "m/s",
      .relative = false},
     {.metric = Metric::spin_rate, .key = "spin_rate", .title = "spin about the vertical",
-     .unit = "turns/s", .in_unit = 1.0 / (2.0 * std::numbers::pi), .subject = MetricSubject::turning,
+     .unit = "turns/s", .in_unit = 1.0 / (2.0 * std::numbers::pi), .subject = MetricSubject::rotation,
      .measured = held_of_autorotation<&Autorotation::spin_rate>},
     {.metric = Metric::coning_angle, .key = "coning_angle", .title = "coning angle", .unit = "degrees",
      .in_unit = degrees, .subject = MetricSubject::inclination, .relative = false,

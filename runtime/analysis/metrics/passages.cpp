@@ -5,13 +5,14 @@ namespace samara {
 std::vector<Passage> passages_of(const FallSeries& record, const std::vector<double>& depths) {
     std::vector<Passage> passages;
     double before = 0.0;
-    for (std::size_t i = 1; i < record.ways.size(); ++i) {
-        const double after = record.ways[i].dot(record.down);
+    for (std::size_t i = 1; i < record.displacements.size(); ++i) {
+        const double after = record.displacements[i].dot(record.down);
         while (passages.size() < depths.size() && depths[passages.size()] <= after) {
             const double share = (depths[passages.size()] - before) / (after - before);
-            const Vector3d way = record.ways[i - 1] + share * (record.ways[i] - record.ways[i - 1]);
+            const Vector3d displacement =
+                record.displacements[i - 1] + share * (record.displacements[i] - record.displacements[i - 1]);
             passages.push_back({record.times[i - 1] + share * (record.times[i] - record.times[i - 1]),
-                                way - way.dot(record.down) * record.down});
+                                displacement - displacement.dot(record.down) * record.down});
         }
         before = after;
     }

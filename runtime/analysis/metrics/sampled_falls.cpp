@@ -7,7 +7,7 @@
 #include "samara/analysis/metrics/fall_metrics.hpp"
 #include "samara/core/base/parallel_for.hpp"
 #include "samara/core/dynamics/loads.hpp"
-#include "samara/scene/scene_flight.hpp"
+#include "samara/scene/scene_settings.hpp"
 #include "samara/scene/terminal_speed.hpp"
 
 namespace samara {
@@ -53,8 +53,8 @@ Scene sampling_scene(const Scene& scene, std::size_t index, const Body& body, st
     only.count = sampling.falls;
     const double more = std::max(0.0, sampling.start_angle - only.spread_angle);
     only.spread_angle += more;
-    one.obstacles.clear();    // what a fall is told by comes before it meets one
-    one.bodies_meet = false;  // the copies are falls of their own
+    one.obstacles.clear();       // what a fall is told by comes before it meets one
+    one.bodies_collide = false;  // the copies are falls of their own
     // Nothing may start below the ground that would not without this further turn.
     if (one.ground) only.position.z() += sinking(body, more);
     const double duration = sampled_duration(scene, only, sampling);
@@ -86,15 +86,15 @@ SampledFall sampled_fall(const Motion& motion, const BodyMotion& body, int copy,
     sample.regime = measures.regime;
     sample.speed = (measures.mean_velocity - current).norm();
     double sum = 0.0;
-    for (const Vector3d& way : record.ways) sum += way.squaredNorm();
-    sample.distance = std::sqrt(sum / static_cast<double>(record.ways.size()));
+    for (const Vector3d& displacement : record.displacements) sum += displacement.squaredNorm();
+    sample.distance = std::sqrt(sum / static_cast<double>(record.displacements.size()));
     return sample;
 }
 
 /// Means over the frames of the windows of all copies.
-FlowMet flow_met(const Motion& motion, const BodyMotion& body, const Surroundings& surroundings,
-                 const ImmersedBody& immersed, const std::optional<LoadTables>& tables) {
-    FlowMet met;
+FlowOnPath flow_on_path(const Motion& motion, const BodyMotion& body, const Surroundings& surroundings,
+                        const ImmersedBody& immersed, const std::optional<LoadTables>& tables) {
+    FlowOnPath met;
     double frames = 0.0;
     for (int copy = 0; copy < body.copies; ++copy) {
         const TimeWindow window = default_window(motion, body, 0, copy);
@@ -186,7 +186,7 @@ SampledFalls sample_falls(const Scene& scene, std::size_t body, const LoadedBody
     });
     const ImmersedBody immersed =
         make_immersed_body(*loaded.body, one.bodies.front(), one.fluid, falling.name);
-    result.flow = flow_met(motion, falling, surroundings, immersed, loaded.body->tables);
+    result.flow = flow_on_path(motion, falling, surroundings, immersed, loaded.body->tables);
     result.visits = flow_visits(motion, 0, immersed, surroundings);
     result.highest_reynolds_number = flown.report.bodies.front().highest_reynolds_number;
     return result;

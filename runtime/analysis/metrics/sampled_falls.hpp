@@ -7,7 +7,7 @@
 #include "samara/analysis/metrics/flow_visits.hpp"
 #include "samara/analysis/metrics/metric_catalogue.hpp"
 #include "samara/analysis/metrics/regime_counts.hpp"
-#include "samara/scene/simulation.hpp"
+#include "samara/scene/scene_simulation.hpp"
 
 namespace samara {
 
@@ -21,7 +21,7 @@ struct SampledFall {
 };
 
 /// What the flow around a body is like on its way, means over all falls and frames of the window.
-struct FlowMet {
+struct FlowOnPath {
     double reynolds_number = 0.0;
     double turbulent_kinetic_energy = 0.0;  ///< m^2/s^2, by the body's tables; 0 without
     double dissipation_rate = 0.0;          ///< m^2/s^3, likewise
@@ -30,7 +30,7 @@ struct FlowMet {
 /// Falls of one body of a scene.
 struct SampledFalls {
     std::vector<SampledFall> falls;
-    FlowMet flow;
+    FlowOnPath flow;
     std::vector<FlowVisit> visits;  ///< of all frames
     double highest_reynolds_number = 0.0;
 

@@ -55,8 +55,8 @@ class SAMARA_OT_add_bodies(bpy.types.Operator):
         try:
             body = body_of_file(os.path.normpath(bpy.path.abspath(self.filepath)) if self.filepath else "")
             mesh = _mesh_of(body, metres_per_unit(context.scene))
-        except SamaraError as fault:
-            self.report({"ERROR"}, str(fault))
+        except SamaraError as error:
+            self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         random = numpy.random.default_rng(self.spread_seed)
         sizes = numpy.log([min(self.smallest_size, self.largest_size), max(self.smallest_size, self.largest_size)])

@@ -33,8 +33,8 @@ def output_folder():
         folder = os.path.join(tempfile.gettempdir(), f"samara-{os.getuid()}")
     try:
         os.makedirs(folder, exist_ok=True)
-    except OSError as fault:
-        raise SamaraError(f"{folder}: {fault.strerror}") from None
+    except OSError as error:
+        raise SamaraError(f"{folder}: {error.strerror}") from None
     return folder
 
 
@@ -69,8 +69,8 @@ class SAMARA_OT_bake(JobOperator, bpy.types.Operator):
         try:
             write_stl(os.path.join(folder, f"{name}.stl"), corners)
             command = bake_command(program, folder, name, self.quality, o.samara.density, fluid_of(context.scene))
-        except OSError as fault:
-            raise SamaraError(f"{fault.filename}: {fault.strerror}") from None
+        except OSError as error:
+            raise SamaraError(f"{error.filename}: {error.strerror}") from None
         self._name, self._scale = o.name, scale_of(o)
         self._file = os.path.join(folder, f"{name}.body.h5")
         return BakeJob(command)

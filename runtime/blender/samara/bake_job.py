@@ -64,8 +64,8 @@ class BakeJob:
                 stderr=subprocess.PIPE,
                 start_new_session=True,
             )
-        except OSError as fault:
-            raise SamaraError(f"{command[0]}: {fault.strerror}") from None
+        except OSError as error:
+            raise SamaraError(f"{command[0]}: {error.strerror}") from None
         self._reader = threading.Thread(target=self._read, daemon=True)
         self._reader.start()
 

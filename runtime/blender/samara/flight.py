@@ -52,7 +52,7 @@ class Surroundings:
     gravity: tuple
     ground: Optional[float]
     obstacles: tuple
-    bodies_meet: bool
+    bodies_collide: bool
     step: float
     seed: int
     frames: int
@@ -74,7 +74,7 @@ class Surroundings:
         settings.gravity[:] = self.gravity
         settings.step = self.step
         settings.seed = self.seed
-        settings.bodies_meet = int(self.bodies_meet)
+        settings.bodies_collide = int(self.bodies_collide)
         if self.ground is not None:
             settings.has_ground, settings.ground = 1, self.ground
         simulation = samara_library.Simulation(settings)
@@ -109,34 +109,34 @@ class Request:
     surroundings: Surroundings
     company: str = ""  # where bodies meet: the digest of all that fly together
 
-    def kind(self, body):
-        kind = samara_library.default_kind()
-        kind.name = noise_name(self.name).encode()
-        self._weigh(kind, body)
-        kind.smallest_size = kind.largest_size = self.size
-        kind.start = self.start
-        kind.position[:] = self.position
-        kind.orientation[:] = self.orientation
-        kind.velocity[:] = self.velocity
-        kind.angular_velocity[:] = self.angular_velocity
-        kind.loads = getattr(samara_library, f"LOADS_{body.loads_in_use(self.loads)}")
-        kind.drag_coefficient = self.drag_coefficient
-        kind.lift_coefficient = self.lift_coefficient
-        kind.turbulence = samara_library.TURBULENCE_AS_LOADS if self.noise else samara_library.TURBULENCE_NONE
-        return kind
+    def group(self, body):
+        group = samara_library.default_body_group()
+        group.name = noise_name(self.name).encode()
+        self._weigh(group, body)
+        group.smallest_size = group.largest_size = self.size
+        group.start = self.start
+        group.position[:] = self.position
+        group.orientation[:] = self.orientation
+        group.velocity[:] = self.velocity
+        group.angular_velocity[:] = self.angular_velocity
+        group.loads = getattr(samara_library, f"LOADS_{body.loads_in_use(self.loads)}")
+        group.drag_coefficient = self.drag_coefficient
+        group.lift_coefficient = self.lift_coefficient
+        group.turbulence = samara_library.TURBULENCE_AS_LOADS if self.noise else samara_library.TURBULENCE_NONE
+        return group
 
-    def _weigh(self, kind, body):
+    def _weigh(self, group, body):
         if self.mass == "MASS":
             mass, center, inertia = self.mass_given
             size = self.size
-            kind.mass = mass / size**3
+            group.mass = mass / size**3
             if center is not None:
-                kind.has_center_of_mass = 1
-                kind.center_of_mass[:] = [x / size for x in center]
+                group.has_center_of_mass = 1
+                group.center_of_mass[:] = [x / size for x in center]
             if inertia is not None:
-                kind.inertia[:] = [x / size**5 for x in inertia]
+                group.inertia[:] = [x / size**5 for x in inertia]
         elif self.mass == "DENSITY" or body.mass == 0.0:
-            kind.density = self.density
+            group.density = self.density
 
     def digest(self):
         """In hexadecimal digits: of all that the motion depends on, the library's version included."""
@@ -146,7 +146,7 @@ class Request:
 
 def together(requests):
     """The same requests; where bodies meet, each knows all of them, since each one's motion depends on them all."""
-    if not requests or not requests[0].surroundings.bodies_meet:
+    if not requests or not requests[0].surroundings.bodies_collide:
         return requests
     alone = sorted(dataclasses.replace(request, company="").digest() for request in requests)
     company = hashlib.sha256(" ".join(alone).encode()).hexdigest()
@@ -213,13 +213,13 @@ class Fleet:
         for request in requests:
             try:
                 body = samara_library.body_of_file(request.body_file)
-                index = self._simulation.add(body, request.kind(body))
+                index = self._simulation.add(body, request.group(body))
                 if request.led:
                     pose = request.position + request.orientation + request.velocity + request.angular_velocity
                     self._simulation.lead(index, pose)
                 accepted.append(request)
-            except SamaraError as fault:
-                refused(request, SamaraError(f"{request.name}: {fault}"))
+            except SamaraError as error:
+                refused(request, SamaraError(f"{request.name}: {error}"))
         # Frame by frame, all bodies of one on end, as the library writes them.
         self._poses = numpy.empty((surroundings.frames, len(accepted), samara_library.POSE_SIZE))
         self.flights = [Flight(request, self._poses[:, i], self) for i, request in enumerate(accepted)]
@@ -257,14 +257,14 @@ def fleets_of(requests, refused, count=1):
         by_surroundings.setdefault(request.surroundings, []).append(request)
     fleets = []
     for surroundings, group in by_surroundings.items():
-        shares = 1 if surroundings.bodies_meet else min(count, len(group))
+        shares = 1 if surroundings.bodies_collide else min(count, len(group))
         for i in range(shares):
             share = group[i::shares]
             try:
                 fleets.append(Fleet(surroundings, share, refused))
-            except SamaraError as fault:  # of an obstacle or the wind
+            except SamaraError as error:  # of an obstacle or the wind
                 for request in share:
-                    refused(request, fault)
+                    refused(request, error)
     return fleets
 
 
@@ -272,8 +272,8 @@ class FlightJob:
     """Many flights over all frames, on all cores, beside the thread that started them."""
 
     def __init__(self, requests):
-        def refuse(_, fault):
-            raise fault
+        def refuse(_, error):
+            raise error
 
         cores = os.cpu_count() or 1
         fleets = fleets_of(requests, refuse, cores)
@@ -295,9 +295,9 @@ class FlightJob:
         done = all(future.done() for future in self._futures)
         for future in self._futures:
             if future.done() and future.exception() is not None:
-                fault = future.exception()
+                error = future.exception()
                 self.cancel()
-                raise fault
+                raise error
         return done
 
     def wait(self):

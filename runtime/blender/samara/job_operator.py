@@ -25,8 +25,8 @@ class JobOperator:
         try:
             self.job = self.start(context)
             self.job.wait()
-        except SamaraError as fault:
-            return self._refuse(fault)
+        except SamaraError as error:
+            return self._refuse(error)
         return self.finish(context)
 
     def invoke(self, context, event):
@@ -34,8 +34,8 @@ class JobOperator:
             return self.execute(context)
         try:
             self.job = self.start(context)
-        except SamaraError as fault:
-            return self._refuse(fault)
+        except SamaraError as error:
+            return self._refuse(error)
         manager = context.window_manager
         manager.progress_begin(0, 100)
         self._timer = manager.event_timer_add(0.1, window=context.window)
@@ -54,9 +54,9 @@ class JobOperator:
         try:
             if not self.job.is_done():
                 return self.WHILE_RUNNING
-        except SamaraError as fault:
+        except SamaraError as error:
             self.cancel(context)
-            return self._refuse(fault)
+            return self._refuse(error)
         self.cancel(context)
         return self.finish(context)
 
@@ -67,6 +67,6 @@ class JobOperator:
         context.window_manager.progress_end()
         context.workspace.status_text_set(None)
 
-    def _refuse(self, fault):
-        self.report({"ERROR"}, str(fault))
+    def _refuse(self, error):
+        self.report({"ERROR"}, str(error))
         return {"CANCELLED"}

@@ -144,32 +144,32 @@ def show(scene):
     if not objects or _busy:
         return False
 
-    def give_up(name, fault):
+    def give_up(name, error):
         o = objects.pop(name, None)
         if o is not None:
-            o.samara.live_error = str(fault)
+            o.samara.live_error = str(error)
             go_off(o)
 
     requests = []
     try:
         surroundings = surroundings_of(scene, _known_obstacles(scene))
-    except SamaraError as fault:
+    except SamaraError as error:
         for name in list(objects):
-            give_up(name, fault)
+            give_up(name, error)
         return False
     for o in list(objects.values()):
         try:
             requests.append(request_of(o, surroundings))
-        except SamaraError as fault:
-            give_up(o.name, fault)
-    _fly(together(requests), scene, lambda request, fault: give_up(request.name, fault))
+        except SamaraError as error:
+            give_up(o.name, error)
+    _fly(together(requests), scene, lambda request, error: give_up(request.name, error))
     deadline = None if _may_wait() else time.monotonic() + PATIENCE
     behind = False
     for o in list(objects.values()):
         try:
             behind = not _show_object(o, scene, deadline) or behind
-        except SamaraError as fault:
-            give_up(o.name, fault)
+        except SamaraError as error:
+            give_up(o.name, error)
     if behind and not bpy.app.timers.is_registered(_catch_up):
         bpy.app.timers.register(_catch_up, first_interval=0.1)
     return behind
@@ -191,10 +191,10 @@ def go_live(objects, context):
             )
     surroundings = surroundings_of(scene, look_at_obstacles(context))
 
-    def refuse(_, fault):
-        raise fault
+    def refuse(_, error):
+        raise error
 
-    others = [request_of(o, surroundings) for o in live_objects(scene)] if surroundings.bodies_meet else []
+    others = [request_of(o, surroundings) for o in live_objects(scene)] if surroundings.bodies_collide else []
     requests = [request_of(o, surroundings) for o in objects]
     _fly(together(others + requests), scene, refuse)
     for o, request in zip(objects, requests):

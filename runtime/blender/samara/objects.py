@@ -138,7 +138,7 @@ def surroundings_of(scene, obstacles):
         gravity=tuple(scene.gravity) if scene.use_gravity else (0.0, 0.0, 0.0),
         ground=unit * settings.ground if settings.use_ground else None,
         obstacles=obstacles,
-        bodies_meet=settings.bodies_meet,
+        bodies_collide=settings.bodies_meet,
         step=settings.step,
         seed=settings.seed,
         frames=frame_count(scene),

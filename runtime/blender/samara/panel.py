@@ -63,8 +63,8 @@ def _draw_file(layout, o):
         return None
     try:
         body = body_of_file(body_file_of(o))
-    except SamaraError as fault:
-        layout.label(text=str(fault), icon="ERROR")
+    except SamaraError as error:
+        layout.label(text=str(error), icon="ERROR")
         return None
     weighs = f", {1000.0 * body.mass:.4g} g" if body.mass > 0.0 else ""
     loads = {"TABLE": " and tables", "SURFACE": " and its surface's loads", "COEFFICIENTS": ""}[body.loads_in_use("AUTO")]

@@ -147,8 +147,8 @@ class SamaraSurroundings(bpy.types.PropertyGroup):
     gust_seed: IntProperty(name="Gust Seed", description="Another one gives other gusts of the same strength", default=1, min=0)
     use_ground: BoolProperty(name="Ground", description="Level ground, on which bodies come to rest")
     ground: FloatProperty(name="Height", description="Of the ground", subtype="DISTANCE")
-    bodies_meet: BoolProperty(
-        name="Bodies Meet",
+    bodies_meet: BoolProperty(  # the name that .blend files keep
+        name="Bodies Collide",
         description="Bodies that fly at the same time, live or by one Simulate to Keyframes, touch each other",
     )
     seed: IntProperty(

@@ -43,12 +43,12 @@ class Settings(ctypes.Structure):
         ("ground", c_double),
         ("wind", c_void_p),
         ("wind_context", c_void_p),
-        ("bodies_meet", c_int32),
+        ("bodies_collide", c_int32),
     ]
 
 
-class Kind(ctypes.Structure):
-    """samara_kind."""
+class BodyGroup(ctypes.Structure):
+    """samara_body_group."""
 
     _fields_ = [
         ("size", c_size_t),
@@ -129,9 +129,9 @@ _FALLIBLE = {
     "samara_body_get_vertices": [c_void_p, c_void_p, c_size_t],
     "samara_body_get_triangles": [c_void_p, c_void_p, c_size_t],
     "samara_default_settings": [POINTER(Settings), c_size_t],
-    "samara_default_kind": [POINTER(Kind), c_size_t],
+    "samara_default_body_group": [POINTER(BodyGroup), c_size_t],
     "samara_simulation_create": [POINTER(Settings), POINTER(c_void_p)],
-    "samara_simulation_add": [c_void_p, c_void_p, POINTER(Kind), c_void_p],
+    "samara_simulation_add": [c_void_p, c_void_p, POINTER(BodyGroup), c_void_p],
     "samara_default_obstacle": [POINTER(Obstacle), c_size_t],
     "samara_simulation_add_obstacle": [c_void_p, POINTER(Obstacle), c_void_p],
     "samara_set_wind": [c_void_p, c_char_p],
@@ -153,9 +153,9 @@ def library():
         for name, arguments in _FALLIBLE.items():
             function = getattr(loaded, name)
             function.restype, function.argtypes = c_int, arguments + [c_char_p, c_size_t]
-    except (OSError, AttributeError) as fault:
+    except (OSError, AttributeError) as error:
         raise SamaraError(
-            f"samara's library cannot be loaded: {fault}; install the add-on's zip anew, built for this system"
+            f"samara's library cannot be loaded: {error}; install the add-on's zip anew, built for this system"
         ) from None
     if loaded.samara_api_version() < API_VERSION:
         raise SamaraError(f"{LIBRARY} is older than the add-on; install the add-on's zip anew")
@@ -230,8 +230,8 @@ def body_of_file(path):
         raise SamaraError("no body file is chosen; pick one or bake one")
     try:
         status = os.stat(path)
-    except OSError as fault:
-        raise SamaraError(f"{path}: {fault.strerror}") from None
+    except OSError as error:
+        raise SamaraError(f"{path}: {error.strerror}") from None
     key = (status.st_mtime_ns, status.st_size, status.st_ino)
     if path not in _bodies or _bodies[path][0] != key:
         _bodies[path] = (key, Body(path))
@@ -244,14 +244,14 @@ def default_settings():
     return settings
 
 
-def default_kind():
-    kind = Kind()
-    _call("samara_default_kind", byref(kind), ctypes.sizeof(kind))
-    return kind
+def default_body_group():
+    group = BodyGroup()
+    _call("samara_default_body_group", byref(group), ctypes.sizeof(group))
+    return group
 
 
 class Simulation:
-    """Bodies of several kinds among obstacles. A call lets other threads run meanwhile; one thread at a time may call."""
+    """Bodies of several groups among obstacles. A call lets other threads run meanwhile; one thread at a time may call."""
 
     def __init__(self, settings):
         self.handle = c_void_p()
@@ -277,10 +277,10 @@ class Simulation:
         """The keys of [wind] of a scene, as TOML."""
         _call("samara_set_wind", self.handle, text.encode())
 
-    def add(self, body, kind):
+    def add(self, body, group):
         """Returns the number of the first of its bodies."""
         first = c_size_t()
-        _call("samara_simulation_add", self.handle, body.handle, byref(kind), byref(first))
+        _call("samara_simulation_add", self.handle, body.handle, byref(group), byref(first))
         return first.value
 
     def lead(self, index, pose):

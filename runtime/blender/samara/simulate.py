@@ -207,8 +207,8 @@ class SAMARA_OT_live(bpy.types.Operator):
             else:
                 context.view_layer.update()
                 live.go_live([o for o in objects if not o.samara.live], context)
-        except SamaraError as fault:
-            self.report({"ERROR"}, str(fault))
+        except SamaraError as error:
+            self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         return {"FINISHED"}
 

@@ -54,7 +54,7 @@ std::vector<std::string> options_of(const CLI::App& app) {
 }
 
 /// What is wrong with the words: first an option that there is none of, for which what it was to be may lack.
-std::string fault_in_words(const CLI::App& app, const CLI::ParseError& fault) {
+std::string error_in_words(const CLI::App& app, const CLI::ParseError& error) {
     const std::string see_help = fmt::format("; see '{} --help'", app.get_name());
     const std::vector<std::string> unknown = app.remaining();
     for (const std::string& word : unknown) {
@@ -63,13 +63,13 @@ std::string fault_in_words(const CLI::App& app, const CLI::ParseError& fault) {
         const std::string meant = did_you_mean(option, options_of(app));
         return fmt::format("there is no option '{}'{}", option, meant.empty() ? see_help : meant);
     }
-    const bool too_many = fault.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
+    const bool too_many = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
     return (too_many && !unknown.empty() ? fmt::format("'{}' is one word too many", unknown.front())
-                                         : std::string(fault.what())) +
+                                         : std::string(error.what())) +
            see_help;
 }
 
-/// Refuses "3mm" and "fast" where a number is due.
+/// Rejects "3mm" and "fast" where a number is due.
 const CLI::Validator plain_number(
     [](const std::string& word) {
         double number = 0.0;
@@ -198,8 +198,8 @@ int run_program(int argc, const char* const* argv, Arguments& arguments,
             parser.app.exit(asked_for_help, help, help);
             print_result("{}", help.str());
             return;
-        } catch (const CLI::ParseError& fault) {
-            throw std::runtime_error(fault_in_words(parser.app, fault));
+        } catch (const CLI::ParseError& error) {
+            throw std::runtime_error(error_in_words(parser.app, error));
         }
         for (const std::string* output : parser.outputs) {
             if (!output->empty()) require_writable(*output);

@@ -44,23 +44,23 @@ std::string one_line(std::string text) {
 }
 
 /// What is wrong, for people.
-std::string fault_of(const std::exception& fault) {
-    if (dynamic_cast<const std::bad_alloc*>(&fault) != nullptr) {
+std::string error_of(const std::exception& error) {
+    if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) {
         return "out of memory; use fewer triangles, bodies, frames or runs";
     }
-    if (dynamic_cast<const std::length_error*>(&fault) != nullptr) {
+    if (dynamic_cast<const std::length_error*>(&error) != nullptr) {
         return "more numbers are asked for than any memory holds; is a count or unit wrong?";
     }
-    if (const auto* file = dynamic_cast<const std::filesystem::filesystem_error*>(&fault)) {
+    if (const auto* file = dynamic_cast<const std::filesystem::filesystem_error*>(&error)) {
         return fmt::format("{}: cannot be used: {}", file->path1().string(), file->code().message());
     }
-    return one_line(fault.what());
+    return one_line(error.what());
 }
 
 /// Where standard output cannot be written, standard error says so.
-void print_as_json(const std::string& fault) noexcept {
+void print_as_json(const std::string& error) noexcept {
     try {
-        print_json({{"error", fault}});
+        print_json({{"error", error}});
         flush_output();
     } catch (const std::exception&) {
         return;
@@ -77,8 +77,8 @@ int run_guarded(const std::string& program, const std::function<void()>& work, b
         work();
         flush_output();
         return 0;
-    } catch (const std::exception& fault) {
-        const std::string text = fault_of(fault);
+    } catch (const std::exception& error) {
+        const std::string text = error_of(error);
         std::fflush(stdout);
         if (as_json) print_as_json(text);
         print_note("{}: {}\n", program, text);

@@ -25,14 +25,14 @@ namespace {
 std::filesystem::path file_of(const SceneBody& scene_body, const std::string& bodies) {
     if (bodies.empty()) return scene_body.shape;
     const auto baked = std::filesystem::path(bodies) / (scene_body.name + ".body.h5");
-    if (const std::string fault = reading_fault(baked); !fault.empty()) {
+    if (const std::string error = reading_error(baked); !error.empty()) {
         throw Error(
-            fmt::format("{}: {}; bake it with 'samara bake SCENE -o {}'", baked.string(), fault, bodies));
+            fmt::format("{}: {}; bake it with 'samara bake SCENE -o {}'", baked.string(), error, bodies));
     }
     return baked;
 }
 
-/// Refuses a body that was baked before its shape was changed.
+/// Rejects a body that was baked before its shape was changed.
 void require_same_shape(const std::filesystem::path& file, const Body& body, const SceneBody& scene_body) {
     if (is_body_file_name(scene_body.shape)) return;
     if (body.source.find(file_content_hash(scene_body.shape)) != std::string::npos) return;

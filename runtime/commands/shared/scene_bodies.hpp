@@ -6,7 +6,7 @@
 
 #include "samara/analysis/advice/model_advice.hpp"
 #include "samara/analysis/advice/step_advice.hpp"
-#include "samara/core/flight/loaded_body.hpp"
+#include "samara/core/simulation/loaded_body.hpp"
 #include "samara/scene/scene.hpp"
 
 namespace samara {

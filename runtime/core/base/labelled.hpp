@@ -12,8 +12,8 @@ template <typename Work>
 auto labelled(const std::string& label, const Work& work) {
     try {
         return work();
-    } catch (const Error& fault) {
-        throw Error(label + ": " + fault.what());
+    } catch (const Error& error) {
+        throw Error(label + ": " + error.what());
     }
 }
 
@@ -23,8 +23,8 @@ template <typename Work>
 auto naming(const std::string& file, const std::string& stand_in, const Work& work) {
     try {
         return work();
-    } catch (const Error& fault) {
-        std::string what = fault.what();
+    } catch (const Error& error) {
+        std::string what = error.what();
         for (std::size_t at = what.find(stand_in); at != std::string::npos;
              at = what.find(stand_in, at + file.size())) {
             what.replace(at, stand_in.size(), file);

@@ -9,7 +9,7 @@
 namespace samara {
 namespace {
 
-constexpr std::size_t letters_for_a_slip = 3;
+constexpr std::size_t letters_for_an_edit = 3;
 constexpr std::size_t longest_word = 64;
 
 std::string plain(std::string_view word) {
@@ -21,20 +21,20 @@ std::string plain(std::string_view word) {
 }
 
 /// Letters added, dropped, changed, or swapped with their neighbours (optimal string alignment).
-std::size_t slips_between(const std::string& a, const std::string& b) {
-    std::vector<std::vector<std::size_t>> slips(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
-    for (std::size_t i = 0; i <= a.size(); ++i) slips[i][0] = i;
-    for (std::size_t j = 0; j <= b.size(); ++j) slips[0][j] = j;
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+    std::vector<std::vector<std::size_t>> edits(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+    for (std::size_t i = 0; i <= a.size(); ++i) edits[i][0] = i;
+    for (std::size_t j = 0; j <= b.size(); ++j) edits[0][j] = j;
     for (std::size_t i = 1; i <= a.size(); ++i) {
         for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t changed = slips[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
-            slips[i][j] = std::min({changed, slips[i - 1][j] + 1, slips[i][j - 1] + 1});
+            const std::size_t changed = edits[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+            edits[i][j] = std::min({changed, edits[i - 1][j] + 1, edits[i][j - 1] + 1});
             if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
-                slips[i][j] = std::min(slips[i][j], slips[i - 2][j - 2] + 1);
+                edits[i][j] = std::min(edits[i][j], edits[i - 2][j - 2] + 1);
             }
         }
     }
-    return slips[a.size()][b.size()];
+    return edits[a.size()][b.size()];
 }
 
 }  // namespace
@@ -45,12 +45,12 @@ std::string nearest_word(std::string_view written, const std::vector<std::string
     std::string nearest;
     std::size_t fewest = 0;
     for (const std::string& word : words) {
-        const std::size_t slips = slips_between(meant, plain(word));
-        if (slips > std::max<std::size_t>(1, word.size() / letters_for_a_slip) || slips >= word.size())
+        const std::size_t edits = edit_distance(meant, plain(word));
+        if (edits > std::max<std::size_t>(1, word.size() / letters_for_an_edit) || edits >= word.size())
             continue;
-        if (!nearest.empty() && slips >= fewest) continue;
+        if (!nearest.empty() && edits >= fewest) continue;
         nearest = word;
-        fewest = slips;
+        fewest = edits;
     }
     return nearest;
 }

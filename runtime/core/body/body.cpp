@@ -17,13 +17,13 @@ Matrix3d uniform_inertia(const VolumeMoments& moments, double density) {
     return density * (moments.second_moments.trace() * Matrix3d::Identity() - moments.second_moments);
 }
 
-const char* name_of(Symmetry::Kind kind) {
-    switch (kind) {
-        case Symmetry::Kind::axial:
+const char* name_of(Symmetry::Type type) {
+    switch (type) {
+        case Symmetry::Type::axial:
             return "axial";
-        case Symmetry::Kind::spherical:
+        case Symmetry::Type::spherical:
             return "spherical";
-        case Symmetry::Kind::finite:
+        case Symmetry::Type::finite:
             break;
     }
     return "finite";

@@ -33,13 +33,13 @@ Matrix3d uniform_inertia(const VolumeMoments& moments, double density);
 
 /// The rotations and reflections about the centroid that map the surface onto itself, in shape axes.
 struct Symmetry {
-    /// What kind of group they are.
-    enum class Kind {
+    /// The type of their group.
+    enum class Type {
         finite,     ///< `elements` lists the whole group
         axial,      ///< every rotation about `axis`, beside `elements`
         spherical,  ///< every rotation
     };
-    Kind kind = Kind::finite;                                 ///< of the group
+    Type type = Type::finite;                                 ///< of the group
     Vector3d axis = Vector3d::UnitZ();                        ///< unit vector; of meaning where kind is axial
     std::vector<Matrix3d> elements = {Matrix3d::Identity()};  ///< orthogonal matrices, the identity first
     Matrix3d axes =
@@ -49,7 +49,7 @@ struct Symmetry {
 };
 
 /// "finite", "axial" or "spherical", as body files and reports say it.
-const char* name_of(Symmetry::Kind kind);
+const char* name_of(Symmetry::Type type);
 
 /// The fluid's inertia: l and p of the fluid are K_fluid (omega, v), order omega then v, in shape axes, about
 /// the centroid of the volume, for a fluid of density 1 kg/m^3. Blocks: m^5, m^4, m^3.

@@ -38,7 +38,7 @@ bool is_orthonormal(const Matrix3d& matrix) {
     return (matrix.transpose() * matrix - Matrix3d::Identity()).cwiseAbs().maxCoeff() <= rounding;
 }
 
-std::string fault_of_moments(const Body& body, double radius) {
+std::string error_of_moments(const Body& body, double radius) {
     const VolumeMoments& moments = body.moments;
     const double volume = moments.volume;
     if (!(volume > 0.0) || !std::isfinite(volume)) return "the volume is not positive";
@@ -65,9 +65,9 @@ std::string fault_of_moments(const Body& body, double radius) {
     return {};
 }
 
-std::string fault_of(const Symmetry& symmetry) {
+std::string error_of(const Symmetry& symmetry) {
     if (!is_orthonormal(symmetry.axes)) return "/symmetry/axes is no frame of unit vectors";
-    if (symmetry.kind == Symmetry::Kind::axial && std::abs(symmetry.axis.norm() - 1.0) > rounding) {
+    if (symmetry.type == Symmetry::Type::axial && std::abs(symmetry.axis.norm() - 1.0) > rounding) {
         return "/symmetry/axis is no unit vector";
     }
     if (symmetry.elements.empty()) return "/symmetry/elements lacks the identity";
@@ -80,7 +80,7 @@ std::string fault_of(const Symmetry& symmetry) {
     return {};
 }
 
-std::string fault_of(const ShapeError& error) {
+std::string error_of(const ShapeError& error) {
     for (const double metric : {error.distance, error.mean_distance, error.faceting}) {
         if (!(metric >= 0.0) || !std::isfinite(metric)) {
             return "/surface has a distance from its shape that is negative or not finite";
@@ -90,7 +90,7 @@ std::string fault_of(const ShapeError& error) {
     return finite ? "" : "/surface has a change of volume or area that is not finite";
 }
 
-std::string fault_of(const KirchhoffTensor& kirchhoff, double radius) {
+std::string error_of(const KirchhoffTensor& kirchhoff, double radius) {
     constexpr const char* place = "/kirchhoff/added_mass";
     // Lengths over the radius, so that the blocks compare: the sphere around the body has 2/3 pi.
     Vector6d scale;
@@ -115,7 +115,7 @@ std::string fault_of(const KirchhoffTensor& kirchhoff, double radius) {
     return kirchhoff.triangles >= 0 ? "" : "/kirchhoff has a negative number of triangles";
 }
 
-std::string fault_of(const LoadTables& tables, double surface_area) {
+std::string error_of(const LoadTables& tables, double surface_area) {
     if (!is_orthonormal(tables.axes)) return "/tables/axes is no frame of unit vectors";
     if (std::abs(tables.reference_length / reference_length(surface_area) - 1.0) > faceting) {
         return "/tables has a reference_length that is not sqrt(S/pi) of the surface";
@@ -145,7 +145,7 @@ std::string fault_of(const LoadTables& tables, double surface_area) {
 }
 
 /// Beyond what coefficients of a moving body are by themselves: their size.
-std::string fault_of(const DynamicCoefficients& coefficients, double radius) {
+std::string error_of(const DynamicCoefficients& coefficients, double radius) {
     const auto place = [](const char* name) {
         return fmt::format("/dynamic_coefficients/{} is too large for the body", name);
     };
@@ -162,7 +162,7 @@ std::string fault_of(const DynamicCoefficients& coefficients, double radius) {
 
 }  // namespace
 
-std::string fault_of(const Body& body) {
+std::string error_of(const Body& body) {
     if (body.surface.vertices.empty() || body.surface.corners.empty()) return "/surface holds no triangle";
     const double radius = radius_about(body.surface, body.moments.centroid);
     if (!(radius > least_radius && radius < most_radius)) {
@@ -176,14 +176,14 @@ std::string fault_of(const Body& body) {
     if (hull.exteriorDistance(body.moments.centroid) > rounding * radius) {
         return "/moments/centroid lies outside the surface";
     }
-    std::string fault = fault_of_moments(body, radius);
-    if (fault.empty()) fault = fault_of(body.symmetry);
-    if (fault.empty() && body.shape_error) fault = fault_of(*body.shape_error);
-    if (fault.empty() && body.kirchhoff) fault = fault_of(*body.kirchhoff, radius);
-    if (fault.empty() && body.tables) fault = fault_of(*body.tables, body.moments.surface_area);
-    if (fault.empty() && body.dynamic) fault = fault_of(body.dynamic->values, radius);
-    if (fault.empty() && body.mass) fault = fault_of(*body.mass, body.surface);
-    return fault;
+    std::string error = error_of_moments(body, radius);
+    if (error.empty()) error = error_of(body.symmetry);
+    if (error.empty() && body.shape_error) error = error_of(*body.shape_error);
+    if (error.empty() && body.kirchhoff) error = error_of(*body.kirchhoff, radius);
+    if (error.empty() && body.tables) error = error_of(*body.tables, body.moments.surface_area);
+    if (error.empty() && body.dynamic) error = error_of(body.dynamic->values, radius);
+    if (error.empty() && body.mass) error = error_of(*body.mass, body.surface);
+    return error;
 }
 
 }  // namespace samara

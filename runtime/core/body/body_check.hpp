@@ -12,6 +12,6 @@ namespace samara {
 /// orthonormal axes and symmetries; an added mass that is symmetric, positive semidefinite, and no larger
 /// than that of the sphere around the body; load tables for a body of this size, with k, epsilon and standard
 /// errors that are not negative; coefficients of a body of this size.
-std::string fault_of(const Body& body);
+std::string error_of(const Body& body);
 
 }  // namespace samara

@@ -25,11 +25,11 @@ Vector3d as_vector(const std::vector<double>& values) {
     return from_row_major<Vector3d>(values);
 }
 
-Symmetry::Kind symmetry_kind(const Hdf5Reader& file) {
+Symmetry::Type symmetry_type(const Hdf5Reader& file) {
     const std::string kind = file.text_attribute("/symmetry", "kind");
-    if (kind == "finite") return Symmetry::Kind::finite;
-    if (kind == "axial") return Symmetry::Kind::axial;
-    if (kind == "spherical") return Symmetry::Kind::spherical;
+    if (kind == "finite") return Symmetry::Type::finite;
+    if (kind == "axial") return Symmetry::Type::axial;
+    if (kind == "spherical") return Symmetry::Type::spherical;
     throw Error(fmt::format("{}: the symmetry kind '{}' is unknown; make the file again",
                             file.path().string(), kind));
 }
@@ -46,13 +46,13 @@ void write_symmetry(Hdf5Writer& file, const Symmetry& symmetry) {
                "axis of revolution, where kind is axial");
     file.write("/symmetry/axes", row_major(symmetry.axes), {3, 3}, "1",
                "columns: frame aligned with the symmetry");
-    file.attribute("/symmetry", "kind", std::string_view(name_of(symmetry.kind)));
+    file.attribute("/symmetry", "kind", std::string_view(name_of(symmetry.type)));
     file.attribute("/symmetry", "tolerance", symmetry.tolerance);
 }
 
 Symmetry read_symmetry(const Hdf5Reader& file) {
     Symmetry symmetry;
-    symmetry.kind = symmetry_kind(file);
+    symmetry.type = symmetry_type(file);
     const std::vector<double> values = file.finite_doubles("/symmetry/elements", {0, 3, 3});
     symmetry.elements.clear();
     for (std::size_t i = 0; i < values.size(); i += 9) {
@@ -181,18 +181,18 @@ LoadTables read_tables(const Hdf5Reader& file) {
     tables.quality = file.text_attribute("/tables", "quality");
     tables.axes = from_row_major<Matrix3d>(file.finite_doubles("/tables/axes", {3, 3}));
     tables.reynolds_numbers = file.finite_doubles("/tables/reynolds_number", {0});
-    const auto fault = [&](const char* what) {
+    const auto error = [&](const char* what) {
         return Error(fmt::format("{}: /tables {}; bake the body again", file.path().string(), what));
     };
-    if (subdivisions < 1 || subdivisions > 1024) throw fault("has a map of no sane size");
+    if (subdivisions < 1 || subdivisions > 1024) throw error("has a map of no sane size");
     tables.subdivisions = static_cast<int>(subdivisions);
-    if (!(tables.reference_length > 0.0)) throw fault("has no positive reference length");
+    if (!(tables.reference_length > 0.0)) throw error("has no positive reference length");
     if (tables.reynolds_numbers.empty() || tables.reynolds_numbers.front() <= 0.0) {
-        throw fault("holds no positive Reynolds number");
+        throw error("holds no positive Reynolds number");
     }
     for (std::size_t i = 1; i < tables.reynolds_numbers.size(); ++i) {
         if (tables.reynolds_numbers[i] <= tables.reynolds_numbers[i - 1]) {
-            throw fault("has Reynolds numbers that do not ascend");
+            throw error("has Reynolds numbers that do not ascend");
         }
     }
     tables.entries = read_entries(file, tables, "");
@@ -240,8 +240,8 @@ Body read_body_file(const std::filesystem::path& path) {
     if (file.has("/tables")) body.tables = read_tables(file);
     if (file.has("/dynamic_coefficients")) body.dynamic = read_dynamic_coefficients(file);
     if (file.has("/mass")) body.mass = read_mass(file);
-    if (const std::string fault = fault_of(body); !fault.empty()) {
-        throw Error(fmt::format("{}: {}; make the file again", path.string(), fault));
+    if (const std::string error = error_of(body); !error.empty()) {
+        throw Error(fmt::format("{}: {}; make the file again", path.string(), error));
     }
     return body;
 }
@@ -250,8 +250,8 @@ void write_body_file(const std::filesystem::path& path, const Body& body) {
     write_hdf5(path, [&](Hdf5Writer& file) {
         try {
             file.expect_size(expected_size(body));
-        } catch (const Error& fault) {
-            throw Error(fmt::format("{}: {}; write elsewhere", path.string(), fault.what()));
+        } catch (const Error& error) {
+            throw Error(fmt::format("{}: {}; write elsewhere", path.string(), error.what()));
         }
         file.attribute("/", "format_version", format_version);
         file.attribute("/", "samara_version", std::string_view(version));

@@ -71,7 +71,7 @@ bool are_sound(const IdentifiedDensities& densities) {
 }
 
 /// A standard error that is none; empty where all are.
-std::string fault_of_errors(const DynamicCoefficients& errors) {
+std::string error_of_errors(const DynamicCoefficients& errors) {
     for (const NumberOfMotion& number : numbers_of_motion) {
         const double error = errors.*number.member;
         if (!(error >= 0.0) || !std::isfinite(error)) return std::string(number.name) + "_error";
@@ -115,16 +115,16 @@ IdentifiedCoefficients read_dynamic_coefficients(const Hdf5Reader& file) {
                                         .densities = read_densities(file)};
     coefficients.values.half_length = file.number_attribute(coefficients_group, "half_length");
     coefficients.values.origin = file.text_attribute(coefficients_group, "origin");
-    const auto refuse = [&](const std::string& what) {
+    const auto reject = [&](const std::string& what) {
         throw Error(fmt::format("{}: {}/{}; put it right, or remove the group to fly with defaults",
                                 file.path().string(), coefficients_group, what));
     };
-    if (const std::string fault = fault_of(coefficients.values); !fault.empty()) refuse(fault);
-    if (const std::string name = fault_of_errors(coefficients.standard_errors); !name.empty()) {
-        refuse(name + " is not a standard error: negative or not finite");
+    if (const std::string error = error_of(coefficients.values); !error.empty()) reject(error);
+    if (const std::string name = error_of_errors(coefficients.standard_errors); !name.empty()) {
+        reject(name + " is not a standard error: negative or not finite");
     }
     if (!are_sound(coefficients.densities)) {
-        refuse("lowest_density and highest_density are not two positive numbers in ascending order");
+        reject("lowest_density and highest_density are not two positive numbers in ascending order");
     }
     return coefficients;
 }
@@ -236,7 +236,7 @@ namespace {
 constexpr const char* sources_name = "/tables/error_sources";
 constexpr const char* left_out_name = "/tables/left_out";
 
-Error fault(const Hdf5Reader& file, const std::string& what) {
+Error error(const Hdf5Reader& file, const std::string& what) {
     return Error(fmt::format("{}: {}; bake the body again", file.path().string(), what));
 }
 
@@ -247,7 +247,7 @@ std::vector<ErrorSource> sources_of(const Hdf5Reader& file) {
         const std::size_t end = std::min(names.find(' ', start), names.size());
         const std::string name = names.substr(start, end - start);
         const auto source = error_source(name);
-        if (!source) throw fault(file, fmt::format("/tables names the unknown error source '{}'", name));
+        if (!source) throw error(file, fmt::format("/tables names the unknown error source '{}'", name));
         sources.push_back(*source);
         start = end + 1;
     }

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double rounding = 1e-9;  // of a tensor's largest entry
 
-std::string fault_of(const Matrix3d& tensor, const char* name, bool is_drag) {
+std::string error_of(const Matrix3d& tensor, const char* name, bool is_drag) {
     const std::string is = std::string(name) + " is not ";
     if (!tensor.allFinite()) return is + "finite";
     const double scale = tensor.cwiseAbs().maxCoeff();
@@ -23,7 +23,7 @@ std::string fault_of(const Matrix3d& tensor, const char* name, bool is_drag) {
 
 }  // namespace
 
-std::string fault_of(const DynamicCoefficients& coefficients) {
+std::string error_of(const DynamicCoefficients& coefficients) {
     for (const NumberOfMotion& number : numbers_of_motion) {
         const double value = coefficients.*number.member;
         if (!std::isfinite(value)) return std::string(number.name) + " is not finite";
@@ -33,8 +33,8 @@ std::string fault_of(const DynamicCoefficients& coefficients) {
         return "half_length is not a positive number";
     }
     for (const TensorOfMotion& tensor : tensors_of_motion) {
-        const std::string fault = fault_of(coefficients.*tensor.member, tensor.name, tensor.is_drag);
-        if (!fault.empty()) return fault;
+        const std::string error = error_of(coefficients.*tensor.member, tensor.name, tensor.is_drag);
+        if (!error.empty()) return error;
     }
     return {};
 }

@@ -13,7 +13,7 @@ inline constexpr double motion_onset = 0.03;
 
 /// Over how long a way transport forms behind a body that starts in fluid at rest, over the body's extent
 /// along it (docs/theory, "A wake that forms"; chosen in docs/studies/falls, "The start").
-inline constexpr double wake_formation_ways = 1.0;
+inline constexpr double wake_formation_lengths = 1.0;
 
 /// Over how long a way the steady translation's own moment comes back behind a body that no longer swings,
 /// over its extent along it. Usual: so that from rest it is there after the 2.3 extents that steady
@@ -112,6 +112,6 @@ double beyond(const IdentifiedDensities& densities, double density);
 /// What is wrong with the coefficients, such as "drag_in_motion is not symmetric": a number that is not
 /// finite, a tensor that is not symmetric, a drag that is not positive semidefinite, a half-length or factor
 /// that is not positive. Empty where nothing is.
-std::string fault_of(const DynamicCoefficients& coefficients);
+std::string error_of(const DynamicCoefficients& coefficients);
 
 }  // namespace samara

@@ -12,12 +12,12 @@ namespace {
 
 constexpr double rounding = 1e-9;
 
-std::string fault_of_number(const std::optional<double>& value, const char* name) {
+std::string error_of_number(const std::optional<double>& value, const char* name) {
     if (!value || (*value > 0.0 && std::isfinite(*value))) return {};
     return fmt::format("{} must be a positive number, not {}", name, *value);
 }
 
-std::string fault_of_center(const Vector3d& center, const Surface& surface) {
+std::string error_of_center(const Vector3d& center, const Surface& surface) {
     Eigen::AlignedBox3d box;
     for (const Vector3d& vertex : surface.vertices) box.extend(vertex);
     const Vector3d slack = Vector3d::Constant(rounding * box.diagonal().norm());
@@ -30,7 +30,7 @@ std::string fault_of_center(const Vector3d& center, const Surface& surface) {
         box.max().y(), box.max().z());
 }
 
-std::string fault_of_inertia(const Matrix3d& inertia) {
+std::string error_of_inertia(const Matrix3d& inertia) {
     if (!inertia.allFinite()) return "inertia must be of finite numbers";
     if ((inertia - inertia.transpose()).norm() > rounding * inertia.norm()) {
         return "inertia must be symmetric";
@@ -45,21 +45,21 @@ std::string fault_of_inertia(const Matrix3d& inertia) {
 
 }  // namespace
 
-std::string fault_of(const MassSpecification& mass) {
+std::string error_of(const MassSpecification& mass) {
     if (!mass.is_given()) return "density or mass must be given";
-    std::string fault = fault_of_number(mass.density, "density");
-    if (fault.empty()) fault = fault_of_number(mass.mass, "mass");
-    if (fault.empty() && mass.center_of_mass && !mass.center_of_mass->allFinite()) {
-        fault = "center_of_mass must be of finite numbers";
+    std::string error = error_of_number(mass.density, "density");
+    if (error.empty()) error = error_of_number(mass.mass, "mass");
+    if (error.empty() && mass.center_of_mass && !mass.center_of_mass->allFinite()) {
+        error = "center_of_mass must be of finite numbers";
     }
-    if (fault.empty() && mass.inertia) fault = fault_of_inertia(*mass.inertia);
-    return fault;
+    if (error.empty() && mass.inertia) error = error_of_inertia(*mass.inertia);
+    return error;
 }
 
-std::string fault_of(const MassSpecification& mass, const Surface& surface) {
-    std::string fault = fault_of(mass);
-    if (fault.empty() && mass.center_of_mass) fault = fault_of_center(*mass.center_of_mass, surface);
-    return fault;
+std::string error_of(const MassSpecification& mass, const Surface& surface) {
+    std::string error = error_of(mass);
+    if (error.empty() && mass.center_of_mass) error = error_of_center(*mass.center_of_mass, surface);
+    return error;
 }
 
 }  // namespace samara

@@ -27,10 +27,11 @@ std::vector<SurfaceElement> surface_elements(const SurfaceLoads& loads) {
         element.area = area.norm();
         if (!(element.area > 0.0)) continue;
         element.normal = area / element.area;
-        element.slip = element.normal * element.normal.transpose() - Matrix3d::Identity();
+        element.surface_velocity = element.normal * element.normal.transpose() - Matrix3d::Identity();
         for (std::size_t k = 0; k < 3; ++k) {
             const auto vertex = static_cast<std::size_t>(surface.corners[t][k]);
-            element.slip += gradient_of_corner(surface, t, k, area) * loads.potentials[vertex].transpose();
+            element.surface_velocity +=
+                gradient_of_corner(surface, t, k, area) * loads.potentials[vertex].transpose();
         }
     }
     return elements;
@@ -39,7 +40,8 @@ std::vector<SurfaceElement> surface_elements(const SurfaceLoads& loads) {
 double pressure_on(const SurfaceElement& element, const Vector3d& direction,
                    const SurfacePressure& pressure) {
     const double along = element.normal.dot(direction);
-    const double attached = std::max(1.0 - (element.slip * direction).squaredNorm(), pressure.base);
+    const double attached =
+        std::max(1.0 - (element.surface_velocity * direction).squaredNorm(), pressure.base);
     if (along >= 0.0) return attached;
     const double separated = std::min(1.0, -along / pressure.separation_sine);
     return separated * pressure.base + (1.0 - separated) * std::min(0.0, attached);

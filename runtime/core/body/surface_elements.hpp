@@ -14,7 +14,7 @@ struct SurfaceElement {
     double area = 0.0;
     /// A column for each of the body's unit velocities: the fluid's velocity along the surface, as seen from
     /// the body.
-    Matrix3d slip = Matrix3d::Zero();
+    Matrix3d surface_velocity = Matrix3d::Zero();
 };
 
 /// One for each triangle.

@@ -8,10 +8,10 @@ namespace samara {
 
 void require_bodies(const samara_simulation* simulation, std::size_t first, std::size_t count) {
     require(simulation, "simulation");
-    const std::size_t bodies = simulation->flight.size();
+    const std::size_t bodies = simulation->core.size();
     if (first <= bodies && count <= bodies - first) return;
-    throw Fault(SAMARA_INVALID_ARGUMENT,
-                fmt::format("bodies {} to {} are asked for, but there are {}", first, first + count, bodies));
+    throw StatusError(SAMARA_INVALID_ARGUMENT, fmt::format("bodies {} to {} are asked for, but there are {}",
+                                                           first, first + count, bodies));
 }
 
 std::size_t checked_stride(const samara_simulation* simulation, std::size_t first, std::size_t count,
@@ -21,9 +21,9 @@ std::size_t checked_stride(const samara_simulation* simulation, std::size_t firs
     if (count > 0) require(array, name);
     if (stride == 0) return size;
     if (stride >= size && stride % alignment == 0) return stride;
-    throw Fault(SAMARA_INVALID_ARGUMENT,
-                fmt::format("stride is {}; it must be 0, or at least {} and a multiple of {} bytes", stride,
-                            size, alignment));
+    throw StatusError(SAMARA_INVALID_ARGUMENT,
+                      fmt::format("stride is {}; it must be 0, or at least {} and a multiple of {} bytes",
+                                  stride, size, alignment));
 }
 
 }  // namespace samara

@@ -28,7 +28,8 @@ void copy_printable(std::string_view text, char* buffer, std::size_t size) noexc
 }
 
 void require(const void* pointer, const char* name) {
-    if (pointer == nullptr) throw Fault(SAMARA_INVALID_ARGUMENT, std::string(name) + " is a null pointer");
+    if (pointer == nullptr)
+        throw StatusError(SAMARA_INVALID_ARGUMENT, std::string(name) + " is a null pointer");
 }
 
 std::mutex& hdf5_mutex() {
@@ -36,13 +37,13 @@ std::mutex& hdf5_mutex() {
     return mutex;
 }
 
-samara_status status_of(FlightError::Kind kind) noexcept {
-    switch (kind) {
-        case FlightError::Kind::time_passed:
+samara_status status_of(SimulationError::Reason reason) noexcept {
+    switch (reason) {
+        case SimulationError::Reason::time_passed:
             return SAMARA_TIME_PASSED;
-        case FlightError::Kind::out_of_range:
+        case SimulationError::Reason::out_of_range:
             return SAMARA_OUT_OF_RANGE;
-        case FlightError::Kind::foreign_state:
+        case SimulationError::Reason::foreign_state:
             return SAMARA_FOREIGN_STATE;
         default:
             return SAMARA_INVALID_ARGUMENT;

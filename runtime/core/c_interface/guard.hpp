@@ -8,14 +8,14 @@
 
 #include "samara.h"
 #include "samara/core/base/error.hpp"
-#include "samara/core/flight/flight.hpp"
+#include "samara/core/simulation/simulation.hpp"
 
 namespace samara {
 
 /// What goes wrong behind the C interface: an Error with the status that the caller gets.
-class Fault : public Error {
+class StatusError : public Error {
   public:
-    Fault(samara_status status, const std::string& message) : Error(message), status_(status) {}
+    StatusError(samara_status status, const std::string& message) : Error(message), status_(status) {}
     [[nodiscard]] samara_status status() const noexcept { return status_; }
 
   private:
@@ -36,7 +36,7 @@ void require(const void* pointer, const char* name);
 std::mutex& hdf5_mutex();
 
 /// What the caller gets for a fault of a flight.
-samara_status status_of(FlightError::Kind kind) noexcept;
+samara_status status_of(SimulationError::Reason reason) noexcept;
 
 /// Runs the body of a C function: nothing that it throws leaves, and the caller's buffer gets its text (empty
 /// where all went well). An Error that is no Fault gives `otherwise`.
@@ -47,20 +47,20 @@ samara_status guarded(char* error, std::size_t error_size, const Work& work,
     try {
         work();
         return SAMARA_OK;
-    } catch (const Fault& fault) {
-        copy_printable(fault.what(), error, error_size);
-        return fault.status();
-    } catch (const FlightError& fault) {
-        copy_printable(fault.what(), error, error_size);
-        return status_of(fault.kind());
-    } catch (const Error& fault) {
-        copy_printable(fault.what(), error, error_size);
+    } catch (const StatusError& caught) {
+        copy_printable(caught.what(), error, error_size);
+        return caught.status();
+    } catch (const SimulationError& caught) {
+        copy_printable(caught.what(), error, error_size);
+        return status_of(caught.reason());
+    } catch (const Error& caught) {
+        copy_printable(caught.what(), error, error_size);
         return otherwise;
     } catch (const std::bad_alloc&) {
         copy_text("there is not enough memory", error, error_size);
         return SAMARA_OUT_OF_MEMORY;
-    } catch (const std::exception& fault) {
-        copy_printable(fault.what(), error, error_size);
+    } catch (const std::exception& caught) {
+        copy_printable(caught.what(), error, error_size);
         return SAMARA_INTERNAL_ERROR;
     } catch (...) {
         copy_text("an unknown error", error, error_size);

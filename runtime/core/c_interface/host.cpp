@@ -13,32 +13,32 @@
 namespace {
 
 using samara::copy;
-using samara::Flight;
 using samara::guarded;
 using samara::Matrix6d;
 using samara::require;
+using samara::Simulation;
 using samara::Vector3d;
 using samara::Wrench;
 
 /// The flight of a simulation that runs, one body of which is looked at or pushed.
 template <typename Simulation>
-auto& flight_of(Simulation* simulation, std::size_t body) {
+auto& simulation_of(Simulation* simulation, std::size_t body) {
     samara::require_bodies(simulation, 0, 0);
-    auto& flight = simulation->flight;
-    flight.require_running();
-    if (body >= flight.size())
-        samara::refuse("body", fmt::format("is {}, but there are {}", body, flight.size()));
-    return flight;
+    auto& core = simulation->core;
+    core.require_running();
+    if (body >= core.size())
+        samara::reject("body", fmt::format("is {}, but there are {}", body, core.size()));
+    return core;
 }
 
 /// The same of a body that has not been removed.
 template <typename Simulation>
-auto& flight_with(Simulation* simulation, std::size_t body) {
-    auto& flight = flight_of(simulation, body);
-    if (flight.is_removed(body)) {
-        samara::refuse("body", fmt::format("{} is removed; put it back with samara_set_poses", body));
+auto& simulation_with(Simulation* simulation, std::size_t body) {
+    auto& core = simulation_of(simulation, body);
+    if (core.is_removed(body)) {
+        samara::reject("body", fmt::format("{} is removed; put it back with samara_set_poses", body));
     }
-    return flight;
+    return core;
 }
 
 Vector3d three(const double* values, const char* name) {
@@ -48,11 +48,11 @@ Vector3d three(const double* values, const char* name) {
 }
 
 /// A force, or impulse, at a point (null: the centre of mass) of the world.
-Wrench wrench_at(const Flight& flight, std::size_t body, const double* force, const char* name,
+Wrench wrench_at(const Simulation& core, std::size_t body, const double* force, const char* name,
                  const double* point) {
     Wrench wrench{.force = three(force, name), .moment = Vector3d::Zero()};
     if (point == nullptr) return wrench;
-    wrench.moment = (three(point, "point") - flight.pose(body).position).cross(wrench.force);
+    wrench.moment = (three(point, "point") - core.pose(body).position).cross(wrench.force);
     return wrench;
 }
 
@@ -68,18 +68,18 @@ samara_status samara_get_sizes(const samara_simulation* simulation, size_t first
     return guarded(error, error_size, [&] {
         samara::require_bodies(simulation, first, count);
         if (count > 0) require(sizes, "sizes");
-        for (std::size_t i = 0; i < count; ++i) sizes[i] = simulation->flight.size_of(first + i);
+        for (std::size_t i = 0; i < count; ++i) sizes[i] = simulation->core.size_of(first + i);
     });
 }
 
 samara_status samara_get_mass_properties(const samara_simulation* simulation, size_t body,
                                          samara_mass_properties* properties, char* error, size_t error_size) {
     return guarded(error, error_size, [&] {
-        const Flight& flight = flight_of(simulation, body);
+        const Simulation& core = simulation_of(simulation, body);
         require(properties, "properties");
-        properties->mass = flight.mass(body);
-        copy(flight.center_of_mass(body), properties->center_of_mass);
-        const samara::Matrix3d inertia = flight.inertia(body);
+        properties->mass = core.mass(body);
+        copy(core.center_of_mass(body), properties->center_of_mass);
+        const samara::Matrix3d inertia = core.inertia(body);
         std::copy_n(inertia.data(), 9, properties->inertia);
     });
 }
@@ -87,15 +87,15 @@ samara_status samara_get_mass_properties(const samara_simulation* simulation, si
 samara_status samara_add_force(samara_simulation* simulation, size_t body, const double force[3],
                                const double* point, char* error, size_t error_size) {
     return guarded(error, error_size, [&] {
-        Flight& flight = flight_with(simulation, body);
-        flight.add_wrench(body, wrench_at(flight, body, force, "force", point));
+        Simulation& core = simulation_with(simulation, body);
+        core.add_wrench(body, wrench_at(core, body, force, "force", point));
     });
 }
 
 samara_status samara_add_moment(samara_simulation* simulation, size_t body, const double moment[3],
                                 char* error, size_t error_size) {
     return guarded(error, error_size, [&] {
-        flight_with(simulation, body)
+        simulation_with(simulation, body)
             .add_wrench(body, {.force = Vector3d::Zero(), .moment = three(moment, "moment")});
     });
 }
@@ -103,15 +103,15 @@ samara_status samara_add_moment(samara_simulation* simulation, size_t body, cons
 samara_status samara_add_impulse(samara_simulation* simulation, size_t body, const double impulse[3],
                                  const double* point, char* error, size_t error_size) {
     return guarded(error, error_size, [&] {
-        Flight& flight = flight_with(simulation, body);
-        flight.add_impulse(body, wrench_at(flight, body, impulse, "impulse", point));
+        Simulation& core = simulation_with(simulation, body);
+        core.add_impulse(body, wrench_at(core, body, impulse, "impulse", point));
     });
 }
 
 samara_status samara_add_angular_impulse(samara_simulation* simulation, size_t body,
                                          const double angular_impulse[3], char* error, size_t error_size) {
     return guarded(error, error_size, [&] {
-        flight_with(simulation, body)
+        simulation_with(simulation, body)
             .add_impulse(body,
                          {.force = Vector3d::Zero(), .moment = three(angular_impulse, "angular_impulse")});
     });
@@ -121,21 +121,21 @@ samara_status samara_remove(samara_simulation* simulation, size_t first, size_t 
                             size_t error_size) {
     return guarded(error, error_size, [&] {
         samara::require_bodies(simulation, first, count);
-        simulation->flight.require_running();
-        for (std::size_t i = 0; i < count; ++i) simulation->flight.remove(first + i);
+        simulation->core.require_running();
+        for (std::size_t i = 0; i < count; ++i) simulation->core.remove(first + i);
     });
 }
 
 int samara_is_removed(const samara_simulation* simulation, size_t body) {
-    const bool known = simulation != nullptr && body < simulation->flight.size();
-    return known && simulation->flight.is_removed(body) ? 1 : 0;
+    const bool known = simulation != nullptr && body < simulation->core.size();
+    return known && simulation->core.is_removed(body) ? 1 : 0;
 }
 
 samara_status samara_watch_contacts(samara_simulation* simulation, int32_t watch, char* error,
                                     size_t error_size) {
     return guarded(error, error_size, [&] {
         require(simulation, "simulation");
-        simulation->flight.watch_contacts(watch != 0);
+        simulation->core.watch_contacts(watch != 0);
     });
 }
 
@@ -147,15 +147,15 @@ samara_status samara_take_contacts(samara_simulation* simulation, size_t first, 
                                    sizeof(samara_contact), alignof(samara_contact));
         auto* place = reinterpret_cast<std::byte*>(contacts);
         for (std::size_t i = first; i < first + count; ++i, place += bytes) {
-            const samara::ContactRecord met = simulation->flight.take_contacts(i);
+            const samara::ContactRecord record = simulation->core.take_contacts(i);
             samara_contact contact{};
-            copy(met.impulse, contact.impulse);
-            contact.strongest = met.strongest;
-            copy(met.point, contact.point);
-            copy(met.normal, contact.normal);
-            contact.time = met.time;
-            contact.obstacle = met.body < 0 ? met.obstacle : -2 - met.body;
-            contact.at_rest = simulation->flight.is_at_rest(i) ? 1 : 0;
+            copy(record.impulse, contact.impulse);
+            contact.strongest = record.strongest;
+            copy(record.point, contact.point);
+            copy(record.normal, contact.normal);
+            contact.time = record.time;
+            contact.obstacle = record.body < 0 ? record.obstacle : -2 - record.body;
+            contact.at_rest = simulation->core.is_at_rest(i) ? 1 : 0;
             std::memcpy(place, &contact, sizeof contact);
         }
     });
@@ -164,9 +164,9 @@ samara_status samara_take_contacts(samara_simulation* simulation, size_t first, 
 samara_status samara_get_fluid_load(const samara_simulation* simulation, size_t body, samara_fluid_load* load,
                                     char* error, size_t error_size) {
     return guarded(error, error_size, [&] {
-        const Flight& flight = flight_with(simulation, body);
+        const Simulation& core = simulation_with(simulation, body);
         require(load, "load");
-        const samara::FluidLoad found = flight.fluid_load(body);
+        const samara::FluidLoad found = core.fluid_load(body);
         std::copy_n(found.wrench.data(), 6, load->wrench);
         copy(found.added_inertia, load->added_inertia);
         copy(found.damping, load->damping);

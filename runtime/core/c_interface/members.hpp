@@ -15,7 +15,7 @@
 namespace samara {
 
 /// Throws that fault: the member, and why it is refused.
-[[noreturn]] void refuse(const char* member, const std::string& why);
+[[noreturn]] void reject(const char* member, const std::string& why);
 
 /// The number, where it is finite and not beyond any unit's.
 double finite(double value, const char* member);
@@ -43,7 +43,7 @@ std::string plain_name(const char* name, const char* member);
 /// One of the values of an enumeration from 0 to `last`.
 template <typename Choice>
 Choice choice(std::int32_t value, std::int32_t last, const char* member) {
-    if (value < 0 || value > last) refuse(member, fmt::format("is {}, which names nothing", value));
+    if (value < 0 || value > last) reject(member, fmt::format("is {}, which names nothing", value));
     return static_cast<Choice>(value);
 }
 
@@ -51,7 +51,7 @@ Choice choice(std::int32_t value, std::int32_t last, const char* member) {
 template <typename Struct>
 Struct known_part(const Struct& given, Struct defaults, std::size_t first_size, const char* name) {
     if (given.size < first_size || given.size > sizeof(Struct)) {
-        throw Fault(
+        throw StatusError(
             SAMARA_INVALID_ARGUMENT,
             fmt::format("{0}.size is {1}, but this library knows {2} to {3} bytes; fill the struct with "
                         "samara_default_{0}, and use a library as new as samara.h",
@@ -66,7 +66,7 @@ template <typename Struct>
 void fill(Struct* target, std::size_t size, const Struct& defaults, const char* name) {
     require(target, name);
     if (size < sizeof(std::size_t) || size > sizeof(Struct)) {
-        throw Fault(
+        throw StatusError(
             SAMARA_INVALID_ARGUMENT,
             fmt::format("size is {}, but this library knows {} bytes of the {}; give sizeof, and use a "
                         "library as new as samara.h",

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "samara.h"
-#include "samara/core/flight/flight.hpp"
+#include "samara/core/simulation/simulation.hpp"
 #include "samara/core/surface/surface.hpp"
 
 // What stands behind the opaque types of samara.h.
@@ -12,5 +12,5 @@ struct samara_body {
 };
 
 struct samara_simulation {
-    samara::Flight flight;
+    samara::Simulation core;
 };

@@ -77,7 +77,7 @@ SAMARA_API const char* samara_body_source(const samara_body* body); /* one line:
 SAMARA_API double samara_body_volume(const samara_body* body);      /* m^3 */
 SAMARA_API double samara_body_mass(const samara_body* body); /* kg: what its file says it weighs; 0 where it
                                                                 says nothing. Since version 6 */
-SAMARA_API int samara_body_has_added_mass(const samara_body* body);    /* which a kind needs by default */
+SAMARA_API int samara_body_has_added_mass(const samara_body* body);    /* which a group needs by default */
 SAMARA_API int samara_body_has_tables(const samara_body* body);        /* of loads and turbulence */
 SAMARA_API int samara_body_has_surface_loads(const samara_body* body); /* without CFD. Since version 8 */
 
@@ -123,15 +123,15 @@ typedef struct samara_settings {
     uint32_t run;       /* another run of the same seed has other noise; default: 0 */
     int32_t threads;    /* for many bodies; 0: all cores; default: 1. Does not change the motion */
     int32_t has_ground; /* whether there is level ground, on which bodies settle; default: 0 */
-    double ground;      /* m: its height, with has_ground; a kind that starts below it is refused */
+    double ground;      /* m: its height, with has_ground; a group that starts below it is refused */
 
     /* since SAMARA_API_VERSION 5 */
     samara_wind_function wind; /* default (null): none */
     void* wind_context;        /* handed to `wind`; must live as long as the simulation */
 
     /* since SAMARA_API_VERSION 8 */
-    int32_t bodies_meet; /* whether bodies touch each other as they touch the ground; default: 0. A kind then
-                          * starts at the next step of the simulation's grid */
+    int32_t bodies_collide; /* whether bodies touch each other as they touch the ground; default: 0. A group
+                             * then starts at the next step of the simulation's grid */
 } samara_settings;
 
 SAMARA_API samara_status samara_default_settings(samara_settings* settings, size_t size, char* error,
@@ -162,9 +162,10 @@ enum {
     SAMARA_DYNAMIC_NONE = 2     /* none; with loads by coefficients: no rotational drag */
 };
 
-/* One kind of bodies in a simulation. Fill it with samara_default_kind; it has no default mass. */
-typedef struct samara_kind {
-    size_t size;      /* sizeof(samara_kind): which members are there */
+/* One body group of a simulation: bodies that share their physics. Fill it with samara_default_body_group; it
+ * has no default mass. */
+typedef struct samara_body_group {
+    size_t size;      /* sizeof(samara_body_group): which members are there */
     const char* name; /* keys the noise: letters, digits, - and _; default (null): the body file's name */
     uint32_t count;   /* how many; default: 1 */
 
@@ -206,9 +207,10 @@ typedef struct samara_kind {
     double spread_start;  /* s: several start up to this after `start`, drawn from the seed */
     double smallest_size; /* over the shape's lengths, at its density: the sizes of several lie between ... */
     double largest_size;  /* ... these two, drawn from the seed, and one has this size; default: 1 and 1 */
-} samara_kind;
+} samara_body_group;
 
-SAMARA_API samara_status samara_default_kind(samara_kind* kind, size_t size, char* error, size_t error_size);
+SAMARA_API samara_status samara_default_body_group(samara_body_group* group, size_t size, char* error,
+                                                   size_t error_size);
 
 /* ---- Simulations -----------------------------------------------------------------------------------------
  */
@@ -222,15 +224,15 @@ SAMARA_API samara_status samara_simulation_create(const samara_settings* setting
 
 SAMARA_API void samara_simulation_free(samara_simulation* simulation); /* null is allowed */
 
-/* Adds the bodies of a kind. Bodies are numbered from 0 in the order in which they are added; *first (may be
+/* Adds the bodies of a group. Bodies are numbered from 0 in the order in which they are added; *first (may be
  * null) is the number of the first new one. Before version 6 only before the first advance; since then also
  * in flight, with a `start` at the simulation's time or later. */
 SAMARA_API samara_status samara_simulation_add(samara_simulation* simulation, const samara_body* body,
-                                               const samara_kind* kind, size_t* first, char* error,
+                                               const samara_body_group* group, size_t* first, char* error,
                                                size_t error_size);
 
 /* Of a null simulation these return 0. */
-SAMARA_API size_t samara_simulation_count(const samara_simulation* simulation); /* bodies of all kinds */
+SAMARA_API size_t samara_simulation_count(const samara_simulation* simulation); /* bodies of all groups */
 SAMARA_API double samara_simulation_time(const samara_simulation* simulation);  /* s */
 
 /* Moves all bodies to a time (s), not before the simulation's own: SAMARA_TIME_PASSED. The steps lie on a
@@ -268,7 +270,7 @@ SAMARA_API samara_status samara_set_seed(samara_simulation* simulation, uint64_t
 /* The whole state as bytes: time, seed, report, all bodies, and the keys of obstacles, with which it grows;
  * not forces that no call has flown yet, nor contacts that were noted. A
  * simulation that is set to it goes on as this one does, to the last bit. It fits simulations with the same
- * settings, ground, wind, obstacles and kinds (threads, seed, run, the obstacles' keys and where the kinds
+ * settings, ground, wind, obstacles and groups (threads, seed, run, the obstacles' keys and where the groups
  * start may differ) of the same samara on machines with the same byte order. */
 SAMARA_API size_t samara_state_size(const samara_simulation* simulation); /* 0 for a null simulation */
 SAMARA_API samara_status samara_get_state(const samara_simulation* simulation, void* bytes, size_t size,
@@ -310,7 +312,7 @@ SAMARA_API samara_status samara_default_obstacle(samara_obstacle* obstacle, size
                                                  size_t error_size);
 
 /* Adds an obstacle, before all bodies. Obstacles are numbered from 0 in the order in which they are added;
- * *index (may be null) is the number of the new one. A kind that starts inside of it is refused. */
+ * *index (may be null) is the number of the new one. A group that starts inside of it is refused. */
 SAMARA_API samara_status samara_simulation_add_obstacle(samara_simulation* simulation,
                                                         const samara_obstacle* obstacle, size_t* index,
                                                         char* error, size_t error_size);

@@ -14,113 +14,113 @@
 namespace samara {
 namespace {
 
-constexpr std::uint32_t most_bodies_of_a_kind = 10'000'000;
+constexpr std::uint32_t most_bodies_of_a_group = 10'000'000;
 constexpr int most_threads = 1024;
 // Up to the last member that version 1 had.
 constexpr std::size_t first_settings_size = offsetof(samara_settings, ground) + sizeof(double);
-constexpr std::size_t first_kind_size = offsetof(samara_kind, langevin) + sizeof(std::int32_t);
+constexpr std::size_t first_group_size = offsetof(samara_body_group, langevin) + sizeof(std::int32_t);
 // The first member of a version lies where the struct of the one before ended, and not in its padding, which
 // callers do not fill.
 static_assert(offsetof(samara_settings, wind) % alignof(samara_settings) == 0);
-static_assert(offsetof(samara_settings, bodies_meet) % alignof(samara_settings) == 0);
-static_assert(offsetof(samara_kind, table_reynolds_number) % alignof(samara_kind) == 0);
-static_assert(offsetof(samara_kind, patches) % alignof(samara_kind) == 0);
-static_assert(offsetof(samara_kind, spread_start) % alignof(samara_kind) == 0);
+static_assert(offsetof(samara_settings, bodies_collide) % alignof(samara_settings) == 0);
+static_assert(offsetof(samara_body_group, table_reynolds_number) % alignof(samara_body_group) == 0);
+static_assert(offsetof(samara_body_group, patches) % alignof(samara_body_group) == 0);
+static_assert(offsetof(samara_body_group, spread_start) % alignof(samara_body_group) == 0);
 
-MassSpecification read_mass(const samara_kind& kind) {
+MassSpecification read_mass(const samara_body_group& group) {
     MassSpecification mass;
-    if (non_negative(kind.density, "density") > 0.0) mass.density = kind.density;
-    if (non_negative(kind.mass, "mass") > 0.0) mass.mass = kind.mass;
-    if (mass.density && mass.mass) refuse("density", "and mass are both given; give one of the two");
-    if (kind.has_center_of_mass != 0) mass.center_of_mass = vector(kind.center_of_mass, "center_of_mass");
-    Matrix3d inertia = Eigen::Map<const Matrix3d>(kind.inertia);
-    for (const double value : kind.inertia) finite(value, "inertia");
+    if (non_negative(group.density, "density") > 0.0) mass.density = group.density;
+    if (non_negative(group.mass, "mass") > 0.0) mass.mass = group.mass;
+    if (mass.density && mass.mass) reject("density", "and mass are both given; give one of the two");
+    if (group.has_center_of_mass != 0) mass.center_of_mass = vector(group.center_of_mass, "center_of_mass");
+    Matrix3d inertia = Eigen::Map<const Matrix3d>(group.inertia);
+    for (const double value : group.inertia) finite(value, "inertia");
     if (!inertia.isZero(0.0)) {
         if ((inertia - inertia.transpose()).norm() > 1e-9 * inertia.norm())
-            refuse("inertia", "must be symmetric");
+            reject("inertia", "must be symmetric");
         mass.inertia = inertia;
     }
     if (!mass.mass && (mass.center_of_mass || mass.inertia)) {
-        refuse(mass.inertia ? "inertia" : "center_of_mass",
+        reject(mass.inertia ? "inertia" : "center_of_mass",
                mass.density ? "contradicts a uniform density; give mass instead of density"
                             : "stands alone; give mass with it");
     }
     return mass;
 }
 
-CoefficientLoads read_coefficients(const samara_kind& kind) {
+CoefficientLoads read_coefficients(const samara_body_group& group) {
     CoefficientLoads coefficients;
-    coefficients.drag_coefficient = non_negative(kind.drag_coefficient, "drag_coefficient");
-    coefficients.lift_coefficient = finite(kind.lift_coefficient, "lift_coefficient");
-    if (non_negative(kind.reference_area, "reference_area") > 0.0) {
-        coefficients.reference_area = kind.reference_area;
+    coefficients.drag_coefficient = non_negative(group.drag_coefficient, "drag_coefficient");
+    coefficients.lift_coefficient = finite(group.lift_coefficient, "lift_coefficient");
+    if (non_negative(group.reference_area, "reference_area") > 0.0) {
+        coefficients.reference_area = group.reference_area;
     }
-    const Vector3d normal = vector(kind.normal, "normal");
+    const Vector3d normal = vector(group.normal, "normal");
     if (normal.norm() >= smallest_number) {
         coefficients.normal = normal.normalized();
     } else if (!normal.isZero(0.0)) {
-        refuse("normal", "is too short to have a direction");
+        reject("normal", "is too short to have a direction");
     }
-    coefficients.center_of_pressure = vector(kind.center_of_pressure, "center_of_pressure");
+    coefficients.center_of_pressure = vector(group.center_of_pressure, "center_of_pressure");
     return coefficients;
 }
 
-void read_turbulence(const samara_kind& kind, GivenKind& body) {
-    if (kind.turbulence == SAMARA_TURBULENCE_AS_LOADS) {
+void read_turbulence(const samara_body_group& group, GivenGroup& body) {
+    if (group.turbulence == SAMARA_TURBULENCE_AS_LOADS) {
         body.turbulence = body.loads == Loads::table ? Turbulence::table : Turbulence::none;
     } else {
-        body.turbulence = choice<Turbulence>(kind.turbulence, SAMARA_TURBULENCE_TABLE, "turbulence");
+        body.turbulence = choice<Turbulence>(group.turbulence, SAMARA_TURBULENCE_TABLE, "turbulence");
     }
-    body.turbulent_kinetic_energy = non_negative(kind.turbulent_kinetic_energy, "turbulent_kinetic_energy");
-    body.dissipation_rate = non_negative(kind.dissipation_rate, "dissipation_rate");
+    body.turbulent_kinetic_energy = non_negative(group.turbulent_kinetic_energy, "turbulent_kinetic_energy");
+    body.dissipation_rate = non_negative(group.dissipation_rate, "dissipation_rate");
     if (body.turbulence == Turbulence::constant &&
-        (kind.turbulent_kinetic_energy > 0.0) != (kind.dissipation_rate > 0.0)) {
-        refuse("dissipation_rate", "and turbulent_kinetic_energy must be both zero or both above zero");
+        (group.turbulent_kinetic_energy > 0.0) != (group.dissipation_rate > 0.0)) {
+        reject("dissipation_rate", "and turbulent_kinetic_energy must be both zero or both above zero");
     }
-    body.langevin = choice<Langevin>(kind.langevin, SAMARA_LANGEVIN_WAKE, "langevin");
+    body.langevin = choice<Langevin>(group.langevin, SAMARA_LANGEVIN_WAKE, "langevin");
 }
 
 /// What the equations hold, beside loads, coefficients and turbulence, which are read before.
-void read_models(const samara_kind& kind, GivenKind& body) {
-    body.added_mass = kind.added_mass != 0;
-    if (kind.patches < 1 || kind.patches > most_surface_patches) {
-        refuse("patches",
-               fmt::format("is {}; it must lie between 1 and {}", kind.patches, most_surface_patches));
+void read_models(const samara_body_group& group, GivenGroup& body) {
+    body.added_mass = group.added_mass != 0;
+    if (group.patches < 1 || group.patches > most_surface_patches) {
+        reject("patches",
+               fmt::format("is {}; it must lie between 1 and {}", group.patches, most_surface_patches));
     }
-    body.patches = kind.patches;
-    body.dynamic = choice<Dynamic>(kind.dynamic_coefficients, SAMARA_DYNAMIC_NONE, "dynamic_coefficients");
-    if (!(non_negative(kind.table_reynolds_number, "table_reynolds_number") > 0.0)) return;
+    body.patches = group.patches;
+    body.dynamic = choice<Dynamic>(group.dynamic_coefficients, SAMARA_DYNAMIC_NONE, "dynamic_coefficients");
+    if (!(non_negative(group.table_reynolds_number, "table_reynolds_number") > 0.0)) return;
     if (body.loads != Loads::table && body.turbulence != Turbulence::table) {
-        refuse("table_reynolds_number", "is for loads or turbulence from the table");
+        reject("table_reynolds_number", "is for loads or turbulence from the table");
     }
-    body.table_reynolds_number = kind.table_reynolds_number;
+    body.table_reynolds_number = group.table_reynolds_number;
 }
 
-void read_start(const samara_kind& kind, GivenKind& body) {
-    body.position = vector(kind.position, "position");
-    body.orientation = orientation(kind.orientation, "orientation");
-    body.velocity = vector(kind.velocity, "velocity");
-    body.angular_velocity = vector(kind.angular_velocity, "angular_velocity");
-    body.start = non_negative(kind.start, "start");
-    if (kind.count < 1 || kind.count > most_bodies_of_a_kind) {
-        refuse("count", fmt::format("must lie between 1 and {}", most_bodies_of_a_kind));
+void read_start(const samara_body_group& group, GivenGroup& body) {
+    body.position = vector(group.position, "position");
+    body.orientation = orientation(group.orientation, "orientation");
+    body.velocity = vector(group.velocity, "velocity");
+    body.angular_velocity = vector(group.angular_velocity, "angular_velocity");
+    body.start = non_negative(group.start, "start");
+    if (group.count < 1 || group.count > most_bodies_of_a_group) {
+        reject("count", fmt::format("must lie between 1 and {}", most_bodies_of_a_group));
     }
-    body.count = static_cast<int>(kind.count);
-    body.spread_position = vector(kind.spread_position, "spread_position");
-    body.spread_angle = non_negative(kind.spread_angle, "spread_angle");
-    if (body.spread_angle > std::numbers::pi) refuse("spread_angle", "must lie between 0 and pi");
-    body.spread_start = non_negative(kind.spread_start, "spread_start");
-    body.smallest_size = positive(kind.smallest_size, "smallest_size");
-    body.largest_size = positive(kind.largest_size, "largest_size");
+    body.count = static_cast<int>(group.count);
+    body.spread_position = vector(group.spread_position, "spread_position");
+    body.spread_angle = non_negative(group.spread_angle, "spread_angle");
+    if (body.spread_angle > std::numbers::pi) reject("spread_angle", "must lie between 0 and pi");
+    body.spread_start = non_negative(group.spread_start, "spread_start");
+    body.smallest_size = positive(group.smallest_size, "smallest_size");
+    body.largest_size = positive(group.largest_size, "largest_size");
     if (body.largest_size < body.smallest_size) {
-        refuse("largest_size",
+        reject("largest_size",
                fmt::format("is {:g}, below smallest_size, {:g}", body.largest_size, body.smallest_size));
     }
     if (body.count == 1 && body.largest_size != body.smallest_size) {
-        refuse("largest_size", "differs from smallest_size, but count is 1: give both the size of that body");
+        reject("largest_size", "differs from smallest_size, but count is 1: give both the size of that body");
     }
     if (body.count == 1 && body.spreads()) {
-        refuse("count",
+        reject("count",
                "is 1, but spread_position, spread_angle or spread_start is not 0: they are of several");
     }
 }
@@ -129,7 +129,7 @@ void read_start(const samara_kind& kind, GivenKind& body) {
 
 samara_settings default_settings() {
     const Fluid water;
-    const FlightSettings standard;
+    const SimulationSettings standard;
     samara_settings settings{};
     settings.size = sizeof settings;
     settings.fluid_density = water.density;
@@ -142,9 +142,9 @@ samara_settings default_settings() {
     return settings;
 }
 
-FlightSettings read_settings(const samara_settings& settings) {
+SimulationSettings read_settings(const samara_settings& settings) {
     const samara_settings given = known_part(settings, default_settings(), first_settings_size, "settings");
-    FlightSettings result;
+    SimulationSettings result;
     result.fluid.density = positive(given.fluid_density, "fluid_density");
     result.fluid.viscosity = positive(given.fluid_viscosity, "fluid_viscosity");
     result.fluid.current = vector(given.current, "current");
@@ -154,72 +154,73 @@ FlightSettings read_settings(const samara_settings& settings) {
     if (given.has_ground != 0) result.ground = finite(given.ground, "ground");
     result.wind.function = given.wind;
     result.wind.function_context = given.wind_context;
-    result.bodies_meet = given.bodies_meet != 0;
+    result.bodies_collide = given.bodies_collide != 0;
     result.step = positive(given.step, "step");
     result.seed = given.seed;
     result.first_run = given.run;
     if (given.threads < 0 || given.threads > most_threads) {
-        refuse("threads", fmt::format("must lie between 0 and {}", most_threads));
+        reject("threads", fmt::format("must lie between 0 and {}", most_threads));
     }
     result.threads = given.threads;
     return result;
 }
 
-samara_kind default_kind() {
-    const GivenKind body;
-    samara_kind kind{};
-    kind.size = sizeof kind;
-    kind.count = 1;
-    kind.orientation[0] = 1.0;
-    kind.loads = SAMARA_LOADS_TABLE;
-    kind.drag_coefficient = body.coefficients.drag_coefficient;
-    kind.lift_coefficient = body.coefficients.lift_coefficient;
-    kind.turbulence = SAMARA_TURBULENCE_AS_LOADS;
-    kind.langevin = SAMARA_LANGEVIN_WAKE;
-    kind.added_mass = 1;
-    kind.patches = 1;
-    kind.smallest_size = 1.0;
-    kind.largest_size = 1.0;
-    kind.dynamic_coefficients = SAMARA_DYNAMIC_OF_BODY;
-    return kind;
+samara_body_group default_group() {
+    const GivenGroup body;
+    samara_body_group group{};
+    group.size = sizeof group;
+    group.count = 1;
+    group.orientation[0] = 1.0;
+    group.loads = SAMARA_LOADS_TABLE;
+    group.drag_coefficient = body.coefficients.drag_coefficient;
+    group.lift_coefficient = body.coefficients.lift_coefficient;
+    group.turbulence = SAMARA_TURBULENCE_AS_LOADS;
+    group.langevin = SAMARA_LANGEVIN_WAKE;
+    group.added_mass = 1;
+    group.patches = 1;
+    group.smallest_size = 1.0;
+    group.largest_size = 1.0;
+    group.dynamic_coefficients = SAMARA_DYNAMIC_OF_BODY;
+    return group;
 }
 
-GivenKind read_kind(const samara_kind& given) {
-    const samara_kind kind = known_part(given, default_kind(), first_kind_size, "kind");
-    GivenKind body;
-    if (kind.name != nullptr) body.name = plain_name(kind.name, "name");
-    body.mass = read_mass(kind);
-    read_start(kind, body);
-    body.loads = choice<Loads>(kind.loads, SAMARA_LOADS_SURFACE, "loads");
-    body.coefficients = read_coefficients(kind);
-    read_turbulence(kind, body);
-    read_models(kind, body);
+GivenGroup read_group(const samara_body_group& given) {
+    const samara_body_group group = known_part(given, default_group(), first_group_size, "kind");
+    GivenGroup body;
+    if (group.name != nullptr) body.name = plain_name(group.name, "name");
+    body.mass = read_mass(group);
+    read_start(group, body);
+    body.loads = choice<Loads>(group.loads, SAMARA_LOADS_SURFACE, "loads");
+    body.coefficients = read_coefficients(group);
+    read_turbulence(group, body);
+    read_models(group, body);
     return body;
 }
 
-void require_data(const Body& body, const GivenKind& kind) {
-    const std::string& name = kind.name.empty() ? body.name : kind.name;
-    if (!mass_asked_or_own(kind.mass, body).is_given()) {
-        refuse("density", "or mass is missing, and the body file has none; give one of the two");
+void require_data(const Body& body, const GivenGroup& group) {
+    const std::string& name = group.name.empty() ? body.name : group.name;
+    if (!mass_asked_or_own(group.mass, body).is_given()) {
+        reject("density", "or mass is missing, and the body file has none; give one of the two");
     }
-    if (kind.added_mass && !body.kirchhoff) {
-        throw Fault(SAMARA_MISSING_DATA,
-                    fmt::format("body '{}' holds no added mass; add it with 'samara kirchhoff', or set "
-                                "added_mass to 0",
-                                name));
+    if (group.added_mass && !body.kirchhoff) {
+        throw StatusError(SAMARA_MISSING_DATA,
+                          fmt::format("body '{}' holds no added mass; add it with 'samara kirchhoff', or set "
+                                      "added_mass to 0",
+                                      name));
     }
-    if (kind.loads == Loads::surface && !body.surface_loads) {
-        throw Fault(SAMARA_MISSING_DATA,
-                    fmt::format("body '{}' holds no surface loads; add them with 'samara kirchhoff FILE -o "
-                                "FILE', or set loads otherwise",
-                                name));
+    if (group.loads == Loads::surface && !body.surface_loads) {
+        throw StatusError(
+            SAMARA_MISSING_DATA,
+            fmt::format("body '{}' holds no surface loads; add them with 'samara kirchhoff FILE -o "
+                        "FILE', or set loads otherwise",
+                        name));
     }
-    if (kind.loads == Loads::surface && kind.turbulence == Turbulence::table) {
-        refuse("turbulence", "is from the table, and the loads are not; set it otherwise");
+    if (group.loads == Loads::surface && group.turbulence == Turbulence::table) {
+        reject("turbulence", "is from the table, and the loads are not; set it otherwise");
     }
-    const bool loads = kind.loads == Loads::table;
-    if ((loads || kind.turbulence == Turbulence::table) && !body.tables) {
-        throw Fault(
+    const bool loads = group.loads == Loads::table;
+    if ((loads || group.turbulence == Turbulence::table) && !body.tables) {
+        throw StatusError(
             SAMARA_MISSING_DATA,
             fmt::format("body '{0}' holds no tables, which {1} asks for; make them with 'samara bake', or "
                         "set {1} otherwise",

@@ -4,12 +4,12 @@
 
 #include "samara.h"
 #include "samara/core/body/body.hpp"
-#include "samara/core/flight/flight.hpp"
+#include "samara/core/simulation/simulation.hpp"
 
 namespace samara {
 
-/// What a caller's samara_kind says.
-struct GivenKind : BodyPhysics, Release {
+/// What a caller's samara_body_group says.
+struct GivenGroup : BodyPhysics, Release {
     std::string name;  ///< empty where the caller gave none
 };
 
@@ -18,16 +18,16 @@ samara_settings default_settings();
 
 /// Checks a caller's settings. Throws Fault of SAMARA_INVALID_ARGUMENT, naming the member, where a number is
 /// not finite or out of its range, or where the struct is not of a known size.
-FlightSettings read_settings(const samara_settings& settings);
+SimulationSettings read_settings(const samara_settings& settings);
 
-/// The kind with which an empty samara_kind is filled.
-samara_kind default_kind();
+/// The kind with which an empty samara_body_group is filled.
+samara_body_group default_group();
 
 /// Checks a caller's kind, as read_settings does.
-GivenKind read_kind(const samara_kind& kind);
+GivenGroup read_group(const samara_body_group& group);
 
 /// Throws Fault of SAMARA_MISSING_DATA, in the words of the C interface, where the body lacks what the kind
 /// asks for.
-void require_data(const Body& body, const GivenKind& kind);
+void require_data(const Body& body, const GivenGroup& group);
 
 }  // namespace samara

@@ -15,12 +15,12 @@
 namespace {
 
 using samara::copy;
-using samara::Fault;
 using samara::fill;
 using samara::guarded;
 using samara::Pose;
 using samara::Quaterniond;
 using samara::require;
+using samara::StatusError;
 using samara::Vector3d;
 
 /// The stride in bytes of poses of those bodies.
@@ -52,13 +52,14 @@ Pose checked_pose(const samara_pose& given, std::size_t index, const Vector3d& c
     std::memcpy(numbers, &given, sizeof given);
     for (const double number : numbers) {
         if (std::abs(number) <= samara::largest_number) continue;
-        throw Fault(SAMARA_INVALID_ARGUMENT,
-                    fmt::format("the pose of body {} holds {}, which is not finite or beyond {:.0e}", index,
-                                number, samara::largest_number));
+        throw StatusError(SAMARA_INVALID_ARGUMENT,
+                          fmt::format("the pose of body {} holds {}, which is not finite or beyond {:.0e}",
+                                      index, number, samara::largest_number));
     }
     if (!(pose.orientation.norm() >= 1e-6)) {
-        throw Fault(SAMARA_INVALID_ARGUMENT,
-                    fmt::format("the orientation of body {} must be a quaternion that is not zero", index));
+        throw StatusError(
+            SAMARA_INVALID_ARGUMENT,
+            fmt::format("the orientation of body {} must be a quaternion that is not zero", index));
     }
     pose.orientation.normalize();
     pose.position += pose.orientation * center_of_mass;
@@ -72,8 +73,9 @@ samara_status samara_default_settings(samara_settings* settings, size_t size, ch
     return guarded(error, error_size, [&] { fill(settings, size, samara::default_settings(), "settings"); });
 }
 
-samara_status samara_default_kind(samara_kind* kind, size_t size, char* error, size_t error_size) {
-    return guarded(error, error_size, [&] { fill(kind, size, samara::default_kind(), "kind"); });
+samara_status samara_default_body_group(samara_body_group* group, size_t size, char* error,
+                                        size_t error_size) {
+    return guarded(error, error_size, [&] { fill(group, size, samara::default_group(), "kind"); });
 }
 
 samara_status samara_simulation_create(const samara_settings* settings, samara_simulation** simulation,
@@ -82,7 +84,7 @@ samara_status samara_simulation_create(const samara_settings* settings, samara_s
         require(simulation, "simulation");
         *simulation = nullptr;
         require(settings, "settings");
-        *simulation = new samara_simulation{samara::Flight(samara::read_settings(*settings))};
+        *simulation = new samara_simulation{samara::Simulation(samara::read_settings(*settings))};
     });
 }
 
@@ -91,30 +93,31 @@ void samara_simulation_free(samara_simulation* simulation) {
 }
 
 samara_status samara_simulation_add(samara_simulation* simulation, const samara_body* body,
-                                    const samara_kind* kind, size_t* first, char* error, size_t error_size) {
+                                    const samara_body_group* group, size_t* first, char* error,
+                                    size_t error_size) {
     return guarded(error, error_size, [&] {
         require(simulation, "simulation");
         require(body, "body");
-        require(kind, "kind");
-        const samara::GivenKind given = samara::read_kind(*kind);
+        require(group, "kind");
+        const samara::GivenGroup given = samara::read_group(*group);
         samara::require_data(*body->loaded.body, given);
-        const size_t added = simulation->flight.add(body->loaded, given, given, given.name);
+        const size_t added = simulation->core.add(body->loaded, given, given, given.name);
         if (first != nullptr) *first = added;
     });
 }
 
 size_t samara_simulation_count(const samara_simulation* simulation) {
-    return simulation == nullptr ? 0 : simulation->flight.size();
+    return simulation == nullptr ? 0 : simulation->core.size();
 }
 
 double samara_simulation_time(const samara_simulation* simulation) {
-    return simulation == nullptr ? 0.0 : simulation->flight.time();
+    return simulation == nullptr ? 0.0 : simulation->core.time();
 }
 
 samara_status samara_advance_to(samara_simulation* simulation, double time, char* error, size_t error_size) {
     return guarded(error, error_size, [&] {
         require(simulation, "simulation");
-        simulation->flight.advance_to(time);
+        simulation->core.advance_to(time);
     });
 }
 
@@ -122,10 +125,10 @@ samara_status samara_get_poses(const samara_simulation* simulation, size_t first
                                samara_pose* poses, size_t stride, char* error, size_t error_size) {
     return guarded(error, error_size, [&] {
         const std::size_t bytes = checked_stride(simulation, first, count, poses, stride);
-        simulation->flight.require_running();
+        simulation->core.require_running();
         auto* place = reinterpret_cast<std::byte*>(poses);
         for (size_t i = first; i < first + count; ++i, place += bytes) {
-            const samara_pose pose = c_pose(simulation->flight.pose(i), simulation->flight.center_of_mass(i));
+            const samara_pose pose = c_pose(simulation->core.pose(i), simulation->core.center_of_mass(i));
             std::memcpy(place, &pose, sizeof pose);
         }
     });
@@ -135,15 +138,15 @@ samara_status samara_set_poses(samara_simulation* simulation, size_t first, size
                                const samara_pose* poses, size_t stride, char* error, size_t error_size) {
     return guarded(error, error_size, [&] {
         const std::size_t bytes = checked_stride(simulation, first, count, poses, stride);
-        simulation->flight.require_running();
+        simulation->core.require_running();
         const auto* place = reinterpret_cast<const std::byte*>(poses);
         std::vector<Pose> checked(count);
         for (size_t i = 0; i < count; ++i, place += bytes) {
             samara_pose given;
             std::memcpy(&given, place, sizeof given);
-            checked[i] = checked_pose(given, first + i, simulation->flight.center_of_mass(first + i));
+            checked[i] = checked_pose(given, first + i, simulation->core.center_of_mass(first + i));
         }
-        for (size_t i = 0; i < count; ++i) simulation->flight.set_pose(first + i, checked[i]);
+        for (size_t i = 0; i < count; ++i) simulation->core.set_pose(first + i, checked[i]);
     });
 }
 
@@ -151,12 +154,12 @@ samara_status samara_set_seed(samara_simulation* simulation, uint64_t seed, uint
                               size_t error_size) {
     return guarded(error, error_size, [&] {
         require(simulation, "simulation");
-        simulation->flight.set_seed(seed, run);
+        simulation->core.set_seed(seed, run);
     });
 }
 
 size_t samara_state_size(const samara_simulation* simulation) {
-    return simulation == nullptr ? 0 : simulation->flight.state_size();
+    return simulation == nullptr ? 0 : simulation->core.state_size();
 }
 
 samara_status samara_get_state(const samara_simulation* simulation, void* bytes, size_t size, char* error,
@@ -164,10 +167,10 @@ samara_status samara_get_state(const samara_simulation* simulation, void* bytes,
     return guarded(error, error_size, [&] {
         require(simulation, "simulation");
         require(bytes, "bytes");
-        const std::string state = simulation->flight.state();
+        const std::string state = simulation->core.state();
         if (size < state.size()) {
-            throw Fault(SAMARA_INVALID_ARGUMENT,
-                        fmt::format("size is {}, but the state takes {} bytes", size, state.size()));
+            throw StatusError(SAMARA_INVALID_ARGUMENT,
+                              fmt::format("size is {}, but the state takes {} bytes", size, state.size()));
         }
         std::memcpy(bytes, state.data(), state.size());
     });
@@ -178,7 +181,7 @@ samara_status samara_set_state(samara_simulation* simulation, const void* bytes,
     return guarded(error, error_size, [&] {
         require(simulation, "simulation");
         require(bytes, "bytes");
-        simulation->flight.set_state(std::string_view(static_cast<const char*>(bytes), size));
+        simulation->core.set_state(std::string_view(static_cast<const char*>(bytes), size));
     });
 }
 
@@ -187,7 +190,7 @@ samara_status samara_get_report(const samara_simulation* simulation, samara_repo
     return guarded(error, error_size, [&] {
         require(simulation, "simulation");
         require(report, "report");
-        const samara::FlightReport report_of_all = simulation->flight.report();
+        const samara::StepReport report_of_all = simulation->core.report();
         samara_report filled{};
         filled.steps = report_of_all.steps;
         filled.substeps = report_of_all.implicit_steps;

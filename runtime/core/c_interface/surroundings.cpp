@@ -16,11 +16,11 @@
 
 namespace {
 
-using samara::Fault;
 using samara::fill;
 using samara::guarded;
 using samara::known_part;
 using samara::require;
+using samara::StatusError;
 
 // Up to the last member that version 6 had.
 constexpr std::size_t first_obstacle_size = offsetof(samara_obstacle, key_count) + sizeof(size_t);
@@ -39,7 +39,7 @@ samara::Surface read_surface(const samara_obstacle& given) {
     require(given.vertices, "vertices");
     require(given.triangles, "triangles");
     if (given.vertex_count > 3 * most_triangles || given.triangle_count > most_triangles) {
-        samara::refuse("triangle_count", fmt::format("or vertex_count is beyond {}", most_triangles));
+        samara::reject("triangle_count", fmt::format("or vertex_count is beyond {}", most_triangles));
     }
     samara::Surface surface;
     for (std::size_t i = 0; i < given.vertex_count; ++i) {
@@ -62,7 +62,7 @@ std::vector<samara::ObstacleKey> read_keys(const samara_obstacle_key* given, std
         key.position = samara::vector(given[i].position, "position");
         key.orientation = samara::orientation(given[i].orientation, "orientation");
         if (i > 0 && !(key.time > keys.back().time)) {
-            samara::refuse("time", fmt::format("of key {}, {} s, must be later than that of the key before",
+            samara::reject("time", fmt::format("of key {}, {} s, must be later than that of the key before",
                                                i, key.time));
         }
         keys.push_back(key);
@@ -84,16 +84,16 @@ samara::Obstacle read_obstacle(const samara_obstacle& all, std::size_t number) {
     }
     try {
         obstacle.surface = read_surface(given);
-    } catch (const Fault&) {
+    } catch (const StatusError&) {
         throw;
-    } catch (const samara::Error& fault) {
-        throw Fault(SAMARA_INVALID_ARGUMENT,
-                    fmt::format("obstacle '{}' is no sound surface: {}", obstacle.name, fault.what()));
+    } catch (const samara::Error& caught) {
+        throw StatusError(SAMARA_INVALID_ARGUMENT,
+                          fmt::format("obstacle '{}' is no sound surface: {}", obstacle.name, caught.what()));
     }
     try {
         samara::require_steady_keys(obstacle);
-    } catch (const samara::Error& fault) {
-        samara::refuse("keys", fmt::format("of obstacle '{}' {}", obstacle.name, fault.what()));
+    } catch (const samara::Error& caught) {
+        samara::reject("keys", fmt::format("of obstacle '{}' {}", obstacle.name, caught.what()));
     }
     return obstacle;
 }
@@ -110,14 +110,14 @@ samara_status samara_simulation_add_obstacle(samara_simulation* simulation, cons
     return guarded(error, error_size, [&] {
         require(simulation, "simulation");
         require(obstacle, "obstacle");
-        samara::Flight& flight = simulation->flight;
-        const size_t added = flight.add_obstacle(read_obstacle(*obstacle, flight.obstacle_count()));
+        samara::Simulation& core = simulation->core;
+        const size_t added = core.add_obstacle(read_obstacle(*obstacle, core.obstacle_count()));
         if (index != nullptr) *index = added;
     });
 }
 
 size_t samara_simulation_obstacle_count(const samara_simulation* simulation) {
-    return simulation == nullptr ? 0 : simulation->flight.obstacle_count();
+    return simulation == nullptr ? 0 : simulation->core.obstacle_count();
 }
 
 samara_status samara_set_obstacle_keys(samara_simulation* simulation, size_t obstacle,
@@ -125,15 +125,15 @@ samara_status samara_set_obstacle_keys(samara_simulation* simulation, size_t obs
                                        size_t error_size) {
     return guarded(error, error_size, [&] {
         require(simulation, "simulation");
-        samara::Flight& flight = simulation->flight;
-        flight.require_running();
-        if (obstacle >= flight.obstacle_count()) {
-            samara::refuse("obstacle",
-                           fmt::format("is {}, but there are {}", obstacle, flight.obstacle_count()));
+        samara::Simulation& core = simulation->core;
+        core.require_running();
+        if (obstacle >= core.obstacle_count()) {
+            samara::reject("obstacle",
+                           fmt::format("is {}, but there are {}", obstacle, core.obstacle_count()));
         }
         require(keys, "keys");
-        if (count < 1) samara::refuse("count", "is 0; give one key at least");
-        flight.set_obstacle_keys(obstacle, read_keys(keys, count));
+        if (count < 1) samara::reject("count", "is 0; give one key at least");
+        core.set_obstacle_keys(obstacle, read_keys(keys, count));
     });
 }
 
@@ -141,9 +141,9 @@ samara_status samara_set_ground(samara_simulation* simulation, int32_t has_groun
                                 size_t error_size) {
     return guarded(error, error_size, [&] {
         require(simulation, "simulation");
-        simulation->flight.require_running();
+        simulation->core.require_running();
         std::optional<double> ground;
         if (has_ground != 0) ground = samara::finite(height, "height");
-        simulation->flight.set_ground(ground);
+        simulation->core.set_ground(ground);
     });
 }

@@ -36,8 +36,8 @@ std::array<bool, 3> highest_corners(const ObstacleTriangle& triangle, const Vect
 
 /// Whether the surface beyond a side keeps below a plane through it.
 bool holds_plane(const ObstacleTriangle& triangle, std::size_t side, const Vector3d& normal) {
-    const Vector3d way = triangle.beyond[side] - triangle.corners[side];
-    return normal.dot(way) <= beyond_plane * way.norm();
+    const Vector3d offset = triangle.beyond[side] - triangle.corners[side];
+    return normal.dot(offset) <= beyond_plane * offset.norm();
 }
 
 /// Whether the edge or the corner that is nearest to a body stands out of the surface towards it.
@@ -53,7 +53,7 @@ bool stands_free(const ObstacleTriangle& triangle, const std::array<bool, 3>& hi
     if (!triangle.stands_out[corner] && !triangle.stands_out[(corner + 2) % 3]) return false;
     const auto& around = triangle.around[corner];
     return std::all_of(around.begin(), around.end(),
-                       [&](const Vector3d& way) { return normal.dot(way) <= beyond_plane; });
+                       [&](const Vector3d& offset) { return normal.dot(offset) <= beyond_plane; });
 }
 
 }  // namespace
@@ -70,12 +70,12 @@ FaceContacts::FaceContacts(const PlacedHull& hull, const Vector6d& velocity, con
       friction_(friction),
       obstacle_(obstacle),
       near_(near) {
-    const Vector3d turn = time_step * (hull.orientation * velocity.head<3>() - surface.turning);
-    const Vector3d way = time_step * (hull.orientation * velocity.tail<3>() - surface.at(hull.position));
+    const Vector3d turn = time_step * (hull.orientation * velocity.head<3>() - surface.angular_velocity);
+    const Vector3d offset = time_step * (hull.orientation * velocity.tail<3>() - surface.at(hull.position));
     if (turn.norm() > 0.0) {
         next_.orientation = Eigen::AngleAxisd(turn.norm(), turn.normalized()) * hull.orientation;
     }
-    next_.position += way;
+    next_.position += offset;
 }
 
 bool FaceContacts::passes_by(const ObstacleTriangle& triangle, const Separation& now) const noexcept {
@@ -93,7 +93,7 @@ void FaceContacts::add_point(const Vector3d& of_body, const Vector3d& normal, do
                .friction = friction_,
                .obstacle = obstacle_,
                .surface_velocity = hull_.orientation.transpose() * surface_.at(place),
-               .surface_angular_velocity = hull_.orientation.transpose() * surface_.turning});
+               .surface_angular_velocity = hull_.orientation.transpose() * surface_.angular_velocity});
 }
 
 void FaceContacts::add_corners(const ObstacleTriangle& triangle, const Vector3d& normal,

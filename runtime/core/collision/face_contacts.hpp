@@ -7,10 +7,12 @@ namespace samara {
 
 /// How the surface of an obstacle moves, in its own axes.
 struct SurfaceMotion {
-    Vector3d turning = Vector3d::Zero();  ///< rad/s
-    Vector3d moving = Vector3d::Zero();   ///< m/s: of its origin
+    Vector3d angular_velocity = Vector3d::Zero();  ///< rad/s
+    Vector3d linear_velocity = Vector3d::Zero();   ///< m/s: of its origin
 
-    [[nodiscard]] Vector3d at(const Vector3d& place) const noexcept { return moving + turning.cross(place); }
+    [[nodiscard]] Vector3d at(const Vector3d& place) const noexcept {
+        return linear_velocity + angular_velocity.cross(place);
+    }
 };
 
 /// Finds where a body's hull and the faces of one obstacle may meet within a step, each face by itself, in

@@ -30,10 +30,11 @@ bool separation_drawn_in(const CollisionHull& first, const CollisionHull& second
         };
     };
     Simplex simplex;
-    Vector3d way = first_middle - second_middle;
-    if (!nearest_way(of(first.hull, first_middle), of(second.hull, second_middle), simplex, way))
+    Vector3d separation = first_middle - second_middle;
+    if (!nearest_separation(of(first.hull, first_middle), of(second.hull, second_middle), simplex,
+                            separation))
         return false;
-    result.normal = way.normalized();
+    result.normal = separation.normalized();
     result.gap = gap_along(first.hull, second.hull, result.normal);
     result.on_second =
         second.hull.points->round.empty()
@@ -120,14 +121,14 @@ class Outline {
 /// Leaves of more points than there is room for the lowest, and those that are farthest from all before.
 class PointChoice {
   public:
-    void add(const Meeting::Point& point) {
+    void add(const HullContact::Point& point) {
         if (count_ < all_.size()) all_[count_++] = point;
     }
-    void give(Meeting& meeting) const {
-        const std::size_t room = meeting.points.size();
+    void give(HullContact& hull_contact) const {
+        const std::size_t room = hull_contact.points.size();
         if (count_ <= room) {
-            std::copy_n(all_.begin(), count_, meeting.points.begin());
-            meeting.count = count_;
+            std::copy_n(all_.begin(), count_, hull_contact.points.begin());
+            hull_contact.count = count_;
             return;
         }
         std::array<double, most_outline> distance;
@@ -136,8 +137,8 @@ class PointChoice {
         for (std::size_t i = 1; i < count_; ++i) {
             if (all_[i].gap < all_[next].gap) next = i;
         }
-        while (meeting.count < room) {
-            meeting.points[meeting.count++] = all_[next];
+        while (hull_contact.count < room) {
+            hull_contact.points[hull_contact.count++] = all_[next];
             const Vector3d chosen = all_[next].on_second;
             for (std::size_t i = 0; i < count_; ++i) {
                 distance[i] = std::min(distance[i], (all_[i].on_second - chosen).squaredNorm());
@@ -148,14 +149,15 @@ class PointChoice {
     }
 
   private:
-    std::array<Meeting::Point, most_outline> all_;
+    std::array<HullContact::Point, most_outline> all_;
     std::size_t count_ = 0;
 };
 
 /// The points of `lying`, a face of one hull, that lie over the face `carrying` of the other within reach.
 /// `normal`: of the carrying face, outwards; `swapped`: whether the carrying hull is the first.
 void add_shared(const CollisionHull& carrying, const HullFace& face, const CollisionHull& lying,
-                const HullFace& other, const Vector3d& normal, double reach, bool swapped, Meeting& meeting) {
+                const HullFace& other, const Vector3d& normal, double reach, bool swapped,
+                HullContact& hull_contact) {
     Outline outline(lying.hull, other);
     for (std::size_t i = 0; i < face.outline.size(); ++i) {
         const Vector3d a = corner_of(carrying.hull, face.outline[i]);
@@ -169,9 +171,9 @@ void add_shared(const CollisionHull& carrying, const HullFace& face, const Colli
         const double gap = normal.dot(point) - plane;
         if (gap > reach) continue;
         const Vector3d under = point - gap * normal;
-        choice.add(swapped ? Meeting::Point{under, point, gap} : Meeting::Point{point, under, gap});
+        choice.add(swapped ? HullContact::Point{under, point, gap} : HullContact::Point{point, under, gap});
     }
-    choice.give(meeting);
+    choice.give(hull_contact);
 }
 
 /// Whether no round side stands out over the corners along a direction.
@@ -188,25 +190,26 @@ bool ends_in_corners(const CollisionHull& of, const Vector3d& direction) {
 
 PairSeparation pair_separation(const CollisionHull& first, const CollisionHull& second,
                                double enough) noexcept {
-    Vector3d way = middle_of(first.hull) - middle_of(second.hull);
-    if (way.norm() > 0.0) {
-        const Vector3d normal = way.normalized();
+    Vector3d separation = middle_of(first.hull) - middle_of(second.hull);
+    if (separation.norm() > 0.0) {
+        const Vector3d normal = separation.normalized();
         const double gap = gap_along(first.hull, second.hull, normal);
         if (gap > enough) return {normal, gap, second.hull.farthest(normal), false};
     }
     Simplex simplex;
     const auto of_first = [&](const Vector3d& direction) { return first.hull.farthest(direction); };
     const auto of_second = [&](const Vector3d& direction) { return second.hull.farthest(direction); };
-    if (!nearest_way(of_first, of_second, simplex, way, enough)) return overlapping(first, second);
-    const Vector3d normal = way.normalized();
+    if (!nearest_separation(of_first, of_second, simplex, separation, enough))
+        return overlapping(first, second);
+    const Vector3d normal = separation.normalized();
     const double gap = gap_along(first.hull, second.hull, normal);
     if (!(gap > 0.0)) return overlapping(first, second);
     return {normal, gap, simplex.on_second(), false};
 }
 
-Meeting meeting(const CollisionHull& first, const CollisionHull& second, double reach) noexcept {
+HullContact hull_contact(const CollisionHull& first, const CollisionHull& second, double reach) noexcept {
     const PairSeparation apart = pair_separation(first, second, reach);
-    Meeting result;
+    HullContact result;
     result.normal = apart.normal;
     result.gap = apart.gap;
     if (apart.gap > reach) return result;
@@ -215,13 +218,13 @@ Meeting meeting(const CollisionHull& first, const CollisionHull& second, double 
     const HullFace* first_face = face_along(first, -apart.normal, first_cosine);
     const HullFace* second_face = face_along(second, apart.normal, second_cosine);
     const bool second_carries = second_cosine >= first_cosine;
-    const bool faces_meet = first_face != nullptr && second_face != nullptr &&
-                            std::max(first_cosine, second_cosine) > 1.0 - of_face &&
-                            ends_in_corners(first, -apart.normal) && ends_in_corners(second, apart.normal);
-    if (faces_meet && second_carries) {
+    const bool faces_touch = first_face != nullptr && second_face != nullptr &&
+                             std::max(first_cosine, second_cosine) > 1.0 - of_face &&
+                             ends_in_corners(first, -apart.normal) && ends_in_corners(second, apart.normal);
+    if (faces_touch && second_carries) {
         const Vector3d normal = second.hull.orientation * second_face->normal;
         add_shared(second, *second_face, first, *first_face, normal, reach, false, result);
-    } else if (faces_meet) {
+    } else if (faces_touch) {
         const Vector3d normal = first.hull.orientation * first_face->normal;
         add_shared(first, *first_face, second, *second_face, normal, reach, true, result);
     }

@@ -48,7 +48,7 @@ inline double gap_along(const PlacedHull& first, const PlacedHull& second, const
 }
 
 /// Where two hulls may meet: pairs of points that face each other along one normal.
-struct Meeting {
+struct HullContact {
     struct Point {
         Vector3d on_first, on_second;  ///< m
         double gap;                    ///< m, along the normal
@@ -61,6 +61,6 @@ struct Meeting {
 
 /// Where two hulls come within `reach` (m) of each other: of faces that face each other the outline of what
 /// they share, eight points of it at most, else the nearest points. Never throws or allocates.
-Meeting meeting(const CollisionHull& first, const CollisionHull& second, double reach) noexcept;
+HullContact hull_contact(const CollisionHull& first, const CollisionHull& second, double reach) noexcept;
 
 }  // namespace samara

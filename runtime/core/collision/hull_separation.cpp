@@ -23,15 +23,15 @@ const Vector3d& farthest_corner(const ObstacleTriangle& triangle, const Vector3d
 
 /// From the nearest point of the triangle to that of the hull drawn in. False where the two overlap.
 bool nearest_to_triangle(const PlacedHull& hull, const ObstacleTriangle& triangle, Simplex& simplex,
-                         Vector3d& way) {
+                         Vector3d& separation) {
     const Vector3d middle = hull.position + hull.orientation * hull.points->middle;
     const auto of_hull = [&](const Vector3d& direction) {
         const Vector3d point = hull.farthest(direction);
         return Vector3d(point + drawn_in * (middle - point));
     };
     const auto of_triangle = [&](const Vector3d& direction) { return farthest_corner(triangle, direction); };
-    way = middle - triangle.corners[0];
-    return nearest_way(of_hull, of_triangle, simplex, way);
+    separation = middle - triangle.corners[0];
+    return nearest_separation(of_hull, of_triangle, simplex, separation);
 }
 
 }  // namespace
@@ -44,10 +44,10 @@ Separation separation(const PlacedHull& hull, const ObstacleTriangle& triangle, 
                     triangle.corners[0], true};
     if (best.gap > enough) return best;
     Simplex simplex;
-    Vector3d way;
-    if (!nearest_to_triangle(hull, triangle, simplex, way)) return best;
+    Vector3d separation;
+    if (!nearest_to_triangle(hull, triangle, simplex, separation)) return best;
     best.on_triangle = simplex.on_second();
-    const Vector3d normal = way.normalized();
+    const Vector3d normal = separation.normalized();
     const double gap = gap_along(hull, triangle, normal);
     if (gap <= best.gap + better * hull.radius()) return best;
     return {normal, gap, best.on_triangle, false};
@@ -94,9 +94,9 @@ bool Simplex::reduce() {
 }
 
 void Simplex::reduce_segment() {
-    const Vector3d way = point(1) - point(0);
-    const double square = way.squaredNorm();
-    const double share = square > 0.0 ? -point(0).dot(way) / square : 0.0;
+    const Vector3d separation = point(1) - point(0);
+    const double square = separation.squaredNorm();
+    const double share = square > 0.0 ? -point(0).dot(separation) / square : 0.0;
     if (share <= 0.0) return keep({{0, 1.0}});
     if (share >= 1.0) return keep({{1, 1.0}});
     keep({{0, 1.0 - share}, {1, share}});

@@ -87,19 +87,19 @@ struct Simplex {
 /// plane across it leaves a gap above `enough` (m) it is not the nearest. False where the two overlap. Never
 /// allocates.
 template <typename First, typename Second>
-bool nearest_way(const First& first, const Second& second, Simplex& simplex, Vector3d& way,
-                 double enough = std::numeric_limits<double>::infinity()) noexcept {
+bool nearest_separation(const First& first, const Second& second, Simplex& simplex, Vector3d& separation,
+                        double enough = std::numeric_limits<double>::infinity()) noexcept {
     constexpr int most_rounds = 32;      // five are common, round bodies need some more
     constexpr double converged = 1e-13;  // of the squared distance
-    if (way.squaredNorm() == 0.0) return false;
+    if (separation.squaredNorm() == 0.0) return false;
     double square = std::numeric_limits<double>::infinity();
     for (int round = 0; round < most_rounds; ++round) {
-        const Vector3d direction = way.normalized();
+        const Vector3d direction = separation.normalized();
         const Vector3d of_second = second(direction);
         const Vector3d point = first(-direction) - of_second;
-        const double parted = way.dot(point);
-        if (round > 0 && way.squaredNorm() - parted <= converged * square) return true;
-        if (parted > 0.0 && parted * parted > enough * enough * way.squaredNorm()) return true;
+        const double parted = separation.dot(point);
+        if (round > 0 && separation.squaredNorm() - parted <= converged * square) return true;
+        if (parted > 0.0 && parted * parted > enough * enough * separation.squaredNorm()) return true;
         const Simplex before = simplex;
         simplex.add({point, of_second, 1.0});
         const bool is_outside = simplex.reduce();
@@ -111,7 +111,7 @@ bool nearest_way(const First& first, const Second& second, Simplex& simplex, Vec
             simplex = before;
             return true;
         }
-        way = next;
+        separation = next;
         square = next_square;
     }
     return true;

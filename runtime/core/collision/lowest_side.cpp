@@ -62,10 +62,10 @@ void LowestSide::fit_plane() noexcept {
     slope_ = {0.0, 0.0, a.z()};
     if (count_ == 1) return;
     if (count_ == 2) {
-        const Vector3d way = outline_[1] - a;
-        const double square = way.head<2>().squaredNorm();
+        const Vector3d along = outline_[1] - a;
+        const double square = along.head<2>().squaredNorm();
         if (!(square > 0.0)) return;
-        slope_.head<2>() = way.z() / square * way.head<2>();
+        slope_.head<2>() = along.z() / square * along.head<2>();
     } else {
         Vector3d normal = Vector3d::Zero();  // Newell's
         for (std::size_t i = 1; i + 1 < count_; ++i) {
@@ -84,21 +84,21 @@ double LowestSide::height(const Vector3d& place) const noexcept {
 bool LowestSide::covers(const Vector3d& a, const Vector3d& b, double& from, double& to) const noexcept {
     if (count_ < 2) return false;
     const Eigen::Vector2d start = flat(a);
-    const Eigen::Vector2d way = flat(b) - start;
+    const Eigen::Vector2d along = flat(b) - start;
     if (count_ == 2) {
         const Eigen::Vector2d edge = (outline_[1] - outline_[0]).head<2>();
         const Eigen::Vector2d to_edge = outline_[0].head<2>() - start;
-        const double both = cross(way, edge);
-        if (std::abs(both) <= 1e-9 * way.norm() * edge.norm()) return false;
+        const double both = cross(along, edge);
+        if (std::abs(both) <= 1e-9 * along.norm() * edge.norm()) return false;
         from = to = cross(to_edge, edge) / both;
-        const double on_edge = cross(to_edge, way) / both;
+        const double on_edge = cross(to_edge, along) / both;
         return from >= 0.0 && from <= 1.0 && on_edge >= 0.0 && on_edge <= 1.0;
     }
     for (std::size_t i = 0; i < count_; ++i) {
         const Eigen::Vector2d corner = outline_[i].head<2>();
         const Eigen::Vector2d edge = outline_[(i + 1) % count_].head<2>() - corner;
         const double inside = cross(edge, start - corner);  // above zero within
-        const double entering = cross(edge, way);
+        const double entering = cross(edge, along);
         if (entering == 0.0) {
             if (inside < 0.0) return false;
             continue;

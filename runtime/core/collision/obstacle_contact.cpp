@@ -28,7 +28,7 @@ Eigen::AlignedBox3d box_about(const Vector3d& a, const Vector3d& b, double radiu
 }
 
 /// The mean angular velocity (rad/s, world axes) of a turn.
-Vector3d turning(const Quaterniond& from, const Quaterniond& to, double time) {
+Vector3d angular_velocity(const Quaterniond& from, const Quaterniond& to, double time) {
     const Eigen::AngleAxisd turn(to * from.conjugate());
     return turn.angle() / time * turn.axis();
 }
@@ -192,8 +192,9 @@ void add_obstacles(const ObstacleSet& obstacles, const ContactPoints& points, co
         SurfaceMotion surface;
         if (obstacle.moves()) {
             const Quaterniond to_obstacle = now.orientation.conjugate();
-            surface.turning = to_obstacle * turning(now.orientation, next.orientation, time_step);
-            surface.moving = to_obstacle * (next.position - now.position) / time_step;
+            surface.angular_velocity =
+                to_obstacle * angular_velocity(now.orientation, next.orientation, time_step);
+            surface.linear_velocity = to_obstacle * (next.position - now.position) / time_step;
         }
         const PlacedHull hull = placed(points, body, now);
         FaceContacts contacts(hull, velocity, surface, time_step, reached, obstacle.friction, number, near);

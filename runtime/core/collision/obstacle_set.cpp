@@ -36,7 +36,7 @@ void ObstacleFaces::set_keys(std::vector<ObstacleKey> keys) {
         if (turned.dot(keys[i - 1].orientation) < 0.0) turned.coeffs() *= -1.0;
     }
     obstacle_.keys = std::move(keys);
-    measure_ways();
+    measure_displacements();
 }
 
 void ObstacleFaces::prepare_triangles() {
@@ -112,7 +112,7 @@ void ObstacleFaces::grow_tree() {
     triangles_ = std::move(ordered);
 }
 
-void ObstacleFaces::measure_ways() {
+void ObstacleFaces::measure_displacements() {
     const auto& keys = obstacle_.keys;
     whereabouts_.setEmpty();
     fastest_ = 0.0;
@@ -126,9 +126,9 @@ void ObstacleFaces::measure_ways() {
         whereabouts_.extend(key.position - Vector3d::Constant(radius));
     }
     for (std::size_t i = 1; i < keys.size(); ++i) {
-        const double way = (keys[i].position - keys[i - 1].position).norm() +
-                           radius * keys[i].orientation.angularDistance(keys[i - 1].orientation);
-        fastest_ = std::max(fastest_, way / (keys[i].time - keys[i - 1].time));
+        const double distance = (keys[i].position - keys[i - 1].position).norm() +
+                                radius * keys[i].orientation.angularDistance(keys[i - 1].orientation);
+        fastest_ = std::max(fastest_, distance / (keys[i].time - keys[i - 1].time));
     }
 }
 

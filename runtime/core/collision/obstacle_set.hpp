@@ -71,7 +71,7 @@ class ObstacleFaces {
     void prepare_triangles();
     void look_around_corners();
     void grow_tree();
-    void measure_ways();
+    void measure_displacements();
 
     Obstacle obstacle_;
     bool is_closed_ = false;

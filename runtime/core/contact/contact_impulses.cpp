@@ -132,10 +132,10 @@ class Candidates {
     /// What a velocity is along a normal.
     struct Sinking {
         Sinking(const Vector3d& normal, const Vector6d& velocity)
-            : moving(normal.dot(velocity.tail<3>())), turning(normal.cross(velocity.head<3>())) {}
-        [[nodiscard]] double speed_of(const Vector3d& point) const { return moving + turning.dot(point); }
-        double moving;
-        Vector3d turning;
+            : linear(normal.dot(velocity.tail<3>())), angular(normal.cross(velocity.head<3>())) {}
+        [[nodiscard]] double speed_of(const Vector3d& point) const { return linear + angular.dot(point); }
+        double linear;
+        Vector3d angular;
     };
 
     Vector3d up_;  // body axes
@@ -420,14 +420,14 @@ double ContactImpulses::work() const noexcept {
 }
 
 Vector6d after_impulses(const TouchingBody& body, const ContactSet& near, const Approach& approach,
-                        const Vector6d& velocity, ContactRecord* met) noexcept {
+                        const Vector6d& velocity, ContactRecord* record) noexcept {
     Candidates candidates(near, approach);
     ImpulseSolver solver(body, near.to_world(), !approach.drift, velocity);
     solver.solve(candidates);
     const Vector6d change = solver.velocity() - velocity;
     const Vector6d momentum = body.inertia * change;
     const double share = passive_share(velocity.dot(momentum) - solver.work(), change.dot(momentum));
-    if (met != nullptr) *met = solver.record(share);
+    if (record != nullptr) *record = solver.record(share);
     return velocity + (share == 1.0 ? change : Vector6d(share * change));
 }
 

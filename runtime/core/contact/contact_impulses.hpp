@@ -31,7 +31,7 @@ struct Approach {
 /// animation, ACM Transactions on Graphics 26(2), 2007, section 3; the inertia here is K, the fluid's
 /// included. As one body has six velocities only, what sticks is solved for at once after each sweep.
 Vector6d after_impulses(const TouchingBody& body, const ContactSet& near, const Approach& approach,
-                        const Vector6d& velocity, ContactRecord* met = nullptr) noexcept;
+                        const Vector6d& velocity, ContactRecord* record = nullptr) noexcept;
 
 /// How far the load of a contact point stands off it, over the bounding radius: what stops a ball that rolls
 /// and a body that rocks or spins. Chosen, not measured: 0.1 mm for a body of 2 cm (docs/theory.md#ground).

@@ -92,7 +92,7 @@ bool has_ground(const Surroundings& surroundings) noexcept {
 }
 
 void touch_ground(const TouchingBody& body, const Ground& ground, double time_step, const BodyState& before,
-                  BodyState& state, ContactRecord* met) noexcept {
+                  BodyState& state, ContactRecord* record) noexcept {
     state.at_rest = false;
     const double radius = body.contact_points.bounding_radius;
     Vector6d velocity = relative_to(ground.velocity, state);
@@ -123,9 +123,9 @@ void touch_ground(const TouchingBody& body, const Ground& ground, double time_st
         stay_on(ground, state);
         return;
     }
-    const Approach on_the_way{
+    const Approach approach{
         .margin = reached, .touching = touching * radius, .time_step = time_step, .drift = velocity_before};
-    hold_against_load(body, stood, on_the_way, change, state);
+    hold_against_load(body, stood, approach, change, state);
     if (is_at_obstacle) keep_out_of_obstacles(body, ground, time_step, before, state);
     velocity = relative_to(ground.velocity, state);
     const Matrix3d to_world = state.orientation.toRotationMatrix();
@@ -140,8 +140,9 @@ void touch_ground(const TouchingBody& body, const Ground& ground, double time_st
     }
     const Approach next{.margin = reached, .touching = touching * radius, .time_step = time_step};
     ContactRecord now;
-    state.velocity += after_impulses(body, near, next, velocity, met == nullptr ? nullptr : &now) - velocity;
-    if (met != nullptr && now.strongest > 0.0) met->add(in_world(now, to_world, ground, state));
+    state.velocity +=
+        after_impulses(body, near, next, velocity, record == nullptr ? nullptr : &now) - velocity;
+    if (record != nullptr && now.strongest > 0.0) record->add(in_world(now, to_world, ground, state));
 }
 
 void stay_on(const Ground& ground, BodyState& state) noexcept {

@@ -50,7 +50,7 @@ inline constexpr double resting_energy = 1e-6;
 /// that the step would have done to its velocity, is at rest: it keeps its place to the last bit. What
 /// impulses do is added to `met` (null: not asked for). Never throws or allocates.
 void touch_ground(const TouchingBody& body, const Ground& ground, double time_step, const BodyState& before,
-                  BodyState& state, ContactRecord* met = nullptr) noexcept;
+                  BodyState& state, ContactRecord* record = nullptr) noexcept;
 
 /// Leaves a body at rest on the ground for a step, at the end of which the ground is as given.
 void stay_on(const Ground& ground, BodyState& state) noexcept;

@@ -26,7 +26,7 @@ constexpr std::size_t most_work_unfollowed = 500;  // where even the most parts 
 constexpr std::size_t work_of_point = 20;          // of an impulse found at a point, over a look at two hulls
 constexpr int most_rounds = 60;                    // in which bodies are moved apart
 constexpr double resting_way = 2e-4;               // in a step, over the radius, that counts as none
-constexpr double no_way = 2e-5;                    // the same, which what rests is taken back by
+constexpr double no_motion = 2e-5;                 // the same, which what rests is taken back by
 constexpr double still = 1e-2;  // speed that counts as none, over what the step would give without contact
 constexpr double ground_touching = 1e-5;  // gap to the ground that counts as none, over the radius
 constexpr std::size_t most_ground_points = 12;
@@ -108,7 +108,7 @@ void IslandStep::start(double time_step) {
         IslandBody& island_body = island_bodies_[i];
         Mover& mover = movers_[i];
         island_body.touched = false;
-        mover.met = {};
+        mover.record = {};
         mover.place = island_body.begin;
         mover.velocity = island_body.begin_velocity;
         const Vector6d change = island_body.end_velocity - island_body.begin_velocity;
@@ -274,16 +274,16 @@ void IslandStep::part_from_ground(const IslandGround& ground, double time, doubl
 /// Takes energy (J) out of a body's turning, and where that is not enough out of all its motion.
 void IslandStep::slow(std::size_t i, double most) {
     Mover& mover = movers_[i];
-    Vector6d moving = mover.velocity;
-    moving.head<3>().setZero();
-    Vector6d turning = mover.velocity - moving;
-    const double of_translation = energy_of(i, mover.place, moving);
-    const double of_rotation = energy_of(i, mover.place, turning);
+    Vector6d linear = mover.velocity;
+    linear.head<3>().setZero();
+    Vector6d angular = mover.velocity - linear;
+    const double of_translation = energy_of(i, mover.place, linear);
+    const double of_rotation = energy_of(i, mover.place, angular);
     const double of_both = energy_of(i, mover.place, mover.velocity) - of_translation - of_rotation;
     const double discriminant = of_both * of_both - 4.0 * of_rotation * (of_translation - most);
     if (mover.held == 0 && of_translation <= most && of_rotation > 0.0) {
         const double share = (std::sqrt(discriminant) - of_both) / (2.0 * of_rotation);
-        mover.velocity = moving + std::min(1.0, share) * turning;
+        mover.velocity = linear + std::min(1.0, share) * angular;
     } else {
         mover.velocity *= std::sqrt(most / (of_translation + of_both + of_rotation));
     }
@@ -325,13 +325,14 @@ void IslandStep::note(double time) {
     for (const ContactBetween& point : points_) {
         if (point.impulse.isZero(0.0)) continue;
         const auto add = [&](std::size_t i, std::size_t other, double sign, const Vector3d& arm) {
-            movers_[i].met.add({.impulse = sign * point.impulse,
-                                .strongest = point.impulse.norm(),
-                                .point = movers_[i].place.position + arm,
-                                .normal = sign * point.normal,
-                                .time = time,
-                                .obstacle = point.obstacle,
-                                .body = other == ContactBetween::none ? -1 : island_bodies_[other].number});
+            movers_[i].record.add(
+                {.impulse = sign * point.impulse,
+                 .strongest = point.impulse.norm(),
+                 .point = movers_[i].place.position + arm,
+                 .normal = sign * point.normal,
+                 .time = time,
+                 .obstacle = point.obstacle,
+                 .body = other == ContactBetween::none ? -1 : island_bodies_[other].number});
         };
         add(point.first, point.second, 1.0, point.first_arm);
         if (point.second == ContactBetween::none) continue;
@@ -352,12 +353,13 @@ void IslandStep::settle(double time_step) {
                             begun < resting_energy * movers_[i].load.norm() * radius &&
                             left < still * still * energy_of(i, island_body.begin, change) &&
                             time_step * speed_of_points(movers_[i].velocity, radius) < resting_way * radius;
-        if (island_body.met != nullptr && movers_[i].met.strongest > 0.0)
-            island_body.met->add(movers_[i].met);
-        const double way =
+        if (island_body.record != nullptr && movers_[i].record.strongest > 0.0)
+            island_body.record->add(movers_[i].record);
+        const double moved =
             (movers_[i].place.position - island_body.begin.position).norm() +
             radius * movers_[i].place.orientation.angularDistance(island_body.begin.orientation);
-        island_body.end = island_body.rests && way <= no_way * radius ? island_body.begin : movers_[i].place;
+        island_body.end =
+            island_body.rests && moved <= no_motion * radius ? island_body.begin : movers_[i].place;
         island_body.end_velocity = island_body.rests ? Vector6d::Zero() : movers_[i].velocity;
     }
 }

@@ -20,14 +20,14 @@ namespace samara {
 struct IslandBody {
     const TouchingBody* body;  ///< what it touches with, at its size
     const std::vector<HullFace>* faces;
-    int number;                    ///< of the flight: what records of contacts call it
-    BodyPlace begin;               ///< before the step
-    Vector6d begin_velocity;       ///< the same
-    BodyPlace end;                 ///< after it; at first as if nothing were in its way
-    Vector6d end_velocity;         ///< the same
-    bool touched = false;          ///< whether anything was, so that the end is another than it was at first
-    bool rests = false;            ///< whether it lies still at the end
-    ContactRecord* met = nullptr;  ///< gets what it met; null: not asked for
+    int number;               ///< of the flight: what records of contacts call it
+    BodyPlace begin;          ///< before the step
+    Vector6d begin_velocity;  ///< the same
+    BodyPlace end;            ///< after it; at first as if nothing were in its way
+    Vector6d end_velocity;    ///< the same
+    bool touched = false;     ///< whether anything was, so that the end is another than it was at first
+    bool rests = false;       ///< whether it lies still at the end
+    ContactRecord* record = nullptr;  ///< gets what it met; null: not asked for
 };
 
 /// What bodies of the island may touch besides each other.
@@ -93,7 +93,7 @@ class IslandStep {
         Vector6d by_itself;     ///< of this what comes without loads in the part: world axes as it began
         Vector3d load;          ///< N: what pulls it
         double energy_before, energy;  ///< J: when the part began, and after the impulses
-        ContactRecord met;             ///< in the step
+        ContactRecord record;          ///< in the step
         Vector3d shift;                ///< m: by which it was moved apart
         bool pressed;                  ///< whether anything pushed it, in this part or before
         bool overlaps;                 ///< another, when the step ended: it is still to come out
@@ -108,7 +108,7 @@ class IslandStep {
         bool waits;    ///< whether they are to meet where they do, not before
 
         /// Whether there was a gap when the part began: what overlapped, since it started so, is to come out.
-        [[nodiscard]] bool began_parted() const { return gap > 0.0; }
+        [[nodiscard]] bool began_separated() const { return gap > 0.0; }
         /// The gap (m) that must be left.
         [[nodiscard]] double least() const;
     };
@@ -144,10 +144,10 @@ class IslandStep {
     [[nodiscard]] static Vector6d fed(const Mover& mover, double time);
     [[nodiscard]] CollisionHull hull(std::size_t i, const BodyPlace& place) const;
     [[nodiscard]] bool passes_by(const Near& near) const;
-    [[nodiscard]] bool parted_before(const Near& near, const Vector3d& normal, double gap) const;
+    [[nodiscard]] bool separated_before(const Near& near, const Vector3d& normal, double gap) const;
     [[nodiscard]] double free_share(const Near& near) const;
-    [[nodiscard]] BodyPlace on_the_way(std::size_t i, double share) const;
-    void add_points(const Near& near, const Meeting& met, double share, double time_step);
+    [[nodiscard]] BodyPlace place_at(std::size_t i, double share) const;
+    void add_points(const Near& near, const HullContact& record, double share, double time_step);
     [[nodiscard]] double energy_of(std::size_t i, const BodyPlace& place, const Vector6d& velocity) const;
 
     std::span<IslandBody> island_bodies_;

@@ -44,16 +44,16 @@ void IslandStep::find_pairs(std::span<const Pair> pairs, double time_step, bool 
         const PairSeparation now = pair_separation(first, second, reach_if_struck);
         ++work_;
         if (now.gap > reach_if_struck) continue;
-        const double way = time_step * (fastest(a) + fastest(b));
-        const bool waits =
-            may_stop && now.gap > 2.0 * apart && way > quick * std::min(bodies_[a].radius, bodies_[b].radius);
+        const double travel = time_step * (fastest(a) + fastest(b));
+        const bool waits = may_stop && now.gap > 2.0 * apart &&
+                           travel > quick * std::min(bodies_[a].radius, bodies_[b].radius);
         near_.push_back({a, b, now.normal, now.gap, apart, waits});
         if (waits || now.gap > reach || passes_by(near_.back())) continue;
-        add_points(near_.back(), meeting(first, second, reach), 0.0, time_step);
+        add_points(near_.back(), hull_contact(first, second, reach), 0.0, time_step);
     }
 }
 
-BodyPlace IslandStep::on_the_way(std::size_t i, double share) const {
+BodyPlace IslandStep::place_at(std::size_t i, double share) const {
     const Mover& mover = movers_[i];
     if (share == 0.0) return mover.before;
     return {mover.before.position + share * (mover.place.position - mover.before.position),
@@ -62,9 +62,9 @@ BodyPlace IslandStep::on_the_way(std::size_t i, double share) const {
 
 /// Of two that meet at a share of their ways. Where they do not as the part begins, what turning adds to the
 /// way that velocities make is taken from the gap.
-void IslandStep::add_points(const Near& near, const Meeting& met, double share, double time_step) {
+void IslandStep::add_points(const Near& near, const HullContact& contact, double share, double time_step) {
     const auto arm = [&](std::size_t i, const Vector3d& point) {
-        const BodyPlace there = on_the_way(i, share);
+        const BodyPlace there = place_at(i, share);
         const Vector3d of_centre = point + island_bodies_.front().begin.position - there.position;
         if (share == 0.0) return of_centre;
         return Vector3d(movers_[i].before.orientation * (there.orientation.conjugate() * of_centre));
@@ -72,17 +72,17 @@ void IslandStep::add_points(const Near& near, const Meeting& met, double share, 
     const auto beyond_velocity = [&](std::size_t i, const Vector3d& of_centre) {
         const Mover& mover = movers_[i];
         const Vector3d own = mover.before.orientation.conjugate() * of_centre;
-        const Vector3d way = mover.place.orientation * own - of_centre;
-        return Vector3d(way - time_step * mover.velocity.head<3>().cross(of_centre));
+        const Vector3d travel = mover.place.orientation * own - of_centre;
+        return Vector3d(travel - time_step * mover.velocity.head<3>().cross(of_centre));
     };
-    for (std::size_t k = 0; k < met.count; ++k) {
-        Vector3d first_arm = arm(near.first, met.points[k].on_first);
-        Vector3d second_arm = arm(near.second, met.points[k].on_second);
-        double gap = met.normal.dot(movers_[near.first].before.position + first_arm -
-                                    movers_[near.second].before.position - second_arm);
+    for (std::size_t k = 0; k < contact.count; ++k) {
+        Vector3d first_arm = arm(near.first, contact.points[k].on_first);
+        Vector3d second_arm = arm(near.second, contact.points[k].on_second);
+        double gap = contact.normal.dot(movers_[near.first].before.position + first_arm -
+                                        movers_[near.second].before.position - second_arm);
         if (share > 0.0) {
-            const double turned_by = met.normal.dot(beyond_velocity(near.first, first_arm) -
-                                                    beyond_velocity(near.second, second_arm));
+            const double turned_by = contact.normal.dot(beyond_velocity(near.first, first_arm) -
+                                                        beyond_velocity(near.second, second_arm));
             gap += std::min(0.0, turned_by);
         }
         // At one place of the world, so that no angular momentum is lost between the two.
@@ -94,7 +94,7 @@ void IslandStep::add_points(const Near& near, const Meeting& met, double share, 
                            .second = near.second,
                            .first_arm = first_arm,
                            .second_arm = second_arm,
-                           .normal = met.normal,
+                           .normal = contact.normal,
                            .allowed_speed = std::max(0.0, gap - near.apart) / time_step,
                            .friction = ground_friction});
     }
@@ -109,11 +109,11 @@ bool IslandStep::passes_by(const Near& near) const {
     if (gap_along(first.hull, second.hull, near.normal) >= 0.0) return false;  // it may come to, otherwise
     const PairSeparation later = pair_separation(first, second, near.apart);
     ++work_;
-    return !later.overlap && parted_before(near, later.normal, near.apart) && later.gap >= near.apart;
+    return !later.overlap && separated_before(near, later.normal, near.apart) && later.gap >= near.apart;
 }
 
 /// Whether a plane parted two by a gap when the part began.
-bool IslandStep::parted_before(const Near& near, const Vector3d& normal, double gap) const {
+bool IslandStep::separated_before(const Near& near, const Vector3d& normal, double gap) const {
     return gap_along(hull(near.first, movers_[near.first].before).hull,
                      hull(near.second, movers_[near.second].before).hull, normal) >= gap;
 }
@@ -125,8 +125,8 @@ double IslandStep::free_share(const Near& near) const {
     ++work_;
     const double least = near.least();
     const auto hulls = [&](double share) {
-        return std::pair(hull(near.first, on_the_way(near.first, share)),
-                         hull(near.second, on_the_way(near.second, share)));
+        return std::pair(hull(near.first, place_at(near.first, share)),
+                         hull(near.second, place_at(near.second, share)));
     };
     auto [first, second] = hulls(0.0);
     Vector3d normal = near.normal;
@@ -171,18 +171,19 @@ double IslandStep::free_of_hits() const {
 /// Whether none are to be held back.
 bool IslandStep::all_come_through() const {
     return std::all_of(near_.begin(), near_.end(),
-                       [&](const Near& near) { return !near.began_parted() || free_share(near) >= 1.0; });
+                       [&](const Near& near) { return !near.began_separated() || free_share(near) >= 1.0; });
 }
 
 bool IslandStep::find_passages(double time_step) {
     bool found = false;
     for (const Near& near : near_) {
-        if (!near.began_parted()) continue;
+        if (!near.began_separated()) continue;
         const double share = free_share(near);
         if (share >= 1.0) continue;
-        const Meeting met = meeting(hull(near.first, on_the_way(near.first, share)),
-                                    hull(near.second, on_the_way(near.second, share)), 4.0 * near.apart);
-        add_points(near, met, share, time_step);
+        const HullContact contact =
+            hull_contact(hull(near.first, place_at(near.first, share)),
+                         hull(near.second, place_at(near.second, share)), 4.0 * near.apart);
+        add_points(near, contact, share, time_step);
         found = true;
     }
     return found;
@@ -193,31 +194,31 @@ void IslandStep::part_pairs(double time_step, int round, bool& moved) {
         Mover& a = movers_[near.first];
         Mover& b = movers_[near.second];
         const double radius = std::min(bodies_[near.first].radius, bodies_[near.second].radius);
-        const bool began_parted = near.began_parted();
-        const double free = began_parted ? free_share(near) : 1.0;
-        if (began_parted && free >= 1.0) continue;
-        if (!began_parted && round > 0) continue;
+        const bool began_separated = near.began_separated();
+        const double free = began_separated ? free_share(near) : 1.0;
+        if (began_separated && free >= 1.0) continue;
+        if (!began_separated && round > 0) continue;
         ++work_;
         const PairSeparation there =
-            pair_separation(hull(near.first, on_the_way(near.first, free)),
-                            hull(near.second, on_the_way(near.second, free)), near.apart);
-        const Vector3d normal = began_parted && there.overlap ? near.normal : there.normal;
+            pair_separation(hull(near.first, place_at(near.first, free)),
+                            hull(near.second, place_at(near.second, free)), near.apart);
+        const Vector3d normal = began_separated && there.overlap ? near.normal : there.normal;
         const double gap = gap_along(hull(near.first, a.place).hull, hull(near.second, b.place).hull, normal);
-        double way = parted * near.apart - gap;
-        if (way <= 0.0 || (began_parted && way > most_shift * radius)) continue;
-        if (!began_parted)
-            way = std::min({way, most_separation * near.apart, time_step * separation_speed * radius});
+        double travel = parted * near.apart - gap;
+        if (travel <= 0.0 || (began_separated && travel > most_shift * radius)) continue;
+        if (!began_separated)
+            travel = std::min({travel, most_separation * near.apart, time_step * separation_speed * radius});
         const auto yields = [&](std::size_t i) {
             return normal.dot(bodies_[i].inverse_inertia.bottomRightCorner<3, 3>() * normal);
         };
         const double share = yields(near.first) / (yields(near.first) + yields(near.second));
-        a.shift += share * way * normal;
-        a.place.position += share * way * normal;
-        b.shift -= (1.0 - share) * way * normal;
-        b.place.position -= (1.0 - share) * way * normal;
+        a.shift += share * travel * normal;
+        a.place.position += share * travel * normal;
+        b.shift -= (1.0 - share) * travel * normal;
+        b.place.position -= (1.0 - share) * travel * normal;
         a.pressed = b.pressed = true;
         moved = true;
-        keep_angular_momentum(near, share * way * normal, (share - 1.0) * way * normal);
+        keep_angular_momentum(near, share * travel * normal, (share - 1.0) * travel * normal);
     }
 }
 
@@ -242,17 +243,17 @@ void IslandStep::keep_angular_momentum(const Near& near, const Vector3d& first_s
         inertia_of_both += part.by_rotation.transpose() * inertia * part.by_rotation;
         missed.head<3>() -= part.shift.cross((inertia * mover.velocity).tail<3>());
     }
-    const Vector6d turning = Eigen::LLT<Matrix6d>(inertia_of_both).solve(missed);
+    const Vector6d rotation = Eigen::LLT<Matrix6d>(inertia_of_both).solve(missed);
     double gain = 0.0;
     for (Part& part : parts) {
         const Mover& mover = movers_[part.number];
-        part.gain = energy_of(part.number, mover.place, mover.velocity + part.by_rotation * turning) -
+        part.gain = energy_of(part.number, mover.place, mover.velocity + part.by_rotation * rotation) -
                     energy_of(part.number, mover.place, mover.velocity);
         gain += part.gain;
     }
     if (gain > 0.0) return;
     for (const Part& part : parts) {
-        movers_[part.number].velocity += part.by_rotation * turning;
+        movers_[part.number].velocity += part.by_rotation * rotation;
         movers_[part.number].energy += part.gain;
     }
 }
@@ -275,10 +276,10 @@ void IslandStep::hold_back() {
         for (const Near& near : near_) {
             Mover& a = movers_[near.first];
             Mover& b = movers_[near.second];
-            if (!near.began_parted() || (a.held == 2 && b.held == 2)) continue;
+            if (!near.began_separated() || (a.held == 2 && b.held == 2)) continue;
             const double share = free_share(near);
             if (share >= 1.0) continue;
-            const BodyPlace places[] = {on_the_way(near.first, share), on_the_way(near.second, share)};
+            const BodyPlace places[] = {place_at(near.first, share), place_at(near.second, share)};
             // As far as they come freely; where that is in another's way, not at all.
             for (Mover* mover : {&a, &b}) {
                 mover->held = mover->held == 0 && share > 0.0 ? 1 : 2;

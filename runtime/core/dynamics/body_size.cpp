@@ -5,16 +5,16 @@ namespace {
 
 /// Lengths times `length`, times by its square.
 BodyState in_units(const BodyState& state, double length) noexcept {
-    const double turning = 1.0 / (length * length);
-    const double moving = length * turning;
+    const double angular = 1.0 / (length * length);
+    const double linear = length * angular;
     BodyState result = state;
     result.position *= length;
-    result.velocity.head<3>() *= turning;
-    result.velocity.tail<3>() *= moving;
-    result.sampled_turbulence.velocity *= moving;
-    result.sampled_turbulence.angular_velocity *= turning;
-    result.acceleration.head<3>() *= turning * turning;
-    result.acceleration.tail<3>() *= moving * turning;
+    result.velocity.head<3>() *= angular;
+    result.velocity.tail<3>() *= linear;
+    result.sampled_turbulence.velocity *= linear;
+    result.sampled_turbulence.angular_velocity *= angular;
+    result.acceleration.head<3>() *= angular * angular;
+    result.acceleration.tail<3>() *= linear * angular;
     return result;
 }
 

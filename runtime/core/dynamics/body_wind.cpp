@@ -29,11 +29,11 @@ Vector3d wind_velocity(const ImmersedBody& body, const Surroundings& surrounding
 
 kernel::WindSource BodyWind::source() const noexcept {
     if (surroundings_->wind == nullptr) return {};
-    return {meet, this};
+    return {sample, this};
 }
 
-void BodyWind::meet(const void* context, std::uint64_t step, std::size_t count,
-                    kernel::MetWind& met) noexcept {
+void BodyWind::sample(const void* context, std::uint64_t step, std::size_t count,
+                      kernel::SampledWind& sampled) noexcept {
     const auto& self = *static_cast<const BodyWind*>(context);
     const Surroundings& surroundings = *self.surroundings_;
     const double begin = step_time(self.start_, self.time_step_, step);
@@ -44,7 +44,8 @@ void BodyWind::meet(const void* context, std::uint64_t step, std::size_t count,
     WindBlock block = {};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         for (std::size_t lane = 0; lane < count; ++lane) {
-            block.place[axis][lane] = met.place[axis][lane] + displacement[static_cast<Eigen::Index>(axis)];
+            block.place[axis][lane] =
+                sampled.place[axis][lane] + displacement[static_cast<Eigen::Index>(axis)];
         }
     }
     if (!surroundings.wind->blow(time, {reach_of(*self.body_), self.time_step_}, count, block)) {
@@ -65,9 +66,9 @@ void BodyWind::meet(const void* context, std::uint64_t step, std::size_t count,
                            gradient(1, 0) - gradient(0, 1));
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const auto i = static_cast<Eigen::Index>(axis);
-            met.begin[axis][lane] = velocity[i] - half_change[i];
-            met.end[axis][lane] = velocity[i] + half_change[i];
-            met.rotation[axis][lane] = rotation[i];
+            sampled.begin[axis][lane] = velocity[i] - half_change[i];
+            sampled.end[axis][lane] = velocity[i] + half_change[i];
+            sampled.rotation[axis][lane] = rotation[i];
         }
     }
 }

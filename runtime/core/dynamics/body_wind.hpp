@@ -29,8 +29,8 @@ class BodyWind {
     [[nodiscard]] bool is_sound() const noexcept { return !unsound_.load(std::memory_order_relaxed); }
 
   private:
-    static void meet(const void* context, std::uint64_t step, std::size_t count,
-                     kernel::MetWind& met) noexcept;
+    static void sample(const void* context, std::uint64_t step, std::size_t count,
+                       kernel::SampledWind& sampled) noexcept;
 
     const ImmersedBody* body_;
     const Surroundings* surroundings_;

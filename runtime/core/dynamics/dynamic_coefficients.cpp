@@ -73,9 +73,9 @@ DynamicCoefficients default_dynamic_coefficients(const Body& body) {
     coefficients.rotational_transport = usual_rotational_transport;
     coefficients.drag_in_motion = usual_drag_in_motion * unevenness * areas;
     coefficients.drag_in_spin = usual_drag_in_spin * unevenness * areas;
-    const Matrix3d turning = rotational_drag_tensor(body.surface, body.moments.centroid);
-    coefficients.rotational_drag = usual_rotational_drag * turning;
-    coefficients.rotational_drag_in_spin = usual_rotational_drag_in_spin * turning;
+    const Matrix3d rotational = rotational_drag_tensor(body.surface, body.moments.centroid);
+    coefficients.rotational_drag = usual_rotational_drag * rotational;
+    coefficients.rotational_drag_in_spin = usual_rotational_drag_in_spin * rotational;
     coefficients.origin = "dynamic coefficients by default (none in the body file)";
     return coefficients;
 }
@@ -92,9 +92,9 @@ DynamicCoefficients surface_dynamic_coefficients(const Body& body, const Surface
     coefficients.rotational_transport = usual_rotational_transport;
     coefficients.drag_in_motion = motion.drag_in_motion * unevenness * areas;
     coefficients.drag_in_spin = motion.drag_in_spin * unevenness * areas;
-    const Matrix3d turning = rotational_drag_tensor(body.surface, body.moments.centroid);
-    coefficients.rotational_drag = motion.rotational_drag * turning;
-    coefficients.rotational_drag_in_spin = motion.rotational_drag_in_spin * turning;
+    const Matrix3d rotational = rotational_drag_tensor(body.surface, body.moments.centroid);
+    coefficients.rotational_drag = motion.rotational_drag * rotational;
+    coefficients.rotational_drag_in_spin = motion.rotational_drag_in_spin * rotational;
     coefficients.origin = "dynamic coefficients that all bodies share";
     return coefficients;
 }

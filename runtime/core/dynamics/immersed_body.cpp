@@ -81,12 +81,12 @@ std::vector<double> projected_areas(const Surface& surface) {
     return areas;
 }
 
-// The square of wake_formation_ways times the extent along a direction: that of the ellipsoid with the body's
-// second moments.
-Matrix3d squared_formation_way(const VolumeMoments& moments) {
+// The square of wake_formation_lengths times the extent along a direction: that of the ellipsoid with the
+// body's second moments.
+Matrix3d squared_formation_length(const VolumeMoments& moments) {
     const PrincipalValues principal = principal_values(moments.second_moments);
     const Vector3d squared_extents = (20.0 / moments.volume * principal.values).cwiseMax(0.0);
-    const Vector3d squares = wake_formation_ways * wake_formation_ways * squared_extents;
+    const Vector3d squares = wake_formation_lengths * wake_formation_lengths * squared_extents;
     return principal.directions * squares.asDiagonal() * principal.directions.transpose();
 }
 
@@ -183,7 +183,7 @@ ImmersedBody make_immersed_body(const Body& body, const BodyPhysics& physics, co
     result.length = reference_length(body.moments.surface_area);
     result.reference_area = std::numbers::pi * result.length * result.length / 4.0;
     result.projected_area_tensor = projected_area_tensor(body);
-    result.squared_formation_way = squared_formation_way(body.moments);
+    result.squared_formation_length = squared_formation_length(body.moments);
     result.spin_about_symmetry = spin_about_symmetry(body.moments);
 
     result.loads = physics.loads;
@@ -310,8 +310,8 @@ void require_sound(const Body& body, const BodyPhysics& physics, const Fluid& fl
             "body '{}': density is missing, and its body file says no mass either; give density or mass",
             name));
     }
-    if (const std::string fault = fault_of(mass); !fault.empty()) {
-        throw Error(fmt::format("body '{}': {}", name, fault));
+    if (const std::string error = error_of(mass); !error.empty()) {
+        throw Error(fmt::format("body '{}': {}", name, error));
     }
     if (body.kirchhoff && physics.added_mass) checks.finite(body.kirchhoff->matrix, "kirchhoff.matrix");
     if (body.tables && (physics.loads == Loads::table || physics.turbulence == Turbulence::table)) {
@@ -325,8 +325,8 @@ void require_sound(const Body& body, const BodyPhysics& physics, const Fluid& fl
     checks.require(physics.patches >= 1 && physics.patches <= most_surface_patches, "patches",
                    fmt::format("between 1 and {}", most_surface_patches));
     if (!body.dynamic || physics.loads != Loads::table || physics.dynamic != Dynamic::of_body) return;
-    const std::string fault = fault_of(body.dynamic->values);
-    if (!fault.empty()) throw Error(fmt::format("body '{}': dynamic.{}", name, fault));
+    const std::string error = error_of(body.dynamic->values);
+    if (!error.empty()) throw Error(fmt::format("body '{}': dynamic.{}", name, error));
 }
 
 }  // namespace samara

@@ -42,9 +42,9 @@ struct ImmersedBody : TouchingBody {
     double reference_area = 0.0;                  ///< A = pi L^2/4 (m^2)
     Matrix3d projected_area_tensor =
         Matrix3d::Zero();  ///< m^2, body axes: projected areas along the principal axes
-    /// m^2, body axes: d.(squared_formation_way d) is the square of the way in which a wake forms behind a
+    /// m^2, body axes: d.(squared_formation_length d) is the square of the way in which a wake forms behind a
     /// body that goes in the direction d (docs/theory, "A wake that forms").
-    Matrix3d squared_formation_way = Matrix3d::Zero();
+    Matrix3d squared_formation_length = Matrix3d::Zero();
     /// The part of an angular velocity that the flow does not see: about axes across which the body reaches
     /// equally far, as a body of revolution's own.
     Matrix3d spin_about_symmetry = Matrix3d::Zero();

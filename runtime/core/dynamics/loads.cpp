@@ -8,9 +8,9 @@
 namespace samara {
 
 LoadMatrices load_matrices(const ImmersedBody& body, const Vector6d& velocity, const Vector3d& seen_rotation,
-                           const Vector3d& slip, const WakeShares& shares) noexcept {
+                           const Vector3d& wake_fluctuation, const WakeShares& shares) noexcept {
     if (body.loads == Loads::none) return {};
-    return kernel::load_matrices(body.constants, velocity, seen_rotation, slip, shares);
+    return kernel::load_matrices(body.constants, velocity, seen_rotation, wake_fluctuation, shares);
 }
 
 WakeShares shares_of(const Wake& wake) noexcept {
@@ -27,8 +27,8 @@ WakeRates wake_rates(const ImmersedBody& body, const Vector6d& relative_velocity
     const double combined =
         std::hypot(velocity.norm(), body.dynamic.half_length * relative_velocity.head<3>().norm());
     const double formation =
-        combined * velocity.norm() / std::sqrt(velocity.dot(body.squared_formation_way * velocity));
-    return {formation, formation * wake_formation_ways / body.dynamic.settling_length, unseen};
+        combined * velocity.norm() / std::sqrt(velocity.dot(body.squared_formation_length * velocity));
+    return {formation, formation * wake_formation_lengths / body.dynamic.settling_length, unseen};
 }
 
 double reynolds_number(const ImmersedBody& body, double speed) noexcept {

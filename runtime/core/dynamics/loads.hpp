@@ -13,7 +13,8 @@ namespace samara {
 /// body's own angular velocity and the velocity of its centroid relative to the fluid, of which `slip` (m/s,
 /// body axes) is that of the wake. Never throws.
 LoadMatrices load_matrices(const ImmersedBody& body, const Vector6d& velocity, const Vector3d& seen_rotation,
-                           const Vector3d& slip = Vector3d::Zero(), const WakeShares& shares = {}) noexcept;
+                           const Vector3d& wake_fluctuation = Vector3d::Zero(),
+                           const WakeShares& shares = {}) noexcept;
 
 /// The share that has formed, and the length of the heading to the eighth power (docs/theory, "A wake that
 /// forms").

@@ -162,8 +162,8 @@ void set_loads(const ImmersedBody& body, StepConstants& c) {
     c.half_length = dynamic.half_length / length;
     // The numbers of the loads of the surface were chosen on whole falls, without a start of their own.
     c.wake_forms = body.loads != Loads::coefficients && !body.tables->stokes_throughout;
-    c.squared_formation_way = symmetric(body.squared_formation_way / (length * length));
-    c.settling_over_formation = wake_formation_ways / dynamic.settling_length;
+    c.squared_formation_length = symmetric(body.squared_formation_length / (length * length));
+    c.settling_over_formation = wake_formation_lengths / dynamic.settling_length;
     c.has_spin_about_symmetry = !body.spin_about_symmetry.isZero(0.0);
     c.spin_about_symmetry = symmetric(body.spin_about_symmetry);
     c.drag_in_motion = symmetric(half_density * length / mass * dynamic.drag_in_motion);

@@ -28,10 +28,10 @@ namespace samara {
 namespace {
 
 // Each message is a kind, the number of bytes that follow, and these.
-enum class Kind : char { bytes, fault, done };
+enum class MessageType : char { bytes, error, done };
 
 struct Header {
-    Kind kind;
+    MessageType type;
     std::uint64_t size;
 };
 
@@ -43,9 +43,9 @@ double bytes_of_memory() {
 
 // ---- in the child ----
 
-void send_message(int pipe, Kind kind, std::string_view bytes) {
+void send_message(int pipe, MessageType type, std::string_view bytes) {
     Header header{};
-    header.kind = kind;
+    header.type = type;
     header.size = bytes.size();
     const auto write_all = [pipe](const char* data, std::size_t size) {
         while (size > 0) {
@@ -113,21 +113,21 @@ void enter_limits(const ConfinedLimits& limits) {
         enter_limits(limits);
         try {
             enter_sandbox(limits.readable);
-        } catch (const Error& fault) {
-            throw Error(label + ": " + fault.what());
+        } catch (const Error& error) {
+            throw Error(label + ": " + error.what());
         }
-        work([pipe](std::string_view bytes) { send_message(pipe, Kind::bytes, bytes); });
-        send_message(pipe, Kind::done, {});
-    } catch (const Error& fault) {
-        send_message(pipe, Kind::fault, fault.what());
+        work([pipe](std::string_view bytes) { send_message(pipe, MessageType::bytes, bytes); });
+        send_message(pipe, MessageType::done, {});
+    } catch (const Error& error) {
+        send_message(pipe, MessageType::error, error.what());
     } catch (const std::bad_alloc&) {
-        send_message(pipe, Kind::fault,
+        send_message(pipe, MessageType::error,
                      fmt::format("{}: wants more than {:.1f} GB of memory; simplify it", label,
                                  1e-9 * limits.memory * bytes_of_memory()));
-    } catch (const std::exception& fault) {
-        send_message(pipe, Kind::fault, fmt::format("{}: cannot be read: {}", label, fault.what()));
+    } catch (const std::exception& error) {
+        send_message(pipe, MessageType::error, fmt::format("{}: cannot be read: {}", label, error.what()));
     } catch (...) {
-        send_message(pipe, Kind::fault, label + ": cannot be read");
+        send_message(pipe, MessageType::error, label + ": cannot be read");
     }
     ::_exit(0);
 }
@@ -177,7 +177,7 @@ class Messages {
     Messages& operator=(const Messages&) = delete;
 
     // Whether there was one. It grows as bytes arrive, whatever size it claims.
-    bool next(Kind& kind, std::string& bytes) {
+    bool next(MessageType& type, std::string& bytes) {
         Header header{};
         bytes.clear();
         if (!fill(sizeof header)) return false;
@@ -189,7 +189,7 @@ class Messages {
         }
         may_send_ -= header.size;
         if (!fill(header.size)) return false;
-        kind = header.kind;
+        type = header.type;
         bytes = read_.substr(0, header.size);
         read_.erase(0, header.size);
         return true;
@@ -286,10 +286,10 @@ void run_confined(const std::string& label, const ConfinedLimits& limits,
     }
     Child child(process);
     Messages messages(ends[0], child, label, limits);
-    Kind kind{};
-    for (std::string bytes; messages.next(kind, bytes);) {
-        if (kind == Kind::fault) throw Error(first_line(bytes));
-        if (kind == Kind::done) return;
+    MessageType type{};
+    for (std::string bytes; messages.next(type, bytes);) {
+        if (type == MessageType::error) throw Error(first_line(bytes));
+        if (type == MessageType::done) return;
         receive(bytes);
     }
     fail_by(child.wait(), label, limits);

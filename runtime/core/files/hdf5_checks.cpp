@@ -96,9 +96,9 @@ std::optional<hsize_t> value_count(const std::vector<hsize_t>& shape) {
 }
 
 std::optional<std::vector<hsize_t>> shape_of(const H5::DataSpace& space) {
-    const H5S_class_t kind = space.getSimpleExtentType();
-    if (kind == H5S_SCALAR) return std::vector<hsize_t>{};
-    if (kind != H5S_SIMPLE) return std::nullopt;
+    const H5S_class_t type = space.getSimpleExtentType();
+    if (type == H5S_SCALAR) return std::vector<hsize_t>{};
+    if (type != H5S_SIMPLE) return std::nullopt;
     std::vector<hsize_t> shape(static_cast<std::size_t>(space.getSimpleExtentNdims()));
     space.getSimpleExtentDims(shape.data());
     return shape;
@@ -134,7 +134,7 @@ StorageClaim storage_claim(const H5::DataSet& dataset) {
     return {{}, stored};
 }
 
-std::string fault_of_chunks(const H5::DataSet& dataset) {
+std::string error_of_chunks(const H5::DataSet& dataset) {
     const std::string other_size = "has a chunk of another size than its values take";
     const H5::DSetCreatPropList creation = dataset.getCreatePlist();
     if (creation.getLayout() != H5D_CHUNKED) return {};
@@ -165,13 +165,13 @@ std::string fault_of_chunks(const H5::DataSet& dataset) {
     return {};
 }
 
-std::string fault_of_number(const H5::Attribute& attribute, bool integer) {
+std::string error_of_number(const H5::Attribute& attribute, bool integer) {
     const H5::DataType type = attribute.getDataType();
     if (!is_integer(type) && (integer || !is_real(type))) return integer ? "is no integer" : "is no number";
     return holds_one_value(attribute) ? "" : "is not one value";
 }
 
-std::string fault_of_text(const H5::Attribute& attribute, std::uint64_t most_bytes) {
+std::string error_of_text(const H5::Attribute& attribute, std::uint64_t most_bytes) {
     const H5::DataType type = attribute.getDataType();
     if (type.getClass() != H5T_STRING || type.isVariableStr()) return "is no text of fixed length";
     if (!holds_one_value(attribute)) return "is not one value";

@@ -23,7 +23,7 @@ bool is_integer(const H5::DataType& type);
 
 /// How many bytes of its file a dataset takes, or what is wrong with its storage, such as "is compressed".
 struct StorageClaim {
-    std::string fault;  ///< empty where nothing is wrong
+    std::string error;  ///< empty where nothing is wrong
     hsize_t bytes = 0;
 };
 
@@ -35,11 +35,11 @@ StorageClaim storage_claim(const H5::DataSet& dataset);
 /// What is wrong with a chunk of a dataset whose storage_claim() is sound, such as "has a chunk of another
 /// size than its values take"; empty where each is as long as its values and its checksum, which is not
 /// passed over. HDF5 believes what a file says of a chunk's size, and reads past the end of a shorter one.
-std::string fault_of_chunks(const H5::DataSet& dataset);
+std::string error_of_chunks(const H5::DataSet& dataset);
 
 /// What is wrong with an attribute that must be one plain number, or one text of fixed length that takes at
 /// most `most_bytes`; empty where nothing is.
-std::string fault_of_number(const H5::Attribute& attribute, bool integer);
-std::string fault_of_text(const H5::Attribute& attribute, std::uint64_t most_bytes);
+std::string error_of_number(const H5::Attribute& attribute, bool integer);
+std::string error_of_text(const H5::Attribute& attribute, std::uint64_t most_bytes);
 
 }  // namespace samara

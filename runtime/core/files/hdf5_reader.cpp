@@ -83,13 +83,13 @@ Hdf5Reader::Hdf5Reader(const std::filesystem::path& file)
     }
 }
 
-Error Hdf5Reader::fault(const std::string& name, std::string_view what) const {
+Error Hdf5Reader::error(const std::string& name, std::string_view what) const {
     return Error(fmt::format("{}: {} {}; make the file again", path().string(), name, what));
 }
 
-Error Hdf5Reader::attribute_fault(const std::string& object, const std::string& name,
+Error Hdf5Reader::attribute_error(const std::string& object, const std::string& name,
                                   std::string_view what) const {
-    return fault(fmt::format("the attribute {} of {}", name, object), what);
+    return error(fmt::format("the attribute {} of {}", name, object), what);
 }
 
 bool Hdf5Reader::has(const std::string& name) const {
@@ -99,45 +99,45 @@ bool Hdf5Reader::has(const std::string& name) const {
             const std::string step = name.substr(0, end);
             if (!file_.nameExists(step)) return false;
             H5L_info_t link = {};
-            if (H5Lget_info(file_.getId(), step.c_str(), &link, H5P_DEFAULT) < 0) throw fault(step, damaged);
+            if (H5Lget_info(file_.getId(), step.c_str(), &link, H5P_DEFAULT) < 0) throw error(step, damaged);
             // Others lead to any place, other files among them.
             if (link.type != H5L_TYPE_HARD)
-                throw fault(step, "is a link to elsewhere, which is not followed");
+                throw error(step, "is a link to elsewhere, which is not followed");
             if (end == std::string::npos) return true;
         }
     } catch (const H5::Exception&) {
-        throw fault(name, damaged);
+        throw error(name, damaged);
     }
 }
 
 H5::Group Hdf5Reader::open_group(const std::string& name) const {
-    if (!has(name)) throw fault(name, "is missing");
+    if (!has(name)) throw error(name, "is missing");
     try {
         return file_.openGroup(name);
     } catch (const H5::Exception&) {
-        throw fault(name, "is no group");
+        throw error(name, "is no group");
     }
 }
 
 void Hdf5Reader::charge(const std::string& name, const H5::DataSet& dataset) const {
     if (judged_.contains(name)) return;
     const StorageClaim claim = storage_claim(dataset);
-    if (!claim.fault.empty()) throw fault(name, claim.fault);
-    if (claim.bytes > input_.size() - claimed_) throw fault(name, "claims more bytes than the file has");
-    const std::string wrong = claim.bytes > 0 ? fault_of_chunks(dataset) : "";
-    if (!wrong.empty()) throw fault(name, wrong);
+    if (!claim.error.empty()) throw error(name, claim.error);
+    if (claim.bytes > input_.size() - claimed_) throw error(name, "claims more bytes than the file has");
+    const std::string wrong = claim.bytes > 0 ? error_of_chunks(dataset) : "";
+    if (!wrong.empty()) throw error(name, wrong);
     claimed_ += claim.bytes;
     judged_.insert(name);
 }
 
 H5::DataSet Hdf5Reader::open(const std::string& name) const {
-    if (!has(name)) throw fault(name, "is missing");
+    if (!has(name)) throw error(name, "is missing");
     try {
         H5::DataSet dataset = file_.openDataSet(name);
         charge(name, dataset);
         return dataset;
     } catch (const H5::Exception&) {
-        throw fault(name, "is no dataset, or is damaged");
+        throw error(name, "is no dataset, or is damaged");
     }
 }
 
@@ -147,7 +147,7 @@ H5::DataSet Hdf5Reader::open(const std::string& name, const std::vector<hsize_t>
                       std::equal(found.begin(), found.end(), dimensions.begin(),
                                  [](hsize_t is, hsize_t wanted) { return wanted == 0 || is == wanted; });
     if (!fits) {
-        throw fault(name, fmt::format("has the shape {}, not {} (0: any), so the file is of another kind or "
+        throw error(name, fmt::format("has the shape {}, not {} (0: any), so the file is of another kind or "
                                       "was changed",
                                       found, dimensions));
     }
@@ -159,7 +159,7 @@ std::vector<hsize_t> Hdf5Reader::shape(const std::string& name) const {
     try {
         return shape_of(dataset.getSpace()).value();
     } catch (const H5::Exception&) {
-        throw fault(name, damaged);
+        throw error(name, damaged);
     }
 }
 
@@ -173,14 +173,14 @@ std::vector<Value> Hdf5Reader::values(const std::string& name, const H5::DataSet
     constexpr bool real = std::is_floating_point_v<Value>;
     try {
         const H5::DataType type = dataset.getDataType();
-        if (real ? !is_real(type) : !is_integer(type)) throw fault(name, "holds values of another type");
+        if (real ? !is_real(type) : !is_integer(type)) throw error(name, "holds values of another type");
         std::vector<Value> values(static_cast<std::size_t>(memory.getSelectNpoints()));
         if (values.empty()) return values;
         if constexpr (real) {
             dataset.read(values.data(), H5::PredType::NATIVE_DOUBLE, memory, place);
             const bool finite =
                 std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
-            if (!finite) throw fault(name, "holds a value that is not finite");
+            if (!finite) throw error(name, "holds a value that is not finite");
         } else {
             const bool bytes = sizeof(Value) == 1;
             dataset.read(values.data(), bytes ? H5::PredType::NATIVE_UINT8 : H5::PredType::NATIVE_INT32,
@@ -188,7 +188,7 @@ std::vector<Value> Hdf5Reader::values(const std::string& name, const H5::DataSet
         }
         return values;
     } catch (const H5::Exception&) {
-        throw fault(name, damaged);
+        throw error(name, damaged);
     }
 }
 
@@ -219,7 +219,7 @@ std::string Hdf5Reader::text(const std::string& name) const {
 
 std::string Hdf5Reader::json_text(const std::string& name) const {
     std::string bytes = text(name);
-    if (const std::string wrong = error_of_json_size(bytes); !wrong.empty()) throw fault(name, wrong);
+    if (const std::string wrong = error_of_json_size(bytes); !wrong.empty()) throw error(name, wrong);
     return bytes;
 }
 
@@ -231,7 +231,7 @@ std::vector<std::string> Hdf5Reader::children(const std::string& group) const {
         return 0;
     };
     if (H5Literate(parent.getId(), H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, take, &names) < 0) {
-        throw fault(group, damaged);
+        throw error(group, damaged);
     }
     std::sort(names.begin(), names.end());
     return names;
@@ -242,7 +242,7 @@ bool Hdf5Reader::has_attribute(const std::string& object, const std::string& nam
     try {
         return group.attrExists(name);
     } catch (const H5::Exception&) {
-        throw fault(object, damaged);
+        throw error(object, damaged);
     }
 }
 
@@ -251,22 +251,22 @@ H5::Attribute Hdf5Reader::open_attribute(const std::string& object, const std::s
     try {
         return group.openAttribute(name);
     } catch (const H5::Exception&) {
-        throw attribute_fault(object, name, "is missing");
+        throw attribute_error(object, name, "is missing");
     }
 }
 
 std::string Hdf5Reader::text_attribute(const std::string& object, const std::string& name) const {
     const H5::Attribute attribute = open_attribute(object, name);
     try {
-        const std::string wrong = fault_of_text(attribute, input_.size());
-        if (!wrong.empty()) throw attribute_fault(object, name, wrong);
+        const std::string wrong = error_of_text(attribute, input_.size());
+        if (!wrong.empty()) throw attribute_error(object, name, wrong);
         const H5::DataType type = attribute.getDataType();
         std::string text(type.getSize(), '\0');
         attribute.read(type, text.data());
         text.resize(std::min(text.size(), text.find('\0')));
         return text;
     } catch (const H5::Exception&) {
-        throw attribute_fault(object, name, "is no text");
+        throw attribute_error(object, name, "is no text");
     }
 }
 
@@ -274,13 +274,13 @@ template <typename Value>
 Value Hdf5Reader::number(const std::string& object, const std::string& name, const H5::PredType& type) const {
     const H5::Attribute attribute = open_attribute(object, name);
     try {
-        const std::string wrong = fault_of_number(attribute, std::is_integral_v<Value>);
-        if (!wrong.empty()) throw attribute_fault(object, name, wrong);
+        const std::string wrong = error_of_number(attribute, std::is_integral_v<Value>);
+        if (!wrong.empty()) throw attribute_error(object, name, wrong);
         Value value = 0;
         attribute.read(type, &value);
         return value;
     } catch (const H5::Exception&) {
-        throw attribute_fault(object, name, damaged);
+        throw attribute_error(object, name, damaged);
     }
 }
 

@@ -62,8 +62,8 @@ class Hdf5Reader {
     [[nodiscard]] bool has_digest() const { return has_digest_; }
 
   private:
-    [[nodiscard]] Error fault(const std::string& name, std::string_view what) const;
-    [[nodiscard]] Error attribute_fault(const std::string& object, const std::string& name,
+    [[nodiscard]] Error error(const std::string& name, std::string_view what) const;
+    [[nodiscard]] Error attribute_error(const std::string& object, const std::string& name,
                                         std::string_view what) const;
     [[nodiscard]] H5::Group open_group(const std::string& name) const;
     [[nodiscard]] H5::DataSet open(const std::string& name) const;

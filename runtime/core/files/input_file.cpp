@@ -23,21 +23,21 @@ std::string in_words(int reason) {
 }
 
 /// What keeps what is there from being a file; empty where nothing does.
-std::string fault_of_kind(const struct stat& status) {
+std::string error_of_kind(const struct stat& status) {
     if (S_ISREG(status.st_mode)) return {};
     return S_ISDIR(status.st_mode) ? is_folder : "is a pipe, socket or device; give a file";
 }
 
-Error fault(const std::filesystem::path& path, const std::string& what) {
+Error error(const std::filesystem::path& path, const std::string& what) {
     return Error(fmt::format("{}: {}", path.string(), what));
 }
 
 }  // namespace
 
-std::string reading_fault(const std::filesystem::path& path) {
+std::string reading_error(const std::filesystem::path& path) {
     struct stat status = {};
     if (::stat(path.c_str(), &status) != 0) return in_words(errno);
-    if (std::string kind = fault_of_kind(status); !kind.empty()) return kind;
+    if (std::string kind = error_of_kind(status); !kind.empty()) return kind;
     return ::access(path.c_str(), R_OK) == 0 ? "" : in_words(errno);
 }
 
@@ -51,13 +51,13 @@ InputFile::InputFile(const std::filesystem::path& path)
     // A socket cannot be opened, nor a device without a driver: what it is says more than why.
     if (descriptor_ < 0) {
         const int reason = errno;
-        const std::string kind = ::stat(path.c_str(), &status) == 0 ? fault_of_kind(status) : "";
-        throw fault(path, kind.empty() ? in_words(reason) : kind);
+        const std::string kind = ::stat(path.c_str(), &status) == 0 ? error_of_kind(status) : "";
+        throw error(path, kind.empty() ? in_words(reason) : kind);
     }
-    const std::string what = ::fstat(descriptor_, &status) == 0 ? fault_of_kind(status) : in_words(errno);
+    const std::string what = ::fstat(descriptor_, &status) == 0 ? error_of_kind(status) : in_words(errno);
     if (!what.empty()) {
         ::close(descriptor_);
-        throw fault(path, what);
+        throw error(path, what);
     }
     size_ = static_cast<std::uint64_t>(status.st_size);
 }
@@ -77,7 +77,7 @@ std::size_t InputFile::read_at(std::uint64_t place, char* bytes, std::size_t siz
         const ssize_t count =
             ::pread(descriptor_, bytes + done, size - done, static_cast<off_t>(place + done));
         if (count < 0 && errno == EINTR) continue;
-        if (count < 0) throw fault(path_, in_words(errno));
+        if (count < 0) throw error(path_, in_words(errno));
         if (count == 0) break;
         done += static_cast<std::size_t>(count);
     }
@@ -86,7 +86,7 @@ std::size_t InputFile::read_at(std::uint64_t place, char* bytes, std::size_t siz
 
 std::string InputFile::bytes(std::size_t most) const {
     if (size_ > most) {
-        throw fault(path_, fmt::format("holds more than {} bytes; is it the right file?", most));
+        throw error(path_, fmt::format("holds more than {} bytes; is it the right file?", most));
     }
     require_memory(static_cast<double>(size_), path_.string() + ": its content", "is it the right file?");
     std::string bytes(size_, '\0');

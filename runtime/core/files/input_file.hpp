@@ -17,7 +17,7 @@ inline constexpr std::size_t most_mesh_bytes = std::size_t{1} << 30U;
 /// What keeps a path from being read as a file, for a message behind its name: "there is no such file", "is a
 /// folder; give a file", "is a pipe, socket or device; give a file", "cannot be read: Permission denied";
 /// empty where nothing does. Never throws for any path.
-std::string reading_fault(const std::filesystem::path& path);
+std::string reading_error(const std::filesystem::path& path);
 
 /// The bytes of a regular file. Throws Error, "PATH: reading_fault()", where it is none or cannot be read,
 /// and where it holds more than `most`.

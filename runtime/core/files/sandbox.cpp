@@ -193,7 +193,7 @@ class Filter {
 
 bool allow_computing_and_reading_alone() {
     constexpr std::uint32_t allow = SECCOMP_RET_ALLOW;
-    constexpr std::uint32_t refuse = SECCOMP_RET_ERRNO | EPERM;
+    constexpr std::uint32_t reject = SECCOMP_RET_ERRNO | EPERM;
     constexpr std::uint32_t writing = O_ACCMODE | O_CREAT | O_TRUNC;
     const auto self = static_cast<std::uint32_t>(::getpid());
     Filter filter;
@@ -216,7 +216,7 @@ bool allow_computing_and_reading_alone() {
     filter.allow_where(SYS_prlimit64, {{lower_half(0), 0}, {lower_half(2), 0}, {lower_half(2) + 1, 0}});
     filter.allow_where(SYS_prctl, {{lower_half(0), PR_SET_NAME}});
     filter.allow_where(SYS_ioctl, {{lower_half(1), TCGETS}});
-    filter.decide(refuse);
+    filter.decide(reject);
     return filter.install();
 }
 

@@ -28,7 +28,7 @@ BodyState implicit_step(const ImmersedBody& body, const Vector3d& gravity, doubl
 
 StepResult advance(const ImmersedBody& body, const Surroundings& surroundings, double start, double time_step,
                    const BodyState& state, const Noise& noise, std::uint64_t step, const Wrench* external,
-                   ContactRecord* met) noexcept {
+                   ContactRecord* sampled) noexcept {
     StepResult result{state, 0};
     const double time = step_time(start, time_step, step);
     const double end = step_time(start, time_step, step + 1);
@@ -63,7 +63,7 @@ StepResult advance(const ImmersedBody& body, const Surroundings& surroundings, d
                               result.state);
         const double now = time + (i + 1) * substep;
         touch_ground(body, ground_in_flow(surroundings, now - substep, now), substep, before, result.state,
-                     met);
+                     sampled);
         before = result.state;
     }
     return result;
@@ -85,23 +85,23 @@ struct SizedWind {
     double size = 1.0;
 
     [[nodiscard]] kernel::WindSource source() const noexcept {
-        if (of_world.meet == nullptr || size == 1.0) return of_world;
-        return {meet, this};
+        if (of_world.sample == nullptr || size == 1.0) return of_world;
+        return {sample, this};
     }
 
-    static void meet(const void* context, std::uint64_t step, std::size_t count,
-                     kernel::MetWind& met) noexcept {
+    static void sample(const void* context, std::uint64_t step, std::size_t count,
+                       kernel::SampledWind& sampled) noexcept {
         const auto& self = *static_cast<const SizedWind*>(context);
         const auto scale = [count](auto& rows, double factor) {
             for (auto& row : rows) {
                 for (std::size_t lane = 0; lane < count; ++lane) row[lane] *= factor;
             }
         };
-        scale(met.place, self.size);
-        self.of_world.meet(self.of_world.context, step, count, met);
-        scale(met.begin, self.size);
-        scale(met.end, self.size);
-        scale(met.rotation, self.size * self.size);
+        scale(sampled.place, self.size);
+        self.of_world.sample(self.of_world.context, step, count, sampled);
+        scale(sampled.begin, self.size);
+        scale(sampled.end, self.size);
+        scale(sampled.rotation, self.size * self.size);
     }
 };
 
@@ -168,8 +168,8 @@ FluidLoad fluid_load_of(const ImmersedBody& body, double size, const Surrounding
     if (body.loads != Loads::none) {
         const Vector6d of_centroid = body.to_centroid * relative;
         const Vector3d seen_rotation = to_body * stream.rotation;
-        const LoadMatrices loads =
-            load_matrices(body, of_centroid, seen_rotation, to_body * stream.slip, shares_of(state.wake));
+        const LoadMatrices loads = load_matrices(body, of_centroid, seen_rotation,
+                                                 to_body * stream.wake_fluctuation, shares_of(state.wake));
         wrench += body.to_centroid.transpose() *
                   (loads.relative.leftCols<3>() * seen_rotation - loads.whole * of_centroid);
         damping = body.to_centroid.transpose() * loads.whole * body.to_centroid;

@@ -41,7 +41,7 @@ struct StepResult {
 };
 StepResult advance(const ImmersedBody& body, const Surroundings& surroundings, double start, double time_step,
                    const BodyState& state, const Noise& noise, std::uint64_t step,
-                   const Wrench* external = nullptr, ContactRecord* met = nullptr) noexcept;
+                   const Wrench* external = nullptr, ContactRecord* sampled = nullptr) noexcept;
 
 /// What the fluid would do to a body of `size` times the shape's lengths in step number `step` of a flight
 /// that began at `start` (s), with the turbulence and wind of that step: the equations of docs/theory.md,

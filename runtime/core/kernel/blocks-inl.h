@@ -17,7 +17,7 @@ namespace samara::HWY_NAMESPACE {
 
 /// The lanes [first, first + N) of a block.
 template <class Tag>
-HWY_INLINE Flight<Lanes<Tag>> load_flight(Tag tag, const StateBlock& block, std::size_t first) {
+HWY_INLINE Simulation<Lanes<Tag>> load_simulation(Tag tag, const StateBlock& block, std::size_t first) {
     const auto field = [&](std::size_t i)
                            HWY_ATTR { return Lanes<Tag>(hn::Load(tag, block.numbers[i] + first)); };
     const auto triple = [&](std::size_t i) HWY_ATTR {
@@ -27,7 +27,7 @@ HWY_INLINE Flight<Lanes<Tag>> load_flight(Tag tag, const StateBlock& block, std:
             triple(22), {field(25), triple(26)}};
 }
 template <class Tag>
-HWY_INLINE void store_flight(Tag tag, const Flight<Lanes<Tag>>& flight, StateBlock& block,
+HWY_INLINE void store_flight(Tag tag, const Simulation<Lanes<Tag>>& simulation, StateBlock& block,
                              std::size_t first) {
     const auto keep = [&](std::size_t i, Lanes<Tag> value)
                           HWY_ATTR { hn::Store(value.raw, tag, block.numbers[i] + first); };
@@ -36,22 +36,22 @@ HWY_INLINE void store_flight(Tag tag, const Flight<Lanes<Tag>>& flight, StateBlo
         keep(i + 1, value.y);
         keep(i + 2, value.z);
     };
-    keep_triple(0, flight.position);
-    keep(3, flight.orientation.w);
-    keep_triple(4, flight.orientation.v);
-    keep_triple(7, flight.angular_velocity);
-    keep_triple(10, flight.velocity);
-    keep_triple(13, flight.seen_velocity);
-    keep_triple(16, flight.seen_rotation);
-    keep_triple(19, flight.angular_acceleration);
-    keep_triple(22, flight.acceleration);
-    keep(25, flight.wake.formed);
-    keep_triple(26, flight.wake.heading);
+    keep_triple(0, simulation.position);
+    keep(3, simulation.orientation.w);
+    keep_triple(4, simulation.orientation.v);
+    keep_triple(7, simulation.angular_velocity);
+    keep_triple(10, simulation.velocity);
+    keep_triple(13, simulation.seen_velocity);
+    keep_triple(16, simulation.seen_rotation);
+    keep_triple(19, simulation.angular_acceleration);
+    keep_triple(22, simulation.acceleration);
+    keep(25, simulation.wake.formed);
+    keep_triple(26, simulation.wake.heading);
 }
 
 template <class Tag>
-HWY_INLINE Flight<Lanes<Tag>> select_flight(hn::Mask<Tag> condition, const Flight<Lanes<Tag>>& a,
-                                            const Flight<Lanes<Tag>>& b) {
+HWY_INLINE Simulation<Lanes<Tag>> select_flight(hn::Mask<Tag> condition, const Simulation<Lanes<Tag>>& a,
+                                                const Simulation<Lanes<Tag>>& b) {
     return {select(condition, a.position, b.position),
             {select(condition, a.orientation.w, b.orientation.w),
              select(condition, a.orientation.v, b.orientation.v)},
@@ -96,15 +96,16 @@ struct LaneDraw {
 /// The bodies that may have touched the ground or an obstacle since before the substep, or may by the end of
 /// the next: no fewer than touch_ground() would find.
 template <class Tag>
-HWY_INLINE hn::Mask<Tag> near_ground(const kernel::Contact& contact, const Flight<Lanes<Tag>>& before,
-                                     const Flight<Lanes<Tag>>& flight, Lanes<Tag> own_substep,
+HWY_INLINE hn::Mask<Tag> near_ground(const kernel::Contact& contact, const Simulation<Lanes<Tag>>& before,
+                                     const Simulation<Lanes<Tag>>& simulation, Lanes<Tag> own_substep,
                                      Lanes<Tag> size) {
     using V = Lanes<Tag>;
     const V per_size = V(1.0) / size;
     const V substep = (size * size) * own_substep;
-    const V turning = (per_size * per_size) * root(dot(flight.angular_velocity, flight.angular_velocity));
-    const V speed = per_size * root(dot(flight.velocity, flight.velocity));
-    const Triple<V> place = size * flight.position;
+    const V turning =
+        (per_size * per_size) * root(dot(simulation.angular_velocity, simulation.angular_velocity));
+    const V speed = per_size * root(dot(simulation.velocity, simulation.velocity));
+    const Triple<V> place = size * simulation.position;
     const Triple<V> place_before = size * before.position;
     const V margin = V(2.001) * substep * (speed + V(contact.ground_speed) + V(contact.radius) * turning);
     const auto near = place.z - V(contact.reach) < margin + V(1e-5 * contact.radius);
@@ -124,9 +125,9 @@ HWY_INLINE hn::Mask<Tag> near_ground(const kernel::Contact& contact, const Fligh
 }
 
 /// Lets the bodies of the lanes touch the ground. `before`: the block before the substep.
-inline void meet_ground(const kernel::Contact& contact, const StateBlock& before, StateBlock& block,
-                        std::size_t first, std::size_t lanes, int substep, const double* substeps,
-                        double time, double h) {
+inline void touch_ground(const kernel::Contact& contact, const StateBlock& before, StateBlock& block,
+                         std::size_t first, std::size_t lanes, int substep, const double* substeps,
+                         double time, double h) {
     for (std::size_t lane = first; lane < std::min<std::size_t>(first + lanes, block.bodies); ++lane) {
         const double parts = static_cast<double>(substeps[lane - first]);
         if (substep >= parts) continue;
@@ -139,24 +140,24 @@ inline void meet_ground(const kernel::Contact& contact, const StateBlock& before
 
 /// The Langevin update of one step. `draw` gives its random numbers; `size_square`: of the body's size.
 template <class V, class Draw>
-HWY_INLINE void meet_turbulence(const StepConstants& c, V h, const Draw& draw, V size_square,
-                                Flight<V>& flight) {
+HWY_INLINE void sample_turbulence(const StepConstants& c, V h, const Draw& draw, V size_square,
+                                  Simulation<V>& simulation) {
     if (c.turbulence == Turbulence::none) {
-        flight.seen_velocity = no_vector<V>();
-        flight.seen_rotation = no_vector<V>();
+        simulation.seen_velocity = no_vector<V>();
+        simulation.seen_rotation = no_vector<V>();
         return;
     }
-    Level<V> level = turbulence_level(c, centroid_velocity(c, flight));
+    Level<V> level = turbulence_level(c, centroid_velocity(c, simulation));
     if (c.turbulence == Turbulence::constant) {
         level = {size_square * level.turbulent_kinetic_energy,
                  (size_square * size_square) * level.dissipation_rate};
     }
     if (c.langevin == Langevin::wake) {
-        advance_wake(c, level, h, draw.three(), flight);
+        advance_wake(c, level, h, draw.three(), simulation);
     } else if (c.langevin == Langevin::sampled_turbulence) {
-        advance_sampled_turbulence(c, level, h, draw.six(), flight);
+        advance_sampled_turbulence(c, level, h, draw.six(), simulation);
     } else {
-        advance_body_velocity(c, level, h, draw.six(), flight);
+        advance_body_velocity(c, level, h, draw.six(), simulation);
     }
 }
 
@@ -168,53 +169,55 @@ HWY_INLINE Stream<V> no_stream() {
 
 /// Where the centroid is halfway through a step, as far as its velocity says (m, in the flow's frame).
 template <class V>
-HWY_INLINE Triple<V> halfway(const StepConstants& c, V h, const Flight<V>& flight) {
-    const Square<V> to_world = rotation_matrix(flight.orientation);
-    const Triple<V> way = (V(0.5) * h * V(c.length)) * centroid_velocity(c, flight);
-    return flight.position + to_world * (broadcast<V>(c.center_of_buoyancy) + way);
+HWY_INLINE Triple<V> halfway(const StepConstants& c, V h, const Simulation<V>& simulation) {
+    const Square<V> to_world = rotation_matrix(simulation.orientation);
+    const Triple<V> way = (V(0.5) * h * V(c.length)) * centroid_velocity(c, simulation);
+    return simulation.position + to_world * (broadcast<V>(c.center_of_buoyancy) + way);
 }
 
 /// What a body sees between two steps: a stream that changes evenly; or a slip of its loads alone, which
 /// stands for the step and does not push by its change.
 template <class V>
-HWY_INLINE Stream<V> seen_stream(const StepConstants& c, const Triple<V>& before, const Flight<V>& flight) {
+HWY_INLINE Stream<V> seen_stream(const StepConstants& c, const Triple<V>& before,
+                                 const Simulation<V>& simulation) {
     if (c.langevin != Langevin::wake) {
-        return {before, flight.seen_velocity, flight.seen_rotation, false, no_vector<V>()};
+        return {before, simulation.seen_velocity, simulation.seen_rotation, false, no_vector<V>()};
     }
-    const Triple<V> middle = V(0.5) * (before + flight.seen_velocity);
-    return {middle, middle, flight.seen_rotation, true, middle};
+    const Triple<V> middle = V(0.5) * (before + simulation.seen_velocity);
+    return {middle, middle, simulation.seen_rotation, true, middle};
 }
 
 /// The Langevin update of one step in a wind, or without (then `wind` is none), and the stream that the body
 /// is in. What turbulence a body meets is a matter of its velocity in the wind.
 template <class V, class Draw>
-HWY_INLINE Stream<V> meet_fluid(const StepConstants& c, V h, bool windy, const Stream<V>& wind,
-                                const Draw& draw, V size_square, Flight<V>& flight) {
-    const Triple<V> seen_before = flight.seen_velocity;
+HWY_INLINE Stream<V> sample_fluid(const StepConstants& c, V h, bool windy, const Stream<V>& wind,
+                                  const Draw& draw, V size_square, Simulation<V>& simulation) {
+    const Triple<V> seen_before = simulation.seen_velocity;
     if (!windy) {
-        meet_turbulence(c, h, draw, size_square, flight);
-        return seen_stream(c, seen_before, flight);
+        sample_turbulence(c, h, draw, size_square, simulation);
+        return seen_stream(c, seen_before, simulation);
     }
-    const Triple<V> velocity = flight.velocity;
-    const Triple<V> of_wind = transposed_times(rotation_matrix(flight.orientation), wind.begin);
-    flight.velocity = velocity - of_wind;
-    meet_turbulence(c, h, draw, size_square, flight);
+    const Triple<V> velocity = simulation.velocity;
+    const Triple<V> of_wind = transposed_times(rotation_matrix(simulation.orientation), wind.begin);
+    simulation.velocity = velocity - of_wind;
+    sample_turbulence(c, h, draw, size_square, simulation);
     const bool driven = c.turbulence != Turbulence::none && c.langevin == Langevin::body_velocity;
-    flight.velocity = driven ? flight.velocity + of_wind : velocity;
+    simulation.velocity = driven ? simulation.velocity + of_wind : velocity;
     if (!sees_turbulence(c)) return wind;
-    const Stream<V> seen = seen_stream(c, seen_before, flight);
-    return {seen.begin + wind.begin, seen.end + wind.end, seen.rotation + wind.rotation, false, seen.slip};
+    const Stream<V> seen = seen_stream(c, seen_before, simulation);
+    return {seen.begin + wind.begin, seen.end + wind.end, seen.rotation + wind.rotation, false,
+            seen.wake_fluctuation};
 }
 
 /// The wind that the bodies of the lanes meet in a step.
 template <class Tag>
 HWY_INLINE Stream<Lanes<Tag>> met_wind(Tag tag, const StepConstants& c, const kernel::WindSource& source,
                                        std::uint64_t step, std::size_t bodies, Lanes<Tag> h, Lanes<Tag> size,
-                                       const Flight<Lanes<Tag>>& flight) {
+                                       const Simulation<Lanes<Tag>>& simulation) {
     using V = Lanes<Tag>;
-    if (source.meet == nullptr) return no_stream<V>();
+    if (source.sample == nullptr) return no_stream<V>();
     HWY_ALIGN_MAX double row[hn::MaxLanes(Tag())];
-    kernel::MetWind met;
+    kernel::SampledWind sampled;
     const auto give = [&](V value, double* to) HWY_ATTR {
         hn::Store(value.raw, tag, row);
         for (std::size_t i = 0; i < bodies; ++i) to[i] = static_cast<double>(row[i]);
@@ -223,16 +226,16 @@ HWY_INLINE Stream<Lanes<Tag>> met_wind(Tag tag, const StepConstants& c, const ke
         for (std::size_t i = 0; i < hn::Lanes(tag); ++i) row[i] = static_cast<double>(from[i]);
         return V(hn::Load(tag, row));
     };
-    const Triple<V> place = size * halfway(c, h, flight);
-    give(place.x, met.place[0]);
-    give(place.y, met.place[1]);
-    give(place.z, met.place[2]);
-    source.meet(source.context, step, bodies, met);
-    const auto three = [&](const double(&rows)[3][kernel::MetWind::size]) HWY_ATTR {
+    const Triple<V> place = size * halfway(c, h, simulation);
+    give(place.x, sampled.place[0]);
+    give(place.y, sampled.place[1]);
+    give(place.z, sampled.place[2]);
+    source.sample(source.context, step, bodies, sampled);
+    const auto three = [&](const double(&rows)[3][kernel::SampledWind::size]) HWY_ATTR {
         return Triple<V>{take(rows[0]), take(rows[1]), take(rows[2])};
     };
-    return {size * three(met.begin), size * three(met.end), (size * size) * three(met.rotation), false,
-            no_vector<V>()};
+    return {size * three(sampled.begin), size * three(sampled.end), (size * size) * three(sampled.rotation),
+            false, no_vector<V>()};
 }
 
 /// What pushes the bodies of the lanes, in the units of a body of the shape's size that moves alike
@@ -297,15 +300,15 @@ inline void stay_on_ground(const kernel::BlockSteps& task, std::uint64_t number,
 template <class Tag>
 HWY_INLINE void advance_lanes(Tag tag, const StepConstants& c, const kernel::BlockSteps& task,
                               std::uint64_t number, StateBlock& block, std::size_t first,
-                              Flight<Lanes<Tag>>& flight, BatchReport& report) {
+                              Simulation<Lanes<Tag>>& simulation, BatchReport& report) {
     using V = Lanes<Tag>;
     const std::size_t lanes = hn::Lanes(tag);
     const MovingLanes lively(task.contact, block, task.first_step + number, first, lanes);
     const auto let_others_stay = [&]() HWY_ATTR {
         if (!lively.any_rests || !task.contact.moves) return;
-        store_flight(tag, flight, block, first);
+        store_flight(tag, simulation, block, first);
         stay_on_ground(task, number, block, first, lanes, lively);
-        flight = load_flight(tag, block, first);
+        simulation = load_simulation(tag, block, first);
     };
     if (!lively.any_moves) return let_others_stay();
 
@@ -316,23 +319,24 @@ HWY_INLINE void advance_lanes(Tag tag, const StepConstants& c, const kernel::Blo
     const bool meets = task.contact.resolve != nullptr;
     // Of long copies those alone that are needed.
     StateBlock before;
-    if (meets || lively.any_waits) store_flight(tag, flight, before, first);
+    if (meets || lively.any_waits) store_flight(tag, simulation, before, first);
     const std::size_t used_lanes = std::min<std::size_t>(lanes, block.bodies - first);
-    const bool windy = task.wind.meet != nullptr;
-    const Stream<V> wind = met_wind(tag, c, task.wind, task.first_step + number, used_lanes, h, size, flight);
-    const Stream<V> met = meet_fluid(c, h, windy, wind, LaneDraw<Tag>{block, first, task.first_step + number},
-                                     size_square, flight);
+    const bool windy = task.wind.sample != nullptr;
+    const Stream<V> wind =
+        met_wind(tag, c, task.wind, task.first_step + number, used_lanes, h, size, simulation);
+    const Stream<V> sampled = sample_fluid(
+        c, h, windy, wind, LaneDraw<Tag>{block, first, task.first_step + number}, size_square, simulation);
     if (lively.any_rests || lively.any_waits) {
         const auto stirred = V(0.5) < moves;
-        const Flight<V> previous = load_flight(tag, before, first);
-        flight = select_flight<Tag>(stirred, flight, previous);
-        flight.seen_velocity = select(stirred, flight.seen_velocity, previous.seen_velocity);
-        flight.seen_rotation = select(stirred, flight.seen_rotation, previous.seen_rotation);
+        const Simulation<V> previous = load_simulation(tag, before, first);
+        simulation = select_flight<Tag>(stirred, simulation, previous);
+        simulation.seen_velocity = select(stirred, simulation.seen_velocity, previous.seen_velocity);
+        simulation.seen_rotation = select(stirred, simulation.seen_rotation, previous.seen_rotation);
     }
 
     HWY_ALIGN_MAX double parts[hn::MaxLanes(Tag())];
     const bool sees_fluid = windy || sees_turbulence(c);
-    const V substeps = moves * substeps_of(c, h, sees_fluid, met.begin, flight);
+    const V substeps = moves * substeps_of(c, h, sees_fluid, sampled.begin, simulation);
     hn::Store(substeps.raw, tag, parts);
     const bool all_whole = used_lanes == lanes && hn::AllTrue(tag, hn::Eq(substeps.raw, V(1.0).raw));
     int most = 1;
@@ -356,20 +360,21 @@ HWY_INLINE void advance_lanes(Tag tag, const StepConstants& c, const kernel::Blo
     if (pushed) push = push_of(tag, task.external[block.first_body / block.size], first, size);
     for (int i = 0; i < most; ++i) {
         StateBlock kept;
-        if (!all_whole) store_flight(tag, flight, kept, first);
-        implicit_step(c, gravity, substep, sees_fluid, all_whole ? met : part_of(met, i, divisor),
-                      pushed ? &push : nullptr, flight);
-        if (!all_whole) flight = select_flight<Tag>(V(i) < substeps, flight, load_flight(tag, kept, first));
+        if (!all_whole) store_flight(tag, simulation, kept, first);
+        implicit_step(c, gravity, substep, sees_fluid, all_whole ? sampled : part_of(sampled, i, divisor),
+                      pushed ? &push : nullptr, simulation);
+        if (!all_whole)
+            simulation = select_flight<Tag>(V(i) < substeps, simulation, load_simulation(tag, kept, first));
         if (!meets) continue;
-        const Flight<V> previous = load_flight(tag, before, first);
-        if (!hn::AllFalse(tag, near_ground(task.contact, previous, flight, substep, size))) {
+        const Simulation<V> previous = load_simulation(tag, before, first);
+        if (!hn::AllFalse(tag, near_ground(task.contact, previous, simulation, substep, size))) {
             std::copy_n(block.at_rest + first, lanes, before.at_rest + first);
-            store_flight(tag, flight, block, first);
+            store_flight(tag, simulation, block, first);
             const double begin = step_time(task.start, task.time_step, task.first_step + number);
-            meet_ground(task.contact, before, block, first, lanes, i, parts, begin, task.time_step);
-            flight = load_flight(tag, block, first);
+            touch_ground(task.contact, before, block, first, lanes, i, parts, begin, task.time_step);
+            simulation = load_simulation(tag, block, first);
         }
-        store_flight(tag, flight, before, first);
+        store_flight(tag, simulation, before, first);
     }
     let_others_stay();
 }
@@ -380,11 +385,11 @@ inline BatchReport advance_all(const StepConstants& c, const kernel::BlockSteps&
     BatchReport report;
     for (StateBlock* block = blocks; block != blocks + count; ++block) {
         for (std::size_t first = 0; first < block->bodies; first += hn::Lanes(tag)) {
-            auto flight = load_flight(tag, *block, first);
+            auto simulation = load_simulation(tag, *block, first);
             for (std::uint64_t number = 0; number < task.steps; ++number) {
-                advance_lanes(tag, c, task, number, *block, first, flight, report);
+                advance_lanes(tag, c, task, number, *block, first, simulation, report);
             }
-            store_flight(tag, flight, *block, first);
+            store_flight(tag, simulation, *block, first);
         }
     }
     return report;

@@ -39,7 +39,7 @@ struct Contact {
 
 /// What bodies side by side meet of a wind over one step: the stream that each is in, beyond the undisturbed
 /// flow (world axes; m/s, rad/s). It changes evenly from `begin` to `end`.
-struct MetWind {
+struct SampledWind {
     static constexpr std::size_t size = 16;
     double place[3][size] = {};  ///< m, in the flow's frame: where each centroid is halfway through the step
     double begin[3][size] = {}, end[3][size] = {}, rotation[3][size] = {};
@@ -48,8 +48,9 @@ struct MetWind {
 /// Where a wind comes from; null where there is none.
 struct WindSource {
     /// Fills what the first `count` bodies meet in step number `step`.
-    using Meet = void (*)(const void* context, std::uint64_t step, std::size_t count, MetWind& met) noexcept;
-    Meet meet = nullptr;
+    using Meet = void (*)(const void* context, std::uint64_t step, std::size_t count,
+                          SampledWind& sampled) noexcept;
+    Meet sample = nullptr;
     const void* context = nullptr;
 };
 
@@ -79,9 +80,10 @@ BatchReport advance_blocks(const StepConstants& constants, const BlockSteps& ste
 /// `end`, while its rotation (rad/s) is held.
 struct SeenStream {
     Vector3d begin, end, rotation;
-    bool moves = false;    ///< false: the sampled turbulence is taken to be at rest, and not to turn
-    bool is_slip = false;  ///< of the loads alone: it neither changes nor turns
-    Vector3d slip = Vector3d::Zero();  ///< of the wake, in the stream: it presses on the body's sides
+    bool moves = false;           ///< false: the sampled turbulence is taken to be at rest, and not to turn
+    bool on_loads_alone = false;  ///< of the loads alone: it neither changes nor turns
+    Vector3d wake_fluctuation =
+        Vector3d::Zero();  ///< of the wake, in the stream: it presses on the body's sides
 };
 
 /// implicit_step() of step.hpp over h, which is the part `part` of `parts` equal ones of a whole step.
@@ -107,7 +109,7 @@ BatchReport advance_one(const StepConstants& constants, const BlockSteps& steps,
 
 /// load_matrices() of loads.hpp.
 LoadMatrices load_matrices(const StepConstants& constants, const Vector6d& velocity,
-                           const Vector3d& seen_rotation, const Vector3d& slip,
+                           const Vector3d& seen_rotation, const Vector3d& wake_fluctuation,
                            const WakeShares& shares) noexcept;
 
 /// The functions of langevin.hpp; the velocities are the state's.

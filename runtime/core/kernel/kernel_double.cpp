@@ -63,7 +63,7 @@ HWY_INLINE Vector3d vector_of(const Triple<One>& triple) {
     return v;
 }
 
-HWY_INLINE Flight<One> flight_of(const BodyState& state) {
+HWY_INLINE Simulation<One> simulation_of(const BodyState& state) {
     const Quaterniond& q = state.orientation;
     return {triple_of(state.position),
             {One(q.w()), triple_of(q.coeffs().data())},
@@ -75,18 +75,18 @@ HWY_INLINE Flight<One> flight_of(const BodyState& state) {
             triple_of(state.acceleration.data() + 3),
             {One(state.wake.formed), triple_of(state.wake.heading)}};
 }
-HWY_INLINE void keep(const Flight<One>& flight, BodyState& state) {
-    keep(flight.position, state.position.data());
-    keep(flight.orientation.v, state.orientation.coeffs().data());
-    state.orientation.w() = lane(flight.orientation.w);
-    keep(flight.angular_velocity, state.velocity.data());
-    keep(flight.velocity, state.velocity.data() + 3);
-    keep(flight.seen_velocity, state.sampled_turbulence.velocity.data());
-    keep(flight.seen_rotation, state.sampled_turbulence.angular_velocity.data());
-    keep(flight.angular_acceleration, state.acceleration.data());
-    keep(flight.acceleration, state.acceleration.data() + 3);
-    state.wake.formed = lane(flight.wake.formed);
-    keep(flight.wake.heading, state.wake.heading.data());
+HWY_INLINE void keep(const Simulation<One>& simulation, BodyState& state) {
+    keep(simulation.position, state.position.data());
+    keep(simulation.orientation.v, state.orientation.coeffs().data());
+    state.orientation.w() = lane(simulation.orientation.w);
+    keep(simulation.angular_velocity, state.velocity.data());
+    keep(simulation.velocity, state.velocity.data() + 3);
+    keep(simulation.seen_velocity, state.sampled_turbulence.velocity.data());
+    keep(simulation.seen_rotation, state.sampled_turbulence.angular_velocity.data());
+    keep(simulation.angular_acceleration, state.acceleration.data());
+    keep(simulation.acceleration, state.acceleration.data() + 3);
+    state.wake.formed = lane(simulation.wake.formed);
+    keep(simulation.wake.heading, state.wake.heading.data());
 }
 
 /// The random numbers of one body.
@@ -143,13 +143,13 @@ HWY_INLINE Push<One> push_of_one(const Wrench* external) {
 
 void step_one(const StepConstants& c, const Vector3d& gravity, double h, const kernel::SeenStream& stream,
               int part, int parts, const Wrench* external, BodyState& state) {
-    Flight<One> flight = flight_of(state);
+    Simulation<One> simulation = simulation_of(state);
     const Push<One> push = push_of_one(external);
     const Stream<One> whole{triple_of(stream.begin), triple_of(stream.end), triple_of(stream.rotation),
-                            stream.is_slip, triple_of(stream.slip)};
+                            stream.on_loads_alone, triple_of(stream.wake_fluctuation)};
     implicit_step(c, triple_of(gravity), One(h), stream.moves, part_of(whole, part, One(parts)),
-                  external == nullptr ? nullptr : &push, flight);
-    keep(flight, state);
+                  external == nullptr ? nullptr : &push, simulation);
+    keep(simulation, state);
 }
 
 /// BegunStep in the step's numbers.
@@ -159,41 +159,42 @@ struct Beginning {
     Stream<One> stream;
 };
 HWY_INLINE Beginning beginning(const StepConstants& c, double h, const kernel::WindSource& source,
-                               const Noise& noise, std::uint64_t step, Flight<One>& flight) {
+                               const Noise& noise, std::uint64_t step, Simulation<One>& simulation) {
     Stream<One> wind = no_stream<One>();
-    const bool windy = source.meet != nullptr;
+    const bool windy = source.sample != nullptr;
     if (windy) {
-        kernel::MetWind met;
-        const Vector3d place = vector_of(halfway(c, One(h), flight));
-        for (Eigen::Index axis = 0; axis < 3; ++axis) met.place[axis][0] = place[axis];
-        source.meet(source.context, step, 1, met);
-        const auto first = [](const double(&rows)[3][kernel::MetWind::size])
+        kernel::SampledWind sampled;
+        const Vector3d place = vector_of(halfway(c, One(h), simulation));
+        for (Eigen::Index axis = 0; axis < 3; ++axis) sampled.place[axis][0] = place[axis];
+        source.sample(source.context, step, 1, sampled);
+        const auto first = [](const double(&rows)[3][kernel::SampledWind::size])
                                HWY_ATTR { return triple_of(Vector3d(rows[0][0], rows[1][0], rows[2][0])); };
-        wind = {first(met.begin), first(met.end), first(met.rotation), false, no_vector<One>()};
+        wind = {first(sampled.begin), first(sampled.end), first(sampled.rotation), false, no_vector<One>()};
     }
-    const Stream<One> stream = meet_fluid(c, One(h), windy, wind, OneDraw{noise, step}, One(1.0), flight);
+    const Stream<One> stream =
+        sample_fluid(c, One(h), windy, wind, OneDraw{noise, step}, One(1.0), simulation);
     const bool sees_fluid = windy || sees_turbulence(c);
-    return {static_cast<int>(lane(substeps_of(c, One(h), sees_fluid, stream.begin, flight))), sees_fluid,
+    return {static_cast<int>(lane(substeps_of(c, One(h), sees_fluid, stream.begin, simulation))), sees_fluid,
             stream};
 }
 
 void begin_one(const StepConstants& c, double h, const kernel::WindSource& source, const Noise& noise,
                std::uint64_t step, BodyState& state, kernel::BegunStep& begun) {
-    Flight<One> flight = flight_of(state);
-    const Beginning b = beginning(c, h, source, noise, step, flight);
-    keep(flight, state);
+    Simulation<One> simulation = simulation_of(state);
+    const Beginning b = beginning(c, h, source, noise, step, simulation);
+    keep(simulation, state);
     begun = {b.parts,
              {vector_of(b.stream.begin), vector_of(b.stream.end), vector_of(b.stream.rotation), b.sees_fluid,
-              b.stream.is_slip, vector_of(b.stream.slip)}};
+              b.stream.on_loads_alone, vector_of(b.stream.wake_fluctuation)}};
 }
 
 void lone_steps(const StepConstants& c, const kernel::BlockSteps& task, const Noise& noise,
                 const Wrench* external, BodyState& state, BatchReport& report) {
-    Flight<One> flight = flight_of(state);
+    Simulation<One> simulation = simulation_of(state);
     const Push<One> push = push_of_one(external);
     for (std::uint64_t number = 0; number < task.steps; ++number) {
         const Beginning begun =
-            beginning(c, task.time_step, task.wind, noise, task.first_step + number, flight);
+            beginning(c, task.time_step, task.wind, noise, task.first_step + number, simulation);
         const Triple<One> gravity = triple_of(task.gravities[number]);
         report.count(begun.parts);
         // Most steps are whole: what follows need not wait for the division that says so.
@@ -202,10 +203,10 @@ void lone_steps(const StepConstants& c, const kernel::BlockSteps& task, const No
         for (int i = 0; i < begun.parts; ++i) {
             implicit_step(c, gravity, h, begun.sees_fluid,
                           is_whole ? begun.stream : part_of(begun.stream, i, One(begun.parts)),
-                          external == nullptr ? nullptr : &push, flight);
+                          external == nullptr ? nullptr : &push, simulation);
         }
     }
-    keep(flight, state);
+    keep(simulation, state);
 }
 
 HWY_INLINE void keep_blocks(const StepConstants& c, const LoadBlocks<One>& blocks, Matrix6d& matrix) {
@@ -217,7 +218,7 @@ HWY_INLINE void keep_blocks(const StepConstants& c, const LoadBlocks<One>& block
 }
 
 void loads_of_one(const StepConstants& c, const Vector6d& velocity, const Vector3d& seen_rotation,
-                  const Vector3d& slip, const WakeShares& shares, LoadMatrices& loads) {
+                  const Vector3d& wake_fluctuation, const WakeShares& shares, LoadMatrices& loads) {
     const Triple<One> turning = triple_of(velocity.data());
     const Triple<One> moving = One(c.inverse_length) * triple_of(velocity.data() + 3);
     const WakeShares there = c.wake_forms ? shares : WakeShares{};
@@ -226,7 +227,7 @@ void loads_of_one(const StepConstants& c, const Vector6d& velocity, const Vector
     keep_blocks(c, blocks, loads.relative);
     add_transport(c, turning, moving, One(there.transport), blocks);
     if (c.has_side_pressure) {
-        add_side_pressure(c, moving, One(c.inverse_length) * triple_of(slip), blocks);
+        add_side_pressure(c, moving, One(c.inverse_length) * triple_of(wake_fluctuation), blocks);
     }
     keep_blocks(c, blocks, loads.whole);
 }
@@ -238,19 +239,19 @@ void turbulence_of_one(const StepConstants& c, const Vector3d& velocity, Turbule
 
 void sampled_turbulence_of_one(const StepConstants& c, const TurbulenceLevel& level, double h,
                                const Noise& noise, std::uint64_t step, BodyState& state) {
-    Flight<One> flight = flight_of(state);
+    Simulation<One> simulation = simulation_of(state);
     advance_sampled_turbulence(c,
                                Level<One>{One(level.turbulent_kinetic_energy), One(level.dissipation_rate)},
-                               One(h), OneDraw{noise, step}.six(), flight);
-    keep(flight, state);
+                               One(h), OneDraw{noise, step}.six(), simulation);
+    keep(simulation, state);
 }
 
 void body_velocity_of_one(const StepConstants& c, const TurbulenceLevel& level, double h, const Noise& noise,
                           std::uint64_t step, BodyState& state) {
-    Flight<One> flight = flight_of(state);
+    Simulation<One> simulation = simulation_of(state);
     advance_body_velocity(c, Level<One>{One(level.turbulent_kinetic_energy), One(level.dissipation_rate)},
-                          One(h), OneDraw{noise, step}.six(), flight);
-    keep(flight, state);
+                          One(h), OneDraw{noise, step}.six(), simulation);
+    keep(simulation, state);
 }
 
 void one_normal_pair(double first, double second, double& a, double& b) {
@@ -301,10 +302,10 @@ BatchReport advance_one(const StepConstants& constants, const BlockSteps& steps,
 }
 
 LoadMatrices load_matrices(const StepConstants& constants, const Vector6d& velocity,
-                           const Vector3d& seen_rotation, const Vector3d& slip,
+                           const Vector3d& seen_rotation, const Vector3d& wake_fluctuation,
                            const WakeShares& shares) noexcept {
     LoadMatrices loads;
-    HWY_DYNAMIC_DISPATCH(loads_of_one)(constants, velocity, seen_rotation, slip, shares, loads);
+    HWY_DYNAMIC_DISPATCH(loads_of_one)(constants, velocity, seen_rotation, wake_fluctuation, shares, loads);
     return loads;
 }
 

@@ -61,35 +61,36 @@ HWY_INLINE Renewal<V> renewal(V rate, V h) {
 
 template <class V>
 HWY_INLINE void advance_sampled_turbulence(const StepConstants& c, const Level<V>& level, V h,
-                                           const SixNormals<V>& normals, Flight<V>& flight) {
+                                           const SixNormals<V>& normals, Simulation<V>& simulation) {
     const Renewal<V> now = renewal(V(0.75 * kolmogorov_constant) * turbulence_rate(level), h);
     const V deviation = now.added * root(V(2.0 / 3.0) * level.turbulent_kinetic_energy);
-    flight.seen_velocity = now.kept * flight.seen_velocity + deviation * normals.velocity;
-    flight.seen_rotation =
-        now.kept * flight.seen_rotation + (deviation * V(c.inverse_eddy_length)) * normals.rotation;
+    simulation.seen_velocity = now.kept * simulation.seen_velocity + deviation * normals.velocity;
+    simulation.seen_rotation =
+        now.kept * simulation.seen_rotation + (deviation * V(c.inverse_eddy_length)) * normals.rotation;
 }
 
 /// The slip of the wake, as lasting as the body takes to come so many of its lengths, and the weaker the more
 /// the body turns on its way (docs/studies/noise).
 template <class V>
 HWY_INLINE void advance_wake(const StepConstants& c, const Level<V>& level, V h, const Triple<V>& normals,
-                             Flight<V>& flight) {
-    const Triple<V> velocity = centroid_velocity(c, flight);
+                             Simulation<V>& simulation) {
+    const Triple<V> velocity = centroid_velocity(c, simulation);
     const V lengths_per_second = V(c.length * c.inverse_eddy_length) * root(dot(velocity, velocity));
     const Renewal<V> now = renewal(V(1.0 / wake_persistence) * lengths_per_second, h);
     const V going = lengths_per_second * lengths_per_second;
-    const V turning = V(wake_order * wake_order) * dot(flight.angular_velocity, flight.angular_velocity);
+    const V turning =
+        V(wake_order * wake_order) * dot(simulation.angular_velocity, simulation.angular_velocity);
     const V least(1e-200);
     const V unordered = going / larger(least, going + turning);
-    const V deviation =
-        now.added * V(wake_slip) * unordered * root(V(2.0 / 3.0) * level.turbulent_kinetic_energy);
-    flight.seen_velocity = now.kept * flight.seen_velocity + deviation * normals;
-    flight.seen_rotation = no_vector<V>();
+    const V deviation = now.added * V(wake_fluctuation_share) * unordered *
+                        root(V(2.0 / 3.0) * level.turbulent_kinetic_energy);
+    simulation.seen_velocity = now.kept * simulation.seen_velocity + deviation * normals;
+    simulation.seen_rotation = no_vector<V>();
 }
 
 template <class V>
 HWY_INLINE void advance_body_velocity(const StepConstants& c, const Level<V>& level, V h,
-                                      const SixNormals<V>& normals, Flight<V>& flight) {
+                                      const SixNormals<V>& normals, Simulation<V>& simulation) {
     const V zero(0.0);
     const V rate = V(0.5 + 0.75 * kolmogorov_constant) * turbulence_rate(level);
     const V lost = exponential_less_one(-rate * h);
@@ -98,8 +99,8 @@ HWY_INLINE void advance_body_velocity(const StepConstants& c, const Level<V>& le
     const V variance = diffusion * (-lost * (V(2.0) + lost)) / (V(2.0) * select(alive, rate, V(1.0)));
     const V deviation = select(alive, root(larger(zero, variance)), zero);
     const V turning = select(alive, root(larger(zero, diffusion * h)) * V(c.inverse_eddy_length), zero);
-    flight.angular_velocity = flight.angular_velocity + turning * normals.rotation;
-    flight.velocity = (V(1.0) + lost) * flight.velocity + deviation * normals.velocity;
+    simulation.angular_velocity = simulation.angular_velocity + turning * normals.rotation;
+    simulation.velocity = (V(1.0) + lost) * simulation.velocity + deviation * normals.velocity;
 }
 
 }  // namespace samara::HWY_NAMESPACE

@@ -174,9 +174,9 @@ HWY_INLINE void add_transport(const StepConstants& c, const Triple<V>& omega, co
 /// Adds the force across the path by which a wake that fluctuates pushes on the body's sides: workless.
 /// `slip`: of the wake (l/s, body axes).
 template <class V>
-HWY_INLINE void add_side_pressure(const StepConstants& c, const Triple<V>& velocity, const Triple<V>& slip,
-                                  LoadBlocks<V>& blocks) {
-    const Triple<V> pressed = broadcast_symmetric<V>(c.side_pressure) * slip;
+HWY_INLINE void add_side_pressure(const StepConstants& c, const Triple<V>& velocity,
+                                  const Triple<V>& wake_fluctuation, LoadBlocks<V>& blocks) {
+    const Triple<V> pressed = broadcast_symmetric<V>(c.side_pressure) * wake_fluctuation;
     blocks.force_by_velocity =
         plus_cross(blocks.force_by_velocity, cross(pressed, heading_of(velocity).direction));
 }

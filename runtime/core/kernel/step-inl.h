@@ -15,13 +15,13 @@ namespace samara::HWY_NAMESPACE {
 
 /// BodyState (step.hpp) in the step's numbers.
 template <class V>
-struct Flight {
+struct Simulation {
     Triple<V> position;
     Turn<V> orientation;
     Triple<V> angular_velocity, velocity;
     Triple<V> seen_velocity, seen_rotation;
     Triple<V> angular_acceleration, acceleration;
-    FlightWake<V> wake;
+    WakeState<V> wake;
 };
 
 /// The velocity (or acceleration) of the centroid from that of the centre of mass: l is taken out of it.
@@ -41,8 +41,8 @@ HWY_INLINE Triple<V> from_centroid(const StepConstants& c, const Triple<V>& turn
 
 /// The velocity of the centroid, in l a second.
 template <class V>
-HWY_INLINE Triple<V> centroid_velocity(const StepConstants& c, const Flight<V>& flight) {
-    return to_centroid(c, flight.angular_velocity, flight.velocity);
+HWY_INLINE Triple<V> centroid_velocity(const StepConstants& c, const Simulation<V>& simulation) {
+    return to_centroid(c, simulation.angular_velocity, simulation.velocity);
 }
 
 template <class V>
@@ -55,18 +55,18 @@ struct Velocities {
 template <class V>
 struct Stream {
     Triple<V> begin, end, rotation;
-    bool is_slip = false;
-    Triple<V> slip;  ///< of the wake, in it
+    bool on_loads_alone = false;
+    Triple<V> wake_fluctuation;  ///< of the wake, in it
 };
 
 /// The stream of the part `i` of a step that is cut into `parts`, from that of the whole step.
 template <class V>
 HWY_INLINE Stream<V> part_of(const Stream<V>& whole, int i, V parts) {
-    if (whole.is_slip) return whole;
+    if (whole.on_loads_alone) return whole;
     const Triple<V> difference = whole.end - whole.begin;
     const Triple<V> begin = i == 0 ? whole.begin : whole.begin + (V(i) / parts) * difference;
     const Triple<V> end = whole.begin + (V(i + 1) / parts) * difference;
-    return {begin, select(V(i + 1) < parts, end, whole.end), whole.rotation, false, whole.slip};
+    return {begin, select(V(i + 1) < parts, end, whole.end), whole.rotation, false, whole.wake_fluctuation};
 }
 
 /// A host's push: moment about the centre of mass and force (world axes, in the shape's own units).
@@ -80,8 +80,8 @@ template <class V>
 struct StepStart {
     V h;
     Triple<V> omega, velocity;
-    Triple<V> gravity, seen_rotation, slip;  // body axes
-    FlightWake<V> wake;                      // when the step begins
+    Triple<V> gravity, seen_rotation, wake_fluctuation;  // body axes
+    WakeState<V> wake;                                   // when the step begins
     bool fluid_turns;
     bool is_pushed;
     Push<V> push;  // body axes, about the centroid
@@ -199,7 +199,8 @@ HWY_INLINE void improve(const StepConstants& c, const StepStart<V>& start, StepM
             loads = relative_load_blocks(c, middle.omega, middle.velocity, middle.omega, shares.moment);
         }
         add_transport(c, middle.omega, middle.velocity, shares.transport, loads);
-        if (c.has_side_pressure) add_side_pressure(c, middle.velocity, under_body(start.slip), loads);
+        if (c.has_side_pressure)
+            add_side_pressure(c, middle.velocity, under_body(start.wake_fluctuation), loads);
         const Stiffness<V> stiff = stiffness(c, loads, start.h);
         const V z = larger(stiff.turning, stiff.moving);
         middle.theta = (V(3.0) + z) / (V(6.0) + z);
@@ -305,13 +306,13 @@ template <class V>
 HWY_INLINE StepStart<V> step_start(const StepConstants& c, const Square<V>& to_world,
                                    const Triple<V>& gravity, V h, bool fluid_turns,
                                    const Triple<V>& seen_rotation, const Triple<V>& velocity,
-                                   const Flight<V>& flight) {
+                                   const Simulation<V>& simulation) {
     StepStart<V> start;
     start.h = h;
-    start.omega = flight.angular_velocity;
-    start.velocity = to_centroid(c, flight.angular_velocity, velocity);
+    start.omega = simulation.angular_velocity;
+    start.velocity = to_centroid(c, simulation.angular_velocity, velocity);
     start.gravity = transposed_times(to_world, gravity);
-    start.wake = flight.wake;
+    start.wake = simulation.wake;
     start.fluid_turns = fluid_turns;
     start.seen_rotation = fluid_turns ? transposed_times(to_world, seen_rotation) : no_vector<V>();
     const V munk_rate(c.munk_rate);
@@ -344,18 +345,18 @@ HWY_INLINE bool sees_turbulence(const StepConstants& c) {
 /// alike (docs/theory, "The sampled turbulence"). `push`: null where there is none.
 template <class V>
 HWY_INLINE void implicit_step(const StepConstants& c, const Triple<V>& gravity, V h, bool sees_fluid,
-                              const Stream<V>& stream, const Push<V>* push, Flight<V>& flight) {
-    const Square<V> to_world = rotation_matrix(flight.orientation);
+                              const Stream<V>& stream, const Push<V>* push, Simulation<V>& simulation) {
+    const Square<V> to_world = rotation_matrix(simulation.orientation);
     const V half = V(0.5) * h;
     const V rate = V(1.0) / h;
-    Triple<V> relative_velocity = flight.velocity;
+    Triple<V> relative_velocity = simulation.velocity;
     Triple<V> apparent_gravity = gravity;
-    Triple<V> guess_acceleration = flight.acceleration;
+    Triple<V> guess_acceleration = simulation.acceleration;
     Triple<V> pushed = no_vector<V>();  // by the stream's acceleration, about
     if (sees_fluid) {
         relative_velocity = relative_velocity - transposed_times(to_world, stream.begin);
     }
-    const bool fluid_changes = sees_fluid && !stream.is_slip;
+    const bool fluid_changes = sees_fluid && !stream.on_loads_alone;
     if (fluid_changes) {
         const Triple<V> acceleration = rate * (stream.end - stream.begin);
         apparent_gravity = apparent_gravity - acceleration;
@@ -363,50 +364,54 @@ HWY_INLINE void implicit_step(const StepConstants& c, const Triple<V>& gravity, 
         guess_acceleration = guess_acceleration + pushed;
     }
     StepStart<V> start = step_start(c, to_world, apparent_gravity, h, fluid_changes, stream.rotation,
-                                    relative_velocity, flight);
-    start.slip =
-        c.has_side_pressure ? V(c.inverse_length) * transposed_times(to_world, stream.slip) : no_vector<V>();
+                                    relative_velocity, simulation);
+    start.wake_fluctuation = c.has_side_pressure
+                                 ? V(c.inverse_length) * transposed_times(to_world, stream.wake_fluctuation)
+                                 : no_vector<V>();
     start.is_pushed = push != nullptr;
     start.push =
         start.is_pushed ? push_at_centroid(c, to_world, *push) : Push<V>{no_vector<V>(), no_vector<V>()};
     const StepMiddle<V> found = found_middle(
         c, start,
-        {start.omega + half * flight.angular_acceleration,
-         start.velocity + half * to_centroid(c, flight.angular_acceleration, guess_acceleration)});
+        {start.omega + half * simulation.angular_acceleration,
+         start.velocity + half * to_centroid(c, simulation.angular_acceleration, guess_acceleration)});
     if (c.wake_forms) {
-        flight.wake = wake_in_the_end(c, flight.wake, h, found.omega, found.velocity, found.half_turn);
+        simulation.wake =
+            wake_in_the_end(c, simulation.wake, h, found.omega, found.velocity, found.half_turn);
     }
 
     // The same turn that carried gravity: what gravity works is then what the height gives.
     const Triple<V> middle_velocity = from_centroid(c, found.omega, found.velocity);
-    flight.position = flight.position + h * (to_world * turned_back(-found.half_turn, middle_velocity));
-    flight.orientation = turned_by(flight.orientation, found.half_turn);
+    simulation.position =
+        simulation.position + h * (to_world * turned_back(-found.half_turn, middle_velocity));
+    simulation.orientation = turned_by(simulation.orientation, found.half_turn);
     const V whole = V(1.0) / found.theta;
     const Triple<V> rotation_change = whole * found.change.omega;
     const Triple<V> velocity_change = from_centroid(c, rotation_change, whole * found.change.velocity);
-    flight.angular_acceleration = rate * rotation_change;
-    flight.acceleration = rate * velocity_change;
-    flight.angular_velocity = flight.angular_velocity + rotation_change;
-    flight.velocity = relative_velocity + velocity_change;
+    simulation.angular_acceleration = rate * rotation_change;
+    simulation.acceleration = rate * velocity_change;
+    simulation.angular_velocity = simulation.angular_velocity + rotation_change;
+    simulation.velocity = relative_velocity + velocity_change;
     if (sees_fluid) {
-        flight.position =
-            flight.position + (stream.is_slip ? h * stream.begin : half * (stream.begin + stream.end));
-        flight.velocity = flight.velocity + transposed_times(rotation_matrix(flight.orientation), stream.end);
+        simulation.position = simulation.position +
+                              (stream.on_loads_alone ? h * stream.begin : half * (stream.begin + stream.end));
+        simulation.velocity =
+            simulation.velocity + transposed_times(rotation_matrix(simulation.orientation), stream.end);
     }
-    if (fluid_changes) flight.acceleration = flight.acceleration - pushed;
+    if (fluid_changes) simulation.acceleration = simulation.acceleration - pushed;
 }
 
 /// The rate (1/s) at which the body turns, or would turn by its Munk moment in a sampled turbulence (m/s,
 /// world axes).
 template <class V>
 HWY_INLINE V rotation_rate(const StepConstants& c, bool sees_fluid, const Triple<V>& seen_velocity,
-                           const Flight<V>& flight) {
-    Triple<V> velocity = centroid_velocity(c, flight);
+                           const Simulation<V>& simulation) {
+    Triple<V> velocity = centroid_velocity(c, simulation);
     if (sees_fluid) {
-        velocity = velocity -
-                   V(c.inverse_length) * transposed_times(rotation_matrix(flight.orientation), seen_velocity);
+        velocity = velocity - V(c.inverse_length) *
+                                  transposed_times(rotation_matrix(simulation.orientation), seen_velocity);
     }
-    return root(dot(flight.angular_velocity, flight.angular_velocity)) +
+    return root(dot(simulation.angular_velocity, simulation.angular_velocity)) +
            V(c.munk_rate) * root(dot(velocity, velocity));
 }
 
@@ -414,8 +419,8 @@ HWY_INLINE V rotation_rate(const StepConstants& c, bool sees_fluid, const Triple
 /// their number allows. `seen_velocity`: when the step begins (m/s, world axes).
 template <class V>
 HWY_INLINE V substeps_of(const StepConstants& c, V h, bool sees_fluid, const Triple<V>& seen_velocity,
-                         const Flight<V>& flight) {
-    const V turns = h * rotation_rate(c, sees_fluid, seen_velocity, flight) * V(1.0 / 0.3);
+                         const Simulation<V>& simulation) {
+    const V turns = h * rotation_rate(c, sees_fluid, seen_velocity, simulation) * V(1.0 / 0.3);
     return -whole_part(-smaller(V(most_substeps), larger(V(1.0), turns)));
 }
 

@@ -67,11 +67,11 @@ struct StepConstants {
     Triple<double> normal{};
     Triple<double> center_of_pressure{};  ///< over l, from the centroid
 
-    bool wake_forms = false;                 ///< whether the loads wait for the wake to form
-    Square<double> squared_formation_way{};  ///< ImmersedBody's, over l^2
-    double settling_over_formation = 1;      ///< the way of forming over that of settling
-    bool has_spin_about_symmetry = false;    ///< whether the next is not zero
-    Square<double> spin_about_symmetry{};    ///< ImmersedBody's
+    bool wake_forms = false;                    ///< whether the loads wait for the wake to form
+    Square<double> squared_formation_length{};  ///< ImmersedBody's, over l^2
+    double settling_over_formation = 1;         ///< the way of forming over that of settling
+    bool has_spin_about_symmetry = false;       ///< whether the next is not zero
+    Square<double> spin_about_symmetry{};       ///< ImmersedBody's
     Square<double> potential_transport{};  ///< rho_f (M - T) / m* over steady_factor, less its isotropic part
     Square<double> directed_transport{};   ///< rho_f T / m* less its isotropic part
     double isotropic_transport = 0;        ///< a third of the trace of rho_f T / m*

@@ -14,19 +14,19 @@ namespace samara::HWY_NAMESPACE {
 
 /// Wake of body_state.hpp.
 template <class V>
-struct FlightWake {
+struct WakeState {
     V formed;
     Triple<V> heading;
 };
 
 template <class Condition, class V>
-HWY_INLINE FlightWake<V> select(Condition condition, const FlightWake<V>& a, const FlightWake<V>& b) {
+HWY_INLINE WakeState<V> select(Condition condition, const WakeState<V>& a, const WakeState<V>& b) {
     return {select(condition, a.formed, b.formed), select(condition, a.heading, b.heading)};
 }
 
 /// shares_of() of loads.hpp.
 template <class V>
-HWY_INLINE Shares<V> shares_of(const FlightWake<V>& wake) {
+HWY_INLINE Shares<V> shares_of(const WakeState<V>& wake) {
     const V square = dot(wake.heading, wake.heading);
     const V fourth = square * square;
     return {wake.formed, fourth * fourth};
@@ -36,12 +36,12 @@ HWY_INLINE Shares<V> shares_of(const FlightWake<V>& wake) {
 /// to the direction of the velocity, what differs going as exp(-x), x the way over that in which a wake forms
 /// or a heading settles, here to the second order and never below zero.
 template <class V>
-HWY_INLINE FlightWake<V> wake_after(const StepConstants& c, const FlightWake<V>& wake, V time,
-                                    const Triple<V>& omega, const Triple<V>& velocity,
-                                    const Triple<V>& direction) {
+HWY_INLINE WakeState<V> wake_after(const StepConstants& c, const WakeState<V>& wake, V time,
+                                   const Triple<V>& omega, const Triple<V>& velocity,
+                                   const Triple<V>& direction) {
     const auto kept_after = [](V x) HWY_ATTR { return V(1.0) / (V(1.0) + x * (V(1.0) + V(0.5) * x)); };
     const V speed_square = dot(velocity, velocity);
-    const V reach_square = dot(velocity, broadcast_symmetric<V>(c.squared_formation_way) * velocity);
+    const V reach_square = dot(velocity, broadcast_symmetric<V>(c.squared_formation_length) * velocity);
     const V x =
         time * combined_speed(c, omega, velocity) * root(speed_square / larger(V(tiny), reach_square));
     return {V(1.0) + kept_after(x) * (wake.formed - V(1.0)),
@@ -50,9 +50,9 @@ HWY_INLINE FlightWake<V> wake_after(const StepConstants& c, const FlightWake<V>&
 
 /// The wake in the middle of a step over h that begins with `wake` and moves at these velocities.
 template <class V>
-HWY_INLINE FlightWake<V> wake_in_the_middle(const StepConstants& c, FlightWake<V> wake, V h,
-                                            const Triple<V>& omega, const Triple<V>& velocity,
-                                            const Triple<V>& half_turn) {
+HWY_INLINE WakeState<V> wake_in_the_middle(const StepConstants& c, WakeState<V> wake, V h,
+                                           const Triple<V>& omega, const Triple<V>& velocity,
+                                           const Triple<V>& half_turn) {
     if (c.has_spin_about_symmetry) {
         wake.heading = turned_back(broadcast_symmetric<V>(c.spin_about_symmetry) * half_turn, wake.heading);
     }
@@ -61,9 +61,9 @@ HWY_INLINE FlightWake<V> wake_in_the_middle(const StepConstants& c, FlightWake<V
 
 /// And in its end.
 template <class V>
-HWY_INLINE FlightWake<V> wake_in_the_end(const StepConstants& c, FlightWake<V> wake, V h,
-                                         const Triple<V>& omega, const Triple<V>& velocity,
-                                         const Triple<V>& half_turn) {
+HWY_INLINE WakeState<V> wake_in_the_end(const StepConstants& c, WakeState<V> wake, V h,
+                                        const Triple<V>& omega, const Triple<V>& velocity,
+                                        const Triple<V>& half_turn) {
     Triple<V> direction = heading_of(velocity).direction;
     if (c.has_spin_about_symmetry) {
         const Triple<V> unseen = broadcast_symmetric<V>(c.spin_about_symmetry) * half_turn;

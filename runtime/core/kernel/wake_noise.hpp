@@ -7,7 +7,7 @@ namespace samara {
 /// laminar, and does not fluctuate. And the pressure of what sheds pushes on the body's sides: a force across
 /// the path of rho |w|/2 times the slip, times the body's projected area in the force's direction, times
 /// this. Measured on a sphere, a disc, an ellipsoid and a sheet that are held (docs/studies/noise).
-inline constexpr double wake_slip = 0.3;
+inline constexpr double wake_fluctuation_share = 0.3;
 inline constexpr double wake_side_pressure = 1.15;
 inline constexpr double wake_persistence = 2.5;
 

@@ -19,7 +19,7 @@ constexpr const char* dataset = "/wind/velocity";
 constexpr double largest = 1e30;
 constexpr std::size_t most_bytes = std::size_t{64} << 30U;
 
-Error fault(const std::filesystem::path& file, const std::string& what) {
+Error error(const std::filesystem::path& file, const std::string& what) {
     return Error(fmt::format("{}: {}; make it again with 'samara wind'", file.string(), what));
 }
 
@@ -34,11 +34,11 @@ WindGrid read_wind_file(const std::filesystem::path& path) {
     if (!file.has(dataset))
         throw Error(fmt::format("{}: is no wind file: it has no {}", path.string(), dataset));
     if (file.integer_attribute("/", "format_version") > format_version) {
-        throw fault(path, "was written by a newer version of samara");
+        throw error(path, "was written by a newer version of samara");
     }
     const std::vector<hsize_t> shape = file.shape(dataset);
     if (shape.size() != 5 || shape[4] != 3 || std::find(shape.begin(), shape.end(), 0U) != shape.end()) {
-        throw fault(path, fmt::format("{} has not the shape (times, z, y, x, 3)", dataset));
+        throw error(path, fmt::format("{} has not the shape (times, z, y, x, 3)", dataset));
     }
     WindGrid grid;
     grid.frames = shape[0];
@@ -47,16 +47,16 @@ WindGrid read_wind_file(const std::filesystem::path& path) {
     grid.spacing = vector_in(file, "/wind/spacing");
     grid.interval = file.number_attribute("/wind", "interval");
     grid.source = file.text_attribute("/wind", "source");
-    if (!(grid.spacing.minCoeff() > 0.0)) throw fault(path, "/wind/spacing holds what is not above zero");
+    if (!(grid.spacing.minCoeff() > 0.0)) throw error(path, "/wind/spacing holds what is not above zero");
     if (!(grid.interval > 0.0 && grid.interval < largest))
-        throw fault(path, "/wind has an interval that is not above zero");
+        throw error(path, "/wind has an interval that is not above zero");
     grid.velocities.reserve(grid.size());
     for (hsize_t frame = 0; frame < shape[0]; ++frame) {
         const std::vector<double> values =
             file.finite_block(dataset, {frame, 0, 0, 0, 0}, {1, shape[1], shape[2], shape[3], 3});
         for (const double value : values) {
             if (std::abs(value) > largest)
-                throw fault(path, fmt::format("{} holds a velocity beyond 1e30 m/s", dataset));
+                throw error(path, fmt::format("{} holds a velocity beyond 1e30 m/s", dataset));
             grid.velocities.push_back(static_cast<float>(value));
         }
     }

@@ -16,7 +16,7 @@ struct BoundaryElementOptions {
 /// What one solve for the six unit motions gives. The surface's unit of length is the tensor's.
 struct BoundaryElementResult {
     Matrix6d tensor = Matrix6d::Zero();  ///< about the origin, fluid of density 1, not symmetrised
-    double closure_fault = 0.0;  ///< how far the solid angles of all triangles, seen from one, are from
+    double closure_error = 0.0;  ///< how far the solid angles of all triangles, seen from one, are from
                                  ///< their sum on a closed surface, as a share of the full one; the largest
     std::size_t unknowns = 0;
     int iterations = 0;      ///< of the solver; 0: factorised

@@ -23,12 +23,12 @@ Eigen::Index row_of(std::size_t index) {
 class GroupAssembly {
   public:
     GroupAssembly(const CurvedPanels& panels, const PanelQuadrature& quadrature,
-                  const std::vector<double>& shares, CurvedEquations& equations, Eigen::VectorXd& row_faults)
+                  const std::vector<double>& shares, CurvedEquations& equations, Eigen::VectorXd& row_errors)
         : panels_(panels),
           quadrature_(quadrature),
           shares_(shares),
           equations_(equations),
-          row_faults_(row_faults) {}
+          row_errors_(row_errors) {}
 
     void assemble(std::size_t group) {
         first_ = group * group_size;
@@ -124,7 +124,7 @@ class GroupAssembly {
             const std::size_t row = first_ + i;
             float& own = rows_[row * group_size + i];
             equations_.diagonal[row_of(row)] = 1.0 - (sums[i] - static_cast<double>(own));
-            row_faults_[row_of(row)] = std::abs(sums[i] - shares_[row]);
+            row_errors_[row_of(row)] = std::abs(sums[i] - shares_[row]);
             own = 0.0F;
             equations_.right_hand_sides.row(row_of(row)) << -potentials_[0][i], -potentials_[1][i],
                 -potentials_[2][i], -panels_.nodes[row].transpose();
@@ -135,7 +135,7 @@ class GroupAssembly {
     const PanelQuadrature& quadrature_;
     const std::vector<double>& shares_;
     CurvedEquations& equations_;
-    Eigen::VectorXd& row_faults_;
+    Eigen::VectorXd& row_errors_;
     std::size_t first_ = 0;
     std::size_t last_ = 0;
     float* rows_ = nullptr;
@@ -182,17 +182,17 @@ CurvedEquations assemble_curved_equations(const CurvedPanels& panels, double tol
     equations.rows = LargeArray<float>(equations.groups * group_size * equations.count);
     equations.diagonal.resize(row_of(equations.count));
     equations.right_hand_sides.resize(row_of(equations.count), 6);
-    Eigen::VectorXd row_faults(row_of(equations.count));
+    Eigen::VectorXd row_errors(row_of(equations.count));
     const PanelQuadrature quadrature(panels.panels, tolerance, options.threads);
     const std::vector<double> shares = interior_shares(panels, options.threads);
     parallel_for(
         equations.groups, groups_a_piece, options.threads,
         [&](std::size_t begin, std::size_t end) {
-            GroupAssembly assembly(panels, quadrature, shares, equations, row_faults);
+            GroupAssembly assembly(panels, quadrature, shares, equations, row_errors);
             for (std::size_t group = begin; group < end; ++group) assembly.assemble(group);
         },
         options.progress);
-    equations.closure_fault = row_faults.maxCoeff();
+    equations.closure_error = row_errors.maxCoeff();
     return equations;
 }
 

@@ -15,7 +15,7 @@ struct CurvedEquations {
     LargeArray<float> rows;       ///< A without its diagonal, group after group
     Eigen::VectorXd diagonal;     ///< of A
     SixColumns right_hand_sides;  ///< -S (x cross n) for omega, -x for v
-    double closure_fault = 0.0;   ///< as in BoundaryElementResult
+    double closure_error = 0.0;   ///< as in BoundaryElementResult
 
     /// A times six columns.
     [[nodiscard]] SixColumns multiply(const SixColumns& columns, int threads) const;

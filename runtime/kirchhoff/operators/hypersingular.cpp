@@ -132,7 +132,7 @@ BoundaryElementResult solve_dense(const LinearElements& elements, const Boundary
     result.tensor = single_layer_energies(equations.rotations, equations.translation_energies) +
                     equations.loads.transpose() * solved(equations);
     result.memory = equations.memory;
-    result.closure_fault = equations.rotations.closure_fault;
+    result.closure_error = equations.rotations.closure_error;
     result.unknowns = elements.node_count();
     return result;
 }
@@ -175,7 +175,7 @@ BoundaryElementResult solve_compressed(const LinearElements& elements, const Bou
         result.tensor.diagonal(), how.tolerance, part_of(options.progress, 0.75, 1.0));
     if (!solution) throw Error(unsolvable);
     result.tensor += solution->energies;
-    result.closure_fault = rotations.closure_fault;
+    result.closure_error = rotations.closure_error;
     result.unknowns = elements.node_count();
     result.iterations = solution->iterations;
     result.memory = single_layer.memory() + preconditioner.memory();

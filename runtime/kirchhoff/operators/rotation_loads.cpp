@@ -126,13 +126,13 @@ RotationLoads rotation_loads(const LinearElements& elements, int threads,
     RotationLoads result;
     result.loads.setZero(at(elements.node_count()), 3);
     result.energies.setZero();
-    result.closure_fault = 0.0;
+    result.closure_error = 0.0;
     for (std::size_t t = 0; t < rows.size(); ++t) {
         const Matrix3d loads = 0.5 * own_loads(elements.triangles[t]) - rows[t].loads / full_solid_angle;
         for (std::size_t k = 0; k < 3; ++k) result.loads.row(at(elements.node(t, k))) += loads.row(at(k));
         result.energies += rows[t].energies / full_solid_angle;
         const double share = rows[t].solid_angle / full_solid_angle;
-        result.closure_fault = std::max(result.closure_fault, std::abs(share - 0.5));
+        result.closure_error = std::max(result.closure_error, std::abs(share - 0.5));
     }
     return result;
 }

@@ -14,7 +14,7 @@ struct RotationLoads {
     Eigen::Matrix<double, 3, 6> energies;
     /// The largest difference between the solid angle of all triangles from the middle of one and 2 pi, as a
     /// share of 4 pi; that is below 1e-3 on a closed surface, because distant triangles count as points.
-    double closure_fault;
+    double closure_error;
 };
 
 /// Near pairs of triangles take the inner integral in closed form at 16 outer points; distant ones three

@@ -91,7 +91,7 @@ BlockSolution solve(const CurvedPanels& panels, const CurvedEquations& equations
     BlockSolution solution = solve_block(times_matrix, equations.right_hand_sides,
                                          {solver_tolerance(panels), most_iterations, precondition});
     // What is not closed need not have a solution; its closure fault says so.
-    if (!solution.converged && equations.closure_fault < open_surface) {
+    if (!solution.converged && equations.closure_error < open_surface) {
         throw Error(
             fmt::format("the equations of {} curved triangles did not converge in {} steps; mesh the "
                         "shape again with 'samara mesh', with more or more even triangles",
@@ -112,7 +112,7 @@ BoundaryElementResult solve_curved_collocation(const Surface& surface,
     BoundaryElementResult result;
     result.unknowns = equations.count;
     result.memory = equations.rows.bytes();
-    result.closure_fault = equations.closure_fault;
+    result.closure_error = equations.closure_error;
     BlockSolution solution = solve(panels, equations, thickness, options.threads);
     result.iterations = solution.iterations;
     for (std::size_t i = 0; i < equations.count; ++i) {

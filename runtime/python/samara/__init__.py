@@ -16,10 +16,10 @@ read or written FileError, an OSError too.
 import os as _os
 from typing import Any, Callable, Optional, Union
 
-from ._samara import Body, BodyMotion, Error, FileError, Flight, InputError, Motion, Poses, Scene, __version__, compare, fly as _fly, ready_bodies
+from ._samara import Body, BodyMotion, Error, FileError, Simulation, InputError, Motion, Poses, Scene, __version__, compare, fly as _fly, ready_bodies
 from .programs import bake, plan
 
-__all__ = ["Body", "BodyMotion", "Error", "FileError", "Flight", "InputError", "Motion", "Poses", "Scene", "bake", "compare",
+__all__ = ["Body", "BodyMotion", "Error", "FileError", "Simulation", "InputError", "Motion", "Poses", "Scene", "bake", "compare",
            "plan", "ready_bodies", "simulate", "__version__"]
 
 
@@ -30,7 +30,7 @@ def simulate(scene: Union[Scene, dict[str, Any], str, "_os.PathLike[str]"], *, r
 
     runs: that differ by their noise alone. seed, step: instead of the scene's. threads: 0 for all cores; the motion is the same
     for any number. bodies: a folder of baked bodies, NAME.body.h5 for each body of the scene. progress: called with (done, total)
-    ten times a second at most; what it raises ends the flight. Other threads of Python go on meanwhile.
+    ten times a second at most; what it raises ends the simulation. Other threads of Python go on meanwhile.
     """
     if isinstance(scene, dict):
         scene = Scene(scene)
@@ -53,6 +53,6 @@ def _show_in_notebook(motion: Motion) -> str:
 
 
 Motion._repr_html_ = _show_in_notebook  # type: ignore[attr-defined]
-for _public in (Body, BodyMotion, Error, FileError, Flight, InputError, Motion, Poses, Scene):
+for _public in (Body, BodyMotion, Error, FileError, Simulation, InputError, Motion, Poses, Scene):
     _public.__module__ = __name__
 del _public

@@ -34,7 +34,7 @@ class CaseReduction : public testing::Test {
     std::vector<SolvedCase> reduced() const {
         return reduce_folder(folder_.path(), read_case_plan(folder_.path())).cases;
     }
-    std::string fault() const {
+    std::string error() const {
         std::string message = test::error_of([&] { reduced(); });
         EXPECT_EQ(message.find('\n'), std::string::npos) << message;
         return message;
@@ -76,10 +76,10 @@ TEST_F(CaseReduction, ReadsTheShellOfTheMeshThatACaseNames) {
     });
     std::string zones = read_bytes(folder_.path() / "mesh/constant/polyMesh/cellZones");
     folder_.write("mesh_coarse/constant/polyMesh/cellZones", zones.replace(zones.find("1 2 4"), 5, "0 2 4"));
-    EXPECT_THAT(fault(), HasSubstr("case_01: the mean k over the shell at the time 20 is"));
+    EXPECT_THAT(error(), HasSubstr("case_01: the mean k over the shell at the time 20 is"));
     std::filesystem::remove_all(folder_.path() / "mesh");
     std::filesystem::remove_all(folder_.path() / "mesh_coarse");
-    EXPECT_THAT(fault(), HasSubstr("case_00/constant/polyMesh/cellZones: there is no such file"));
+    EXPECT_THAT(error(), HasSubstr("case_00/constant/polyMesh/cellZones: there is no such file"));
 }
 
 TEST_F(CaseReduction, LeavesOutWhatFailed) {
@@ -91,7 +91,7 @@ TEST_F(CaseReduction, LeavesOutWhatFailed) {
     EXPECT_EQ(reduction.left_out[0].name, "case_02");
     EXPECT_EQ(reduction.left_out[0].reason, "diverged after 3 retries");
     folder_.write("case_02/failed.json", "{}");
-    EXPECT_THAT(fault(), HasSubstr("case_02/failed.json: has no text 'reason'"));
+    EXPECT_THAT(error(), HasSubstr("case_02/failed.json: has no text 'reason'"));
 }
 
 TEST_F(CaseReduction, LeavesOutTheCasesOfAMeshThatFailed) {
@@ -145,17 +145,17 @@ TEST_F(CaseReduction, LeavesOutTheCaseWhoseTurbulenceFailed) {
 
 TEST_F(CaseReduction, RefusesTurbulenceOfAnotherFlowOrPurpose) {
     folder_.change_plan([](json& plan) { plan["cases"][0]["turbulence_from"] = "case_07"; });
-    EXPECT_THAT(fault(), HasSubstr("the case case_00 takes its turbulence from case_07, which is no case"));
+    EXPECT_THAT(error(), HasSubstr("the case case_00 takes its turbulence from case_07, which is no case"));
     folder_.change_plan([](json& plan) {
         plan["cases"][1]["purpose"] = "turbulence";
         plan["cases"][0]["turbulence_from"] = "case_01";
     });
-    EXPECT_THAT(fault(), HasSubstr("takes its turbulence from case_01, which is no case"));
+    EXPECT_THAT(error(), HasSubstr("takes its turbulence from case_01, which is no case"));
 }
 
 TEST_F(CaseReduction, RefusesWhatIsNotSolvedUnlessToldOtherwise) {
     std::filesystem::remove(folder_.case_path(4) / "provenance.json");
-    EXPECT_THAT(fault(), HasSubstr("the case case_04 is not solved (1 of 6 are not)"));
+    EXPECT_THAT(error(), HasSubstr("the case case_04 is not solved (1 of 6 are not)"));
     const FolderReduction reduction =
         reduce_folder(folder_.path(), read_case_plan(folder_.path()), {}, UnsolvedCases::leave_out);
     EXPECT_EQ(reduction.cases.size(), 5U);
@@ -171,12 +171,12 @@ TEST_F(CaseReduction, AveragesTheLastQuarterWhereNobodySaysFromWhen) {
     // Batches of two have equal means, the two halves (of the last four) as well.
     EXPECT_LT(solved.sample.error.force.x(), 0.6 * 0.01);
     folder_.change_plan([](json& plan) { plan["cases"][0]["averaging_start"] = 18.0; });
-    EXPECT_THAT(fault(), HasSubstr("force.dat: has 3 iterations from 18 on, too few"));
+    EXPECT_THAT(error(), HasSubstr("force.dat: has 3 iterations from 18 on, too few"));
     folder_.change_plan([](json& plan) { plan["cases"][0]["averaging_start"] = 1.0; });
     // All iterations, also the transient of the first nine: 1 + (1 + 1/2 + ... + 1/9)/20.
     EXPECT_NEAR(reduced().front().sample.entry.force.x(), -0.6 * (1.0 + 2.8289682539682537 / 20.0), 1e-9);
     folder_.write("case_01/provenance.json", R"({"averaging_start": "late"})");
-    EXPECT_THAT(fault(), HasSubstr("case_01: 'averaging_start' in provenance.json is no number"));
+    EXPECT_THAT(error(), HasSubstr("case_01: 'averaging_start' in provenance.json is no number"));
 }
 
 TEST_F(CaseReduction, JoinsTheHistoriesOfRounds) {
@@ -217,14 +217,14 @@ TEST_F(CaseReduction, ReadsTheForcesOfTheFoundation) {
     folder_.write("case_01/postProcessing/forces/0/forces.dat", text);
     EXPECT_LT(test::difference(reduced().at(1).sample.entry, whole), 1e-12);
     std::filesystem::remove_all(forces / "0");
-    EXPECT_THAT(fault(),
+    EXPECT_THAT(error(),
                 HasSubstr("case_01/postProcessing/forces: has no force.dat in any folder of a start time"));
 }
 
 TEST_F(CaseReduction, OfLaminarCasesHasNoTurbulence) {
     std::filesystem::remove_all(folder_.case_path(3) / "postProcessing/shell");
     std::filesystem::remove_all(folder_.case_path(3) / "20");
-    EXPECT_THAT(fault(), HasSubstr("case_03/postProcessing/shell: has no volFieldValue.dat"));
+    EXPECT_THAT(error(), HasSubstr("case_03/postProcessing/shell: has no volFieldValue.dat"));
     folder_.replace("case_03/provenance.json", "kEpsilon", "laminar");
     const DirectionSample sample = reduced().at(3).sample;
     EXPECT_EQ(sample.entry.turbulent_kinetic_energy, 0.0);
@@ -242,24 +242,24 @@ TEST_F(CaseReduction, RefusesTurbulenceThatIsNotPositive) {
     std::string rows = "# Time volAverage(k) volAverage(epsilon)\n";
     for (int i = 1; i <= 20; ++i) rows += fmt::format("{} -1 -1\n", i);
     folder_.write("case_03/postProcessing/shell/0/volFieldValue.dat", rows);
-    EXPECT_THAT(fault(),
+    EXPECT_THAT(error(),
                 HasSubstr("case_03/postProcessing/shell/0/volFieldValue.dat: the k is -1 at the time 10, "
                           "which is never negative"));
     folder_.write("case_03/postProcessing/shell/0/volFieldValue.dat",
                   std::regex_replace(rows, std::regex("-1"), "1"));
-    EXPECT_THAT(fault(), HasSubstr("case_03/20/k: is -1 in cell 1, where it cannot be"));
+    EXPECT_THAT(error(), HasSubstr("case_03/20/k: is -1 in cell 1, where it cannot be"));
 }
 
 TEST_F(CaseReduction, HoldsTheFieldsAgainstTheHistoryAtTheirOwnTime) {
     move("case_00/20", "case_00/19");
-    EXPECT_THAT(fault(),
+    EXPECT_THAT(error(),
                 HasSubstr("case_00: the mean k over the shell at the time 19 is 0.014 by the fields and "
                           "0.01386 by postProcessing/shell: they are of different runs"));
     move("case_00/19", "case_00/25");
-    EXPECT_THAT(fault(), HasSubstr("case_00: the fields were last written at the time 25, which "
+    EXPECT_THAT(error(), HasSubstr("case_00: the fields were last written at the time 25, which "
                                    "postProcessing/shell does not hold"));
     move("case_00/25", "elsewhere");
-    EXPECT_THAT(fault(), HasSubstr("case_00: has no written iteration"));
+    EXPECT_THAT(error(), HasSubstr("case_00: has no written iteration"));
 }
 
 TEST_F(CaseReduction, NamesBrokenFilesInOneLine) {
@@ -269,15 +269,15 @@ TEST_F(CaseReduction, NamesBrokenFilesInOneLine) {
     std::filesystem::remove(k);
     EXPECT_EQ(reduced().size(), 6U);
     folder_.write("case_00/20/k.gz", test::gzipped(text).substr(0, 60));
-    EXPECT_THAT(fault(), HasSubstr("case_00/20/k.gz: the compressed file is cut short; copy the file again"));
+    EXPECT_THAT(error(), HasSubstr("case_00/20/k.gz: the compressed file is cut short; copy the file again"));
     std::filesystem::remove(folder_.case_path(0) / "20/k.gz");
-    EXPECT_THAT(fault(), HasSubstr("case_00/20/k: there is no such file"));
+    EXPECT_THAT(error(), HasSubstr("case_00/20/k: there is no such file"));
     folder_.write("case_00/20/k", text);
     folder_.replace("case_00/20/k", "volScalarField", "volVectorField");
-    EXPECT_THAT(fault(), HasSubstr("case_00/20/k:7: holds a volVectorField, not a volScalarField"));
+    EXPECT_THAT(error(), HasSubstr("case_00/20/k:7: holds a volVectorField, not a volScalarField"));
     folder_.write("case_00/20/k", text);
     folder_.replace("mesh/constant/polyMesh/cellZones", "shell", "wake");
-    EXPECT_THAT(fault(), HasSubstr("cellZones:15: has no cell zone 'shell' (it has: wake)"));
+    EXPECT_THAT(error(), HasSubstr("cellZones:15: has no cell zone 'shell' (it has: wake)"));
 }
 
 TEST_F(CaseReduction, RefusesTheSameCaseTwice) {
@@ -286,17 +286,17 @@ TEST_F(CaseReduction, RefusesTheSameCaseTwice) {
         twin["name"] = "twin";
         plan["cases"].push_back(twin);
     });
-    EXPECT_THAT(fault(),
+    EXPECT_THAT(error(),
                 HasSubstr("plan.json: the cases case_02 and twin are of the same direction, Reynolds number "
                           "and purpose"));
     folder_.change_plan([](json& plan) { plan["cases"].back()["purpose"] = "twin"; });
-    EXPECT_THAT(fault(),
+    EXPECT_THAT(error(),
                 HasSubstr("plan.json: 'purpose' is \"twin\", not table, mesh, closure, turbulence or start"));
     folder_.change_plan([](json& plan) {
         plan["cases"].erase(plan["cases"].size() - 1);
         plan["solved_by"] = "nobody";
     });
-    EXPECT_THAT(fault(), HasSubstr("plan.json: 'solved_by' is \"nobody\", not samara or user"));
+    EXPECT_THAT(error(), HasSubstr("plan.json: 'solved_by' is \"nobody\", not samara or user"));
 }
 
 /// The same cases as a user would have solved them: in SI units and in axes of his own, without any of the
@@ -399,15 +399,15 @@ TEST_F(UsersCases, MayEachHaveUnitsOfTheirOwn) {
     EXPECT_NEAR(slow.turbulent_kinetic_energy, expected_.front().entry.turbulent_kinetic_energy / 4.0, 1e-12);
     EXPECT_NEAR(slow.dissipation_rate, expected_.front().entry.dissipation_rate / 8.0, 1e-12);
     folder_.change_plan([](json& plan) { plan["cases"][0]["speed"] = 0; });
-    EXPECT_THAT(fault(), HasSubstr("plan.json: the speed of case case_00 is not positive"));
+    EXPECT_THAT(error(), HasSubstr("plan.json: the speed of case case_00 is not positive"));
 }
 
 TEST_F(UsersCases, ThatAreBrokenAreForTheUserToMend) {
     std::filesystem::remove_all(folder_.case_path(2));
-    EXPECT_THAT(fault(), HasSubstr("case_02: the case's folder is missing; solve it again, or take it out of "
+    EXPECT_THAT(error(), HasSubstr("case_02: the case's folder is missing; solve it again, or take it out of "
                                    "plan.json"));
     std::filesystem::remove(folder_.path() / "body.body.h5");
-    EXPECT_THAT(fault(), HasSubstr("body.body.h5: "));
+    EXPECT_THAT(error(), HasSubstr("body.body.h5: "));
 }
 
 TEST_F(CaseReduction, CsvHasOneRowForEverySolvedCaseInBodyAxes) {

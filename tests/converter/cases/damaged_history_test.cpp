@@ -47,7 +47,7 @@ class DamagedHistory : public testing::Test {
     [[nodiscard]] std::vector<SolvedCase> reduced() const {
         return reduce_folder(folder_.path(), read_case_plan(folder_.path())).cases;
     }
-    [[nodiscard]] std::string fault() const {
+    [[nodiscard]] std::string error() const {
         const std::string message = test::error_of([&] { static_cast<void>(reduced()); });
         EXPECT_EQ(message.find('\n'), std::string::npos) << message;
         return message;
@@ -81,17 +81,17 @@ TEST_F(DamagedHistory, OneAbsurdValueIsNamedByFileAndTime) {
     const std::string file = in_second_run(history_names[2]);
     const std::string whole = text_of(file);
     set_row(file, 17, "0.014 1e20");
-    EXPECT_EQ(fault(),
+    EXPECT_EQ(error(),
               (folder_.path() / file).string() +
                   ": the epsilon is 1e+20 at the time 17, beyond any flow's (1000): diverged or damaged; "
                   "remove the folder case_01 and run 'samara bake' again");
     folder_.write(file, whole);
     set_row(file, 17, "-0.014 0.02");
-    EXPECT_THAT(fault(),
+    EXPECT_THAT(error(),
                 HasSubstr("14/volFieldValue.dat: the k is -0.014 at the time 17, which is never negative"));
     folder_.write(file, whole);
     set_row(file, 17, "14 0.02");
-    EXPECT_THAT(fault(), HasSubstr("the k is 14 at the time 17, far from the others (about 0.012"));
+    EXPECT_THAT(error(), HasSubstr("the k is 14 at the time 17, far from the others (about 0.012"));
 }
 
 TEST_F(DamagedHistory, OneAbsurdForceOrMomentIsNamedByFileAndTime) {
@@ -99,12 +99,12 @@ TEST_F(DamagedHistory, OneAbsurdForceOrMomentIsNamedByFileAndTime) {
         const std::string whole = text_of(name);
         for (const char* value : {"1e20", "30"}) {
             set_row(name, 12, fmt::format("({} 0 0) (0 0 0) (0 0 0)", value));
-            EXPECT_THAT(fault(), HasSubstr((folder_.path() / name).string() + ": the ")) << value;
-            EXPECT_THAT(fault(), HasSubstr(" at the time 12, "));
+            EXPECT_THAT(error(), HasSubstr((folder_.path() / name).string() + ": the ")) << value;
+            EXPECT_THAT(error(), HasSubstr(" at the time 12, "));
         }
         for (const char* value : {"nan", "1e400"}) {
             set_row(name, 12, fmt::format("({} 0 0) (0 0 0) (0 0 0)", value));
-            EXPECT_THAT(fault(), HasSubstr("case_01: diverged: " + name.substr(8) + " holds ")) << value;
+            EXPECT_THAT(error(), HasSubstr("case_01: diverged: " + name.substr(8) + " holds ")) << value;
         }
         folder_.write(name, whole);
     }
@@ -116,11 +116,11 @@ TEST_F(DamagedHistory, AFileOfTheLastRunThatIsEmptiedOrMissingIsNamed) {
         const std::string whole = text_of(file);
         for (const std::string& left : {std::string(), whole.substr(0, whole.find("\n15\t") + 1)}) {
             folder_.write(file, left);
-            EXPECT_THAT(fault(), HasSubstr(" at the time 15, which ")) << file;
-            EXPECT_THAT(fault(), HasSubstr((folder_.path() / name).parent_path().parent_path().string()));
+            EXPECT_THAT(error(), HasSubstr(" at the time 15, which ")) << file;
+            EXPECT_THAT(error(), HasSubstr((folder_.path() / name).parent_path().parent_path().string()));
         }
         std::filesystem::remove(folder_.path() / file);
-        EXPECT_THAT(fault(), HasSubstr("it was emptied, cut short, or its run's file is missing; remove"));
+        EXPECT_THAT(error(), HasSubstr("it was emptied, cut short, or its run's file is missing; remove"));
         folder_.write(file, whole);
     }
     EXPECT_EQ(reduced().size(), 6U);
@@ -128,9 +128,9 @@ TEST_F(DamagedHistory, AFileOfTheLastRunThatIsEmptiedOrMissingIsNamed) {
 
 TEST_F(DamagedHistory, ALastRunWithoutAnyHistoryIsFoundByItsFields) {
     for (const std::string& name : history_names) folder_.write(in_second_run(name), "");
-    EXPECT_THAT(fault(), HasSubstr("case_01: the fields were last written at the time 20"));
+    EXPECT_THAT(error(), HasSubstr("case_01: the fields were last written at the time 20"));
     folder_.replace("case_01/provenance.json", "kEpsilon", "laminar");
-    EXPECT_THAT(fault(),
+    EXPECT_THAT(error(),
                 HasSubstr("case_01: the fields were last written at the time 20, but postProcessing/forces "
                           "ends at the time 14"));
 }
@@ -140,12 +140,12 @@ TEST_F(DamagedHistory, TimesThatAreMissingFromAllAreAGap) {
         set_row(name, 12, "");
         set_row(name, 13, "");
     }
-    EXPECT_THAT(fault(), HasSubstr("0/force.dat: has nothing between the times 11 and 14"));
+    EXPECT_THAT(error(), HasSubstr("0/force.dat: has nothing between the times 11 and 14"));
 }
 
 TEST_F(DamagedHistory, ACopyOfAnotherRunIsRefused) {
     folder_.write(forces + "16/force.dat", text_of(in_second_run(history_names[0])));
-    EXPECT_THAT(fault(),
+    EXPECT_THAT(error(),
                 EndsWith("forces/16/force.dat: begins at the time 15, before the run of its folder; it is of "
                          "another run: remove it"));
 }
@@ -162,12 +162,12 @@ TEST_F(DamagedHistory, AnyChangeSinceTheCaseWasSolvedIsFoundByTheMeansThatWereNo
         if (digit == std::string::npos) continue;
         values[digit] = values[digit] == '1' ? '2' : '1';
         set_row(name, 13, values);
-        EXPECT_THAT(fault(), HasSubstr("case_01: the mean ")) << name;
-        EXPECT_THAT(fault(), HasSubstr("since the case was solved")) << name;
+        EXPECT_THAT(error(), HasSubstr("case_01: the mean ")) << name;
+        EXPECT_THAT(error(), HasSubstr("since the case was solved")) << name;
         folder_.write(name, whole);
     }
     folder_.write("case_01/provenance.json", R"({"averaging_start": 10, "force": [1, "x", 2]})");
-    EXPECT_THAT(fault(), HasSubstr("case_01: in provenance.json an entry is missing or of the wrong kind"));
+    EXPECT_THAT(error(), HasSubstr("case_01: in provenance.json an entry is missing or of the wrong kind"));
 }
 
 }  // namespace

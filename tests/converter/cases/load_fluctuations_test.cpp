@@ -114,12 +114,12 @@ TEST_F(LoadFluctuationsOfACase, AreWrittenRowByRow) {
 }
 
 TEST_F(LoadFluctuationsOfACase, AreNotOfASteadyOneNorOfAFewSteps) {
-    const auto fault = [&](const std::optional<double>& begin) {
+    const auto error = [&](const std::optional<double>& begin) {
         return test::error_of([&] { (void)reduce_fluctuations(folder_ / "case", begin); });
     };
-    EXPECT_THAT(fault(59.5), HasSubstr("of 60 that its fluctuations need"));
+    EXPECT_THAT(error(59.5), HasSubstr("of 60 that its fluctuations need"));
     write_parameters("steadyState");
-    EXPECT_THAT(fault({}), HasSubstr("the case is steady"));
+    EXPECT_THAT(error({}), HasSubstr("the case is steady"));
 }
 
 }  // namespace

@@ -150,7 +150,7 @@ TEST_F(FallIdentification, PredictsWorseWithTheDefaults) {
 }
 
 TEST_F(FallIdentification, GivesCoefficientsThatABodyFileTakes) {
-    EXPECT_EQ(fault_of(found_.coefficients.values), "");
+    EXPECT_EQ(error_of(found_.coefficients.values), "");
     EXPECT_THAT(found_.coefficients.values.origin, HasSubstr("fall_00"));
     Body body = body_;
     body.dynamic = found_.coefficients;
@@ -198,7 +198,7 @@ TEST_F(FallIdentification, SaysHowFarItIs) {
     EXPECT_EQ(shares.back(), 1.0);
 }
 
-std::string fault_with(const Body& body, const FallRecord& record) {
+std::string error_with(const Body& body, const FallRecord& record) {
     return test::error_of([&] { static_cast<void>(identify_motion(body, {record})); });
 }
 
@@ -271,10 +271,10 @@ TEST_F(FallIdentification, RefusesAFallThatIsTooShort) {
     FallRecord record = record_;
     record.fall.name = "fall_07";
     record.samples.resize(899);
-    EXPECT_EQ(fault_with(body_, record),
+    EXPECT_EQ(error_with(body_, record),
               "fall_07: the fall is too short to identify coefficients from: 8.99 L/U, needs 9");
     record.samples.clear();
-    EXPECT_EQ(fault_with(body_, record),
+    EXPECT_EQ(error_with(body_, record),
               "fall_07: the fall is too short to identify coefficients from: 0 L/U, needs 9");
     record.samples.assign(record_.samples.begin(), record_.samples.begin() + 900);
     EXPECT_EQ(identify_motion(body_, {record}).segments, 12);
@@ -284,16 +284,16 @@ TEST_F(FallIdentification, RefusesAFallOfAnotherBody) {
     FallRecord record = record_;
     record.fall.name = "fall_07";
     record.fall.length *= 1.01;
-    const std::string fault = fault_with(body_, record);
-    EXPECT_THAT(fault, HasSubstr("fall_07: the fall is of another body"));
-    EXPECT_THAT(fault, Not(HasSubstr("\n")));
+    const std::string error = error_with(body_, record);
+    EXPECT_THAT(error, HasSubstr("fall_07: the fall is of another body"));
+    EXPECT_THAT(error, Not(HasSubstr("\n")));
 }
 
 TEST_F(FallIdentification, RefusesAFallWhoseStepsAreUneven) {
     FallRecord record = record_;
     record.fall.name = "fall_07";
     record.samples.erase(record.samples.begin() + 500);
-    EXPECT_EQ(fault_with(body_, record),
+    EXPECT_EQ(error_with(body_, record),
               "fall_07: the fall's steps are not of one length: 0.01 L/U at first, but not at 5.02");
 }
 

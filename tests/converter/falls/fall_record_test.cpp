@@ -97,17 +97,17 @@ TEST_F(FallRecordFiles, TakeTheSolversAnglesForTurnsOfThePrincipalAxes) {
 }
 
 TEST_F(FallRecordFiles, AreRefusedWhereOneIsMissingOrOfOtherTimes) {
-    const auto fault = [&] { return test::error_of([&] { static_cast<void>(record()); }); };
-    EXPECT_THAT(fault(), HasSubstr("fall.json: is not there"));
+    const auto error = [&] { return test::error_of([&] { static_cast<void>(record()); }); };
+    EXPECT_THAT(error(), HasSubstr("fall.json: is not there"));
     write_fall(fall());
-    EXPECT_THAT(fault(), HasSubstr("postProcessing/state"));
+    EXPECT_THAT(error(), HasSubstr("postProcessing/state"));
     write("state", "sixDoFRigidBodyState.dat",
           state_heading + std::string("1\t(0 0 0)\t(0 0 0)\t(0 0 0)\t(0 0 0)\t(0 0 0)\n"));
-    EXPECT_THAT(fault(), HasSubstr("postProcessing/forces"));
+    EXPECT_THAT(error(), HasSubstr("postProcessing/forces"));
     for (const char* file : {"force.dat", "moment.dat"}) {
         write("forces", file, force_heading + std::string("0.5\t(0 0 0)\t(0 0 0)\t(0 0 0)\n"));
     }
-    EXPECT_THAT(fault(), HasSubstr("are not of the same times"));
+    EXPECT_THAT(error(), HasSubstr("are not of the same times"));
 }
 
 TEST_F(FallRecordFiles, AreRefusedWhereAnyIsCutShortEmptiedOrBeyondReason) {
@@ -121,33 +121,33 @@ TEST_F(FallRecordFiles, AreRefusedWhereAnyIsCutShortEmptiedOrBeyondReason) {
         write("forces", "force.dat", force_heading + forces);
         write("forces", "moment.dat", force_heading + moments);
     };
-    const auto fault_with = [&](const std::string& states, const std::string& forces,
+    const auto error_with = [&](const std::string& states, const std::string& forces,
                                 const std::string& moments) {
         write_all(states, forces, moments);
-        const std::string fault = test::error_of([&] { static_cast<void>(record()); });
-        EXPECT_EQ(fault.find('\n'), std::string::npos) << fault;
-        return fault;
+        const std::string error = test::error_of([&] { static_cast<void>(record()); });
+        EXPECT_EQ(error.find('\n'), std::string::npos) << error;
+        return error;
     };
     const auto first_row = [](const std::string& text) { return text.substr(0, text.find('\n') + 1); };
     const auto second_row = [](const std::string& text) { return text.substr(text.find('\n') + 1); };
     write_all(state, loads, loads);
     EXPECT_EQ(record().samples.size(), 2u);
-    EXPECT_THAT(fault_with(first_row(state), loads, loads), HasSubstr("end at the time 0.5 of 1"));
-    EXPECT_THAT(fault_with(state, first_row(loads), loads), HasSubstr("end at the time 0.5 of 1"));
-    EXPECT_THAT(fault_with(state, loads, first_row(loads)), HasSubstr("end at the time 0.5 of 1"));
-    EXPECT_THAT(fault_with(state, loads, second_row(loads)), HasSubstr("not of the same times"));
-    EXPECT_THAT(fault_with(second_row(state), second_row(loads), second_row(loads)),
+    EXPECT_THAT(error_with(first_row(state), loads, loads), HasSubstr("end at the time 0.5 of 1"));
+    EXPECT_THAT(error_with(state, first_row(loads), loads), HasSubstr("end at the time 0.5 of 1"));
+    EXPECT_THAT(error_with(state, loads, first_row(loads)), HasSubstr("end at the time 0.5 of 1"));
+    EXPECT_THAT(error_with(state, loads, second_row(loads)), HasSubstr("not of the same times"));
+    EXPECT_THAT(error_with(second_row(state), second_row(loads), second_row(loads)),
                 HasSubstr("it has nothing between the times 0 and 1"));
-    EXPECT_THAT(fault_with(state, loads, ""), HasSubstr("moment.dat: holds no values"));
+    EXPECT_THAT(error_with(state, loads, ""), HasSubstr("moment.dat: holds no values"));
     for (const char* value : {"1e20", "nan", "1e400", "-inf"}) {
         // The first vector of a state, the centre of rotation, does not count.
         const auto damaged = [&](std::string text, const char* before) {
             return text.replace(text.find(before) + std::strlen(before), 1, value);
         };
-        EXPECT_THAT(fault_with(damaged(state, ") ("), loads, loads), HasSubstr("at the time 0.5 is"))
+        EXPECT_THAT(error_with(damaged(state, ") ("), loads, loads), HasSubstr("at the time 0.5 is"))
             << value;
-        EXPECT_THAT(fault_with(state, damaged(loads, "("), loads), HasSubstr("at the time 0.5 is")) << value;
-        EXPECT_THAT(fault_with(state, loads, damaged(loads, "(")), HasSubstr("at the time 0.5 is")) << value;
+        EXPECT_THAT(error_with(state, damaged(loads, "("), loads), HasSubstr("at the time 0.5 is")) << value;
+        EXPECT_THAT(error_with(state, loads, damaged(loads, "(")), HasSubstr("at the time 0.5 is")) << value;
     }
 }
 

@@ -66,30 +66,30 @@ TEST(FreeFall, HasItsInertiaInCaseAxes) {
     EXPECT_NEAR(fall.inertia()(2, 2), 0.04, 1e-15);
 }
 
-TEST(FreeFall, FaultsNameTheFileAndTheEntry) {
+TEST(FreeFall, ErrorsNameTheFileAndTheEntry) {
     const test::TemporaryFolder folder;
-    const auto fault = [&] { return test::error_of([&] { read_free_fall(folder.path()); }); };
-    const auto fault_of = [&](const std::string& text) {
+    const auto error = [&] { return test::error_of([&] { read_free_fall(folder.path()); }); };
+    const auto error_of = [&](const std::string& text) {
         static_cast<void>(folder.file("fall.json", text));
-        return fault();
+        return error();
     };
-    EXPECT_THAT(fault(), HasSubstr("fall.json: is not there"));
-    EXPECT_THAT(fault_of("{"), HasSubstr("fall.json: "));
+    EXPECT_THAT(error(), HasSubstr("fall.json: is not there"));
+    EXPECT_THAT(error_of("{"), HasSubstr("fall.json: "));
     const nlohmann::json whole = nlohmann::json::parse(free_fall_json(some_fall()));
     for (const auto& [name, value] : whole.items()) {
         nlohmann::json lacking = whole;
         lacking.erase(name);
-        EXPECT_THAT(fault_of(lacking.dump()), HasSubstr("'" + name + "'"));
+        EXPECT_THAT(error_of(lacking.dump()), HasSubstr("'" + name + "'"));
     }
     for (const char* name :
          {"length", "speed", "fluid_density", "volume", "mass", "time_step", "duration", "reynolds_number"}) {
         nlohmann::json wrong = whole;
         wrong[name] = 0.0;
-        EXPECT_THAT(fault_of(wrong.dump()), HasSubstr(std::string("'") + name + "' is not positive"));
+        EXPECT_THAT(error_of(wrong.dump()), HasSubstr(std::string("'") + name + "' is not positive"));
     }
     nlohmann::json word = whole;
     word["gravity"] = "down";
-    EXPECT_THAT(fault_of(word.dump()), HasSubstr("make the case again"));
+    EXPECT_THAT(error_of(word.dump()), HasSubstr("make the case again"));
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ TEST(MotionParameters, ExpectTheTransportThatTakesThePotentialFlowsOwnAway) {
     EXPECT_LT((expected.drag_in_motion - usual_drag_in_motion * areas).norm(), 1e-12 * areas.norm());
     EXPECT_LT((expected.drag_in_spin - usual_drag_in_spin * areas).norm(), 1e-12 * areas.norm());
     EXPECT_EQ(expected.half_length, default_dynamic_coefficients(body).half_length);
-    EXPECT_EQ(fault_of(expected), "");
+    EXPECT_EQ(error_of(expected), "");
 }
 
 TEST(MotionParameters, GiveSymmetricTensorsAndNoNegativeDragAnywhereWithinTheBounds) {
@@ -87,7 +87,7 @@ TEST(MotionParameters, GiveSymmetricTensorsAndNoNegativeDragAnywhereWithinTheBou
     for (unsigned seed = 0; seed < 20; ++seed) {
         const DynamicCoefficients coefficients =
             parameters.coefficients(numbers_within_bounds(parameters, seed));
-        EXPECT_EQ(fault_of(coefficients), "") << seed;
+        EXPECT_EQ(error_of(coefficients), "") << seed;
     }
 }
 

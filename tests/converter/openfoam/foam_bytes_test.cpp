@@ -26,7 +26,7 @@ std::string long_text() {
 
 class FoamBytesOfAFile : public testing::Test {
   protected:
-    std::string fault_of(const std::string& packed) const {
+    std::string error_of(const std::string& packed) const {
         const std::filesystem::path file = folder_.file("k.gz", packed);
         std::string message = test::error_of([&] { read_foam_bytes(folder_.path() / "k"); });
         EXPECT_EQ(message.find(file.string() + ": "), 0U);
@@ -63,18 +63,18 @@ TEST_F(FoamBytesOfAFile, OfJoinedGzipFilesFollowOneAnother) {
 TEST_F(FoamBytesOfAFile, AreRefusedWhereverAPackedFileIsCutShort) {
     const std::string packed = test::gzipped("internalField uniform 1;");
     for (std::size_t length = 2; length < packed.size(); ++length) {
-        EXPECT_EQ(fault_of(packed.substr(0, length)), "the compressed file is cut short") << length;
+        EXPECT_EQ(error_of(packed.substr(0, length)), "the compressed file is cut short") << length;
     }
-    EXPECT_EQ(fault_of(test::gzipped(long_text()).substr(0, 200000)), "the compressed file is cut short");
+    EXPECT_EQ(error_of(test::gzipped(long_text()).substr(0, 200000)), "the compressed file is cut short");
 }
 
 TEST_F(FoamBytesOfAFile, AreRefusedWhereAPackedFileIsDamagedOrForeign) {
     std::string packed = test::gzipped(long_text());
     packed[packed.size() / 2] = static_cast<char>(packed[packed.size() / 2] ^ 1);
-    EXPECT_EQ(fault_of(packed), "the compressed file is damaged");
-    EXPECT_EQ(fault_of(test::gzipped("k") + "garbage after it"), "the compressed file is damaged");
-    EXPECT_EQ(fault_of("internalField uniform 1;"), "is not compressed by gzip");
-    EXPECT_EQ(fault_of(""), "is not compressed by gzip");
+    EXPECT_EQ(error_of(packed), "the compressed file is damaged");
+    EXPECT_EQ(error_of(test::gzipped("k") + "garbage after it"), "the compressed file is damaged");
+    EXPECT_EQ(error_of("internalField uniform 1;"), "is not compressed by gzip");
+    EXPECT_EQ(error_of(""), "is not compressed by gzip");
 }
 
 }  // namespace

@@ -24,13 +24,13 @@ std::string header(const std::string& format, const std::string& class_name) {
 
 class FoamData : public testing::Test {
   protected:
-    std::string fault(const std::string& text) {
+    std::string error(const std::string& text) {
         return test::error_of([&] { require_foam_data(folder_.file("U", text)); });
     }
     void expect_data(const std::string& text) { EXPECT_NO_THROW(require_foam_data(folder_.file("U", text))); }
     /// The fault of a field with this in its boundaryField.
-    std::string fault_of_patch(const std::string& entry) {
-        return fault(header("ascii", "volVectorField") + "boundaryField\n{\n    far\n    {\n" + entry +
+    std::string error_of_patch(const std::string& entry) {
+        return error(header("ascii", "volVectorField") + "boundaryField\n{\n    far\n    {\n" + entry +
                      "\n    }\n}\n");
     }
 
@@ -66,26 +66,26 @@ TEST_F(FoamData, LetsAFileBeThatEndsEarly) {
 }
 
 TEST_F(FoamData, RefusesWhatOpenFoamWouldRunOrRead) {
-    EXPECT_THAT(fault_of_patch("value #calc \"1\";"),
+    EXPECT_THAT(error_of_patch("value #calc \"1\";"),
                 EndsWith("U:18: holds '#calc', which no solver writes there"));
-    EXPECT_THAT(fault_of_patch("#include \"/etc/passwd\""), HasSubstr("holds '#include'"));
-    EXPECT_THAT(fault_of_patch("value $other;"), HasSubstr("holds '$other'"));
-    EXPECT_THAT(fault_of_patch("type codedFixedValue;"), HasSubstr("holds 'codedFixedValue'"));
-    EXPECT_THAT(fault_of_patch("libs (\"strange.so\");"), HasSubstr("holds 'libs'"));
-    EXPECT_THAT(fault_of_patch("\"li.*\" (\"strange.so\");"), HasSubstr("holds a name in quotes"));
-    EXPECT_THAT(fault_of_patch("code #{ system(\"x\"); #};"), HasSubstr("holds 'code'"));
+    EXPECT_THAT(error_of_patch("#include \"/etc/passwd\""), HasSubstr("holds '#include'"));
+    EXPECT_THAT(error_of_patch("value $other;"), HasSubstr("holds '$other'"));
+    EXPECT_THAT(error_of_patch("type codedFixedValue;"), HasSubstr("holds 'codedFixedValue'"));
+    EXPECT_THAT(error_of_patch("libs (\"strange.so\");"), HasSubstr("holds 'libs'"));
+    EXPECT_THAT(error_of_patch("\"li.*\" (\"strange.so\");"), HasSubstr("holds a name in quotes"));
+    EXPECT_THAT(error_of_patch("code #{ system(\"x\"); #};"), HasSubstr("holds 'code'"));
 }
 
 TEST_F(FoamData, RefusesBytesThatAreHiddenInABlockOfAnotherForm) {
-    EXPECT_THAT(fault(header("binary", "volVectorField") + "internalField nonuniform List<word> 2(#calc);"),
+    EXPECT_THAT(error(header("binary", "volVectorField") + "internalField nonuniform List<word> 2(#calc);"),
                 HasSubstr("holds a binary 'List<word>'"));
-    EXPECT_THAT(fault(header("binary", "volScalarField") +
+    EXPECT_THAT(error(header("binary", "volScalarField") +
                       "internalField nonuniform List<scalar> 1(12345678#calc \"1\""),
                 HasSubstr("a binary list that does not end"));
-    EXPECT_THAT(fault("FoamFile { format binary; format ascii; class volScalarField; }"),
+    EXPECT_THAT(error("FoamFile { format binary; format ascii; class volScalarField; }"),
                 HasSubstr("a header with the entry 'format'"));
-    EXPECT_THAT(fault("FoamFile { format binary; #calc \"1\" }"), HasSubstr("a header with the entry ''"));
-    EXPECT_THAT(fault("value #calc \"1\";"), HasSubstr("does not begin with FoamFile {"));
+    EXPECT_THAT(error("FoamFile { format binary; #calc \"1\" }"), HasSubstr("a header with the entry ''"));
+    EXPECT_THAT(error("value #calc \"1\";"), HasSubstr("does not begin with FoamFile {"));
 }
 
 }  // namespace

@@ -14,10 +14,10 @@ using testing::EndsWith;
 class FoamDictionaryTest : public testing::Test {
   protected:
     FoamDictionary read(const char* text) { return FoamDictionary(folder_.file("parameters", text)); }
-    std::string number_fault(const char* text) {
+    std::string number_error(const char* text) {
         return test::error_of([&] { static_cast<void>(read(text).number("a")); });
     }
-    std::string vector_fault(const char* text) {
+    std::string vector_error(const char* text) {
         return test::error_of([&] { static_cast<void>(read(text).vector("a")); });
     }
 
@@ -35,17 +35,17 @@ TEST_F(FoamDictionaryTest, ReadsNumbersVectorsAndTextBesideWhatItPassesOver) {
     EXPECT_EQ(dictionary.number("last"), 1e-4);
 }
 
-TEST_F(FoamDictionaryTest, FaultsNameFileAndEntry) {
-    EXPECT_THAT(number_fault("b 1;"), EndsWith("parameters: entry 'a' is missing"));
-    EXPECT_THAT(number_fault("a one;"), EndsWith("parameters: entry 'a' should be a number, is 'one'"));
-    EXPECT_THAT(number_fault("a 1 2;"), EndsWith("parameters: entry 'a' should be a number, is '1 2'"));
-    EXPECT_THAT(number_fault("a $b;"), EndsWith("parameters: entry 'a' should be a number, is '$b'"));
-    EXPECT_THAT(vector_fault("a (1 2);"), EndsWith("should be three numbers in brackets, is '(1 2)'"));
-    EXPECT_THAT(vector_fault("a (1 2 3 4);"),
+TEST_F(FoamDictionaryTest, ErrorsNameFileAndEntry) {
+    EXPECT_THAT(number_error("b 1;"), EndsWith("parameters: entry 'a' is missing"));
+    EXPECT_THAT(number_error("a one;"), EndsWith("parameters: entry 'a' should be a number, is 'one'"));
+    EXPECT_THAT(number_error("a 1 2;"), EndsWith("parameters: entry 'a' should be a number, is '1 2'"));
+    EXPECT_THAT(number_error("a $b;"), EndsWith("parameters: entry 'a' should be a number, is '$b'"));
+    EXPECT_THAT(vector_error("a (1 2);"), EndsWith("should be three numbers in brackets, is '(1 2)'"));
+    EXPECT_THAT(vector_error("a (1 2 3 4);"),
                 EndsWith("should be three numbers in brackets, is '(1 2 3 4)'"));
-    EXPECT_THAT(vector_fault("a 1;"), EndsWith("should be three numbers in brackets, is '1'"));
-    EXPECT_THAT(number_fault("b 1;\na 2"), EndsWith("parameters:2: this entry is not ended by ';'"));
-    EXPECT_THAT(number_fault("b (1;\n"), EndsWith("parameters:1: this entry is not ended by ';'"));
+    EXPECT_THAT(vector_error("a 1;"), EndsWith("should be three numbers in brackets, is '1'"));
+    EXPECT_THAT(number_error("b 1;\na 2"), EndsWith("parameters:2: this entry is not ended by ';'"));
+    EXPECT_THAT(number_error("b (1;\n"), EndsWith("parameters:1: this entry is not ended by ';'"));
 }
 
 }  // namespace

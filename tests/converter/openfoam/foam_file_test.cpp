@@ -40,7 +40,7 @@ class FoamFile : public testing::Test {
     std::filesystem::path scalar(const std::string& body) {
         return folder_.file("kMean", header("volScalarField") + "dimensions [0 2 -2 0 0 0 0];\n\n" + body);
     }
-    std::string fault_in(const std::string& body) {
+    std::string error_in(const std::string& body) {
         const std::filesystem::path file = scalar(body);
         std::string message = test::error_of([&] { read_scalar_field(file); });
         EXPECT_EQ(message.find(file.string() + ":"), 0U) << message;
@@ -196,13 +196,13 @@ TEST_F(FoamFile, FacesOfBothKinds) {
     expect_two(folder_.file("faces", header("faceCompactList", "binary") + "\n3\n(" +
                                          raw<std::int32_t>({0, 4, 7}) + ")\n\n7\n(" +
                                          raw<std::int32_t>({0, 1, 2, 3, 7, 5, 6}) + ")\n"));
-    const auto fault = [&](const std::string& text) {
+    const auto error = [&](const std::string& text) {
         const auto file = folder_.file("faces", text);
         return test::error_of([&] { read_faces(file); });
     };
-    EXPECT_THAT(fault(header("faceCompactList") + "3(0 4 9)\n3(0 1 2)\n"),
+    EXPECT_THAT(error(header("faceCompactList") + "3(0 4 9)\n3(0 1 2)\n"),
                 HasSubstr("its faces do not fit their points"));
-    EXPECT_THAT(fault(header("labelList") + "0()\n"), HasSubstr("holds a labelList, not a faceList"));
+    EXPECT_THAT(error(header("labelList") + "0()\n"), HasSubstr("holds a labelList, not a faceList"));
 }
 
 TEST_F(FoamFile, LabelsAndPoints) {
@@ -219,25 +219,25 @@ TEST_F(FoamFile, LabelsAndPoints) {
                 HasSubstr("holds a volScalarField, not cell zones"));
 }
 
-TEST_F(FoamFile, FaultsNameFileAndLine) {
-    EXPECT_THAT(fault_in("internalField nonuniform List<scalar> \n3\n(\n1\n2\n)\n;"),
+TEST_F(FoamFile, ErrorsNameFileAndLine) {
+    EXPECT_THAT(error_in("internalField nonuniform List<scalar> \n3\n(\n1\n2\n)\n;"),
                 EndsWith(":21: the list should have 3 values, but ends after 2"));
-    EXPECT_THAT(fault_in("internalField nonuniform List<scalar> \n1\n(\n1\n2\n)\n;"),
+    EXPECT_THAT(error_in("internalField nonuniform List<scalar> \n1\n(\n1\n2\n)\n;"),
                 EndsWith(":20: the list should have 1 values, but goes on"));
-    EXPECT_THAT(fault_in("internalField nonuniform List<scalar> 2\n(\n1\nabc\n)\n;"),
+    EXPECT_THAT(error_in("internalField nonuniform List<scalar> 2\n(\n1\nabc\n)\n;"),
                 EndsWith(":19: expected a number, found 'abc'"));
-    EXPECT_THAT(fault_in("internalField nonuniform List<scalar> 2\n(\n1\n1.5.2\n)\n;"),
+    EXPECT_THAT(error_in("internalField nonuniform List<scalar> 2\n(\n1\n1.5.2\n)\n;"),
                 EndsWith(":19: expected a number, found '1.5.2'"));
-    EXPECT_THAT(fault_in("internalField nonuniform List<scalar> 2\n(\n1\n"),
+    EXPECT_THAT(error_in("internalField nonuniform List<scalar> 2\n(\n1\n"),
                 HasSubstr("expected a number, found the end of the file"));
-    EXPECT_THAT(fault_in("internalField nonuniform List<scalar> -2();"), HasSubstr("cannot have -2 values"));
-    EXPECT_THAT(fault_in("internalField nonuniform List<scalar> 900000000{1};"),
+    EXPECT_THAT(error_in("internalField nonuniform List<scalar> -2();"), HasSubstr("cannot have -2 values"));
+    EXPECT_THAT(error_in("internalField nonuniform List<scalar> 900000000{1};"),
                 HasSubstr("may have 32000000 values, not 900000000"));
-    EXPECT_THAT(fault_in("internalField sometimes 3;"), HasSubstr("found 'sometimes'"));
-    EXPECT_THAT(fault_in("internalField uniform 3"), HasSubstr("expected ';', found the end of the file"));
-    EXPECT_THAT(fault_in("boundaryField { far { type patch; } }"), HasSubstr("has no internalField"));
-    EXPECT_THAT(fault_in("boundaryField { far { type patch; }"), HasSubstr("is not ended by '}'"));
-    EXPECT_THAT(fault_in("/* endless"), HasSubstr(":16: this comment has no end"));
+    EXPECT_THAT(error_in("internalField sometimes 3;"), HasSubstr("found 'sometimes'"));
+    EXPECT_THAT(error_in("internalField uniform 3"), HasSubstr("expected ';', found the end of the file"));
+    EXPECT_THAT(error_in("boundaryField { far { type patch; } }"), HasSubstr("has no internalField"));
+    EXPECT_THAT(error_in("boundaryField { far { type patch; }"), HasSubstr("is not ended by '}'"));
+    EXPECT_THAT(error_in("/* endless"), HasSubstr(":16: this comment has no end"));
 }
 
 TEST_F(FoamFile, FilesOfAnotherKindAreRefused) {

@@ -46,16 +46,16 @@ TEST(FoamHistory, ReadsVolumeAverages) {
                 EndsWith("volFieldValue.dat: has no column 'volAverage(p)'"));
 }
 
-TEST(FoamHistory, FaultsNameFileAndLine) {
+TEST(FoamHistory, ErrorsNameFileAndLine) {
     const test::TemporaryFolder folder;
-    const auto fault = [&](const char* text) {
+    const auto error = [&](const char* text) {
         const std::filesystem::path file = folder.file("force.dat", text);
         return test::error_of([&] { read_history(file); });
     };
-    EXPECT_THAT(fault("# Time a\n1 2\n2 x3\n"), EndsWith("force.dat:3: expected a number, found 'x3'"));
-    EXPECT_THAT(fault("# Time a\n1 2\n2\n"), EndsWith("force.dat:3: has 1 values for 2 columns"));
-    EXPECT_THAT(fault("# Time a\n"), EndsWith("force.dat: holds no values; the case was not solved"));
-    EXPECT_THAT(fault(""), EndsWith("holds no values; the case was not solved"));
+    EXPECT_THAT(error("# Time a\n1 2\n2 x3\n"), EndsWith("force.dat:3: expected a number, found 'x3'"));
+    EXPECT_THAT(error("# Time a\n1 2\n2\n"), EndsWith("force.dat:3: has 1 values for 2 columns"));
+    EXPECT_THAT(error("# Time a\n"), EndsWith("force.dat: holds no values; the case was not solved"));
+    EXPECT_THAT(error(""), EndsWith("holds no values; the case was not solved"));
 }
 
 TEST(FoamHistory, ReadsTheLayoutOfTheFoundation) {
@@ -116,7 +116,7 @@ class JoinedHistory : public testing::Test {
     std::vector<double> values() const {
         return read_joined_history(folder_.path() / "shell", "f").column("a", 0.0);
     }
-    std::string fault() const {
+    std::string error() const {
         return test::error_of([&] { values(); });
     }
 
@@ -144,21 +144,21 @@ TEST_F(JoinedHistory, IsRefusedWhereItsEndIsCutInALine) {
     write("0/f.dat", "1 10\n2 20\n");
     write("2/f.dat", "3 31\n4 4");
     EXPECT_THAT(
-        fault(),
+        error(),
         EndsWith(
             "shell/2/f.dat:3: ends within this line, as where the solver was stopped while it wrote; let "
             "it go on, or remove the line"));
 }
 
 TEST_F(JoinedHistory, SaysWhatIsMissing) {
-    EXPECT_THAT(fault(),
+    EXPECT_THAT(error(),
                 EndsWith("shell: has no f.dat in any folder of a start time; the case was solved without "
                          "the function object 'shell', or not at all"));
     write("0/f.dat", "");
-    EXPECT_THAT(fault(), EndsWith("shell/0/f.dat: holds no values; the case was not solved"));
+    EXPECT_THAT(error(), EndsWith("shell/0/f.dat: holds no values; the case was not solved"));
     write("0/f.dat", "1 2\n");
     static_cast<void>(folder_.file("shell/1/f.dat", "# Time b a\n2 1 2\n"));
-    EXPECT_THAT(fault(), EndsWith("shell/1/f.dat: its columns are not those of the runs before it"));
+    EXPECT_THAT(error(), EndsWith("shell/1/f.dat: its columns are not those of the runs before it"));
 }
 
 }  // namespace

@@ -73,14 +73,14 @@ TEST(RequiredDirections, SurviveTheRoundingOfSinglePrecisionShapes) {
 
 TEST(RequiredDirections, ASphereNeedsOne) {
     Symmetry symmetry;
-    symmetry.kind = Symmetry::Kind::spherical;
+    symmetry.type = Symmetry::Type::spherical;
     EXPECT_EQ(required_directions(symmetry, 8).size(), 1U);
 }
 
 TEST(RequiredDirections, AnAxialBodyNeedsAnArcFromItsAxisWhicheverColumnThatIs) {
     for (int column = 0; column < 3; ++column) {
         Symmetry symmetry;
-        symmetry.kind = Symmetry::Kind::axial;
+        symmetry.type = Symmetry::Type::axial;
         symmetry.axes = test::some_rotation();
         symmetry.axis = symmetry.axes.col(column);
         const std::vector<Vector3d> cone = required_directions(symmetry, 4);

@@ -85,8 +85,8 @@ TEST(SamplesCsv, NamesTheLineThatIsCutShort) {
     try {
         read_samples_csv(file);
         FAIL() << "no error";
-    } catch (const Error& fault) {
-        EXPECT_THAT(fault.what(), testing::HasSubstr("cases.csv:2: has"));
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("cases.csv:2: has"));
     }
 }
 

@@ -234,7 +234,7 @@ LoadEntry lump_law(const Vector3d& d) {
 
 Symmetry cone_symmetry() {
     Symmetry symmetry;
-    symmetry.kind = Symmetry::Kind::axial;
+    symmetry.type = Symmetry::Type::axial;
     symmetry.axis = Vector3d::UnitX();
     return symmetry;
 }

@@ -46,7 +46,7 @@ double largest_error(const Symmetry& symmetry, int n, const Law& law) {
 
 Symmetry axial(int column, bool mirrored) {
     Symmetry symmetry;
-    symmetry.kind = Symmetry::Kind::axial;
+    symmetry.type = Symmetry::Type::axial;
     symmetry.axis = Vector3d::Unit(column);
     if (mirrored) {
         symmetry.elements.emplace_back(Matrix3d::Identity() -
@@ -166,7 +166,7 @@ TEST(FilledMap, OfABodyOfRevolutionNeverOvershootsItsSamples) {
 
 TEST(FilledMap, OfASphereIsTheSameDragEverywhere) {
     Symmetry sphere;
-    sphere.kind = Symmetry::Kind::spherical;
+    sphere.kind = Symmetry::Type::spherical;
     const auto law = [](const Vector3d& d) { return LoadEntry{-0.47 * d, Vector3d::Zero(), 0.01, 0.02}; };
     EXPECT_LT(largest_error(sphere, 4, law), 1e-15);
 }

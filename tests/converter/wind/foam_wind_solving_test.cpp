@@ -49,7 +49,7 @@ class FoamWind : public testing::Test {
         fs::rename(copy / "30" / "C", copy / "30" / "U");
         return copy;
     }
-    static std::string fault(const fs::path& folder, const FoamWindOptions& options = {.spacing = 0.2}) {
+    static std::string error(const fs::path& folder, const FoamWindOptions& options = {.spacing = 0.2}) {
         return test::error_of([&] { read_foam_wind(folder, options); });
     }
 
@@ -113,19 +113,19 @@ TEST_F(FoamWind, TimesAreThoseThatWereWritten) {
 }
 
 TEST_F(FoamWind, WhatIsNoSolvedCaseIsRefused) {
-    EXPECT_THAT(fault(folder_->path() / "nowhere"), HasSubstr("nowhere"));
+    EXPECT_THAT(error(folder_->path() / "nowhere"), HasSubstr("nowhere"));
     const fs::path unsolved = folder_->path() / "unsolved";
     fs::copy(places(), unsolved, fs::copy_options::recursive);
     fs::remove_all(unsolved / "30");
-    EXPECT_THAT(fault(unsolved), HasSubstr("has no time folder with a velocity U"));
+    EXPECT_THAT(error(unsolved), HasSubstr("has no time folder with a velocity U"));
     fs::copy(places() / "30", unsolved / "1", fs::copy_options::recursive);
     fs::copy(places() / "30", unsolved / "2", fs::copy_options::recursive);
     fs::copy(places() / "30", unsolved / "5", fs::copy_options::recursive);
-    EXPECT_THAT(fault(unsolved), HasSubstr("are not evenly apart"));
+    EXPECT_THAT(error(unsolved), HasSubstr("are not evenly apart"));
     const Vector3d far(1e3, 1e3, 1e3);
-    EXPECT_THAT(fault(places(), {.spacing = 1.0, .box = Eigen::AlignedBox3d(far, far + Vector3d::Ones())}),
+    EXPECT_THAT(error(places(), {.spacing = 1.0, .box = Eigen::AlignedBox3d(far, far + Vector3d::Ones())}),
                 HasSubstr("no node lies in the mesh"));
-    EXPECT_THAT(fault(places(), {.spacing = 1e-4}), HasSubstr("give a larger --spacing"));
+    EXPECT_THAT(error(places(), {.spacing = 1e-4}), HasSubstr("give a larger --spacing"));
     fs::resize_file(unsolved / "5" / "U", 2000);
     EXPECT_THAT(test::error_of([&] { read_foam_wind(unsolved, {.spacing = 0.5, .latest = true}); }),
                 HasSubstr("U"));

@@ -61,7 +61,7 @@ class VdbWind : public testing::Test {
         openvdb::io::File(path.string()).write(grids);
         return path;
     }
-    std::string fault(const std::filesystem::path& path, const VdbOptions& options = {}) {
+    std::string error(const std::filesystem::path& path, const VdbOptions& options = {}) {
         return test::error_of([&] { read_vdb_wind({path}, options); });
     }
 
@@ -139,21 +139,21 @@ TEST_F(VdbWind, WhatIsNoVelocityIsNamed) {
     auto density = openvdb::FloatGrid::create();
     density->setName("density");
     density->getAccessor().setValue(openvdb::Coord(0), 1.0F);
-    EXPECT_THAT(fault(file("smoke.vdb", {density})),
+    EXPECT_THAT(error(file("smoke.vdb", {density})),
                 HasSubstr("smoke.vdb: holds the grids density, of which none is known"));
-    EXPECT_THAT(fault(file("two.vdb", {vectors("a"), vectors("b")})), HasSubstr("--grid"));
-    EXPECT_THAT(fault(file("two.vdb", {vectors("a"), vectors("b")}), {.grid = "c"}),
+    EXPECT_THAT(error(file("two.vdb", {vectors("a"), vectors("b")})), HasSubstr("--grid"));
+    EXPECT_THAT(error(file("two.vdb", {vectors("a"), vectors("b")}), {.grid = "c"}),
                 HasSubstr("no velocity 'c'"));
     EXPECT_EQ(read_vdb_wind({file("two.vdb", {vectors("a"), vectors("b")})}, {.grid = "b"}).frames, 1U);
     auto empty = openvdb::Vec3SGrid::create();
     empty->setName("velocity");
     empty->setTransform(openvdb::math::Transform::createLinearTransform(voxel));
-    EXPECT_THAT(fault(file("empty.vdb", {empty})), HasSubstr("empty.vdb: has no active voxel"));
+    EXPECT_THAT(error(file("empty.vdb", {empty})), HasSubstr("empty.vdb: has no active voxel"));
 }
 
 TEST_F(VdbWind, IndexSpaceWantsTheSizeOfAVoxel) {
     const auto path = file("a.vdb", {vectors("velocity", 1.0, 1.0)});
-    EXPECT_THAT(fault(path),
+    EXPECT_THAT(error(path),
                 HasSubstr("is in index space: it does not say how large its voxels are; give --voxel-size"));
     const WindGrid grid = read_vdb_wind({path}, {.voxel_size = 0.1});
     EXPECT_NEAR(grid.spacing.x(), 0.1, 1e-12);
@@ -165,7 +165,7 @@ TEST_F(VdbWind, NumbersThatAreNotFiniteAreFound) {
     const auto grid = vectors("velocity");
     grid->getAccessor().setValue(openvdb::Coord(2, 0, 4),
                                  openvdb::Vec3s(0.0F, std::numeric_limits<float>::quiet_NaN(), 0.0F));
-    EXPECT_THAT(fault(file("a.vdb", {grid})), HasSubstr("is not finite"));
+    EXPECT_THAT(error(file("a.vdb", {grid})), HasSubstr("is not finite"));
 }
 
 TEST_F(VdbWind, DamagedFilesAreRefused) {
@@ -173,11 +173,11 @@ TEST_F(VdbWind, DamagedFilesAreRefused) {
     const auto size = std::filesystem::file_size(path);
     for (const double share : {0.0, 0.01, 0.5}) {
         std::filesystem::resize_file(path, static_cast<std::uintmax_t>(share * static_cast<double>(size)));
-        EXPECT_THAT(fault(path), HasSubstr("a.vdb: cannot be read as OpenVDB")) << share;
+        EXPECT_THAT(error(path), HasSubstr("a.vdb: cannot be read as OpenVDB")) << share;
     }
-    EXPECT_THAT(fault(folder_.path() / "nowhere.vdb"), HasSubstr("nowhere.vdb"));
+    EXPECT_THAT(error(folder_.path() / "nowhere.vdb"), HasSubstr("nowhere.vdb"));
     std::ofstream(folder_.path() / "text.vdb") << "not a grid\n";
-    EXPECT_THAT(fault(folder_.path() / "text.vdb"), HasSubstr("text.vdb: cannot be read as OpenVDB"));
+    EXPECT_THAT(error(folder_.path() / "text.vdb"), HasSubstr("text.vdb: cannot be read as OpenVDB"));
 }
 
 }  // namespace

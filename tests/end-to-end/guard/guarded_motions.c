@@ -38,22 +38,22 @@ static samara_settings air(void) {
     return settings;
 }
 
-static samara_kind copies(uint32_t count, double height) {
-    samara_kind kind;
-    check(samara_default_kind(&kind, sizeof kind, error, sizeof error));
-    kind.count = count;
-    kind.position[2] = height;
-    kind.spread_angle = count > 1 ? 3.0 : 0.0;
-    return kind;
+static samara_body_group copies(uint32_t count, double height) {
+    samara_body_group group;
+    check(samara_default_body_group(&group, sizeof group, error, sizeof error));
+    group.count = count;
+    group.position[2] = height;
+    group.spread_angle = count > 1 ? 3.0 : 0.0;
+    return group;
 }
 
-static size_t add(samara_simulation* simulation, const char* name, const samara_kind* kind) {
+static size_t add(samara_simulation* simulation, const char* name, const samara_body_group* group) {
     char file[1024];
     samara_body* body;
     size_t first;
     snprintf(file, sizeof file, "%s/%s.body.h5", bodies_folder, name);
     check(samara_body_load(file, &body, error, sizeof error));
-    check(samara_simulation_add(simulation, body, kind, &first, error, sizeof error));
+    check(samara_simulation_add(simulation, body, group, &first, error, sizeof error));
     samara_body_free(body);
     return first;
 }
@@ -91,17 +91,17 @@ static void fly(samara_simulation* simulation, double until) {
 /* Leaves of many sizes that start one after the other, with noise, onto the ground, on two threads. */
 static void leaves(void) {
     samara_settings settings = air();
-    samara_kind kind = copies(40, 0.8);
+    samara_body_group group = copies(40, 0.8);
     samara_simulation* simulation;
     settings.has_ground = 1;
     settings.threads = 2;
-    kind.spread_position[0] = 0.4;
-    kind.spread_start = 0.5;
-    kind.smallest_size = 0.7;
-    kind.largest_size = 1.4;
+    group.spread_position[0] = 0.4;
+    group.spread_start = 0.5;
+    group.smallest_size = 0.7;
+    group.largest_size = 1.4;
     begin("c-leaves");
     simulation = simulation_of(&settings);
-    add(simulation, "leaf", &kind);
+    add(simulation, "leaf", &group);
     fly(simulation, 3.0);
     end(simulation);
 }
@@ -119,21 +119,21 @@ static void vortex(void* context, double time, size_t count, const double* place
  */
 static void wind(void) {
     samara_settings settings = air();
-    samara_kind kind = copies(6, 3.0);
+    samara_body_group group = copies(6, 3.0);
     samara_simulation* simulation;
     double rate = 2.0;
     settings.gust_amplitude[1] = 0.3;
     settings.gust_period = 0.7;
     settings.wind = vortex;
     settings.wind_context = &rate;
-    kind.spread_position[1] = 0.3;
-    kind.loads = SAMARA_LOADS_SURFACE;
-    kind.patches = 2;
+    group.spread_position[1] = 0.3;
+    group.loads = SAMARA_LOADS_SURFACE;
+    group.patches = 2;
     begin("c-wind");
     simulation = simulation_of(&settings);
     check(samara_set_wind(simulation, "velocity = [0.4, 0, 0]\ngusts = { rms = 0.2, length = 1.0 }\n", error,
                           sizeof error));
-    add(simulation, "samara", &kind);
+    add(simulation, "samara", &group);
     fly(simulation, 1.5);
     end(simulation);
 }
@@ -145,13 +145,13 @@ static void heap(void) {
     static const samara_obstacle_key keys[] = {{0.0, {0.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}},
                                                {1.0, {0.1, 0.0, 0.05}, {0.995, 0.0, 0.0998, 0.0}}};
     samara_settings settings;
-    samara_kind kind = copies(12, 0.3);
+    samara_body_group group = copies(12, 0.3);
     samara_obstacle tray;
     samara_simulation* simulation;
     check(samara_default_settings(&settings, sizeof settings, error, sizeof error));
     settings.has_ground = 1;
     settings.ground = -0.4;
-    settings.bodies_meet = 1;
+    settings.bodies_collide = 1;
     check(samara_default_obstacle(&tray, sizeof tray, error, sizeof error));
     tray.vertices = vertices;
     tray.vertex_count = 4;
@@ -162,11 +162,11 @@ static void heap(void) {
     begin("c-heap");
     simulation = simulation_of(&settings);
     check(samara_simulation_add_obstacle(simulation, &tray, NULL, error, sizeof error));
-    kind.spread_position[0] = kind.spread_position[1] = 0.05;
-    kind.spread_position[2] = 0.1;
-    add(simulation, "cube", &kind);
-    kind.position[2] = 0.5;
-    add(simulation, "disc", &kind);
+    group.spread_position[0] = group.spread_position[1] = 0.05;
+    group.spread_position[2] = 0.1;
+    add(simulation, "cube", &group);
+    group.position[2] = 0.5;
+    add(simulation, "disc", &group);
     check(samara_watch_contacts(simulation, 1, error, sizeof error));
     fly(simulation, 2.0);
     end(simulation);
@@ -177,21 +177,21 @@ static void pushed(void) {
     static const double force[3] = {0.02, 0.0, 0.01}, impulse[3] = {0.0, 0.01, 0.0},
                         moment[3] = {0.0, 1e-4, 0.0};
     samara_settings settings;
-    samara_kind kind = copies(8, 0.0);
+    samara_body_group group = copies(8, 0.0);
     samara_simulation* simulation;
     samara_pose pose;
     size_t size;
     void* state;
     int turn;
     check(samara_default_settings(&settings, sizeof settings, error, sizeof error));
-    kind.turbulence = SAMARA_TURBULENCE_CONSTANT;
-    kind.turbulent_kinetic_energy = 1e-3;
-    kind.dissipation_rate = 2e-3;
-    kind.langevin = SAMARA_LANGEVIN_SEEN_FLUID;
-    kind.spread_position[0] = 1.0;
+    group.turbulence = SAMARA_TURBULENCE_CONSTANT;
+    group.turbulent_kinetic_energy = 1e-3;
+    group.dissipation_rate = 2e-3;
+    group.langevin = SAMARA_LANGEVIN_SEEN_FLUID;
+    group.spread_position[0] = 1.0;
     begin("c-pushed");
     simulation = simulation_of(&settings);
-    add(simulation, "ellipsoid", &kind);
+    add(simulation, "ellipsoid", &group);
     check(samara_add_force(simulation, 0, force, NULL, error, sizeof error));
     check(samara_add_impulse(simulation, 1, impulse, force, error, sizeof error));
     check(samara_add_angular_impulse(simulation, 2, moment, error, sizeof error));
@@ -217,15 +217,15 @@ static void pushed(void) {
 /* A host that integrates a body itself, with what the fluid does to it in each step. */
 static void host(void) {
     samara_settings settings = air();
-    samara_kind kind = copies(1, 0.0);
+    samara_body_group group = copies(1, 0.0);
     samara_simulation* simulation;
     samara_fluid_load load;
     samara_pose pose;
     int step, i;
-    kind.velocity[0] = 1.0;
+    group.velocity[0] = 1.0;
     begin("c-host");
     simulation = simulation_of(&settings);
-    add(simulation, "sheet", &kind);
+    add(simulation, "sheet", &group);
     for (step = 1; step <= 200; ++step) {
         check(samara_get_poses(simulation, 0, 1, &pose, 0, error, sizeof error));
         check(samara_get_fluid_load(simulation, 0, &load, error, sizeof error));

@@ -114,41 +114,41 @@ def by_python():
     def text(fluid: str, rest: str, settings: str = ""):
         return samara.Scene.from_text(scene(fluid, rest, settings=settings))
 
-    def fly(flight, names, until, frames=24):
+    def fly(simulation, names, until, frames=24):
         seen = []
-        start = flight.time
+        start = simulation.time
         for i in range(1, frames + 1):
-            flight.advance(start + (until - start) * i / frames)
+            simulation.advance(start + (until - start) * i / frames)
             for name in names:
-                poses = flight.poses(name)
+                poses = simulation.poses(name)
                 seen += [numpy.array(poses.position), numpy.array(poses.orientation)]
         return seen
 
     ellipsoids = body("ellipsoid", "count = 4\nspread = { position = [0.3, 0, 0], angle = 3 }")
-    flight = samara.Flight(text(WATER, ellipsoids), runs=2, seed=3)
-    flight.add_force("ellipsoid", [0.01, 0, 0.02], run=1, copy=2)
-    flight.add_impulse("ellipsoid", [0, 0.01, 0], point=[0, 0, 0.1], copy=1)
-    flight.set_pose("ellipsoid", copy=0, angular_velocity=[30, 0, 1])
-    seen = fly(flight, ["ellipsoid"], 0.5)
-    flight.remove("ellipsoid", copy=3)
-    flight.set_ground(-0.5)
-    flight.set_wind({"velocity": [0.1, 0, 0]})
-    yield "Python: pushed", digest(seen + fly(flight, ["ellipsoid"], 1.5))
+    simulation = samara.Simulation(text(WATER, ellipsoids), runs=2, seed=3)
+    simulation.add_force("ellipsoid", [0.01, 0, 0.02], run=1, copy=2)
+    simulation.add_impulse("ellipsoid", [0, 0.01, 0], point=[0, 0, 0.1], copy=1)
+    simulation.set_pose("ellipsoid", copy=0, angular_velocity=[30, 0, 1])
+    seen = fly(simulation, ["ellipsoid"], 0.5)
+    simulation.remove("ellipsoid", copy=3)
+    simulation.set_ground(-0.5)
+    simulation.set_wind({"velocity": [0.1, 0, 0]})
+    yield "Python: pushed", digest(seen + fly(simulation, ["ellipsoid"], 1.5))
 
-    flight = samara.Flight(text(AIR, body("leaf", "count = 10\nspread = { angle = 3 }"), "seed = 8"), threads=2)
-    flight.advance(0.4)
-    state = flight.state()
-    seen = fly(flight, ["leaf"], 1.0)
-    flight.set_state(state)
-    yield "Python: played again", digest(seen + fly(flight, ["leaf"], 1.0))
+    simulation = samara.Simulation(text(AIR, body("leaf", "count = 10\nspread = { angle = 3 }"), "seed = 8"), threads=2)
+    simulation.advance(0.4)
+    state = simulation.state()
+    seen = fly(simulation, ["leaf"], 1.0)
+    simulation.set_state(state)
+    yield "Python: played again", digest(seen + fly(simulation, ["leaf"], 1.0))
 
     crowd = body("samara", 'loads = "surface"\npatches = 2\ncount = 12\nspread = { position = [1, 1, 0], angle = 3, size = [0.8, 1.2] }')
     yield "Python: sizes and runs", digest_of_motion(samara.simulate(text(AIR, crowd), runs=3, seed=21, step=0.002, threads=2))
 
     met = body("disc", "count = 15\nposition = [0, 0, 0.3]\nspread = { position = [0.02, 0.02, 0.1], angle = 3 }")
-    flight = samara.Flight(text(WATER, met, "ground = 0.0\nbodies_meet = true"))
-    flight.watch_contacts(True)
-    yield "Python: discs in a heap", digest(fly(flight, ["disc"], 2.0))
+    simulation = samara.Simulation(text(WATER, met, "ground = 0.0\nbodies_meet = true"))
+    simulation.watch_contacts(True)
+    yield "Python: discs in a heap", digest(fly(simulation, ["disc"], 2.0))
 
 
 def main() -> int:

@@ -42,7 +42,7 @@ TEST_F(Bake, OfAnEllipsoidGivesTablesAndReusesThemWhenRunAgain) {
     const fs::path file = write_body(test::ellipsoid({0.01, 0.02, 0.04}));
     const test::ProgramRun first =
         bake(fmt::format("{} -o out.body.h5 --quality smoke --json", file.string()));
-    ASSERT_EQ(first.status, 0) << first.fault;
+    ASSERT_EQ(first.status, 0) << first.error;
     const nlohmann::json json = first.json();
     ASSERT_EQ(json["cases"].size(), 6u);
     EXPECT_EQ(json["reused_cases"], 0);
@@ -72,7 +72,7 @@ TEST_F(Bake, OfAnEllipsoidGivesTablesAndReusesThemWhenRunAgain) {
     const auto before = solved();
     const test::ProgramRun second =
         bake(fmt::format("{} -o out.body.h5 --quality smoke --json", file.string()));
-    ASSERT_EQ(second.status, 0) << second.fault;
+    ASSERT_EQ(second.status, 0) << second.error;
     EXPECT_EQ(second.json()["reused_cases"], 6);
     EXPECT_EQ(solved(), before);
 }
@@ -81,7 +81,7 @@ TEST_F(Bake, TakesLoadsFromOneModelAndTurbulenceFromAnotherWhereToldTo) {
     const fs::path file = write_body(test::sphere(0.01));
     const test::ProgramRun run =
         bake(fmt::format("{} -o out.body.h5 --quality smoke --loads kOmegaSSTLM --json", file.string()));
-    ASSERT_EQ(run.status, 0) << run.fault;
+    ASSERT_EQ(run.status, 0) << run.error;
     const nlohmann::json json = run.json();
     ASSERT_EQ(json["cases"].size(), 1u);
     // A resolved boundary layer on the coarse mesh: near what was measured (docs/studies/closures); k-epsilon
@@ -101,10 +101,10 @@ TEST_F(Bake, EstimatesTheCellsOfTheMeshThatIsMade) {
     const fs::path file = write_body(test::sphere(0.01));
     const test::ProgramRun estimate =
         bake(fmt::format("{} -o out.body.h5 --quality smoke --dry-run --json", file.string()));
-    ASSERT_EQ(estimate.status, 0) << estimate.fault;
+    ASSERT_EQ(estimate.status, 0) << estimate.error;
     const test::ProgramRun made =
         bake(fmt::format("{} -o out.body.h5 --quality smoke --json", file.string()));
-    ASSERT_EQ(made.status, 0) << made.fault;
+    ASSERT_EQ(made.status, 0) << made.error;
     const double cells = made.json()["meshes"][0]["cells"].get<double>();
     EXPECT_NEAR(estimate.json()["estimated_cells"][0].get<double>(), cells, 0.2 * cells);
     EXPECT_NEAR(made.json()["meshes"][0]["body_area_over_true_area"].get<double>(), 1.0, 0.05);
@@ -114,7 +114,7 @@ TEST_F(Bake, OfASheetOfATenthOfAPercentKeepsItsRim) {
     const fs::path file = write_body(test::box_body({0.1, 0.1, 0.00012}));
     const test::ProgramRun made =
         bake(fmt::format("{} -o out.body.h5 --quality smoke --json", file.string()));
-    ASSERT_EQ(made.status, 0) << made.fault;
+    ASSERT_EQ(made.status, 0) << made.error;
     EXPECT_NEAR(made.json()["meshes"][0]["body_area_over_true_area"].get<double>(), 1.0, 0.05);
 }
 
@@ -133,7 +133,7 @@ TEST_F(Bake, ThatIsKilledLeavesNoSolverBehindAndGoesOnWhereItStopped) {
 
     const test::ProgramRun again =
         bake(fmt::format("{} -o out.body.h5 --quality smoke --json", file.string()));
-    ASSERT_EQ(again.status, 0) << again.fault;
+    ASSERT_EQ(again.status, 0) << again.error;
     EXPECT_EQ(again.json()["reused_cases"], after_kill.size());
     for (const auto& [name, time] : after_kill) EXPECT_EQ(solved().at(name), time);
 }
@@ -187,10 +187,10 @@ TEST_F(Bake, WithoutASingleSolvedCaseIsAnErrorThatNamesTheFirst) {
     try {
         solve_cases(cases_, plan, {1, ""}, foam_cases);
         FAIL() << "no error";
-    } catch (const Error& fault) {
-        EXPECT_THAT(fault.what(), HasSubstr("direction_00_coarse: simpleFoam diverged"));
-        EXPECT_THAT(fault.what(), HasSubstr("1 of 1 cases failed"));
-        EXPECT_THAT(fault.what(), Not(HasSubstr("\n")));
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("direction_00_coarse: simpleFoam diverged"));
+        EXPECT_THAT(error.what(), HasSubstr("1 of 1 cases failed"));
+        EXPECT_THAT(error.what(), Not(HasSubstr("\n")));
     }
 }
 
@@ -198,16 +198,16 @@ TEST_F(Bake, WithoutOpenFoamNamesThePackages) {
     const fs::path file = write_body(test::sphere(0.01));
     const test::ProgramRun run = bake(fmt::format("{} -o out.body.h5", file.string()), "PATH=/nowhere");
     EXPECT_EQ(run.status, 1);
-    EXPECT_THAT(run.fault, HasSubstr("simpleFoam"));
-    EXPECT_THAT(run.fault, HasSubstr("apt install openfoam snakemake"));
-    EXPECT_EQ(std::count(run.fault.begin(), run.fault.end(), '\n'), 1);
+    EXPECT_THAT(run.error, HasSubstr("simpleFoam"));
+    EXPECT_THAT(run.error, HasSubstr("apt install openfoam snakemake"));
+    EXPECT_EQ(std::count(run.error.begin(), run.error.end(), '\n'), 1);
     EXPECT_FALSE(fs::exists(cases_));
 }
 
 TEST_F(Bake, DryRunWritesNothing) {
     const fs::path file = write_body(test::ellipsoid({0.01, 0.02, 0.04}));
     const test::ProgramRun run = bake(fmt::format("{} -o out.body.h5 --dry-run --json", file.string()));
-    ASSERT_EQ(run.status, 0) << run.fault;
+    ASSERT_EQ(run.status, 0) << run.error;
     EXPECT_EQ(run.json()["cases"].size(), 21u);  // 15 directions, six of them on two meshes
     EXPECT_GT(run.json()["estimated_cpu_seconds"].get<double>(), 10.0);
     EXPECT_FALSE(fs::exists(output_));
@@ -218,13 +218,13 @@ TEST_F(Bake, SaysWhereTheFlowIsTakenAsLaminar) {
     const fs::path file = write_body(test::sphere(0.0002));
     const test::ProgramRun run = bake(fmt::format("{} -o out.body.h5 --dry-run", file.string()));
     EXPECT_EQ(run.status, 0);
-    EXPECT_THAT(run.fault, HasSubstr("the flow is taken as laminar"));
+    EXPECT_THAT(run.error, HasSubstr("the flow is taken as laminar"));
 }
 
 TEST_F(Bake, OfASmallSphereIsLaminarAndHasItsMeasuredDrag) {
     const fs::path file = write_body(test::sphere(0.0005));
     const test::ProgramRun run = bake(fmt::format("{} -o out.body.h5 --quality smoke --json", file.string()));
-    ASSERT_EQ(run.status, 0) << run.fault;
+    ASSERT_EQ(run.status, 0) << run.error;
     const nlohmann::json json = run.json();
     const double reynolds_number = json["reynolds_numbers"][0];
     ASSERT_LT(reynolds_number, 300.0);
@@ -239,7 +239,7 @@ TEST_F(Bake, RefusesABodyAsDenseAsTheFluid) {
     const fs::path file = write_body(test::sphere(0.01));
     const test::ProgramRun run = bake(fmt::format("{} -o out.body.h5 --density 998.2", file.string()));
     EXPECT_EQ(run.status, 1);
-    EXPECT_THAT(run.fault, HasSubstr("choose another density"));
+    EXPECT_THAT(run.error, HasSubstr("choose another density"));
     EXPECT_FALSE(fs::exists(cases_));
 }
 
@@ -248,19 +248,19 @@ TEST_F(Bake, OfARangeOfDensitiesNeedsItsOtherEndAndFalls) {
     const test::ProgramRun one_end =
         bake(fmt::format("{} -o out.body.h5 --quality standard --density-to 8000", shape));
     EXPECT_EQ(one_end.status, 1);
-    EXPECT_THAT(one_end.fault, HasSubstr("give --density too"));
+    EXPECT_THAT(one_end.error, HasSubstr("give --density too"));
     const test::ProgramRun no_falls =
         bake(fmt::format("{} -o out.body.h5 --quality smoke --density 1200 --density-to 8000", shape));
     EXPECT_EQ(no_falls.status, 1);
-    EXPECT_THAT(no_falls.fault, HasSubstr("this bake has none"));
+    EXPECT_THAT(no_falls.error, HasSubstr("this bake has none"));
     const test::ProgramRun left_out = bake(fmt::format(
         "{} -o out.body.h5 --quality standard --density 1200 --density-to 8000 --falls none", shape));
     EXPECT_EQ(left_out.status, 1);
-    EXPECT_THAT(left_out.fault, HasSubstr("this bake has none"));
+    EXPECT_THAT(left_out.error, HasSubstr("this bake has none"));
     const test::ProgramRun step =
         bake(fmt::format("{} -o out.body.h5 --quality smoke --fall-step 0.5", shape));
     EXPECT_EQ(step.status, 1);
-    EXPECT_THAT(step.fault, HasSubstr("--fall-step is of the falls"));
+    EXPECT_THAT(step.error, HasSubstr("--fall-step is of the falls"));
     EXPECT_FALSE(fs::exists(cases_));
 }
 
@@ -288,7 +288,7 @@ orientation = [0.8, 0, -0.6, 0]
 )";
     const std::string words = "scene.toml -o . --quality smoke --tolerance 0.2 --json";
     const test::ProgramRun run = bake(words);
-    ASSERT_EQ(run.status, 0) << run.fault;
+    ASSERT_EQ(run.status, 0) << run.error;
     const nlohmann::json plan = run.json()["bodies"][0]["plan"];
     EXPECT_EQ(plan["stopped_because"], "the tolerance is met") << plan.dump(1);
     EXPECT_GE(plan["rounds"].size(), 1u);
@@ -306,7 +306,7 @@ orientation = [0.8, 0, -0.6, 0]
         if (name == solved_before.rbegin()->first) fs::remove(cases_ / name / "provenance.json");
     }
     const test::ProgramRun again = bake(words);
-    ASSERT_EQ(again.status, 0) << again.fault;
+    ASSERT_EQ(again.status, 0) << again.error;
     EXPECT_EQ(data_of(output_), before);
     std::size_t solved_again = 0;
     for (const auto& [name, time] : solved()) solved_again += time != solved_before.at(name) ? 1 : 0;
@@ -317,7 +317,7 @@ TEST_F(Bake, OfAShapeTakesNoTolerance) {
     const fs::path file = write_body(test::sphere(0.01));
     const test::ProgramRun run = bake(fmt::format("{} -o out.body.h5 --tolerance 0.1", file.string()));
     EXPECT_EQ(run.status, 1);
-    EXPECT_THAT(run.fault, HasSubstr("--tolerance is of a scene"));
+    EXPECT_THAT(run.error, HasSubstr("--tolerance is of a scene"));
 }
 
 TEST_F(Bake, OfASceneGivesOneFileForEachBodyAndNoCasesToThoseWithoutTables) {
@@ -338,7 +338,7 @@ loads = "none"
 turbulence = "none"
 )";
     const test::ProgramRun run = bake("scene.toml -o bodies --quality smoke --json");
-    ASSERT_EQ(run.status, 0) << run.fault;
+    ASSERT_EQ(run.status, 0) << run.error;
     ASSERT_EQ(run.json()["bodies"].size(), 2u);
     const Body ball = read_body_file(folder_ / "bodies/ball.body.h5");
     EXPECT_EQ(ball.name, "ball");
@@ -348,7 +348,7 @@ turbulence = "none"
 
     const test::ProgramRun mixed = bake("scene.toml -o bodies --density 1200");
     EXPECT_EQ(mixed.status, 1);
-    EXPECT_THAT(mixed.fault, HasSubstr("drop --density"));
+    EXPECT_THAT(mixed.error, HasSubstr("drop --density"));
 }
 
 }  // namespace

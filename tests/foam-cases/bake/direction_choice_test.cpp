@@ -39,7 +39,7 @@ Symmetry ball() {
 
 Symmetry body_of_revolution() {
     Symmetry symmetry = test::box_symmetry();
-    symmetry.kind = Symmetry::Kind::axial;
+    symmetry.type = Symmetry::Type::axial;
     symmetry.axis = Vector3d::UnitZ();
     return symmetry;
 }

@@ -7,7 +7,7 @@
 
 #include "foam-cases/falls/validate.hpp"
 #include "samara/core/base/error.hpp"
-#include "samara/core/flight/world_pose.hpp"
+#include "samara/core/simulation/world_pose.hpp"
 #include "samara/scene/terminal_speed.hpp"
 #include "test_bodies.hpp"
 
@@ -316,11 +316,11 @@ TEST(FallPlan, IsOfItsOwnKindNotOfAQuality) {
     Planned planned(of_density(1200.0));
     planned.plan();
     const BakePlan plan = plan_falls(planned.body, 5000.0, {planned.fall}, planned.model);
-    EXPECT_EQ(plan.kind, CaseKind::fall);
+    EXPECT_EQ(plan.type, CaseType::fall);
     EXPECT_EQ(plan_json(plan)["quality"], "fall");
-    EXPECT_EQ(kind_of_plan(plan_json(plan)), CaseKind::fall);
+    EXPECT_EQ(type_of_plan(plan_json(plan)), CaseType::fall);
     const BakePlan bake = bake_with_falls(planned.body, bake_quality("standard"));
-    EXPECT_EQ(kind_of_plan(plan_json(bake)), CaseKind::bake);
+    EXPECT_EQ(type_of_plan(plan_json(bake)), CaseType::bake);
 }
 
 TEST(IdentificationFalls, AreTwoAtStandardOnTheMediumMeshAndAtHighOnTheFine) {

@@ -88,7 +88,7 @@ TEST(MotionError, OfABallsSpeedIsHalfThatOfItsDrag) {
     scene.duration = 6.0;
     scene.bodies[0].mass.density = 1300.0;
     Body ball = test::baked_sphere(0.02, 8);
-    ball.symmetry.kind = Symmetry::Kind::spherical;
+    ball.symmetry.type = Symmetry::Type::spherical;
     UncertainTables uncertain = all_uncertain(ball, 0.0);
     for (LoadEntryError& error : uncertain.sampling_errors) error.force.setConstant(drag_error);
     ASSERT_EQ(uncertain.unsolved.size(), 1U);
@@ -106,10 +106,10 @@ TEST(MotionError, StatesWhatChanceMakesOfIt) {
     Scene scene = short_scene();
     scene.bodies[0].turbulence = Turbulence::table;
     const Body body = body_with_tables();
-    const SampledFalls flight = fly_for_bake(scene, 0, body, 4);
+    const SampledFalls simulation = fly_for_bake(scene, 0, body, 4);
     constexpr int draws = 3;
-    const MotionError error = motion_error(scene, 0, body, all_uncertain(body, 0.0), flight, 4, draws);
-    const Estimate descent = *flight.mean(Metric::descent_speed);
+    const MotionError error = motion_error(scene, 0, body, all_uncertain(body, 0.0), simulation, 4, draws);
+    const Estimate descent = *simulation.mean(Metric::descent_speed);
     const auto& of_descent = *error.metrics[Metric::descent_speed];
     ASSERT_GT(*descent.error, 0.0);
     EXPECT_DOUBLE_EQ(of_descent.of_chance, *descent.error / std::abs(descent.value));

@@ -56,7 +56,7 @@ class Falls : public testing::Test {
     }
     [[nodiscard]] nlohmann::json solved(const std::vector<std::string>& more = {}) const {
         const test::ProgramRun run = validate("", more);
-        EXPECT_EQ(run.status, 0) << run.fault;
+        EXPECT_EQ(run.status, 0) << run.error;
         return run.status == 0 ? run.json() : nlohmann::json();
     }
     [[nodiscard]] nlohmann::json attempts() const {
@@ -286,9 +286,9 @@ TEST_F(Falls, ASolvedFallSaysWhatItDiffersFromAnotherSolutionBy) {
         return test::run_program_in(folder_, words);
     };
     const test::ProgramRun run = judge({"--other-mesh", "other.h5", "--other-closure", "other.h5,out.h5"});
-    EXPECT_EQ(run.status, 0) << run.fault;
+    EXPECT_EQ(run.status, 0) << run.error;
     EXPECT_EQ(read_bytes(folder_ / "again.h5"), read_bytes(folder_ / "out.h5"));
-    EXPECT_THAT(judge({}).fault, HasSubstr("out.h5: is a motion, solved already; give"));
+    EXPECT_THAT(judge({}).error, HasSubstr("out.h5: is a motion, solved already; give"));
     fs::remove(folder_ / "again.h5");
     EXPECT_EQ(judge({"--other-mesh", "other.h5", "--dry-run"}).status, 1);
     EXPECT_FALSE(fs::exists(folder_ / "again.h5"));
@@ -340,8 +340,8 @@ TEST_F(Falls, AnInterruptedOneLeavesNoSolverRunning) {
 TEST_F(Falls, OneThatBlowsUpIsSolvedWithHalfTheStep) {
     write_scene("duration = 0.01", "sphere", "density = 50");
     const test::ProgramRun run = validate(templates_with("accelerationRelaxation 1;", true));
-    ASSERT_EQ(run.status, 0) << run.fault;
-    EXPECT_THAT(run.fault, HasSubstr("note: the fall blew up as planned and was solved with half the step"));
+    ASSERT_EQ(run.status, 0) << run.error;
+    EXPECT_THAT(run.error, HasSubstr("note: the fall blew up as planned and was solved with half the step"));
     const nlohmann::json json = run.json();
     EXPECT_THAT(json["attempts"], ElementsAre("as planned", "half the step"));
     EXPECT_TRUE(attempts()[0].contains("end"));
@@ -358,8 +358,8 @@ TEST_F(Falls, OneThatBlowsUpInAllAttemptsIsRefusedInOneLine) {
     EXPECT_EQ(run.status, 1);
     // Progress, on a machine that is busy, stands before it.
     const std::string error =
-        run.fault.substr(std::min(run.fault.find("samara validate:"), run.fault.size()));
-    EXPECT_TRUE(test::is_one_line(error)) << run.fault;
+        run.error.substr(std::min(run.error.find("samara validate:"), run.error.size()));
+    EXPECT_TRUE(test::is_one_line(error)) << run.error;
     EXPECT_THAT(error, HasSubstr("out.cases/fall_00: blew up in all attempts"));
     EXPECT_THAT(names_of_attempts(), ElementsAre("as planned", "half the step", "a quarter of the step"));
     EXPECT_FALSE(fs::exists(folder_.path() / "out.h5"));
@@ -367,7 +367,7 @@ TEST_F(Falls, OneThatBlowsUpInAllAttemptsIsRefusedInOneLine) {
     const auto time = fs::last_write_time(fall_ / "attempts.json");
     const test::ProgramRun again = validate(templates);
     EXPECT_EQ(again.status, 1);
-    EXPECT_EQ(again.fault, error);
+    EXPECT_EQ(again.error, error);
     EXPECT_EQ(fs::last_write_time(fall_ / "attempts.json"), time);
 }
 

@@ -37,15 +37,15 @@ class Validate : public testing::Test {
         return test::run_program_in(folder_, words, environment);
     }
     /// The one line of a refusal.
-    [[nodiscard]] std::string fault(const std::vector<std::string>& more = {},
+    [[nodiscard]] std::string error(const std::vector<std::string>& more = {},
                                     const std::string& environment = "") const {
         const test::ProgramRun run = validate(more, environment);
         EXPECT_EQ(run.status, 1);
-        EXPECT_TRUE(test::is_one_line(run.fault)) << run.fault;
+        EXPECT_TRUE(test::is_one_line(run.error)) << run.error;
         EXPECT_EQ(run.output, "");
         EXPECT_FALSE(fs::exists(folder_.path() / "out.h5"));
         EXPECT_FALSE(fs::exists(folder_.path() / "out.cases"));
-        return run.fault;
+        return run.error;
     }
 
     test::TemporaryFolder folder_;
@@ -56,42 +56,42 @@ TEST_F(Validate, RefusesNamesThatMotionFilesDoNotHave) {
     const test::ProgramRun run =
         test::run_program_in(folder_, {"samara-validate", "scene.toml", "-o", "out.glb"});
     EXPECT_EQ(run.status, 1);
-    EXPECT_THAT(run.fault,
+    EXPECT_THAT(run.error,
                 HasSubstr("out.glb: the output is a motion file; write out.h5, then 'samara export"));
 }
 
 TEST_F(Validate, RefusesScenesThatFullCfdDoesNotSolve) {
     const std::string body = "density = 1200\nturbulence = \"none\"";
     write_scene("", "", body + "\n[[body]]\nname = \"other\"\nshape = \"ball.body.h5\"\ndensity = 1200");
-    EXPECT_THAT(fault(), HasSubstr("scene.toml: full CFD solves one body at a time"));
+    EXPECT_THAT(error(), HasSubstr("scene.toml: full CFD solves one body at a time"));
     write_scene("", "", body + "\ncount = 3\nspread = { size = [0.9, 1.1] }");
-    EXPECT_THAT(fault(), HasSubstr("copies of the shape's own size; drop 'size' from 'spread'"));
+    EXPECT_THAT(error(), HasSubstr("copies of the shape's own size; drop 'size' from 'spread'"));
     write_scene("ground = -2.0", "", body);
-    EXPECT_THAT(fault(), HasSubstr("'ground'"));
+    EXPECT_THAT(error(), HasSubstr("'ground'"));
     std::ofstream(folder_ / "roof.stl") << "solid roof\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"
                                            "vertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n";
     write_scene("", "", body + "\n[[obstacle]]\nname = \"roof\"\nshape = \"roof.stl\"");
-    EXPECT_THAT(fault(), HasSubstr("[[obstacle]]"));
+    EXPECT_THAT(error(), HasSubstr("[[obstacle]]"));
     write_scene("", "", body + "\n[wind]\nvelocity = [1, 0, 0]");
-    EXPECT_THAT(fault(), HasSubstr("[wind]"));
+    EXPECT_THAT(error(), HasSubstr("[wind]"));
     write_scene("", "gust = { amplitude = [0.1, 0, 0], period = 1.0 }", body);
-    EXPECT_THAT(fault(), HasSubstr("'gust'"));
+    EXPECT_THAT(error(), HasSubstr("'gust'"));
     write_scene("", "", body + "\nstart = 1.5");
-    EXPECT_THAT(fault(), HasSubstr("ends before its body starts"));
+    EXPECT_THAT(error(), HasSubstr("ends before its body starts"));
     write_scene("", "", body + "\ncount = 2\nstart = 0.5\nspread = { start = 0.6 }");
-    EXPECT_THAT(fault(), HasSubstr("ends before its body starts"));
+    EXPECT_THAT(error(), HasSubstr("ends before its body starts"));
 }
 
 TEST_F(Validate, RefusesABodyThatNothingMoves) {
     write_scene("", "", "density = 998.2\nturbulence = \"none\"");
-    EXPECT_THAT(fault({"--dry-run"}), HasSubstr("'ball' is as dense as the fluid"));
+    EXPECT_THAT(error({"--dry-run"}), HasSubstr("'ball' is as dense as the fluid"));
     write_scene("gravity = [0, 0, 0]", "", "density = 1200\nturbulence = \"none\"");
-    EXPECT_THAT(fault({"--dry-run"}), HasSubstr("there is nothing to solve"));
+    EXPECT_THAT(error({"--dry-run"}), HasSubstr("there is nothing to solve"));
 }
 
 TEST_F(Validate, NamesTheProgramsThatAreMissing) {
     write_scene("", "", "density = 1200\nturbulence = \"none\"");
-    const std::string text = fault({}, "PATH=/nowhere");
+    const std::string text = error({}, "PATH=/nowhere");
     EXPECT_THAT(text, HasSubstr("solving needs programs that are not on PATH"));
     EXPECT_THAT(text, HasSubstr("pimpleFoam"));
     EXPECT_THAT(text, HasSubstr("apt install openfoam snakemake"));
@@ -99,30 +99,30 @@ TEST_F(Validate, NamesTheProgramsThatAreMissing) {
 
 TEST_F(Validate, NamesTheContainerThatRunsNoOpenFoam) {
     write_scene("", "", "density = 1200\nturbulence = \"none\"");
-    EXPECT_THAT(fault({}, "SAMARA_OPENFOAM=false"),
+    EXPECT_THAT(error({}, "SAMARA_OPENFOAM=false"),
                 HasSubstr("needs OpenFOAM, but 'false simpleFoam -help' fails with exit status 1; set "
                           "SAMARA_OPENFOAM to the words that run a program in its container"));
-    EXPECT_THAT(fault({}, "SAMARA_OPENFOAM=/nowhere/apptainer"),
+    EXPECT_THAT(error({}, "SAMARA_OPENFOAM=/nowhere/apptainer"),
                 HasSubstr("'/nowhere/apptainer simpleFoam -help' fails with exit status 127"));
 }
 
 TEST_F(Validate, RefusesNumbersOutOfRangeAndFilesThatAreNone) {
     write_scene("", "", "density = 1200\nturbulence = \"none\"");
-    EXPECT_THAT(fault({"--cells", "10"}), HasSubstr("--cells"));
-    EXPECT_THAT(fault({"--step", "0"}), HasSubstr("--step"));
-    EXPECT_THAT(fault({"--cluster", "qsub"}), HasSubstr("sbatch"));
-    EXPECT_THAT(fault({"--other-mesh", "nowhere.h5"}), HasSubstr("nowhere.h5"));
-    EXPECT_THAT(fault({"--other-closure", "ball.body.h5"}), HasSubstr("not a motion file"));
-    EXPECT_THAT(fault({"--other-closure", "a.h5,b.h5,c.h5"}), HasSubstr("one motion file, or two"));
+    EXPECT_THAT(error({"--cells", "10"}), HasSubstr("--cells"));
+    EXPECT_THAT(error({"--step", "0"}), HasSubstr("--step"));
+    EXPECT_THAT(error({"--cluster", "qsub"}), HasSubstr("sbatch"));
+    EXPECT_THAT(error({"--other-mesh", "nowhere.h5"}), HasSubstr("nowhere.h5"));
+    EXPECT_THAT(error({"--other-closure", "ball.body.h5"}), HasSubstr("not a motion file"));
+    EXPECT_THAT(error({"--other-closure", "a.h5,b.h5,c.h5"}), HasSubstr("one motion file, or two"));
 }
 
 TEST_F(Validate, SaysInADryRunWhatItWouldSolve) {
     write_scene("", "", "density = 1200\nturbulence = \"none\"");
     const test::ProgramRun plain = validate({"--dry-run"});
-    EXPECT_EQ(plain.status, 0) << plain.fault;
+    EXPECT_EQ(plain.status, 0) << plain.error;
     EXPECT_THAT(plain.output, HasSubstr("steps of"));
     const test::ProgramRun run = validate({"--dry-run", "--json", "--step", "0.5", "--cells", "6000"});
-    ASSERT_EQ(run.status, 0) << run.fault;
+    ASSERT_EQ(run.status, 0) << run.error;
     const nlohmann::json json = run.json();
     EXPECT_EQ(json["closure"], "kOmegaSSTLM");
     EXPECT_NEAR(json["estimated_cells"].get<double>(), 6000.0, 1200.0);
@@ -156,7 +156,7 @@ TEST_F(Validate, SolvesByAnotherClosureWhereOneIsNamed) {
     EXPECT_LT(functions["time_step"].get<double>(), plan({})["time_step"].get<double>());
     EXPECT_EQ(plan({"--closure", "laminar"})["closure"], "laminar");
     EXPECT_EQ(plan({"--closure", "kOmegaSSTDDES"})["closure"], "kOmegaSSTDDES");
-    EXPECT_THAT(fault({"--closure", "kOmega"}),
+    EXPECT_THAT(error({"--closure", "kOmega"}),
                 HasSubstr("choose kOmegaSSTLM, kOmegaSST, kOmegaSSTDDES, laminar or kEpsilon"));
 }
 
@@ -165,8 +165,8 @@ TEST_F(Validate, LeavesTheCasesOfABakeAlone) {
     static_cast<void>(folder_.file("out.cases/plan.json", R"({"quality": "standard", "cases": []})"));
     const test::ProgramRun run = validate({});
     EXPECT_EQ(run.status, 1);
-    EXPECT_TRUE(test::is_one_line(run.fault)) << run.fault;
-    EXPECT_THAT(run.fault, HasSubstr("out.cases: holds the cases of samara bake"));
+    EXPECT_TRUE(test::is_one_line(run.error)) << run.error;
+    EXPECT_THAT(run.error, HasSubstr("out.cases: holds the cases of samara bake"));
     EXPECT_TRUE(fs::exists(folder_.path() / "out.cases/plan.json"));
 }
 

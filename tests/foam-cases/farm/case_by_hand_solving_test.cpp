@@ -315,7 +315,7 @@ TEST_F(CaseByHand, NeedsNoHandWhereTheWholeBakeIsBelowAnOddName) {
     const test::ProgramRun run =
         test::run_program_in(folder_, {"samara-bake", (place / "ball.body.h5").string(), "-o",
                                        (place / "out.body.h5").string(), "--quality", "smoke", "--json"});
-    ASSERT_EQ(run.status, 0) << run.fault;
+    ASSERT_EQ(run.status, 0) << run.error;
     EXPECT_TRUE(read_body_file(place / "out.body.h5").tables.has_value());
 }
 

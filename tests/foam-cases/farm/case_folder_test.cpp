@@ -182,17 +182,17 @@ class StrangeCaseFolder : public CaseFolder {
     }
     [[nodiscard]] fs::path first() const { return folder_ / plan_.cases[0].name; }
     /// What is said of the folder as it is; what it says is the path of the file, and after that this.
-    [[nodiscard]] std::string fault_of(const fs::path& file) const {
+    [[nodiscard]] std::string error_of(const fs::path& file) const {
         const std::string said =
             test::error_of([&] { write_case_folder(folder_, body_, plan_, foam_cases); });
         EXPECT_THAT(said, testing::StartsWith(file.string() + ":"));
         EXPECT_EQ(said.find('\n'), std::string::npos) << said;
         return said;
     }
-    void expect_refused(const fs::path& file, const std::string& text = "strange\n") const {
+    void expect_rejected(const fs::path& file, const std::string& text = "strange\n") const {
         fs::create_directories(file.parent_path());
         write(file, text);
-        (void)fault_of(file);
+        (void)error_of(file);
         fs::remove_all(file);
         EXPECT_NO_THROW(write_case_folder(folder_, body_, plan_, foam_cases));
     }
@@ -202,23 +202,23 @@ TEST_F(StrangeCaseFolder, WithAFileThatIsNeitherAnInputNorAResultIsRefused) {
     for (const char* name :
          {"json.py", "fvOptions", "remedy", "case_files.cpython-311-x86_64-linux-gnu.so", "system/fvOptions",
           "system/functions", "constant/fvOptions", "constant/dynamicMeshDict", "0.orig/alpha", "12/U.gz"}) {
-        expect_refused(first() / name);
+        expect_rejected(first() / name);
     }
     for (const char* name : {"json.py", "Snakefile", "snakemake.py", "config.yaml"})
-        expect_refused(folder_ / name);
-    expect_refused(folder_ / "mesh_coarse/system/fvOptions");
+        expect_rejected(folder_ / name);
+    expect_rejected(folder_ / "mesh_coarse/system/fvOptions");
 }
 
 TEST_F(StrangeCaseFolder, WithAFolderThatNobodyMakesThereIsRefused) {
     for (const char* name : {"dynamicCode", "__pycache__", "case_files", "system/include", "constant/lib"}) {
         const fs::path folder = first() / name;
         fs::create_directories(folder);
-        EXPECT_THAT(fault_of(folder),
+        EXPECT_THAT(error_of(folder),
                     testing::HasSubstr("is a folder that neither samara nor OpenFOAM makes here"));
         fs::remove(folder);
     }
     fs::create_directories(folder_ / "profiles/default");
-    EXPECT_THAT(fault_of(folder_ / "profiles"),
+    EXPECT_THAT(error_of(folder_ / "profiles"),
                 testing::HasSubstr("nothing that samara makes here; move it out"));
 }
 
@@ -230,19 +230,19 @@ TEST_F(StrangeCaseFolder, WritesThroughNoLink) {
         fs::remove(link);
         fs::create_directories(link.parent_path());
         fs::create_symlink(elsewhere, link);
-        EXPECT_THAT(fault_of(link), testing::HasSubstr("is a link, which is not followed here"));
+        EXPECT_THAT(error_of(link), testing::HasSubstr("is a link, which is not followed here"));
         fs::remove(link);
     }
     for (const char* name : {"system", "constant", "0.orig"}) {
         fs::remove_all(first() / name);
         fs::create_directory_symlink(elsewhere.parent_path(), first() / name);
-        (void)fault_of(first() / name);
+        (void)error_of(first() / name);
         fs::remove(first() / name);
     }
     for (const char* name : {"plan.json", "README", "log.snakemake", "body.body.h5"}) {
         fs::remove(folder_ / name);
         fs::create_symlink(elsewhere, folder_ / name);
-        (void)fault_of(folder_ / name);
+        (void)error_of(folder_ / name);
         fs::remove(folder_ / name);
     }
     EXPECT_EQ(read_bytes(elsewhere), "untouched");
@@ -252,7 +252,7 @@ TEST_F(StrangeCaseFolder, WritesThroughNoLink) {
 TEST_F(StrangeCaseFolder, ThatIsALinkIsNoFolder) {
     fs::rename(folder_, temporary_.path() / "elsewhere");
     fs::create_directory_symlink(temporary_.path() / "elsewhere", folder_);
-    EXPECT_THAT(fault_of(folder_), testing::HasSubstr("is no folder but a link"));
+    EXPECT_THAT(error_of(folder_), testing::HasSubstr("is no folder but a link"));
 }
 
 TEST_F(StrangeCaseFolder, PutsAnInputOfTwoNamesInItsPlaceAlone) {
@@ -276,7 +276,7 @@ TEST_F(StrangeCaseFolder, LeadsToItsOwnMeshAlone) {
 TEST_F(StrangeCaseFolder, WithAPipeIsRefused) {
     const fs::path pipe = first() / "log.simpleFoam";
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-    EXPECT_THAT(fault_of(pipe), testing::HasSubstr("is neither a file nor a folder"));
+    EXPECT_THAT(error_of(pipe), testing::HasSubstr("is neither a file nor a folder"));
 }
 
 TEST_F(StrangeCaseFolder, WhoseFieldsOrMeshHoldMoreThanDataIsRefused) {
@@ -290,7 +290,7 @@ TEST_F(StrangeCaseFolder, WhoseFieldsOrMeshHoldMoreThanDataIsRefused) {
         fs::create_directories(file.parent_path());
         write(file, field + "#calc \"system(\\\"x\\\")\";\n");
         EXPECT_THAT(
-            fault_of(file),
+            error_of(file),
             testing::HasSubstr(":2: holds '#calc', which no solver writes there; remove the folder "));
         fs::remove(file);
     }
@@ -429,8 +429,8 @@ TEST(CaseParameters, NameTheEntryThatATemplateLacks) {
     try {
         case_parameters("direction (1 0 0);\n", plan, plan.cases[0]);
         FAIL() << "no error";
-    } catch (const Error& fault) {
-        EXPECT_NE(std::string(fault.what()).find("'flowVelocity'"), std::string::npos);
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("'flowVelocity'"), std::string::npos);
     }
 }
 

@@ -63,13 +63,13 @@ class Cluster : public test::BakeFolder {
 TEST_F(Cluster, GivesTheSameTablesAsThisMachine) {
     const fs::path body = write_body(test::sphere(0.01));
     const test::ProgramRun here = bake(fmt::format("{} -o out.body.h5 --quality smoke", body.string()));
-    ASSERT_EQ(here.status, 0) << here.fault;
+    ASSERT_EQ(here.status, 0) << here.error;
     const std::string data = data_of(output_);
     fs::remove_all(cases_);
     fs::remove(output_);
 
     const test::ProgramRun there = bake_there(body);
-    ASSERT_EQ(there.status, 0) << there.fault;
+    ASSERT_EQ(there.status, 0) << there.error;
     EXPECT_EQ(data_of(output_), data);
     EXPECT_TRUE(fs::exists(cases_ / "mesh_coarse" / job_log));
     EXPECT_TRUE(fs::exists(cases_ / "direction_00_coarse" / job_log));
@@ -85,9 +85,9 @@ TEST_F(Cluster, NamesAJobThatWasCancelledAndGoesOnNextTime) {
     ::waitpid(child, &status, 0);
     ASSERT_TRUE(WIFEXITED(status));
     EXPECT_EQ(WEXITSTATUS(status), 1);
-    const std::string fault = read_bytes(folder_ / "stderr");
+    const std::string error = read_bytes(folder_ / "stderr");
     // Slurm ends the solver and what watches over it: either may be the first to say so.
-    EXPECT_THAT(fault, AnyOf(AllOf(HasSubstr("direction_00_coarse: its cluster job ended early"),
+    EXPECT_THAT(error, AnyOf(AllOf(HasSubstr("direction_00_coarse: its cluster job ended early"),
                                    HasSubstr("CANCELLED")),
                              HasSubstr("direction_00_coarse: was stopped before its end")));
     EXPECT_TRUE(made("failed.json").empty());
@@ -113,7 +113,7 @@ TEST_F(Cluster, EndsTheJobsOfABakeThatWasKilledBeforeItGoesOn) {
     EXPECT_THAT(jobs(), HasSubstr(job_name(cases_)));
     // On this machine: what still runs on the cluster would write into the same case.
     const test::ProgramRun next = bake(fmt::format("{} -o out.body.h5 --quality smoke", body.string()));
-    EXPECT_EQ(next.status, 0) << next.fault;
+    EXPECT_EQ(next.status, 0) << next.error;
     EXPECT_EQ(jobs(), "");
 }
 
@@ -124,8 +124,8 @@ TEST_F(Cluster, SaysThatNoSlurmAnswers) {
     const test::ProgramRun run = bake_there(body);
     ::setenv("SLURM_CONF", configuration.c_str(), 1);
     EXPECT_EQ(run.status, 1);
-    EXPECT_TRUE(test::is_one_line(run.fault)) << run.fault;
-    EXPECT_THAT(run.fault, HasSubstr("Slurm does not answer (squeue failed"));
+    EXPECT_TRUE(test::is_one_line(run.error)) << run.error;
+    EXPECT_THAT(run.error, HasSubstr("Slurm does not answer (squeue failed"));
 }
 
 TEST_F(Cluster, SaysThatANodeCouldNotWriteIntoTheFolder) {
@@ -133,15 +133,15 @@ TEST_F(Cluster, SaysThatANodeCouldNotWriteIntoTheFolder) {
     const std::string submit = "sbatch --time=10 --output=" + (folder_ / "nowhere/log").string();
     const test::ProgramRun run = bake_there(write_body(test::sphere(0.01)), submit);
     EXPECT_EQ(run.status, 1);
-    EXPECT_THAT(run.fault,
+    EXPECT_THAT(run.error,
                 HasSubstr("mesh_coarse: its cluster job left nothing there; is that a folder that"));
 }
 
 TEST_F(Cluster, TakesNoOtherSchedulerThanSlurm) {
     const test::ProgramRun run = bake("sphere.geo -o out.body.h5 --cluster qsub");
     EXPECT_EQ(run.status, 1);
-    EXPECT_TRUE(test::is_one_line(run.fault));
-    EXPECT_THAT(run.fault, HasSubstr("only Slurm's sbatch is known"));
+    EXPECT_TRUE(test::is_one_line(run.error));
+    EXPECT_THAT(run.error, HasSubstr("only Slurm's sbatch is known"));
     EXPECT_NO_THROW(require_sbatch("/opt/slurm/bin/sbatch --time=30"));
 }
 

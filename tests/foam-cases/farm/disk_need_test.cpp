@@ -30,11 +30,11 @@ TEST(DiskNeed, IsOfWhatIsNotSolvedYet) {
 TEST(DiskNeed, BeyondTheDiskIsRefusedInOneLine) {
     const test::TemporaryFolder folder;
     require_room(folder.path(), 1e6);
-    const std::string fault = test::error_of([&] { require_room(folder.path(), 1e18); });
+    const std::string error = test::error_of([&] { require_room(folder.path(), 1e18); });
     EXPECT_THAT(
-        fault, HasSubstr(folder.path().string() + ": what is to be solved takes about 1e+12 MB there, and "));
-    EXPECT_THAT(fault, HasSubstr("make room, or name an output elsewhere"));
-    EXPECT_EQ(fault.find('\n'), std::string::npos);
+        error, HasSubstr(folder.path().string() + ": what is to be solved takes about 1e+12 MB there, and "));
+    EXPECT_THAT(error, HasSubstr("make room, or name an output elsewhere"));
+    EXPECT_EQ(error.find('\n'), std::string::npos);
 }
 
 }  // namespace

@@ -222,15 +222,15 @@ TEST_F(FallCase, IsSolvedAgainWithAnotherStepOrMesh) {
 }
 
 TEST_F(FallCase, IsNotMixedWithTheCasesOfABake) {
-    require_cases_of(CaseKind::fall, folder_);
+    require_cases_of(CaseType::fall, folder_);
     write_case_folder(folder_, body_, plan_, foam_cases);
-    require_cases_of(CaseKind::fall, folder_);
-    EXPECT_THAT(test::error_of([&] { require_cases_of(CaseKind::bake, folder_); }),
+    require_cases_of(CaseType::fall, folder_);
+    EXPECT_THAT(test::error_of([&] { require_cases_of(CaseType::bake, folder_); }),
                 HasSubstr("samara validate"));
     write_case_folder(folder_, body_, plan_bake(body_, bake_quality("smoke"), 1e4), foam_cases);
     EXPECT_FALSE(fs::exists(folder_ / "fall_00"));
-    require_cases_of(CaseKind::bake, folder_);
-    EXPECT_THAT(test::error_of([&] { require_cases_of(CaseKind::fall, folder_); }), HasSubstr("samara bake"));
+    require_cases_of(CaseType::bake, folder_);
+    EXPECT_THAT(test::error_of([&] { require_cases_of(CaseType::fall, folder_); }), HasSubstr("samara bake"));
 }
 
 }  // namespace

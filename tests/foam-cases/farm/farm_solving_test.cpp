@@ -56,7 +56,7 @@ class Farm : public test::BakeFolder {
 
     std::string baked(const std::string& more = "", const std::string& environment = "") {
         const test::ProgramRun run = bake(words_ + more, environment);
-        EXPECT_EQ(run.status, 0) << run.fault;
+        EXPECT_EQ(run.status, 0) << run.error;
         return run.status == 0 ? data_of(output_) : "";
     }
     [[nodiscard]] bool solver_is_at(int iteration) const {
@@ -107,7 +107,7 @@ TEST_F(Farm, RunsNothingThatAStrangerLeftInItsFolder) {
         std::ofstream(cases_ / name) << script;
         const test::ProgramRun run = bake(words_);
         EXPECT_EQ(run.status, 1);
-        EXPECT_THAT(run.fault, HasSubstr(fmt::format("out.cases/{}: is ", name)));
+        EXPECT_THAT(run.error, HasSubstr(fmt::format("out.cases/{}: is ", name)));
         fs::remove(cases_ / name);
     }
     // These are written anew, or removed.
@@ -192,7 +192,7 @@ TEST_F(Farm, OnTwoProcessesGivesTheLoadsOfOneWithinAPercent) {
     const LoadTables one = *read_body_file(output_).tables;
     const auto before = solved();
     const test::ProgramRun run = bake(words_ + " --ranks 2");
-    ASSERT_EQ(run.status, 0) << run.fault;
+    ASSERT_EQ(run.status, 0) << run.error;
     const LoadTables two = *read_body_file(output_).tables;
     EXPECT_EQ(names_of_newer(solved(), before).size(), 6u);
     EXPECT_EQ(made("mesh.json").size(), 1u);

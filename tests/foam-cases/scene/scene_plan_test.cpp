@@ -45,7 +45,7 @@ SampledFalls flown(const SceneGoal& goal) {
 }
 
 TEST(ScenePlan, OfASceneInWhichTheBodyDoesNotMoveIsRefused) {
-    const auto fault_of = [](double duration, double start, double step) {
+    const auto error_of = [](double duration, double start, double step) {
         SceneGoal goal = goal_of(0.1);
         goal.scene.file = "odd.toml";
         goal.scene.duration = duration;
@@ -55,7 +55,7 @@ TEST(ScenePlan, OfASceneInWhichTheBodyDoesNotMoveIsRefused) {
     };
     for (const auto& [duration, start, step] :
          {std::array{1e-4, 0.0, 1.0}, {1.0, 2.0, 2e-3}, {1.0, 1.0, 2e-3}}) {
-        EXPECT_THAT(fault_of(duration, start, step),
+        EXPECT_THAT(error_of(duration, start, step),
                     testing::StartsWith("odd.toml: the body 'rubber' does not move within the scene"));
     }
 }
@@ -174,9 +174,9 @@ TEST(ScenePlan, OfABallIsOneDirection) {
 TEST(ScenePlan, HoldsTheDirectionsThatItsFlightsVisited) {
     const SceneGoal goal = goal_of(0.1);
     const Body body = rubber();
-    const SampledFalls flight = fly_for_bake(goal.scene, 0, body, goal.falls);
-    const ScenePlan plan = first_plan(goal, body, bake_quality("smoke"), {}, flight);
-    for (const FlowVisit& visit : flight.visits) EXPECT_TRUE(plan.region.holds(visit.direction));
+    const SampledFalls simulation = fly_for_bake(goal.scene, 0, body, goal.falls);
+    const ScenePlan plan = first_plan(goal, body, bake_quality("smoke"), {}, simulation);
+    for (const FlowVisit& visit : simulation.visits) EXPECT_TRUE(plan.region.holds(visit.direction));
     EXPECT_FALSE(std::ranges::all_of(plan.region.planned, [](std::uint8_t one) { return one == 1; }));
 }
 

@@ -10,7 +10,7 @@ import unittest
 sys.dont_write_bytecode = True
 TEMPLATES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "foam-cases", "templates")
 sys.path[:0] = [TEMPLATES, os.path.join(TEMPLATES, "body-flow")]
-from case_files import Fault, history  # noqa: E402
+from case_files import CaseError, history  # noqa: E402
 from stationarity import AREA_UNIT, Diverged, worst_quantity  # noqa: E402
 
 
@@ -84,14 +84,14 @@ class Stationarity(unittest.TestCase):
                 case = Case(200)
                 case.write(*file.split("/"), rows)
                 missing = 102 if rows else 101
-                with self.assertRaisesRegex(Fault, f"{file.split('/')[2]} has no iteration {missing} of 200"):
+                with self.assertRaisesRegex(CaseError, f"{file.split('/')[2]} has no iteration {missing} of 200"):
                     case.judge()
 
     def test_a_last_line_that_was_cut_short_is_none(self):
         case = Case(200)
         path = os.path.join(case.folder.name, "postProcessing/forces/100/force.dat")
         os.truncate(path, os.path.getsize(path) - 3)
-        with self.assertRaisesRegex(Fault, "has no iteration 200 of 200"):
+        with self.assertRaisesRegex(CaseError, "has no iteration 200 of 200"):
             case.judge()
 
     def test_folders_that_are_no_times_are_passed_over(self):

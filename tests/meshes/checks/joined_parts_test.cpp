@@ -113,10 +113,10 @@ TEST(JoinedParts, ThatTouchInAnEdgeOrAPointAloneAreRefusedByNumberAndPlace) {
     const Surface plate = box({-2, -2, -1}, {2, 2, 0});
     const Surface edge =
         test::mapped(test::box(Vector3d::Ones(), 1), on_its_edge, Vector3d(0, 0, std::sqrt(0.5)));
-    const std::string fault = test::error_of([&] {
+    const std::string error = test::error_of([&] {
         with_parts_joined(welded(test::together({plate, edge})));
     });
-    EXPECT_THAT(fault, AllOf(HasSubstr("part 1 (from (-2, -2, -1) to (2, 2, 0)) and part 2"),
+    EXPECT_THAT(error, AllOf(HasSubstr("part 1 (from (-2, -2, -1) to (2, 2, 0)) and part 2"),
                              HasSubstr("cannot be joined"), HasSubstr("or move them apart by more than")));
     // As it says.
     const Surface apart = test::mapped(edge, Matrix3d::Identity(), Vector3d(0, 0, 1e-5));

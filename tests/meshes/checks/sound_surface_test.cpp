@@ -36,14 +36,14 @@ Surface turned(Surface surface) {
 }
 
 // The message for the surface, read back from a file of its own.
-std::string fault_of(const Surface& surface) {
+std::string error_of(const Surface& surface) {
     const test::TemporaryFolder folder;
     test::write_stl(folder / "defect.stl", surface);
-    const std::string fault = test::error_of([&] { make_body(folder / "defect.stl"); });
-    EXPECT_THAT(fault, StartsWith((folder / "defect.stl").string() + ": "));
-    EXPECT_THAT(fault, Not(HasSubstr("\n")));
-    EXPECT_THAT(fault, HasSubstr("; ")) << "the remedy";
-    return fault;
+    const std::string error = test::error_of([&] { make_body(folder / "defect.stl"); });
+    EXPECT_THAT(error, StartsWith((folder / "defect.stl").string() + ": "));
+    EXPECT_THAT(error, Not(HasSubstr("\n")));
+    EXPECT_THAT(error, HasSubstr("; ")) << "the remedy";
+    return error;
 }
 
 TEST(SoundSurface, PassesAClosedSurface) {
@@ -52,7 +52,7 @@ TEST(SoundSurface, PassesAClosedSurface) {
 }
 
 TEST(SoundSurface, FindsAnEmptyFile) {
-    EXPECT_THAT(fault_of({}), HasSubstr("holds no triangles"));
+    EXPECT_THAT(error_of({}), HasSubstr("holds no triangles"));
 }
 
 TEST(SoundSurface, FindsAHoleAndSaysWhere) {
@@ -62,14 +62,14 @@ TEST(SoundSurface, FindsAHoleAndSaysWhere) {
     };
     const std::array<std::string, 3> places = {corner(0), corner(1), corner(2)};
     sphere.corners.erase(sphere.corners.begin());
-    const std::string fault = fault_of(sphere);
-    EXPECT_THAT(fault, AllOf(HasSubstr("is not closed: 3 edges have a face on one side only"),
+    const std::string error = error_of(sphere);
+    EXPECT_THAT(error, AllOf(HasSubstr("is not closed: 3 edges have a face on one side only"),
                              HasSubstr("fill the hole")));
-    EXPECT_THAT(fault, ::testing::AnyOf(HasSubstr(places[0]), HasSubstr(places[1])));
+    EXPECT_THAT(error, ::testing::AnyOf(HasSubstr(places[0]), HasSubstr(places[1])));
 }
 
 TEST(SoundSurface, FindsAnInsideOutSurface) {
-    EXPECT_THAT(fault_of(turned(test::box(Vector3d::Ones(), 2))),
+    EXPECT_THAT(error_of(turned(test::box(Vector3d::Ones(), 2))),
                 AllOf(HasSubstr("inside out"), HasSubstr("--flip")));
 }
 
@@ -85,26 +85,26 @@ TEST(SoundSurface, FlipTurnsAnInsideOutSurfaceRound) {
 TEST(SoundSurface, FindsTheOneFaceThatIsTurned) {
     Surface box = test::box(Vector3d::Ones(), 2);
     std::swap(box.corners[16][0], box.corners[16][1]);
-    EXPECT_THAT(fault_of(box), AllOf(HasSubstr("1 of 48 faces is turned against the others"),
+    EXPECT_THAT(error_of(box), AllOf(HasSubstr("1 of 48 faces is turned against the others"),
                                      HasSubstr("face 17 at"), HasSubstr(place(triangle_centroid(box, 16)))));
 }
 
 TEST(SoundSurface, FindsTheFewFacesThatAreTurnedEvenIfTheFirstIsAmongThem) {
     Surface box = test::box(Vector3d::Ones(), 2);
     for (const std::size_t t : {0U, 5U}) std::swap(box.corners[t][0], box.corners[t][1]);
-    EXPECT_THAT(fault_of(box), AllOf(HasSubstr("2 of 48 faces are turned"), HasSubstr("face 1 at")));
+    EXPECT_THAT(error_of(box), AllOf(HasSubstr("2 of 48 faces are turned"), HasSubstr("face 1 at")));
 }
 
 TEST(SoundSurface, FindsADuplicateFace) {
     Surface box = test::box(Vector3d::Ones(), 2);
     box.corners.push_back(box.corners[6]);
-    EXPECT_THAT(fault_of(box), HasSubstr("faces 7 and 49"));
+    EXPECT_THAT(error_of(box), HasSubstr("faces 7 and 49"));
 }
 
 TEST(SoundSurface, FindsADuplicateFaceThatIsTurned) {
     Surface box = test::box(Vector3d::Ones(), 2);
     box.corners.push_back({box.corners[6][1], box.corners[6][0], box.corners[6][2]});
-    EXPECT_THAT(fault_of(box), HasSubstr("are the same"));
+    EXPECT_THAT(error_of(box), HasSubstr("are the same"));
 }
 
 TEST(SoundSurface, FindsAFaceOnItsOwn) {
@@ -113,7 +113,7 @@ TEST(SoundSurface, FindsAFaceOnItsOwn) {
     stray.vertices = {Vector3d(5, 5, 5), Vector3d(6, 5, 5), Vector3d(5, 6, 5)};
     stray.corners = {{0, 1, 2}};
     append(box, stray);
-    EXPECT_THAT(fault_of(box),
+    EXPECT_THAT(error_of(box),
                 AllOf(HasSubstr("face 49 at (5.333, 5.333, 5) is stray"), HasSubstr("delete it")));
 }
 
@@ -122,7 +122,7 @@ TEST(SoundSurface, FindsAFaceThatHangsOnByAnEdge) {
     box.vertices.emplace_back(2.0, 2.0, 2.0);
     const auto tip = static_cast<std::int32_t>(box.vertices.size()) - 1;
     box.corners.push_back({box.corners[0][0], box.corners[0][1], tip});
-    EXPECT_THAT(fault_of(box), AllOf(HasSubstr("face 49"), HasSubstr("is stray: it hangs on")));
+    EXPECT_THAT(error_of(box), AllOf(HasSubstr("face 49"), HasSubstr("is stray: it hangs on")));
 }
 
 TEST(SoundSurface, FindsAnInnerWall) {
@@ -130,26 +130,26 @@ TEST(SoundSurface, FindsAnInnerWall) {
     Surface boxes = test::box(Vector3d::Ones(), 1);
     append(boxes,
            test::mapped(test::box(Vector3d::Ones(), 1), Matrix3d::Identity(), Vector3d(0.0, 1.0, 1.0)));
-    EXPECT_THAT(fault_of(boxes), HasSubstr("4 faces share the edge"));
+    EXPECT_THAT(error_of(boxes), HasSubstr("4 faces share the edge"));
 }
 
 TEST(SoundSurface, FindsACornerWhereSheetsTouch) {
     Surface boxes = test::box(Vector3d::Ones(), 1);
     append(boxes, test::mapped(test::box(Vector3d::Ones(), 1), Matrix3d::Identity(), Vector3d::Ones()));
-    EXPECT_THAT(fault_of(boxes), HasSubstr("touch in the corner at (0.5, 0.5, 0.5)"));
+    EXPECT_THAT(error_of(boxes), HasSubstr("touch in the corner at (0.5, 0.5, 0.5)"));
 }
 
 TEST(SoundSurface, FindsNumbersThatAreNotFinite) {
     Surface box = test::box(Vector3d::Ones(), 2);
     box.vertices[static_cast<std::size_t>(box.corners[3][0])].y() = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_THAT(fault_of(box), AllOf(HasSubstr("not finite"), HasSubstr("nan")));
+    EXPECT_THAT(error_of(box), AllOf(HasSubstr("not finite"), HasSubstr("nan")));
 }
 
 TEST(SoundSurface, FindsSizesThatNoBodyHas) {
     Surface box = test::box(Vector3d::Ones(), 2);
     box.vertices[static_cast<std::size_t>(box.corners[3][0])].z() = 1e300;
-    EXPECT_THAT(fault_of(box), AllOf(HasSubstr("1e+300"), HasSubstr("farther off than 1e+12")));
-    EXPECT_THAT(fault_of(test::box(Vector3d::Constant(1e-13), 1)), HasSubstr("within 1e-12 of each other"));
+    EXPECT_THAT(error_of(box), AllOf(HasSubstr("1e+300"), HasSubstr("farther off than 1e+12")));
+    EXPECT_THAT(error_of(test::box(Vector3d::Constant(1e-13), 1)), HasSubstr("within 1e-12 of each other"));
 }
 
 TEST(SoundSurface, FindsAFaceWithoutArea) {
@@ -159,14 +159,14 @@ TEST(SoundSurface, FindsAFaceWithoutArea) {
     box.vertices.push_back(
         0.5 * (box.vertices[static_cast<std::size_t>(a)] + box.vertices[static_cast<std::size_t>(b)]));
     box.corners.push_back({a, b, middle});
-    EXPECT_THAT(fault_of(box), AllOf(HasSubstr("face 49"), HasSubstr("has no area")));
+    EXPECT_THAT(error_of(box), AllOf(HasSubstr("face 49"), HasSubstr("has no area")));
 }
 
 TEST(SoundSurface, FindsASheetWithoutThickness) {
     Surface sheet;
     sheet.vertices = {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(1, 1, 0), Vector3d(0, 1, 0)};
     sheet.corners = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}};
-    EXPECT_THAT(fault_of(sheet), AllOf(HasSubstr("enclose no volume"), HasSubstr("thickness")));
+    EXPECT_THAT(error_of(sheet), AllOf(HasSubstr("enclose no volume"), HasSubstr("thickness")));
 }
 
 TEST(SoundSurface, FindsASurfaceThatPassesThroughItself) {
@@ -175,13 +175,13 @@ TEST(SoundSurface, FindsASurfaceThatPassesThroughItself) {
     for (Vector3d& vertex : box.vertices) {
         if ((vertex - Vector3d(0.25, 0.0, 0.5)).norm() < 1e-9) vertex = Vector3d(0.2, 0.07, -0.7);
     }
-    EXPECT_THAT(fault_of(box), HasSubstr("passes through itself"));
+    EXPECT_THAT(error_of(box), HasSubstr("passes through itself"));
 }
 
 TEST(SoundSurface, RefusesACavityAndSaysWhatToDo) {
     Surface shell = test::box(Vector3d::Ones(), 2);
     append(shell, turned(test::box(Vector3d::Constant(0.5), 2)));
-    EXPECT_THAT(fault_of(shell),
+    EXPECT_THAT(error_of(shell),
                 AllOf(HasSubstr("the 48 faces around"), HasSubstr("enclose a cavity"),
                       HasSubstr("delete them"), HasSubstr("mass, center_of_mass and inertia in the scene")));
 }
@@ -189,7 +189,7 @@ TEST(SoundSurface, RefusesACavityAndSaysWhatToDo) {
 TEST(SoundSurface, FindsAHollowBodyThatIsInsideOut) {
     Surface shell = turned(test::box(Vector3d::Ones(), 2));
     append(shell, test::box(Vector3d::Constant(0.5), 2));
-    EXPECT_THAT(fault_of(shell), AllOf(HasSubstr("inside out"), HasSubstr("--flip")));
+    EXPECT_THAT(error_of(shell), AllOf(HasSubstr("inside out"), HasSubstr("--flip")));
 }
 
 TEST(SoundSurface, TakesABodyOfSeveralPieces) {
@@ -204,14 +204,14 @@ TEST(SoundSurface, TakesABodyOfSeveralPieces) {
 TEST(SoundSurface, FindsABodyWithinABody) {
     Surface bodies = test::box(Vector3d::Ones(), 2);
     append(bodies, test::box(Vector3d::Constant(0.5), 2));
-    EXPECT_THAT(fault_of(bodies), HasSubstr("a body within a body"));
+    EXPECT_THAT(error_of(bodies), HasSubstr("a body within a body"));
 }
 
 TEST(SoundSurface, FindsTheOnePieceThatIsInsideOut) {
     Surface bodies = test::box(Vector3d::Ones(), 2);
     append(bodies, test::mapped(turned(test::box(Vector3d::Ones(), 2)), Matrix3d::Identity(),
                                 Vector3d(3.0, 0.0, 0.0)));
-    EXPECT_THAT(fault_of(bodies), HasSubstr("is inside out, the others are not"));
+    EXPECT_THAT(error_of(bodies), HasSubstr("is inside out, the others are not"));
 }
 
 TEST(SoundSurface, WeldsWhatLiesWithinTheTolerance) {

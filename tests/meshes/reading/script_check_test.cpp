@@ -12,33 +12,33 @@ namespace {
 
 using ::testing::StartsWith;
 
-std::string fault_of(const std::string& script) {
+std::string error_of(const std::string& script) {
     return test::error_of([&] { require_shape_script(script, "a.geo"); });
 }
 
 TEST(ScriptCheck, NamesTheLineAndTheStatementThatIsRefused) {
-    EXPECT_EQ(fault_of("r = 1;\n// a sphere\nSystemCall \"touch x\";\n"),
+    EXPECT_EQ(error_of("r = 1;\n// a sphere\nSystemCall \"touch x\";\n"),
               "a.geo: line 3: SystemCall starts a program, which a shape may not; delete the statement");
-    EXPECT_THAT(fault_of("System 'ls';"), StartsWith("a.geo: line 1: System starts a program"));
-    EXPECT_THAT(fault_of("NonBlockingSystemCall Sprintf(\"ls\");"), StartsWith("a.geo: line 1: NonBlock"));
-    EXPECT_THAT(fault_of("\n\nOnelabRun(\"c\", \"ls\");"), StartsWith("a.geo: line 3: OnelabRun starts"));
-    EXPECT_THAT(fault_of("Field[1] = ExternalProcess;"), StartsWith("a.geo: line 1: ExternalProcess starts"));
-    EXPECT_THAT(fault_of("Save \"a.msh\";"), StartsWith("a.geo: line 1: Save writes a file"));
-    EXPECT_THAT(fault_of("Save View[0] \"a.pos\";"), StartsWith("a.geo: line 1: Save writes a file"));
-    EXPECT_THAT(fault_of("Print name;"), StartsWith("a.geo: line 1: Print writes a file"));
-    EXPECT_THAT(fault_of("CreateDir StrCat(\"a\", \"b\");"), StartsWith("a.geo: line 1: CreateDir writes"));
-    EXPECT_THAT(fault_of("Printf(\"x\") > \"a\";"), StartsWith("a.geo: line 1: Printf writes a file"));
-    EXPECT_THAT(fault_of("/* two\nlines */ Printf(\"%g\", f(1)) >> \"a\";"),
+    EXPECT_THAT(error_of("System 'ls';"), StartsWith("a.geo: line 1: System starts a program"));
+    EXPECT_THAT(error_of("NonBlockingSystemCall Sprintf(\"ls\");"), StartsWith("a.geo: line 1: NonBlock"));
+    EXPECT_THAT(error_of("\n\nOnelabRun(\"c\", \"ls\");"), StartsWith("a.geo: line 3: OnelabRun starts"));
+    EXPECT_THAT(error_of("Field[1] = ExternalProcess;"), StartsWith("a.geo: line 1: ExternalProcess starts"));
+    EXPECT_THAT(error_of("Save \"a.msh\";"), StartsWith("a.geo: line 1: Save writes a file"));
+    EXPECT_THAT(error_of("Save View[0] \"a.pos\";"), StartsWith("a.geo: line 1: Save writes a file"));
+    EXPECT_THAT(error_of("Print name;"), StartsWith("a.geo: line 1: Print writes a file"));
+    EXPECT_THAT(error_of("CreateDir StrCat(\"a\", \"b\");"), StartsWith("a.geo: line 1: CreateDir writes"));
+    EXPECT_THAT(error_of("Printf(\"x\") > \"a\";"), StartsWith("a.geo: line 1: Printf writes a file"));
+    EXPECT_THAT(error_of("/* two\nlines */ Printf(\"%g\", f(1)) >> \"a\";"),
                 StartsWith("a.geo: line 2: Printf"));
-    EXPECT_THAT(fault_of("If(1)\n Exit;\nEndIf"), StartsWith("a.geo: line 2: Exit ends gmsh"));
+    EXPECT_THAT(error_of("If(1)\n Exit;\nEndIf"), StartsWith("a.geo: line 2: Exit ends gmsh"));
 }
 
 TEST(ScriptCheck, SeesThroughBlanksAndComments) {
-    EXPECT_THAT(fault_of("SystemCall/* */\n\"ls\";"), StartsWith("a.geo: line 1: SystemCall"));
-    EXPECT_THAT(fault_of("If(1)SystemCall\"ls\";EndIf"), StartsWith("a.geo: line 1: SystemCall"));
-    EXPECT_THAT(fault_of("a = \"//\"; SystemCall \"ls\";"), StartsWith("a.geo: line 1: SystemCall"));
-    EXPECT_THAT(fault_of("a = '\"'; SystemCall \"ls\";"), StartsWith("a.geo: line 1: SystemCall"));
-    EXPECT_THAT(fault_of("Printf(\"%g\", (1)) /* */ > \"a\";"), StartsWith("a.geo: line 1: Printf"));
+    EXPECT_THAT(error_of("SystemCall/* */\n\"ls\";"), StartsWith("a.geo: line 1: SystemCall"));
+    EXPECT_THAT(error_of("If(1)SystemCall\"ls\";EndIf"), StartsWith("a.geo: line 1: SystemCall"));
+    EXPECT_THAT(error_of("a = \"//\"; SystemCall \"ls\";"), StartsWith("a.geo: line 1: SystemCall"));
+    EXPECT_THAT(error_of("a = '\"'; SystemCall \"ls\";"), StartsWith("a.geo: line 1: SystemCall"));
+    EXPECT_THAT(error_of("Printf(\"%g\", (1)) /* */ > \"a\";"), StartsWith("a.geo: line 1: Printf"));
 }
 
 TEST(ScriptCheck, TakesWhatShapesAreMadeOf) {

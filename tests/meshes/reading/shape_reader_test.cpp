@@ -79,11 +79,11 @@ Surface read(const std::string& name, const std::string& bytes) {
     return mended(read_triangles(file, shape_format(file), 300.0));
 }
 
-std::string fault_of(const std::string& name, const std::string& bytes) {
-    const std::string fault = test::error_of([&] { read(name, bytes); });
-    EXPECT_THAT(fault, HasSubstr(name));
-    EXPECT_THAT(fault, testing::Not(HasSubstr("\n")));
-    return fault;
+std::string error_of(const std::string& name, const std::string& bytes) {
+    const std::string error = test::error_of([&] { read(name, bytes); });
+    EXPECT_THAT(error, HasSubstr(name));
+    EXPECT_THAT(error, testing::Not(HasSubstr("\n")));
+    return error;
 }
 
 void expect_the_box(const Surface& surface) {
@@ -264,15 +264,15 @@ TEST(ShapeReader, Reads3mfInItsUnitWithComponentsWhereTheyArePlaced) {
 }
 
 TEST(ShapeReader, SaysWhatIsWrongInOneLine) {
-    EXPECT_THAT(fault_of("a.ply", ply("binary_little_endian").substr(0, 400)),
+    EXPECT_THAT(error_of("a.ply", ply("binary_little_endian").substr(0, 400)),
                 HasSubstr("is no sound PLY file"));
-    EXPECT_THAT(fault_of("a.ply", "plyx"), HasSubstr("is no sound PLY file"));
-    EXPECT_THAT(fault_of("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n"),
+    EXPECT_THAT(error_of("a.ply", "plyx"), HasSubstr("is no sound PLY file"));
+    EXPECT_THAT(error_of("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n"),
                 HasSubstr("is no sound OFF file"));
-    EXPECT_THAT(fault_of("a.off", ""), HasSubstr("is no sound OFF file"));
-    EXPECT_THAT(fault_of("a.3mf", "PK"), HasSubstr("is no sound 3MF file"));
-    EXPECT_THAT(fault_of("a.gltf", "{}"), HasSubstr(".gltf file"));
-    EXPECT_THAT(fault_of("a.fbx", "x"), AllOf(HasSubstr("is of no known kind"), HasSubstr("Blender")));
+    EXPECT_THAT(error_of("a.off", ""), HasSubstr("is no sound OFF file"));
+    EXPECT_THAT(error_of("a.3mf", "PK"), HasSubstr("is no sound 3MF file"));
+    EXPECT_THAT(error_of("a.gltf", "{}"), HasSubstr(".gltf file"));
+    EXPECT_THAT(error_of("a.fbx", "x"), AllOf(HasSubstr("is of no known kind"), HasSubstr("Blender")));
 }
 
 }  // namespace

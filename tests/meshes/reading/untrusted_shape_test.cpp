@@ -24,11 +24,11 @@ using ::testing::StartsWith;
 
 const std::string box = "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, 1, 1};\n";
 
-std::string fault_of(const std::filesystem::path& shape, const MeshOptions& options = {}) {
-    const std::string fault = test::error_of([&] { make_body(shape, options); });
-    EXPECT_THAT(fault, StartsWith(shape.string() + ": "));
-    EXPECT_THAT(fault, Not(HasSubstr("\n")));
-    return fault;
+std::string error_of(const std::filesystem::path& shape, const MeshOptions& options = {}) {
+    const std::string error = test::error_of([&] { make_body(shape, options); });
+    EXPECT_THAT(error, StartsWith(shape.string() + ": "));
+    EXPECT_THAT(error, Not(HasSubstr("\n")));
+    return error;
 }
 
 TEST(UntrustedShape, AScriptStartsNoProgramAndWritesNoFile) {
@@ -38,14 +38,14 @@ TEST(UntrustedShape, AScriptStartsNoProgramAndWritesNoFile) {
           "Printf(\"x\") > \"made\";", "Printf(\"x\") >> \"made\";", "Save \"made.msh\";",
           "Print \"made.opt\";", "CreateDir \"made\";", "OnelabRun(\"touch\", \"touch made\");"}) {
         const auto shape = folder.file("a.geo", box + statement);
-        EXPECT_THAT(fault_of(shape), HasSubstr("line 3: ")) << statement;
+        EXPECT_THAT(error_of(shape), HasSubstr("line 3: ")) << statement;
         // What another file says is not looked through, and fails when it is tried, if without a word.
         const auto including = folder.file("b.geo", box + "Include \"statement.inc\";");
         const auto included = folder.file("statement.inc", statement);
         try {
             make_body(including);
-        } catch (const Error& fault) {
-            EXPECT_THAT(fault.what(), Not(HasSubstr("\n"))) << statement;
+        } catch (const Error& error) {
+            EXPECT_THAT(error.what(), Not(HasSubstr("\n"))) << statement;
         }
         EXPECT_EQ(folder.file_count(), 3) << statement;
     }
@@ -55,12 +55,12 @@ TEST(UntrustedShape, AFieldStartsNoProgram) {
     const test::TemporaryFolder folder;
     const std::string field =
         "Field[1] = ExternalProcess;\nField[1].CommandLine = \"touch made\";\nBackground Field = 1;\n";
-    EXPECT_THAT(fault_of(folder.file("a.geo", box + field)), HasSubstr("line 3: ExternalProcess"));
+    EXPECT_THAT(error_of(folder.file("a.geo", box + field)), HasSubstr("line 3: ExternalProcess"));
     const auto included = folder.file("field.inc", field);
     MeshOptions keep;
     keep.sizing = MeshOptions::Sizing::keep;
     // gmsh 4.8 has faults of its own there: it may crash before it tries.
-    EXPECT_THAT(fault_of(folder.file("b.geo", box + "Include \"field.inc\";"), keep),
+    EXPECT_THAT(error_of(folder.file("b.geo", box + "Include \"field.inc\";"), keep),
                 AnyOf(HasSubstr("tries to start a program"), HasSubstr("ended by signal")));
     EXPECT_EQ(folder.file_count(), 3);
 }
@@ -79,30 +79,30 @@ TEST(UntrustedShape, AScriptWithTheNameOfAnotherKindIsNotRead) {
     for (const char* name :
          {"a.msh", "a.MSH", "a.step", "a.StEp", "a.stp", "a.brep", "a.Brep", "a.stl", "a.obj"}) {
         const auto shape = folder.file(name, "SystemCall \"touch made\";\n" + box);
-        EXPECT_THAT(fault_of(shape), Not(HasSubstr("SystemCall"))) << name;
+        EXPECT_THAT(error_of(shape), Not(HasSubstr("SystemCall"))) << name;
         EXPECT_FALSE(std::filesystem::exists(folder / "made")) << name;
     }
-    EXPECT_THAT(fault_of(folder / "a.msh"), HasSubstr("is no MSH file: these begin with $MeshFormat"));
-    EXPECT_THAT(fault_of(folder / "a.StEp"), HasSubstr("is no STEP file: these begin with ISO-10303-21"));
-    EXPECT_THAT(fault_of(folder / "a.brep"), HasSubstr("is no BREP file"));
+    EXPECT_THAT(error_of(folder / "a.msh"), HasSubstr("is no MSH file: these begin with $MeshFormat"));
+    EXPECT_THAT(error_of(folder / "a.StEp"), HasSubstr("is no STEP file: these begin with ISO-10303-21"));
+    EXPECT_THAT(error_of(folder / "a.brep"), HasSubstr("is no BREP file"));
     for (const char* name : {"e.msh", "e.step", "e.brep", "e.stl"}) {
-        EXPECT_THAT(fault_of(folder.file(name, "")), HasSubstr("is empty")) << name;
+        EXPECT_THAT(error_of(folder.file(name, "")), HasSubstr("is empty")) << name;
     }
 }
 
 TEST(UntrustedShape, AMeshThatGoesOnAsAScriptStartsNoProgram) {
     const test::TemporaryFolder folder;
     for (const char* start : {"$MeshFormat\"; ", "$Comments\n$EndComments\n", "$NOD\n"}) {
-        EXPECT_NE(fault_of(folder.file("a.msh", start + std::string("SystemCall \"touch made\";\n"))), "");
+        EXPECT_NE(error_of(folder.file("a.msh", start + std::string("SystemCall \"touch made\";\n"))), "");
         EXPECT_EQ(folder.file_count(), 1);
     }
 }
 
-TEST(UntrustedShape, AnExitIsAFault) {
+TEST(UntrustedShape, AnExitIsAError) {
     const test::TemporaryFolder folder;
-    EXPECT_THAT(fault_of(folder.file("a.geo", box + "Exit;\n")), HasSubstr("line 3: Exit ends gmsh"));
+    EXPECT_THAT(error_of(folder.file("a.geo", box + "Exit;\n")), HasSubstr("line 3: Exit ends gmsh"));
     const auto included = folder.file("exit.inc", "Exit;\n");
-    EXPECT_THAT(fault_of(folder.file("b.geo", box + "Include \"exit.inc\";\n")),
+    EXPECT_THAT(error_of(folder.file("b.geo", box + "Include \"exit.inc\";\n")),
                 HasSubstr("before it is read through"));
 }
 
@@ -112,7 +112,7 @@ TEST(UntrustedShape, AnEndlessScriptHasAnEnd) {
     options.time_limit = 1.0;
     const auto shape =
         folder.file("a.geo", "For i In {1 : 1000000}\nFor j In {1 : 1000000}\nx = i + j;\nEndFor\nEndFor\n");
-    EXPECT_THAT(fault_of(shape, options), HasSubstr("takes more than 1 s of computing"));
+    EXPECT_THAT(error_of(shape, options), HasSubstr("takes more than 1 s of computing"));
 }
 
 TEST(UntrustedShape, ACrashOfItsReaderIsOneLine) {
@@ -122,7 +122,7 @@ TEST(UntrustedShape, ACrashOfItsReaderIsOneLine) {
         folder.file("a.geo", fmt::format("s = \"{:a<900}\";\nt = StrCat(s, s, s, s, s, s, s, s);\n"
                                          "Printf(t, 1);\n",
                                          ""));
-    EXPECT_THAT(fault_of(shape), HasSubstr("ended by signal"));
+    EXPECT_THAT(error_of(shape), HasSubstr("ended by signal"));
 }
 
 TEST(UntrustedShape, SimulateMeshesARawShapeUnderTheSameRules) {

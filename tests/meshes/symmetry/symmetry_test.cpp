@@ -100,7 +100,7 @@ void expect_exact_in_shape_axes(const Symmetry& symmetry) {
 TEST(Symmetry, AnEllipsoidHasEightElementsThatAreExactInItsAxes) {
     const Symmetry symmetry =
         symmetry_of(test::ellipsoid(Vector3d(1.0, 2.0, 4.0), 3, Vector3d(0.1, 0.2, 0.3)));
-    EXPECT_EQ(symmetry.kind, Symmetry::Kind::finite);
+    EXPECT_EQ(symmetry.type, Symmetry::Type::finite);
     EXPECT_EQ(symmetry.elements.size(), 8U);
     expect_exact_in_shape_axes(symmetry);
     expect_group(symmetry);
@@ -120,13 +120,13 @@ TEST(Symmetry, ARotatedEllipsoidHasItsElementsInItsOwnFrame) {
 
 TEST(Symmetry, ASphereIsSphericalHoweverCoarseOrUneven) {
     for (const int level : {2, 3})
-        EXPECT_EQ(symmetry_of(test::icosphere(level)).kind, Symmetry::Kind::spherical);
-    EXPECT_EQ(symmetry_of(test::shaken_icosphere(3, 0.2, 1)).kind, Symmetry::Kind::spherical);
+        EXPECT_EQ(symmetry_of(test::icosphere(level)).kind, Symmetry::Type::spherical);
+    EXPECT_EQ(symmetry_of(test::shaken_icosphere(3, 0.2, 1)).kind, Symmetry::Type::spherical);
 }
 
 TEST(Symmetry, ASpheroidIsAxialWithAMirrorAcross) {
     const Symmetry symmetry = symmetry_of(test::ellipsoid(Vector3d(2.0, 1.0, 2.0), 3));
-    EXPECT_EQ(symmetry.kind, Symmetry::Kind::axial);
+    EXPECT_EQ(symmetry.type, Symmetry::Type::axial);
     EXPECT_EQ(symmetry.axis, Vector3d::UnitY());
     EXPECT_EQ(symmetry.elements.size(), 4U);
     expect_exact_in_shape_axes(symmetry);
@@ -135,7 +135,7 @@ TEST(Symmetry, ASpheroidIsAxialWithAMirrorAcross) {
 
 TEST(Symmetry, ARotatedSpheroidHasItsAxisWhereItWasTurnedTo) {
     const Symmetry symmetry = symmetry_of(rotated(test::ellipsoid(Vector3d(1.0, 1.0, 3.0), 3)));
-    ASSERT_EQ(symmetry.kind, Symmetry::Kind::axial);
+    ASSERT_EQ(symmetry.type, Symmetry::Type::axial);
     EXPECT_GT(std::abs(symmetry.axis.dot(some_rotation().col(2))), 0.9999);
     // One of the frame's columns is the axis.
     EXPECT_NEAR((symmetry.axes.transpose() * symmetry.axis).cwiseAbs().maxCoeff(), 1.0, 1e-12);
@@ -144,7 +144,7 @@ TEST(Symmetry, ARotatedSpheroidHasItsAxisWhereItWasTurnedTo) {
 
 TEST(Symmetry, ACutConeIsAxialWithoutAMirrorAcross) {
     const Symmetry symmetry = symmetry_of(prism(polygon(60, 0.1), 0.3, 0.7));
-    EXPECT_EQ(symmetry.kind, Symmetry::Kind::axial);
+    EXPECT_EQ(symmetry.type, Symmetry::Type::axial);
     EXPECT_EQ(symmetry.elements.size(), 2U);
 }
 
@@ -189,7 +189,7 @@ TEST(Symmetry, AnIcosahedronHas120Elements) {
 TEST(Symmetry, PrismsOverRegularPolygonsHaveFourElementsForEachCorner) {
     for (const int corners : {3, 5, 6, 8}) {
         const Symmetry symmetry = symmetry_of(prism(polygon(corners, 0.3), 0.2));
-        EXPECT_EQ(symmetry.kind, Symmetry::Kind::finite);
+        EXPECT_EQ(symmetry.type, Symmetry::Type::finite);
         EXPECT_EQ(symmetry.elements.size(), static_cast<std::size_t>(4 * corners));
         SCOPED_TRACE(corners);
         expect_group(symmetry);
@@ -216,7 +216,7 @@ TEST(Symmetry, AWedgeHasOneMirrorAndAnUnevenBodyNone) {
 TEST(Symmetry, ABumpAboveTheToleranceBreaksIt) {
     Surface sphere = test::icosphere(3);
     sphere.vertices.front() *= 1.1;
-    EXPECT_NE(symmetry_of(sphere).kind, Symmetry::Kind::spherical);
+    EXPECT_NE(symmetry_of(sphere).kind, Symmetry::Type::spherical);
 }
 
 // A ball of 12 by 6 quads, each vertex of which `radius` moves in or out.
@@ -255,8 +255,8 @@ TEST(Symmetry, NoToleranceIsAboveAFiveHundredths) {
     const Symmetry symmetry = find_symmetry(ball, test::moments_of(ball), 0.1);
     EXPECT_EQ(symmetry.tolerance, 0.05);
     const bool about_another_axis =
-        symmetry.kind == Symmetry::Kind::axial && std::abs(symmetry.axis.x()) < 0.99;
-    EXPECT_FALSE(symmetry.kind == Symmetry::Kind::spherical || about_another_axis);
+        symmetry.type == Symmetry::Type::axial && std::abs(symmetry.axis.x()) < 0.99;
+    EXPECT_FALSE(symmetry.type == Symmetry::Type::spherical || about_another_axis);
 }
 
 TEST(Symmetry, IsFoundSoonWhateverTheShape) {
@@ -282,7 +282,7 @@ TEST(Symmetry, IsFoundSoonWhateverTheShape) {
 TEST(Symmetry, CurvedTrianglesShowTheShapeThatCoarseFlatOnesHide) {
     const Surface curved = test::curved_ellipsoid(Vector3d(1.0, 1.0, 2.0), 1);
     const Symmetry symmetry = symmetry_of(curved);
-    EXPECT_EQ(symmetry.kind, Symmetry::Kind::axial);
+    EXPECT_EQ(symmetry.type, Symmetry::Type::axial);
     EXPECT_EQ(symmetry.tolerance, default_symmetry_tolerance);
 }
 

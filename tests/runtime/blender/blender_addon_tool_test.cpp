@@ -57,7 +57,7 @@ TEST(BlenderAddon, KeysThreeObjectsWithTheMotionOfSamaraSimulate) {
 
     (void)folder.file("scene.toml", scene_of(found["starts"], file));
     const auto run = run_program_in(folder, {"samara", "simulate", "scene.toml", "-o", "motion.h5"});
-    ASSERT_EQ(run.status, 0) << run.fault;
+    ASSERT_EQ(run.status, 0) << run.error;
     const Motion motion = read_motion_file(folder / "motion.h5");
     ASSERT_EQ(motion.bodies.size(), 3U);
     double farthest = 0.0;

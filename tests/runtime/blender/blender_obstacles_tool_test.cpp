@@ -8,7 +8,7 @@
 
 #include "blender/blender_poses.hpp"
 #include "paths.hpp"
-#include "samara/core/flight/flight.hpp"
+#include "samara/core/simulation/simulation.hpp"
 #include "samara/motion/motion_file.hpp"
 #include "support/blender_addon.hpp"
 #include "support/program_run.hpp"
@@ -61,7 +61,7 @@ TEST(BlenderObstacles, AreMetInTheWindAsInSamaraSimulate) {
     (void)folder.file("roof.obj", obj_of(found["triangles"]));
     (void)folder.file("scene.toml", roof_scene(found["starts"], file));
     const auto run = run_program_in(folder, {"samara", "simulate", "scene.toml", "-o", "motion.h5"});
-    ASSERT_EQ(run.status, 0) << run.fault;
+    ASSERT_EQ(run.status, 0) << run.error;
     const Motion motion = read_motion_file(folder / "motion.h5");
     for (const auto& item : found["starts"].items()) {
         const std::string& name = item.key();
@@ -173,15 +173,15 @@ TEST(BlenderAddon, FliesObjectsAtTheirScaleAndReleasesThemOneByOne) {
     const auto place = [](const json& rows) {
         return Vector3d(rows[0][3].get<double>(), rows[1][3].get<double>(), rows[2][3].get<double>());
     };
-    Flight flight;
-    flight.add({test::rubber(), ""}, physics,
-               {.position = place(start),
-                .orientation = Quaterniond(0.8, 0.0, 0.6, 0.0),
-                .start = 0.2,
-                .smallest_size = 2.0,
-                .largest_size = 2.0});
-    flight.advance_to(1.0);
-    const Vector3d origin = shape_origin(flight.pose(0), flight.center_of_mass(0));
+    Simulation simulation;
+    simulation.add({test::rubber(), ""}, physics,
+                   {.position = place(start),
+                    .orientation = Quaterniond(0.8, 0.0, 0.6, 0.0),
+                    .start = 0.2,
+                    .smallest_size = 2.0,
+                    .largest_size = 2.0});
+    simulation.advance_to(1.0);
+    const Vector3d origin = shape_origin(simulation.pose(0), simulation.center_of_mass(0));
     EXPECT_LT((place(found["twice"]) - origin).norm(), 1e-4) << "its mass is of single precision";
     EXPECT_GT((origin - place(start)).norm(), 0.05);
 }
@@ -189,7 +189,7 @@ TEST(BlenderAddon, FliesObjectsAtTheirScaleAndReleasesThemOneByOne) {
 TEST(BlenderAddon, AppliesDeltaTransformsOnce) {
     const TemporaryFolder folder;
     const json found = use_addon({"deltas", rubber_file(folder)});
-    for (const json& fault : found["faults"]) EXPECT_EQ(fault, "");
+    for (const json& error : found["faults"]) EXPECT_EQ(error, "");
     const json& own = found["own"];
     EXPECT_GT(distance(pose_of(own["keyed"][2]), pose_of(own["begin"])), 0.01) << "it falls";
     for (const char* name : {"own", "euler", "quaternion"}) {
@@ -228,17 +228,17 @@ TEST(BlenderAddon, LetsGoOfAnObjectWhereItsKeysHaveItWithTheirVelocity) {
                     .angular_velocity = Vector3d(0.0, 1.0, 0.0) / (20.0 * frame),
                     .start = 10.0 * frame};
     const Vector3d of_origin = Vector3d(0.2, 0.0, 0.1) / (20.0 * frame);
-    Flight asked;
+    Simulation asked;
     asked.add({test::rubber(), ""}, physics, release);
     release.velocity =
         of_origin + release.angular_velocity.cross(release.orientation * asked.center_of_mass(0));
-    Flight flight;
-    flight.add({test::rubber(), ""}, physics, release);
+    Simulation simulation;
+    simulation.add({test::rubber(), ""}, physics, release);
     for (int i = 10; i <= 30; ++i) {
-        flight.advance_to(i * frame);
-        const Pose pose = flight.pose(0);
+        simulation.advance_to(i * frame);
+        const Pose pose = simulation.pose(0);
         const ShapePose keyed = pose_of(found["flown"][static_cast<std::size_t>(i)]);
-        EXPECT_LT((keyed.position - shape_origin(pose, flight.center_of_mass(0))).norm(), 2e-5) << i;
+        EXPECT_LT((keyed.position - shape_origin(pose, simulation.center_of_mass(0))).norm(), 2e-5) << i;
         EXPECT_LT(keyed.orientation.angularDistance(pose.orientation), 1e-3) << i;
     }
     EXPECT_EQ(found["again"], "") << "keys that samara made lead as well";

@@ -72,7 +72,7 @@ class CStructsTest(unittest.TestCase):
     def test_the_add_on_has_the_fields_of_the_header(self):
         library = module("runtime", "blender", "samara", "samara_library.py")
         self.check(library.Settings, "samara_settings")
-        self.check(library.Kind, "samara_kind")
+        self.check(library.BodyGroup, "samara_body_group")
         self.check(library.Obstacle, "samara_obstacle")
         self.assertEqual(library.ObstacleKey._fields_, fields_of("samara_obstacle_key"))
         self.assertEqual(library.POSE_SIZE, ctypes.sizeof(type("Pose", (ctypes.Structure,), {"_fields_": fields_of("samara_pose")})) // 8)
@@ -112,7 +112,7 @@ class CStructsTest(unittest.TestCase):
     def test_the_example_has_the_fields_of_the_header(self):
         example = module("docs", "examples", "fall.py")
         self.check(example.Settings, "samara_settings")
-        self.check(example.Kind, "samara_kind")
+        self.check(example.BodyGroup, "samara_body_group")
         self.check(example.Pose, "samara_pose")
 
 

@@ -38,11 +38,11 @@ class BodiesCommand : public testing::Test {
         words.insert(words.begin(), "samara");
         return run_program_in(folder_, words, environment);
     }
-    void expect_refusal(const std::vector<std::string>& words, const std::string& text) const {
+    void expect_rejection(const std::vector<std::string>& words, const std::string& text) const {
         const ProgramRun done = run(words);
         EXPECT_EQ(done.status, 1);
-        EXPECT_TRUE(test::is_one_line(done.fault)) << done.fault;
-        EXPECT_THAT(done.fault, HasSubstr(text));
+        EXPECT_TRUE(test::is_one_line(done.error)) << done.error;
+        EXPECT_THAT(done.error, HasSubstr(text));
     }
     void write_scene(const std::string& shape) {
         std::ofstream(folder_ / "scene.toml")
@@ -55,7 +55,7 @@ class BodiesCommand : public testing::Test {
 
 TEST_F(BodiesCommand, ListsShapeSizeFluidReynoldsNumbersQualityErrorAndPurpose) {
     const ProgramRun text = run({"bodies"});
-    ASSERT_EQ(text.status, 0) << text.fault;
+    ASSERT_EQ(text.status, 0) << text.error;
     EXPECT_THAT(text.output,
                 AllOf(HasSubstr("pebble"), HasSubstr("20 x 40 x 80"), HasSubstr("1e+03 1e+05"),
                       HasSubstr("50 %"), HasSubstr("pebbles"), HasSubstr("Not baked yet: twig")));
@@ -83,33 +83,33 @@ TEST_F(BodiesCommand, ListsBodyFilesThatTheIndexDoesNotKnow) {
 
 TEST_F(BodiesCommand, CopiesOneByteForByte) {
     const ProgramRun done = run({"bodies", "pebble", "-o", "mine.body.h5", "--json"});
-    ASSERT_EQ(done.status, 0) << done.fault;
+    ASSERT_EQ(done.status, 0) << done.error;
     EXPECT_EQ(done.json()["output"], "mine.body.h5");
     EXPECT_EQ(read_bytes(folder_ / "mine.body.h5"), read_bytes(folder_ / "pebble.body.h5"));
 }
 
 TEST_F(BodiesCommand, ShowsWhatTheFileOfOneHolds) {
     const ProgramRun done = run({"bodies", "pebble"});
-    EXPECT_EQ(done.status, 0) << done.fault;
+    EXPECT_EQ(done.status, 0) << done.error;
     EXPECT_THAT(done.output, AllOf(HasSubstr("Body pebble"), HasSubstr("Reynolds numbers")));
 }
 
 TEST_F(BodiesCommand, RefusesBodiesAndFoldersThatAreNotThereInOneLine) {
-    expect_refusal({"bodies", "stone"}, "there is no ready-baked body 'stone'");
-    expect_refusal({"bodies", "twig", "-o", "twig.body.h5"}, "there are: pebble");
-    expect_refusal({"bodies", "pebble", "-o", "pebble.h5"}, "name it NAME.body.h5");
-    expect_refusal({"bodies", "-o", "pebble.body.h5"}, "-o copies one body; name it");
+    expect_rejection({"bodies", "stone"}, "there is no ready-baked body 'stone'");
+    expect_rejection({"bodies", "twig", "-o", "twig.body.h5"}, "there are: pebble");
+    expect_rejection({"bodies", "pebble", "-o", "pebble.h5"}, "name it NAME.body.h5");
+    expect_rejection({"bodies", "-o", "pebble.body.h5"}, "-o copies one body; name it");
     const ProgramRun done = run({"bodies"}, "SAMARA_BODIES=nowhere");
     EXPECT_EQ(done.status, 1);
-    EXPECT_THAT(done.fault, HasSubstr("SAMARA_BODIES names nowhere, which is no folder"));
+    EXPECT_THAT(done.error, HasSubstr("SAMARA_BODIES names nowhere, which is no folder"));
     index("body = [\n{ name = \"pebble\", colour = \"red\" }]\n");
-    expect_refusal({"bodies"}, "bodies.toml:2: ");
+    expect_rejection({"bodies"}, "bodies.toml:2: ");
 }
 
 TEST_F(BodiesCommand, ScenesFlyReadyBodiesByName) {
     write_scene("samara:pebble");
     const ProgramRun done = run({"simulate", "scene.toml", "-o", "motion.h5"});
-    ASSERT_EQ(done.status, 0) << done.fault;
+    ASSERT_EQ(done.status, 0) << done.error;
     EXPECT_TRUE(std::filesystem::exists(folder_ / "motion.h5"));
     write_scene("pebble.body.h5");
     ASSERT_EQ(run({"simulate", "scene.toml", "-o", "same.h5"}).status, 0);
@@ -119,14 +119,14 @@ TEST_F(BodiesCommand, ScenesFlyReadyBodiesByName) {
 
 TEST_F(BodiesCommand, ScenesThatNameNoReadyBodyAreRefusedWithTheirLine) {
     write_scene("samara:twig");
-    expect_refusal({"simulate", "scene.toml", "-o", "motion.h5"}, "scene.toml:5: shape in [[body]] ");
+    expect_rejection({"simulate", "scene.toml", "-o", "motion.h5"}, "scene.toml:5: shape in [[body]] ");
     EXPECT_FALSE(std::filesystem::exists(folder_ / "motion.h5"));
 }
 
 TEST(ReadyBodies, OfTheProjectCanAllBeReadAndSayWhatTheyAreFor) {
     const test::TemporaryFolder folder;
     const ProgramRun done = run_program_in(folder, {"samara", "bodies", "--json"});
-    ASSERT_EQ(done.status, 0) << done.fault;
+    ASSERT_EQ(done.status, 0) << done.error;
     ASSERT_FALSE(done.json()["bodies"].empty());
     for (const nlohmann::json& body : done.json()["bodies"]) {
         EXPECT_EQ(body["shape"], body["name"].get<std::string>() + ".geo");

@@ -34,11 +34,11 @@ class CompareCommand : public ::testing::Test {
         words.insert(words.begin(), {"samara", "compare"});
         return run_program_in(folder_, words);
     }
-    void expect_refusal(const std::vector<std::string>& words, const std::string& text) const {
+    void expect_rejection(const std::vector<std::string>& words, const std::string& text) const {
         const ProgramRun done = run(words);
         EXPECT_EQ(done.status, 1);
-        EXPECT_TRUE(test::is_one_line(done.fault)) << done.fault;
-        EXPECT_THAT(done.fault, HasSubstr(text));
+        EXPECT_TRUE(test::is_one_line(done.error)) << done.error;
+        EXPECT_THAT(done.error, HasSubstr(text));
         EXPECT_TRUE(done.output.empty()) << done.output;
     }
 
@@ -53,7 +53,7 @@ std::uint32_t big_endian(const std::string& bytes, std::size_t place) {
 
 TEST_F(CompareCommand, ReportsMetricsWithErrorsAndVerdictsAsTextAndJson) {
     const ProgramRun text = run({"motion.h5", "reference.h5"});
-    ASSERT_EQ(text.status, 0) << text.fault;
+    ASSERT_EQ(text.status, 0) << text.error;
     EXPECT_THAT(text.output, HasSubstr("1.67 s to 5 s of fall"));
     EXPECT_THAT(text.output, HasSubstr("fluttering, 2 of 2"));
     EXPECT_THAT(text.output, HasSubstr("the motion agrees with the reference"));
@@ -89,7 +89,7 @@ TEST_F(CompareCommand, TakesTheRunWindowAndTolerancesAskedFor) {
 
 TEST_F(CompareCommand, DrawsAPngOfTheStatedSizeAndAnSvgWithItsText) {
     const ProgramRun png = run({"motion.h5", "reference.h5", "-o", "picture.png", "--json"});
-    ASSERT_EQ(png.status, 0) << png.fault;
+    ASSERT_EQ(png.status, 0) << png.error;
     EXPECT_EQ(png.json()["output"], "picture.png");
     const std::string bytes = read_bytes(folder_ / "picture.png");
     ASSERT_GT(bytes.size(), 50000U);
@@ -106,22 +106,22 @@ TEST_F(CompareCommand, DrawsAPngOfTheStatedSizeAndAnSvgWithItsText) {
 TEST_F(CompareCommand, DrawsFallsThatDoNotSwingOrMove) {
     write_motion_file(folder_ / "rest.h5", test::motion_of([](double) { return Pose{}; }, 2.0));
     const ProgramRun done = run({"rest.h5", "rest.h5", "-o", "rest.png"});
-    EXPECT_EQ(done.status, 0) << done.fault;
+    EXPECT_EQ(done.status, 0) << done.error;
     EXPECT_GT(read_bytes(folder_ / "rest.png").size(), 20000U);
     EXPECT_THAT(done.output, ::testing::ContainsRegex("frequency \\(Hz\\) +- +-\n"));
     EXPECT_THAT(done.output, HasSubstr("the motion agrees with the reference"));
 }
 
 TEST_F(CompareCommand, RefusesWhatItCannotCompareInOneLine) {
-    expect_refusal({"motion.h5", "none.h5"}, "none.h5: there is no such file");
+    expect_rejection({"motion.h5", "none.h5"}, "none.h5: there is no such file");
     std::ignore = folder_.file("text.h5", "no motion");
-    expect_refusal({"motion.h5", "text.h5"}, "text.h5: is not an HDF5 file");
-    expect_refusal({"motion.h5", "reference.h5", "--window", "1to4"}, "--window takes BEGIN,END");
-    expect_refusal({"motion.h5", "reference.h5", "--window", "1,6"}, "is not within both falls");
-    expect_refusal({"motion.h5", "reference.h5", "--run", "2"}, "there is no run 2");
-    expect_refusal({"motion.h5", "reference.h5", "--reference-copy", "1"}, "there is no copy 1");
-    expect_refusal({"motion.h5", "reference.h5", "-o", "picture.pdf"}, "end the name in .png or .svg");
-    expect_refusal({"motion.h5", "reference.h5", "--body", "leaf"}, "motion.h5: holds no body 'leaf'");
+    expect_rejection({"motion.h5", "text.h5"}, "text.h5: is not an HDF5 file");
+    expect_rejection({"motion.h5", "reference.h5", "--window", "1to4"}, "--window takes BEGIN,END");
+    expect_rejection({"motion.h5", "reference.h5", "--window", "1,6"}, "is not within both falls");
+    expect_rejection({"motion.h5", "reference.h5", "--run", "2"}, "there is no run 2");
+    expect_rejection({"motion.h5", "reference.h5", "--reference-copy", "1"}, "there is no copy 1");
+    expect_rejection({"motion.h5", "reference.h5", "-o", "picture.pdf"}, "end the name in .png or .svg");
+    expect_rejection({"motion.h5", "reference.h5", "--body", "leaf"}, "motion.h5: holds no body 'leaf'");
 }
 
 TEST_F(CompareCommand, MatchesBodiesByName) {
@@ -130,11 +130,11 @@ TEST_F(CompareCommand, MatchesBodiesByName) {
     two.bodies[1].name = "plate";
     write_motion_file(folder_ / "two.h5", two);
     EXPECT_EQ(run({"motion.h5", "two.h5", "--json"}).json()["reference"]["body"], "ellipsoid");
-    expect_refusal({"two.h5", "two.h5"},
-                   "hold several bodies of the same name (ellipsoid, plate); choose one");
+    expect_rejection({"two.h5", "two.h5"},
+                     "hold several bodies of the same name (ellipsoid, plate); choose one");
     EXPECT_EQ(run({"two.h5", "two.h5", "--body", "plate", "--json"}).json()["motion"]["body"], "plate");
-    expect_refusal({"two.h5", "reference.h5"},
-                   "hold no body of the same name: ellipsoid, plate against reference body");
+    expect_rejection({"two.h5", "reference.h5"},
+                     "hold no body of the same name: ellipsoid, plate against reference body");
 }
 
 }  // namespace

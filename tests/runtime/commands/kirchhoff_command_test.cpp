@@ -41,7 +41,7 @@ TEST(KirchhoffCommand, PrintsOneJsonObject) {
     const test::TemporaryFolder folder;
     const test::ProgramRun outcome =
         samara(folder, {"kirchhoff", write_ellipsoid(folder), "--json", "--threads", "1"});
-    ASSERT_EQ(outcome.status, 0) << outcome.fault;
+    ASSERT_EQ(outcome.status, 0) << outcome.error;
     const nlohmann::json result = outcome.json();
     EXPECT_NEAR(result["added_mass"][3][3].get<double>(), 50.87072167736, 0.03 * 50.87);  // Lamb, art. 114
     EXPECT_EQ(result["reference_point"], result["centroid"]);
@@ -56,7 +56,7 @@ TEST(KirchhoffCommand, AboutAnotherPointCouplesRotationToTranslation) {
     const test::TemporaryFolder folder;
     const test::ProgramRun outcome =
         samara(folder, {"kirchhoff", write_ellipsoid(folder), "--json", "--about", "-0.5,-0.25,1"});
-    ASSERT_EQ(outcome.status, 0) << outcome.fault;
+    ASSERT_EQ(outcome.status, 0) << outcome.error;
     const nlohmann::json result = outcome.json();
     // The centroid is 1 m along x from the point: v_centroid = v + omega_z y, so p_y of omega_z is M_y.
     EXPECT_NEAR(result["added_mass"][4][2].get<double>(), result["added_mass"][4][4].get<double>(), 1e-6);
@@ -70,7 +70,7 @@ TEST(KirchhoffCommand, WritesTheTensorIntoTheBodyFileAndInfoShowsIt) {
     const Body body = read_body_file(file);
     ASSERT_TRUE(body.kirchhoff.has_value());
     const test::ProgramRun outcome = samara(folder, {"info", file, "--json"});
-    ASSERT_EQ(outcome.status, 0) << outcome.fault;
+    ASSERT_EQ(outcome.status, 0) << outcome.error;
     const nlohmann::json result = outcome.json();
     EXPECT_EQ(result["kirchhoff"]["added_mass"][5][5].get<double>(), body.kirchhoff->matrix(5, 5));
     EXPECT_NEAR(result["principal_extents"][2].get<double>(), 8.0, 0.1);
@@ -90,17 +90,17 @@ TEST(KirchhoffCommand, WritesTheLoadsOfTheSurfaceByWhichABodyWithoutTablesFalls)
         return samara(folder, {"simulate", "fall.toml", "-o", "fall.h5", "--json"});
     };
     const test::ProgramRun by_default = flown("");
-    ASSERT_EQ(by_default.status, 0) << by_default.fault;
-    EXPECT_THAT(by_default.fault, HasSubstr("has no tables, and flies by the pressure"));
+    ASSERT_EQ(by_default.status, 0) << by_default.error;
+    EXPECT_THAT(by_default.error, HasSubstr("has no tables, and flies by the pressure"));
     EXPECT_THAT(by_default.json()["bodies"][0]["models"].get<std::string>(),
                 StartsWith("loads surface; turbulence none"));
     const test::ProgramRun asked = flown("loads = \"surface\"\n");
-    ASSERT_EQ(asked.status, 0) << asked.fault;
-    EXPECT_THAT(asked.fault, Not(HasSubstr("has no tables")));
+    ASSERT_EQ(asked.status, 0) << asked.error;
+    EXPECT_THAT(asked.error, Not(HasSubstr("has no tables")));
     EXPECT_EQ(asked.json()["bodies"][0]["final_position"], by_default.json()["bodies"][0]["final_position"]);
     const test::ProgramRun of_tables = flown("loads = \"table\"\n");
     EXPECT_EQ(of_tables.status, 1);
-    EXPECT_THAT(of_tables.fault, HasSubstr("holds no tables; make them with 'samara bake"));
+    EXPECT_THAT(of_tables.error, HasSubstr("holds no tables; make them with 'samara bake"));
 }
 
 TEST(KirchhoffCommand, ToleranceIsMetOrSaidToBeOutOfReach) {
@@ -114,13 +114,13 @@ TEST(KirchhoffCommand, ToleranceIsMetOrSaidToBeOutOfReach) {
     write_body_file(file, body);
 
     const test::ProgramRun met = samara(folder, {"kirchhoff", file, "--json", "--tolerance", "1e-3"});
-    ASSERT_EQ(met.status, 0) << met.fault;
+    ASSERT_EQ(met.status, 0) << met.error;
     EXPECT_LE(met.json()["error_estimate"].get<double>(), 1e-3);
 
     const test::ProgramRun missed = samara(folder, {"kirchhoff", file, "-o", file, "--tolerance", "1e-9"});
     EXPECT_EQ(missed.status, 1);
-    EXPECT_TRUE(test::is_one_line(missed.fault)) << missed.fault;
-    EXPECT_THAT(missed.fault, HasSubstr("egg.body.h5: the tolerance 1e-09 is out of reach"));
+    EXPECT_TRUE(test::is_one_line(missed.error)) << missed.error;
+    EXPECT_THAT(missed.error, HasSubstr("egg.body.h5: the tolerance 1e-09 is out of reach"));
     EXPECT_FALSE(read_body_file(file).kirchhoff.has_value());
 }
 
@@ -142,16 +142,16 @@ TEST(KirchhoffCommand, BadInputGivesOneLineThatNamesTheFile) {
     for (const auto& words : bad) {
         const test::ProgramRun outcome = samara(folder, words);
         EXPECT_EQ(outcome.status, 1);
-        EXPECT_THAT(outcome.fault, StartsWith("samara kirchhoff: "));
-        EXPECT_TRUE(test::is_one_line(outcome.fault)) << outcome.fault;
+        EXPECT_THAT(outcome.error, StartsWith("samara kirchhoff: "));
+        EXPECT_TRUE(test::is_one_line(outcome.error)) << outcome.error;
     }
     // So does a scene that needs the tensor.
     (void)folder.file("scene.toml",
                       "[scene]\nduration = 0.1\n[[body]]\nname = \"holed\"\nshape = \"holed.body.h5\"\n"
                       "density = 1200\nloads = \"none\"\n");
-    EXPECT_THAT(samara(folder, {"simulate", "scene.toml", "-o", "motion.h5"}).fault,
+    EXPECT_THAT(samara(folder, {"simulate", "scene.toml", "-o", "motion.h5"}).error,
                 HasSubstr("holed.body.h5: is not closed: 3 edges"));
-    EXPECT_THAT(samara(folder, bad[1]).fault, HasSubstr("holed.body.h5: is not closed: 3 edges"));
+    EXPECT_THAT(samara(folder, bad[1]).error, HasSubstr("holed.body.h5: is not closed: 3 edges"));
 }
 
 TEST(InfoCommand, ShowsTablesAndTheirProvenance) {
@@ -197,7 +197,7 @@ TEST(InfoCommand, ForeignHdf5GivesOneLine) {
     });
     const test::ProgramRun outcome = samara(folder, {"info", (folder / "a.h5").string()});
     EXPECT_EQ(outcome.status, 1);
-    EXPECT_THAT(outcome.fault, HasSubstr("a.h5: is an HDF5 file, but neither a body nor a motion"));
+    EXPECT_THAT(outcome.error, HasSubstr("a.h5: is an HDF5 file, but neither a body nor a motion"));
 }
 
 TEST(LoadBody, RefusesScaleAndTrianglesForABodyFile) {

@@ -29,12 +29,12 @@ class MassCommand : public testing::Test {
         words.insert(words.begin(), "samara");
         return run_program_in(folder_, words);
     }
-    [[nodiscard]] std::string hash_of_flight(const std::string& keys) const {
+    [[nodiscard]] std::string hash_of_simulation(const std::string& keys) const {
         std::ofstream(folder_ / "scene.toml")
             << "[scene]\nduration = 0.2\n[[body]]\nname = \"egg\"\nshape = \"egg.body.h5\"\n"
             << keys;
         const ProgramRun done = run({"simulate", "scene.toml", "-o", "motion.h5"});
-        EXPECT_EQ(done.status, 0) << done.fault;
+        EXPECT_EQ(done.status, 0) << done.error;
         const ProgramRun info = run({"info", "motion.h5", "--json"});
         return info.json()["bodies"][0]["mean_velocity"].dump();
     }
@@ -43,17 +43,17 @@ class MassCommand : public testing::Test {
 };
 
 TEST_F(MassCommand, ScenesFlyABodyThatSaysWhatItWeighsAsIfTheySaidIt) {
-    const std::string said = hash_of_flight("density = 1300\n");
+    const std::string said = hash_of_simulation("density = 1300\n");
     ASSERT_EQ(run({"mass", "egg.body.h5", "--density", "1300"}).status, 0);
-    EXPECT_EQ(hash_of_flight(""), said);
-    EXPECT_NE(hash_of_flight("density = 1400\n"), said);
+    EXPECT_EQ(hash_of_simulation(""), said);
+    EXPECT_NE(hash_of_simulation("density = 1400\n"), said);
 }
 
 TEST_F(MassCommand, PartsGiveMassCentreAndInertia) {
     const ProgramRun done =
         run({"mass", "egg.body.h5", "--mass", "0.05", "--center-of-mass", "0.001,0,-0.002", "--inertia",
              "3e-6,4e-6,5e-6", "-o", "parts.body.h5", "--json"});
-    ASSERT_EQ(done.status, 0) << done.fault;
+    ASSERT_EQ(done.status, 0) << done.error;
     EXPECT_EQ(done.json()["mass"], 0.05);
     EXPECT_EQ(done.json()["density"], nullptr);
     EXPECT_EQ(done.json()["center_of_mass"], (nlohmann::json{0.001, 0.0, -0.002}));
@@ -82,8 +82,8 @@ TEST_F(MassCommand, RefusesWhatIsNoMassInOneLineAndLeavesTheFile) {
         all.insert(all.end(), words.begin(), words.end());
         const ProgramRun done = run(all);
         EXPECT_NE(done.status, 0) << text;
-        EXPECT_TRUE(test::is_one_line(done.fault)) << done.fault;
-        EXPECT_THAT(done.fault, HasSubstr(text));
+        EXPECT_TRUE(test::is_one_line(done.error)) << done.error;
+        EXPECT_THAT(done.error, HasSubstr(text));
     }
     EXPECT_EQ(file_content_hash(folder_ / "egg.body.h5"), before);
 }
@@ -93,9 +93,9 @@ TEST_F(MassCommand, ABodyFileWithoutAMassNeedsOneInTheScene) {
         << "[scene]\nduration = 0.2\n[[body]]\nname = \"egg\"\nshape = \"egg.body.h5\"\n";
     const ProgramRun done = run({"simulate", "scene.toml", "-o", "motion.h5"});
     EXPECT_EQ(done.status, 1);
-    EXPECT_TRUE(test::is_one_line(done.fault)) << done.fault;
-    EXPECT_THAT(done.fault, HasSubstr("'egg'"));
-    EXPECT_THAT(done.fault, HasSubstr("give density or mass"));
+    EXPECT_TRUE(test::is_one_line(done.error)) << done.error;
+    EXPECT_THAT(done.error, HasSubstr("'egg'"));
+    EXPECT_THAT(done.error, HasSubstr("give density or mass"));
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ class ModelChoice : public ::testing::Test {
 
 TEST_F(ModelChoice, OfAutoIsSaidAndIsTheSameMotionAsThoseModelsGiven) {
     const ProgramRun chosen = simulate("models = \"auto\"", "auto.h5", {"--json"});
-    ASSERT_EQ(chosen.status, 0) << chosen.fault;
+    ASSERT_EQ(chosen.status, 0) << chosen.error;
     const nlohmann::json body = chosen.json()["models"]["bodies"][0];
     const nlohmann::json models = body["recommended"]["models"];
     EXPECT_EQ(body["name"], "stone");
@@ -71,23 +71,23 @@ TEST_F(ModelChoice, IsToldToPeopleAndIsNullWhereNothingIsChosen) {
 TEST_F(ModelChoice, WithoutAddedMassNeedsNoTensor) {
     const ProgramRun run =
         simulate("loads = \"coefficients\"\nadded_mass = false", "motion.h5", {"--json"}, "shape");
-    ASSERT_EQ(run.status, 0) << run.fault;
+    ASSERT_EQ(run.status, 0) << run.error;
     EXPECT_THAT(run.json()["bodies"][0]["models"].get<std::string>(), HasSubstr("no added mass"));
 }
 
 TEST_F(ModelChoice, OfAutoBesideAGivenModelIsRefusedWithItsLine) {
     const ProgramRun run = simulate("models = \"auto\"\nadded_mass = false", "motion.h5");
     EXPECT_EQ(run.status, 1);
-    EXPECT_TRUE(test::is_one_line(run.fault)) << run.fault;
-    EXPECT_THAT(run.fault, HasSubstr("scene.toml:10: added_mass"));
+    EXPECT_TRUE(test::is_one_line(run.error)) << run.error;
+    EXPECT_THAT(run.error, HasSubstr("scene.toml:10: added_mass"));
     EXPECT_FALSE(std::filesystem::exists(folder_ / "motion.h5"));
 }
 
 TEST_F(ModelChoice, OfAutoWithoutTablesAsksForABake) {
     const ProgramRun run = simulate("models = \"auto\"", "motion.h5", {}, "bare");
     EXPECT_EQ(run.status, 1);
-    EXPECT_TRUE(test::is_one_line(run.fault)) << run.fault;
-    EXPECT_THAT(run.fault, HasSubstr("samara bake"));
+    EXPECT_TRUE(test::is_one_line(run.error)) << run.error;
+    EXPECT_THAT(run.error, HasSubstr("samara bake"));
 }
 
 }  // namespace

@@ -98,7 +98,7 @@ TEST(GltfExport, OneFrameIsAStillSceneThatPassesTheValidator) {
     EXPECT_TRUE(read_glb(folder / "still.glb").animations.empty());
 }
 
-TEST(GltfExport, ValidatorFindsFaults) {
+TEST(GltfExport, ValidatorFindsErrors) {
     const TemporaryFolder folder;
     write_glb(folder / "motion.glb", leaves(1, 0.1));
     std::string bytes = read_bytes(folder / "motion.glb");

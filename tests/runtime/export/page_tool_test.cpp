@@ -74,7 +74,7 @@ TEST(Page, ShowsTheMotionsPosesAtTheTimeScrubbedTo) {
     }
 }
 
-TEST(Page, ShowsSeriesAndAPictureWithoutFaultsOrANetwork) {
+TEST(Page, ShowsSeriesAndAPictureWithoutErrorsOrANetwork) {
     ASSERT_TRUE(has_page()) << "configure with -DSAMARA_PAGE=ON";
     const TemporaryFolder folder;
     const Motion motion = ellipsoid_and_cubes(3);

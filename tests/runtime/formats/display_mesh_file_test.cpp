@@ -207,17 +207,17 @@ TEST(DisplayMeshFile, IsReadByScenesInTheShapesScaleOrItsOwn) {
     EXPECT_NEAR(scene("look = \"leaf.obj\"\n").bodies[0].display->positions[0].x(), -0.04, 1e-12);
     EXPECT_NEAR(scene("look = \"leaf.obj\"\nlook_scale = 2\n").bodies[0].display->positions[0].x(), -0.08,
                 1e-12);
-    const auto fault = [&](const std::string& keys) { return error_of([&] { (void)scene(keys); }); };
-    EXPECT_THAT(fault("look = \"none.obj\"\n"), HasSubstr("look in [[body]] cannot be had"));
-    EXPECT_THAT(fault("look_scale = 2\n"), HasSubstr("look_scale in [[body]] is of a look"));
+    const auto error = [&](const std::string& keys) { return error_of([&] { (void)scene(keys); }); };
+    EXPECT_THAT(error("look = \"none.obj\"\n"), HasSubstr("look in [[body]] cannot be had"));
+    EXPECT_THAT(error("look_scale = 2\n"), HasSubstr("look_scale in [[body]] is of a look"));
     (void)folder.file("leaf.stl", "solid\nendsolid\n");
-    EXPECT_THAT(fault("look = \"leaf.stl\"\n"), HasSubstr("a look is a mesh, .obj or .glb"));
+    EXPECT_THAT(error("look = \"leaf.stl\"\n"), HasSubstr("a look is a mesh, .obj or .glb"));
     (void)folder.file("empty.obj", "v 0 0 0\n");
-    EXPECT_THAT(fault("look = \"empty.obj\"\n"), HasSubstr("holds no triangles"));
+    EXPECT_THAT(error("look = \"empty.obj\"\n"), HasSubstr("holds no triangles"));
     (void)folder.file("bad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/2 3/1\n");
-    EXPECT_THAT(fault("look = \"bad.obj\"\n"), HasSubstr("line 5: a face names texture '2' of 1"));
+    EXPECT_THAT(error("look = \"bad.obj\"\n"), HasSubstr("line 5: a face names texture '2' of 1"));
     (void)folder.file("bad.glb", "glTF\2\0\0\0 and no more");
-    EXPECT_THAT(fault("look = \"bad.glb\"\n"), HasSubstr("is no sound .glb file"));
+    EXPECT_THAT(error("look = \"bad.glb\"\n"), HasSubstr("is no sound .glb file"));
 }
 
 TEST(DisplayMeshFile, AnObstacleMayBeAGlb) {

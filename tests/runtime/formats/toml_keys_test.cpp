@@ -19,8 +19,8 @@ using testing::HasSubstr;
 std::string verdict(const std::string& text) {
     try {
         (void)parse_toml(text, "scene.toml");
-    } catch (const Error& fault) {
-        return fault.what();
+    } catch (const Error& error) {
+        return error.what();
     }
     return "accepted";
 }

@@ -253,7 +253,7 @@ TEST(CurvedCollocation, AgreesOnAllInstructionSetsOfTheMachine) {
 TEST(CurvedCollocation, FlatPanelsConvergeOnACube) {
     const BoundaryElementResult coarse = solve_curved_collocation(graded_cube(4), {});
     const BoundaryElementResult fine = solve_curved_collocation(graded_cube(8), {});
-    EXPECT_LT(fine.closure_fault, 1e-4);
+    EXPECT_LT(fine.closure_error, 1e-4);
     EXPECT_LT(difference(fine.tensor.transpose(), fine.tensor), 1e-5);
     // Extrapolated from meshes of up to 6912 triangles that are smaller still towards the edges.
     EXPECT_NEAR(fine.tensor(3, 3), 0.6385, 0.0025);
@@ -262,10 +262,10 @@ TEST(CurvedCollocation, FlatPanelsConvergeOnACube) {
 
 TEST(CurvedCollocation, ShowsHolesFlippedAndRepeatedTriangles) {
     const Surface surface = curved_ellipsoid({1.0, 0.7, 0.5}, 2);
-    EXPECT_LT(solve_curved_collocation(surface, {}).closure_fault, 1e-5);
-    EXPECT_GT(solve_curved_collocation(without_last_triangle(surface), {}).closure_fault, 0.1);
-    EXPECT_GT(solve_curved_collocation(with_flipped_triangle(surface), {}).closure_fault, 0.1);
-    EXPECT_GT(solve_curved_collocation(with_repeated_triangle(surface), {}).closure_fault, 0.1);
+    EXPECT_LT(solve_curved_collocation(surface, {}).closure_error, 1e-5);
+    EXPECT_GT(solve_curved_collocation(without_last_triangle(surface), {}).closure_error, 0.1);
+    EXPECT_GT(solve_curved_collocation(with_flipped_triangle(surface), {}).closure_error, 0.1);
+    EXPECT_GT(solve_curved_collocation(with_repeated_triangle(surface), {}).closure_error, 0.1);
 }
 
 TEST(CurvedCollocation, SaysWhatItTook) {

@@ -306,22 +306,22 @@ TEST(Hypersingular, DoesNotDependOnTheNumberOfThreads) {
     }
 }
 
-TEST(Hypersingular, ClosureFaultTellsBrokenSurfacesFromSoundOnes) {
-    const auto fault = [](const Surface& surface) { return solve_hypersingular(surface, {}).closure_fault; };
+TEST(Hypersingular, ClosureErrorTellsBrokenSurfacesFromSoundOnes) {
+    const auto error = [](const Surface& surface) { return solve_hypersingular(surface, {}).closure_error; };
     const Surface sound = test::ellipsoid({1.0, 2.0, 0.5}, 3);
-    EXPECT_LT(fault(sound), 2e-4);
-    EXPECT_LT(fault(test::box({1.0, 1.0, 1e-3}, 6)), 2e-4);
+    EXPECT_LT(error(sound), 2e-4);
+    EXPECT_LT(error(test::box({1.0, 1.0, 1e-3}, 6)), 2e-4);
     Surface flipped = sound;
     std::swap(flipped.corners[7][0], flipped.corners[7][1]);
-    EXPECT_GT(fault(flipped), 2e-3);
+    EXPECT_GT(error(flipped), 2e-3);
     Surface holed = sound;
     holed.corners.erase(holed.corners.begin() + 7);
-    EXPECT_GT(fault(holed), 2e-3);
+    EXPECT_GT(error(holed), 2e-3);
     Surface repeated = sound;
     repeated.corners.push_back(repeated.corners[7]);
-    EXPECT_GT(fault(repeated), 2e-3);
+    EXPECT_GT(error(repeated), 2e-3);
     const Surface crossing = both(sound, test::mapped(sound, Matrix3d::Identity(), {0.7, 0.0, 0.0}));
-    EXPECT_GT(fault(crossing), 0.4);
+    EXPECT_GT(error(crossing), 0.4);
 }
 
 TEST(Hypersingular, ReportsProgressThatRises) {

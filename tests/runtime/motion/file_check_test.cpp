@@ -100,34 +100,34 @@ TEST_F(FileCheck, NoDamageToStructuresHarmsWhoAsks) {
         replace_file_with(file, sound);
         ASSERT_NO_THROW((void)check_file(file));
         std::mt19937 generator(3);
-        int refused = 0;
+        int rejected = 0;
         for (int trial = 0; trial < 30; ++trial) {
             std::string damaged = sound;
             for (int i = 0; i < 10; ++i) damaged[96 + generator() % 6000] = static_cast<char>(generator());
             replace_file_with(file, damaged);
             try {
                 (void)check_file(file);
-            } catch (const Error& fault) {
-                EXPECT_THAT(fault.what(), HasSubstr(file.filename().string()));
-                EXPECT_EQ(std::string(fault.what()).find('\n'), std::string::npos);
-                ++refused;
+            } catch (const Error& error) {
+                EXPECT_THAT(error.what(), HasSubstr(file.filename().string()));
+                EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+                ++rejected;
             }
         }
-        EXPECT_GT(refused, 10);
+        EXPECT_GT(rejected, 10);
     }
 }
 
 TEST_F(FileCheck, TheCommandSaysWhatItFound) {
     const ProgramRun sound = run_program_in(folder_, {"samara", "check", "m.h5", "--json"});
-    ASSERT_EQ(sound.status, 0) << sound.fault;
+    ASSERT_EQ(sound.status, 0) << sound.error;
     EXPECT_EQ(sound.json()["kind"], "motion");
     EXPECT_EQ(sound.json()["digest"], true);
     const std::string bytes = read_bytes(body_);
     (void)folder_.file("short.h5", bytes.substr(0, bytes.size() / 2));
     const ProgramRun damaged = run_program_in(folder_, {"samara", "check", "short.h5"});
     EXPECT_EQ(damaged.status, 1);
-    EXPECT_TRUE(test::is_one_line(damaged.fault));
-    EXPECT_THAT(damaged.fault, HasSubstr("short.h5"));
+    EXPECT_TRUE(test::is_one_line(damaged.error));
+    EXPECT_THAT(damaged.error, HasSubstr("short.h5"));
 }
 
 TEST_F(FileCheck, TheCommandAddsADigestAndNothingElse) {
@@ -143,13 +143,13 @@ TEST_F(FileCheck, TheCommandAddsADigestAndNothingElse) {
 
 TEST_F(FileCheck, TheCInterfaceReadsUntrustedFilesLikeOthers) {
     samara_body* loaded = nullptr;
-    test::Text fault;
-    ASSERT_EQ(CALL(samara_body_load_untrusted, body_.c_str(), &loaded), SAMARA_OK) << fault.text();
+    test::Text error;
+    ASSERT_EQ(CALL(samara_body_load_untrusted, body_.c_str(), &loaded), SAMARA_OK) << error.text();
     const test::BodyPointer body(loaded, samara_body_free);
     EXPECT_STREQ(samara_body_name(body.get()), "pebble");
     EXPECT_EQ(CALL(samara_body_load_untrusted, "/proc/none.h5", &loaded), SAMARA_UNREADABLE_FILE);
     EXPECT_EQ(loaded, nullptr);
-    EXPECT_THAT(fault.text(), HasSubstr("no such file"));
+    EXPECT_THAT(error.text(), HasSubstr("no such file"));
 }
 
 TEST(ReadyBakedBodies, CarryADigest) {

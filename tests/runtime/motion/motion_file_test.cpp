@@ -262,7 +262,7 @@ std::string error_of_foreign(const ForeignFile& content, const std::filesystem::
     return reading_error(path);
 }
 
-TEST(MotionFile, ReadsFilesOfOtherProgramsAndRefusesTheirFaults) {
+TEST(MotionFile, ReadsFilesOfOtherProgramsAndRefusesTheirErrors) {
     const TemporaryFolder folder;
     const auto error = [&](const auto& change) {
         ForeignFile content;

@@ -136,34 +136,34 @@ class PlotOfBodies : public testing::Test {
 
 TEST_F(PlotOfBodies, DrawsPolarsUnlessAskedForAnotherKind) {
     const ProgramRun polars = plot({"leaf.body.h5", "-o", "picture.svg", "--json"});
-    ASSERT_EQ(polars.status, 0) << polars.fault;
+    ASSERT_EQ(polars.status, 0) << polars.error;
     EXPECT_EQ(polars.json()["kind"], "polars");
     EXPECT_EQ(polars.json()["arcs"], 3);
     const ProgramRun sphere = plot({"leaf.body.h5", "-o", "picture.png", "--kind", "sphere", "--json"});
-    ASSERT_EQ(sphere.status, 0) << sphere.fault;
+    ASSERT_EQ(sphere.status, 0) << sphere.error;
     EXPECT_EQ(sphere.json()["cases"], 13);
     EXPECT_EQ(sphere.json()["planned"], 1.0);
     test::expect_png(folder_ / "picture.png");
     const ProgramRun convergence =
         plot({"leaf.body.h5", "-o", "picture.svg", "--kind", "convergence", "--json"});
-    ASSERT_EQ(convergence.status, 0) << convergence.fault;
+    ASSERT_EQ(convergence.status, 0) << convergence.error;
     EXPECT_EQ(convergence.json()["directions"], 6);
     EXPECT_EQ(convergence.json()["meshes"], 2);
     EXPECT_EQ(convergence.json()["sources"], 5);
 }
 
 TEST_F(PlotOfBodies, RefusesWhatTheFileDoesNotHold) {
-    const auto refused = [&](const std::vector<std::string>& words, const char* text) {
+    const auto rejected = [&](const std::vector<std::string>& words, const char* text) {
         const ProgramRun done = plot(words);
         EXPECT_EQ(done.status, 1);
-        EXPECT_TRUE(test::is_one_line(done.fault)) << done.fault;
-        EXPECT_THAT(done.fault, HasSubstr(text));
+        EXPECT_TRUE(test::is_one_line(done.error)) << done.error;
+        EXPECT_THAT(done.error, HasSubstr(text));
         EXPECT_FALSE(std::filesystem::exists(folder_ / "no.svg"));
     };
-    refused({"bare.body.h5", "-o", "no.svg"}, "has no tables to draw");
-    refused({"leaf.body.h5", "-o", "no.svg", "--kind", "strip"}, "take polars, sphere or convergence");
-    refused({"tumble.h5", "-o", "no.svg", "--kind", "polars"}, "take strip, phase or landing");
-    refused({"leaf.body.h5", "-o", "no.svg", "--run", "1"}, "is of a motion");
+    rejected({"bare.body.h5", "-o", "no.svg"}, "has no tables to draw");
+    rejected({"leaf.body.h5", "-o", "no.svg", "--kind", "strip"}, "take polars, sphere or convergence");
+    rejected({"tumble.h5", "-o", "no.svg", "--kind", "polars"}, "take strip, phase or landing");
+    rejected({"leaf.body.h5", "-o", "no.svg", "--run", "1"}, "is of a motion");
 }
 
 }  // namespace

@@ -40,10 +40,10 @@ class Plot : public testing::Test {
         std::filesystem::permissions(folder_ / "fake", std::filesystem::perms::owner_all);
         return "SAMARA_PYTHON=" + (folder_ / "fake").string();
     }
-    void expect_refused(const ProgramRun& done, const char* text) const {
+    void expect_rejected(const ProgramRun& done, const char* text) const {
         EXPECT_EQ(done.status, 1);
-        EXPECT_TRUE(test::is_one_line(done.fault)) << done.fault;
-        EXPECT_THAT(done.fault, HasSubstr(text));
+        EXPECT_TRUE(test::is_one_line(done.error)) << done.error;
+        EXPECT_THAT(done.error, HasSubstr(text));
         EXPECT_FALSE(std::filesystem::exists(folder_ / "out.png"));
     }
     test::TemporaryFolder folder_;
@@ -51,7 +51,7 @@ class Plot : public testing::Test {
 
 TEST_F(Plot, IsAPngOfTheStatedSize) {
     const ProgramRun done = plot("out.png", {"--json"});
-    ASSERT_EQ(done.status, 0) << done.fault;
+    ASSERT_EQ(done.status, 0) << done.error;
     test::expect_png(folder_ / "out.png");
     EXPECT_GE(done.json()["silhouettes"], 8);
     EXPECT_EQ(done.json()["strip"], nlohmann::json({0.0, 4.0}));
@@ -60,28 +60,28 @@ TEST_F(Plot, IsAPngOfTheStatedSize) {
 
 TEST_F(Plot, IsOfTheBodyRunAndCopyAskedForAndNamesWhatIsThereOtherwise) {
     const ProgramRun done = plot("out.svg", {"--body", "plate", "--json"});
-    ASSERT_EQ(done.status, 0) << done.fault;
+    ASSERT_EQ(done.status, 0) << done.error;
     EXPECT_EQ(done.json()["body"], "plate");
     EXPECT_EQ(done.json()["measures"]["regime"], "tumbling");
     EXPECT_THAT(read_bytes(folder_ / "out.svg"), HasSubstr("plate: tumbling, descends at 0.4"));
-    expect_refused(plot("out.png", {"--body", "leaf"}), "holds no body 'leaf'; it holds: ellipsoid, plate");
-    expect_refused(plot("out.png", {"--copy", "1"}), "there is no copy 1");
-    expect_refused(plot("out.png", {"--run", "3"}), "there is no run 3");
-    expect_refused(plot("out.pdf"), ".png or .svg");
-    expect_refused(plot("none/out.png"), "does not exist");
+    expect_rejected(plot("out.png", {"--body", "leaf"}), "holds no body 'leaf'; it holds: ellipsoid, plate");
+    expect_rejected(plot("out.png", {"--copy", "1"}), "there is no copy 1");
+    expect_rejected(plot("out.png", {"--run", "3"}), "there is no run 3");
+    expect_rejected(plot("out.pdf"), ".png or .svg");
+    expect_rejected(plot("none/out.png"), "does not exist");
 }
 
 TEST_F(Plot, SaysWhatToInstallWhereAModuleOrPythonIsMissing) {
-    expect_refused(plot("out.png", {}, fake_python("echo matplotlib >&2; exit 3\n")),
-                   "is made by Python's matplotlib, which is not installed: apt install python3-matplotlib");
-    expect_refused(plot("out.png", {}, "SAMARA_PYTHON=none-such"), "SAMARA_PYTHON names none-such");
+    expect_rejected(plot("out.png", {}, fake_python("echo matplotlib >&2; exit 3\n")),
+                    "is made by Python's matplotlib, which is not installed: apt install python3-matplotlib");
+    expect_rejected(plot("out.png", {}, "SAMARA_PYTHON=none-such"), "SAMARA_PYTHON names none-such");
 }
 
 TEST_F(Plot, PassesOnWhyPythonFailedAndLeavesTheLastPicture) {
-    expect_refused(
+    expect_rejected(
         plot("out.png", {}, fake_python("echo 'Traceback'; echo 'MemoryError: full' >&2; exit 1\n")),
         "could not make the picture: MemoryError: full");
-    expect_refused(plot("out.png", {}, fake_python("exit 0\n")), "it gave no reason");
+    expect_rejected(plot("out.png", {}, fake_python("exit 0\n")), "it gave no reason");
     (void)folder_.file("kept.png", "as it was");
     EXPECT_EQ(plot("kept.png", {}, fake_python("exit 1\n")).status, 1);
     EXPECT_EQ(read_bytes(folder_ / "kept.png"), "as it was");
@@ -90,7 +90,7 @@ TEST_F(Plot, PassesOnWhyPythonFailedAndLeavesTheLastPicture) {
 TEST_F(Plot, RunsAndReadsNothingOfTheUsers) {
     const auto drawn = [&](const std::string& name, const std::string& environment) {
         const ProgramRun done = plot(name, {}, environment);
-        EXPECT_EQ(done.status, 0) << done.fault;
+        EXPECT_EQ(done.status, 0) << done.error;
         return read_bytes(folder_ / name);
     };
     const std::string before = drawn("before.svg", "");
@@ -110,10 +110,10 @@ TEST_F(Plot, OfAComparisonShowsBothFilesAndLeavesTheTextWherePythonFails) {
     const std::vector<std::string> words = {"samara", "compare", "motion.h5", "motion.h5",
                                             "--body", "plate",   "-o",        "out.png"};
     const ProgramRun failed = run_program_in(folder_, words, fake_python("exit 1\n"));
-    expect_refused(failed, "could not make the picture");
+    expect_rejected(failed, "could not make the picture");
     EXPECT_THAT(failed.output, HasSubstr("the motion agrees with the reference"));
     const ProgramRun done = run_program_in(folder_, words);
-    ASSERT_EQ(done.status, 0) << done.fault;
+    ASSERT_EQ(done.status, 0) << done.error;
     EXPECT_THAT(done.output, testing::EndsWith("picture: out.png\n"));
     test::expect_png(folder_ / "out.png");
 }

@@ -74,7 +74,7 @@ class PlotKinds : public testing::Test {
 
 TEST_F(PlotKinds, AStripShowsTwoViewsToScaleAndSeriesWithTheirUnits) {
     const ProgramRun done = plot({"flutter.h5", "-o", "strip.svg", "--json"});
-    ASSERT_EQ(done.status, 0) << done.fault;
+    ASSERT_EQ(done.status, 0) << done.error;
     EXPECT_EQ(done.json()["kind"], "strip");
     const Svg picture = svg("strip.svg");
     for (const char* text : {"From the front", "From the side", "x (m)", "y (m)", "z (m)", "time (s)",
@@ -87,7 +87,7 @@ TEST_F(PlotKinds, AStripShowsTwoViewsToScaleAndSeriesWithTheirUnits) {
 
 TEST_F(PlotKinds, APhasePortraitHasBothAxesNamedAndIsOneCurveForAFlutter) {
     const ProgramRun done = plot({"flutter.h5", "-o", "phase.svg", "--kind", "phase", "--json"});
-    ASSERT_EQ(done.status, 0) << done.fault;
+    ASSERT_EQ(done.status, 0) << done.error;
     const nlohmann::json json = done.json();
     EXPECT_EQ(json["kind"], "phase");
     EXPECT_EQ(json["lines"], 1);
@@ -104,7 +104,7 @@ TEST_F(PlotKinds, APhasePortraitHasBothAxesNamedAndIsOneCurveForAFlutter) {
 TEST_F(PlotKinds, APhasePortraitSaysWhereItsCornersAreItsFrames) {
     const auto portrait = [&](const char* motion) {
         const ProgramRun done = plot({motion, "-o", "phase.svg", "--kind", "phase", "--json"});
-        EXPECT_EQ(done.status, 0) << done.fault;
+        EXPECT_EQ(done.status, 0) << done.error;
         return done.json()["frames_in_swing"].get<double>();
     };
     EXPECT_NEAR(portrait("flutter.h5"), 30.0, 0.1);
@@ -124,7 +124,7 @@ TEST_F(PlotKinds, ThePhasePortraitOfATumblingBodyBreaksAtEachTurnover) {
 
 TEST_F(PlotKinds, ALandingMapShowsThePlacesTheMeanAndTheSpread) {
     const ProgramRun done = plot({"many.h5", "-o", "landing.svg", "--kind", "landing", "--json"});
-    ASSERT_EQ(done.status, 0) << done.fault;
+    ASSERT_EQ(done.status, 0) << done.error;
     const nlohmann::json json = done.json();
     EXPECT_EQ(json["samples"], 60);
     EXPECT_EQ(json["landed"], 45);
@@ -145,7 +145,7 @@ TEST_F(PlotKinds, WithoutAGroundTheLandingMapIsOfTheLastFrame) {
     motion.ground.reset();
     write_motion_file(folder_ / "air.h5", motion);
     const ProgramRun done = plot({"air.h5", "-o", "landing.svg", "--kind", "landing", "--json"});
-    ASSERT_EQ(done.status, 0) << done.fault;
+    ASSERT_EQ(done.status, 0) << done.error;
     EXPECT_EQ(done.json()["landed"], 0);
     EXPECT_NEAR(done.json()["spread"].get<double>(), 0.3, 1e-9);
     EXPECT_THAT(svg("landing.svg").text, HasSubstr("60 in the air"));
@@ -153,20 +153,20 @@ TEST_F(PlotKinds, WithoutAGroundTheLandingMapIsOfTheLastFrame) {
 }
 
 TEST_F(PlotKinds, WhatCannotBeDrawnIsRefusedInOneLine) {
-    const auto refused = [&](const std::vector<std::string>& words, const char* text) {
+    const auto rejected = [&](const std::vector<std::string>& words, const char* text) {
         const ProgramRun done = plot(words);
         EXPECT_EQ(done.status, 1);
-        EXPECT_TRUE(test::is_one_line(done.fault)) << done.fault;
-        EXPECT_THAT(done.fault, HasSubstr(text));
+        EXPECT_TRUE(test::is_one_line(done.error)) << done.error;
+        EXPECT_THAT(done.error, HasSubstr(text));
         EXPECT_FALSE(std::filesystem::exists(folder_ / "no.svg"));
     };
-    refused({"flutter.h5", "-o", "no.svg", "--kind", "landing"}, "needs more than one fall");
-    refused({"many.h5", "-o", "no.svg", "--kind", "landing", "--copy", "1"}, "is of all runs and copies");
-    refused({"flutter.h5", "-o", "no.svg", "--kind", "pie"}, "--kind");
+    rejected({"flutter.h5", "-o", "no.svg", "--kind", "landing"}, "needs more than one fall");
+    rejected({"many.h5", "-o", "no.svg", "--kind", "landing", "--copy", "1"}, "is of all runs and copies");
+    rejected({"flutter.h5", "-o", "no.svg", "--kind", "pie"}, "--kind");
     Motion cube = test::motion_of([](double t) { return test::tumble(t, 6.0, 0.3); }, 4.0);
     cube.bodies[0].surface = test::box({2.0, 2.0, 2.0}, 1);
     write_motion_file(folder_ / "cube.h5", cube);
-    refused({"cube.h5", "-o", "no.svg", "--kind", "phase"}, "has no shortest axis");
+    rejected({"cube.h5", "-o", "no.svg", "--kind", "phase"}, "has no shortest axis");
 }
 
 TEST(Tilt, IsTheInclinationWithASignAndItsDerivativeForASwingInAPlane) {

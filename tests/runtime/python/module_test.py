@@ -48,7 +48,7 @@ class Scenes(unittest.TestCase):
         numpy.testing.assert_array_equal(scene.gravity, [0, 0, -9.81])
 
     def test_faults_name_the_place_and_the_remedy(self):
-        for fault, scene in {
+        for error, scene in {
             "scene: unknown key 'densty' in [[body]]; did you mean 'density'": leaves(densty=600),
             "scene['body'][0]['position'] is of the type set": leaves(position={1, 2}),
             "a list of 3 numbers": leaves(position=[0, 0]),
@@ -56,9 +56,9 @@ class Scenes(unittest.TestCase):
             "has the key 3; keys are texts": {"scene": {3: 1}},
             "there is no ready-baked body": leaves(shape="samara:lead"),
         }.items():
-            with self.subTest(fault), self.assertRaises(samara.Error) as caught:
+            with self.subTest(error), self.assertRaises(samara.Error) as caught:
                 samara.Scene(scene)
-            self.assertIn(fault, str(caught.exception))
+            self.assertIn(error, str(caught.exception))
             self.assertNotIn("\n", str(caught.exception))
         with self.assertRaisesRegex(samara.Error, "nowhere.toml"):
             samara.simulate("nowhere.toml")
@@ -78,9 +78,9 @@ class Scenes(unittest.TestCase):
             self.assertLess(len(str(caught.exception)), 200)
 
     def test_numbers_beyond_all_range_and_texts_that_are_none_are_refused(self):
-        for fault, scene in {"beyond 64 bits": leaves(count=10**400), "finite": leaves(position=[0, 0, 1e999]),
+        for error, scene in {"beyond 64 bits": leaves(count=10**400), "finite": leaves(position=[0, 0, 1e999]),
                              "no Unicode": leaves(name="\ud800"), "holds a text": {"\ud800": 1}}.items():
-            with self.subTest(fault), self.assertRaisesRegex(samara.InputError, fault):
+            with self.subTest(error), self.assertRaisesRegex(samara.InputError, error):
                 samara.Scene(scene)
 
         class Huge:
@@ -123,8 +123,8 @@ class Errors(unittest.TestCase):
             (samara.InputError, lambda: samara.Motion.read(ROOT / "README.md")),
             (samara.InputError, lambda: samara.simulate(leaves(), runs=0)),
             (samara.InputError, lambda: samara.simulate(leaves(position=[0, 0, -1]) | {"scene": {"duration": 1, "ground": 0}})),
-            (samara.InputError, lambda: samara.Flight(samara.Scene(leaves())).advance(-1.0)),
-            (samara.InputError, lambda: samara.Flight(samara.Scene(leaves())).set_state(b"nonsense")),
+            (samara.InputError, lambda: samara.Simulation(samara.Scene(leaves())).advance(-1.0)),
+            (samara.InputError, lambda: samara.Simulation(samara.Scene(leaves())).set_state(b"nonsense")),
         ):
             with self.assertRaises(kind) as caught:
                 call()
@@ -132,7 +132,7 @@ class Errors(unittest.TestCase):
             self.assertIsInstance(caught.exception, OSError if kind is samara.FileError else ValueError)
 
     def test_objects_made_without_init_are_empty_and_no_crash(self):
-        classes = (samara.Scene, samara.Body, samara.Motion, samara.BodyMotion, samara.Flight, samara.Poses)
+        classes = (samara.Scene, samara.Body, samara.Motion, samara.BodyMotion, samara.Simulation, samara.Poses)
         for kind in classes:
             empty = kind.__new__(kind)
             for name in dir(kind):
@@ -147,7 +147,7 @@ class Errors(unittest.TestCase):
         with self.assertRaises(TypeError):
             samara.simulate(samara.Scene.__new__(samara.Scene))
         with self.assertRaises(TypeError):
-            samara.Flight(samara.Scene.__new__(samara.Scene))
+            samara.Simulation(samara.Scene.__new__(samara.Scene))
         with self.assertRaises(TypeError):
             samara.compare(samara.Motion.__new__(samara.Motion), "reference.h5")
 

@@ -170,19 +170,19 @@ class ReportCommand : public testing::Test {
         testing::internal::CaptureStderr();
         const int status = run_report(static_cast<int>(argv.size()), argv.data(), reader);
         output_ = testing::internal::GetCapturedStdout();
-        fault_ = testing::internal::GetCapturedStderr();
+        error_ = testing::internal::GetCapturedStderr();
         return status;
     }
     [[nodiscard]] std::string in(const char* name) const { return (folder_ / name).string(); }
 
     test::TemporaryFolder folder_;
     mutable std::string output_;
-    mutable std::string fault_;
+    mutable std::string error_;
 };
 
 TEST_F(ReportCommand, WritesOnePageThatNeedsNothingElse) {
     const std::string page_file = in("leaf.html");
-    ASSERT_EQ(report({in("leaf.body.h5").c_str(), "-o", page_file.c_str(), "--json"}), 0) << fault_;
+    ASSERT_EQ(report({in("leaf.body.h5").c_str(), "-o", page_file.c_str(), "--json"}), 0) << error_;
     const std::string page = read_bytes(page_file);
     EXPECT_THAT(page, testing::StartsWith("<!DOCTYPE html>"));
     EXPECT_THAT(page, testing::EndsWith("</html>\n"));
@@ -201,14 +201,14 @@ TEST_F(ReportCommand, WritesOnePageThatNeedsNothingElse) {
 
 TEST_F(ReportCommand, SaysWhatItCouldNotReadAndWhy) {
     ASSERT_EQ(report({in("leaf.body.h5").c_str(), "-o", in("leaf.html").c_str()}), 0);
-    EXPECT_TRUE(test::is_one_line(fault_)) << fault_;
-    EXPECT_THAT(fault_,
+    EXPECT_TRUE(test::is_one_line(error_)) << error_;
+    EXPECT_THAT(error_,
                 AllOf(HasSubstr("leaf.cases: is not there"), HasSubstr("--cases names another folder")));
     EXPECT_THAT(read_bytes(in("leaf.html")), HasSubstr("leaf.cases: is not there"));
     std::filesystem::create_directory(folder_ / "leaf.cases");
     static_cast<void>(folder_.file("leaf.cases/plan.json", "{}"));
     ASSERT_EQ(report({in("leaf.body.h5").c_str(), "-o", in("leaf.html").c_str()}), 0);
-    EXPECT_THAT(fault_, HasSubstr("is read by the baking tools"));
+    EXPECT_THAT(error_, HasSubstr("is read by the baking tools"));
 }
 
 TEST_F(ReportCommand, PutsWhatTheCasesTellIntoThePageAndTheVerdict) {
@@ -220,7 +220,7 @@ TEST_F(ReportCommand, PutsWhatTheCasesTellIntoThePageAndTheVerdict) {
                            {"no falls"}};
     };
     ASSERT_EQ(report({in("leaf.body.h5").c_str(), "-o", in("leaf.html").c_str(), "--json"}, reader), 0)
-        << fault_;
+        << error_;
     const nlohmann::json json = nlohmann::json::parse(output_);
     EXPECT_EQ(json["verdict"]["findings"].back()["what"], "y+");
     EXPECT_THAT(json["parts"].get<std::vector<std::string>>(), Contains("Told by the cases"));
@@ -232,7 +232,7 @@ TEST_F(ReportCommand, ShowsANameAsTextWhateverItHolds) {
     Body body = read_body_file(shipped / "leaf.body.h5");
     body.name = "<script>alert(1)</script>";
     write_body_file(folder_ / "odd.body.h5", body);
-    ASSERT_EQ(report({in("odd.body.h5").c_str(), "-o", in("odd.html").c_str()}), 0) << fault_;
+    ASSERT_EQ(report({in("odd.body.h5").c_str(), "-o", in("odd.html").c_str()}), 0) << error_;
     EXPECT_THAT(read_bytes(in("odd.html")),
                 AllOf(Not(HasSubstr("<script")), HasSubstr("&lt;script&gt;alert(1)")));
 }
@@ -243,27 +243,27 @@ TEST_F(ReportCommand, StillTellsTheVerdictWhereThePageCannotBeMade) {
     ::unsetenv("SAMARA_PYTHON");
     EXPECT_EQ(status, 1);
     EXPECT_THAT(output_, HasSubstr("Good for pictures, not for figures."));
-    EXPECT_THAT(fault_, HasSubstr("/bin/false could not make the page"));
+    EXPECT_THAT(error_, HasSubstr("/bin/false could not make the page"));
     EXPECT_FALSE(std::filesystem::exists(folder_ / "leaf.html"));
 }
 
 TEST_F(ReportCommand, RefusesWhatIsNoBakeInOneLineAndWritesNothing) {
     write_body_file(folder_ / "bare.body.h5", test::rubber_ellipsoid());
-    const auto refused = [&](const std::vector<const char*>& words, const char* text) {
+    const auto rejected = [&](const std::vector<const char*>& words, const char* text) {
         EXPECT_EQ(report(words), 1);
-        EXPECT_TRUE(test::is_one_line(fault_)) << fault_;
-        EXPECT_THAT(fault_, HasSubstr(text));
+        EXPECT_TRUE(test::is_one_line(error_)) << error_;
+        EXPECT_THAT(error_, HasSubstr(text));
         EXPECT_FALSE(std::filesystem::exists(folder_ / "no.html"));
     };
     const std::string leaf = in("leaf.body.h5");
     const std::string bare = in("bare.body.h5");
     const std::string page = in("no.html");
     const std::string none = in("none.cases");
-    refused({bare.c_str(), "-o", page.c_str()}, "has no tables, and a report is of a bake");
-    refused({leaf.c_str(), "-o", in("no.pdf").c_str()}, "end the name in .html");
-    refused({leaf.c_str(), "-o", page.c_str(), "--cases", none.c_str()},
-            "is no folder of cases: it has no plan.json");
-    refused({none.c_str(), "-o", page.c_str()}, "none.cases");
+    rejected({bare.c_str(), "-o", page.c_str()}, "has no tables, and a report is of a bake");
+    rejected({leaf.c_str(), "-o", in("no.pdf").c_str()}, "end the name in .html");
+    rejected({leaf.c_str(), "-o", page.c_str(), "--cases", none.c_str()},
+             "is no folder of cases: it has no plan.json");
+    rejected({none.c_str(), "-o", page.c_str()}, "none.cases");
 }
 
 }  // namespace

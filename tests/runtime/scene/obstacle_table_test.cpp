@@ -11,7 +11,7 @@
 #include "samara/core/body/body_file.hpp"
 #include "samara/motion/motion_file.hpp"
 #include "samara/scene/scene_file.hpp"
-#include "samara/scene/simulation.hpp"
+#include "samara/scene/scene_simulation.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -39,7 +39,8 @@ Scene scene_with(const TemporaryFolder& folder, const std::string& obstacle, con
                     SAMARA_SOURCE_DIRECTORY, leaf, obstacle)));
 }
 
-void expect_refused(const std::string& obstacle, const std::string& message, const std::string& mesh = roof) {
+void expect_rejected(const std::string& obstacle, const std::string& message,
+                     const std::string& mesh = roof) {
     const TemporaryFolder folder;
     EXPECT_THAT(test::error_of([&] { scene_with(folder, obstacle, mesh); }), HasSubstr(message));
 }
@@ -82,36 +83,36 @@ TEST(Obstacle, MovesEvenlyBetweenItsKeysAndByTheShortestTurn) {
 }
 
 TEST(Obstacle, OfBadInputIsRefusedInOneLineThatSaysWhereAndWhatToDo) {
-    expect_refused("shape = \"none.obj\"\n", "shape in [[obstacle]] cannot be had");
-    expect_refused("", "shape in [[obstacle]] is missing; give a mesh, .stl, .obj or .glb");
-    expect_refused("shape = \"mesh.ply\"\n", "must be a mesh, .stl, .obj or .glb, not 'mesh.ply'");
-    expect_refused("shape = \"mesh.obj\"\nfriction = -1\n",
-                   "friction in [[obstacle]] must be 0, or a finite number");
-    expect_refused("shape = \"mesh.obj\"\nscale = 0\n",
-                   "scale in [[obstacle]] must be a finite number above 0");
-    expect_refused("shape = \"mesh.obj\"\ncolour = 1\n", "unknown key 'colour' in [[obstacle]]");
-    expect_refused("shape = \"mesh.obj\"\norientation = [0, 0, 0, 0]\n", "must be a quaternion");
-    expect_refused("shape = \"mesh.obj\"\nkeys = [{ position = [0, 0, 0] }]\n",
-                   "time in [[keys]] is missing");
-    expect_refused("shape = \"mesh.obj\"\nkeys = [{ time = 1 }, { time = 1 }]\n",
-                   "must be later than that of the key before");
-    expect_refused(
+    expect_rejected("shape = \"none.obj\"\n", "shape in [[obstacle]] cannot be had");
+    expect_rejected("", "shape in [[obstacle]] is missing; give a mesh, .stl, .obj or .glb");
+    expect_rejected("shape = \"mesh.ply\"\n", "must be a mesh, .stl, .obj or .glb, not 'mesh.ply'");
+    expect_rejected("shape = \"mesh.obj\"\nfriction = -1\n",
+                    "friction in [[obstacle]] must be 0, or a finite number");
+    expect_rejected("shape = \"mesh.obj\"\nscale = 0\n",
+                    "scale in [[obstacle]] must be a finite number above 0");
+    expect_rejected("shape = \"mesh.obj\"\ncolour = 1\n", "unknown key 'colour' in [[obstacle]]");
+    expect_rejected("shape = \"mesh.obj\"\norientation = [0, 0, 0, 0]\n", "must be a quaternion");
+    expect_rejected("shape = \"mesh.obj\"\nkeys = [{ position = [0, 0, 0] }]\n",
+                    "time in [[keys]] is missing");
+    expect_rejected("shape = \"mesh.obj\"\nkeys = [{ time = 1 }, { time = 1 }]\n",
+                    "must be later than that of the key before");
+    expect_rejected(
         "shape = \"mesh.obj\"\nkeys = [{ time = 1 }, { time = 1.01, position = [2, 0, 0] }]\n",
         "keys in [[obstacle]] jump: from 1 s to 1.01 s the mesh moves at 200 m/s, and 100 is the most");
-    expect_refused("shape = \"mesh.obj\"\n", "turned against the others",
-                   "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 4 3\nv 2 0 0\nf 2 5 3\n");
-    expect_refused("shape = \"mesh.obj\"\n", "has no area",
-                   "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n");
-    expect_refused("shape = \"mesh.obj\"\n", "faces share the edge",
-                   roof + "v 0 0 1\nv 0 0 -1\nf 1 2 5\nf 1 2 6\n");
-    expect_refused("shape = \"mesh.obj\"\n[[obstacle]]\nname = \"roof\"\nshape = \"mesh.obj\"\n",
-                   "'roof' is taken by another obstacle");
+    expect_rejected("shape = \"mesh.obj\"\n", "turned against the others",
+                    "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 4 3\nv 2 0 0\nf 2 5 3\n");
+    expect_rejected("shape = \"mesh.obj\"\n", "has no area",
+                    "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n");
+    expect_rejected("shape = \"mesh.obj\"\n", "faces share the edge",
+                    roof + "v 0 0 1\nv 0 0 -1\nf 1 2 5\nf 1 2 6\n");
+    expect_rejected("shape = \"mesh.obj\"\n[[obstacle]]\nname = \"roof\"\nshape = \"mesh.obj\"\n",
+                    "'roof' is taken by another obstacle");
     std::string inside_out = cube;
     for (std::size_t at = inside_out.find("f "); at != std::string::npos;
          at = inside_out.find("f ", at + 1)) {
         std::swap(inside_out[at + 2], inside_out[at + 6]);
     }
-    expect_refused("shape = \"mesh.obj\"\n", "turn them round where it was modelled", inside_out);
+    expect_rejected("shape = \"mesh.obj\"\n", "turn them round where it was modelled", inside_out);
 }
 
 TEST(Obstacle, AroundABodyThatStartsInsideOrAcrossItIsRefused) {
@@ -160,23 +161,23 @@ TEST(Obstacle, IsPartOfTheFlightThatAStateFits) {
     const LoadedBody leaf{read_body_file(SAMARA_SOURCE_DIRECTORY "/runtime/bodies/leaf.body.h5"), "leaf"};
     const TemporaryFolder folder;
     const Scene scene = scene_with(folder, "shape = \"mesh.obj\"\nposition = [0, 0, 0.5]\n");
-    const auto flight_of = [&](double friction) {
-        FlightSettings settings{.fluid = scene.fluid, .obstacles = scene.obstacles, .step = scene.step};
+    const auto simulation_of = [&](double friction) {
+        SimulationSettings settings{.fluid = scene.fluid, .obstacles = scene.obstacles, .step = scene.step};
         settings.obstacles[0].friction = friction;
-        auto flight = std::make_unique<Flight>(settings);
-        flight->add(leaf, scene.bodies[0], scene.bodies[0]);
-        return flight;
+        auto simulation = std::make_unique<Simulation>(settings);
+        simulation->add(leaf, scene.bodies[0], scene.bodies[0]);
+        return simulation;
     };
-    const auto one = flight_of(0.5);
+    const auto one = simulation_of(0.5);
     one->advance_to(0.3);
     const std::string state = one->state();
     one->advance_to(1.0);
-    const auto again = flight_of(0.5);
+    const auto again = simulation_of(0.5);
     again->set_state(state);
     again->advance_to(1.0);
     EXPECT_EQ(again->pose(0).position, one->pose(0).position);
     EXPECT_EQ(again->pose(0).orientation.coeffs(), one->pose(0).orientation.coeffs());
-    EXPECT_THROW(flight_of(0.4)->set_state(state), FlightError);
+    EXPECT_THROW(simulation_of(0.4)->set_state(state), SimulationError);
 }
 
 }  // namespace

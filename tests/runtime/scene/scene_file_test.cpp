@@ -33,8 +33,8 @@ class SceneFile : public testing::Test {
     std::string refusal(const std::string& text) {
         try {
             read(text);
-        } catch (const Error& fault) {
-            return fault.what();
+        } catch (const Error& error) {
+            return error.what();
         }
         return "accepted";
     }

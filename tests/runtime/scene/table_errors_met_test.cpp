@@ -1,8 +1,7 @@
-#include "samara/scene/table_errors_met.hpp"
-
 #include <gtest/gtest.h>
 
-#include "samara/scene/simulation.hpp"
+#include "samara/scene/scene_simulation.hpp"
+#include "samara/scene/table_errors_on_path.hpp"
 #include "support/known_bodies.hpp"
 
 namespace samara {
@@ -37,39 +36,39 @@ Pose moving(const Vector3d& velocity) {
     return pose;
 }
 
-TEST(TableErrorsMet, AreThoseOfTheTableOverItsValues) {
+TEST(TableErrorsOnPath, AreThoseOfTheTableOverItsValues) {
     const ImmersedBody body = immersed(turbulent_scene_body());
-    const TableErrorsMet met = table_errors_met(body, moving(Vector3d(0.1, 0.0, 0.0)));
+    const TableErrorsOnPath met = table_errors_on_path(body, moving(Vector3d(0.1, 0.0, 0.0)));
     EXPECT_EQ(met.forces, 1U);
     EXPECT_NEAR(met.force, 0.2, 1e-12);
     EXPECT_EQ(met.turbulent_kinetic_energies, 1U);
     EXPECT_NEAR(met.turbulent_kinetic_energy, 0.5, 1e-12);
 }
 
-TEST(TableErrorsMet, AreLookedUpInBodyAxes) {
+TEST(TableErrorsOnPath, AreLookedUpInBodyAxes) {
     Body body = uncertain_ellipsoid();
     LoadTables& tables = *body.tables;
     // Errors along x alone, so that they show in the direction in which x leads.
     for (LoadEntryError& error : tables.errors) error.force = Vector3d(error.force.x(), 0.0, 0.0);
     const ImmersedBody immersed_body = make_immersed_body(body, turbulent_scene_body(), Fluid{});
     Pose pose = moving(Vector3d(0.0, 0.0, 0.1));
-    EXPECT_NEAR(table_errors_met(immersed_body, pose).force, 0.0, 1e-12);
+    EXPECT_NEAR(table_errors_on_path(immersed_body, pose).force, 0.0, 1e-12);
     pose.orientation = Quaterniond::FromTwoVectors(Vector3d::UnitX(), Vector3d::UnitZ());
-    EXPECT_NEAR(table_errors_met(immersed_body, pose).force, 0.2, 1e-12);
+    EXPECT_NEAR(table_errors_on_path(immersed_body, pose).force, 0.2, 1e-12);
 }
 
-TEST(TableErrorsMet, AreNoneAtRestNorWithoutTables) {
-    EXPECT_EQ(table_errors_met(immersed(turbulent_scene_body()), moving(Vector3d::Zero())).forces, 0U);
+TEST(TableErrorsOnPath, AreNoneAtRestNorWithoutTables) {
+    EXPECT_EQ(table_errors_on_path(immersed(turbulent_scene_body()), moving(Vector3d::Zero())).forces, 0U);
     SceneBody without = turbulent_scene_body();
     without.loads = Loads::none;
-    const TableErrorsMet met = table_errors_met(immersed(without), moving(Vector3d::UnitX()));
+    const TableErrorsOnPath met = table_errors_on_path(immersed(without), moving(Vector3d::UnitX()));
     EXPECT_EQ(met.forces, 0U);
     EXPECT_EQ(met.mean_force(), 0.0);
     EXPECT_EQ(met.turbulent_kinetic_energies, 1U);
-    EXPECT_EQ(table_errors_met(test::ideal_ellipsoid(), moving(Vector3d::UnitX())).forces, 0U);
+    EXPECT_EQ(table_errors_on_path(test::ideal_ellipsoid(), moving(Vector3d::UnitX())).forces, 0U);
 }
 
-TEST(TableErrorsMet, AlongAFlightAreTheSameForAnyNumberOfThreads) {
+TEST(TableErrorsOnPath, AlongAFlightAreTheSameForAnyNumberOfThreads) {
     Scene scene;
     scene.duration = 0.5;
     scene.bodies.push_back(turbulent_scene_body());
@@ -81,8 +80,8 @@ TEST(TableErrorsMet, AlongAFlightAreTheSameForAnyNumberOfThreads) {
             .report.bodies[0]
             .table_errors;
     };
-    const TableErrorsMet one = flown(1);
-    const TableErrorsMet two = flown(2);
+    const TableErrorsOnPath one = flown(1);
+    const TableErrorsOnPath two = flown(2);
     EXPECT_EQ(one.force, two.force);
     EXPECT_EQ(one.turbulent_kinetic_energy, two.turbulent_kinetic_energy);
     EXPECT_EQ(one.forces, two.forces);

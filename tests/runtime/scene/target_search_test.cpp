@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "samara/scene/simulation.hpp"
+#include "samara/scene/scene_simulation.hpp"
 #include "support/known_bodies.hpp"
 
 namespace samara {
@@ -88,7 +88,8 @@ TEST(TargetSearch, TheSeedCountsWhereStartsNoiseGustsOrOthersAreDrawnFromIt) {
     EXPECT_TRUE(depends([](Scene& s) { s.wind.gusts = WindGusts{.rms = 1.0}; }));
     EXPECT_FALSE(depends([](Scene& s) { s.wind.gusts = WindGusts{.rms = 1.0, .seed = 3}; }));
     EXPECT_FALSE(depends([](Scene& s) { s.bodies[1].turbulence = Turbulence::table; }));
-    EXPECT_TRUE(depends([](Scene& s) { s.bodies[1].turbulence = Turbulence::table, s.bodies_meet = true; }));
+    EXPECT_TRUE(
+        depends([](Scene& s) { s.bodies[1].turbulence = Turbulence::table, s.bodies_collide = true; }));
     EXPECT_TRUE(depends([](Scene& s) { s.bodies[0].emitter = std::make_shared<const Emitter>(); }));
 }
 

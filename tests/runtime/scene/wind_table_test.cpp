@@ -26,7 +26,7 @@ Scene scene_with(const std::string& wind, const std::string& of_scene = "seed = 
                                   of_scene, SAMARA_SOURCE_DIRECTORY, wind)));
 }
 
-void expect_refused(const std::string& wind, const std::string& message) {
+void expect_rejected(const std::string& wind, const std::string& message) {
     EXPECT_THAT(test::error_of([&] { scene_with(wind); }), HasSubstr(message)) << wind;
 }
 
@@ -69,7 +69,7 @@ speed = 2)",
         (WindGusts{
             .spectrum = WindGusts::Spectrum::kaimal, .rms = 0.5, .length = 2.0, .seed = 7, .bands = 20}));
     ASSERT_EQ(wind.vortices.size(), 1u);
-    EXPECT_EQ(wind.vortices[0], (WindVortex{.kind = WindVortex::Core::rankine,
+    EXPECT_EQ(wind.vortices[0], (WindVortex{.group = WindVortex::Core::rankine,
                                             .position = Vector3d(1, 2, 3),
                                             .axis = Vector3d(0, 0, -1),
                                             .circulation = -1.5,
@@ -83,15 +83,15 @@ speed = 2)",
 }
 
 TEST(WindTable, RefusesWithOneLineThatNamesThePlace) {
-    expect_refused("velocity = [1, nan, 0]", "scene.toml:9: velocity in [wind] must");
-    expect_refused("velocity = 3", "scene.toml:9: velocity in [wind] must be a list of 3 numbers");
-    expect_refused("speed = 3", "scene.toml:9: unknown key 'speed' in [wind]");
-    expect_refused("vortex = 3", "vortex in [wind] must be written as [[vortex]]");
-    expect_refused("profile = { law = \"log\" }", "velocity in [wind] is missing");
-    expect_refused("velocity = [1, 0, 1]\nprofile = { law = \"log\" }",
-                   "scene.toml:9: velocity in [wind] must be level");
+    expect_rejected("velocity = [1, nan, 0]", "scene.toml:9: velocity in [wind] must");
+    expect_rejected("velocity = 3", "scene.toml:9: velocity in [wind] must be a list of 3 numbers");
+    expect_rejected("speed = 3", "scene.toml:9: unknown key 'speed' in [wind]");
+    expect_rejected("vortex = 3", "vortex in [wind] must be written as [[vortex]]");
+    expect_rejected("profile = { law = \"log\" }", "velocity in [wind] is missing");
+    expect_rejected("velocity = [1, 0, 1]\nprofile = { law = \"log\" }",
+                    "scene.toml:9: velocity in [wind] must be level");
     const auto profile = [](const std::string& keys, const std::string& message) {
-        expect_refused("velocity = [1, 0, 0]\nprofile = { " + keys + " }", "scene.toml:10: " + message);
+        expect_rejected("velocity = [1, 0, 0]\nprofile = { " + keys + " }", "scene.toml:10: " + message);
     };
     profile("height = 3", "law in [profile] is missing");
     profile("law = \"linear\"", "law in [profile] must be one of \"log\", \"power\"");
@@ -103,7 +103,7 @@ TEST(WindTable, RefusesWithOneLineThatNamesThePlace) {
     profile("law = \"log\", ground = inf", "ground in [profile] must");
     profile("law = \"log\", hight = 2", "unknown key 'hight' in [profile]; did you mean 'height'?");
     const auto gusts = [](const std::string& keys, const std::string& message) {
-        expect_refused("gusts = { " + keys + " }", "scene.toml:9: " + message);
+        expect_rejected("gusts = { " + keys + " }", "scene.toml:9: " + message);
     };
     gusts("length = 1", "rms in [gusts] is missing");
     gusts("rms = 1", "length in [gusts] is missing");
@@ -113,7 +113,7 @@ TEST(WindTable, RefusesWithOneLineThatNamesThePlace) {
     gusts("rms = 1, length = 1, bands = 0", "bands in [gusts] must be a whole number from 1 to 1000");
     gusts("rms = 1, length = 1, seed = -1", "seed in [gusts] must");
     const auto vortex = [](const std::string& keys, const std::string& message) {
-        expect_refused("vortex = [{ " + keys + " }]", "scene.toml:9: " + message);
+        expect_rejected("vortex = [{ " + keys + " }]", "scene.toml:9: " + message);
     };
     vortex("core = 1", "circulation in [[vortex]] is missing");
     vortex("circulation = 1", "core in [[vortex]] is missing");
@@ -121,7 +121,7 @@ TEST(WindTable, RefusesWithOneLineThatNamesThePlace) {
     vortex("circulation = 1, core = -1", "core in [[vortex]] must");
     vortex("circulation = 1, core = 1, axis = [0, 0, 0]", "axis in [[vortex]] must not be the zero vector");
     const auto fan = [](const std::string& keys, const std::string& message) {
-        expect_refused("fan = [{ " + keys + " }]", "scene.toml:9: " + message);
+        expect_rejected("fan = [{ " + keys + " }]", "scene.toml:9: " + message);
     };
     fan("direction = [1, 0, 0], speed = 1", "position in [[fan]] is missing");
     fan("position = [1, 0, 0], speed = 1", "direction in [[fan]] is missing");
@@ -162,15 +162,15 @@ TEST(WindTable, RefusesAFileThatEndsBeforeTheScene) {
     const test::TemporaryFolder folder;
     const std::string path = wind_file_in(folder, 2).string();  // half a second, and the scene a whole one
     const std::string lines = fmt::format("[wind.file]\npath = \"{}\"\n", path);
-    expect_refused(lines, "holds the wind until 0.5 s, and the scene ends at 1 s; give repeat = true");
+    expect_rejected(lines, "holds the wind until 0.5 s, and the scene ends at 1 s; give repeat = true");
     EXPECT_TRUE(scene_with(lines + "repeat = true").wind.file->repeats);
     EXPECT_TRUE(scene_with(lines + "start = 0.5").wind.file);
     EXPECT_TRUE(
         scene_with(fmt::format("[wind.file]\npath = \"{}\"", wind_file_in(folder, 1).string())).wind.file);
-    expect_refused("[wind.file]\nstart = 1", "path in [file] is missing");
-    expect_refused("[wind.file]\npath = \"nowhere.h5\"", "nowhere.h5");
-    expect_refused(lines + "outside = \"far\"", "outside");
-    expect_refused(lines + "loop = true", "unknown key 'loop'");
+    expect_rejected("[wind.file]\nstart = 1", "path in [file] is missing");
+    expect_rejected("[wind.file]\npath = \"nowhere.h5\"", "nowhere.h5");
+    expect_rejected(lines + "outside = \"far\"", "outside");
+    expect_rejected(lines + "loop = true", "unknown key 'loop'");
 }
 
 }  // namespace

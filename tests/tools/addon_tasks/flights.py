@@ -109,7 +109,7 @@ def sizes(file):
     found = {
         "scales": [list(o.scale) for o in objects],
         "releases": [o.samara.release for o in objects],
-        "fault": run(bpy.ops.samara.simulate),
+        "error": run(bpy.ops.samara.simulate),
     }
     places = matrices(objects, [1, 4, 25])
     found["places"] = [[places[o.name][k][2][3] for k in range(3)] for o in objects]
@@ -202,7 +202,7 @@ def led(file):
     key(o, ((11, (0.0, 0.0, 0.0), 0.0), (31, (2.0, 0.0, 1.0), 1.0)))
     led_way = matrices([o], range(11, 21))[o.name]
     found = {"led": led_way, "seconds_per_frame": scene.render.fps_base / scene.render.fps}
-    found["fault"] = run(bpy.ops.samara.simulate)
+    found["error"] = run(bpy.ops.samara.simulate)
     found["flown"] = matrices([o], range(11, 42))[o.name]
     found["again"] = run(bpy.ops.samara.simulate)
     found["flown_again"] = matrices([o], range(11, 42))[o.name]
@@ -222,14 +222,14 @@ def returned(file):
     found = {"keyed": matrices([o], frames)[o.name]}
     action = o.animation_data.action.copy()
     body.release = 4.0
-    found["fault"] = run(bpy.ops.samara.simulate)
+    found["error"] = run(bpy.ops.samara.simulate)
     found["flown"] = matrices([o], frames)[o.name]
     o.animation_data.action = action
     o.rotation_mode = "XYZ"
     body.returns, body.return_blend = 24, 10
-    found["fault"] += run(bpy.ops.samara.simulate)
+    found["error"] += run(bpy.ops.samara.simulate)
     found["returned"] = matrices([o], frames)[o.name]
-    found["fault"] += run(bpy.ops.samara.simulate)
+    found["error"] += run(bpy.ops.samara.simulate)
     found["again"] = matrices([o], frames)[o.name]
     o.keyframe_insert("location", frame=20)
     o.location.x += 600.0

@@ -15,8 +15,8 @@ def run(operator, **options):
     """The error that the operator reports, or an empty text. With an undo step, as from a button."""
     try:
         operator("EXEC_DEFAULT", True, **options)
-    except RuntimeError as fault:
-        return str(fault).strip()
+    except RuntimeError as error:
+        return str(error).strip()
     return ""
 
 

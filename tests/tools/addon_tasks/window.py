@@ -57,7 +57,7 @@ def simulate_in_window(file):
     found = {"pressed": press(bpy.ops.samara.simulate)}
     while watch.runs() and watch.lines[-1:] in ([], ["samara simulates: 0 %"]):
         yield 0.05
-    found["half_way"] = watch.lines[-1]
+    found["halfway"] = watch.lines[-1]
     press_escape()
     while watch.runs():
         yield 0.05
@@ -83,14 +83,14 @@ def live_in_window(file):
 
     objects = three_bodies(file)
     advance_to = Simulation.advance_to
-    half_way, released = 30 / 24.0, threading.Event()  # s
+    halfway, released = 30 / 24.0, threading.Event()  # s
 
-    def stop_half_way(simulation, time):
-        if time > half_way:
+    def stop_halfway(simulation, time):
+        if time > halfway:
             released.wait()
         advance_to(simulation, time)
 
-    Simulation.advance_to = stop_half_way
+    Simulation.advance_to = stop_halfway
     found = {"error": run(bpy.ops.samara.live)}
     early = [list(o.location) for o in objects]
     scene.frame_set(71)
@@ -131,7 +131,7 @@ def bake_in_window(program, folder):
     found = {"pressed": press(bpy.ops.samara.bake)}
     while watch.runs() and not any("3 of 10" in line for line in watch.lines):
         yield 0.05
-    found["half_way"] = watch.lines[-1]
+    found["halfway"] = watch.lines[-1]
     found["while_running"] = watch.results[-1]
     press_escape()
     while watch.runs():

@@ -2,7 +2,7 @@
 
 #include "peers/peer_body.hpp"
 #include "samara/commands/shared/load_body.hpp"
-#include "samara/core/flight/world_pose.hpp"
+#include "samara/core/simulation/world_pose.hpp"
 #include "samara/kirchhoff/kirchhoff_solver.hpp"
 #include "samara/scene/terminal_speed.hpp"
 #include "support/reference_step.hpp"

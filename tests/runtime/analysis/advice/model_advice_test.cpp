@@ -50,7 +50,7 @@ double descent_change(const ModelEffect& effect) {
 
 Body baked_ball() {
     Body ball = test::baked_sphere(0.02, 8);
-    ball.symmetry.kind = Symmetry::Kind::spherical;
+    ball.symmetry.type = Symmetry::Type::spherical;
     return ball;
 }
 

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "samara/core/body/body_file.hpp"
-#include "samara/core/flight/flight.hpp"
+#include "samara/core/simulation/simulation.hpp"
 #include "samara/scene/ready_bodies.hpp"
 #include "support/known_bodies.hpp"
 
@@ -33,17 +33,17 @@ Scene thrown(double speed = 0.3, double rate = 3.0) {
 
 /// The poses after two seconds, at a step.
 Pose pose_at(const Scene& scene, double step) {
-    Flight flight({.step = step});
-    flight.add(lopsided(), scene.bodies[0], scene.bodies[0]);
-    flight.advance_to(0.4);
-    return flight.pose(0);
+    Simulation simulation({.step = step});
+    simulation.add(lopsided(), scene.bodies[0], scene.bodies[0]);
+    simulation.advance_to(0.4);
+    return simulation.pose(0);
 }
 
 TEST(StepAdvice, StaysWithinTheToleranceWhereALongerStepIsFartherOff) {
     Scene scene = thrown(0.3, 12.0);
     scene.step_tolerance = 2e-5;
     const StepAdvice advice = advise_step(scene, {lopsided()}, 1);
-    EXPECT_TRUE(advice.is_met);
+    EXPECT_TRUE(advice.is_within);
     EXPECT_LE(advice.error, 2e-5);
     EXPECT_GT(advice.error, 1e-6);
     EXPECT_LT(advice.step, 0.02);
@@ -66,7 +66,7 @@ TEST(StepAdvice, GivesShorterStepsForSmallerTolerances) {
     }
     EXPECT_LT(before, 0.01);
     scene.step_tolerance = 1e-6;
-    EXPECT_FALSE(advise_step(scene, {lopsided()}, 1).is_met) << "finer than it looks";
+    EXPECT_FALSE(advise_step(scene, {lopsided()}, 1).is_within) << "finer than it looks";
 }
 
 TEST(StepAdvice, DoesNotDependOnFramesNorOnThreads) {
@@ -121,7 +121,7 @@ TEST(StepAdvice, SeesWhatNoiseTurns) {
     EXPECT_EQ(advice.step, 0.01);
     EXPECT_EQ(advice.limit, "the turning of 'cube'");
     EXPECT_EQ(advice.bodies[0].motion, 0.04);
-    EXPECT_EQ(advice.bodies[0].turning, 0.01);
+    EXPECT_EQ(advice.bodies[0].rotation, 0.01);
     scene.bodies[0].turbulence = Turbulence::none;
     EXPECT_EQ(advise_step(scene, {loaded}, 1).step, 0.04);
 }

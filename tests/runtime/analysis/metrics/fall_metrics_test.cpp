@@ -178,9 +178,9 @@ TEST(FallSeries, CountsFromTheReleaseOfABodyThatWaits) {
     const FallSeries record = record_of(test::motion_of(late, 5.0), 1.0, 4.0);
     EXPECT_NEAR(record.release, 1.0, 0.02);
     EXPECT_EQ(record.times.front(), 0.0);
-    EXPECT_TRUE(record.ways.front().isZero());
+    EXPECT_TRUE(record.displacements.front().isZero());
     EXPECT_NEAR(record.measures.window.begin, 1.0, 0.02);
-    EXPECT_NEAR(way_at(record, 2.0).z(), -0.4, 0.01);
+    EXPECT_NEAR(displacement_at(record, 2.0).z(), -0.4, 0.01);
 }
 
 }  // namespace

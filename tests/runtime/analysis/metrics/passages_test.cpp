@@ -12,8 +12,8 @@ FallSeries record_with_a_rise() {
     record.down = Vector3d(0.6, 0.0, -0.8);
     const Vector3d aside(0, 1, 0);
     record.times = {0.0, 1.0, 2.0, 3.0};
-    record.ways = {Vector3d::Zero(), 2.0 * record.down + aside, record.down + 2.0 * aside,
-                   4.0 * record.down + 5.0 * aside};
+    record.displacements = {Vector3d::Zero(), 2.0 * record.down + aside, record.down + 2.0 * aside,
+                            4.0 * record.down + 5.0 * aside};
     return record;
 }
 

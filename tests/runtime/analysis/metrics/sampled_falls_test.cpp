@@ -70,7 +70,7 @@ TEST(SampledFalls, AreTheSameWhetherOrNotTheScenesBodiesMeet) {
     Scene scene = shaken_scene();
     scene.duration = 0.5;
     const SampledFalls apart = falls_of(scene, ellipsoid());
-    scene.bodies_meet = true;
+    scene.bodies_collide = true;
     const SampledFalls meeting = falls_of(scene, ellipsoid());
     ASSERT_EQ(meeting.visits.size(), apart.visits.size());
     for (std::size_t i = 0; i < apart.visits.size(); ++i) {

@@ -174,7 +174,7 @@ TEST(BodyCache, ServesTheNextRunOfASceneToTheLastByte) {
     const auto flown = [&](const std::string& environment) {
         const auto run =
             run_program_in(folder, {"samara", "simulate", "scene.toml", "-o", "motion.h5"}, environment);
-        EXPECT_EQ(run.status, 0) << run.fault;
+        EXPECT_EQ(run.status, 0) << run.error;
         return file_content_hash(folder / "motion.h5");
     };
     const std::string without = flown("SAMARA_CACHE=off");

@@ -37,11 +37,11 @@ class HelpfulWords : public ::testing::Test {
         words.insert(words.begin(), "samara");
         return run_program_in(folder_, words);
     }
-    void expect_refusal(const std::vector<std::string>& words, const std::string& text) const {
+    void expect_rejection(const std::vector<std::string>& words, const std::string& text) const {
         const test::ProgramRun done = run(words);
         EXPECT_EQ(done.status, 1);
-        EXPECT_TRUE(test::is_one_line(done.fault)) << done.fault;
-        EXPECT_THAT(done.fault, HasSubstr(text));
+        EXPECT_TRUE(test::is_one_line(done.error)) << done.error;
+        EXPECT_THAT(done.error, HasSubstr(text));
         EXPECT_EQ(done.output, "");
     }
 
@@ -49,42 +49,43 @@ class HelpfulWords : public ::testing::Test {
 };
 
 TEST_F(HelpfulWords, NameTheCommandOrOptionThatWasMeant) {
-    expect_refusal({"simulte", "scene.toml"}, "there is no command 'simulte'; did you mean 'simulate'?");
-    expect_refusal({"fly"}, "there is no command 'fly'; see 'samara --help'");
-    expect_refusal({"simulate", "scene.toml", "-o", "x.h5", "--sed", "3"},
-                   "samara simulate: there is no option '--sed'; did you mean '--seed'?");
-    expect_refusal({"simulate", "scene.toml", "-o", "x.h5", "--trheads=2"}, "did you mean '--threads'?");
-    expect_refusal({"simulate", "scene.toml", "-o", "x.h5", "--colour"},
-                   "there is no option '--colour'; see 'samara simulate --help'");
-    expect_refusal({"simulate", "scene.toml", "more.toml", "-o", "x.h5"}, "'more.toml' is one word too many");
+    expect_rejection({"simulte", "scene.toml"}, "there is no command 'simulte'; did you mean 'simulate'?");
+    expect_rejection({"fly"}, "there is no command 'fly'; see 'samara --help'");
+    expect_rejection({"simulate", "scene.toml", "-o", "x.h5", "--sed", "3"},
+                     "samara simulate: there is no option '--sed'; did you mean '--seed'?");
+    expect_rejection({"simulate", "scene.toml", "-o", "x.h5", "--trheads=2"}, "did you mean '--threads'?");
+    expect_rejection({"simulate", "scene.toml", "-o", "x.h5", "--colour"},
+                     "there is no option '--colour'; see 'samara simulate --help'");
+    expect_rejection({"simulate", "scene.toml", "more.toml", "-o", "x.h5"},
+                     "'more.toml' is one word too many");
 }
 
 TEST_F(HelpfulWords, NameTheMisspeltOptionRatherThanTheOneThatItLeavesMissing) {
-    expect_refusal({"simulate", "scene.toml", "--ouput", "x.h5"}, "did you mean '--output'?");
-    expect_refusal({"simulate", "scene.toml"}, "--output is required");
+    expect_rejection({"simulate", "scene.toml", "--ouput", "x.h5"}, "did you mean '--output'?");
+    expect_rejection({"simulate", "scene.toml"}, "--output is required");
 }
 
 TEST_F(HelpfulWords, OfANumberWithAUnitSayInWhichUnitsNumbersAre) {
-    expect_refusal({"export", "x.h5", "-o", "x.glb", "--tolerance", "3mm"},
-                   "'3mm' is no number; numbers stand without a unit, in SI units: m, kg, s, rad");
-    expect_refusal({"search", "scene.toml", "--target", "0,0,0,5cm"}, "x,y,z,radius in metres");
+    expect_rejection({"export", "x.h5", "-o", "x.glb", "--tolerance", "3mm"},
+                     "'3mm' is no number; numbers stand without a unit, in SI units: m, kg, s, rad");
+    expect_rejection({"search", "scene.toml", "--target", "0,0,0,5cm"}, "x,y,z,radius in metres");
     (void)folder_.file("units.toml", "[scene]\nduration = \"2 s\"\n");
-    expect_refusal({"simulate", "units.toml", "-o", "x.h5"},
-                   "must be a number without a unit, in SI units (m, kg, s, rad), not \"2 s\"");
+    expect_rejection({"simulate", "units.toml", "-o", "x.h5"},
+                     "must be a number without a unit, in SI units (m, kg, s, rad), not \"2 s\"");
 }
 
 TEST_F(HelpfulWords, OfAMotionInAnotherFormatNameTheCommandThatWritesIt) {
-    expect_refusal({"simulate", "scene.toml", "-o", "x.glb"},
-                   "x.glb: the output is a motion file; write x.h5, then 'samara export x.h5 -o x.glb'");
-    expect_refusal({"simulate", "scene.toml", "-o", "x.png"}, "then 'samara plot x.h5 -o x.png'");
-    expect_refusal({"simulate", "scene.toml", "-o", "x.body.h5"}, "is the name of a body file");
-    expect_refusal({"simulate", "scene.toml", "-o", "x"}, "the name of a motion file ends in .h5");
+    expect_rejection({"simulate", "scene.toml", "-o", "x.glb"},
+                     "x.glb: the output is a motion file; write x.h5, then 'samara export x.h5 -o x.glb'");
+    expect_rejection({"simulate", "scene.toml", "-o", "x.png"}, "then 'samara plot x.h5 -o x.png'");
+    expect_rejection({"simulate", "scene.toml", "-o", "x.body.h5"}, "is the name of a body file");
+    expect_rejection({"simulate", "scene.toml", "-o", "x"}, "the name of a motion file ends in .h5");
     EXPECT_FALSE(std::filesystem::exists(folder_ / "x.glb"));
 }
 
 TEST_F(HelpfulWords, OfASearchWhereNothingIsDrawnComeAtOnceAndSayWhatToAdd) {
-    expect_refusal({"search", "scene.toml", "--target", "0,0,0,1", "--body", "a", "--tries", "10000000"},
-                   "all seeds give the same; give the body a count with a spread");
+    expect_rejection({"search", "scene.toml", "--target", "0,0,0,1", "--body", "a", "--tries", "10000000"},
+                     "all seeds give the same; give the body a count with a spread");
     EXPECT_EQ(run({"search", "scene.toml", "--target", "0,0,0,1", "--body", "a", "--tries", "1"}).status, 0);
 }
 
@@ -92,7 +93,7 @@ TEST_F(HelpfulWords, OfOneKindComeOnceInOneLine) {
     const test::ProgramRun done = run({"simulate", "scene.toml", "-o", "x.h5"});
     ASSERT_EQ(done.status, 0);
     EXPECT_EQ(
-        done.fault,
+        done.error,
         "samara simulate: note: 'a', 'b' and 2 more (figures of 'c'): the added mass may be wrong by 50 % "
         "(error estimate): the body is thin or its mesh coarse\n");
 }
@@ -107,25 +108,25 @@ TEST_F(HelpfulWords, OfUnitsAreOneLineForThoseThatSayTheSame) {
     (void)folder_.file("light.toml", scene);
     const test::ProgramRun done = run({"simulate", "light.toml", "-o", "x.h5"});
     ASSERT_EQ(done.status, 0);
-    EXPECT_THAT(done.fault,
+    EXPECT_THAT(done.error,
                 testing::StartsWith("samara simulate: note: 'a' and 'b': a density of 2.7 kg/m^3"));
-    EXPECT_THAT(done.fault, HasSubstr("samara simulate: note: 'c': a density of 0.6 kg/m^3"));
+    EXPECT_THAT(done.error, HasSubstr("samara simulate: note: 'c': a density of 0.6 kg/m^3"));
 }
 
 TEST_F(HelpfulWords, AreJsonWithJsonWhateverIsWrong) {
-    const auto fault_of = [&](const std::vector<std::string>& words) {
+    const auto error_of = [&](const std::vector<std::string>& words) {
         const test::ProgramRun done = run(words);
         EXPECT_EQ(done.status, 1);
         EXPECT_TRUE(test::is_one_line(done.output)) << done.output;
-        EXPECT_TRUE(test::is_one_line(done.fault)) << done.fault;
+        EXPECT_TRUE(test::is_one_line(done.error)) << done.error;
         EXPECT_EQ(done.json().size(), 1U);
         return done.json()["error"].get<std::string>();
     };
-    EXPECT_EQ(fault_of({"simulate", "none.toml", "-o", "x.h5", "--json"}),
+    EXPECT_EQ(error_of({"simulate", "none.toml", "-o", "x.h5", "--json"}),
               "none.toml: there is no such file");
-    EXPECT_EQ(fault_of({"simulate", "--json", "--sed", "3"}),
+    EXPECT_EQ(error_of({"simulate", "--json", "--sed", "3"}),
               "there is no option '--sed'; did you mean '--seed'?");
-    EXPECT_THAT(fault_of({"nonsense", "--json"}), HasSubstr("no command 'nonsense'"));
+    EXPECT_THAT(error_of({"nonsense", "--json"}), HasSubstr("no command 'nonsense'"));
     EXPECT_THAT(run({"info", "\xff\x1b[2J.h5", "--json"}).output, Not(HasSubstr("\x1b")));
 }
 

@@ -50,10 +50,10 @@ TEST(HostileNames, OfBodiesAreShownByInfoAndObeyedByNoTerminal) {
     body.source = "from \x1b[2J";
     write_body_file(folder / "stone.body.h5", body);
     const test::ProgramRun text = test::run_program_in(folder, {"samara", "info", "stone.body.h5"});
-    EXPECT_EQ(text.status, 0) << text.fault;
+    EXPECT_EQ(text.status, 0) << text.error;
     EXPECT_THAT(text.output, AllOf(is_harmless(), HasSubstr(R"(\x1b]0;owned\x07\xff\xe2\x80\xae</script>)")));
     const test::ProgramRun json = test::run_program_in(folder, {"samara", "info", "stone.body.h5", "--json"});
-    EXPECT_EQ(json.status, 0) << json.fault;
+    EXPECT_EQ(json.status, 0) << json.error;
     EXPECT_THAT(json.output, is_harmless());
     EXPECT_THAT(json.json()["name"].get<std::string>(), HasSubstr("owned"));
 }
@@ -72,8 +72,8 @@ TEST(HostileNames, OfFilesAreShownInRefusals) {
         all.insert(all.end(), words.begin(), words.end());
         const test::ProgramRun run = test::run_program_in(folder, all);
         EXPECT_EQ(run.status, 1) << words[0];
-        EXPECT_TRUE(test::is_one_line(run.fault)) << run.fault;
-        EXPECT_THAT(run.fault, AllOf(is_harmless(), HasSubstr(R"(\x1b[2J\xff.h5)"))) << words[0];
+        EXPECT_TRUE(test::is_one_line(run.error)) << run.error;
+        EXPECT_THAT(run.error, AllOf(is_harmless(), HasSubstr(R"(\x1b[2J\xff.h5)"))) << words[0];
     }
 }
 
@@ -85,12 +85,12 @@ TEST(HostileNames, OfFilesThatAreNoUtf8AreWrittenAndReported) {
                       "density = 1200\nloads = \"none\"\n");
     const test::ProgramRun run =
         test::run_program_in(folder, {"samara", "simulate", "scene.toml", "-o", "caf\xe9.h5", "--json"});
-    EXPECT_EQ(run.status, 0) << run.fault;
+    EXPECT_EQ(run.status, 0) << run.error;
     EXPECT_TRUE(std::filesystem::exists(folder / "caf\xe9.h5"));
     EXPECT_EQ(run.json()["output"], "caf\xef\xbf\xbd.h5");
     const test::ProgramRun exported =
         test::run_program_in(folder, {"samara", "export", "caf\xe9.h5", "-o", "\xff.csv", "--json"});
-    EXPECT_EQ(exported.status, 0) << exported.fault;
+    EXPECT_EQ(exported.status, 0) << exported.error;
     EXPECT_TRUE(std::filesystem::exists(folder / "\xff.csv"));
 }
 

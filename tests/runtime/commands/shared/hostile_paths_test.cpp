@@ -23,12 +23,12 @@ using testing::Not;
 using Words = std::vector<std::string>;
 
 /// A refusal in the project's own words.
-void expect_refusal(const test::TemporaryFolder& folder, const Words& words, const std::string& reason,
-                    const std::string& environment = "") {
+void expect_rejection(const test::TemporaryFolder& folder, const Words& words, const std::string& reason,
+                      const std::string& environment = "") {
     const test::ProgramRun run = test::run_program_in(folder, words, environment);
     EXPECT_EQ(run.status, 1) << words[1];
-    EXPECT_TRUE(test::is_one_line(run.fault)) << run.fault;
-    EXPECT_THAT(run.fault, AllOf(HasSubstr("samara " + words[1] + ": "), HasSubstr(reason),
+    EXPECT_TRUE(test::is_one_line(run.error)) << run.error;
+    EXPECT_THAT(run.error, AllOf(HasSubstr("samara " + words[1] + ": "), HasSubstr(reason),
                                  Not(HasSubstr("filesystem error")), Not(HasSubstr("std::"))))
         << words[1];
 }
@@ -48,12 +48,12 @@ TEST(HostilePaths, ThatCannotBeReadAreRefusedWithTheReason) {
     std::filesystem::create_symlink("loop", folder / "loop");
     std::filesystem::create_directory(folder / "folder");
     for (const auto& words : readings_of(std::string(5000, 'a')))
-        expect_refusal(folder, words, "name too long");
-    for (const auto& words : readings_of("loop")) expect_refusal(folder, words, "levels of symbolic links");
-    for (const auto& words : readings_of("folder")) expect_refusal(folder, words, "folder");
-    for (const auto& words : readings_of("none")) expect_refusal(folder, words, "none: ");
-    expect_refusal(folder, {"samara", "simulate", "/dev/zero", "-o", "out.h5"},
-                   "/dev/zero: is a pipe, socket or device; give a file");
+        expect_rejection(folder, words, "name too long");
+    for (const auto& words : readings_of("loop")) expect_rejection(folder, words, "levels of symbolic links");
+    for (const auto& words : readings_of("folder")) expect_rejection(folder, words, "folder");
+    for (const auto& words : readings_of("none")) expect_rejection(folder, words, "none: ");
+    expect_rejection(folder, {"samara", "simulate", "/dev/zero", "-o", "out.h5"},
+                     "/dev/zero: is a pipe, socket or device; give a file");
 }
 
 TEST(HostilePaths, OfShapesAndBakedBodiesNameThePlaceInTheScene) {
@@ -65,7 +65,7 @@ TEST(HostilePaths, OfShapesAndBakedBodiesNameThePlaceInTheScene) {
             "[scene]\nduration = 0.1\n[[body]]\nname = \"rubber\"\ndensity = 1\nshape = \"" + shape + "\"\n");
         Words words = {"samara", "simulate", "scene.toml", "-o", "out.h5"};
         words.insert(words.end(), more.begin(), more.end());
-        expect_refusal(folder, words, reason);
+        expect_rejection(folder, words, reason);
     };
     simulated(std::string(5000, 'a'), {}, "scene.toml:6: shape");
     simulated("loop", {}, "levels of symbolic links");
@@ -95,12 +95,13 @@ TEST(HostilePaths, OfPipesAndDevicesInASceneAreRefusedWithoutWaiting) {
              std::string("[[body]]\nname = \"a\"\ndensity = 1200\nshape = \"pipe.stl\"\n"),
          }) {
         (void)folder.file("scene.toml", "[scene]\nduration = 0.1\n" + rest);
-        expect_refusal(folder, {"samara", "simulate", "scene.toml", "-o", "out.h5"},
-                       "is a pipe, socket or device; give a file");
+        expect_rejection(folder, {"samara", "simulate", "scene.toml", "-o", "out.h5"},
+                         "is a pipe, socket or device; give a file");
     }
-    expect_refusal(folder, {"samara", "simulate", "pipe.toml", "-o", "out.h5"},
-                   "is a pipe, socket or device");
-    for (const auto& words : readings_of("pipe.body.h5")) expect_refusal(folder, words, "is a pipe, socket");
+    expect_rejection(folder, {"samara", "simulate", "pipe.toml", "-o", "out.h5"},
+                     "is a pipe, socket or device");
+    for (const auto& words : readings_of("pipe.body.h5"))
+        expect_rejection(folder, words, "is a pipe, socket");
 }
 
 TEST(HostilePaths, ThatCannotBeWrittenAreRefusedWithTheReason) {
@@ -115,11 +116,11 @@ TEST(HostilePaths, ThatCannotBeWrittenAreRefusedWithTheReason) {
     const std::ptrdiff_t before = folder.file_count();
     for (const std::string& out : {std::string(5000, 'a') + "/out", std::string("loop/out"),
                                    std::string("none/out"), std::string("scene.toml/out")}) {
-        expect_refusal(folder, {"samara", "simulate", "scene.toml", "-o", out + ".h5"}, ": ");
-        expect_refusal(folder, {"samara", "export", "motion.h5", "-o", out + ".glb"}, ": ");
-        expect_refusal(folder, {"samara", "export", "motion.h5", "-o", out + ".csv"}, ": ");
-        expect_refusal(folder, {"samara", "plot", "motion.h5", "-o", out + ".svg"}, ": ");
-        expect_refusal(folder, {"samara", "kirchhoff", "rubber.body.h5", "-o", out + ".body.h5"}, ": ");
+        expect_rejection(folder, {"samara", "simulate", "scene.toml", "-o", out + ".h5"}, ": ");
+        expect_rejection(folder, {"samara", "export", "motion.h5", "-o", out + ".glb"}, ": ");
+        expect_rejection(folder, {"samara", "export", "motion.h5", "-o", out + ".csv"}, ": ");
+        expect_rejection(folder, {"samara", "plot", "motion.h5", "-o", out + ".svg"}, ": ");
+        expect_rejection(folder, {"samara", "kirchhoff", "rubber.body.h5", "-o", out + ".body.h5"}, ": ");
     }
     EXPECT_LE(folder.file_count(), before + 2) << "beside what the programs said";
 }
@@ -137,7 +138,7 @@ TEST(HostilePaths, OfOutputsAreSeenBeforeTheWork) {
           Words{"report", "not-read", "-o", "none/out.html"}}) {
         Words command = words;
         command.insert(command.begin(), "samara");
-        expect_refusal(folder, command, "the folder none does not exist; create it first");
+        expect_rejection(folder, command, "the folder none does not exist; create it first");
     }
     for (const Words& words : {Words{"bake", "not-read.toml", "-o", "not-read/out"},
                                Words{"bake", "not-read", "-o", "not-read/below/out.body.h5"},
@@ -145,10 +146,10 @@ TEST(HostilePaths, OfOutputsAreSeenBeforeTheWork) {
         if (!std::filesystem::exists(SAMARA_PROGRAMS "/samara-" + words.front())) continue;  // a baking tool
         Words command = words;
         command.insert(command.begin(), "samara");
-        expect_refusal(folder, command, "since not-read is a file; give another folder");
+        expect_rejection(folder, command, "since not-read is a file; give another folder");
     }
     std::filesystem::create_directory(folder / "out.h5");
-    expect_refusal(folder, {"samara", "simulate", "not-read", "-o", "out.h5"}, "out.h5: is a folder");
+    expect_rejection(folder, {"samara", "simulate", "not-read", "-o", "out.h5"}, "out.h5: is a folder");
 }
 
 TEST(HostilePaths, OfTemporaryFoldersNameTheVariable) {
@@ -161,7 +162,8 @@ TEST(HostilePaths, OfTemporaryFoldersNameTheVariable) {
               0);
     for (const std::string& place :
          {std::string("/nowhere"), std::string(5000, 'a'), std::string("scene.toml")}) {
-        expect_refusal(folder, {"samara", "plot", "motion.h5", "-o", "out.png"}, "TMPDIR", "TMPDIR=" + place);
+        expect_rejection(folder, {"samara", "plot", "motion.h5", "-o", "out.png"}, "TMPDIR",
+                         "TMPDIR=" + place);
     }
 }
 

@@ -60,7 +60,7 @@ void expect_equal(const Body& a, const Body& b) {
     EXPECT_EQ(a.moments.centroid, b.moments.centroid);
     EXPECT_EQ(a.moments.second_moments, b.moments.second_moments);
     EXPECT_EQ(a.moments.surface_area, b.moments.surface_area);
-    EXPECT_EQ(a.symmetry.kind, b.symmetry.kind);
+    EXPECT_EQ(a.symmetry.type, b.symmetry.type);
     EXPECT_EQ(a.symmetry.axis, b.symmetry.axis);
     EXPECT_EQ(a.symmetry.elements, b.symmetry.elements);
     EXPECT_EQ(a.symmetry.axes, b.symmetry.axes);
@@ -108,7 +108,7 @@ void expect_equal(const Body& a, const Body& b) {
     }
 }
 
-std::string fault_of(const std::filesystem::path& file) {
+std::string error_of(const std::filesystem::path& file) {
     return error_of([&] { (void)read_body_file(file); });
 }
 
@@ -146,7 +146,7 @@ TEST(BodyFile, GivesBackABodyWithoutTensorTablesAndCoefficients) {
     body.tables.reset();
     body.dynamic.reset();
     body.surface.edge_nodes.clear();
-    body.symmetry.kind = Symmetry::Kind::spherical;
+    body.symmetry.type = Symmetry::Type::spherical;
     write_body_file(folder / "a.body.h5", body);
     expect_equal(read_body_file(folder / "a.body.h5"), body);
 }
@@ -189,7 +189,7 @@ TEST(BodyFile, RefusesAMassThatContradictsTheShapeOrItself) {
                                       .inertia = Matrix3d(Vector3d(3.0, 4.0, 5.0).asDiagonal())};
         spoil(*body.mass);
         write_body_file(folder / "a.body.h5", body);
-        EXPECT_THAT(fault_of(folder / "a.body.h5"), AllOf(HasSubstr("a.body.h5"), HasSubstr(words)));
+        EXPECT_THAT(error_of(folder / "a.body.h5"), AllOf(HasSubstr("a.body.h5"), HasSubstr(words)));
     }
 }
 
@@ -205,7 +205,7 @@ TEST(BodyFile, RewritingGivesEqualBytes) {
 }
 
 TEST(BodyFile, MissingFileIsNamed) {
-    EXPECT_THAT(fault_of("nowhere/a.body.h5"), HasSubstr("nowhere/a.body.h5: there is no such file"));
+    EXPECT_THAT(error_of("nowhere/a.body.h5"), HasSubstr("nowhere/a.body.h5: there is no such file"));
 }
 
 TEST(BodyFile, FileCutShortIsRefusedAtEveryLength) {
@@ -215,7 +215,7 @@ TEST(BodyFile, FileCutShortIsRefusedAtEveryLength) {
     for (std::size_t tenths = 0; tenths < 10; ++tenths) {
         replace_file_with(folder / "cut.body.h5",
                           std::string_view(bytes).substr(0, tenths * bytes.size() / 10));
-        EXPECT_THAT(fault_of(folder / "cut.body.h5"), HasSubstr("cut.body.h5"));
+        EXPECT_THAT(error_of(folder / "cut.body.h5"), HasSubstr("cut.body.h5"));
     }
 }
 
@@ -225,7 +225,7 @@ TEST(BodyFile, RandomBytesAreRefused) {
     std::string bytes(5000, '\0');
     for (char& byte : bytes) byte = static_cast<char>(generator() & 0xffU);
     replace_file_with(folder / "a.body.h5", bytes);
-    EXPECT_THAT(fault_of(folder / "a.body.h5"), HasSubstr("is not an HDF5 file"));
+    EXPECT_THAT(error_of(folder / "a.body.h5"), HasSubstr("is not an HDF5 file"));
 }
 
 TEST(BodyFile, ForeignHdf5IsRefused) {
@@ -233,7 +233,7 @@ TEST(BodyFile, ForeignHdf5IsRefused) {
     write_hdf5(folder / "a.body.h5", [](Hdf5Writer& file) {
         file.write("/density", std::vector<double>{1.0}, {1}, "kg/m^3", "of something");
     });
-    EXPECT_THAT(fault_of(folder / "a.body.h5"), HasSubstr("not a body file"));
+    EXPECT_THAT(error_of(folder / "a.body.h5"), HasSubstr("not a body file"));
 }
 
 /// Reads 400 copies of a body file with one bit flipped in each. Returns whether every one was refused by
@@ -244,7 +244,7 @@ bool every_flip_is_seen(const test::TemporaryFolder& folder) {
     write_body_file(file, body);
     const std::string bytes = read_bytes(file);
     std::mt19937 generator(2);
-    int refused = 0;
+    int rejected = 0;
     constexpr int trials = 400;
     for (int trial = 0; trial < trials; ++trial) {
         std::string flipped = bytes;
@@ -253,12 +253,12 @@ bool every_flip_is_seen(const test::TemporaryFolder& folder) {
         replace_file_with(file, flipped);
         try {
             expect_equal(read_body_file(file), body);
-        } catch (const Error& fault) {
-            EXPECT_THAT(fault.what(), HasSubstr("a.body.h5"));
-            ++refused;
+        } catch (const Error& error) {
+            EXPECT_THAT(error.what(), HasSubstr("a.body.h5"));
+            ++rejected;
         }
     }
-    EXPECT_GT(refused, trials / 2);
+    EXPECT_GT(rejected, trials / 2);
     return !testing::Test::HasFailure();
 }
 
@@ -276,7 +276,7 @@ TEST(BodyFile, NewerFormatAsksForAnUpdate) {
         file.attribute("/surface", "source", std::string_view("x"));
         file.attribute("/moments", "volume", 1.0);
     });
-    EXPECT_THAT(fault_of(folder / "a.body.h5"), HasSubstr("newer version"));
+    EXPECT_THAT(error_of(folder / "a.body.h5"), HasSubstr("newer version"));
 }
 
 TEST(BodyFile, TriangleBeyondTheVerticesIsNamed) {
@@ -284,10 +284,10 @@ TEST(BodyFile, TriangleBeyondTheVerticesIsNamed) {
     Body body = test::full_body();
     body.surface.corners[3][1] = static_cast<std::int32_t>(body.surface.vertices.size());
     write_body_file(folder / "a.body.h5", body);
-    EXPECT_THAT(fault_of(folder / "a.body.h5"), HasSubstr("/surface/corners row 3"));
+    EXPECT_THAT(error_of(folder / "a.body.h5"), HasSubstr("/surface/corners row 3"));
     body.surface.corners[3][1] = -1;
     write_body_file(folder / "a.body.h5", body);
-    EXPECT_THAT(fault_of(folder / "a.body.h5"), HasSubstr("/surface/corners row 3"));
+    EXPECT_THAT(error_of(folder / "a.body.h5"), HasSubstr("/surface/corners row 3"));
 }
 
 TEST(BodyFile, ValuesThatAreNotFiniteAreNamed) {
@@ -295,7 +295,7 @@ TEST(BodyFile, ValuesThatAreNotFiniteAreNamed) {
     Body body = test::full_body();
     body.tables->entries[4].force.x() = std::nan("");
     write_body_file(folder / "a.body.h5", body);
-    EXPECT_THAT(fault_of(folder / "a.body.h5"), HasSubstr("/tables/force"));
+    EXPECT_THAT(error_of(folder / "a.body.h5"), HasSubstr("/tables/force"));
 }
 
 TEST(BodyFile, SurfaceLoadsThatAreNoneAreNamedWithTheirRemedy) {
@@ -303,58 +303,58 @@ TEST(BodyFile, SurfaceLoadsThatAreNoneAreNamedWithTheirRemedy) {
     Body body = test::full_body();
     body.surface_loads->potentials[3].y() = 5e5;
     write_body_file(folder / "a.body.h5", body);
-    EXPECT_THAT(fault_of(folder / "a.body.h5"),
+    EXPECT_THAT(error_of(folder / "a.body.h5"),
                 AllOf(HasSubstr("/surface_loads holds a length of 500000 L"), HasSubstr("samara kirchhoff")));
     body = test::full_body();
     body.surface_loads->potentials[1].x() = std::numeric_limits<double>::quiet_NaN();
     write_body_file(folder / "b.body.h5", body);
-    EXPECT_THAT(fault_of(folder / "b.body.h5"), HasSubstr("/surface_loads/potentials"));
+    EXPECT_THAT(error_of(folder / "b.body.h5"), HasSubstr("/surface_loads/potentials"));
     body = test::full_body();
     body.surface_loads->potentials.pop_back();
     write_body_file(folder / "c.body.h5", body);
-    EXPECT_THAT(fault_of(folder / "c.body.h5"), HasSubstr("/surface_loads/potentials"));
+    EXPECT_THAT(error_of(folder / "c.body.h5"), HasSubstr("/surface_loads/potentials"));
     body = test::full_body();
     body.surface_loads->surface.corners[2][1] = 1000;
     write_body_file(folder / "d.body.h5", body);
-    EXPECT_THAT(fault_of(folder / "d.body.h5"), HasSubstr("/surface_loads/corners row 2"));
+    EXPECT_THAT(error_of(folder / "d.body.h5"), HasSubstr("/surface_loads/corners row 2"));
 }
 
 TEST(BodyFile, DynamicCoefficientsThatAreNoneAreNamed) {
     const test::TemporaryFolder folder;
     const double infinity = std::numeric_limits<double>::infinity();
-    const auto refused = [&](const auto& spoil, const std::string& what) {
+    const auto rejected = [&](const auto& spoil, const std::string& what) {
         Body body = test::full_body();
         spoil(*body.dynamic);
         write_body_file(folder / "a.body.h5", body);
-        const std::string fault = fault_of(folder / "a.body.h5");
-        EXPECT_THAT(fault, AllOf(HasSubstr("a.body.h5"), HasSubstr("/dynamic_coefficients/" + what)));
-        EXPECT_EQ(fault.find('\n'), std::string::npos);
+        const std::string error = error_of(folder / "a.body.h5");
+        EXPECT_THAT(error, AllOf(HasSubstr("a.body.h5"), HasSubstr("/dynamic_coefficients/" + what)));
+        EXPECT_EQ(error.find('\n'), std::string::npos);
     };
     using Identified = IdentifiedCoefficients;
     for (const NumberOfMotion& number : numbers_of_motion) {
         const std::string name = number.name;
-        refused([&](Identified& c) { c.values.*number.member = std::nan(""); }, name + " is not finite");
-        refused([&](Identified& c) { c.standard_errors.*number.member = -1.0; }, name + "_error");
-        refused([&](Identified& c) { c.standard_errors.*number.member = infinity; }, name + "_error");
+        rejected([&](Identified& c) { c.values.*number.member = std::nan(""); }, name + " is not finite");
+        rejected([&](Identified& c) { c.standard_errors.*number.member = -1.0; }, name + "_error");
+        rejected([&](Identified& c) { c.standard_errors.*number.member = infinity; }, name + "_error");
     }
-    refused([&](Identified& c) { c.values.unsteady_factor = 0.0; }, "unsteady_factor is not positive");
-    refused([&](Identified& c) { c.values.half_length = 0.0; }, "half_length is not a positive");
-    refused([&](Identified& c) { c.values.half_length = infinity; }, "half_length is not a positive");
-    refused([&](Identified& c) { c.values.drag_in_motion(2, 2) = -0.1; },
-            "drag_in_motion is not positive semidefinite");
-    refused([&](Identified& c) { c.values.rotational_drag(0, 2) = c.values.rotational_drag(2, 0) = 0.01; },
-            "rotational_drag is not positive semidefinite");
+    rejected([&](Identified& c) { c.values.unsteady_factor = 0.0; }, "unsteady_factor is not positive");
+    rejected([&](Identified& c) { c.values.half_length = 0.0; }, "half_length is not a positive");
+    rejected([&](Identified& c) { c.values.half_length = infinity; }, "half_length is not a positive");
+    rejected([&](Identified& c) { c.values.drag_in_motion(2, 2) = -0.1; },
+             "drag_in_motion is not positive semidefinite");
+    rejected([&](Identified& c) { c.values.rotational_drag(0, 2) = c.values.rotational_drag(2, 0) = 0.01; },
+             "rotational_drag is not positive semidefinite");
     for (const IdentifiedDensities none :
          {IdentifiedDensities{2.0, 1.0}, IdentifiedDensities{2.0, infinity}}) {
-        refused([&](Identified& c) { c.densities = none; }, "lowest_density");
+        rejected([&](Identified& c) { c.densities = none; }, "lowest_density");
     }
     for (const TensorOfMotion& tensor : tensors_of_motion) {
         const std::string name = tensor.name;
-        refused([&](Identified& c) { (c.values.*tensor.member)(1, 1) = infinity; }, name);
-        refused([&](Identified& c) { (c.values.*tensor.member)(0, 1) += 1e-3; }, name + " is not symmetric");
-        refused([&](Identified& c) { (c.standard_errors.*tensor.member)(0, 1) = -0.1; }, name + "_error");
-        refused([&](Identified& c) { (c.standard_errors.*tensor.member)(2, 2) = std::nan(""); },
-                name + "_error");
+        rejected([&](Identified& c) { (c.values.*tensor.member)(1, 1) = infinity; }, name);
+        rejected([&](Identified& c) { (c.values.*tensor.member)(0, 1) += 1e-3; }, name + " is not symmetric");
+        rejected([&](Identified& c) { (c.standard_errors.*tensor.member)(0, 1) = -0.1; }, name + "_error");
+        rejected([&](Identified& c) { (c.standard_errors.*tensor.member)(2, 2) = std::nan(""); },
+                 name + "_error");
     }
 }
 
@@ -372,10 +372,10 @@ TEST(BodyFile, DynamicCoefficientsOfAnEarlierFormAreRefusedWithARemedy) {
                 .write(H5::PredType::NATIVE_DOUBLE, &value);
         }
     }
-    const std::string fault = fault_of(folder / "a.body.h5");
-    EXPECT_THAT(fault, AllOf(HasSubstr("a.body.h5: /dynamic_coefficients is of an earlier form"),
+    const std::string error = error_of(folder / "a.body.h5");
+    EXPECT_THAT(error, AllOf(HasSubstr("a.body.h5: /dynamic_coefficients is of an earlier form"),
                              HasSubstr("remove the group to fly with defaults")));
-    EXPECT_EQ(fault.find('\n'), std::string::npos);
+    EXPECT_EQ(error.find('\n'), std::string::npos);
 }
 
 TEST(BodyFile, DynamicCoefficientsWithTermsOfBeforeAreRefusedButWhereTheyAreNone) {
@@ -397,7 +397,7 @@ TEST(BodyFile, DynamicCoefficientsWithTermsOfBeforeAreRefusedButWhereTheyAreNone
         if (value == 0.0) {
             expect_equal(read_body_file(path), body);
         } else {
-            EXPECT_THAT(fault_of(path),
+            EXPECT_THAT(error_of(path),
                         AllOf(HasSubstr("a.body.h5: /dynamic_coefficients is of an earlier form"),
                               HasSubstr("bake the body again")));
         }

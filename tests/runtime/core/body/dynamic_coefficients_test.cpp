@@ -24,7 +24,7 @@ TEST(DynamicCoefficients, RotationalDragOfASphereIsZeroAndOfAnEllipsoidFollowsIt
 TEST(DynamicCoefficients, OfAnyBodyByDefaultAreSoundAndAlignedWithItsAxes) {
     for (const Body& body : {test::rubber_ellipsoid(), test::exact_sphere(0.1)}) {
         const DynamicCoefficients values = default_dynamic_coefficients(body);
-        EXPECT_EQ(fault_of(values), "");
+        EXPECT_EQ(error_of(values), "");
         EXPECT_NE(values.origin.find("default"), std::string::npos);
         for (const TensorOfMotion& tensor : tensors_of_motion) {
             const Matrix3d& t = values.*tensor.member;
@@ -59,7 +59,7 @@ TEST(DynamicCoefficients, ByDefaultGrowWithTheBodyAsTheirUnitsSay) {
 
 TEST(DynamicCoefficients, ForLoadsByCoefficientsAreRotationalDragAlone) {
     const DynamicCoefficients values = rotational_drag_alone(test::rubber_ellipsoid());
-    EXPECT_EQ(fault_of(values), "");
+    EXPECT_EQ(error_of(values), "");
     EXPECT_EQ(values.rotational_transport, 0.0);
     for (const TensorOfMotion& tensor : tensors_of_motion) {
         const bool is_there = tensor.member == &DynamicCoefficients::rotational_drag;

@@ -4,7 +4,7 @@
 
 #include "samara/core/body/body_file.hpp"
 #include "samara/core/surface/octahedral_map.hpp"
-#include "samara/scene/table_errors_met.hpp"
+#include "samara/scene/table_errors_on_path.hpp"
 #include "support/known_bodies.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_shapes.hpp"
@@ -51,18 +51,18 @@ TEST(PlannedRegion, IsEveryDirectionInAFileWithoutOne) {
     EXPECT_EQ(read_body_file(file).tables->plan.subdivisions, 0);
 }
 
-TEST(TableErrorsMet, CountThePosesOutsideOfThePlan) {
+TEST(TableErrorsOnPath, CountThePosesOutsideOfThePlan) {
     Body body = test::rubber_ellipsoid();
     body.tables = test::blunt_tables(body, 4);
     body.tables->errors.resize(body.tables->entries.size());
     body.tables->plan = ahead();
     const ImmersedBody immersed = make_immersed_body(body, test::scene_body(1200.0), Fluid{});
-    TableErrorsMet met;
+    TableErrorsOnPath met;
     for (const Vector3d& velocity : {Vector3d(1, 0, 0), Vector3d(-1, 0, 0), Vector3d(-1, 0.1, 0),
                                      Vector3d(0.9, 0.1, 0), Vector3d(0, 0, 0)}) {
         Pose pose;
         pose.velocity = velocity;
-        met.add(table_errors_met(immersed, pose));
+        met.add(table_errors_on_path(immersed, pose));
     }
     EXPECT_EQ(met.poses, 4u);
     EXPECT_EQ(met.strayed, 2u);

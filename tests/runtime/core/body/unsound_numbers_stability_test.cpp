@@ -35,9 +35,9 @@ bool refuses(const test::TemporaryFolder& folder, const std::string& words) {
     const test::ProgramRun run =
         test::run_program_in(folder, {"samara", "simulate", "scene.toml", "-o", "out.h5"});
     EXPECT_EQ(run.status, 1) << words;
-    EXPECT_TRUE(test::is_one_line(run.fault)) << run.fault;
-    EXPECT_THAT(run.fault, HasSubstr(words));
-    return run.status == 1 && test::is_one_line(run.fault) && run.fault.find(words) != std::string::npos;
+    EXPECT_TRUE(test::is_one_line(run.error)) << run.error;
+    EXPECT_THAT(run.error, HasSubstr(words));
+    return run.status == 1 && test::is_one_line(run.error) && run.error.find(words) != std::string::npos;
 }
 
 TEST(UnsoundNumbers, ASceneWithNaNOrInfinityIsRefusedInOneLine) {

@@ -13,86 +13,90 @@ using testing::HasSubstr;
 
 struct Difference {
     const char* name;
-    void (*apply)(samara_settings& settings, samara_kind& kind);
+    void (*apply)(samara_settings& settings, samara_body_group& group);
 };
 
 const Difference differences[] = {
-    {"density", [](samara_settings&, samara_kind& kind) { kind.density = 1500.0; }},
+    {"density", [](samara_settings&, samara_body_group& group) { group.density = 1500.0; }},
     {"mass",
-     [](samara_settings&, samara_kind& kind) {
-         kind.density = 0.0;
-         kind.mass = 0.06;
+     [](samara_settings&, samara_body_group& group) {
+         group.density = 0.0;
+         group.mass = 0.06;
      }},
     {"center of mass",
-     [](samara_settings&, samara_kind& kind) {
-         kind.density = 0.0;
-         kind.mass = 0.06;
-         kind.has_center_of_mass = 1;
-         kind.center_of_mass[2] = 0.002;
+     [](samara_settings&, samara_body_group& group) {
+         group.density = 0.0;
+         group.mass = 0.06;
+         group.has_center_of_mass = 1;
+         group.center_of_mass[2] = 0.002;
      }},
     {"inertia",
-     [](samara_settings&, samara_kind& kind) {
-         kind.density = 0.0;
-         kind.mass = 0.06;
-         for (const std::size_t diagonal : {0U, 4U, 8U}) kind.inertia[diagonal] = 2e-5;
+     [](samara_settings&, samara_body_group& group) {
+         group.density = 0.0;
+         group.mass = 0.06;
+         for (const std::size_t diagonal : {0U, 4U, 8U}) group.inertia[diagonal] = 2e-5;
      }},
-    {"loads", [](samara_settings&, samara_kind& kind) { kind.loads = SAMARA_LOADS_NONE; }},
-    {"coefficients", [](samara_settings&, samara_kind& kind) { kind.loads = SAMARA_LOADS_COEFFICIENTS; }},
+    {"loads", [](samara_settings&, samara_body_group& group) { group.loads = SAMARA_LOADS_NONE; }},
+    {"coefficients",
+     [](samara_settings&, samara_body_group& group) { group.loads = SAMARA_LOADS_COEFFICIENTS; }},
     {"drag",
-     [](samara_settings&, samara_kind& kind) {
-         kind.loads = SAMARA_LOADS_COEFFICIENTS;
-         kind.drag_coefficient = 0.7;
+     [](samara_settings&, samara_body_group& group) {
+         group.loads = SAMARA_LOADS_COEFFICIENTS;
+         group.drag_coefficient = 0.7;
      }},
     {"lift",
-     [](samara_settings&, samara_kind& kind) {
-         kind.loads = SAMARA_LOADS_COEFFICIENTS;
-         kind.lift_coefficient = 0.7;
+     [](samara_settings&, samara_body_group& group) {
+         group.loads = SAMARA_LOADS_COEFFICIENTS;
+         group.lift_coefficient = 0.7;
      }},
     {"area",
-     [](samara_settings&, samara_kind& kind) {
-         kind.loads = SAMARA_LOADS_COEFFICIENTS;
-         kind.reference_area = 0.003;
+     [](samara_settings&, samara_body_group& group) {
+         group.loads = SAMARA_LOADS_COEFFICIENTS;
+         group.reference_area = 0.003;
      }},
     {"normal",
-     [](samara_settings&, samara_kind& kind) {
-         kind.loads = SAMARA_LOADS_COEFFICIENTS;
-         kind.lift_coefficient = 0.7;
-         kind.normal[1] = 1.0;
+     [](samara_settings&, samara_body_group& group) {
+         group.loads = SAMARA_LOADS_COEFFICIENTS;
+         group.lift_coefficient = 0.7;
+         group.normal[1] = 1.0;
      }},
     {"center of pressure",
-     [](samara_settings&, samara_kind& kind) {
-         kind.loads = SAMARA_LOADS_COEFFICIENTS;
-         kind.center_of_pressure[0] = 0.01;
+     [](samara_settings&, samara_body_group& group) {
+         group.loads = SAMARA_LOADS_COEFFICIENTS;
+         group.center_of_pressure[0] = 0.01;
      }},
-    {"turbulence", [](samara_settings&, samara_kind& kind) { kind.turbulence = SAMARA_TURBULENCE_NONE; }},
+    {"turbulence",
+     [](samara_settings&, samara_body_group& group) { group.turbulence = SAMARA_TURBULENCE_NONE; }},
     {"constant turbulence",
-     [](samara_settings&, samara_kind& kind) {
-         kind.turbulence = SAMARA_TURBULENCE_CONSTANT;
-         kind.turbulent_kinetic_energy = 1e-3;
-         kind.dissipation_rate = 1e-2;
+     [](samara_settings&, samara_body_group& group) {
+         group.turbulence = SAMARA_TURBULENCE_CONSTANT;
+         group.turbulent_kinetic_energy = 1e-3;
+         group.dissipation_rate = 1e-2;
      }},
     {"energy",
-     [](samara_settings&, samara_kind& kind) {
-         kind.turbulence = SAMARA_TURBULENCE_CONSTANT;
-         kind.turbulent_kinetic_energy = 2e-3;
-         kind.dissipation_rate = 1e-2;
+     [](samara_settings&, samara_body_group& group) {
+         group.turbulence = SAMARA_TURBULENCE_CONSTANT;
+         group.turbulent_kinetic_energy = 2e-3;
+         group.dissipation_rate = 1e-2;
      }},
     {"dissipation",
-     [](samara_settings&, samara_kind& kind) {
-         kind.turbulence = SAMARA_TURBULENCE_CONSTANT;
-         kind.turbulent_kinetic_energy = 1e-3;
-         kind.dissipation_rate = 2e-2;
+     [](samara_settings&, samara_body_group& group) {
+         group.turbulence = SAMARA_TURBULENCE_CONSTANT;
+         group.turbulent_kinetic_energy = 1e-3;
+         group.dissipation_rate = 2e-2;
      }},
-    {"langevin", [](samara_settings&, samara_kind& kind) { kind.langevin = SAMARA_LANGEVIN_BODY_VELOCITY; }},
-    {"no added mass", [](samara_settings&, samara_kind& kind) { kind.added_mass = 0; }},
+    {"langevin",
+     [](samara_settings&, samara_body_group& group) { group.langevin = SAMARA_LANGEVIN_BODY_VELOCITY; }},
+    {"no added mass", [](samara_settings&, samara_body_group& group) { group.added_mass = 0; }},
     {"dynamic coefficients by default",
-     [](samara_settings&, samara_kind& kind) { kind.dynamic_coefficients = SAMARA_DYNAMIC_DEFAULT; }},
+     [](samara_settings&, samara_body_group& group) { group.dynamic_coefficients = SAMARA_DYNAMIC_DEFAULT; }},
     {"no dynamic coefficients",
-     [](samara_settings&, samara_kind& kind) { kind.dynamic_coefficients = SAMARA_DYNAMIC_NONE; }},
-    {"Reynolds number", [](samara_settings&, samara_kind& kind) { kind.table_reynolds_number = 1e5; }},
-    {"fluid", [](samara_settings& settings, samara_kind&) { settings.fluid_density = 1025.0; }},
-    {"viscosity", [](samara_settings& settings, samara_kind&) { settings.fluid_viscosity = 2e-3; }},
-    {"name", [](samara_settings&, samara_kind& kind) { kind.name = "another"; }},
+     [](samara_settings&, samara_body_group& group) { group.dynamic_coefficients = SAMARA_DYNAMIC_NONE; }},
+    {"Reynolds number",
+     [](samara_settings&, samara_body_group& group) { group.table_reynolds_number = 1e5; }},
+    {"fluid", [](samara_settings& settings, samara_body_group&) { settings.fluid_density = 1025.0; }},
+    {"viscosity", [](samara_settings& settings, samara_body_group&) { settings.fluid_viscosity = 2e-3; }},
+    {"name", [](samara_settings&, samara_body_group& group) { group.name = "another"; }},
 };
 
 TEST(CCrowd, SimulationsThatShareABodyFlyAsIfItWereTheirOwn) {
@@ -103,11 +107,11 @@ TEST(CCrowd, SimulationsThatShareABodyFlyAsIfItWereTheirOwn) {
         for (const Difference& difference : differences) {
             SCOPED_TRACE(difference.name);
             samara_settings settings = default_settings();
-            samara_kind kind = rubber_kind();
-            difference.apply(settings, kind);
+            samara_body_group group = rubber_group();
+            difference.apply(settings, group);
             const BodyOnDisk own(rubber);
-            const auto alone = poses_at(simulation_of(own, kind, settings), 0.4);
-            EXPECT_TRUE(same_bytes(poses_at(simulation_of(shared, kind, settings), 0.4), alone));
+            const auto alone = poses_at(simulation_of(own, group, settings), 0.4);
+            EXPECT_TRUE(same_bytes(poses_at(simulation_of(shared, group, settings), 0.4), alone));
             if (round == 0) motions.push_back(alone);
         }
     }
@@ -124,14 +128,15 @@ TEST(CCrowd, ABodyBelowTheGroundIsNamedByItsOwnKind) {
     samara_settings settings = default_settings();
     settings.has_ground = 1;
     settings.ground = -1.0;
-    samara_kind kind = rubber_kind();
-    kind.name = "high";
-    const SimulationPointer high = simulation_of(shared, kind, settings);
-    kind.name = "deep";
-    kind.position[2] = -2.0;
-    Text fault;
-    EXPECT_EQ(CALL(samara_simulation_add, high.get(), shared.get(), &kind, nullptr), SAMARA_INVALID_ARGUMENT);
-    EXPECT_THAT(fault.text(), HasSubstr("'deep'"));
+    samara_body_group group = rubber_group();
+    group.name = "high";
+    const SimulationPointer high = simulation_of(shared, group, settings);
+    group.name = "deep";
+    group.position[2] = -2.0;
+    Text error;
+    EXPECT_EQ(CALL(samara_simulation_add, high.get(), shared.get(), &group, nullptr),
+              SAMARA_INVALID_ARGUMENT);
+    EXPECT_THAT(error.text(), HasSubstr("'deep'"));
 }
 
 }  // namespace

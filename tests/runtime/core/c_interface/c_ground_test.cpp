@@ -11,7 +11,7 @@
 #include "c_interface_calls.hpp"
 #include "samara.h"
 #include "samara/kirchhoff/kirchhoff_solver.hpp"
-#include "samara/scene/simulation.hpp"
+#include "samara/scene/scene_simulation.hpp"
 #include "support/test_shapes.hpp"
 
 namespace samara {
@@ -45,16 +45,16 @@ samara_settings settings_with_ground(double height) {
 }
 
 /// A cube that is heavier than water, tilted, its centre `height` (m) above 0.
-samara_kind cube_kind(double height) {
-    samara_kind kind;
-    EXPECT_EQ(samara_default_kind(&kind, sizeof kind, nullptr, 0), SAMARA_OK);
-    kind.density = 1500.0;
-    kind.loads = SAMARA_LOADS_COEFFICIENTS;
+samara_body_group cube_group(double height) {
+    samara_body_group group;
+    EXPECT_EQ(samara_default_body_group(&group, sizeof group, nullptr, 0), SAMARA_OK);
+    group.density = 1500.0;
+    group.loads = SAMARA_LOADS_COEFFICIENTS;
     const Quaterniond tilted(Eigen::AngleAxisd(0.5, Vector3d(1.0, 2.0, 0.5).normalized()));
-    kind.orientation[0] = tilted.w();
-    std::copy_n(tilted.vec().data(), 3, &kind.orientation[1]);
-    kind.position[2] = height;
-    return kind;
+    group.orientation[0] = tilted.w();
+    std::copy_n(tilted.vec().data(), 3, &group.orientation[1]);
+    group.position[2] = height;
+    return group;
 }
 
 double lowest_corner(const samara_pose& pose) {
@@ -66,7 +66,7 @@ double lowest_corner(const samara_pose& pose) {
 TEST(CGround, ACubeSettlesOnItAndLiesStill) {
     samara_settings settings = settings_with_ground(-0.1);
     settings.current[0] = 0.02;
-    const SimulationPointer simulation = simulation_of(cube_on_disk(), cube_kind(0.0), settings);
+    const SimulationPointer simulation = simulation_of(cube_on_disk(), cube_group(0.0), settings);
     for (int frame = 1; frame <= 6 * 24; ++frame) {
         ASSERT_GT(lowest_corner(poses_at(simulation, frame / 24.0)[0]), -0.1 - 1e-4 * edge) << frame;
     }
@@ -97,7 +97,7 @@ TEST(CGround, MovesAsTheSimulateCommandDoes) {
     settings.gust_amplitude[0] = 0.03;
     settings.gust_amplitude[2] = 0.01;
     settings.gust_period = 0.9;
-    const SimulationPointer simulation = simulation_of(cube_on_disk(), cube_kind(0.0), settings);
+    const SimulationPointer simulation = simulation_of(cube_on_disk(), cube_group(0.0), settings);
     for (int frame = 0; frame < motion.frames(); ++frame) {
         const samara_pose pose = poses_at(simulation, motion.times[static_cast<std::size_t>(frame)])[0];
         const Pose& expected = motion.pose(motion.bodies[0], 0, frame, 0);
@@ -108,54 +108,55 @@ TEST(CGround, MovesAsTheSimulateCommandDoes) {
 
 TEST(CGround, AKindThatStartsBelowItIsRefusedAndNothingIsAdded) {
     const SimulationPointer simulation = empty_simulation(settings_with_ground(0.0));
-    samara_kind kind = cube_kind(0.0);
-    Text fault;
-    EXPECT_EQ(CALL(samara_simulation_add, simulation.get(), cube_on_disk().get(), &kind, nullptr),
+    samara_body_group group = cube_group(0.0);
+    Text error;
+    EXPECT_EQ(CALL(samara_simulation_add, simulation.get(), cube_on_disk().get(), &group, nullptr),
               SAMARA_INVALID_ARGUMENT);
-    EXPECT_THAT(fault.text(), HasSubstr("'cube' starts 0.01"));
-    EXPECT_THAT(fault.text(), HasSubstr("below the ground at 0 m"));
+    EXPECT_THAT(error.text(), HasSubstr("'cube' starts 0.01"));
+    EXPECT_THAT(error.text(), HasSubstr("below the ground at 0 m"));
     EXPECT_EQ(samara_simulation_count(simulation.get()), 0U);
-    kind = cube_kind(0.1);
-    EXPECT_EQ(CALL(samara_simulation_add, simulation.get(), cube_on_disk().get(), &kind, nullptr), SAMARA_OK);
+    group = cube_group(0.1);
+    EXPECT_EQ(CALL(samara_simulation_add, simulation.get(), cube_on_disk().get(), &group, nullptr),
+              SAMARA_OK);
 }
 
 TEST(CGround, ABodyThatIsPutBelowItIsLiftedOntoIt) {
     const SimulationPointer simulation =
-        simulation_of(cube_on_disk(), cube_kind(0.1), settings_with_ground(0.0));
+        simulation_of(cube_on_disk(), cube_group(0.1), settings_with_ground(0.0));
     std::vector<samara_pose> poses = poses_at(simulation, 0.1);
     poses[0].position[2] = -1.0;
-    Text fault;
-    ASSERT_EQ(CALL(samara_set_poses, simulation.get(), 0, 1, poses.data(), 0), SAMARA_OK) << fault.text();
+    Text error;
+    ASSERT_EQ(CALL(samara_set_poses, simulation.get(), 0, 1, poses.data(), 0), SAMARA_OK) << error.text();
     EXPECT_GT(lowest_corner(poses_at(simulation, 0.2)[0]), -1e-4 * edge);
 }
 
 TEST(CGround, ABodyAtRestWakesWhereItIsPutElsewhereOrPushed) {
     const SimulationPointer simulation =
-        simulation_of(cube_on_disk(), cube_kind(0.03), settings_with_ground(0.0));
+        simulation_of(cube_on_disk(), cube_group(0.03), settings_with_ground(0.0));
     const samara_pose lying = poses_at(simulation, 6.0)[0];
     EXPECT_TRUE(same_bytes({lying}, poses_at(simulation, 8.0)));
-    Text fault;
+    Text error;
     samara_pose pushed = lying;
     pushed.velocity[0] = 0.5;
-    ASSERT_EQ(CALL(samara_set_poses, simulation.get(), 0, 1, &pushed, 0), SAMARA_OK) << fault.text();
+    ASSERT_EQ(CALL(samara_set_poses, simulation.get(), 0, 1, &pushed, 0), SAMARA_OK) << error.text();
     EXPECT_GT(poses_at(simulation, 8.1)[0].position[0], lying.position[0] + 0.01);
     samara_pose lifted = lying;
     lifted.position[2] += 0.01;
-    ASSERT_EQ(CALL(samara_set_poses, simulation.get(), 0, 1, &lifted, 0), SAMARA_OK) << fault.text();
+    ASSERT_EQ(CALL(samara_set_poses, simulation.get(), 0, 1, &lifted, 0), SAMARA_OK) << error.text();
     EXPECT_LT(poses_at(simulation, 8.2)[0].position[2], lifted.position[2] - 1e-3);
     EXPECT_NEAR(poses_at(simulation, 12.0)[0].position[2], lying.position[2], 1e-5 * edge);
 }
 
 TEST(CGround, AStateSavedAtRestGoesOnToTheSameBytes) {
     const auto fresh = [] {
-        return simulation_of(cube_on_disk(), cube_kind(0.03), settings_with_ground(0.0));
+        return simulation_of(cube_on_disk(), cube_group(0.03), settings_with_ground(0.0));
     };
     const SimulationPointer simulation = fresh();
     poses_at(simulation, 6.0);
     const std::string saved = state_of(simulation);
     const SimulationPointer restored = fresh();
-    Text fault;
-    ASSERT_EQ(set_state(restored, saved, fault), SAMARA_OK) << fault.text();
+    Text error;
+    ASSERT_EQ(set_state(restored, saved, error), SAMARA_OK) << error.text();
     EXPECT_TRUE(same_bytes(poses_at(simulation, 7.0), poses_at(restored, 7.0)));
     EXPECT_EQ(state_of(simulation), state_of(restored));
 }
@@ -164,27 +165,27 @@ TEST(CGround, IsThereOnlyWhereItIsAskedForAndMustBeANumber) {
     samara_settings settings = default_settings();
     EXPECT_EQ(settings.has_ground, 0);
     settings.ground = -0.1;  // without has_ground it says nothing
-    const SimulationPointer simulation = simulation_of(cube_on_disk(), cube_kind(0.0), settings);
+    const SimulationPointer simulation = simulation_of(cube_on_disk(), cube_group(0.0), settings);
     EXPECT_LT(poses_at(simulation, 3.0)[0].position[2], -0.3);
     settings.has_ground = 1;
     settings.ground = std::numeric_limits<double>::quiet_NaN();
     samara_simulation* none = nullptr;
-    Text fault;
+    Text error;
     EXPECT_EQ(CALL(samara_simulation_create, &settings, &none), SAMARA_INVALID_ARGUMENT);
-    EXPECT_THAT(fault.text(), HasSubstr("ground is not a finite number"));
+    EXPECT_THAT(error.text(), HasSubstr("ground is not a finite number"));
 }
 
 TEST(CGround, AStateFitsTheSameGroundAlone) {
     const auto at = [](double height) {
-        return simulation_of(cube_on_disk(), cube_kind(0.0), settings_with_ground(height));
+        return simulation_of(cube_on_disk(), cube_group(0.0), settings_with_ground(height));
     };
     const SimulationPointer simulation = at(-0.1);
     poses_at(simulation, 0.5);
     const std::string state = state_of(simulation);
-    Text fault;
-    EXPECT_EQ(set_state(at(-0.1), state, fault), SAMARA_OK) << fault.text();
-    EXPECT_EQ(set_state(at(-0.2), state, fault), SAMARA_FOREIGN_STATE);
-    EXPECT_EQ(set_state(simulation_of(cube_on_disk(), cube_kind(0.0)), state, fault), SAMARA_FOREIGN_STATE);
+    Text error;
+    EXPECT_EQ(set_state(at(-0.1), state, error), SAMARA_OK) << error.text();
+    EXPECT_EQ(set_state(at(-0.2), state, error), SAMARA_FOREIGN_STATE);
+    EXPECT_EQ(set_state(simulation_of(cube_on_disk(), cube_group(0.0)), state, error), SAMARA_FOREIGN_STATE);
 }
 
 TEST(CSimulation, AGustCarriesANeutralBodyExactlyBetweenStepsToo) {
@@ -192,16 +193,16 @@ TEST(CSimulation, AGustCarriesANeutralBodyExactlyBetweenStepsToo) {
     samara_settings settings = default_settings();
     settings.gust_amplitude[0] = 0.3;
     settings.gust_period = 0.7;
-    samara_kind kind = rubber_kind();
-    kind.density = settings.fluid_density;
-    kind.turbulence = SAMARA_TURBULENCE_NONE;
-    const SimulationPointer simulation = simulation_of(body, kind, settings);
+    samara_body_group group = rubber_group();
+    group.density = settings.fluid_density;
+    group.turbulence = SAMARA_TURBULENCE_NONE;
+    const SimulationPointer simulation = simulation_of(body, group, settings);
     for (int i = 1; i <= 100; ++i) {
         const double phase = 2.0 * std::numbers::pi * (0.0137 * i) / 0.7;
         const samara_pose pose = poses_at(simulation, 0.0137 * i)[0];
         EXPECT_NEAR(pose.velocity[0], 0.3 * std::sin(phase), 1e-12);
         if (i != 50) continue;
-        Text fault;
+        Text error;
         const samara_pose still = pose;
         ASSERT_EQ(CALL(samara_set_poses, simulation.get(), 0, 1, &still, 0), SAMARA_OK);
         EXPECT_LT(std::abs(poses_of(simulation)[0].position[0] - still.position[0]), 1e-14);

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "runtime/c_interface_calls.hpp"
-#include "samara/core/flight/flight.hpp"
+#include "samara/core/simulation/simulation.hpp"
 
 namespace samara {
 namespace {
@@ -28,26 +28,26 @@ samara_settings weightless() {
 }
 
 /// Without loads, at the origin.
-samara_kind ideal_kind() {
-    samara_kind kind;
-    EXPECT_EQ(samara_default_kind(&kind, sizeof kind, nullptr, 0), SAMARA_OK);
-    kind.density = 1200.0;
-    kind.loads = SAMARA_LOADS_NONE;
-    kind.turbulence = SAMARA_TURBULENCE_NONE;
-    return kind;
+samara_body_group ideal_group() {
+    samara_body_group group;
+    EXPECT_EQ(samara_default_body_group(&group, sizeof group, nullptr, 0), SAMARA_OK);
+    group.density = 1200.0;
+    group.loads = SAMARA_LOADS_NONE;
+    group.turbulence = SAMARA_TURBULENCE_NONE;
+    return group;
 }
 
 TEST(CHost, PushesAtAPointAsByAForceAndItsMoment) {
     const BodyOnDisk body;
-    const SimulationPointer at_point = simulation_of(body, ideal_kind(), weightless());
-    const SimulationPointer by_moment = simulation_of(body, ideal_kind(), weightless());
+    const SimulationPointer at_point = simulation_of(body, ideal_group(), weightless());
+    const SimulationPointer by_moment = simulation_of(body, ideal_group(), weightless());
     const double force[3] = {0.1, 0.0, 0.0};
     const double point[3] = {0.0, 0.0, 0.02};
     const double moment[3] = {0.0, 0.002, 0.0};
-    Text fault;
-    ASSERT_EQ(CALL(samara_add_force, at_point.get(), 0, force, point), SAMARA_OK) << fault.text();
-    ASSERT_EQ(CALL(samara_add_force, by_moment.get(), 0, force, nullptr), SAMARA_OK) << fault.text();
-    ASSERT_EQ(CALL(samara_add_moment, by_moment.get(), 0, moment), SAMARA_OK) << fault.text();
+    Text error;
+    ASSERT_EQ(CALL(samara_add_force, at_point.get(), 0, force, point), SAMARA_OK) << error.text();
+    ASSERT_EQ(CALL(samara_add_force, by_moment.get(), 0, force, nullptr), SAMARA_OK) << error.text();
+    ASSERT_EQ(CALL(samara_add_moment, by_moment.get(), 0, moment), SAMARA_OK) << error.text();
     const std::vector<samara_pose> pushed = poses_at(at_point, 0.1);
     const std::vector<samara_pose> turned = poses_at(by_moment, 0.1);
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -60,30 +60,30 @@ TEST(CHost, PushesAtAPointAsByAForceAndItsMoment) {
 
 TEST(CHost, AngularAndLinearImpulsesAreOneAtAPoint) {
     const BodyOnDisk body;
-    const SimulationPointer at_point = simulation_of(body, ideal_kind(), weightless());
-    const SimulationPointer in_two = simulation_of(body, ideal_kind(), weightless());
+    const SimulationPointer at_point = simulation_of(body, ideal_group(), weightless());
+    const SimulationPointer in_two = simulation_of(body, ideal_group(), weightless());
     const double impulse[3] = {0.0, 0.01, 0.0};
     const double point[3] = {0.005, 0.0, 0.0};
     const double angular[3] = {0.0, 0.0, 5e-5};
-    Text fault;
-    ASSERT_EQ(CALL(samara_add_impulse, at_point.get(), 0, impulse, point), SAMARA_OK) << fault.text();
-    ASSERT_EQ(CALL(samara_add_impulse, in_two.get(), 0, impulse, nullptr), SAMARA_OK) << fault.text();
-    ASSERT_EQ(CALL(samara_add_angular_impulse, in_two.get(), 0, angular), SAMARA_OK) << fault.text();
+    Text error;
+    ASSERT_EQ(CALL(samara_add_impulse, at_point.get(), 0, impulse, point), SAMARA_OK) << error.text();
+    ASSERT_EQ(CALL(samara_add_impulse, in_two.get(), 0, impulse, nullptr), SAMARA_OK) << error.text();
+    ASSERT_EQ(CALL(samara_add_angular_impulse, in_two.get(), 0, angular), SAMARA_OK) << error.text();
     const samara_pose one = poses_of(at_point)[0];
     const samara_pose other = poses_of(in_two)[0];
     EXPECT_NEAR(one.velocity[1], other.velocity[1], 1e-15);
     EXPECT_NEAR(one.angular_velocity[2], other.angular_velocity[2], 1e-14);
     samara_mass_properties own;
-    ASSERT_EQ(CALL(samara_get_mass_properties, at_point.get(), 0, &own), SAMARA_OK) << fault.text();
+    ASSERT_EQ(CALL(samara_get_mass_properties, at_point.get(), 0, &own), SAMARA_OK) << error.text();
     EXPECT_LT(one.velocity[1], 0.9 * 0.01 / own.mass) << "the fluid takes its part";
 }
 
 TEST(CHost, RemovedBodiesStandStillUntilTheyArePutBack) {
     const BodyOnDisk body;
-    const SimulationPointer simulation = simulation_of(body, rubber_kind(3));
-    Text fault;
+    const SimulationPointer simulation = simulation_of(body, rubber_group(3));
+    Text error;
     const std::vector<samara_pose> poses = poses_at(simulation, 0.5);
-    ASSERT_EQ(CALL(samara_remove, simulation.get(), 1, 2), SAMARA_OK) << fault.text();
+    ASSERT_EQ(CALL(samara_remove, simulation.get(), 1, 2), SAMARA_OK) << error.text();
     EXPECT_EQ(samara_is_removed(simulation.get(), 0), 0);
     EXPECT_EQ(samara_is_removed(simulation.get(), 2), 1);
     EXPECT_EQ(samara_is_removed(simulation.get(), 3), 0) << "there is none such";
@@ -92,27 +92,27 @@ TEST(CHost, RemovedBodiesStandStillUntilTheyArePutBack) {
     EXPECT_LT(later[0].position[2], poses[0].position[2]);
     const double force[3] = {1.0, 0.0, 0.0};
     EXPECT_EQ(CALL(samara_add_force, simulation.get(), 2, force, nullptr), SAMARA_INVALID_ARGUMENT);
-    EXPECT_EQ(fault.text(), "body 2 is removed; put it back with samara_set_poses");
-    ASSERT_EQ(CALL(samara_set_poses, simulation.get(), 2, 1, &poses[2], 0), SAMARA_OK) << fault.text();
+    EXPECT_EQ(error.text(), "body 2 is removed; put it back with samara_set_poses");
+    ASSERT_EQ(CALL(samara_set_poses, simulation.get(), 2, 1, &poses[2], 0), SAMARA_OK) << error.text();
     EXPECT_EQ(samara_is_removed(simulation.get(), 2), 0);
     EXPECT_LT(poses_at(simulation, 1.5)[2].position[2], poses[2].position[2]);
 }
 
 TEST(CHost, KindsSpreadSizesAndStarts) {
     const BodyOnDisk body;
-    samara_kind kind = rubber_kind(8);
-    kind.smallest_size = 0.5;
-    kind.largest_size = 2.0;
-    kind.spread_start = 0.4;
-    const SimulationPointer simulation = simulation_of(body, kind);
+    samara_body_group group = rubber_group(8);
+    group.smallest_size = 0.5;
+    group.largest_size = 2.0;
+    group.spread_start = 0.4;
+    const SimulationPointer simulation = simulation_of(body, group);
     std::array<double, 8> sizes{};
-    Text fault;
-    ASSERT_EQ(CALL(samara_get_sizes, simulation.get(), 0, 8, sizes.data()), SAMARA_OK) << fault.text();
+    Text error;
+    ASSERT_EQ(CALL(samara_get_sizes, simulation.get(), 0, 8, sizes.data()), SAMARA_OK) << error.text();
     EXPECT_THAT(sizes, testing::Each(testing::AllOf(testing::Ge(0.5), testing::Le(2.0))));
     EXPECT_GT(*std::max_element(sizes.begin(), sizes.end()) - *std::min_element(sizes.begin(), sizes.end()),
               0.3);
     samara_mass_properties large;
-    ASSERT_EQ(CALL(samara_get_mass_properties, simulation.get(), 3, &large), SAMARA_OK) << fault.text();
+    ASSERT_EQ(CALL(samara_get_mass_properties, simulation.get(), 3, &large), SAMARA_OK) << error.text();
     EXPECT_NEAR(large.mass, 1200.0 * samara_body_volume(body.get()) * std::pow(sizes[3], 3), 1e-9);
     EXPECT_GT(large.inertia[0], 0.0);
     const std::vector<samara_pose> begin = poses_of(simulation);
@@ -125,27 +125,27 @@ TEST(CHost, KindsSpreadSizesAndStarts) {
 
 TEST(CHost, ASingleBodyHasTheSizeThatIsGivenTwice) {
     const BodyOnDisk body;
-    samara_kind kind = ideal_kind();
-    kind.smallest_size = kind.largest_size = 0.25;
-    const SimulationPointer simulation = simulation_of(body, kind);
+    samara_body_group group = ideal_group();
+    group.smallest_size = group.largest_size = 0.25;
+    const SimulationPointer simulation = simulation_of(body, group);
     double size = 0.0;
-    Text fault;
-    ASSERT_EQ(CALL(samara_get_sizes, simulation.get(), 0, 1, &size), SAMARA_OK) << fault.text();
+    Text error;
+    ASSERT_EQ(CALL(samara_get_sizes, simulation.get(), 0, 1, &size), SAMARA_OK) << error.text();
     EXPECT_EQ(size, 0.25);
 }
 
 TEST(CHost, AKindOfVersionSixStillHasTheShapesSize) {
     const BodyOnDisk body;
-    samara_kind kind;
-    const std::size_t old_size = offsetof(samara_kind, spread_start);
-    ASSERT_EQ(samara_default_kind(&kind, old_size, nullptr, 0), SAMARA_OK);
-    EXPECT_EQ(kind.size, old_size);
-    kind.density = 1200.0;
-    kind.smallest_size = not_a_number;  // which a caller of that version has not
-    const SimulationPointer simulation = simulation_of(body, kind);
+    samara_body_group group;
+    const std::size_t old_size = offsetof(samara_body_group, spread_start);
+    ASSERT_EQ(samara_default_body_group(&group, old_size, nullptr, 0), SAMARA_OK);
+    EXPECT_EQ(group.size, old_size);
+    group.density = 1200.0;
+    group.smallest_size = not_a_number;  // which a caller of that version has not
+    const SimulationPointer simulation = simulation_of(body, group);
     double size = 0.0;
-    Text fault;
-    ASSERT_EQ(CALL(samara_get_sizes, simulation.get(), 0, 1, &size), SAMARA_OK) << fault.text();
+    Text error;
+    ASSERT_EQ(CALL(samara_get_sizes, simulation.get(), 0, 1, &size), SAMARA_OK) << error.text();
     EXPECT_EQ(size, 1.0);
 }
 
@@ -153,12 +153,12 @@ TEST(CHost, TakesWhatBodiesMetIntoObjectsOfTheHost) {
     const BodyOnDisk body;
     samara_settings settings = default_settings();
     settings.has_ground = 1;
-    samara_kind kind = ideal_kind();
-    kind.count = 2;
-    kind.position[2] = 0.1;
-    const SimulationPointer simulation = simulation_of(body, kind, settings);
-    Text fault;
-    ASSERT_EQ(CALL(samara_watch_contacts, simulation.get(), 1), SAMARA_OK) << fault.text();
+    samara_body_group group = ideal_group();
+    group.count = 2;
+    group.position[2] = 0.1;
+    const SimulationPointer simulation = simulation_of(body, group, settings);
+    Text error;
+    ASSERT_EQ(CALL(samara_watch_contacts, simulation.get(), 1), SAMARA_OK) << error.text();
     poses_at(simulation, 10.0);
     struct Object {
         samara_contact contact;
@@ -168,7 +168,7 @@ TEST(CHost, TakesWhatBodiesMetIntoObjectsOfTheHost) {
     objects[0].own = objects[1].own = 7.0;
     ASSERT_EQ(CALL(samara_take_contacts, simulation.get(), 0, 2, &objects[0].contact, sizeof(Object)),
               SAMARA_OK)
-        << fault.text();
+        << error.text();
     for (const Object& object : objects) {
         EXPECT_GT(object.contact.strongest, 0.0);
         EXPECT_EQ(object.contact.obstacle, -1);
@@ -178,18 +178,18 @@ TEST(CHost, TakesWhatBodiesMetIntoObjectsOfTheHost) {
         EXPECT_EQ(object.own, 7.0);
     }
     samara_contact again;
-    ASSERT_EQ(CALL(samara_take_contacts, simulation.get(), 1, 1, &again, 0), SAMARA_OK) << fault.text();
+    ASSERT_EQ(CALL(samara_take_contacts, simulation.get(), 1, 1, &again, 0), SAMARA_OK) << error.text();
     EXPECT_EQ(again.strongest, 0.0);
     EXPECT_EQ(again.at_rest, 1);
 }
 
 TEST(CHost, GivesTheFluidLoadOfTheFlight) {
     const BodyOnDisk body;
-    const SimulationPointer simulation = simulation_of(body, rubber_kind());
+    const SimulationPointer simulation = simulation_of(body, rubber_group());
     poses_at(simulation, 0.1);
     samara_fluid_load load;
-    Text fault;
-    ASSERT_EQ(CALL(samara_get_fluid_load, simulation.get(), 0, &load), SAMARA_OK) << fault.text();
+    Text error;
+    ASSERT_EQ(CALL(samara_get_fluid_load, simulation.get(), 0, &load), SAMARA_OK) << error.text();
     for (std::size_t row = 0; row < 6; ++row) {
         for (std::size_t column = 0; column < 6; ++column) {
             EXPECT_NEAR(load.added_inertia[6 * row + column], load.added_inertia[6 * column + row], 1e-15);
@@ -203,21 +203,21 @@ TEST(CHost, GivesTheFluidLoadOfTheFlight) {
 TEST(CHost, LetsBodiesMeetAndSaysWhichWasMet) {
     const BodyOnDisk body;
     samara_settings settings = default_settings();
-    settings.bodies_meet = 1;
+    settings.bodies_collide = 1;
     settings.gravity[2] = 0.0;
-    const SimulationPointer simulation = simulation_of(body, ideal_kind(), settings);
-    samara_kind striking = ideal_kind();
+    const SimulationPointer simulation = simulation_of(body, ideal_group(), settings);
+    samara_body_group striking = ideal_group();
     striking.name = "striking";
     striking.position[2] = 0.1;
     striking.velocity[2] = -0.5;
-    Text fault;
+    Text error;
     ASSERT_EQ(CALL(samara_simulation_add, simulation.get(), body.get(), &striking, nullptr), SAMARA_OK)
-        << fault.text();
-    ASSERT_EQ(CALL(samara_watch_contacts, simulation.get(), 1), SAMARA_OK) << fault.text();
+        << error.text();
+    ASSERT_EQ(CALL(samara_watch_contacts, simulation.get(), 1), SAMARA_OK) << error.text();
     poses_at(simulation, 1.0);
     std::array<samara_contact, 2> contacts{};
     ASSERT_EQ(CALL(samara_take_contacts, simulation.get(), 0, 2, contacts.data(), 0), SAMARA_OK)
-        << fault.text();
+        << error.text();
     EXPECT_EQ(contacts[0].obstacle, -2 - 1);
     EXPECT_EQ(contacts[1].obstacle, -2 - 0);
     EXPECT_LT(contacts[0].impulse[2], 0.0);
@@ -226,44 +226,44 @@ TEST(CHost, LetsBodiesMeetAndSaysWhichWasMet) {
 
 TEST(CHost, RefusesWhatIsNoForceBodyOrPlace) {
     const BodyOnDisk body;
-    const SimulationPointer simulation = simulation_of(body, rubber_kind());
+    const SimulationPointer simulation = simulation_of(body, rubber_group());
     samara_simulation* s = simulation.get();
-    Text fault;
-    const auto expect_refused = [&](samara_status status, const std::string& why) {
+    Text error;
+    const auto expect_rejected = [&](samara_status status, const std::string& why) {
         EXPECT_EQ(status, SAMARA_INVALID_ARGUMENT);
-        EXPECT_THAT(fault.text(), HasSubstr(why));
+        EXPECT_THAT(error.text(), HasSubstr(why));
     };
     const std::string before = state_of(simulation);
     const double good[3] = {1.0, 0.0, 0.0};
     const double bad[3] = {0.0, not_a_number, 0.0};
-    expect_refused(CALL(samara_add_force, s, 1, good, nullptr), "body is 1, but there are 1");
-    expect_refused(CALL(samara_add_force, s, 0, bad, nullptr), "force");
-    expect_refused(CALL(samara_add_force, s, 0, good, bad), "point");
-    expect_refused(CALL(samara_add_force, s, 0, nullptr, nullptr), "force");
-    expect_refused(CALL(samara_add_force, nullptr, 0, good, nullptr), "simulation");
-    expect_refused(CALL(samara_add_moment, s, 0, bad), "moment");
-    expect_refused(CALL(samara_add_impulse, s, 0, bad, nullptr), "impulse");
-    expect_refused(CALL(samara_add_angular_impulse, s, 0, bad), "angular_impulse");
-    expect_refused(CALL(samara_remove, s, 0, 2), "bodies 0 to 2 are asked for, but there are 1");
-    expect_refused(CALL(samara_get_sizes, s, 0, 1, nullptr), "sizes");
-    expect_refused(CALL(samara_take_contacts, s, 0, 1, nullptr, 0), "contacts");
+    expect_rejected(CALL(samara_add_force, s, 1, good, nullptr), "body is 1, but there are 1");
+    expect_rejected(CALL(samara_add_force, s, 0, bad, nullptr), "force");
+    expect_rejected(CALL(samara_add_force, s, 0, good, bad), "point");
+    expect_rejected(CALL(samara_add_force, s, 0, nullptr, nullptr), "force");
+    expect_rejected(CALL(samara_add_force, nullptr, 0, good, nullptr), "simulation");
+    expect_rejected(CALL(samara_add_moment, s, 0, bad), "moment");
+    expect_rejected(CALL(samara_add_impulse, s, 0, bad, nullptr), "impulse");
+    expect_rejected(CALL(samara_add_angular_impulse, s, 0, bad), "angular_impulse");
+    expect_rejected(CALL(samara_remove, s, 0, 2), "bodies 0 to 2 are asked for, but there are 1");
+    expect_rejected(CALL(samara_get_sizes, s, 0, 1, nullptr), "sizes");
+    expect_rejected(CALL(samara_take_contacts, s, 0, 1, nullptr, 0), "contacts");
     samara_contact contact;
-    expect_refused(CALL(samara_take_contacts, s, 0, 1, &contact, 50), "stride is 50");
-    expect_refused(CALL(samara_take_contacts, s, 0, 1, &contact, 0), "call watch_contacts");
-    expect_refused(CALL(samara_get_mass_properties, s, 0, nullptr), "properties");
-    expect_refused(CALL(samara_get_fluid_load, s, 0, nullptr), "load");
-    samara_kind kind = rubber_kind(2);
-    kind.smallest_size = 0.0;
-    expect_refused(CALL(samara_simulation_add, s, body.get(), &kind, nullptr), "smallest_size");
-    kind.smallest_size = 2.0;
-    expect_refused(CALL(samara_simulation_add, s, body.get(), &kind, nullptr), "below smallest_size");
-    kind = rubber_kind(1);
-    kind.largest_size = 2.0;
-    expect_refused(CALL(samara_simulation_add, s, body.get(), &kind, nullptr), "count is 1");
+    expect_rejected(CALL(samara_take_contacts, s, 0, 1, &contact, 50), "stride is 50");
+    expect_rejected(CALL(samara_take_contacts, s, 0, 1, &contact, 0), "call watch_contacts");
+    expect_rejected(CALL(samara_get_mass_properties, s, 0, nullptr), "properties");
+    expect_rejected(CALL(samara_get_fluid_load, s, 0, nullptr), "load");
+    samara_body_group group = rubber_group(2);
+    group.smallest_size = 0.0;
+    expect_rejected(CALL(samara_simulation_add, s, body.get(), &group, nullptr), "smallest_size");
+    group.smallest_size = 2.0;
+    expect_rejected(CALL(samara_simulation_add, s, body.get(), &group, nullptr), "below smallest_size");
+    group = rubber_group(1);
+    group.largest_size = 2.0;
+    expect_rejected(CALL(samara_simulation_add, s, body.get(), &group, nullptr), "count is 1");
     EXPECT_EQ(state_of(simulation), before) << "a call that fails changes nothing";
     poses_at(simulation, 0.003);
     samara_fluid_load load;
-    expect_refused(CALL(samara_get_fluid_load, s, 0, &load), "lies within one");
+    expect_rejected(CALL(samara_get_fluid_load, s, 0, &load), "lies within one");
 }
 
 }  // namespace

@@ -39,14 +39,14 @@ TEST(CBody, TellsWhatItsFileHolds) {
     std::vector<std::int32_t> corners(3 * samara_body_triangle_count(body.get()));
     ASSERT_EQ(coordinates.size(), 3 * exact.surface.vertices.size());
     ASSERT_EQ(corners.size(), 3 * exact.surface.corners.size());
-    Text fault;
+    Text error;
     ASSERT_EQ(CALL(samara_body_get_vertices, body.get(), coordinates.data(), coordinates.size()), SAMARA_OK);
     ASSERT_EQ(CALL(samara_body_get_triangles, body.get(), corners.data(), corners.size()), SAMARA_OK);
     EXPECT_EQ(coordinates[3 * 5 + 1], exact.surface.vertices[5].y());
     EXPECT_EQ(corners[3 * 7 + 2], exact.surface.corners[7][2]);
     EXPECT_EQ(CALL(samara_body_get_vertices, body.get(), coordinates.data(), coordinates.size() - 1),
               SAMARA_INVALID_ARGUMENT);
-    EXPECT_THAT(fault.text(), HasSubstr("capacity"));
+    EXPECT_THAT(error.text(), HasSubstr("capacity"));
 }
 
 TEST(CBody, RefusesFilesThatAreMissingCutShortForeignOrFromANewerVersion) {
@@ -54,25 +54,25 @@ TEST(CBody, RefusesFilesThatAreMissingCutShortForeignOrFromANewerVersion) {
     const test::TemporaryFolder folder;
     const std::string whole = read_bytes(body.file());
     samara_body* loaded = nullptr;
-    Text fault;
-    const auto refused = [&](const std::filesystem::path& file) {
-        loaded = reinterpret_cast<samara_body*>(&fault);
+    Text error;
+    const auto rejected = [&](const std::filesystem::path& file) {
+        loaded = reinterpret_cast<samara_body*>(&error);
         const samara_status status = CALL(samara_body_load, file.c_str(), &loaded);
         EXPECT_EQ(loaded, nullptr);
-        EXPECT_THAT(fault.text(), AllOf(HasSubstr(file.filename().string()), Not(HasSubstr("\n"))));
+        EXPECT_THAT(error.text(), AllOf(HasSubstr(file.filename().string()), Not(HasSubstr("\n"))));
         return status == SAMARA_UNREADABLE_FILE;
     };
-    EXPECT_TRUE(refused(folder.path() / "missing.body.h5"));
-    EXPECT_TRUE(refused(folder.file("short.body.h5", whole.substr(0, whole.size() / 2))));
-    EXPECT_TRUE(refused(folder.file("text.body.h5", "no HDF5")));
-    EXPECT_TRUE(refused(folder.path()));
+    EXPECT_TRUE(rejected(folder.path() / "missing.body.h5"));
+    EXPECT_TRUE(rejected(folder.file("short.body.h5", whole.substr(0, whole.size() / 2))));
+    EXPECT_TRUE(rejected(folder.file("text.body.h5", "no HDF5")));
+    EXPECT_TRUE(rejected(folder.path()));
     write_hdf5(folder.path() / "newer.body.h5", [](Hdf5Writer& file) {
         file.attribute("/", "format_version", std::int64_t{1000});
         file.attribute("/surface", "source", std::string_view("x"));
         file.attribute("/moments", "volume", 1.0);
     });
-    EXPECT_TRUE(refused(folder.path() / "newer.body.h5"));
-    EXPECT_THAT(fault.text(), HasSubstr("newer"));
+    EXPECT_TRUE(rejected(folder.path() / "newer.body.h5"));
+    EXPECT_THAT(error.text(), HasSubstr("newer"));
 }
 
 TEST(CInterface, TheExampleOfTheDocumentationRuns) {
@@ -92,9 +92,9 @@ TEST(CInterface, TheExampleOfTheDocumentationRuns) {
 
 TEST(CInterface, NullPointersAreRefused) {
     const BodyOnDisk body;
-    const SimulationPointer simulation = simulation_of(body, rubber_kind());
+    const SimulationPointer simulation = simulation_of(body, rubber_group());
     const samara_settings settings = default_settings();
-    const samara_kind kind = rubber_kind();
+    const samara_body_group group = rubber_group();
     samara_body* loaded = nullptr;
     samara_simulation* created = nullptr;
     samara_pose pose{};
@@ -103,34 +103,34 @@ TEST(CInterface, NullPointersAreRefused) {
     std::int32_t corner = 0;
     samara_report report{};
     report.size = sizeof report;
-    Text fault;
-    const samara_status refused = SAMARA_INVALID_ARGUMENT;
-    EXPECT_EQ(CALL(samara_body_load, nullptr, &loaded), refused);
-    EXPECT_EQ(CALL(samara_body_load, body.file().c_str(), nullptr), refused);
-    EXPECT_EQ(CALL(samara_body_get_vertices, nullptr, &number, 1), refused);
-    EXPECT_EQ(CALL(samara_body_get_vertices, body.get(), nullptr, 1), refused);
-    EXPECT_EQ(CALL(samara_body_get_triangles, nullptr, &corner, 1), refused);
-    EXPECT_EQ(CALL(samara_body_get_triangles, body.get(), nullptr, 1), refused);
-    EXPECT_EQ(CALL(samara_default_settings, nullptr, sizeof settings), refused);
-    EXPECT_EQ(CALL(samara_default_kind, nullptr, sizeof kind), refused);
-    EXPECT_EQ(CALL(samara_simulation_create, nullptr, &created), refused);
-    EXPECT_EQ(CALL(samara_simulation_create, &settings, nullptr), refused);
-    EXPECT_EQ(CALL(samara_simulation_add, nullptr, body.get(), &kind, nullptr), refused);
-    EXPECT_EQ(CALL(samara_simulation_add, simulation.get(), nullptr, &kind, nullptr), refused);
-    EXPECT_EQ(CALL(samara_simulation_add, simulation.get(), body.get(), nullptr, nullptr), refused);
-    EXPECT_EQ(CALL(samara_advance_to, nullptr, 1.0), refused);
-    EXPECT_EQ(CALL(samara_get_poses, nullptr, 0, 1, &pose, 0), refused);
-    EXPECT_EQ(CALL(samara_get_poses, simulation.get(), 0, 1, nullptr, 0), refused);
-    EXPECT_EQ(CALL(samara_set_poses, nullptr, 0, 1, &pose, 0), refused);
-    EXPECT_EQ(CALL(samara_set_poses, simulation.get(), 0, 1, nullptr, 0), refused);
-    EXPECT_EQ(CALL(samara_set_seed, nullptr, 1, 1), refused);
-    EXPECT_EQ(CALL(samara_get_state, nullptr, &byte, 1), refused);
-    EXPECT_EQ(CALL(samara_get_state, simulation.get(), nullptr, 1), refused);
-    EXPECT_EQ(CALL(samara_set_state, nullptr, &byte, 1), refused);
-    EXPECT_EQ(CALL(samara_set_state, simulation.get(), nullptr, 1), refused);
-    EXPECT_EQ(CALL(samara_get_report, nullptr, &report), refused);
-    EXPECT_EQ(CALL(samara_get_report, simulation.get(), nullptr), refused);
-    EXPECT_THAT(fault.text(), HasSubstr("null"));
+    Text error;
+    const samara_status rejected = SAMARA_INVALID_ARGUMENT;
+    EXPECT_EQ(CALL(samara_body_load, nullptr, &loaded), rejected);
+    EXPECT_EQ(CALL(samara_body_load, body.file().c_str(), nullptr), rejected);
+    EXPECT_EQ(CALL(samara_body_get_vertices, nullptr, &number, 1), rejected);
+    EXPECT_EQ(CALL(samara_body_get_vertices, body.get(), nullptr, 1), rejected);
+    EXPECT_EQ(CALL(samara_body_get_triangles, nullptr, &corner, 1), rejected);
+    EXPECT_EQ(CALL(samara_body_get_triangles, body.get(), nullptr, 1), rejected);
+    EXPECT_EQ(CALL(samara_default_settings, nullptr, sizeof settings), rejected);
+    EXPECT_EQ(CALL(samara_default_body_group, nullptr, sizeof group), rejected);
+    EXPECT_EQ(CALL(samara_simulation_create, nullptr, &created), rejected);
+    EXPECT_EQ(CALL(samara_simulation_create, &settings, nullptr), rejected);
+    EXPECT_EQ(CALL(samara_simulation_add, nullptr, body.get(), &group, nullptr), rejected);
+    EXPECT_EQ(CALL(samara_simulation_add, simulation.get(), nullptr, &group, nullptr), rejected);
+    EXPECT_EQ(CALL(samara_simulation_add, simulation.get(), body.get(), nullptr, nullptr), rejected);
+    EXPECT_EQ(CALL(samara_advance_to, nullptr, 1.0), rejected);
+    EXPECT_EQ(CALL(samara_get_poses, nullptr, 0, 1, &pose, 0), rejected);
+    EXPECT_EQ(CALL(samara_get_poses, simulation.get(), 0, 1, nullptr, 0), rejected);
+    EXPECT_EQ(CALL(samara_set_poses, nullptr, 0, 1, &pose, 0), rejected);
+    EXPECT_EQ(CALL(samara_set_poses, simulation.get(), 0, 1, nullptr, 0), rejected);
+    EXPECT_EQ(CALL(samara_set_seed, nullptr, 1, 1), rejected);
+    EXPECT_EQ(CALL(samara_get_state, nullptr, &byte, 1), rejected);
+    EXPECT_EQ(CALL(samara_get_state, simulation.get(), nullptr, 1), rejected);
+    EXPECT_EQ(CALL(samara_set_state, nullptr, &byte, 1), rejected);
+    EXPECT_EQ(CALL(samara_set_state, simulation.get(), nullptr, 1), rejected);
+    EXPECT_EQ(CALL(samara_get_report, nullptr, &report), rejected);
+    EXPECT_EQ(CALL(samara_get_report, simulation.get(), nullptr), rejected);
+    EXPECT_THAT(error.text(), HasSubstr("null"));
     samara_body_free(nullptr);
     samara_simulation_free(nullptr);
     EXPECT_STREQ(samara_body_name(nullptr), "");
@@ -169,20 +169,20 @@ TEST(CInterface, ErrorTextsFitAnyBuffer) {
 
 TEST(CInterface, StructsOfOtherVersionsAreKnownByTheirSize) {
     samara_settings settings;
-    Text fault;
+    Text error;
     EXPECT_EQ(CALL(samara_default_settings, &settings, sizeof settings + 8), SAMARA_INVALID_ARGUMENT);
     settings = default_settings();
     samara_simulation* simulation = nullptr;
     for (const std::size_t size : {std::size_t{0}, std::size_t{8}, sizeof settings + 8}) {
         settings.size = size;
         EXPECT_EQ(CALL(samara_simulation_create, &settings, &simulation), SAMARA_INVALID_ARGUMENT);
-        EXPECT_THAT(fault.text(), HasSubstr("samara_default_settings"));
+        EXPECT_THAT(error.text(), HasSubstr("samara_default_settings"));
         EXPECT_EQ(simulation, nullptr);
     }
     const BodyOnDisk body;
-    samara_kind kind = rubber_kind();
-    kind.size = 0;
-    EXPECT_EQ(CALL(samara_simulation_add, empty_simulation().get(), body.get(), &kind, nullptr),
+    samara_body_group group = rubber_group();
+    group.size = 0;
+    EXPECT_EQ(CALL(samara_simulation_add, empty_simulation().get(), body.get(), &group, nullptr),
               SAMARA_INVALID_ARGUMENT);
     EXPECT_GE(samara_api_version(), SAMARA_API_VERSION);
     EXPECT_STRNE(samara_version(), "");
@@ -206,64 +206,64 @@ TEST(CInterface, SettingsOutOfRangeAreRefusedByName) {
         samara_settings settings = default_settings();
         change(settings);
         samara_simulation* simulation = nullptr;
-        Text fault;
+        Text error;
         EXPECT_EQ(CALL(samara_simulation_create, &settings, &simulation), SAMARA_INVALID_ARGUMENT) << member;
-        EXPECT_THAT(fault.text(), testing::StartsWith(member));
+        EXPECT_THAT(error.text(), testing::StartsWith(member));
     }
 }
 
 TEST(CInterface, KindsOutOfRangeAreRefusedByName) {
-    using Change = void (*)(samara_kind&);
+    using Change = void (*)(samara_body_group&);
     const std::vector<std::pair<const char*, Change>> changes = {
-        {"name", [](samara_kind& k) { k.name = "a b"; }},
-        {"count", [](samara_kind& k) { k.count = 0; }},
-        {"count", [](samara_kind& k) { k.count = 4'000'000'000; }},
-        {"count is 1, but spread_position", [](samara_kind& k) { k.spread_position[1] = 0.1; }},
-        {"count is 1, but spread_position", [](samara_kind& k) { k.spread_angle = 0.1; }},
-        {"count is 1, but spread_position", [](samara_kind& k) { k.spread_start = 0.1; }},
-        {"density", [](samara_kind& k) { k.density = not_a_number; }},
-        {"density", [](samara_kind& k) { k.density = 0.0; }},
-        {"density", [](samara_kind& k) { k.mass = 1.0; }},
-        {"center_of_mass", [](samara_kind& k) { k.has_center_of_mass = 1; }},
-        {"inertia", [](samara_kind& k) { k.inertia[4] = not_a_number; }},
-        {"inertia", [](samara_kind& k) { k.inertia[1] = 1.0; }},
-        {"position", [](samara_kind& k) { k.position[0] = not_a_number; }},
-        {"orientation", [](samara_kind& k) { k.orientation[0] = k.orientation[2] = 0.0; }},
-        {"orientation", [](samara_kind& k) { k.orientation[3] = not_a_number; }},
-        {"velocity", [](samara_kind& k) { k.velocity[0] = not_a_number; }},
-        {"angular_velocity", [](samara_kind& k) { k.angular_velocity[0] = not_a_number; }},
-        {"start", [](samara_kind& k) { k.start = -1.0; }},
-        {"spread_position", [](samara_kind& k) { k.spread_position[0] = not_a_number; }},
-        {"spread_angle", [](samara_kind& k) { k.spread_angle = 4.0; }},
-        {"loads", [](samara_kind& k) { k.loads = 4; }},
-        {"drag_coefficient", [](samara_kind& k) { k.drag_coefficient = -1.0; }},
-        {"lift_coefficient", [](samara_kind& k) { k.lift_coefficient = not_a_number; }},
-        {"reference_area", [](samara_kind& k) { k.reference_area = -1.0; }},
-        {"normal", [](samara_kind& k) { k.normal[0] = not_a_number; }},
-        {"center_of_pressure", [](samara_kind& k) { k.center_of_pressure[0] = not_a_number; }},
-        {"turbulence", [](samara_kind& k) { k.turbulence = -1; }},
+        {"name", [](samara_body_group& k) { k.name = "a b"; }},
+        {"count", [](samara_body_group& k) { k.count = 0; }},
+        {"count", [](samara_body_group& k) { k.count = 4'000'000'000; }},
+        {"count is 1, but spread_position", [](samara_body_group& k) { k.spread_position[1] = 0.1; }},
+        {"count is 1, but spread_position", [](samara_body_group& k) { k.spread_angle = 0.1; }},
+        {"count is 1, but spread_position", [](samara_body_group& k) { k.spread_start = 0.1; }},
+        {"density", [](samara_body_group& k) { k.density = not_a_number; }},
+        {"density", [](samara_body_group& k) { k.density = 0.0; }},
+        {"density", [](samara_body_group& k) { k.mass = 1.0; }},
+        {"center_of_mass", [](samara_body_group& k) { k.has_center_of_mass = 1; }},
+        {"inertia", [](samara_body_group& k) { k.inertia[4] = not_a_number; }},
+        {"inertia", [](samara_body_group& k) { k.inertia[1] = 1.0; }},
+        {"position", [](samara_body_group& k) { k.position[0] = not_a_number; }},
+        {"orientation", [](samara_body_group& k) { k.orientation[0] = k.orientation[2] = 0.0; }},
+        {"orientation", [](samara_body_group& k) { k.orientation[3] = not_a_number; }},
+        {"velocity", [](samara_body_group& k) { k.velocity[0] = not_a_number; }},
+        {"angular_velocity", [](samara_body_group& k) { k.angular_velocity[0] = not_a_number; }},
+        {"start", [](samara_body_group& k) { k.start = -1.0; }},
+        {"spread_position", [](samara_body_group& k) { k.spread_position[0] = not_a_number; }},
+        {"spread_angle", [](samara_body_group& k) { k.spread_angle = 4.0; }},
+        {"loads", [](samara_body_group& k) { k.loads = 4; }},
+        {"drag_coefficient", [](samara_body_group& k) { k.drag_coefficient = -1.0; }},
+        {"lift_coefficient", [](samara_body_group& k) { k.lift_coefficient = not_a_number; }},
+        {"reference_area", [](samara_body_group& k) { k.reference_area = -1.0; }},
+        {"normal", [](samara_body_group& k) { k.normal[0] = not_a_number; }},
+        {"center_of_pressure", [](samara_body_group& k) { k.center_of_pressure[0] = not_a_number; }},
+        {"turbulence", [](samara_body_group& k) { k.turbulence = -1; }},
         {"dissipation_rate",
-         [](samara_kind& k) {
+         [](samara_body_group& k) {
              k.turbulence = SAMARA_TURBULENCE_CONSTANT;
              k.turbulent_kinetic_energy = 1.0;
          }},
-        {"langevin", [](samara_kind& k) { k.langevin = 3; }},
-        {"table_reynolds_number", [](samara_kind& k) { k.table_reynolds_number = -1.0; }},
-        {"table_reynolds_number", [](samara_kind& k) { k.table_reynolds_number = not_a_number; }},
-        {"dynamic_coefficients", [](samara_kind& k) { k.dynamic_coefficients = 3; }},
-        {"patches", [](samara_kind& k) { k.patches = 0; }},
-        {"patches", [](samara_kind& k) { k.patches = 33; }},
+        {"langevin", [](samara_body_group& k) { k.langevin = 3; }},
+        {"table_reynolds_number", [](samara_body_group& k) { k.table_reynolds_number = -1.0; }},
+        {"table_reynolds_number", [](samara_body_group& k) { k.table_reynolds_number = not_a_number; }},
+        {"dynamic_coefficients", [](samara_body_group& k) { k.dynamic_coefficients = 3; }},
+        {"patches", [](samara_body_group& k) { k.patches = 0; }},
+        {"patches", [](samara_body_group& k) { k.patches = 33; }},
     };
     const BodyOnDisk body;
     const SimulationPointer simulation = empty_simulation();
     for (const auto& [member, change] : changes) {
-        samara_kind kind = rubber_kind();
-        change(kind);
-        Text fault;
-        EXPECT_EQ(CALL(samara_simulation_add, simulation.get(), body.get(), &kind, nullptr),
+        samara_body_group group = rubber_group();
+        change(group);
+        Text error;
+        EXPECT_EQ(CALL(samara_simulation_add, simulation.get(), body.get(), &group, nullptr),
                   SAMARA_INVALID_ARGUMENT)
             << member;
-        EXPECT_THAT(fault.text(), testing::StartsWith(member));
+        EXPECT_THAT(error.text(), testing::StartsWith(member));
     }
     EXPECT_EQ(samara_simulation_count(simulation.get()), 0U);
 }
@@ -275,29 +275,30 @@ TEST(CInterface, ABodyThatLacksWhatIsAskedOfItIsRefused) {
     bare.kirchhoff.reset();
     const BodyOnDisk without_added_mass(bare);
     const SimulationPointer simulation = empty_simulation();
-    samara_kind kind = rubber_kind();
-    Text fault;
-    EXPECT_EQ(CALL(samara_simulation_add, simulation.get(), without_tables.get(), &kind, nullptr),
+    samara_body_group group = rubber_group();
+    Text error;
+    EXPECT_EQ(CALL(samara_simulation_add, simulation.get(), without_tables.get(), &group, nullptr),
               SAMARA_MISSING_DATA);
-    EXPECT_THAT(fault.text(), HasSubstr("samara bake"));
-    kind.loads = SAMARA_LOADS_SURFACE;
-    EXPECT_EQ(CALL(samara_simulation_add, simulation.get(), without_tables.get(), &kind, nullptr),
+    EXPECT_THAT(error.text(), HasSubstr("samara bake"));
+    group.loads = SAMARA_LOADS_SURFACE;
+    EXPECT_EQ(CALL(samara_simulation_add, simulation.get(), without_tables.get(), &group, nullptr),
               SAMARA_MISSING_DATA);
-    EXPECT_THAT(fault.text(), HasSubstr("holds no surface loads"));
-    kind.loads = SAMARA_LOADS_NONE;
-    EXPECT_EQ(CALL(samara_simulation_add, simulation.get(), without_added_mass.get(), &kind, nullptr),
+    EXPECT_THAT(error.text(), HasSubstr("holds no surface loads"));
+    group.loads = SAMARA_LOADS_NONE;
+    EXPECT_EQ(CALL(samara_simulation_add, simulation.get(), without_added_mass.get(), &group, nullptr),
               SAMARA_MISSING_DATA);
-    EXPECT_THAT(fault.text(), HasSubstr("samara kirchhoff"));
-    EXPECT_EQ(CALL(samara_simulation_add, simulation.get(), without_tables.get(), &kind, nullptr), SAMARA_OK);
-    kind = rubber_kind();
-    kind.density = 0.0;
-    kind.mass = 0.04;
-    for (const int i : {0, 4, 8}) kind.inertia[i] = i == 8 ? 1.0 : 0.1;
-    kind.name = "impossible";
-    kind.loads = SAMARA_LOADS_NONE;
-    EXPECT_EQ(CALL(samara_simulation_add, simulation.get(), without_tables.get(), &kind, nullptr),
+    EXPECT_THAT(error.text(), HasSubstr("samara kirchhoff"));
+    EXPECT_EQ(CALL(samara_simulation_add, simulation.get(), without_tables.get(), &group, nullptr),
+              SAMARA_OK);
+    group = rubber_group();
+    group.density = 0.0;
+    group.mass = 0.04;
+    for (const int i : {0, 4, 8}) group.inertia[i] = i == 8 ? 1.0 : 0.1;
+    group.name = "impossible";
+    group.loads = SAMARA_LOADS_NONE;
+    EXPECT_EQ(CALL(samara_simulation_add, simulation.get(), without_tables.get(), &group, nullptr),
               SAMARA_INVALID_ARGUMENT);
-    EXPECT_THAT(fault.text(), HasSubstr("moments of inertia"));
+    EXPECT_THAT(error.text(), HasSubstr("moments of inertia"));
 }
 
 }  // namespace

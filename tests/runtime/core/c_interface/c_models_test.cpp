@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "c_interface_calls.hpp"
-#include "samara/scene/simulation.hpp"
+#include "samara/scene/scene_simulation.hpp"
 
 namespace samara {
 namespace {
@@ -22,32 +22,33 @@ using testing::StartsWith;
 
 struct Models {
     const char* name;
-    std::function<void(samara_kind&)> of_kind;
+    std::function<void(samara_body_group&)> of_kind;
     std::function<void(SceneBody&)> of_scene;
 };
 
 const std::vector<Models>& models() {
     static const std::vector<Models> all = {
-        {"all of them", [](samara_kind&) {}, [](SceneBody&) {}},
-        {"no added mass", [](samara_kind& kind) { kind.added_mass = 0; },
+        {"all of them", [](samara_body_group&) {}, [](SceneBody&) {}},
+        {"no added mass", [](samara_body_group& group) { group.added_mass = 0; },
          [](SceneBody& body) { body.added_mass = false; }},
         {"coefficients by default",
-         [](samara_kind& kind) { kind.dynamic_coefficients = SAMARA_DYNAMIC_DEFAULT; },
+         [](samara_body_group& group) { group.dynamic_coefficients = SAMARA_DYNAMIC_DEFAULT; },
          [](SceneBody& body) { body.dynamic = Dynamic::by_default; }},
         {"a steady tow's loads alone",
-         [](samara_kind& kind) { kind.dynamic_coefficients = SAMARA_DYNAMIC_NONE; },
+         [](samara_body_group& group) { group.dynamic_coefficients = SAMARA_DYNAMIC_NONE; },
          [](SceneBody& body) { body.dynamic = Dynamic::none; }},
-        {"one Reynolds number", [](samara_kind& kind) { kind.table_reynolds_number = 1e5; },
+        {"one Reynolds number", [](samara_body_group& group) { group.table_reynolds_number = 1e5; },
          [](SceneBody& body) { body.table_reynolds_number = 1e5; }},
-        {"patches", [](samara_kind& kind) { kind.patches = 8; }, [](SceneBody& body) { body.patches = 8; }},
+        {"patches", [](samara_body_group& group) { group.patches = 8; },
+         [](SceneBody& body) { body.patches = 8; }},
     };
     return all;
 }
 
 std::vector<samara_pose> flown(const BodyOnDisk& body, const Models& given) {
-    samara_kind kind = rubber_kind();
-    given.of_kind(kind);
-    return poses_at(simulation_of(body, kind), 0.5);
+    samara_body_group group = rubber_group();
+    given.of_kind(group);
+    return poses_at(simulation_of(body, group), 0.5);
 }
 
 TEST(CModels, FlyAsTheSameKeysOfASceneDo) {
@@ -55,14 +56,14 @@ TEST(CModels, FlyAsTheSameKeysOfASceneDo) {
     const BodyOnDisk on_disk(rubber);
     for (const Models& given : models()) {
         SCOPED_TRACE(given.name);
-        const samara_kind kind = rubber_kind();
+        const samara_body_group group = rubber_group();
         Scene scene;
         scene.duration = 0.5;
         scene.frame_rate = 2.0;
-        SceneBody body = test::scene_body(kind.density);
+        SceneBody body = test::scene_body(group.density);
         body.name = rubber.name;
         body.turbulence = Turbulence::table;
-        const auto& q = kind.orientation;
+        const auto& q = group.orientation;
         body.orientation = Quaterniond(q[0], q[1], q[2], q[3]);
         given.of_scene(body);
         scene.bodies.push_back(body);
@@ -81,12 +82,12 @@ TEST(CModels, EachIsAnotherMotionAndItsStateIsOfNoOther) {
     std::vector<std::vector<samara_pose>> motions;
     std::vector<std::string> states;
     for (const Models& given : models()) {
-        samara_kind kind = rubber_kind();
-        given.of_kind(kind);
-        const SimulationPointer simulation = simulation_of(body, kind);
-        Text fault;
+        samara_body_group group = rubber_group();
+        given.of_kind(group);
+        const SimulationPointer simulation = simulation_of(body, group);
+        Text error;
         for (const std::string& other : states) {
-            EXPECT_EQ(set_state(simulation, other, fault), SAMARA_FOREIGN_STATE) << given.name;
+            EXPECT_EQ(set_state(simulation, other, error), SAMARA_FOREIGN_STATE) << given.name;
         }
         motions.push_back(poses_at(simulation, 0.5));
         states.push_back(state_of(simulation));
@@ -101,41 +102,41 @@ TEST(CModels, WithoutAddedMassABodyFileWithoutItFlies) {
     bare.kirchhoff.reset();
     const BodyOnDisk body(bare);
     EXPECT_EQ(samara_body_has_added_mass(body.get()), 0);
-    samara_kind kind = rubber_kind();
-    Text fault;
-    EXPECT_EQ(CALL(samara_simulation_add, empty_simulation().get(), body.get(), &kind, nullptr),
+    samara_body_group group = rubber_group();
+    Text error;
+    EXPECT_EQ(CALL(samara_simulation_add, empty_simulation().get(), body.get(), &group, nullptr),
               SAMARA_MISSING_DATA);
-    EXPECT_THAT(fault.text(), AllOf(HasSubstr("samara kirchhoff"), HasSubstr("added_mass to 0")));
-    kind.added_mass = 0;
-    EXPECT_LT(poses_at(simulation_of(body, kind), 0.5)[0].position[2], -0.02);
+    EXPECT_THAT(error.text(), AllOf(HasSubstr("samara kirchhoff"), HasSubstr("added_mass to 0")));
+    group.added_mass = 0;
+    EXPECT_LT(poses_at(simulation_of(body, group), 0.5)[0].position[2], -0.02);
 }
 
 TEST(CModels, AReynoldsNumberForTablesThatAreNotReadIsRefused) {
     const BodyOnDisk body;
-    samara_kind kind = rubber_kind();
-    kind.table_reynolds_number = 1e4;
-    kind.loads = SAMARA_LOADS_COEFFICIENTS;
-    Text fault;
-    EXPECT_EQ(CALL(samara_simulation_add, empty_simulation().get(), body.get(), &kind, nullptr),
+    samara_body_group group = rubber_group();
+    group.table_reynolds_number = 1e4;
+    group.loads = SAMARA_LOADS_COEFFICIENTS;
+    Text error;
+    EXPECT_EQ(CALL(samara_simulation_add, empty_simulation().get(), body.get(), &group, nullptr),
               SAMARA_INVALID_ARGUMENT);
-    EXPECT_THAT(fault.text(), StartsWith("table_reynolds_number is for loads or turbulence from the table"));
-    kind.turbulence = SAMARA_TURBULENCE_TABLE;
-    (void)simulation_of(body, kind);
+    EXPECT_THAT(error.text(), StartsWith("table_reynolds_number is for loads or turbulence from the table"));
+    group.turbulence = SAMARA_TURBULENCE_TABLE;
+    (void)simulation_of(body, group);
 }
 
 TEST(CModels, ACallerOfVersion1FliesWithAllOfThem) {
     const BodyOnDisk body(rubber_with_own_coefficients());
-    constexpr std::size_t size_of_version_1 = offsetof(samara_kind, table_reynolds_number);
-    samara_kind kind;
-    Text fault;
-    ASSERT_EQ(CALL(samara_default_kind, &kind, size_of_version_1), SAMARA_OK) << fault.text();
-    const samara_kind now = rubber_kind();
-    std::memcpy(reinterpret_cast<char*>(&kind) + sizeof kind.size,
+    constexpr std::size_t size_of_version_1 = offsetof(samara_body_group, table_reynolds_number);
+    samara_body_group group;
+    Text error;
+    ASSERT_EQ(CALL(samara_default_body_group, &group, size_of_version_1), SAMARA_OK) << error.text();
+    const samara_body_group now = rubber_group();
+    std::memcpy(reinterpret_cast<char*>(&group) + sizeof group.size,
                 reinterpret_cast<const char*>(&now) + sizeof now.size, size_of_version_1 - sizeof now.size);
     // What lies in its padding and behind its struct is not read.
-    const std::size_t known = offsetof(samara_kind, langevin) + sizeof kind.langevin;
-    std::memset(reinterpret_cast<char*>(&kind) + known, 0x7f, sizeof kind - known);
-    EXPECT_TRUE(same_bytes(poses_at(simulation_of(body, kind), 0.5), flown(body, models()[0])));
+    const std::size_t known = offsetof(samara_body_group, langevin) + sizeof group.langevin;
+    std::memset(reinterpret_cast<char*>(&group) + known, 0x7f, sizeof group - known);
+    EXPECT_TRUE(same_bytes(poses_at(simulation_of(body, group), 0.5), flown(body, models()[0])));
 }
 
 }  // namespace

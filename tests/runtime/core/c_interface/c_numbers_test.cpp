@@ -42,10 +42,10 @@ bool is_sound(const samara_pose& pose) {
 
 /// Looks at the poses now, and flies on; the statuses may refuse, but what is given out is sound.
 void expect_sound(const SimulationPointer& simulation, const std::string& what) {
-    Text fault;
+    Text error;
     for (const double time : {0.0, 0.001, 0.0055, 0.02}) {
         if (CALL(samara_advance_to, simulation.get(), time) != SAMARA_OK) {
-            EXPECT_FALSE(fault.text().empty()) << what;
+            EXPECT_FALSE(error.text().empty()) << what;
             return;
         }
         samara_pose pose;
@@ -70,7 +70,7 @@ std::vector<Member> members_of(samara_settings& s) {
             {"ground", &s.ground}};
 }
 
-std::vector<Member> members_of(samara_kind& k) {
+std::vector<Member> members_of(samara_body_group& k) {
     return {{"density", &k.density},
             {"mass", &k.mass},
             {"center_of_mass", &k.center_of_mass[0]},
@@ -92,21 +92,21 @@ std::vector<Member> members_of(samara_kind& k) {
             {"table_reynolds_number", &k.table_reynolds_number}};
 }
 
-samara_kind lively_kind(int variant) {
-    samara_kind kind = rubber_kind();
-    kind.count = 2;
-    kind.velocity[2] = 0.1;
-    kind.angular_velocity[0] = 1.0;
-    if (variant == 0) return kind;
-    kind.loads = SAMARA_LOADS_COEFFICIENTS;
-    kind.turbulence = SAMARA_TURBULENCE_CONSTANT;
-    kind.turbulent_kinetic_energy = 1e-4;
-    kind.dissipation_rate = 1e-3;
-    kind.density = 0.0;
-    kind.mass = 0.04;
-    kind.has_center_of_mass = 1;
-    for (const std::size_t diagonal : {0U, 4U, 8U}) kind.inertia[diagonal] = 1e-5;
-    return kind;
+samara_body_group settling_group(int variant) {
+    samara_body_group group = rubber_group();
+    group.count = 2;
+    group.velocity[2] = 0.1;
+    group.angular_velocity[0] = 1.0;
+    if (variant == 0) return group;
+    group.loads = SAMARA_LOADS_COEFFICIENTS;
+    group.turbulence = SAMARA_TURBULENCE_CONSTANT;
+    group.turbulent_kinetic_energy = 1e-4;
+    group.dissipation_rate = 1e-3;
+    group.density = 0.0;
+    group.mass = 0.04;
+    group.has_center_of_mass = 1;
+    for (const std::size_t diagonal : {0U, 4U, 8U}) group.inertia[diagonal] = 1e-5;
+    return group;
 }
 
 samara_settings lively_settings(int variant) {
@@ -126,15 +126,15 @@ TEST(CNumbers, OfSettingsAreRefusedOrFlown) {
             for (const double number : hard_numbers) {
                 *member.place = number;
                 const std::string what = fmt::format("{} = {}", member.name, number);
-                Text fault;
+                Text error;
                 samara_simulation* created = nullptr;
                 if (CALL(samara_simulation_create, &settings, &created) != SAMARA_OK) {
-                    EXPECT_THAT(fault.text(), testing::StartsWith(member.name)) << what;
+                    EXPECT_THAT(error.text(), testing::StartsWith(member.name)) << what;
                     continue;
                 }
                 const SimulationPointer simulation(created, samara_simulation_free);
-                const samara_kind kind = lively_kind(variant);
-                if (CALL(samara_simulation_add, created, body.get(), &kind, nullptr) == SAMARA_OK) {
+                const samara_body_group group = settling_group(variant);
+                if (CALL(samara_simulation_add, created, body.get(), &group, nullptr) == SAMARA_OK) {
                     expect_sound(simulation, what);
                 }
             }
@@ -146,15 +146,15 @@ TEST(CNumbers, OfSettingsAreRefusedOrFlown) {
 TEST(CNumbers, OfKindsAreRefusedOrFlown) {
     const BodyOnDisk body;
     for (const int variant : {0, 1}) {
-        samara_kind kind = lively_kind(variant);
-        for (const Member& member : members_of(kind)) {
+        samara_body_group group = settling_group(variant);
+        for (const Member& member : members_of(group)) {
             const double before = *member.place;
             for (const double number : hard_numbers) {
                 *member.place = number;
                 const SimulationPointer simulation = empty_simulation(lively_settings(variant));
-                Text fault;
-                if (CALL(samara_simulation_add, simulation.get(), body.get(), &kind, nullptr) != SAMARA_OK) {
-                    EXPECT_FALSE(fault.text().empty());
+                Text error;
+                if (CALL(samara_simulation_add, simulation.get(), body.get(), &group, nullptr) != SAMARA_OK) {
+                    EXPECT_FALSE(error.text().empty());
                     EXPECT_EQ(samara_simulation_count(simulation.get()), 0U);
                     continue;
                 }
@@ -169,12 +169,12 @@ TEST(CNumbers, OfPosesAreRefusedOrFlown) {
     const BodyOnDisk body;
     for (int member = 0; member < 13; ++member) {
         for (const double number : hard_numbers) {
-            const SimulationPointer simulation = simulation_of(body, lively_kind(0));
+            const SimulationPointer simulation = simulation_of(body, settling_group(0));
             samara_pose pose = poses_of(simulation)[0];
             reinterpret_cast<double*>(&pose)[member] = number;
-            Text fault;
+            Text error;
             const samara_status status = CALL(samara_set_poses, simulation.get(), 0, 1, &pose, 0);
-            EXPECT_TRUE(status == SAMARA_OK || fault.text().find("body 0") != std::string::npos);
+            EXPECT_TRUE(status == SAMARA_OK || error.text().find("body 0") != std::string::npos);
             expect_sound(simulation, fmt::format("member {} = {}", member, number));
         }
     }
@@ -182,29 +182,29 @@ TEST(CNumbers, OfPosesAreRefusedOrFlown) {
 
 TEST(CNumbers, OfAnOrientationTooLongToMeasureAreRefused) {
     const BodyOnDisk body;
-    const SimulationPointer simulation = simulation_of(body, rubber_kind());
+    const SimulationPointer simulation = simulation_of(body, rubber_group());
     const std::vector<samara_pose> before = poses_of(simulation);
     samara_pose pose = before[0];
     pose.orientation[0] = 1e200;
-    Text fault;
+    Text error;
     EXPECT_EQ(CALL(samara_set_poses, simulation.get(), 0, 1, &pose, 0), SAMARA_INVALID_ARGUMENT);
-    EXPECT_THAT(fault.text(), HasSubstr("1e+200"));
+    EXPECT_THAT(error.text(), HasSubstr("1e+200"));
     EXPECT_TRUE(same_bytes(poses_of(simulation), before));
 }
 
 TEST(CNumbers, OfAStartThatIsNeverReachedAreRefused) {
     const BodyOnDisk body;
     const SimulationPointer simulation = empty_simulation();
-    samara_kind kind = rubber_kind();
-    Text fault;
+    samara_body_group group = rubber_group();
+    Text error;
     for (const double start : {1e308, 1e30, 2.1e7}) {
-        kind.start = start;
-        EXPECT_EQ(CALL(samara_simulation_add, simulation.get(), body.get(), &kind, nullptr),
+        group.start = start;
+        EXPECT_EQ(CALL(samara_simulation_add, simulation.get(), body.get(), &group, nullptr),
                   SAMARA_INVALID_ARGUMENT);
-        EXPECT_THAT(fault.text(), HasSubstr("start"));
+        EXPECT_THAT(error.text(), HasSubstr("start"));
     }
-    kind.start = 1e7;
-    EXPECT_EQ(CALL(samara_simulation_add, simulation.get(), body.get(), &kind, nullptr), SAMARA_OK);
+    group.start = 1e7;
+    EXPECT_EQ(CALL(samara_simulation_add, simulation.get(), body.get(), &group, nullptr), SAMARA_OK);
     EXPECT_TRUE(is_sound(poses_at(simulation, 1.0)[0]));
 }
 

@@ -10,7 +10,7 @@
 
 #include "c_interface_calls.hpp"
 #include "samara.h"
-#include "samara/scene/simulation.hpp"
+#include "samara/scene/scene_simulation.hpp"
 
 namespace samara {
 namespace {
@@ -27,16 +27,16 @@ double distance(const double (&a)[3], const Vector3d& b) {
 
 TEST(CSimulation, KindsHaveNamesOfTheirOwn) {
     const BodyOnDisk body;
-    const SimulationPointer simulation = simulation_of(body, rubber_kind(3));
-    samara_kind kind = rubber_kind(2);
+    const SimulationPointer simulation = simulation_of(body, rubber_group(3));
+    samara_body_group group = rubber_group(2);
     std::size_t first = 99;
-    Text fault;
-    EXPECT_EQ(CALL(samara_simulation_add, simulation.get(), body.get(), &kind, &first),
+    Text error;
+    EXPECT_EQ(CALL(samara_simulation_add, simulation.get(), body.get(), &group, &first),
               SAMARA_INVALID_ARGUMENT);
-    EXPECT_THAT(fault.text(), HasSubstr("'rubber' is taken"));
+    EXPECT_THAT(error.text(), HasSubstr("'rubber' is taken"));
     EXPECT_EQ(first, 99U);
-    kind.name = "other";
-    EXPECT_EQ(CALL(samara_simulation_add, simulation.get(), body.get(), &kind, &first), SAMARA_OK);
+    group.name = "other";
+    EXPECT_EQ(CALL(samara_simulation_add, simulation.get(), body.get(), &group, &first), SAMARA_OK);
     EXPECT_EQ(first, 3U);
     EXPECT_EQ(samara_simulation_count(simulation.get()), 5U);
 }
@@ -49,9 +49,9 @@ TEST(CSimulation, AnEmptyOneAdvances) {
 
 TEST(CSimulation, BodiesAndStridesOutOfRangeAreRefused) {
     const BodyOnDisk body;
-    const SimulationPointer simulation = simulation_of(body, rubber_kind(3));
+    const SimulationPointer simulation = simulation_of(body, rubber_group(3));
     std::vector<samara_pose> poses(3);
-    Text fault;
+    Text error;
     const auto get = [&](std::size_t first, std::size_t count, std::size_t stride) {
         return CALL(samara_get_poses, simulation.get(), first, count, poses.data(), stride);
     };
@@ -60,22 +60,22 @@ TEST(CSimulation, BodiesAndStridesOutOfRangeAreRefused) {
     EXPECT_EQ(get(0, 4, 0), SAMARA_INVALID_ARGUMENT);
     EXPECT_EQ(get(4, 0, 0), SAMARA_INVALID_ARGUMENT);
     EXPECT_EQ(get(2, std::numeric_limits<std::size_t>::max(), 0), SAMARA_INVALID_ARGUMENT);
-    EXPECT_THAT(fault.text(), HasSubstr("there are 3"));
+    EXPECT_THAT(error.text(), HasSubstr("there are 3"));
     EXPECT_EQ(get(0, 1, sizeof(samara_pose) - 8), SAMARA_INVALID_ARGUMENT);
     EXPECT_EQ(get(0, 1, sizeof(samara_pose) + 1), SAMARA_INVALID_ARGUMENT);
-    EXPECT_THAT(fault.text(), HasSubstr("stride"));
+    EXPECT_THAT(error.text(), HasSubstr("stride"));
 }
 
 TEST(CSimulation, PosesMayLieApart) {
     const BodyOnDisk body;
-    const SimulationPointer simulation = simulation_of(body, rubber_kind(3));
+    const SimulationPointer simulation = simulation_of(body, rubber_group(3));
     const std::vector<samara_pose> packed = poses_at(simulation, 0.1);
     struct Object {
         double other[3];
         samara_pose pose;
     };
     std::vector<Object> objects(2);
-    Text fault;
+    Text error;
     ASSERT_EQ(CALL(samara_get_poses, simulation.get(), 1, 2, &objects[0].pose, sizeof(Object)), SAMARA_OK);
     EXPECT_TRUE(same_bytes({objects[0].pose, objects[1].pose}, {packed[1], packed[2]}));
     EXPECT_EQ(objects[1].other[0], 0.0);
@@ -83,11 +83,11 @@ TEST(CSimulation, PosesMayLieApart) {
 
 TEST(CSimulation, TimesThatAreNoneAreRefused) {
     const BodyOnDisk body;
-    const SimulationPointer simulation = simulation_of(body, rubber_kind());
+    const SimulationPointer simulation = simulation_of(body, rubber_group());
     const std::vector<samara_pose> before = poses_at(simulation, 0.5);
-    Text fault;
+    Text error;
     EXPECT_EQ(CALL(samara_advance_to, simulation.get(), 0.4999), SAMARA_TIME_PASSED);
-    EXPECT_THAT(fault.text(), HasSubstr("0.4999"));
+    EXPECT_THAT(error.text(), HasSubstr("0.4999"));
     EXPECT_EQ(CALL(samara_advance_to, simulation.get(), not_a_number), SAMARA_INVALID_ARGUMENT);
     EXPECT_EQ(CALL(samara_advance_to, simulation.get(), INFINITY), SAMARA_INVALID_ARGUMENT);
     EXPECT_EQ(CALL(samara_advance_to, simulation.get(), 1e9), SAMARA_INVALID_ARGUMENT);
@@ -97,11 +97,11 @@ TEST(CSimulation, TimesThatAreNoneAreRefused) {
 
 TEST(CSimulation, TheTimesAskedForDoNotChangeTheMotion) {
     const BodyOnDisk body;
-    const SimulationPointer once = simulation_of(body, rubber_kind(3));
-    const SimulationPointer film = simulation_of(body, rubber_kind(3));
-    const SimulationPointer display = simulation_of(body, rubber_kind(3));
-    const SimulationPointer irregular = simulation_of(body, rubber_kind(3));
-    const SimulationPointer steps = simulation_of(body, rubber_kind(3));
+    const SimulationPointer once = simulation_of(body, rubber_group(3));
+    const SimulationPointer film = simulation_of(body, rubber_group(3));
+    const SimulationPointer display = simulation_of(body, rubber_group(3));
+    const SimulationPointer irregular = simulation_of(body, rubber_group(3));
+    const SimulationPointer steps = simulation_of(body, rubber_group(3));
     for (int i = 1; i <= 24; ++i) poses_at(film, i / 24.0);
     for (int i = 1; i <= 60; ++i) poses_at(display, i / 60.0);
     for (int i = 1; i <= 500; ++i) poses_at(steps, i * 0.002);
@@ -145,11 +145,11 @@ TEST(CSimulation, MovesAsTheSimulateCommandDoesToTheLastBit) {
     settings.run = 1;
     settings.current[0] = 0.1;
     settings.current[2] = 0.02;
-    samara_kind kind = rubber_kind(2);
-    kind.velocity[0] = 0.05;
-    for (int i = 0; i < 3; ++i) kind.angular_velocity[i] = i + 1;
-    kind.start = 0.3;
-    const SimulationPointer simulation = simulation_of(on_disk, kind, settings);
+    samara_body_group group = rubber_group(2);
+    group.velocity[0] = 0.05;
+    for (int i = 0; i < 3; ++i) group.angular_velocity[i] = i + 1;
+    group.start = 0.3;
+    const SimulationPointer simulation = simulation_of(on_disk, group, settings);
     for (int frame = 0; frame < motion.frames(); ++frame) {
         const std::vector<samara_pose> poses =
             poses_at(simulation, motion.times[static_cast<std::size_t>(frame)]);
@@ -168,7 +168,7 @@ TEST(CSimulation, MovesAsTheSimulateCommandDoesToTheLastBit) {
 
 TEST(CSimulation, AStateSavedInTheMiddleGoesOnToTheSameBytes) {
     const BodyOnDisk body;
-    const SimulationPointer whole = simulation_of(body, rubber_kind(70));
+    const SimulationPointer whole = simulation_of(body, rubber_group(70));
     poses_at(whole, 0.3333);
     const std::string middle = state_of(whole);
     const std::vector<samara_pose> at_the_middle = poses_of(whole);
@@ -176,60 +176,60 @@ TEST(CSimulation, AStateSavedInTheMiddleGoesOnToTheSameBytes) {
     const std::string state_at_end = state_of(whole);
 
     // In the same simulation, back in time; and in another with other threads, seed and start.
-    Text fault;
-    ASSERT_EQ(set_state(whole, middle, fault), SAMARA_OK) << fault.text();
+    Text error;
+    ASSERT_EQ(set_state(whole, middle, error), SAMARA_OK) << error.text();
     EXPECT_EQ(samara_simulation_time(whole.get()), 0.3333);
     EXPECT_TRUE(same_bytes(poses_of(whole), at_the_middle));
     EXPECT_TRUE(same_bytes(poses_at(whole, 0.8), end));
     samara_settings settings = default_settings();
     settings.seed = 77;
     settings.threads = 2;
-    samara_kind kind = rubber_kind(70);
-    kind.position[2] = 5.0;
-    const SimulationPointer other = simulation_of(body, kind, settings);
-    ASSERT_EQ(set_state(other, middle, fault), SAMARA_OK) << fault.text();
+    samara_body_group group = rubber_group(70);
+    group.position[2] = 5.0;
+    const SimulationPointer other = simulation_of(body, group, settings);
+    ASSERT_EQ(set_state(other, middle, error), SAMARA_OK) << error.text();
     EXPECT_TRUE(same_bytes(poses_at(other, 0.8), end));
     EXPECT_EQ(state_of(other), state_at_end);
 }
 
 TEST(CSimulation, ForeignAndDamagedStatesAreRefusedAndChangeNothing) {
     const BodyOnDisk body;
-    const SimulationPointer simulation = simulation_of(body, rubber_kind(2));
+    const SimulationPointer simulation = simulation_of(body, rubber_group(2));
     poses_at(simulation, 0.1);
     const std::string state = state_of(simulation);
-    Text fault;
-    const auto refused = [&](const std::string& bytes) {
-        const bool is_refused = set_state(simulation, bytes, fault) == SAMARA_FOREIGN_STATE;
-        return is_refused && !fault.text().empty() && state_of(simulation) == state;
+    Text error;
+    const auto rejected = [&](const std::string& bytes) {
+        const bool is_rejected = set_state(simulation, bytes, error) == SAMARA_FOREIGN_STATE;
+        return is_rejected && !error.text().empty() && state_of(simulation) == state;
     };
     for (std::size_t size = 0; size < state.size(); ++size)
-        ASSERT_TRUE(refused(state.substr(0, size))) << size;
-    EXPECT_TRUE(refused(state + "x"));
+        ASSERT_TRUE(rejected(state.substr(0, size))) << size;
+    EXPECT_TRUE(rejected(state + "x"));
     for (std::size_t i = 0; i < state.size(); ++i) {
         std::string damaged = state;
         damaged[i] = static_cast<char>(damaged[i] ^ 4);
-        ASSERT_TRUE(refused(damaged)) << i;
+        ASSERT_TRUE(rejected(damaged)) << i;
     }
-    const auto from_other = [&](const samara_kind& kind, const samara_settings& settings) {
-        return state_of(simulation_of(body, kind, settings));
+    const auto from_other = [&](const samara_body_group& group, const samara_settings& settings) {
+        return state_of(simulation_of(body, group, settings));
     };
     samara_settings settings = default_settings();
     settings.step = 0.001;
-    EXPECT_TRUE(refused(from_other(rubber_kind(2), settings)));
-    EXPECT_THAT(fault.text(), HasSubstr("other settings"));
-    EXPECT_TRUE(refused(from_other(rubber_kind(3), default_settings())));
-    samara_kind kind = rubber_kind(2);
-    kind.density = 1300.0;
-    EXPECT_TRUE(refused(from_other(kind, default_settings())));
+    EXPECT_TRUE(rejected(from_other(rubber_group(2), settings)));
+    EXPECT_THAT(error.text(), HasSubstr("other settings"));
+    EXPECT_TRUE(rejected(from_other(rubber_group(3), default_settings())));
+    samara_body_group group = rubber_group(2);
+    group.density = 1300.0;
+    EXPECT_TRUE(rejected(from_other(group, default_settings())));
     std::vector<char> small(state.size() - 1);
     EXPECT_EQ(CALL(samara_get_state, simulation.get(), small.data(), small.size()), SAMARA_INVALID_ARGUMENT);
-    EXPECT_TRUE(set_state(simulation, state, fault) == SAMARA_OK);
+    EXPECT_TRUE(set_state(simulation, state, error) == SAMARA_OK);
 }
 
 TEST(CSimulation, APoseThatIsSetIsThereAndTheFlightGoesOnFromIt) {
     const BodyOnDisk body;
-    const SimulationPointer simulation = simulation_of(body, rubber_kind(3));
-    const SimulationPointer untouched = simulation_of(body, rubber_kind(3));
+    const SimulationPointer simulation = simulation_of(body, rubber_group(3));
+    const SimulationPointer untouched = simulation_of(body, rubber_group(3));
     for (const double time : {0.0, 0.1, 0.2007}) {  // at the start, between two steps of the grid and at one
         poses_at(simulation, time);
         samara_pose pose{};
@@ -238,8 +238,8 @@ TEST(CSimulation, APoseThatIsSetIsThereAndTheFlightGoesOnFromIt) {
         pose.orientation[3] = -1.2;
         pose.velocity[0] = 0.3;
         pose.angular_velocity[1] = 2.0;
-        Text fault;
-        ASSERT_EQ(CALL(samara_set_poses, simulation.get(), 1, 1, &pose, 0), SAMARA_OK) << fault.text();
+        Text error;
+        ASSERT_EQ(CALL(samara_set_poses, simulation.get(), 1, 1, &pose, 0), SAMARA_OK) << error.text();
         const std::vector<samara_pose> poses = poses_of(simulation);
         EXPECT_LT(distance(poses[1].position, Vector3d(0.0, 0.0, 7.0)), 1e-14);
         EXPECT_NEAR(poses[1].orientation[0], 0.8, 1e-15);
@@ -256,15 +256,15 @@ TEST(CSimulation, APoseThatIsSetIsThereAndTheFlightGoesOnFromIt) {
 
 TEST(CSimulation, PosesThatAreNoneAreRefusedTogether) {
     const BodyOnDisk body;
-    const SimulationPointer simulation = simulation_of(body, rubber_kind(2));
+    const SimulationPointer simulation = simulation_of(body, rubber_group(2));
     const std::vector<samara_pose> before = poses_at(simulation, 0.1);
-    Text fault;
+    Text error;
     for (int member = 0; member < 13; ++member) {
         std::vector<samara_pose> poses = before;
         poses[0].position[2] += 1.0;
         reinterpret_cast<double*>(&poses[1])[member] = not_a_number;
         EXPECT_EQ(CALL(samara_set_poses, simulation.get(), 0, 2, poses.data(), 0), SAMARA_INVALID_ARGUMENT);
-        EXPECT_THAT(fault.text(), HasSubstr("body 1"));
+        EXPECT_THAT(error.text(), HasSubstr("body 1"));
     }
     std::vector<samara_pose> poses = before;
     for (double& number : poses[0].orientation) number = 0.0;
@@ -274,10 +274,10 @@ TEST(CSimulation, PosesThatAreNoneAreRefusedTogether) {
 
 TEST(CSimulation, ABodyIsHeldUntilItsStart) {
     const BodyOnDisk body;
-    samara_kind kind = rubber_kind();
-    kind.start = 0.5;
-    kind.velocity[0] = 1.0;
-    const SimulationPointer simulation = simulation_of(body, kind);
+    samara_body_group group = rubber_group();
+    group.start = 0.5;
+    group.velocity[0] = 1.0;
+    const SimulationPointer simulation = simulation_of(body, group);
     const std::vector<samara_pose> first = poses_at(simulation, 0.0);
     EXPECT_EQ(first[0].velocity[0], 0.0);
     EXPECT_TRUE(same_bytes(poses_at(simulation, 0.4999), first));
@@ -287,10 +287,10 @@ TEST(CSimulation, ABodyIsHeldUntilItsStart) {
 
 TEST(CSimulation, AnotherSeedGivesAnotherMotionFromThenOn) {
     const BodyOnDisk body;
-    const SimulationPointer a = simulation_of(body, rubber_kind());
-    const SimulationPointer b = simulation_of(body, rubber_kind());
+    const SimulationPointer a = simulation_of(body, rubber_group());
+    const SimulationPointer b = simulation_of(body, rubber_group());
     EXPECT_TRUE(same_bytes(poses_at(a, 0.2), poses_at(b, 0.2)));
-    Text fault;
+    Text error;
     ASSERT_EQ(CALL(samara_set_seed, b.get(), 1, 1), SAMARA_OK);
     EXPECT_TRUE(same_bytes(poses_of(a), poses_of(b)));
     EXPECT_FALSE(same_bytes(poses_at(a, 0.4), poses_at(b, 0.4)));
@@ -300,9 +300,9 @@ TEST(CSimulation, TwoThreadsOnTwoSimulationsGiveWhatOneGives) {
     const BodyOnDisk body;
     const auto fly = [&](double density, std::vector<samara_pose>& poses) {
         const BodyOnDisk own;
-        samara_kind kind = rubber_kind(4);
-        kind.density = density;
-        const SimulationPointer simulation = simulation_of(own, kind);
+        samara_body_group group = rubber_group(4);
+        group.density = density;
+        const SimulationPointer simulation = simulation_of(own, group);
         for (int i = 1; i <= 50; ++i) poses = poses_at(simulation, i * 0.013);
     };
     std::array<std::vector<samara_pose>, 2> serial;
@@ -321,12 +321,12 @@ TEST(CSimulation, TwoThreadsOnTwoSimulationsGiveWhatOneGives) {
 
 TEST(CSimulation, ReportsStepsAndReynoldsNumber) {
     const BodyOnDisk body;
-    const SimulationPointer simulation = simulation_of(body, rubber_kind(2));
+    const SimulationPointer simulation = simulation_of(body, rubber_group(2));
     poses_at(simulation, 0.5);
     samara_report report;
     report.size = sizeof report;
-    Text fault;
-    ASSERT_EQ(CALL(samara_get_report, simulation.get(), &report), SAMARA_OK) << fault.text();
+    Text error;
+    ASSERT_EQ(CALL(samara_get_report, simulation.get(), &report), SAMARA_OK) << error.text();
     EXPECT_EQ(report.steps, 500U);
     EXPECT_GE(report.substeps, report.steps);
     EXPECT_GE(report.most_substeps, 1);
@@ -341,13 +341,13 @@ TEST(CSimulation, AMotionThatLeavesTheRangeOfNumbersStopsAndAStateBringsItBack) 
     const BodyOnDisk body;
     samara_settings settings = default_settings();
     settings.gravity[2] = -1e30;
-    samara_kind kind = rubber_kind();
-    kind.loads = SAMARA_LOADS_NONE;
-    const SimulationPointer simulation = simulation_of(body, kind, settings);
+    samara_body_group group = rubber_group();
+    group.loads = SAMARA_LOADS_NONE;
+    const SimulationPointer simulation = simulation_of(body, group, settings);
     const std::string start = state_of(simulation);
-    Text fault;
+    Text error;
     EXPECT_EQ(CALL(samara_advance_to, simulation.get(), 10.0), SAMARA_OUT_OF_RANGE);
-    EXPECT_THAT(fault.text(), AllOf(HasSubstr("body 0"), HasSubstr("'rubber'")));
+    EXPECT_THAT(error.text(), AllOf(HasSubstr("body 0"), HasSubstr("'rubber'")));
     EXPECT_EQ(CALL(samara_advance_to, simulation.get(), 20.0), SAMARA_OUT_OF_RANGE);
     samara_pose pose{};
     pose.orientation[0] = 1.0;
@@ -355,7 +355,7 @@ TEST(CSimulation, AMotionThatLeavesTheRangeOfNumbersStopsAndAStateBringsItBack) 
     EXPECT_EQ(CALL(samara_set_poses, simulation.get(), 0, 1, &pose, 0), SAMARA_OUT_OF_RANGE);
     std::string bytes(start.size(), '\0');
     EXPECT_EQ(CALL(samara_get_state, simulation.get(), bytes.data(), bytes.size()), SAMARA_OUT_OF_RANGE);
-    EXPECT_EQ(set_state(simulation, start, fault), SAMARA_OK);
+    EXPECT_EQ(set_state(simulation, start, error), SAMARA_OK);
     EXPECT_EQ(state_of(simulation), start);
     EXPECT_EQ(CALL(samara_advance_to, simulation.get(), 0.0), SAMARA_OK);
 }

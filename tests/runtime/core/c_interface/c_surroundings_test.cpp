@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "runtime/c_interface_calls.hpp"
-#include "samara/core/flight/flight.hpp"
+#include "samara/core/simulation/simulation.hpp"
 #include "samara/core/wind/wind_file.hpp"
 #include "support/obstacles.hpp"
 #include "support/test_shapes.hpp"
@@ -60,54 +60,54 @@ Surface table_top() {
 SimulationPointer simulation_with(const samara_obstacle& obstacle,
                                   const samara_settings& settings = default_settings()) {
     SimulationPointer simulation = empty_simulation(settings);
-    Text fault;
+    Text error;
     EXPECT_EQ(CALL(samara_simulation_add_obstacle, simulation.get(), &obstacle, nullptr), SAMARA_OK)
-        << fault.text();
+        << error.text();
     return simulation;
 }
 
 /// Bodies that lie nearly flat, 2 cm over height 0.
-samara_kind lying_kind() {
-    samara_kind kind = rubber_kind(6);
-    kind.orientation[0] = kind.orientation[2] = std::sqrt(0.5);
-    kind.spread_angle = 0.1;
-    kind.position[2] = 0.03;
-    kind.turbulence = SAMARA_TURBULENCE_NONE;
-    return kind;
+samara_body_group lying_group() {
+    samara_body_group group = rubber_group(6);
+    group.orientation[0] = group.orientation[2] = std::sqrt(0.5);
+    group.spread_angle = 0.1;
+    group.position[2] = 0.03;
+    group.turbulence = SAMARA_TURBULENCE_NONE;
+    return group;
 }
 
-void add(const SimulationPointer& simulation, const BodyOnDisk& body, const samara_kind& kind) {
-    Text fault;
-    ASSERT_EQ(CALL(samara_simulation_add, simulation.get(), body.get(), &kind, nullptr), SAMARA_OK)
-        << fault.text();
+void add(const SimulationPointer& simulation, const BodyOnDisk& body, const samara_body_group& group) {
+    Text error;
+    ASSERT_EQ(CALL(samara_simulation_add, simulation.get(), body.get(), &group, nullptr), SAMARA_OK)
+        << error.text();
 }
 
 void set_key(const SimulationPointer& simulation, const samara_obstacle_key& key) {
-    Text fault;
-    ASSERT_EQ(CALL(samara_set_obstacle_keys, simulation.get(), 0, &key, 1), SAMARA_OK) << fault.text();
+    Text error;
+    ASSERT_EQ(CALL(samara_set_obstacle_keys, simulation.get(), 0, &key, 1), SAMARA_OK) << error.text();
 }
 
 void set_wind(const SimulationPointer& simulation, const char* wind) {
-    Text fault;
-    ASSERT_EQ(CALL(samara_set_wind, simulation.get(), wind), SAMARA_OK) << fault.text();
+    Text error;
+    ASSERT_EQ(CALL(samara_set_wind, simulation.get(), wind), SAMARA_OK) << error.text();
 }
 
 /// The poses of the same bodies in a flight with these settings.
-std::vector<Vector3d> velocities_in(const FlightSettings& settings, const BodyOnDisk& body,
-                                    const samara_kind& kind, double time) {
-    Flight flight(settings);
+std::vector<Vector3d> velocities_in(const SimulationSettings& settings, const BodyOnDisk& body,
+                                    const samara_body_group& group, double time) {
+    Simulation simulation(settings);
     BodyPhysics physics;
-    physics.mass.density = kind.density;
+    physics.mass.density = group.density;
     physics.turbulence = Turbulence::none;
-    Release release{.position = Vector3d(kind.position),
-                    .orientation = Quaterniond(kind.orientation[0], 0.0, kind.orientation[2], 0.0),
-                    .count = static_cast<int>(kind.count),
-                    .spread_position = Vector3d(kind.spread_position),
-                    .spread_angle = kind.spread_angle};
-    flight.add(load_body_file(body.file()), physics, release);
-    flight.advance_to(time);
+    Release release{.position = Vector3d(group.position),
+                    .orientation = Quaterniond(group.orientation[0], 0.0, group.orientation[2], 0.0),
+                    .count = static_cast<int>(group.count),
+                    .spread_position = Vector3d(group.spread_position),
+                    .spread_angle = group.spread_angle};
+    simulation.add(load_body_file(body.file()), physics, release);
+    simulation.advance_to(time);
     std::vector<Vector3d> velocities;
-    for (std::size_t i = 0; i < flight.size(); ++i) velocities.push_back(flight.pose(i).velocity);
+    for (std::size_t i = 0; i < simulation.size(); ++i) velocities.push_back(simulation.pose(i).velocity);
     return velocities;
 }
 
@@ -126,13 +126,13 @@ TEST(CObstacle, IsMetAsTheFlightsOwn) {
     slope.obstacle.orientation[2] = 0.4;
     const SimulationPointer simulation = simulation_with(slope.obstacle);
     EXPECT_EQ(samara_simulation_obstacle_count(simulation.get()), 1U);
-    add(simulation, body, lying_kind());
-    FlightSettings settings;
+    add(simulation, body, lying_group());
+    SimulationSettings settings;
     settings.obstacles = {obstacle(
         table_top(), {Vector3d(0.0, 0.0, -0.08), Quaterniond(2.0, 0.0, 0.4, 0.0).normalized()}, 0.2)};
     const auto poses = poses_at(simulation, 0.6);
-    EXPECT_EQ(velocities_of(poses), velocities_in(settings, body, lying_kind(), 0.6));
-    EXPECT_NE(velocities_of(poses), velocities_in({}, body, lying_kind(), 0.6)) << "they touched it";
+    EXPECT_EQ(velocities_of(poses), velocities_in(settings, body, lying_group(), 0.6));
+    EXPECT_NE(velocities_of(poses), velocities_in({}, body, lying_group(), 0.6)) << "they touched it";
 }
 
 TEST(CObstacle, MovesByTheKeysItWasGiven) {
@@ -142,13 +142,13 @@ TEST(CObstacle, MovesByTheKeysItWasGiven) {
     lift.obstacle.keys = keys.data();
     lift.obstacle.key_count = keys.size();
     const SimulationPointer simulation = simulation_with(lift.obstacle);
-    add(simulation, body, lying_kind());
-    FlightSettings settings;
+    add(simulation, body, lying_group());
+    SimulationSettings settings;
     settings.obstacles = {obstacle(table_top())};
     settings.obstacles[0].keys = {
         {{Vector3d(0.0, 0.0, -0.1), Quaterniond::Identity()}, 0.0},
         {{Vector3d(0.0, 0.0, 0.1), Quaterniond(std::cos(0.1), 0.0, std::sin(0.1), 0.0)}, 1.0}};
-    EXPECT_EQ(velocities_of(poses_at(simulation, 0.9)), velocities_in(settings, body, lying_kind(), 0.9));
+    EXPECT_EQ(velocities_of(poses_at(simulation, 0.9)), velocities_in(settings, body, lying_group(), 0.9));
 }
 
 TEST(CObstacle, CarriesBodiesWhereAnEngineMovesItFrameByFrame) {
@@ -156,7 +156,7 @@ TEST(CObstacle, CarriesBodiesWhereAnEngineMovesItFrameByFrame) {
     CallersObstacle lift(table_top());
     lift.obstacle.position[2] = -0.025;  // its top at 0
     const SimulationPointer simulation = simulation_with(lift.obstacle);
-    add(simulation, body, lying_kind());
+    add(simulation, body, lying_group());
     poses_at(simulation, 2.0);
     for (int frame = 1; frame <= 100; ++frame) {
         const double time = 2.0 + frame / 60.0;
@@ -184,7 +184,7 @@ TEST(CObstacle, ThatIsMovedInFlightIsInTheState) {
     CallersObstacle lift(table_top());
     lift.obstacle.position[2] = -0.025;
     const SimulationPointer simulation = simulation_with(lift.obstacle);
-    add(simulation, body, lying_kind());
+    add(simulation, body, lying_group());
     poses_at(simulation, 0.501);
     const std::string before = state_of(simulation);
     set_key(simulation, key_at(1.0, 0.1, 0.3));
@@ -192,23 +192,23 @@ TEST(CObstacle, ThatIsMovedInFlightIsInTheState) {
     const std::string state = state_of(simulation);
     EXPECT_GT(state.size(), before.size());
     const auto poses = poses_at(simulation, 1.5);
-    Text fault;
+    Text error;
     const SimulationPointer other = simulation_with(lift.obstacle);
-    add(other, body, lying_kind());
+    add(other, body, lying_group());
     for (const SimulationPointer& one : {std::cref(simulation), std::cref(other)}) {
-        EXPECT_EQ(set_state(one, state, fault), SAMARA_OK) << fault.text();
+        EXPECT_EQ(set_state(one, state, error), SAMARA_OK) << error.text();
         poses_at(one, 0.8);
         EXPECT_TRUE(same_bytes(poses_at(one, 1.5), poses));
     }
     // From before, it is moved otherwise.
-    EXPECT_EQ(set_state(simulation, before, fault), SAMARA_OK) << fault.text();
+    EXPECT_EQ(set_state(simulation, before, error), SAMARA_OK) << error.text();
     EXPECT_FALSE(same_bytes(poses_at(simulation, 1.5), poses));
     // One with another shape is another simulation.
     CallersObstacle larger(box({0.5, 0.5, 0.06}, 2));
     larger.obstacle.position[2] = -0.03;
     const SimulationPointer foreign = simulation_with(larger.obstacle);
-    add(foreign, body, lying_kind());
-    EXPECT_EQ(set_state(foreign, before, fault), SAMARA_FOREIGN_STATE);
+    add(foreign, body, lying_group());
+    EXPECT_EQ(set_state(foreign, before, error), SAMARA_FOREIGN_STATE);
 }
 
 TEST(CObstacle, OutOfRangeIsRefusedByName) {
@@ -239,11 +239,11 @@ TEST(CObstacle, OutOfRangeIsRefusedByName) {
     for (const auto& [member, change] : changes) {
         CallersObstacle given(table_top());
         change(given.obstacle);
-        Text fault;
+        Text error;
         EXPECT_EQ(CALL(samara_simulation_add_obstacle, simulation.get(), &given.obstacle, nullptr),
                   SAMARA_INVALID_ARGUMENT)
             << member;
-        EXPECT_THAT(fault.text(), StartsWith(member));
+        EXPECT_THAT(error.text(), StartsWith(member));
     }
     EXPECT_EQ(samara_simulation_obstacle_count(simulation.get()), 0U);
 }
@@ -253,40 +253,40 @@ TEST(CObstacle, MustComeBeforeTheBodiesWhichMustStartOutsideOfIt) {
     CallersObstacle top(table_top());
     top.obstacle.name = "table";
     const SimulationPointer simulation = simulation_with(top.obstacle);
-    Text fault;
+    Text error;
     EXPECT_EQ(CALL(samara_simulation_add_obstacle, simulation.get(), &top.obstacle, nullptr),
               SAMARA_INVALID_ARGUMENT);
-    EXPECT_THAT(fault.text(), HasSubstr("'table' is taken"));
-    samara_kind kind = lying_kind();
-    kind.position[2] = 0.02;
-    EXPECT_EQ(CALL(samara_simulation_add, simulation.get(), body.get(), &kind, nullptr),
+    EXPECT_THAT(error.text(), HasSubstr("'table' is taken"));
+    samara_body_group group = lying_group();
+    group.position[2] = 0.02;
+    EXPECT_EQ(CALL(samara_simulation_add, simulation.get(), body.get(), &group, nullptr),
               SAMARA_INVALID_ARGUMENT);
-    EXPECT_THAT(fault.text(), HasSubstr("inside obstacle 'table'"));
-    kind.position[2] = 0.1;
-    add(simulation, body, kind);
+    EXPECT_THAT(error.text(), HasSubstr("inside obstacle 'table'"));
+    group.position[2] = 0.1;
+    add(simulation, body, group);
     top.obstacle.name = "shelf";
     EXPECT_EQ(CALL(samara_simulation_add_obstacle, simulation.get(), &top.obstacle, nullptr),
               SAMARA_INVALID_ARGUMENT);
-    EXPECT_THAT(fault.text(), HasSubstr("before the bodies"));
+    EXPECT_THAT(error.text(), HasSubstr("before the bodies"));
 }
 
 TEST(CObstacle, IsMovedByItsNumberAndByKeysInOrder) {
     const CallersObstacle top(table_top());
     const SimulationPointer simulation = simulation_with(top.obstacle);
     samara_obstacle_key keys[] = {key_at(1.0, 0.0), key_at(0.5, 0.0)};
-    Text fault;
+    Text error;
     const auto set = [&](std::size_t obstacle, const samara_obstacle_key* given, std::size_t count) {
         return CALL(samara_set_obstacle_keys, simulation.get(), obstacle, given, count);
     };
     EXPECT_EQ(set(1, keys, 1), SAMARA_INVALID_ARGUMENT);
-    EXPECT_THAT(fault.text(), StartsWith("obstacle is 1"));
+    EXPECT_THAT(error.text(), StartsWith("obstacle is 1"));
     EXPECT_EQ(set(0, keys, 2), SAMARA_INVALID_ARGUMENT);
-    EXPECT_THAT(fault.text(), StartsWith("time of key 1"));
+    EXPECT_THAT(error.text(), StartsWith("time of key 1"));
     EXPECT_EQ(set(0, keys, 0), SAMARA_INVALID_ARGUMENT);
     EXPECT_EQ(set(0, nullptr, 1), SAMARA_INVALID_ARGUMENT);
     keys[0].orientation[0] = 0.0;
     EXPECT_EQ(set(0, keys, 1), SAMARA_INVALID_ARGUMENT);
-    EXPECT_THAT(fault.text(), StartsWith("orientation"));
+    EXPECT_THAT(error.text(), StartsWith("orientation"));
     EXPECT_EQ(CALL(samara_set_obstacle_keys, nullptr, 0, keys, 1), SAMARA_INVALID_ARGUMENT);
 }
 
@@ -297,13 +297,13 @@ TEST(CSetWind, BlowsAsTheFlightsOwn) {
              "velocity = [0.2, 0, 0]\nprofile = { law = \"log\", height = 2 }\ngusts = { rms = 0.1, length = "
              "0.5 }\n"
              "[[fan]]\nposition = [-1, 0, 0]\ndirection = [1, 0, 0]\nspeed = 0.5\n");
-    add(simulation, body, lying_kind());
-    FlightSettings settings;
+    add(simulation, body, lying_group());
+    SimulationSettings settings;
     settings.wind.velocity = Vector3d(0.2, 0.0, 0.0);
     settings.wind.profile = WindProfile{.height = 2.0};
     settings.wind.gusts = WindGusts{.rms = 0.1, .length = 0.5};
     settings.wind.fans = {{.position = Vector3d(-1.0, 0.0, 0.0), .speed = 0.5}};
-    EXPECT_EQ(velocities_of(poses_at(simulation, 0.4)), velocities_in(settings, body, lying_kind(), 0.4));
+    EXPECT_EQ(velocities_of(poses_at(simulation, 0.4)), velocities_in(settings, body, lying_group(), 0.4));
 }
 
 TEST(CSetWind, TakesAFileThatNeedNotLast) {
@@ -317,17 +317,17 @@ TEST(CSetWind, TakesAFileThatNeedNotLast) {
     const std::string text = "[file]\npath = \"" + (folder / "gust.h5").string() + "\"";
     const SimulationPointer simulation = empty_simulation();
     set_wind(simulation, text.c_str());
-    add(simulation, body, lying_kind());
-    FlightSettings settings;
+    add(simulation, body, lying_group());
+    SimulationSettings settings;
     settings.wind.file.emplace().grid = std::make_shared<const WindGrid>(read_wind_file(folder / "gust.h5"));
     const auto velocities = velocities_of(poses_at(simulation, 0.4));
-    EXPECT_EQ(velocities, velocities_in(settings, body, lying_kind(), 0.4));
-    EXPECT_NE(velocities, velocities_in({}, body, lying_kind(), 0.4));
+    EXPECT_EQ(velocities, velocities_in(settings, body, lying_group(), 0.4));
+    EXPECT_NE(velocities, velocities_in({}, body, lying_group(), 0.4));
 }
 
 TEST(CSetWind, ChangesInFlightWithoutAJumpOfTheBodies) {
     const BodyOnDisk body;
-    const SimulationPointer simulation = simulation_of(body, lying_kind());
+    const SimulationPointer simulation = simulation_of(body, lying_group());
     const auto before = poses_at(simulation, 1.0013);
     set_wind(simulation, "velocity = [0.5, 0, 0]");
     const auto after = poses_of(simulation);
@@ -338,23 +338,23 @@ TEST(CSetWind, ChangesInFlightWithoutAJumpOfTheBodies) {
     for (const samara_pose& pose : poses_at(simulation, 4.0)) EXPECT_NEAR(pose.velocity[0], 0.5, 0.1);
     const std::string windy = state_of(simulation);
     set_wind(simulation, "");
-    Text fault;
-    EXPECT_EQ(set_state(simulation, windy, fault), SAMARA_FOREIGN_STATE) << "of another wind";
+    Text error;
+    EXPECT_EQ(set_state(simulation, windy, error), SAMARA_FOREIGN_STATE) << "of another wind";
     for (const samara_pose& pose : poses_at(simulation, 8.0)) EXPECT_NEAR(pose.velocity[0], 0.0, 0.1);
     set_wind(simulation, "velocity = [0.5, 0, 0]");
-    EXPECT_EQ(set_state(simulation, windy, fault), SAMARA_OK);
+    EXPECT_EQ(set_state(simulation, windy, error), SAMARA_OK);
 }
 
-TEST(CSetWind, IsRefusedWithTheLineAtFault) {
+TEST(CSetWind, IsRefusedWithTheLineAtError) {
     const SimulationPointer simulation = empty_simulation();
-    Text fault;
+    Text error;
     for (const auto& [text, what] : std::vector<std::pair<const char*, const char*>>{
              {"velocity = [1, 0, 0]\nspeed = 3", "wind:2: unknown key 'speed'"},
              {"velocity = [1, 0]", "wind:1: velocity"},
              {"velocity = 1 2", "wind:1: "},
              {"gusts = { length = 1 }", "rms"}}) {
         EXPECT_EQ(CALL(samara_set_wind, simulation.get(), text), SAMARA_INVALID_ARGUMENT);
-        EXPECT_THAT(fault.text(), AllOf(StartsWith("wind:"), HasSubstr(what)));
+        EXPECT_THAT(error.text(), AllOf(StartsWith("wind:"), HasSubstr(what)));
     }
     EXPECT_EQ(CALL(samara_set_wind, simulation.get(), nullptr), SAMARA_INVALID_ARGUMENT);
     EXPECT_EQ(CALL(samara_set_wind, nullptr, ""), SAMARA_INVALID_ARGUMENT);
@@ -364,7 +364,7 @@ TEST(CSetGround, LiftsAndDropsWhatLiesOnIt) {
     const BodyOnDisk body;
     samara_settings settings = default_settings();
     settings.has_ground = 1;
-    const SimulationPointer simulation = simulation_of(body, lying_kind(), settings);
+    const SimulationPointer simulation = simulation_of(body, lying_group(), settings);
     const auto expect_lying_at = [&](double height, double time) {
         for (const samara_pose& pose : poses_at(simulation, time)) {
             EXPECT_NEAR(pose.position[2], height + half_height, 2e-3);
@@ -372,7 +372,7 @@ TEST(CSetGround, LiftsAndDropsWhatLiesOnIt) {
         }
     };
     const auto set_ground = [&](int has, double height) {
-        Text fault;
+        Text error;
         return CALL(samara_set_ground, simulation.get(), has, height);
     };
     expect_lying_at(0.0, 3.0);
@@ -387,23 +387,23 @@ TEST(CSetGround, LiftsAndDropsWhatLiesOnIt) {
 
 TEST(CSimulation, TakesBodiesInFlightThatStartNowOrLater) {
     const BodyOnDisk body;
-    const SimulationPointer simulation = simulation_of(body, rubber_kind(3));
+    const SimulationPointer simulation = simulation_of(body, rubber_group(3));
     poses_at(simulation, 1.0);
-    samara_kind kind = rubber_kind(2);
-    kind.name = "late";
-    Text fault;
-    EXPECT_EQ(CALL(samara_simulation_add, simulation.get(), body.get(), &kind, nullptr),
+    samara_body_group group = rubber_group(2);
+    group.name = "late";
+    Text error;
+    EXPECT_EQ(CALL(samara_simulation_add, simulation.get(), body.get(), &group, nullptr),
               SAMARA_INVALID_ARGUMENT);
-    EXPECT_THAT(fault.text(), HasSubstr("the simulation is at 1 s"));
-    kind.start = 1.0;
+    EXPECT_THAT(error.text(), HasSubstr("the simulation is at 1 s"));
+    group.start = 1.0;
     std::size_t first = 0;
-    ASSERT_EQ(CALL(samara_simulation_add, simulation.get(), body.get(), &kind, &first), SAMARA_OK);
+    ASSERT_EQ(CALL(samara_simulation_add, simulation.get(), body.get(), &group, &first), SAMARA_OK);
     EXPECT_EQ(first, 3U);
     const auto poses = poses_at(simulation, 1.5);
     ASSERT_EQ(poses.size(), 5U);
     // As if they had been there from the beginning.
-    const SimulationPointer other = simulation_of(body, rubber_kind(3));
-    add(other, body, kind);
+    const SimulationPointer other = simulation_of(body, rubber_group(3));
+    add(other, body, group);
     EXPECT_TRUE(same_bytes(poses_at(other, 1.5), poses));
 }
 

@@ -10,7 +10,7 @@
 #include "samara/core/body/body_file.hpp"
 #include "samara/core/integrator/batch.hpp"
 #include "samara/scene/scene_file.hpp"
-#include "samara/scene/simulation.hpp"
+#include "samara/scene/scene_simulation.hpp"
 #include "support/compared_states.hpp"
 #include "support/ground_bodies.hpp"
 #include "support/reference_step.hpp"

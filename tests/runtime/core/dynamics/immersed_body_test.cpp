@@ -49,13 +49,13 @@ MassSpecification& by_mass(Given& given) {
     return given.scene_body.mass;
 }
 
-void expect_refused(const std::vector<Nonsense>& cases) {
+void expect_rejected(const std::vector<Nonsense>& cases) {
     for (const auto& [member, spoil] : cases) {
         Given given;
         spoil(given);
-        const std::string fault = test::error_of([&] { (void)given.made(); });
-        EXPECT_THAT(fault, AllOf(StartsWith("body 'ball': "), HasSubstr(member)));
-        EXPECT_EQ(fault.find('\n'), std::string::npos) << fault;
+        const std::string error = test::error_of([&] { (void)given.made(); });
+        EXPECT_THAT(error, AllOf(StartsWith("body 'ball': "), HasSubstr(member)));
+        EXPECT_EQ(error.find('\n'), std::string::npos) << error;
     }
 }
 
@@ -65,20 +65,20 @@ TEST(ImmersedBody, IsMadeOfSoundNumbers) {
 
 TEST(ImmersedBody, RefusesAFluidThatIsNone) {
     for (const double value : {not_a_number, infinity, 0.0, -1.0}) {
-        expect_refused({{"fluid.density", [&](Given& g) { g.fluid.density = value; }},
-                        {"fluid.viscosity", [&](Given& g) { g.fluid.viscosity = value; }}});
+        expect_rejected({{"fluid.density", [&](Given& g) { g.fluid.density = value; }},
+                         {"fluid.viscosity", [&](Given& g) { g.fluid.viscosity = value; }}});
     }
 }
 
 TEST(ImmersedBody, RefusesAMassThatIsNone) {
     for (const double value : {not_a_number, infinity, 0.0, -1.0}) {
-        expect_refused({{"density", [&](Given& g) { g.scene_body.mass.density = value; }},
-                        {"mass", [&](Given& g) { by_mass(g).mass = value; }}});
+        expect_rejected({{"density", [&](Given& g) { g.scene_body.mass.density = value; }},
+                         {"mass", [&](Given& g) { by_mass(g).mass = value; }}});
     }
     const Vector3d off(0.0, not_a_number, 0.0);
     Matrix3d lopsided = Matrix3d::Identity();
     lopsided(0, 1) = 0.5;
-    expect_refused({
+    expect_rejected({
         {"density or mass", [&](Given& g) { g.scene_body.mass = {}; }},
         {"center_of_mass", [&](Given& g) { by_mass(g).center_of_mass = off; }},
         {"inertia", [&](Given& g) { by_mass(g).inertia = Matrix3d::Constant(infinity); }},
@@ -101,10 +101,10 @@ TEST(ImmersedBody, WeighsWhatItsFileSaysWhereNothingElseIsAsked) {
 
 TEST(ImmersedBody, RefusesAShapeThatIsNone) {
     for (const double value : {not_a_number, infinity, 0.0, -1.0}) {
-        expect_refused({{"moments.volume", [&](Given& g) { g.body.moments.volume = value; }},
-                        {"moments.surface_area", [&](Given& g) { g.body.moments.surface_area = value; }}});
+        expect_rejected({{"moments.volume", [&](Given& g) { g.body.moments.volume = value; }},
+                         {"moments.surface_area", [&](Given& g) { g.body.moments.surface_area = value; }}});
     }
-    expect_refused({
+    expect_rejected({
         {"moments.centroid", [](Given& g) { g.body.moments.centroid.z() = infinity; }},
         {"moments.second_moments", [](Given& g) { g.body.moments.second_moments(0, 2) = not_a_number; }},
         {"surface.vertices", [](Given& g) { g.body.surface.vertices[3].y() = not_a_number; }},
@@ -119,7 +119,7 @@ TEST(ImmersedBody, RefusesTablesThatAreNone) {
     const auto spoiled = [](const std::function<void(LoadTables&)>& spoil) {
         return [spoil](Given& g) { spoil(*g.body.tables); };
     };
-    expect_refused({
+    expect_rejected({
         {"tables.entries[7]", spoiled([](LoadTables& t) { t.entries[7].force.y() = not_a_number; })},
         {"tables.entries[0]", spoiled([](LoadTables& t) { t.entries[0].moment.x() = infinity; })},
         {"tables.entries[9]",
@@ -190,7 +190,7 @@ TEST(ImmersedBody, ReadsItsTablesAtOneReynoldsNumberWhereTheSceneSaysSo) {
     Given given;
     given.scene_body.table_reynolds_number = 1e4;
     EXPECT_EQ(given.made().tables->reynolds_numbers, std::vector<double>{1e4});
-    expect_refused({{"table_reynolds_number", [](Given& g) { g.scene_body.table_reynolds_number = -1.0; }}});
+    expect_rejected({{"table_reynolds_number", [](Given& g) { g.scene_body.table_reynolds_number = -1.0; }}});
 }
 
 TEST(ImmersedBody, RefusesCoefficientsThatAreNone) {
@@ -201,7 +201,7 @@ TEST(ImmersedBody, RefusesCoefficientsThatAreNone) {
         };
     };
     const Vector3d nowhere(0.0, 0.0, infinity);
-    expect_refused({
+    expect_rejected({
         {"drag_coefficient", spoiled([](SceneBody& b) { b.coefficients.drag_coefficient = not_a_number; })},
         {"drag_coefficient", spoiled([](SceneBody& b) { b.coefficients.drag_coefficient = -0.1; })},
         {"lift_coefficient", spoiled([](SceneBody& b) { b.coefficients.lift_coefficient = infinity; })},
@@ -209,7 +209,7 @@ TEST(ImmersedBody, RefusesCoefficientsThatAreNone) {
         {"normal", spoiled([](SceneBody& b) { b.coefficients.normal = Vector3d::Zero(); })},
         {"center_of_pressure", spoiled([&](SceneBody& b) { b.coefficients.center_of_pressure = nowhere; })},
     });
-    expect_refused({
+    expect_rejected({
         {"dynamic.half_length", [](Given& g) { g.body.dynamic = IdentifiedCoefficients{}; }},
     });
 }
@@ -252,11 +252,11 @@ TEST(ImmersedBody, RefusesTurbulenceThatIsNone) {
             g.scene_body.dissipation_rate = rate;
         };
     };
-    expect_refused({{"turbulent_kinetic_energy", constant(not_a_number, 1.0)},
-                    {"turbulent_kinetic_energy", constant(-1.0, 1.0)},
-                    {"dissipation_rate", constant(1.0, infinity)},
-                    {"dissipation_rate", constant(1.0, -1.0)},
-                    {"dissipation_rate", constant(1.0, 0.0)}});
+    expect_rejected({{"turbulent_kinetic_energy", constant(not_a_number, 1.0)},
+                     {"turbulent_kinetic_energy", constant(-1.0, 1.0)},
+                     {"dissipation_rate", constant(1.0, infinity)},
+                     {"dissipation_rate", constant(1.0, -1.0)},
+                     {"dissipation_rate", constant(1.0, 0.0)}});
     Given still;
     constant(0.0, 0.0)(still);
     EXPECT_NO_THROW((void)still.made());

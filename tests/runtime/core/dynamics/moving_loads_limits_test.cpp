@@ -85,14 +85,14 @@ TEST(MovingLoads, ArePassiveInAFluidThatTurns) {
     const Vector3d velocity(0.1, -0.2, 0.2);
     for (const Vector3d& own :
          {Vector3d(Vector3d::Zero()), Vector3d(3.0, -1.0, 2.0), Vector3d(1e3, 0.0, 0.0)}) {
-        for (const Vector6d& slip :
+        for (const Vector6d& wake_fluctuation :
              {Vector6d(Vector6d::Zero()), motion_of(Vector3d(1.0, 2.0, 3.0), Vector3d::Zero()),
               motion_of(Vector3d::Zero(), velocity)}) {
-            const Vector6d motion = motion_of(own, slip.tail<3>());
-            const LoadMatrices loads = load_matrices(body, motion, own - slip.head<3>());
+            const Vector6d motion = motion_of(own, wake_fluctuation.tail<3>());
+            const LoadMatrices loads = load_matrices(body, motion, own - wake_fluctuation.head<3>());
             EXPECT_TRUE(loads.whole.allFinite());
             EXPECT_LT(loads.relative.norm(), 1e3);
-            EXPECT_GE((slip.transpose() * loads.relative * slip).value(), 0.0);
+            EXPECT_GE((wake_fluctuation.transpose() * loads.relative * wake_fluctuation).value(), 0.0);
             // Transport and wake do no work on the body, whatever the fluid does.
             const Matrix6d transports = loads.whole - loads.relative;
             EXPECT_LT((transports + transports.transpose()).norm(), 1e-12 * (loads.whole.norm() + 1e-12));

@@ -87,7 +87,7 @@ TEST(WakeFormation, GoesOnAsAnExponentialOfTheWayOverTheExtentAlongIt) {
             const double time = extents * extent / speed;
             for (int i = 0; i < steps; ++i)
                 state = implicit_step(body, Vector3d::Zero(), time / steps, state);
-            EXPECT_NEAR(state.wake.formed, 1.0 - std::exp(-extents / wake_formation_ways), 1e-4) << extent;
+            EXPECT_NEAR(state.wake.formed, 1.0 - std::exp(-extents / wake_formation_lengths), 1e-4) << extent;
             const double settled = 1.0 - std::exp(-extents / usual_settling_length);
             EXPECT_LT((state.wake.heading - settled * direction).norm(), 1e-4) << extent;
         }

@@ -41,11 +41,11 @@ std::vector<std::string> received_from(const Work& work, const ConfinedLimits& l
     return texts;
 }
 
-std::string fault_of(const Work& work, const ConfinedLimits& limits = {}) {
-    const std::string fault = test::error_of([&] { received_from(work, limits); });
-    EXPECT_THAT(fault, StartsWith("file: "));
-    EXPECT_THAT(fault, ::testing::Not(HasSubstr("\n")));
-    return fault;
+std::string error_of(const Work& work, const ConfinedLimits& limits = {}) {
+    const std::string error = test::error_of([&] { received_from(work, limits); });
+    EXPECT_THAT(error, StartsWith("file: "));
+    EXPECT_THAT(error, ::testing::Not(HasSubstr("\n")));
+    return error;
 }
 
 // What the confined process got of a call: its errno, 0 where it succeeded.
@@ -72,9 +72,9 @@ TEST(ConfinedProcess, SendsTextsOfAnySizeInOrder) {
 }
 
 TEST(ConfinedProcess, AnErrorOfTheWorkPassesOnAsItIs) {
-    EXPECT_EQ(fault_of([](const SendBytes&) { throw Error("file: line 7: a fault"); }),
+    EXPECT_EQ(error_of([](const SendBytes&) { throw Error("file: line 7: a fault"); }),
               "file: line 7: a fault");
-    EXPECT_EQ(fault_of([](const SendBytes&) { throw std::runtime_error("surprise"); }),
+    EXPECT_EQ(error_of([](const SendBytes&) { throw std::runtime_error("surprise"); }),
               "file: cannot be read: surprise");
 }
 
@@ -82,10 +82,10 @@ TEST(ConfinedProcess, MayNotStartAProgram) {
     const test::TemporaryFolder folder;
     const std::string command = "touch " + (folder / "made").string();
     const auto expected = HasSubstr("tries to start a program");
-    EXPECT_THAT(fault_of([&](const SendBytes&) { (void)std::system(command.c_str()); }), expected);
-    EXPECT_THAT(fault_of([&](const SendBytes&) { (void)::popen(command.c_str(), "r"); }), expected);
-    EXPECT_THAT(fault_of([&](const SendBytes&) { (void)::fork(); }), expected);
-    EXPECT_THAT(fault_of([&](const SendBytes&) { ::execl("/bin/true", "true", nullptr); }), expected);
+    EXPECT_THAT(error_of([&](const SendBytes&) { (void)std::system(command.c_str()); }), expected);
+    EXPECT_THAT(error_of([&](const SendBytes&) { (void)::popen(command.c_str(), "r"); }), expected);
+    EXPECT_THAT(error_of([&](const SendBytes&) { (void)::fork(); }), expected);
+    EXPECT_THAT(error_of([&](const SendBytes&) { ::execl("/bin/true", "true", nullptr); }), expected);
     EXPECT_EQ(folder.file_count(), 0);
 }
 
@@ -116,32 +116,32 @@ TEST(ConfinedProcess, MayNotTouchFilesNetworkOrOtherProcesses) {
 
 TEST(ConfinedProcess, MayHaveNoFileSignalOtherProcesses) {
     int ends[2];
-    const auto refused = [&](const auto& call) {
+    const auto rejected = [&](const auto& call) {
         return errno_of([&] {
                    if (::pipe(ends) == 0) (void)call(ends[0]);
                }) == EPERM;
     };
-    EXPECT_TRUE(refused([](int file) { return ::fcntl(file, F_SETOWN, ::getppid()); }));
-    EXPECT_TRUE(refused([](int file) { return ::fcntl(file, F_SETSIG, SIGTERM); }));
-    EXPECT_TRUE(refused([](int file) { return ::fcntl(file, F_SETFL, O_ASYNC); }));
-    EXPECT_TRUE(refused([](int file) {
+    EXPECT_TRUE(rejected([](int file) { return ::fcntl(file, F_SETOWN, ::getppid()); }));
+    EXPECT_TRUE(rejected([](int file) { return ::fcntl(file, F_SETSIG, SIGTERM); }));
+    EXPECT_TRUE(rejected([](int file) { return ::fcntl(file, F_SETFL, O_ASYNC); }));
+    EXPECT_TRUE(rejected([](int file) {
         const f_owner_ex owner = {F_OWNER_PID, ::getppid()};
         return ::fcntl(file, F_SETOWN_EX, &owner);
     }));
-    EXPECT_TRUE(refused([](int file) {
+    EXPECT_TRUE(rejected([](int file) {
         int on = 1;
         return ::ioctl(file, FIOASYNC, &on);
     }));
-    EXPECT_TRUE(refused([](int file) { return ::fcntl(file, F_NOTIFY, DN_ACCESS); }));
-    EXPECT_TRUE(refused([](int file) { return ::fcntl(file, F_SETLEASE, F_RDLCK); }));
-    EXPECT_TRUE(refused([](int) { return ::syscall(SYS_tgkill, ::getppid(), ::getppid(), 0); }));
-    EXPECT_TRUE(refused([](int) { return ::syscall(SYS_io_uring_setup, 1, nullptr); }));
-    EXPECT_TRUE(refused([](int) {
+    EXPECT_TRUE(rejected([](int file) { return ::fcntl(file, F_NOTIFY, DN_ACCESS); }));
+    EXPECT_TRUE(rejected([](int file) { return ::fcntl(file, F_SETLEASE, F_RDLCK); }));
+    EXPECT_TRUE(rejected([](int) { return ::syscall(SYS_tgkill, ::getppid(), ::getppid(), 0); }));
+    EXPECT_TRUE(rejected([](int) { return ::syscall(SYS_io_uring_setup, 1, nullptr); }));
+    EXPECT_TRUE(rejected([](int) {
         timer_t timer{};
         return ::timer_create(CLOCK_MONOTONIC, nullptr, &timer);
     }));
-    EXPECT_FALSE(refused([](int file) { return ::fcntl(file, F_GETFD); }));
-    EXPECT_FALSE(refused([](int file) { return ::fcntl(file, F_DUPFD_CLOEXEC, 10); }));
+    EXPECT_FALSE(rejected([](int file) { return ::fcntl(file, F_GETFD); }));
+    EXPECT_FALSE(rejected([](int file) { return ::fcntl(file, F_DUPFD_CLOEXEC, 10); }));
 }
 
 TEST(ConfinedProcess, MayNotRaiseItsLimits) {
@@ -158,21 +158,21 @@ TEST(ConfinedProcess, SendsNoMoreThanItsShare) {
     ConfinedLimits limits;
     limits.sent_bytes = 1000;
     const auto expected = HasSubstr("sends more than 0.001 MB");
-    EXPECT_THAT(fault_of([](const SendBytes& send) { send(std::string(1001, 'x')); }, limits), expected);
-    EXPECT_THAT(fault_of(
+    EXPECT_THAT(error_of([](const SendBytes& send) { send(std::string(1001, 'x')); }, limits), expected);
+    EXPECT_THAT(error_of(
                     [](const SendBytes& send) {
                         for (;;) send("some more");
                     },
                     limits),
                 expected);
-    EXPECT_THAT(fault_of([](const SendBytes&) { throw Error(std::string(2000, 'x')); }, limits), expected);
+    EXPECT_THAT(error_of([](const SendBytes&) { throw Error(std::string(2000, 'x')); }, limits), expected);
     EXPECT_THAT(received_from([](const SendBytes& send) { send("little"); }, limits), ElementsAre("little"));
 }
 
 TEST(ConfinedProcess, TextsThatTrickleInAreNoWork) {
     ConfinedLimits limits;
     limits.idle_seconds = 0.5;
-    EXPECT_THAT(fault_of(
+    EXPECT_THAT(error_of(
                     [](const SendBytes& send) {
                         for (;;) {
                             send("x");
@@ -184,7 +184,7 @@ TEST(ConfinedProcess, TextsThatTrickleInAreNoWork) {
 }
 
 TEST(ConfinedProcess, AnErrorIsOneLine) {
-    EXPECT_EQ(fault_of([](const SendBytes&) { throw Error("file: a fault\nand more of it"); }),
+    EXPECT_EQ(error_of([](const SendBytes&) { throw Error("file: a fault\nand more of it"); }),
               "file: a fault");
 }
 
@@ -223,15 +223,15 @@ TEST(ConfinedProcess, MayComputeInThreads) {
 }
 
 TEST(ConfinedProcess, ACrashIsOneLine) {
-    EXPECT_THAT(fault_of([](const SendBytes&) { ::raise(SIGSEGV); }), HasSubstr("ended by signal 11"));
-    EXPECT_THAT(fault_of([](const SendBytes&) { ::raise(SIGFPE); }), HasSubstr("ended by signal 8"));
-    EXPECT_THAT(fault_of([](const SendBytes&) { std::abort(); }), HasSubstr("ended by signal 6"));
+    EXPECT_THAT(error_of([](const SendBytes&) { ::raise(SIGSEGV); }), HasSubstr("ended by signal 11"));
+    EXPECT_THAT(error_of([](const SendBytes&) { ::raise(SIGFPE); }), HasSubstr("ended by signal 8"));
+    EXPECT_THAT(error_of([](const SendBytes&) { std::abort(); }), HasSubstr("ended by signal 6"));
 }
 
-TEST(ConfinedProcess, LeavingEarlyIsAFault) {
-    EXPECT_THAT(fault_of([](const SendBytes&) { std::exit(0); }), HasSubstr("before it is read through"));
-    EXPECT_THAT(fault_of([](const SendBytes&) { ::_exit(0); }), HasSubstr("before it is read through"));
-    EXPECT_THAT(fault_of([](const SendBytes& send) {
+TEST(ConfinedProcess, LeavingEarlyIsAError) {
+    EXPECT_THAT(error_of([](const SendBytes&) { std::exit(0); }), HasSubstr("before it is read through"));
+    EXPECT_THAT(error_of([](const SendBytes&) { ::_exit(0); }), HasSubstr("before it is read through"));
+    EXPECT_THAT(error_of([](const SendBytes& send) {
                     send("part");
                     std::exit(0);
                 }),
@@ -241,7 +241,7 @@ TEST(ConfinedProcess, LeavingEarlyIsAFault) {
 TEST(ConfinedProcess, HasAnEnd) {
     ConfinedLimits limits;
     limits.cpu_seconds = 1.0;
-    EXPECT_THAT(fault_of(
+    EXPECT_THAT(error_of(
                     [](const SendBytes&) {
                         for (volatile bool forever = true; forever;) {
                         }
@@ -250,7 +250,7 @@ TEST(ConfinedProcess, HasAnEnd) {
                 HasSubstr("takes more than 1 s of computing"));
     limits.idle_seconds = 0.2;
     EXPECT_THAT(
-        fault_of([](const SendBytes&) { std::this_thread::sleep_for(std::chrono::hours(1)); }, limits),
+        error_of([](const SendBytes&) { std::this_thread::sleep_for(std::chrono::hours(1)); }, limits),
         HasSubstr("without computing"));
 }
 
@@ -258,7 +258,7 @@ TEST(ConfinedProcess, HasAnEnd) {
 TEST(ConfinedProcess, WantsNoMoreMemoryThanItsShare) {
     ConfinedLimits limits;
     limits.memory = 0.01;
-    EXPECT_THAT(fault_of(
+    EXPECT_THAT(error_of(
                     [](const SendBytes& send) {
                         const std::string large(std::size_t{64} << 30U, 'x');
                         send(large);

@@ -36,13 +36,13 @@ class Hdf5ReaderTest : public testing::Test {
         });
     }
 
-    [[nodiscard]] std::string fault_of_doubles() const {
+    [[nodiscard]] std::string error_of_doubles() const {
         return error_of([&] { (void)Hdf5Reader(file_).finite_doubles("/a/doubles", {0, 3}); });
     }
-    [[nodiscard]] std::string fault_of_corners() const {
+    [[nodiscard]] std::string error_of_corners() const {
         return error_of([&] { (void)Hdf5Reader(file_).integers("/a/corners", {0, 3}); });
     }
-    [[nodiscard]] std::string fault_of_text() const {
+    [[nodiscard]] std::string error_of_text() const {
         return error_of([&] { (void)Hdf5Reader(file_).text("/a/text"); });
     }
 
@@ -74,7 +74,7 @@ TEST_F(Hdf5ReaderTest, NamesWhatDoesNotFit) {
 }
 
 TEST_F(Hdf5ReaderTest, AnAttributeOfManyNumbersIsRefused) {
-    const auto refused = [&](const H5::PredType& type, hsize_t count) {
+    const auto rejected = [&](const H5::PredType& type, hsize_t count) {
         put_attribute(file_, "/a", "x", type, count);
         const Hdf5Reader reader(file_);
         const std::string wanted = "the attribute x of /a is not one value";
@@ -84,8 +84,8 @@ TEST_F(Hdf5ReaderTest, AnAttributeOfManyNumbersIsRefused) {
         EXPECT_THAT(error_of([&] { (void)reader.unsigned_attribute("/a", "x"); }), HasSubstr(wanted));
     };
     for (const hsize_t count : {0U, 2U, 64U, 4000U}) {
-        refused(H5::PredType::IEEE_F64LE, count);
-        refused(H5::PredType::STD_I64LE, count);
+        rejected(H5::PredType::IEEE_F64LE, count);
+        rejected(H5::PredType::STD_I64LE, count);
     }
 }
 
@@ -100,19 +100,19 @@ TEST_F(Hdf5ReaderTest, ANumberThatIsNoPlainOneIsRefused) {
         EXPECT_THAT(error_of([&] { (void)Hdf5Reader(file_).number_attribute("/a", "x"); }),
                     HasSubstr("is no number"));
         put_dataset(file_, "/a/doubles", type, {2, 3});
-        EXPECT_THAT(fault_of_doubles(), HasSubstr("another type"));
+        EXPECT_THAT(error_of_doubles(), HasSubstr("another type"));
     }
 }
 
 TEST_F(Hdf5ReaderTest, AnAttributeOfManyTextsOrOfVariableLengthIsRefused) {
-    const auto fault = [&](const H5::StrType& type, hsize_t count) {
+    const auto error = [&](const H5::StrType& type, hsize_t count) {
         put_attribute(file_, "/a", "x", type, count);
         return error_of([&] { (void)Hdf5Reader(file_).text_attribute("/a", "x"); });
     };
     const H5::StrType text(H5::PredType::C_S1, 10);
-    EXPECT_THAT(fault(text, 3), HasSubstr("is not one value"));
-    EXPECT_THAT(fault(text, 0), HasSubstr("is not one value"));
-    EXPECT_THAT(fault(H5::StrType(H5::PredType::C_S1, H5T_VARIABLE), 1), HasSubstr("fixed length"));
+    EXPECT_THAT(error(text, 3), HasSubstr("is not one value"));
+    EXPECT_THAT(error(text, 0), HasSubstr("is not one value"));
+    EXPECT_THAT(error(H5::StrType(H5::PredType::C_S1, H5T_VARIABLE), 1), HasSubstr("fixed length"));
 }
 
 TEST_F(Hdf5ReaderTest, AnArrayOfOneValueReadsAsTheValue) {
@@ -125,18 +125,18 @@ TEST_F(Hdf5ReaderTest, AnArrayOfOneValueReadsAsTheValue) {
 TEST_F(Hdf5ReaderTest, AShapeThat64BitsDoNotCountIsRefused) {
     for (const hsize_t rows : {hsize_t{1} << 62U, hsize_t{1} << 61U, hsize_t{6148914691236517206}}) {
         put_dataset(file_, "/a/corners", H5::PredType::STD_I32LE, {rows, 3}, in_chunks({1, 3}));
-        EXPECT_THAT(fault_of_corners(), HasSubstr("/a/corners claims more values than can be counted"))
+        EXPECT_THAT(error_of_corners(), HasSubstr("/a/corners claims more values than can be counted"))
             << rows;
     }
 }
 
 TEST_F(Hdf5ReaderTest, ValuesThatAreNotStoredAreRefused) {
     put_dataset(file_, "/a/doubles", H5::PredType::IEEE_F64LE, {1'000'000'000, 3}, in_chunks({1000, 3}));
-    EXPECT_THAT(fault_of_doubles(), HasSubstr("/a/doubles claims values that are not stored"));
+    EXPECT_THAT(error_of_doubles(), HasSubstr("/a/doubles claims values that are not stored"));
     put_dataset(file_, "/a/doubles", H5::PredType::IEEE_F64LE, {1'000'000'000, 3});
-    EXPECT_THAT(fault_of_doubles(), HasSubstr("/a/doubles claims values that are not stored"));
+    EXPECT_THAT(error_of_doubles(), HasSubstr("/a/doubles claims values that are not stored"));
     put_dataset(file_, "/a/text", H5::PredType::STD_U8LE, {24'000'000'000}, in_chunks({1U << 20U}));
-    EXPECT_THAT(fault_of_text(), HasSubstr("/a/text claims values that are not stored"));
+    EXPECT_THAT(error_of_text(), HasSubstr("/a/text claims values that are not stored"));
 }
 
 TEST_F(Hdf5ReaderTest, DatasetsTogetherHoldNoMoreThanTheFile) {
@@ -162,12 +162,12 @@ TEST_F(Hdf5ReaderTest, ValuesOfOtherFilesAreRefused) {
     for (const char* other : {"other.h5", "pipe"}) {
         put_dataset(file_, "/a/doubles", H5::PredType::IEEE_F64LE, {2, 3},
                     test::in_other_file(folder_ / other, 48));
-        EXPECT_THAT(fault_of_doubles(), HasSubstr("/a/doubles is kept in other files"));
+        EXPECT_THAT(error_of_doubles(), HasSubstr("/a/doubles is kept in other files"));
         put_dataset(file_, "/a/text", H5::PredType::STD_U8LE, {7}, test::in_other_file(folder_ / other, 7));
-        EXPECT_THAT(fault_of_text(), HasSubstr("/a/text is kept in other files"));
+        EXPECT_THAT(error_of_text(), HasSubstr("/a/text is kept in other files"));
         put_dataset(file_, "/a/doubles", H5::PredType::IEEE_F64LE, {2, 3},
                     test::in_dataset_of(folder_ / other, "/secret", {2, 3}));
-        EXPECT_THAT(fault_of_doubles(), HasSubstr("/a/doubles is kept in other files"));
+        EXPECT_THAT(error_of_doubles(), HasSubstr("/a/doubles is kept in other files"));
     }
 }
 
@@ -179,7 +179,7 @@ TEST_F(Hdf5ReaderTest, LinksAreNotFollowed) {
     ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
     for (const char* other : {"other.h5", "pipe"}) {
         test::put_link(file_, "/a/doubles", "/a/doubles", folder_ / other);
-        EXPECT_THAT(fault_of_doubles(), HasSubstr("/a/doubles is a link to elsewhere"));
+        EXPECT_THAT(error_of_doubles(), HasSubstr("/a/doubles is a link to elsewhere"));
         test::put_link(file_, "/b", "/a", folder_ / other);
         const Hdf5Reader reader(file_);
         EXPECT_THAT(error_of([&] {
@@ -191,14 +191,14 @@ TEST_F(Hdf5ReaderTest, LinksAreNotFollowed) {
         EXPECT_THAT(error_of([&] { (void)reader.children("/b"); }), HasSubstr("/b is a link to elsewhere"));
     }
     test::put_link(file_, "/a/doubles", "/a/doubles");  // to itself
-    EXPECT_THAT(fault_of_doubles(), HasSubstr("/a/doubles is a link to elsewhere"));
+    EXPECT_THAT(error_of_doubles(), HasSubstr("/a/doubles is a link to elsewhere"));
 }
 
 TEST_F(Hdf5ReaderTest, CompressedValuesAreRefused) {
     H5::DSetCreatPropList creation = in_chunks({2, 3});
     creation.setDeflate(9);
     put_dataset(file_, "/a/doubles", H5::PredType::IEEE_F64LE, {2, 3}, creation);
-    EXPECT_THAT(fault_of_doubles(), HasSubstr("/a/doubles is compressed or encoded"));
+    EXPECT_THAT(error_of_doubles(), HasSubstr("/a/doubles is compressed or encoded"));
 }
 
 TEST_F(Hdf5ReaderTest, EdgesOfChunksWithoutTheirFilterAreRefused) {
@@ -206,7 +206,7 @@ TEST_F(Hdf5ReaderTest, EdgesOfChunksWithoutTheirFilterAreRefused) {
     creation.setFletcher32();
     H5Pset_chunk_opts(creation.getId(), H5D_CHUNK_DONT_FILTER_PARTIAL_CHUNKS);
     put_dataset(file_, "/a/doubles", H5::PredType::IEEE_F64LE, {2, 3}, creation);
-    EXPECT_THAT(fault_of_doubles(), HasSubstr("/a/doubles is compressed or encoded"));
+    EXPECT_THAT(error_of_doubles(), HasSubstr("/a/doubles is compressed or encoded"));
 }
 
 /// 64 rows of 8 doubles in chunks of 64 or 32, with or without checksums, of which none, one or two axes may
@@ -264,8 +264,8 @@ TEST_P(CraftedChunks, OfAnotherSizeAreNeverReadPastTheirEnd) {
             }
             try {  // HDF5 may take such values from where they stand
                 EXPECT_EQ(read().size(), 512U);
-            } catch (const Error& fault) {
-                EXPECT_THAT(fault.what(), HasSubstr("/values")) << bytes;
+            } catch (const Error& error) {
+                EXPECT_THAT(error.what(), HasSubstr("/values")) << bytes;
             }
         }
     }
@@ -308,23 +308,23 @@ TEST_F(Hdf5ReaderTest, HasEachFileCheckedOnceThatThisProcessDidNotWrite) {
 
 TEST_F(Hdf5ReaderTest, WhatIsNoFileIsRefusedWithoutWaiting) {
     ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
-    const auto fault = [](const std::filesystem::path& path) {
+    const auto error = [](const std::filesystem::path& path) {
         return error_of([&] { const Hdf5Reader reader(path); });
     };
-    EXPECT_THAT(fault(folder_ / "pipe"), HasSubstr("pipe: is a pipe, socket or device; give a file"));
-    EXPECT_THAT(fault("/dev/zero"), HasSubstr("/dev/zero: is a pipe, socket or device; give a file"));
-    EXPECT_THAT(fault(folder_.path()), HasSubstr("is a folder; give a file"));
-    EXPECT_THAT(fault(folder_ / "none.h5"), HasSubstr("none.h5: there is no such file"));
-    EXPECT_THAT(fault(file_ / "below.h5"), HasSubstr("cannot be read: Not a directory"));
+    EXPECT_THAT(error(folder_ / "pipe"), HasSubstr("pipe: is a pipe, socket or device; give a file"));
+    EXPECT_THAT(error("/dev/zero"), HasSubstr("/dev/zero: is a pipe, socket or device; give a file"));
+    EXPECT_THAT(error(folder_.path()), HasSubstr("is a folder; give a file"));
+    EXPECT_THAT(error(folder_ / "none.h5"), HasSubstr("none.h5: there is no such file"));
+    EXPECT_THAT(error(file_ / "below.h5"), HasSubstr("cannot be read: Not a directory"));
 }
 
 TEST_F(Hdf5ReaderTest, AFileThatMayNotBeReadSaysSo) {
-    const auto fault = [&] {
+    const auto error = [&] {
         if (::geteuid() == 0 && ::seteuid(65534) != 0) return std::string("no other user");
         return error_of([&] { const Hdf5Reader reader(file_); });
     };
     ASSERT_EQ(::chmod(file_.c_str(), 0), 0);
-    EXPECT_EXIT(std::_Exit(fault() == file_.string() + ": cannot be read: Permission denied" ? 0 : 1),
+    EXPECT_EXIT(std::_Exit(error() == file_.string() + ": cannot be read: Permission denied" ? 0 : 1),
                 testing::ExitedWithCode(0), "");
 }
 

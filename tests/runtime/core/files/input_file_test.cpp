@@ -18,16 +18,16 @@ using testing::HasSubstr;
 
 TEST(InputFile, SaysWhatIsWrongWithAPathAndNeverThrows) {
     const TemporaryFolder folder;
-    EXPECT_EQ(reading_fault(folder.file("a.h5", "text")), "");
-    EXPECT_EQ(reading_fault("/dev/null"), "is a pipe, socket or device; give a file");
-    EXPECT_EQ(reading_fault(folder / "b.h5"), "there is no such file");
-    EXPECT_EQ(reading_fault(folder.path()), "is a folder; give a file");
-    EXPECT_EQ(reading_fault(folder / "a.h5/b.h5"), "cannot be read: Not a directory");
-    EXPECT_EQ(reading_fault(std::string(5000, 'a')), "cannot be read: File name too long");
+    EXPECT_EQ(reading_error(folder.file("a.h5", "text")), "");
+    EXPECT_EQ(reading_error("/dev/null"), "is a pipe, socket or device; give a file");
+    EXPECT_EQ(reading_error(folder / "b.h5"), "there is no such file");
+    EXPECT_EQ(reading_error(folder.path()), "is a folder; give a file");
+    EXPECT_EQ(reading_error(folder / "a.h5/b.h5"), "cannot be read: Not a directory");
+    EXPECT_EQ(reading_error(std::string(5000, 'a')), "cannot be read: File name too long");
     std::filesystem::create_symlink("loop", folder / "loop");
-    EXPECT_EQ(reading_fault(folder / "loop"), "cannot be read: Too many levels of symbolic links");
+    EXPECT_EQ(reading_error(folder / "loop"), "cannot be read: Too many levels of symbolic links");
     std::filesystem::create_symlink("gone", folder / "dangling");
-    EXPECT_EQ(reading_fault(folder / "dangling"), "there is no such file");
+    EXPECT_EQ(reading_error(folder / "dangling"), "there is no such file");
 }
 
 TEST(InputFile, IsReadWholeOrRefused) {

@@ -21,7 +21,7 @@ class FoundShareFolder : public testing::Test {
     [[nodiscard]] std::filesystem::path found(const char* mark) const {
         return find_share_folder({"none-such", "the parts", variable, mark, source_.c_str()});
     }
-    [[nodiscard]] std::string fault(const char* mark) const {
+    [[nodiscard]] std::string error(const char* mark) const {
         return test::error_of([&] { static_cast<void>(found(mark)); });
     }
 
@@ -38,15 +38,15 @@ TEST_F(FoundShareFolder, IsInTheSourcesWhereNoneIsInstalled) {
 TEST_F(FoundShareFolder, IsTheOneThatTheEnvironmentNames) {
     ::setenv(variable, folder_.path().c_str(), 1);
     EXPECT_EQ(found("source"), folder_.path());
-    EXPECT_THAT(fault("farm"), HasSubstr("which holds no farm; unset it, or name the folder of the parts"));
+    EXPECT_THAT(error("farm"), HasSubstr("which holds no farm; unset it, or name the folder of the parts"));
     ::setenv(variable, "nowhere", 1);
-    EXPECT_THAT(fault(""), HasSubstr("SAMARA_PARTS_OF_THIS_TEST names nowhere, which is no folder; unset"));
+    EXPECT_THAT(error(""), HasSubstr("SAMARA_PARTS_OF_THIS_TEST names nowhere, which is no folder; unset"));
     ::setenv(variable, "", 1);
     EXPECT_EQ(found(""), source_);
 }
 
 TEST_F(FoundShareFolder, IsMissedWithTheRemedy) {
-    EXPECT_THAT(fault("Snakefile"),
+    EXPECT_THAT(error("Snakefile"),
                 testing::AllOf(HasSubstr("share/samara/none-such: the parts are not installed there"),
                                HasSubstr("or name their folder in SAMARA_PARTS_OF_THIS_TEST")));
 }

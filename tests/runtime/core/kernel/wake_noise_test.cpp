@@ -35,8 +35,8 @@ BodyState moving_at(const Vector3d& velocity, const Vector3d& angular_velocity =
 
 /// What the wake of a body too heavy to be moved does at its velocities, over many steps.
 struct WakeStatistics {
-    Matrix3d slip = Matrix3d::Zero();  // mean of its square
-    double kept = 0.0;                 // correlation from step to step
+    Matrix3d wake_fluctuation = Matrix3d::Zero();  // mean of its square
+    double kept = 0.0;                             // correlation from step to step
 };
 WakeStatistics statistics_of(const ImmersedBody& body, const BodyState& moving, double h) {
     constexpr std::uint64_t settling = 200;
@@ -52,11 +52,11 @@ WakeStatistics statistics_of(const ImmersedBody& body, const BodyState& moving, 
         state.orientation = Quaterniond::Identity();
         EXPECT_EQ(state.sampled_turbulence.angular_velocity, Vector3d::Zero());
         if (step < settling) continue;
-        const Vector3d& slip = state.sampled_turbulence.velocity;
-        product += slip.dot(before);
-        found.slip += slip * slip.transpose() / double{steps};
+        const Vector3d& wake_fluctuation = state.sampled_turbulence.velocity;
+        product += wake_fluctuation.dot(before);
+        found.wake_fluctuation += wake_fluctuation * wake_fluctuation.transpose() / double{steps};
     }
-    found.kept = product / double{steps} / found.slip.trace();
+    found.kept = product / double{steps} / found.wake_fluctuation.trace();
     return found;
 }
 
@@ -66,10 +66,11 @@ TEST(WakeNoise, HasItsVarianceAndItsTimeWhateverTheStep) {
         const Vector3d velocity = speed * Vector3d(2.0, 0.0, 1.0).normalized();
         const double energy = turbulence_level(body, velocity).turbulent_kinetic_energy;
         const double time = wake_persistence * body.length / speed;
-        const Matrix3d expected = wake_slip * wake_slip * 2.0 / 3.0 * energy * Matrix3d::Identity();
+        const Matrix3d expected =
+            wake_fluctuation_share * wake_fluctuation_share * 2.0 / 3.0 * energy * Matrix3d::Identity();
         for (const double step_by_time : {0.2, 2.0}) {
             const WakeStatistics found = statistics_of(body, moving_at(velocity), step_by_time * time);
-            EXPECT_LT((found.slip - expected).cwiseAbs().maxCoeff(), 0.02 * expected.trace());
+            EXPECT_LT((found.wake_fluctuation - expected).cwiseAbs().maxCoeff(), 0.02 * expected.trace());
             EXPECT_NEAR(found.kept, std::exp(-step_by_time), 0.01);
         }
     }
@@ -79,13 +80,13 @@ TEST(WakeNoise, IsTheWeakerTheMoreTheBodyTurnsOnItsWay) {
     const ImmersedBody body = ellipsoid_with_a_wake(1e9);
     const Vector3d velocity(0.4, 0.0, 0.2);
     const double time = wake_persistence * body.length / velocity.norm();
-    const double straight = statistics_of(body, moving_at(velocity), time).slip.trace();
+    const double straight = statistics_of(body, moving_at(velocity), time).wake_fluctuation.trace();
     const double rate = velocity.norm() / body.length;  // lengths gone in a second
     for (const double turns : {0.1, 0.25, 1.0}) {
         const Vector3d turning = turns * rate * Vector3d(1.0, 2.0, -2.0) / 3.0;
         const WakeStatistics found = statistics_of(body, moving_at(velocity, turning), time);
         const double share = 1.0 / (1.0 + wake_order * wake_order * turns * turns);
-        EXPECT_NEAR(std::sqrt(found.slip.trace() / straight), share, 0.02 * share);
+        EXPECT_NEAR(std::sqrt(found.wake_fluctuation.trace() / straight), share, 0.02 * share);
         EXPECT_NEAR(found.kept, std::exp(-1.0), 0.01);
     }
 }
@@ -115,9 +116,11 @@ TEST(WakeNoise, PushesByTheLoadsAtTheSlipAndNotByItsChange) {
 }
 
 /// One step in the frozen slip of a wake (m/s, world axes).
-BodyState stepped(const ImmersedBody& body, const Vector3d& slip, double h, const BodyState& state) {
+BodyState stepped(const ImmersedBody& body, const Vector3d& wake_fluctuation, double h,
+                  const BodyState& state) {
     BodyState after = state;
-    const kernel::SeenStream stream{slip, slip, Vector3d::Zero(), true, true, slip};
+    const kernel::SeenStream stream{wake_fluctuation, wake_fluctuation, Vector3d::Zero(), true, true,
+                                    wake_fluctuation};
     kernel::implicit_step(body.constants, Vector3d::Zero(), h, stream, 0, 1, nullptr, after);
     return after;
 }
@@ -125,19 +128,19 @@ BodyState stepped(const ImmersedBody& body, const Vector3d& slip, double h, cons
 TEST(WakeNoise, PressesOnTheSidesAcrossThePath) {
     ImmersedBody body = ellipsoid_with_a_wake(1e6);
     const Vector3d path = Vector3d(2.0, 1.0, 1.0).normalized();
-    const Vector3d slip(0.004, -0.003, 0.005);
+    const Vector3d wake_fluctuation(0.004, -0.003, 0.005);
     BodyState state = moving_at(0.22 * path);
     state.orientation = Quaterniond(Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()));
     const double h = 1e-3;
-    const Vector3d with = stepped(body, slip, h, state).velocity.tail<3>();
-    const Vector3d seen = state.orientation.conjugate() * slip;
+    const Vector3d with = stepped(body, wake_fluctuation, h, state).velocity.tail<3>();
+    const Vector3d seen = state.orientation.conjugate() * wake_fluctuation;
     const Vector3d relative = 0.22 * path - seen;
     const Vector3d pressed =
         wake_side_pressure * 0.5 * body.fluid_density * relative.norm() * (body.projected_area_tensor * seen);
     const Vector3d across = pressed - pressed.dot(relative) / relative.squaredNorm() * relative;
     body.projected_area_tensor.setZero();
     prepare(body);
-    const Vector3d without = stepped(body, slip, h, state).velocity.tail<3>();
+    const Vector3d without = stepped(body, wake_fluctuation, h, state).velocity.tail<3>();
     EXPECT_LT(((with - without) * body.mass / h - across).norm(), 1e-3 * across.norm());
 }
 
@@ -155,16 +158,16 @@ TEST(WakeNoise, HasTheShadowsAlongThePrincipalAxes) {
 TEST(WakeNoise, MakesNoEnergyInTheFrameOfItsSlip) {
     for (const double h : {0.002, 0.05}) {
         const ImmersedBody body = ellipsoid_with_a_wake(1200.0);
-        const Vector3d slip(0.1, -0.2, 0.15);  // far beyond what k makes
+        const Vector3d wake_fluctuation(0.1, -0.2, 0.15);  // far beyond what k makes
         BodyState state = moving_at({0.2, 0.1, -0.1});
         state.velocity.head<3>() = Vector3d(1.0, -2.0, 0.5);
         const auto energy = [&](BodyState of) {
-            of.velocity.tail<3>() -= of.orientation.conjugate() * slip;
+            of.velocity.tail<3>() -= of.orientation.conjugate() * wake_fluctuation;
             return kinetic_energy(body, of);
         };
         double before = energy(state);
         for (int step = 0; step < 200; ++step) {
-            state = stepped(body, slip, h, state);
+            state = stepped(body, wake_fluctuation, h, state);
             EXPECT_LE(energy(state), before * (1.0 + 1e-12));
             before = energy(state);
         }

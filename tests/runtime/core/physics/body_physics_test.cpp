@@ -90,35 +90,35 @@ TEST(BodyPhysics, IsReachedWholeByTheSceneFile) {
 }
 
 TEST(BodyPhysics, IsReachedWholeByTheCInterface) {
-    using Change = std::function<void(samara_kind&)>;
+    using Change = std::function<void(samara_body_group&)>;
     const std::map<std::string, Change> changes = {
-        {"density", [](samara_kind& k) { k.mass = 0.0, k.density = 2.0; }},
-        {"mass", [](samara_kind& k) { k.mass = 2.0; }},
-        {"center_of_mass", [](samara_kind& k) { k.has_center_of_mass = 1; }},
-        {"inertia", [](samara_kind& k) { k.inertia[0] = k.inertia[4] = k.inertia[8] = 1.0; }},
-        {"loads", [](samara_kind& k) { k.loads = SAMARA_LOADS_COEFFICIENTS; }},
-        {"drag_coefficient", [](samara_kind& k) { k.drag_coefficient = 2.0; }},
-        {"lift_coefficient", [](samara_kind& k) { k.lift_coefficient = 2.0; }},
-        {"reference_area", [](samara_kind& k) { k.reference_area = 2.0; }},
-        {"normal", [](samara_kind& k) { k.normal[2] = 1.0; }},
-        {"center_of_pressure", [](samara_kind& k) { k.center_of_pressure[2] = 1.0; }},
-        {"table_reynolds_number", [](samara_kind& k) { k.table_reynolds_number = 100.0; }},
-        {"patches", [](samara_kind& k) { k.patches = 8; }},
-        {"added_mass", [](samara_kind& k) { k.added_mass = 0; }},
-        {"dynamic_coefficients", [](samara_kind& k) { k.dynamic_coefficients = SAMARA_DYNAMIC_NONE; }},
-        {"turbulence", [](samara_kind& k) { k.turbulence = SAMARA_TURBULENCE_NONE; }},
-        {"turbulent_kinetic_energy", [](samara_kind& k) { k.turbulent_kinetic_energy = 2.0; }},
-        {"dissipation_rate", [](samara_kind& k) { k.dissipation_rate = 2.0; }},
-        {"langevin", [](samara_kind& k) { k.langevin = SAMARA_LANGEVIN_BODY_VELOCITY; }}};
-    samara_kind plain = default_kind();
+        {"density", [](samara_body_group& k) { k.mass = 0.0, k.density = 2.0; }},
+        {"mass", [](samara_body_group& k) { k.mass = 2.0; }},
+        {"center_of_mass", [](samara_body_group& k) { k.has_center_of_mass = 1; }},
+        {"inertia", [](samara_body_group& k) { k.inertia[0] = k.inertia[4] = k.inertia[8] = 1.0; }},
+        {"loads", [](samara_body_group& k) { k.loads = SAMARA_LOADS_COEFFICIENTS; }},
+        {"drag_coefficient", [](samara_body_group& k) { k.drag_coefficient = 2.0; }},
+        {"lift_coefficient", [](samara_body_group& k) { k.lift_coefficient = 2.0; }},
+        {"reference_area", [](samara_body_group& k) { k.reference_area = 2.0; }},
+        {"normal", [](samara_body_group& k) { k.normal[2] = 1.0; }},
+        {"center_of_pressure", [](samara_body_group& k) { k.center_of_pressure[2] = 1.0; }},
+        {"table_reynolds_number", [](samara_body_group& k) { k.table_reynolds_number = 100.0; }},
+        {"patches", [](samara_body_group& k) { k.patches = 8; }},
+        {"added_mass", [](samara_body_group& k) { k.added_mass = 0; }},
+        {"dynamic_coefficients", [](samara_body_group& k) { k.dynamic_coefficients = SAMARA_DYNAMIC_NONE; }},
+        {"turbulence", [](samara_body_group& k) { k.turbulence = SAMARA_TURBULENCE_NONE; }},
+        {"turbulent_kinetic_energy", [](samara_body_group& k) { k.turbulent_kinetic_energy = 2.0; }},
+        {"dissipation_rate", [](samara_body_group& k) { k.dissipation_rate = 2.0; }},
+        {"langevin", [](samara_body_group& k) { k.langevin = SAMARA_LANGEVIN_BODY_VELOCITY; }}};
+    samara_body_group plain = default_group();
     plain.mass = 1.0;
     plain.turbulence = SAMARA_TURBULENCE_TABLE;
     for (const std::string& key : keys()) {
-        samara_kind changed = plain;
+        samara_body_group changed = plain;
         changes.at(key)(changed);
         std::set<std::string> expected = {key};
         if (key == "density") expected.insert("mass");  // they exclude each other
-        EXPECT_EQ(differences(read_kind(changed), read_kind(plain)), expected);
+        EXPECT_EQ(differences(read_group(changed), read_group(plain)), expected);
     }
 }
 

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "samara/core/dynamics/surroundings.hpp"
-#include "samara/core/flight/world_pose.hpp"
+#include "samara/core/simulation/world_pose.hpp"
 #include "support/expect_error.hpp"
 #include "support/obstacles.hpp"
 

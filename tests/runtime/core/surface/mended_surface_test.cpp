@@ -104,9 +104,9 @@ TEST(MendedSurface, SaysWhatIsLostFarFromTheOrigin) {
         }
         return cube;
     };
-    const std::string fault = test::error_of([&] { mended(far_off(1e6, true)); });
-    EXPECT_THAT(fault, HasSubstr("lies 1e+06 from the origin, where its numbers of 32 bits are 0.12 apart"));
-    EXPECT_THAT(fault, HasSubstr("move it to the origin before it is exported"));
+    const std::string error = test::error_of([&] { mended(far_off(1e6, true)); });
+    EXPECT_THAT(error, HasSubstr("lies 1e+06 from the origin, where its numbers of 32 bits are 0.12 apart"));
+    EXPECT_THAT(error, HasSubstr("move it to the origin before it is exported"));
     EXPECT_NO_THROW(mended(far_off(1e2, true)));
     EXPECT_NO_THROW(mended(far_off(1e6, false))) << "numbers of 64 bits";
 }

@@ -1,0 +1,433 @@
+// samara.Simulation: bodies that fall call by call, for those who steer.
+
+#include "samara/core/simulation/simulation.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <tuple>
+
+#include <fmt/format.h>
+#include <pybind11/eigen.h>
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "bindings.hpp"
+#include "samara/commands/shared/scene_bodies.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/base/number_limits.hpp"
+#include "samara/formats/toml_table.hpp"
+#include "samara/scene/scene_settings.hpp"
+#include "samara/scene/wind_table.hpp"
+
+namespace samara::python {
+namespace {
+
+/// Poses that a flight gave out, runs x copies.
+struct Poses {
+    std::vector<Pose> poses;
+    int runs = 1;
+    int copies = 1;
+};
+
+/// A flight of a scene. Its calls wait for one another where several threads make them; a progress function
+/// may look at it, and change nothing.
+class LiveSimulation {
+  public:
+    LiveSimulation(Scene scene, int runs, std::optional<std::uint64_t> seed, int threads,
+               const std::filesystem::path& bodies)
+        : runs_(runs) {
+        require_runs_and_threads(runs, threads);
+        if (seed) scene.seed = *seed;
+        const py::gil_scoped_release others_go_on;
+        on_input([&] { put(scene, bodies, threads); });
+    }
+
+    void advance(double time, py::object progress) {
+        if (!std::isfinite(time)) throw RaisedInputError("time: give a finite number of seconds");
+        LongWork work(std::move(progress));
+        work([&] {
+            const std::lock_guard lock(mutex_);
+            require_no_advance();
+            const Advancing in_progress(advancing_);
+            const double begin = simulation_->time();
+            simulation_->require_time(time);
+            if (time == begin) {
+                simulation_->advance_to(time);
+                return work.tell(0.0, 0.0);
+            }
+            // In pieces, so that Ctrl-C and progress come through; the motion does not depend on them.
+            for (double now = begin; work.tell(now - begin, time - begin);) {
+                now = std::min(time, now + pieces_of_ * step_);
+                for (const auto& [index, wrench] : pushes_) simulation_->add_wrench(index, wrench);
+                simulation_->advance_to(now);
+                if (now < time) continue;
+                pushes_.clear();
+                work.tell(time - begin, time - begin);
+                break;
+            }
+            return true;
+        });
+    }
+
+    void add_force(const std::string& name, const py::object& force, const py::object& point,
+                   const py::object& moment, int run, int copy) {
+        const std::size_t index = index_of(name, run, copy);
+        const GivenPush given = {"force", Vector3d(numbers_of<3>(force, "force").data()),
+                                 vector_of(point, "point"), vector_of(moment, "moment")};
+        change_flight([&] { pushes_.emplace_back(index, wrench_of(index, given)); });
+    }
+
+    void add_impulse(const std::string& name, const py::object& impulse, const py::object& point,
+                     const py::object& angular_impulse, int run, int copy) {
+        const std::size_t index = index_of(name, run, copy);
+        const GivenPush given = {"impulse", Vector3d(numbers_of<3>(impulse, "impulse").data()),
+                                 vector_of(point, "point"), vector_of(angular_impulse, "angular_impulse")};
+        change_flight([&] { simulation_->add_impulse(index, wrench_of(index, given)); });
+    }
+
+    void remove(const std::string& name, int run, int copy) {
+        const std::size_t index = index_of(name, run, copy);
+        change_flight([&] { simulation_->remove(index); });
+    }
+
+    [[nodiscard]] std::tuple<Vector6d, Matrix6d, Matrix6d> fluid_load(const std::string& name, int run,
+                                                                      int copy) {
+        const std::size_t index = index_of(name, run, copy);
+        FluidLoad load;
+        with_flight([&] {
+            require_there(index);
+            load = simulation_->fluid_load(index);
+        });
+        return {load.wrench, load.added_inertia, load.damping};
+    }
+
+    [[nodiscard]] std::tuple<double, Vector3d, Matrix3d> mass_properties(const std::string& name, int run,
+                                                                         int copy) {
+        const std::size_t index = index_of(name, run, copy);
+        std::tuple<double, Vector3d, Matrix3d> own;
+        with_flight([&] {
+            own = {simulation_->mass(index), simulation_->center_of_mass(index), simulation_->inertia(index)};
+        });
+        return own;
+    }
+
+    void set_ground(std::optional<double> height) {
+        if (height && !(std::abs(*height) <= largest_number)) {
+            throw RaisedInputError("height: give a finite number of metres, 1e30 at most, or None");
+        }
+        change_flight([&] { simulation_->set_ground(height); });
+    }
+
+    void set_wind(const py::dict& keys) {
+        const toml::table document = parse_toml(toml_text(keys, "wind"), "wind");
+        change_flight([&] {
+            TomlTable table(document, "wind", "the wind");
+            const std::lock_guard lock(hdf5_mutex());  // of a wind file, which need not last
+            constexpr double no_end = -std::numeric_limits<double>::infinity();
+            simulation_->set_wind(read_dict(
+                "wind", [&] { return read_wind(table, ".", simulation_->ground().value_or(0.0), no_end); }));
+        });
+    }
+
+    void watch_contacts(bool watch) {
+        change_flight([&] { simulation_->watch_contacts(watch); });
+    }
+
+    [[nodiscard]] py::dict take_contacts(const std::string& name) {
+        const Group& group = group_named(name);
+        const std::size_t count = static_cast<std::size_t>(runs_) * static_cast<std::size_t>(group.copies);
+        std::vector<ContactRecord> met(count);
+        std::vector<bool> rests(count);
+        change_flight([&] {
+            for (std::size_t i = 0; i < count; ++i) {
+                met[i] = simulation_->take_contacts(group.first + i);
+                rests[i] = simulation_->is_at_rest(group.first + i);
+            }
+        });
+        const std::array<py::ssize_t, 2> shape = {runs_, group.copies};
+        py::array_t<double> impulse({shape[0], shape[1], py::ssize_t{3}});
+        py::array_t<double> point({shape[0], shape[1], py::ssize_t{3}});
+        py::array_t<double> normal({shape[0], shape[1], py::ssize_t{3}});
+        py::array_t<double> strongest(shape);
+        py::array_t<double> time(shape);
+        py::array_t<int> obstacle(shape);
+        py::array_t<int> body(shape);
+        py::array_t<bool> at_rest(shape);
+        for (std::size_t i = 0; i < count; ++i) {
+            std::copy_n(met[i].impulse.data(), 3, impulse.mutable_data() + 3 * i);
+            std::copy_n(met[i].point.data(), 3, point.mutable_data() + 3 * i);
+            std::copy_n(met[i].normal.data(), 3, normal.mutable_data() + 3 * i);
+            strongest.mutable_data()[i] = met[i].strongest;
+            time.mutable_data()[i] = met[i].time;
+            obstacle.mutable_data()[i] = met[i].obstacle;
+            body.mutable_data()[i] = met[i].body;
+            at_rest.mutable_data()[i] = rests[i];
+        }
+        py::dict result;
+        result["impulse"] = impulse;
+        result["strongest"] = strongest;
+        result["point"] = point;
+        result["normal"] = normal;
+        result["time"] = time;
+        result["obstacle"] = obstacle;
+        result["body"] = body;
+        result["at_rest"] = at_rest;
+        return result;
+    }
+
+    [[nodiscard]] Poses poses(const std::string& name) {
+        const Group& group = group_named(name);
+        Poses result{{}, runs_, group.copies};
+        result.poses.resize(static_cast<std::size_t>(runs_) * static_cast<std::size_t>(group.copies));
+        with_flight([&] { simulation_->poses(group.first, result.poses.size(), result.poses.data()); });
+        return result;
+    }
+
+    void set_pose(const std::string& name, int run, int copy, const py::object& position,
+                  const py::object& orientation, const py::object& velocity,
+                  const py::object& angular_velocity) {
+        const std::size_t index = index_of(name, run, copy);
+        Pose pose;
+        with_flight([&] { pose = simulation_->pose(index); });
+        const auto assign = [](Vector3d& target, const py::object& given, const char* what) {
+            target = vector_of(given, what).value_or(target);
+            if (!(target.cwiseAbs().maxCoeff() <= largest_number) || !target.allFinite()) {
+                throw RaisedInputError(fmt::format("{}: give three finite numbers, 1e30 at most", what));
+            }
+        };
+        assign(pose.position, position, "position");
+        assign(pose.velocity, velocity, "velocity");
+        assign(pose.angular_velocity, angular_velocity, "angular_velocity");
+        if (!orientation.is_none()) {
+            pose.orientation = Quaterniond(numbers_of<4>(orientation, "orientation").data());
+            if (!(std::abs(pose.orientation.norm() - 1.0) < 1e-6)) {
+                throw RaisedInputError("orientation: give a quaternion x, y, z, w of length one");
+            }
+            pose.orientation.normalize();
+        }
+        change_flight([&] { simulation_->set_pose(index, pose); });
+    }
+
+    [[nodiscard]] py::bytes state() {
+        std::string bytes;
+        with_flight([&] { bytes = simulation_->state(); });
+        return bytes;
+    }
+    void set_state(const std::string& bytes) {
+        change_flight([&] { simulation_->set_state(bytes); });
+    }
+    [[nodiscard]] double time() {
+        double time = 0.0;
+        with_flight([&] { time = simulation_->time(); });
+        return time;
+    }
+    [[nodiscard]] std::uint64_t steps() {
+        std::uint64_t steps = 0;
+        with_flight([&] { steps = simulation_->steps(); });
+        return steps;
+    }
+    [[nodiscard]] std::vector<std::string> names() const {
+        std::vector<std::string> names;
+        for (const Group& group : groups_) names.push_back(group.name);
+        return names;
+    }
+
+  private:
+    struct Group {
+        std::string name;
+        int copies = 1;
+        std::size_t first = 0;
+    };
+    static constexpr double pieces_of_ = 256.0;  // steps
+
+    void put(Scene& scene, const std::filesystem::path& bodies, int threads) {
+        std::vector<LoadedBody> loaded;
+        {
+            const std::lock_guard lock(hdf5_mutex());
+            loaded = bodies_of(scene, bodies);
+        }
+        choose_models(scene, loaded, threads, [](double, double) {});
+        choose_step(scene, loaded, threads);
+        step_ = scene.step;
+        simulation_.emplace(simulation_settings(scene, runs_, threads));
+        for (std::size_t i = 0; i < loaded.size(); ++i) {
+            const SceneBody& body = scene.bodies[i];
+            groups_.push_back({body.name, body.count, simulation_->add(loaded[i], body, body, body.name)});
+        }
+    }
+
+    [[nodiscard]] std::size_t index_of(const std::string& name, int run, int copy) const {
+        const Group& group = group_named(name);
+        if (run < 0 || run >= runs_) {
+            throw py::index_error(fmt::format("run {}: there are {}, counted from 0", run, runs_));
+        }
+        if (copy < 0 || copy >= group.copies) {
+            throw py::index_error(fmt::format("copy {}: there are {}, counted from 0", copy, group.copies));
+        }
+        return group.first + static_cast<std::size_t>(run * group.copies + copy);
+    }
+
+    void require_there(std::size_t index) const {
+        if (simulation_->is_removed(index))
+            throw RaisedInputError("the body is removed; put it back by set_pose");
+    }
+
+    /// A force, or impulse, as it is given.
+    struct GivenPush {
+        const char* name;
+        Vector3d force;
+        std::optional<Vector3d> point, moment;
+    };
+
+    static std::optional<Vector3d> vector_of(const py::object& given, const char* name) {
+        if (given.is_none()) return {};
+        return Vector3d(numbers_of<3>(given, name).data());
+    }
+
+    [[nodiscard]] Wrench wrench_of(std::size_t index, const GivenPush& given) const {
+        require_there(index);
+        Wrench wrench{given.force, given.moment.value_or(Vector3d::Zero())};
+        if (given.point)
+            wrench.moment += (*given.point - simulation_->pose(index).position).cross(wrench.force);
+        const bool sound = wrench.force.allFinite() && wrench.moment.allFinite() &&
+                           std::max(wrench.force.norm(), wrench.moment.norm()) <= largest_number;
+        if (!sound) throw RaisedInputError(fmt::format("{}: give finite numbers, 1e30 at most", given.name));
+        return wrench;
+    }
+
+    [[nodiscard]] const Group& group_named(const std::string& name) const {
+        for (const Group& group : groups_) {
+            if (group.name == name) return group;
+        }
+        throw py::key_error(fmt::format("'{}': the bodies are {}", name, fmt::join(names(), ", ")));
+    }
+
+    template <typename Work>
+    void with_flight(const Work& work) {
+        const py::gil_scoped_release others_go_on;
+        const std::lock_guard lock(mutex_);
+        work();
+    }
+
+    /// The same for what changes it, which a progress function of advance() may not.
+    template <typename Work>
+    void change_flight(const Work& work) {
+        with_flight([&] {
+            require_no_advance();
+            work();
+        });
+    }
+
+    void require_no_advance() const {
+        if (!advancing_) return;
+        throw Error("the flight advances: a progress function may look at it, but not change it");
+    }
+
+    /// For as long as it lives, the flight is in advance().
+    struct Advancing {
+        explicit Advancing(bool& flag) : flag_(flag) { flag_ = true; }
+        ~Advancing() { flag_ = false; }
+        Advancing(const Advancing&) = delete;
+        Advancing& operator=(const Advancing&) = delete;
+
+      private:
+        bool& flag_;
+    };
+
+    int runs_;
+    double step_ = 0.0;
+    std::optional<Simulation> simulation_;
+    std::vector<Group> groups_;
+    std::vector<std::pair<std::size_t, Wrench>> pushes_;  ///< over the next advance()
+    std::recursive_mutex mutex_;
+    bool advancing_ = false;
+};
+
+template <PoseMember member>
+py::array member_of(const py::object& self) {
+    const auto& poses = self.cast<const Poses&>();
+    return pose_view(poses.poses.data(), {poses.runs, poses.copies}, member, self);
+}
+
+}  // namespace
+
+void bind_simulation(py::module_& module) {
+    class_of<Poses>(module, "Poses",
+                    "Poses of all runs and copies of a body at one time; arrays that cannot be written to.")
+        .def_property_readonly("position", &member_of<PoseMember::position>,
+                               "Of the centre of mass: m, world axes (z up), shape (runs, copies, 3).")
+        .def_property_readonly("orientation", &member_of<PoseMember::orientation>,
+                               "Shape to world axes as unit quaternions x, y, z, w, shape (runs, copies, 4).")
+        .def_property_readonly("velocity", &member_of<PoseMember::velocity>,
+                               "m/s, world axes, shape (runs, copies, 3).")
+        .def_property_readonly("angular_velocity", &member_of<PoseMember::angular_velocity>,
+                               "rad/s, world axes, shape (runs, copies, 3).");
+    class_of<LiveSimulation>(module, "Simulation",
+                         "Bodies of a scene that fall call by call: any time may be asked for, poses read "
+                         "and set, all of it saved "
+                         "and restored. The motion does not depend on how the times are cut into calls.")
+        .def(py::init<const Scene&, int, std::optional<std::uint64_t>, int, const std::filesystem::path&>(),
+             py::arg("scene"), py::kw_only(), py::arg("runs") = 1, py::arg("seed") = py::none(),
+             py::arg("threads") = 1, py::arg("bodies") = "",
+             "Puts the bodies of a Scene at their starts. `bodies`: a folder of baked bodies, NAME.body.h5.")
+        .def_property_readonly("time", &LiveSimulation::time, "s")
+        .def_property_readonly("steps", &LiveSimulation::steps, "Taken so far, over all bodies.")
+        .def_property_readonly("names", &LiveSimulation::names, "The bodies' names, in the scene's order.")
+        .def("advance", &LiveSimulation::advance, py::arg("time"), py::kw_only(),
+             py::arg("progress") = py::none(),
+             "Steps all bodies to a time (s), which cannot lie before `time`. `progress` is called with "
+             "(done, total) in s.")
+        .def("poses", &LiveSimulation::poses, py::arg("name"), "All copies of a body in all runs, now.")
+        .def("set_pose", &LiveSimulation::set_pose, py::arg("name"), py::kw_only(), py::arg("run") = 0,
+             py::arg("copy") = 0, py::arg("position") = py::none(), py::arg("orientation") = py::none(),
+             py::arg("velocity") = py::none(), py::arg("angular_velocity") = py::none(),
+             "Puts one body elsewhere; what is not given stays.")
+        .def(
+            "add_force", &LiveSimulation::add_force, py::arg("name"), py::arg("force"), py::kw_only(),
+            py::arg("point") = py::none(), py::arg("moment") = py::none(), py::arg("run") = 0,
+            py::arg("copy") = 0,
+            "Pushes a body over the next advance(): N, world axes, at a point (m, world; None: the centre of "
+            "mass), and with a moment (N m). Several add up.")
+        .def("add_impulse", &LiveSimulation::add_impulse, py::arg("name"), py::arg("impulse"), py::kw_only(),
+             py::arg("point") = py::none(), py::arg("angular_impulse") = py::none(), py::arg("run") = 0,
+             py::arg("copy") = 0,
+             "Gives a body an impulse now (N s, world axes; N m s): body and fluid take it together.")
+        .def("remove", &LiveSimulation::remove, py::arg("name"), py::kw_only(), py::arg("run") = 0,
+             py::arg("copy") = 0, "Takes a body out where it is; set_pose() puts it back.")
+        .def("fluid_load", &LiveSimulation::fluid_load, py::arg("name"), py::kw_only(), py::arg("run") = 0,
+             py::arg("copy") = 0,
+             "What the fluid does to a body in its next step, for a host that integrates it: wrench W (6,), "
+             "added "
+             "inertia A and damping D (6, 6), SI units, world axes at the centre of mass, angular then "
+             "linear. "
+             "With its own inertia M, own wrench g and the step h: (M + A + h D) a = g + W. Then set_pose() "
+             "and "
+             "advance() by a step.")
+        .def("mass_properties", &LiveSimulation::mass_properties, py::arg("name"), py::kw_only(),
+             py::arg("run") = 0, py::arg("copy") = 0,
+             "Of the body alone: its mass (kg), its centre (m from the shape's origin, shape axes, (3,)) and "
+             "its "
+             "inertia about that (kg m^2, shape axes, (3, 3)).")
+        .def("set_ground", &LiveSimulation::set_ground, py::arg("height"),
+             "Level ground at another height (m), or None: what is below it is lifted onto it.")
+        .def("set_wind", &LiveSimulation::set_wind, py::arg("wind"),
+             "Another wind from now on: a dict with the keys of [wind] of a scene; {} is none.")
+        .def("watch_contacts", &LiveSimulation::watch_contacts, py::arg("watch"),
+             "Notes from now on what bodies meet of ground, obstacles and each other, or no longer.")
+        .def("take_contacts", &LiveSimulation::take_contacts, py::arg("name"),
+             "What a body's copies met since they were last asked, arrays (runs, copies, ...): impulse (N s, "
+             "world axes, the sum), strongest (N s, of one point in one step; 0: nothing was met) with its "
+             "point (m), normal, time (s), obstacle (its number; -1: level ground, or a body) and body (the "
+             "number of the one that was met, counted over the scene's bodies, run by run and copy by copy; "
+             "-1: "
+             "none), and at_rest.")
+        .def("state", &LiveSimulation::state, "All that the rest of the flight depends on, as bytes.")
+        .def("set_state", &LiveSimulation::set_state, py::arg("state"),
+             "Goes on from such a state, of a flight of the same scene, runs and seed.");
+}
+
+}  // namespace samara::python

@@ -1,0 +1,66 @@
+// The ready-baked bodies fall as they fell: a change of the equations, the step or the tables that moves a
+// fall is seen here within seconds. How near the falls are to full CFD, docs/studies/falls says.
+
+#include <optional>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "paths.hpp"
+#include "samara/analysis/metrics/ensemble.hpp"
+#include "samara/core/body/body_file.hpp"
+#include "samara/scene/ready_bodies.hpp"
+#include "samara/scene/scene_file.hpp"
+#include "samara/scene/scene_simulation.hpp"
+
+namespace samara {
+namespace {
+
+struct ShippedFall {
+    const char* scene;  ///< of docs/
+    const char* body;
+    Regime regime;
+    double descent;                           ///< m/s
+    std::optional<double> frequency;          ///< Hz
+    std::optional<double> rms_angular_speed;  ///< rad/s
+};
+
+/// Without noise, as the bodies of runtime/bodies fell when this was written.
+constexpr ShippedFall falls[] = {
+    {"studies/falls/ellipsoid-tilted", "ellipsoid", Regime::fluttering, 0.2129, 0.7065, 2.852},
+    {"studies/falls/ellipsoid-heavy", "ellipsoid", Regime::fluttering, 0.4698, 2.077, 7.023},
+    {"studies/falls/sphere", "sphere", Regime::steady, 0.5496, {}, {}},
+    {"studies/falls/cube", "cube", Regime::chaotic, 0.2547, 0.562, 4.184},
+    {"studies/falls/disc-light", "disc", Regime::fluttering, 0.201, 0.5824, 2.549},
+    {"studies/falls/disc-heavy", "disc", Regime::tumbling, 0.7003, 1.977, 12.59},
+    {"studies/falls/sheet", "sheet", Regime::chaotic, 0.6914, 1.907, 11.26},
+    {"studies/falls/samara", "samara", Regime::autorotating, 1.332, {}, 107.5},
+    {"scenes/samara", "samara", Regime::autorotating, 1.016, {}, 116.2},
+};
+
+BodyMeasures flown(const ShippedFall& fall) {
+    Scene scene = read_scene_file(std::string(SAMARA_SOURCE_DIRECTORY "/docs/") + fall.scene + ".toml");
+    scene.bodies.front().turbulence = Turbulence::none;
+    const Body body = read_body_file(ready_body_file(fall.body));
+    const Motion motion = simulate(scene, {{body, "hash"}}, 1, [](double, double) { return true; }).motion;
+    return measure_all(motion, motion.bodies.front());
+}
+
+TEST(ShippedBodies, FallAsTheyFell) {
+    constexpr double tolerance = 0.01;
+    for (const ShippedFall& fall : falls) {
+        SCOPED_TRACE(fall.scene);
+        const BodyMeasures measures = flown(fall);
+        EXPECT_EQ(measures.regimes.commonest(), fall.regime);
+        EXPECT_NEAR(measures.value(Metric::descent_speed) / fall.descent, 1.0, tolerance);
+        if (fall.frequency) {
+            EXPECT_NEAR(measures.value(Metric::frequency) / *fall.frequency, 1.0, tolerance);
+        }
+        if (fall.rms_angular_speed) {
+            EXPECT_NEAR(measures.value(Metric::rms_angular_speed) / *fall.rms_angular_speed, 1.0, tolerance);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace samara
