@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -12,15 +13,14 @@
 #include "samara/commands/commands.hpp"
 #include "samara/commands/shared/arguments.hpp"
 #include "samara/commands/shared/motion_output.hpp"
+#include "samara/commands/shared/prepared_scene.hpp"
 #include "samara/commands/shared/print.hpp"
 #include "samara/commands/shared/progress.hpp"
-#include "samara/commands/shared/scene_bodies.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/motion/motion_writer.hpp"
 #include "samara/scene/scene_file.hpp"
 #include "samara/scene/scene_simulation.hpp"
 #include "samara/scene/target_search.hpp"
-#include "samara/scene/terminal_speed.hpp"
 
 namespace samara {
 namespace {
@@ -89,8 +89,8 @@ std::size_t body_of(const Scene& scene, const std::string& name) {
     throw Error(fmt::format("{}: give --body with one of its bodies: {}", scene.file.string(), names));
 }
 
-void write_best(const Scene& scene, const std::vector<LoadedBody>& loaded, const Request& request) {
-    SceneSimulation simulation(scene, loaded, 1, request.threads);
+void write_best(const PreparedScene& prepared, const Request& request) {
+    SceneSimulation simulation(prepared.scene, prepared.bodies, 1, request.threads);
     write_motion_file(request.output, simulation.motion(), [&](MotionWriter& writer) {
         Progress progress("writing the best", "steps");
         simulation.fly([&](std::size_t body, std::size_t first,
@@ -105,15 +105,12 @@ void write_best(const Scene& scene, const std::vector<LoadedBody>& loaded, const
 nlohmann::json run(const Request& request, const Arguments& arguments) {
     if (!request.output.empty()) require_motion_file_name(request.output);
     const Target target = target_of(request);
-    Scene scene = read_scene_file(request.scene);
-    if (arguments.given("--seed")) scene.seed = request.seed;
-    const std::size_t body = body_of(scene, request.body);
-    const std::vector<LoadedBody> loaded = load_scene_bodies(scene, request.bodies);
-    (void)choose_models(scene, loaded, request.threads, [](double, double) {});
-    (void)choose_step(scene, loaded, request.threads);
-    for (std::size_t i = 0; i < loaded.size(); ++i) {
-        require_sizes_in_tables(scene, scene.bodies[i], loaded[i]);
-    }
+    Scene read = read_scene_file(request.scene);
+    const std::size_t body = body_of(read, request.body);
+    Preparation preparation{.bodies = request.bodies, .threads = request.threads};
+    if (arguments.given("--seed")) preparation.seed = request.seed;
+    PreparedScene prepared = prepare_scene(std::move(read), preparation);
+    Scene& scene = prepared.scene;
     if (request.tries > 1 && !depends_on_seed(scene, body)) {
         throw Error(fmt::format(
             "{}: nothing of the fall of '{}' is drawn from the seed, so that all seeds give the same; give "
@@ -124,7 +121,7 @@ nlohmann::json run(const Request& request, const Arguments& arguments) {
     std::vector<TargetMiss> misses;
     {
         Progress progress("searching", "tries");
-        misses = search_target(scene, loaded, body, target, request.tries, request.threads,
+        misses = search_target(scene, prepared.bodies, body, target, request.tries, request.threads,
                                [&](double share) { progress.update(share * request.tries, request.tries); });
     }
     const auto reached =
@@ -156,7 +153,7 @@ nlohmann::json run(const Request& request, const Arguments& arguments) {
     }
     if (!request.output.empty()) {
         scene.seed = best.seed;
-        write_best(scene, loaded, request);
+        write_best(prepared, request);
     }
     return {{"body", scene.bodies[body].name}, {"reached", reached}, {"tries", tries}};
 }

@@ -6,22 +6,22 @@
 #include <csignal>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "samara/analysis/advice/density_warning.hpp"
-#include "samara/analysis/advice/model_advice.hpp"
 #include "samara/analysis/advice/unit_warnings.hpp"
 #include "samara/analysis/metrics/description.hpp"
 #include "samara/commands/commands.hpp"
 #include "samara/commands/shared/arguments.hpp"
 #include "samara/commands/shared/body_notes.hpp"
 #include "samara/commands/shared/motion_output.hpp"
+#include "samara/commands/shared/prepared_scene.hpp"
 #include "samara/commands/shared/print.hpp"
 #include "samara/commands/shared/progress.hpp"
-#include "samara/commands/shared/scene_bodies.hpp"
 #include "samara/commands/table_errors_report.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/body/body_file.hpp"
@@ -32,7 +32,6 @@
 #include "samara/scene/run_needs.hpp"
 #include "samara/scene/scene_file.hpp"
 #include "samara/scene/scene_simulation.hpp"
-#include "samara/scene/terminal_speed.hpp"
 
 namespace samara {
 namespace {
@@ -142,11 +141,12 @@ void warn_of_substeps(const SimulationReport& report) {
                     report.steps_at_limit, report.steps, most_substeps));
 }
 
-std::optional<ModelAdvice> choose_with_progress(Scene& scene, const std::vector<LoadedBody>& loaded,
-                                                int threads) {
-    Progress progress("judging models", "flights");
-    return choose_models(scene, loaded, threads,
-                         [&](double done, double total) { progress.update(done, total); });
+PreparedScene prepare_with_progress(Scene scene, const Preparation& preparation) {
+    std::optional<Progress> progress;  // of the judging alone, without the time that loading takes
+    return prepare_scene(std::move(scene), preparation, [&](double done, double total) {
+        if (!progress) progress.emplace("judging models", "flights");
+        progress->update(done, total);
+    });
 }
 
 /// Says what a large run will take, and refuses one that the machine has not the room for.
@@ -208,24 +208,15 @@ nlohmann::json step_as_json(const StepAdvice& advice) {
 
 nlohmann::json run(const Request& request, const Arguments& arguments) {
     require_motion_file_name(request.output);
-    Scene scene = read_scene_file(request.scene);
-    if (arguments.given("--seed")) scene.seed = request.seed;
-    if (arguments.given("--step")) {
-        scene.step = request.step;
-        scene.step_auto = false;
-    }
+    Scene read = read_scene_file(request.scene);
+    judge_needs(needs_of(read, request.runs), request);
 
-    judge_needs(needs_of(scene, request.runs), request);
-
-    const std::vector<LoadedBody> loaded = load_scene_bodies(scene, request.bodies);
-    const std::optional<ModelAdvice> advice = choose_with_progress(scene, loaded, request.threads);
-    const std::optional<StepAdvice> step = choose_step(scene, loaded, request.threads);
+    Preparation preparation{.bodies = request.bodies, .threads = request.threads};
+    if (arguments.given("--seed")) preparation.seed = request.seed;
+    if (arguments.given("--step")) preparation.step = request.step;
+    const auto [scene, loaded, advice, step] = prepare_with_progress(std::move(read), preparation);
     if (step && !arguments.json()) print_result("step = \"auto\": {}\n", as_text(*step));
     if (advice && !arguments.json()) print_result("models = \"auto\" chose:\n{}", as_text(*advice));
-
-    for (std::size_t i = 0; i < loaded.size(); ++i) {
-        require_sizes_in_tables(scene, scene.bodies[i], loaded[i]);
-    }
     const RunNeeds needs = needs_of(scene, request.runs, loaded);
     require_room(needs, request.scene, request.output);
     note_doubtful_bodies(scene, loaded);

@@ -53,8 +53,7 @@ const toml::node* TomlTable::node(std::string_view key) {
 double TomlTable::finite_number(std::string_view key, const toml::node& node,
                                 const NumberRange& range) const {
     const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
-    const bool fits =
-        value && ((*value >= range.lowest && *value <= range.highest) || (range.or_zero && *value == 0.0));
+    const bool fits = value && range.holds(*value);
     if (!fits && node.is_string()) {
         throw error(key,
                     fmt::format("must be a number without a unit, in SI units (m, kg, s, rad), not \"{}\"",

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <set>
 #include <string>
@@ -17,21 +18,6 @@ namespace samara {
 /// Parses a TOML text; `file` is the name for messages. Throws Error with the file and the line.
 toml::table parse_toml(std::string_view text, const std::string& file);
 
-/// Bounds of a number, with the words for a message: "must be above 0".
-struct NumberRange {
-    double lowest;
-    double highest;
-    std::string_view words;
-    bool or_zero = false;  ///< whether 0 is allowed as well
-};
-
-inline constexpr NumberRange any_number = {-largest_number, largest_number,
-                                           "must be a finite number, 1e30 at most"};
-inline constexpr NumberRange positive_number = {smallest_number, largest_number,
-                                                "must be a finite number above 0, from 1e-60 to 1e30"};
-inline constexpr NumberRange non_negative_number = {
-    smallest_number, largest_number, "must be 0, or a finite number above 0, from 1e-60 to 1e30", true};
-
 /// Reads the keys of one TOML table and remembers which were asked for, so that an unknown key can be named.
 /// Every fault throws Error with the file and the line.
 class TomlTable {
@@ -39,7 +25,7 @@ class TomlTable {
     /// `where`: the table's name for messages, as in "[fluid]".
     TomlTable(const toml::table& table, std::string file, std::string where);
 
-    std::optional<double> number(std::string_view key, const NumberRange& range);
+    std::optional<double> number(std::string_view key, const NumberRange& range = any_number);
     std::optional<std::int64_t> integer(std::string_view key, std::int64_t lowest, std::int64_t highest);
     std::optional<std::string> text(std::string_view key);
     std::optional<bool> boolean(std::string_view key);

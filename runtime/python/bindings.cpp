@@ -3,10 +3,10 @@
 #include <atomic>
 #include <cstddef>
 #include <string>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
-#include "samara/commands/shared/scene_bodies.hpp"
 #include "samara/core/base/error.hpp"
 
 namespace samara::python {
@@ -53,13 +53,15 @@ void require_runs_and_threads(int runs, int threads) {
     if (threads < 0 || threads > 4096) throw RaisedInputError("threads: give 0 for all cores, or up to 4096");
 }
 
-std::vector<LoadedBody> bodies_of(Scene& scene, const std::filesystem::path& folder) {
+PreparedScene prepared(Scene scene, Preparation preparation) {
+    const std::filesystem::path folder = preparation.bodies;
+    preparation.reading = &hdf5_mutex();
     std::filesystem::path unreadable;
     for (const SceneBody& body : scene.bodies) {
         const std::filesystem::path file = folder.empty() ? body.shape : folder / (body.name + ".body.h5");
         if (unreadable.empty() && !reading_error(file).empty()) unreadable = file;
     }
-    return on_input([&] { return load_scene_bodies(scene, folder.string()); }, unreadable);
+    return on_input([&] { return prepare_scene(std::move(scene), preparation); }, unreadable);
 }
 
 py::object as_python(const nlohmann::json& value) {

@@ -19,6 +19,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include "samara/commands/shared/prepared_scene.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/files/input_file.hpp"
 #include "samara/core/simulation/simulation.hpp"
@@ -137,8 +138,9 @@ auto read_dict(const std::string& place, const Read& read) {
 /// Throws RaisedInputError where there are none or too many.
 void require_runs_and_threads(int runs, int threads);
 
-/// The bodies of a scene, as load_scene_bodies() gives them. The caller holds hdf5_mutex().
-std::vector<LoadedBody> bodies_of(Scene& scene, const std::filesystem::path& folder);
+/// The scene made ready by prepare_scene(), whose files are read under hdf5_mutex(). Throws RaisedFileError
+/// where a body's file cannot be read, RaisedInputError for all else.
+PreparedScene prepared(Scene scene, Preparation preparation);
 
 /// A JSON value as Python's own: dict, list, float, int, str, bool, None.
 py::object as_python(const nlohmann::json& value);

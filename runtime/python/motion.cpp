@@ -13,7 +13,6 @@
 #include "samara/analysis/comparison/comparison_report.hpp"
 #include "samara/analysis/metrics/description.hpp"
 #include "samara/analysis/metrics/ensemble.hpp"
-#include "samara/commands/shared/scene_bodies.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/files/temporary_folder.hpp"
 #include "samara/export/chan_file.hpp"
@@ -64,23 +63,14 @@ FlownMotion fly(Scene scene, int runs, std::optional<std::uint64_t> seed, std::o
     require_runs_and_threads(runs, threads);
     if (step && !(*step >= 1e-9 && *step <= 1e3))
         throw RaisedInputError("step: give seconds, from 1e-9 to 1000");
-    if (seed) scene.seed = *seed;
-    if (step) {
-        scene.step = *step;
-        scene.step_auto = false;
-    }
     LongWork work(std::move(progress));
     const auto flown = [&]() -> FlownMotion {
-        std::vector<LoadedBody> loaded;
-        {
-            const std::lock_guard lock(hdf5_mutex());
-            loaded = bodies_of(scene, bodies);
-        }
         // Judging models flies as well, and is ended by tell() as soon as the flight itself begins.
-        choose_models(scene, loaded, threads, [&](double, double) {});
-        choose_step(scene, loaded, threads);
+        const PreparedScene ready = prepared(
+            std::move(scene), {.bodies = bodies.string(), .seed = seed, .step = step, .threads = threads});
         SimulationResult result = simulate(
-            scene, loaded, runs, [&](double done, double total) { return work.tell(done, total); }, threads);
+            ready.scene, ready.bodies, runs,
+            [&](double done, double total) { return work.tell(done, total); }, threads);
         return {std::make_shared<const Motion>(std::move(result.motion)),
                 std::make_shared<const SimulationReport>(std::move(result.report))};
     };

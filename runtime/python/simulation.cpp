@@ -16,9 +16,9 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "bindings.hpp"
-#include "samara/commands/shared/scene_bodies.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/base/number_limits.hpp"
+#include "samara/core/simulation/body_group.hpp"
 #include "samara/formats/toml_table.hpp"
 #include "samara/scene/scene_settings.hpp"
 #include "samara/scene/wind_table.hpp"
@@ -41,9 +41,11 @@ class LiveSimulation {
                const std::filesystem::path& bodies)
         : runs_(runs) {
         require_runs_and_threads(runs, threads);
-        if (seed) scene.seed = *seed;
         const py::gil_scoped_release others_go_on;
-        on_input([&] { put(scene, bodies, threads); });
+        on_input([&] {
+            put(prepared(std::move(scene), {.bodies = bodies.string(), .seed = seed, .threads = threads}),
+                threads);
+        });
     }
 
     void advance(double time, py::object progress) {
@@ -244,19 +246,11 @@ class LiveSimulation {
     };
     static constexpr double pieces_of_ = 256.0;  // steps
 
-    void put(Scene& scene, const std::filesystem::path& bodies, int threads) {
-        std::vector<LoadedBody> loaded;
-        {
-            const std::lock_guard lock(hdf5_mutex());
-            loaded = bodies_of(scene, bodies);
-        }
-        choose_models(scene, loaded, threads, [](double, double) {});
-        choose_step(scene, loaded, threads);
-        step_ = scene.step;
-        simulation_.emplace(simulation_settings(scene, runs_, threads));
-        for (std::size_t i = 0; i < loaded.size(); ++i) {
-            const SceneBody& body = scene.bodies[i];
-            groups_.push_back({body.name, body.count, simulation_->add(loaded[i], body, body, body.name)});
+    void put(const PreparedScene& ready, int threads) {
+        step_ = ready.scene.step;
+        simulation_.emplace(simulation_of(ready.scene, ready.bodies, runs_, threads));
+        for (const auto& group : simulation_->groups()) {
+            groups_.push_back({group->name(), static_cast<int>(group->copies()), group->first()});
         }
     }
 

@@ -7,12 +7,12 @@
 
 #include "samara/core/base/plain_name.hpp"
 #include "samara/core/files/input_file.hpp"
-#include "samara/core/physics/obstacle_motion.hpp"
 #include "samara/core/surface/mended_surface.hpp"
 #include "samara/core/surface/obj_file.hpp"
 #include "samara/core/surface/stl_file.hpp"
 #include "samara/core/surface/surface_check.hpp"
 #include "samara/formats/display_mesh_file.hpp"
+#include "samara/scene/require_rules.hpp"
 
 namespace samara {
 namespace {
@@ -52,24 +52,13 @@ ObstaclePlace read_place(TomlTable& table, const ObstaclePlace& standard) {
 std::vector<ObstacleKey> read_keys(TomlTable& table, const ObstaclePlace& place) {
     std::vector<ObstacleKey> keys;
     for (TomlTable& each : table.tables("keys")) {
-        const auto time = each.number("time", any_number);
+        const auto time = each.number("time");
         if (!time) throw each.error("time", "is missing; give the second at which it is there");
-        if (!keys.empty() && !(*time > keys.back().time)) {
-            throw each.error("time", "must be later than that of the key before");
-        }
         keys.push_back({read_place(each, place), *time});
         each.finish();
     }
     if (keys.empty()) keys.push_back({place, 0.0});
     return keys;
-}
-
-void require_steady(const TomlTable& table, const Obstacle& obstacle) {
-    try {
-        require_steady_keys(obstacle);
-    } catch (const Error& error) {
-        throw table.error("keys", error.what());
-    }
 }
 
 /// Shape, scale, place and keys.
@@ -80,7 +69,6 @@ void read_solid(TomlTable& table, const std::filesystem::path& folder, Obstacle&
     const double scale = table.number("scale", positive_number).value_or(1.0);
     for (Vector3d& vertex : obstacle.surface.vertices) vertex *= scale;
     obstacle.keys = read_keys(table, read_place(table, {}));
-    require_steady(table, obstacle);
 }
 
 }  // namespace
@@ -88,8 +76,9 @@ void read_solid(TomlTable& table, const std::filesystem::path& folder, Obstacle&
 Emitter read_emitter(TomlTable& table, const std::filesystem::path& folder) {
     Obstacle mesh;
     read_solid(table, folder, mesh);
+    require_rules(table, broken_rule(mesh));
     const double offset = table.number("offset", non_negative_number).value_or(0.0);
-    const double speed = table.number("speed", any_number).value_or(0.0);
+    const double speed = table.number("speed").value_or(0.0);
     table.finish();
     return make_emitter(std::move(mesh), offset, speed);
 }
@@ -98,12 +87,11 @@ Obstacle read_obstacle(TomlTable& table, const std::filesystem::path& folder) {
     Obstacle obstacle;
     const auto name = table.text("name");
     if (!name) throw table.error("name", "is missing; give the obstacle a name");
-    if (!is_plain_name(*name)) {
-        throw table.error("name", "may hold letters, digits, '-' and '_' alone, 64 at most");
-    }
+    if (!is_plain_name(*name)) throw table.error("name", plain_name_words);
     obstacle.name = *name;
     read_solid(table, folder, obstacle);
-    obstacle.friction = table.number("friction", non_negative_number).value_or(obstacle.friction);
+    obstacle.friction = table.number("friction").value_or(obstacle.friction);
+    require_rules(table, broken_rule(obstacle));
     table.finish();
     return obstacle;
 }

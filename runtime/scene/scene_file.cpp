@@ -3,7 +3,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <numbers>
 #include <set>
 #include <utility>
 
@@ -19,6 +18,7 @@
 #include "samara/scene/choice.hpp"
 #include "samara/scene/obstacle_table.hpp"
 #include "samara/scene/ready_bodies.hpp"
+#include "samara/scene/require_rules.hpp"
 #include "samara/scene/wind_table.hpp"
 
 namespace samara {
@@ -34,8 +34,8 @@ void assign(Value& target, const std::optional<Value>& given) {
 
 Fluid read_fluid(TomlTable& table) {
     const auto preset = table.text("preset");
-    const auto density = table.number("density", positive_number);
-    const auto viscosity = table.number("viscosity", positive_number);
+    const auto density = table.number("density");
+    const auto viscosity = table.number("viscosity");
     if (preset && (density || viscosity)) {
         throw table.error("preset", "stands beside density or viscosity; give the preset or both of these");
     }
@@ -54,7 +54,7 @@ Fluid read_fluid(TomlTable& table) {
     assign(fluid.current, table.vector("current"));
     if (auto gust = table.table("gust")) {
         const auto amplitude = gust->vector("amplitude");
-        const auto period = gust->number("period", positive_number);
+        const auto period = gust->number("period");
         if (!amplitude || !period) {
             throw gust->error(amplitude ? "period" : "amplitude",
                               "is missing; a gust has an amplitude and a period");
@@ -84,9 +84,6 @@ std::optional<Matrix3d> read_inertia(TomlTable& table) {
                 inertia(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)) = *value;
             }
         }
-        if ((inertia - inertia.transpose()).norm() > 1e-9 * inertia.norm()) {
-            throw table.error("inertia", "must be symmetric");
-        }
         return inertia;
     }
     const auto moments = table.vector("inertia");
@@ -95,16 +92,11 @@ std::optional<Matrix3d> read_inertia(TomlTable& table) {
 
 MassSpecification read_mass(TomlTable& table) {
     MassSpecification mass;
-    mass.density = table.number("density", positive_number);
-    mass.mass = table.number("mass", positive_number);
+    mass.density = table.number("density");
+    mass.mass = table.number("mass");
     mass.center_of_mass = table.vector("center_of_mass");
     mass.inertia = read_inertia(table);
-    if (mass.density && mass.mass) throw table.error("mass", "stands beside density; give one of the two");
-    if (!mass.mass && (mass.center_of_mass || mass.inertia)) {
-        throw table.error(mass.inertia ? "inertia" : "center_of_mass",
-                          mass.density ? "contradicts a uniform density; give mass instead of density"
-                                       : "stands alone; give mass with it");
-    }
+    require_rules(table, broken_rule(mass));
     return mass;
 }
 
@@ -122,7 +114,7 @@ void read_models(TomlTable& table, SceneBody& body) {
         table, "dynamic_coefficients",
         {{"body", Dynamic::of_body}, {"default", Dynamic::by_default}, {"none", Dynamic::none}},
         body.dynamic);
-    body.table_reynolds_number = table.number("table_reynolds_number", positive_number);
+    body.table_reynolds_number = table.number("table_reynolds_number");
     if (const auto patches = table.integer("patches", 1, most_surface_patches)) {
         if (body.loads == Loads::none) throw table.error("patches", "is for loads, of which there are none");
         body.patches = static_cast<int>(*patches);
@@ -144,15 +136,10 @@ CoefficientLoads read_coefficients(TomlTable& table, Loads loads) {
             throw table.error(key, R"(is for loads = "coefficients" alone; remove it or change loads)");
         }
     }
-    assign(coefficients.drag_coefficient, table.number("drag_coefficient", non_negative_number));
-    assign(coefficients.lift_coefficient, table.number("lift_coefficient", any_number));
-    coefficients.reference_area = table.number("reference_area", positive_number);
+    assign(coefficients.drag_coefficient, table.number("drag_coefficient"));
+    assign(coefficients.lift_coefficient, table.number("lift_coefficient"));
+    coefficients.reference_area = table.number("reference_area");
     coefficients.normal = table.vector("normal");
-    if (coefficients.normal) {
-        if (coefficients.normal->norm() < smallest_number)
-            throw table.error("normal", "must not be the zero vector");
-        coefficients.normal->normalize();
-    }
     assign(coefficients.center_of_pressure, table.vector("center_of_pressure"));
     return coefficients;
 }
@@ -169,12 +156,8 @@ void read_turbulence(TomlTable& table, SceneBody& body) {
                                       {"body-velocity", Langevin::body_velocity}},
                                      body.langevin);
     body.turbulence_by_default = table.node("turbulence") == nullptr;
-    if (body.loads == Loads::surface && body.turbulence == Turbulence::table) {
-        throw table.error("turbulence", R"(is of tables, and the loads are not; set loads = "table", or )"
-                                        R"(turbulence to "none" or "constant")");
-    }
-    const auto energy = table.number("turbulent_kinetic_energy", non_negative_number);
-    const auto dissipation = table.number("dissipation_rate", non_negative_number);
+    const auto energy = table.number("turbulent_kinetic_energy");
+    const auto dissipation = table.number("dissipation_rate");
     const bool constant = body.turbulence == Turbulence::constant;
     if (constant != energy.has_value() || constant != dissipation.has_value()) {
         throw table.error("turbulence",
@@ -183,10 +166,6 @@ void read_turbulence(TomlTable& table, SceneBody& body) {
     }
     assign(body.turbulent_kinetic_energy, energy);
     assign(body.dissipation_rate, dissipation);
-    if (constant && (*energy > 0.0) != (*dissipation > 0.0)) {
-        throw table.error("dissipation_rate",
-                          "and turbulent_kinetic_energy must be both zero or both above zero");
-    }
 }
 
 void read_start(TomlTable& table, const std::filesystem::path& folder, SceneBody& body) {
@@ -201,29 +180,19 @@ void read_start(TomlTable& table, const std::filesystem::path& folder, SceneBody
     assign(body.orientation, table.quaternion("orientation"));
     assign(body.velocity, table.vector("velocity"));
     assign(body.angular_velocity, table.vector("angular_velocity"));
-    assign(body.start, table.number("start", non_negative_number));
-    if (const auto count = table.integer("count", 1, 10'000'000)) body.count = static_cast<int>(*count);
+    assign(body.start, table.number("start"));
+    if (const auto count = table.integer("count", 1, most_copies)) body.count = static_cast<int>(*count);
     if (auto spread = table.table("spread")) {
         assign(body.spread_position, spread->vector("position"));
-        assign(body.spread_angle,
-               spread->number("angle", {0.0, std::numbers::pi, "must lie between 0 and pi"}));
-        assign(body.spread_start, spread->number("start", non_negative_number));
+        assign(body.spread_angle, spread->number("angle"));
+        assign(body.spread_start, spread->number("start"));
         if (const auto sizes = spread->numbers("size", 2)) {
             body.smallest_size = (*sizes)[0];
             body.largest_size = (*sizes)[1];
-            constexpr double most = 1e3;  // beyond it a unit is wrong
-            if (!(body.smallest_size >= 1.0 / most && body.smallest_size <= body.largest_size &&
-                  body.largest_size <= most)) {
-                throw spread->error("size",
-                                    "must be the smallest and the largest size over the shape's, within "
-                                    "0.001 and 1000, as [0.8, 1.25]");
-            }
-        }
-        if (body.count == 1 && body.spreads()) {
-            throw table.error("spread", "is of copies, and there is one; give a count above 1, or remove it");
         }
         spread->finish();
     }
+    require_rules(table, broken_rule(static_cast<const Release&>(body)));
 }
 
 /// The file that `shape` names: a ready-baked body, or a file seen from the scene's folder.
@@ -269,8 +238,7 @@ SceneBody read_body(TomlTable& table, const std::filesystem::path& folder) {
     SceneBody body;
     const auto name = table.text("name");
     if (!name) throw table.error("name", "is missing; give the body a name");
-    if (!is_plain_name(*name))
-        throw table.error("name", "may hold letters, digits, '-' and '_' alone, 64 at most");
+    if (!is_plain_name(*name)) throw table.error("name", plain_name_words);
     body.name = *name;
     const auto shape = table.text("shape");
     if (!shape)
@@ -287,11 +255,8 @@ SceneBody read_body(TomlTable& table, const std::filesystem::path& folder) {
     read_models(table, body);
     body.coefficients = read_coefficients(table, body.loads);
     read_turbulence(table, body);
-    if (body.table_reynolds_number && body.loads != Loads::table && body.turbulence != Turbulence::table) {
-        throw table.error(
-            "table_reynolds_number",
-            "is for loads or turbulence from tables; remove it or set one of them to \"table\"");
-    }
+    require_rules(table, broken_rule(static_cast<const BodyPhysics&>(body)));
+    if (body.coefficients.normal) body.coefficients.normal->normalize();
     table.finish();
     return body;
 }
@@ -322,7 +287,7 @@ void read_settings(TomlTable& table, Scene& scene) {
         scene.seed = static_cast<std::uint64_t>(*seed);
     }
     assign(scene.gravity, table.vector("gravity"));
-    scene.ground = table.number("ground", any_number);
+    scene.ground = table.number("ground");
     assign(scene.bodies_collide, table.boolean("bodies_meet"));  // its name in older scenes
     assign(scene.bodies_collide, table.boolean("bodies_collide"));
     if (scene.duration * scene.frame_rate > 1e8 || scene.duration / scene.step > 1e10) {
@@ -359,6 +324,7 @@ Scene read_scene_text(std::string text, const std::string& name, const std::file
     if (!settings) throw top.error("[scene]", "is missing; it holds at least the duration");
     read_settings(*settings, scene);
     if (auto fluid = top.table("fluid")) scene.fluid = read_fluid(*fluid);
+    require_rules(top, broken_rule(scene.fluid));
     if (auto wind = top.table("wind"))
         scene.wind = read_wind(*wind, folder, scene.ground.value_or(0.0), scene.duration);
     std::set<std::string> names;

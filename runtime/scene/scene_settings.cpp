@@ -17,6 +17,15 @@ SimulationSettings simulation_settings(const Scene& scene, int runs, int threads
             .threads = threads};
 }
 
+Simulation simulation_of(const Scene& scene, const std::vector<LoadedBody>& loaded, int runs, int threads) {
+    Simulation simulation(simulation_settings(scene, runs, threads));
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        const SceneBody& body = scene.bodies[i];
+        simulation.add(loaded[i], body, body, body.name);
+    }
+    return simulation;
+}
+
 Surroundings surroundings_of(const Scene& scene) {
     return surroundings_of(simulation_settings(scene, 1, 1));
 }

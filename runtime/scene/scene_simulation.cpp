@@ -78,7 +78,7 @@ SceneSimulation::SceneSimulation(const Scene& scene, const std::vector<LoadedBod
     : threads_(threads),
       // Steps of bodies that meet may be slow, and are taken one by one anyway.
       piece_(scene.bodies_collide ? scene.step : std::numeric_limits<double>::infinity()),
-      simulation_(simulation_settings(scene, runs, threads)) {
+      simulation_(simulation_of(scene, loaded, runs, threads)) {
     motion_.times = frame_times(scene);
     motion_.runs = runs;
     motion_.frame_rate = scene.frame_rate;
@@ -89,8 +89,7 @@ SceneSimulation::SceneSimulation(const Scene& scene, const std::vector<LoadedBod
     motion_.scene_text = scene.text;
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         const SceneBody& scene_body = scene.bodies[i];
-        simulation_.add(loaded[i], scene_body, scene_body, scene_body.name);
-        const BodyGroup& group = *simulation_.groups().back();
+        const BodyGroup& group = *simulation_.groups()[i];
         motion_.bodies.push_back(empty_motion(scene_body, group.body(), loaded[i]));
         if (scene.ground) motion_.bodies[i].contact_points = group.body().contact_points;
         total_steps_ += steps_of(scene, group);

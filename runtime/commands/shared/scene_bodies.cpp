@@ -12,7 +12,6 @@
 #include "samara/core/base/error.hpp"
 #include "samara/core/base/labelled.hpp"
 #include "samara/core/body/body_file.hpp"
-#include "samara/core/dynamics/immersed_body.hpp"
 #include "samara/core/files/content_hash.hpp"
 #include "samara/core/files/input_file.hpp"
 #include "samara/kirchhoff/kirchhoff_solver.hpp"
@@ -157,32 +156,6 @@ std::vector<LoadedBody> load_scene_bodies(Scene& scene, const std::string& folde
         }
     }
     return bodies;
-}
-
-std::optional<ModelAdvice> choose_models(Scene& scene, const std::vector<LoadedBody>& loaded, int threads,
-                                         const AdviceProgress& progress) {
-    bool any = false;
-    for (std::size_t i = 0; i < loaded.size(); ++i) {
-        if (!scene.bodies[i].models_auto) continue;
-        (void)make_immersed_body(*loaded[i].body, scene.bodies[i], scene.fluid,
-                                 scene.bodies[i].name);  // throws where tables lack
-        any = true;
-    }
-    if (!any) return std::nullopt;
-    AdviceOptions options;
-    options.auto_alone = true;
-    options.sampling.threads = threads;
-    ModelAdvice advice = advise_models(scene, loaded, options, progress);
-    apply(advice, scene);
-    return advice;
-}
-
-std::optional<StepAdvice> choose_step(Scene& scene, const std::vector<LoadedBody>& loaded, int threads) {
-    if (!scene.step_auto) return std::nullopt;
-    const StepAdvice advice = advise_step(scene, loaded, threads);
-    scene.step = advice.step;
-    scene.step_auto = false;
-    return advice;
 }
 
 }  // namespace samara

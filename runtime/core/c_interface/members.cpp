@@ -1,5 +1,6 @@
 #include "samara/core/c_interface/members.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "samara/core/base/number_limits.hpp"
@@ -7,8 +8,17 @@
 
 namespace samara {
 
-void reject(const char* member, const std::string& why) {
+void reject(const std::string& member, const std::string& why) {
     throw StatusError(SAMARA_INVALID_ARGUMENT, fmt::format("{} {}", member, why));
+}
+
+void require_rules(const std::optional<BrokenRule>& broken) {
+    if (!broken) return;
+    std::string member = broken->member;
+    if (member == "spread.size") reject("smallest_size and largest_size", broken->what);
+    if (member == "fluid.gust.period") member = "gust.period";
+    std::ranges::replace(member, '.', '_');
+    reject(member, broken->what);
 }
 
 double finite(double value, const char* member) {
@@ -16,19 +26,6 @@ double finite(double value, const char* member) {
     if (std::abs(value) > largest_number) {
         reject(member, fmt::format("is {}, beyond {:.0e}; is a unit wrong?", value, largest_number));
     }
-    return value;
-}
-
-double non_negative(double value, const char* member) {
-    if (finite(value, member) < 0.0) reject(member, "must not be negative");
-    if (value > 0.0 && value < smallest_number) {
-        reject(member, fmt::format("is {}, below {:.0e}; is a unit wrong?", value, smallest_number));
-    }
-    return value;
-}
-
-double positive(double value, const char* member) {
-    if (!(non_negative(value, member) > 0.0)) reject(member, "must be above zero");
     return value;
 }
 
@@ -45,7 +42,7 @@ Quaterniond orientation(const double (&values)[4], const char* member) {
 }
 
 std::string plain_name(const char* name, const char* member) {
-    if (!is_plain_name(name)) reject(member, "may hold letters, digits, '-' and '_' alone, 64 at most");
+    if (!is_plain_name(name)) reject(member, std::string(plain_name_words));
     return name;
 }
 

@@ -3,28 +3,27 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <string>
 
 #include <fmt/format.h>
 
 #include "samara/core/base/linear_algebra.hpp"
 #include "samara/core/c_interface/guard.hpp"
+#include "samara/core/physics/broken_rule.hpp"
 
 // Members of a caller's structs, checked. Each throws Fault of SAMARA_INVALID_ARGUMENT that names the member.
 
 namespace samara {
 
 /// Throws that fault: the member, and why it is refused.
-[[noreturn]] void reject(const char* member, const std::string& why);
+[[noreturn]] void reject(const std::string& member, const std::string& why);
+
+/// Throws that fault where a rule is broken.
+void require_rules(const std::optional<BrokenRule>& broken);
 
 /// The number, where it is finite and not beyond any unit's.
 double finite(double value, const char* member);
-
-/// The number, where it is finite and 0 or above.
-double non_negative(double value, const char* member);
-
-/// The number, where it is finite and above 0.
-double positive(double value, const char* member);
 
 /// Three finite numbers.
 Vector3d vector(const double (&values)[3], const char* member);

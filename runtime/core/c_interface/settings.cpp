@@ -1,7 +1,8 @@
 #include "samara/core/c_interface/settings.hpp"
 
+#include <algorithm>
 #include <cstddef>
-#include <numbers>
+#include <optional>
 #include <string>
 
 #include <fmt/format.h>
@@ -9,12 +10,10 @@
 #include "samara/core/base/number_limits.hpp"
 #include "samara/core/c_interface/guard.hpp"
 #include "samara/core/c_interface/members.hpp"
-#include "samara/core/surface/surface_patches.hpp"
 
 namespace samara {
 namespace {
 
-constexpr std::uint32_t most_bodies_of_a_group = 10'000'000;
 constexpr int most_threads = 1024;
 // Up to the last member that version 1 had.
 constexpr std::size_t first_settings_size = offsetof(samara_settings, ground) + sizeof(double);
@@ -27,102 +26,70 @@ static_assert(offsetof(samara_body_group, table_reynolds_number) % alignof(samar
 static_assert(offsetof(samara_body_group, patches) % alignof(samara_body_group) == 0);
 static_assert(offsetof(samara_body_group, spread_start) % alignof(samara_body_group) == 0);
 
+/// What a member holds for which 0 stands where the caller gives nothing.
+std::optional<double> unless_zero(double number) {
+    return number == 0.0 ? std::nullopt : std::optional(number);
+}
+
 MassSpecification read_mass(const samara_body_group& group) {
     MassSpecification mass;
-    if (non_negative(group.density, "density") > 0.0) mass.density = group.density;
-    if (non_negative(group.mass, "mass") > 0.0) mass.mass = group.mass;
-    if (mass.density && mass.mass) reject("density", "and mass are both given; give one of the two");
+    mass.density = unless_zero(group.density);
+    mass.mass = unless_zero(group.mass);
     if (group.has_center_of_mass != 0) mass.center_of_mass = vector(group.center_of_mass, "center_of_mass");
-    Matrix3d inertia = Eigen::Map<const Matrix3d>(group.inertia);
     for (const double value : group.inertia) finite(value, "inertia");
-    if (!inertia.isZero(0.0)) {
-        if ((inertia - inertia.transpose()).norm() > 1e-9 * inertia.norm())
-            reject("inertia", "must be symmetric");
-        mass.inertia = inertia;
-    }
-    if (!mass.mass && (mass.center_of_mass || mass.inertia)) {
-        reject(mass.inertia ? "inertia" : "center_of_mass",
-               mass.density ? "contradicts a uniform density; give mass instead of density"
-                            : "stands alone; give mass with it");
-    }
+    const Matrix3d inertia = Eigen::Map<const Matrix3d>(group.inertia);
+    if (!inertia.isZero(0.0)) mass.inertia = inertia;
     return mass;
 }
 
 CoefficientLoads read_coefficients(const samara_body_group& group) {
     CoefficientLoads coefficients;
-    coefficients.drag_coefficient = non_negative(group.drag_coefficient, "drag_coefficient");
+    coefficients.drag_coefficient = group.drag_coefficient;
     coefficients.lift_coefficient = finite(group.lift_coefficient, "lift_coefficient");
-    if (non_negative(group.reference_area, "reference_area") > 0.0) {
-        coefficients.reference_area = group.reference_area;
-    }
+    coefficients.reference_area = unless_zero(group.reference_area);
     const Vector3d normal = vector(group.normal, "normal");
-    if (normal.norm() >= smallest_number) {
-        coefficients.normal = normal.normalized();
-    } else if (!normal.isZero(0.0)) {
-        reject("normal", "is too short to have a direction");
-    }
+    if (!normal.isZero(0.0)) coefficients.normal = normal;
     coefficients.center_of_pressure = vector(group.center_of_pressure, "center_of_pressure");
     return coefficients;
 }
 
-void read_turbulence(const samara_body_group& group, GivenGroup& body) {
+void read_turbulence(const samara_body_group& group, BodyPhysics& body) {
     if (group.turbulence == SAMARA_TURBULENCE_AS_LOADS) {
         body.turbulence = body.loads == Loads::table ? Turbulence::table : Turbulence::none;
     } else {
         body.turbulence = choice<Turbulence>(group.turbulence, SAMARA_TURBULENCE_TABLE, "turbulence");
     }
-    body.turbulent_kinetic_energy = non_negative(group.turbulent_kinetic_energy, "turbulent_kinetic_energy");
-    body.dissipation_rate = non_negative(group.dissipation_rate, "dissipation_rate");
-    if (body.turbulence == Turbulence::constant &&
-        (group.turbulent_kinetic_energy > 0.0) != (group.dissipation_rate > 0.0)) {
-        reject("dissipation_rate", "and turbulent_kinetic_energy must be both zero or both above zero");
-    }
+    body.turbulent_kinetic_energy = group.turbulent_kinetic_energy;
+    body.dissipation_rate = group.dissipation_rate;
     body.langevin = choice<Langevin>(group.langevin, SAMARA_LANGEVIN_WAKE, "langevin");
 }
 
-/// What the equations hold, beside loads, coefficients and turbulence, which are read before.
-void read_models(const samara_body_group& group, GivenGroup& body) {
-    body.added_mass = group.added_mass != 0;
-    if (group.patches < 1 || group.patches > most_surface_patches) {
-        reject("patches",
-               fmt::format("is {}; it must lie between 1 and {}", group.patches, most_surface_patches));
-    }
+void read_physics(const samara_body_group& group, BodyPhysics& body) {
+    body.mass = read_mass(group);
+    body.loads = choice<Loads>(group.loads, SAMARA_LOADS_SURFACE, "loads");
+    body.coefficients = read_coefficients(group);
+    body.table_reynolds_number = unless_zero(group.table_reynolds_number);
     body.patches = group.patches;
+    body.added_mass = group.added_mass != 0;
     body.dynamic = choice<Dynamic>(group.dynamic_coefficients, SAMARA_DYNAMIC_NONE, "dynamic_coefficients");
-    if (!(non_negative(group.table_reynolds_number, "table_reynolds_number") > 0.0)) return;
-    if (body.loads != Loads::table && body.turbulence != Turbulence::table) {
-        reject("table_reynolds_number", "is for loads or turbulence from the table");
-    }
-    body.table_reynolds_number = group.table_reynolds_number;
+    read_turbulence(group, body);
+    require_rules(broken_rule(body));
+    if (body.coefficients.normal) body.coefficients.normal->normalize();
 }
 
-void read_start(const samara_body_group& group, GivenGroup& body) {
-    body.position = vector(group.position, "position");
-    body.orientation = orientation(group.orientation, "orientation");
-    body.velocity = vector(group.velocity, "velocity");
-    body.angular_velocity = vector(group.angular_velocity, "angular_velocity");
-    body.start = non_negative(group.start, "start");
-    if (group.count < 1 || group.count > most_bodies_of_a_group) {
-        reject("count", fmt::format("must lie between 1 and {}", most_bodies_of_a_group));
-    }
-    body.count = static_cast<int>(group.count);
-    body.spread_position = vector(group.spread_position, "spread_position");
-    body.spread_angle = non_negative(group.spread_angle, "spread_angle");
-    if (body.spread_angle > std::numbers::pi) reject("spread_angle", "must lie between 0 and pi");
-    body.spread_start = non_negative(group.spread_start, "spread_start");
-    body.smallest_size = positive(group.smallest_size, "smallest_size");
-    body.largest_size = positive(group.largest_size, "largest_size");
-    if (body.largest_size < body.smallest_size) {
-        reject("largest_size",
-               fmt::format("is {:g}, below smallest_size, {:g}", body.largest_size, body.smallest_size));
-    }
-    if (body.count == 1 && body.largest_size != body.smallest_size) {
-        reject("largest_size", "differs from smallest_size, but count is 1: give both the size of that body");
-    }
-    if (body.count == 1 && body.spreads()) {
-        reject("count",
-               "is 1, but spread_position, spread_angle or spread_start is not 0: they are of several");
-    }
+void read_start(const samara_body_group& group, Release& release) {
+    release.position = vector(group.position, "position");
+    release.orientation = orientation(group.orientation, "orientation");
+    release.velocity = vector(group.velocity, "velocity");
+    release.angular_velocity = vector(group.angular_velocity, "angular_velocity");
+    release.start = group.start;
+    release.count = static_cast<int>(std::min(group.count, std::uint32_t{most_copies} + 1));
+    release.spread_position = vector(group.spread_position, "spread_position");
+    release.spread_angle = group.spread_angle;
+    release.spread_start = group.spread_start;
+    release.smallest_size = group.smallest_size;
+    release.largest_size = group.largest_size;
+    require_rules(broken_rule(release));
 }
 
 }  // namespace
@@ -145,17 +112,19 @@ samara_settings default_settings() {
 SimulationSettings read_settings(const samara_settings& settings) {
     const samara_settings given = known_part(settings, default_settings(), first_settings_size, "settings");
     SimulationSettings result;
-    result.fluid.density = positive(given.fluid_density, "fluid_density");
-    result.fluid.viscosity = positive(given.fluid_viscosity, "fluid_viscosity");
+    result.fluid.density = given.fluid_density;
+    result.fluid.viscosity = given.fluid_viscosity;
     result.fluid.current = vector(given.current, "current");
     result.fluid.gust.amplitude = vector(given.gust_amplitude, "gust_amplitude");
-    result.fluid.gust.period = positive(given.gust_period, "gust_period");
+    result.fluid.gust.period = given.gust_period;
+    require_rules(broken_rule(result.fluid));
     result.gravity = vector(given.gravity, "gravity");
     if (given.has_ground != 0) result.ground = finite(given.ground, "ground");
     result.wind.function = given.wind;
     result.wind.function_context = given.wind_context;
     result.bodies_collide = given.bodies_collide != 0;
-    result.step = positive(given.step, "step");
+    if (!positive_number.holds(given.step)) reject("step", std::string(positive_number.words));
+    result.step = given.step;
     result.seed = given.seed;
     result.first_run = given.run;
     if (given.threads < 0 || given.threads > most_threads) {
@@ -188,12 +157,8 @@ GivenGroup read_group(const samara_body_group& given) {
     const samara_body_group group = known_part(given, default_group(), first_group_size, "kind");
     GivenGroup body;
     if (group.name != nullptr) body.name = plain_name(group.name, "name");
-    body.mass = read_mass(group);
     read_start(group, body);
-    body.loads = choice<Loads>(group.loads, SAMARA_LOADS_SURFACE, "loads");
-    body.coefficients = read_coefficients(group);
-    read_turbulence(group, body);
-    read_models(group, body);
+    read_physics(group, body);
     return body;
 }
 
@@ -214,9 +179,6 @@ void require_data(const Body& body, const GivenGroup& group) {
             fmt::format("body '{}' holds no surface loads; add them with 'samara kirchhoff FILE -o "
                         "FILE', or set loads otherwise",
                         name));
-    }
-    if (group.loads == Loads::surface && group.turbulence == Turbulence::table) {
-        reject("turbulence", "is from the table, and the loads are not; set it otherwise");
     }
     const bool loads = group.loads == Loads::table;
     if ((loads || group.turbulence == Turbulence::table) && !body.tables) {

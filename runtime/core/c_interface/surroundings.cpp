@@ -10,7 +10,6 @@
 #include "samara/core/c_interface/guard.hpp"
 #include "samara/core/c_interface/members.hpp"
 #include "samara/core/c_interface/objects.hpp"
-#include "samara/core/physics/obstacle_motion.hpp"
 #include "samara/core/surface/mended_surface.hpp"
 #include "samara/core/surface/surface_check.hpp"
 
@@ -61,10 +60,6 @@ std::vector<samara::ObstacleKey> read_keys(const samara_obstacle_key* given, std
         key.time = samara::finite(given[i].time, "time");
         key.position = samara::vector(given[i].position, "position");
         key.orientation = samara::orientation(given[i].orientation, "orientation");
-        if (i > 0 && !(key.time > keys.back().time)) {
-            samara::reject("time", fmt::format("of key {}, {} s, must be later than that of the key before",
-                                               i, key.time));
-        }
         keys.push_back(key);
     }
     return keys;
@@ -75,7 +70,7 @@ samara::Obstacle read_obstacle(const samara_obstacle& all, std::size_t number) {
     samara::Obstacle obstacle;
     obstacle.name =
         given.name == nullptr ? fmt::format("obstacle-{}", number) : samara::plain_name(given.name, "name");
-    obstacle.friction = samara::non_negative(given.friction, "friction");
+    obstacle.friction = given.friction;
     obstacle.keys.front().position = samara::vector(given.position, "position");
     obstacle.keys.front().orientation = samara::orientation(given.orientation, "orientation");
     if (given.key_count > 0) {
@@ -90,10 +85,8 @@ samara::Obstacle read_obstacle(const samara_obstacle& all, std::size_t number) {
         throw StatusError(SAMARA_INVALID_ARGUMENT,
                           fmt::format("obstacle '{}' is no sound surface: {}", obstacle.name, caught.what()));
     }
-    try {
-        samara::require_steady_keys(obstacle);
-    } catch (const samara::Error& caught) {
-        samara::reject("keys", fmt::format("of obstacle '{}' {}", obstacle.name, caught.what()));
+    if (const auto broken = samara::broken_rule(obstacle)) {
+        samara::reject(broken->member, fmt::format("of obstacle '{}' {}", obstacle.name, broken->what));
     }
     return obstacle;
 }
@@ -133,7 +126,9 @@ samara_status samara_set_obstacle_keys(samara_simulation* simulation, size_t obs
         }
         require(keys, "keys");
         if (count < 1) samara::reject("count", "is 0; give one key at least");
-        core.set_obstacle_keys(obstacle, read_keys(keys, count));
+        const std::vector<samara::ObstacleKey> read = read_keys(keys, count);
+        samara::require_rules(samara::broken_rule(read));
+        core.set_obstacle_keys(obstacle, read);
     });
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "samara/core/base/error.hpp"
+#include "samara/core/physics/broken_rule.hpp"
 #include "samara/core/physics/obstacle_motion.hpp"
 
 namespace samara {
@@ -16,7 +18,7 @@ Emitter make_emitter(Obstacle mesh, double offset, double speed) {
         area += area_vector(surface, i).norm();
         emitter.areas.push_back(area);
     }
-    require_steady_keys(emitter.mesh);
+    if (const auto broken = broken_rule(emitter.mesh)) throw Error(broken->member + " " + broken->what);
     return emitter;
 }
 

@@ -15,7 +15,8 @@ struct Emitter {
     std::vector<double> areas;  ///< m^2: of each triangle and all before it
 };
 
-/// An emitter with its areas. Throws Error as require_steady_keys() does: what leaves it has its velocity.
+/// An emitter with its areas. Throws Error where its keys are out of order or jump: what leaves it has its
+/// velocity.
 Emitter make_emitter(Obstacle mesh, double offset, double speed);
 
 /// How something leaves an emitter.

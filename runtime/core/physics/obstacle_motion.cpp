@@ -2,10 +2,6 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
-#include "samara/core/base/error.hpp"
-
 namespace samara {
 namespace {
 
@@ -25,21 +21,6 @@ ObstacleMotion motion_of(const Obstacle& obstacle, double time) {
                                         [](double at, const ObstacleKey& key) { return at < key.time; });
     if (after == keys.begin() || after == keys.end()) return {};
     return motion_between(*std::prev(after), *after);
-}
-
-void require_steady_keys(const Obstacle& obstacle) {
-    double reach = 0.0;
-    for (const Vector3d& vertex : obstacle.surface.vertices) reach = std::max(reach, vertex.norm());
-    const auto& keys = obstacle.keys;
-    for (std::size_t i = 1; i < keys.size(); ++i) {
-        const ObstacleMotion motion = motion_between(keys[i - 1], keys[i]);
-        const double fastest = motion.velocity.norm() + reach * motion.angular_velocity.norm();
-        if (fastest <= most_key_speed) continue;
-        throw Error(
-            fmt::format("jump: from {:g} s to {:g} s the mesh moves at {:.3g} m/s, and {:g} is the most; put "
-                        "them farther apart in time",
-                        keys[i - 1].time, keys[i].time, fastest, most_key_speed));
-    }
 }
 
 }  // namespace samara

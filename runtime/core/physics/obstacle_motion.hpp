@@ -16,8 +16,4 @@ ObstacleMotion motion_of(const Obstacle& obstacle, double time);
 /// Keys between which a point of an obstacle moves faster than this jump (m/s).
 inline constexpr double most_key_speed = 100.0;
 
-/// Throws Error, which names the times, where an obstacle's keys jump: it would strike all in its way. The
-/// speed is that of the origin and, added to it, that of the farthest vertex about the origin.
-void require_steady_keys(const Obstacle& obstacle);
-
 }  // namespace samara

@@ -107,7 +107,7 @@ TEST_F(SceneFile, ASpreadOfOneCopyIsRefused) {
     for (const char* spread : {"position = [0, 0, 0.1]", "angle = 0.5", "start = 1", "size = [0.5, 2]"}) {
         const std::string keys = std::string("spread = { ") + spread + " }\n";
         EXPECT_THAT(refusal(with_body("density = 1\n" + keys)),
-                    AllOf(HasSubstr("spread"), HasSubstr("give a count above 1")));
+                    AllOf(HasSubstr("count in [[body]] is 1, but"), HasSubstr("they are of several")));
         EXPECT_NO_THROW(read(with_body("density = 1\ncount = 2\n" + keys)));
     }
     EXPECT_NO_THROW(read(with_body("density = 1\nspread = { size = [2, 2], angle = 0 }\n")))

@@ -256,10 +256,11 @@ TEST(CHost, RefusesWhatIsNoForceBodyOrPlace) {
     group.smallest_size = 0.0;
     expect_rejected(CALL(samara_simulation_add, s, body.get(), &group, nullptr), "smallest_size");
     group.smallest_size = 2.0;
-    expect_rejected(CALL(samara_simulation_add, s, body.get(), &group, nullptr), "below smallest_size");
+    expect_rejected(CALL(samara_simulation_add, s, body.get(), &group, nullptr),
+                    "the smallest and the largest size");
     group = rubber_group(1);
     group.largest_size = 2.0;
-    expect_rejected(CALL(samara_simulation_add, s, body.get(), &group, nullptr), "count is 1");
+    expect_rejected(CALL(samara_simulation_add, s, body.get(), &group, nullptr), "they are of several");
     EXPECT_EQ(state_of(simulation), before) << "a call that fails changes nothing";
     poses_at(simulation, 0.003);
     samara_fluid_load load;

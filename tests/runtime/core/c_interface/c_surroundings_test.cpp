@@ -227,7 +227,8 @@ TEST(CObstacle, OutOfRangeIsRefusedByName) {
         {"triangles", [](samara_obstacle& o) { o.triangles = nullptr; }},
         {"triangle_count", [](samara_obstacle& o) { o.triangle_count = 1'000'000'000'000; }},
         {"keys", [](samara_obstacle& o) { o.key_count = 2; }},
-        {"time", [](samara_obstacle& o) { o.keys = unordered, o.key_count = 2; }},
+        {"keys of obstacle 'obstacle-0' are out of order: the time of key 1",
+         [](samara_obstacle& o) { o.keys = unordered, o.key_count = 2; }},
         {"time", [](samara_obstacle& o) { o.keys = endless, o.key_count = 1; }},
         {"keys of obstacle 'obstacle-0' jump: from 1 s to 1.01 s",
          [](samara_obstacle& o) { o.keys = jumping, o.key_count = 2; }},
@@ -281,7 +282,7 @@ TEST(CObstacle, IsMovedByItsNumberAndByKeysInOrder) {
     EXPECT_EQ(set(1, keys, 1), SAMARA_INVALID_ARGUMENT);
     EXPECT_THAT(error.text(), StartsWith("obstacle is 1"));
     EXPECT_EQ(set(0, keys, 2), SAMARA_INVALID_ARGUMENT);
-    EXPECT_THAT(error.text(), StartsWith("time of key 1"));
+    EXPECT_THAT(error.text(), StartsWith("keys are out of order: the time of key 1"));
     EXPECT_EQ(set(0, keys, 0), SAMARA_INVALID_ARGUMENT);
     EXPECT_EQ(set(0, nullptr, 1), SAMARA_INVALID_ARGUMENT);
     keys[0].orientation[0] = 0.0;
