@@ -236,7 +236,7 @@ def draw_kirchhoff(rows, _):
 
 
 def draw_motion(rows, _):
-    """The worst figure of the falls against seconds, model by model."""
+    """The worst metric of the falls against seconds, model by model."""
     figure, (axes,) = new_figure(1500, 800, margins=(0.08, 0.98, 0.1, 0.97))
     models = dict(zip(("inertia alone", "drag coefficient 1", "preview tables",
                        "standard tables with default coefficients",
@@ -250,7 +250,7 @@ def draw_motion(rows, _):
     seconds, _ = points(rows, "seconds_per_simulated_second", "error", model="full CFD")
     axes.vlines(seconds, 1.0, 1.22, color="#1a1a1a", lw=1.6)
     axes.text(55, 1.8, "full CFD, by which\nthe others are judged", ha="center", va="center", color=GRAY)
-    axes.set(xlabel="seconds for a simulated second", ylabel="worst figure off by (another regime: 100), %")
+    axes.set(xlabel="seconds for a simulated second", ylabel="worst metric off by (another regime: 100), %")
     logarithmic(axes, (1e-5, 1e3), (0.9, 3000))
     axes.legend(loc="upper right")
     return figure

@@ -325,7 +325,7 @@ def table_of_falls(rows, who="runtime"):
     """A table of README.md, of rows of falls.csv; `who` was held against the references."""
     if not rows:
         return "Not flown yet.\n"
-    lines = [f"| fall | descent | frequency | amplitude | rms angular speed | regime ({who} / reference) | worst figure "
+    lines = [f"| fall | descent | frequency | amplitude | rms angular speed | regime ({who} / reference) | worst metric "
              "| within 10, 20, 30 % | within 5, 15, 25, 25 % |", "|---" * 9 + "|"]
     for row in rows:
         cells = [row["fall"]]
@@ -384,7 +384,7 @@ def fly_without_terms(programs, folder):
 
 
 def summary_of(comparisons):
-    """Of falls by the same identification: the worst figure in the mean, how many have the regime and agree, and by how much the
+    """Of falls by the same identification: the worst metric in the mean, how many have the regime and agree, and by how much the
     descents are off in the mean."""
     falls = comparisons.values()
     descents = [abs(comparison["measures"]["descent_speed"]["relative_difference"]) for comparison in falls]
@@ -420,7 +420,7 @@ def table_of_repeats():
     """The table of README.md, of repeats.csv."""
     with open(REPEATS, newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
-    lines = ["| noise | worst figure | regimes | within 10, 20, 30 % | descent |", "|---" * 5 + "|"]
+    lines = ["| noise | worst metric | regimes | within 10, 20, 30 % | descent |", "|---" * 5 + "|"]
     for noise in ("off", "on"):
         of_noise = [row for row in rows if row["noise"] == noise]
         cells = []
@@ -437,7 +437,7 @@ def table_of_fewer():
     """The table of README.md, of fewer.csv."""
     with open(f"{FALLS}/fewer.csv", newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
-    lines = ["| identified from | CPU s a body | misses of its own | worst figure, mean | regime | within 10, 20, 30 % |",
+    lines = ["| identified from | CPU s a body | misses of its own | worst metric, mean | regime | within 10, 20, 30 % |",
              "|---" * 6 + "|"]
     lines += [f"| {row['falls']} | {float(row['cpu_seconds']):.0f} | {100 * float(row['prediction_error']):.1f} % "
               f"| {100 * float(row['mean_worst_figure']):.0f} % | {row['regimes']} of {row['references']} "

@@ -207,7 +207,7 @@ def summary_table(rows):
             yield [model, *figures, mean_of(worst), f"{100 * max(worst):.0f} %", f"{regimes} of {len(of)}",
                    f"{sum(row['agrees'] == 'yes' for row in of)} of {len(of)}"]
 
-    return table(["model", "descent", "frequency", "amplitude", "rms angular speed", "worst figure: mean", "largest", "regimes right",
+    return table(["model", "descent", "frequency", "amplitude", "rms angular speed", "worst metric: mean", "largest", "regimes right",
                   "within 10, 20, 30 %"], lines())
 
 

@@ -19,7 +19,7 @@ namespace {
 constexpr int most_iterations = 100;
 constexpr int iterations_without_inverse = 8;
 constexpr std::size_t panels_a_piece = 64;
-constexpr double open_surface = 0.02;  // closure fault
+constexpr double open_surface = 0.02;  // closure error
 
 Eigen::Index row_of(std::size_t index) {
     return static_cast<Eigen::Index>(index);
@@ -90,7 +90,7 @@ BlockSolution solve(const CurvedPanels& panels, const CurvedEquations& equations
     };
     BlockSolution solution = solve_block(times_matrix, equations.right_hand_sides,
                                          {solver_tolerance(panels), most_iterations, precondition});
-    // What is not closed need not have a solution; its closure fault says so.
+    // What is not closed need not have a solution; its closure error says so.
     if (!solution.converged && equations.closure_error < open_surface) {
         throw Error(
             fmt::format("the equations of {} curved triangles did not converge in {} steps; mesh the "
