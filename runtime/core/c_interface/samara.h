@@ -205,8 +205,8 @@ typedef struct samara_body_group {
 
     /* since SAMARA_API_VERSION 7 */
     double spread_start;  /* s: several start up to this after `start`, drawn from the seed */
-    double smallest_size; /* over the shape's lengths, at its density: the sizes of several lie between ... */
-    double largest_size;  /* ... these two, drawn from the seed, and one has this size; default: 1 and 1 */
+    double smallest_size; /* over the shape's lengths, 0.001 to 1000: sizes of several lie between ... */
+    double largest_size;  /* ... these two, at its density, drawn from the seed; one has both; default: 1 */
 } samara_body_group;
 
 SAMARA_API samara_status samara_default_body_group(samara_body_group* group, size_t size, char* error,
