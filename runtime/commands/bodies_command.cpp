@@ -18,7 +18,7 @@
 #include "samara/core/files/content_hash.hpp"
 #include "samara/core/files/hdf5_reader.hpp"
 #include "samara/core/files/replace_file.hpp"
-#include "samara/formats/vector_json.hpp"
+#include "samara/formats/json_text.hpp"
 #include "samara/scene/ready_bodies.hpp"
 
 namespace samara {

@@ -10,10 +10,9 @@
 #include "samara/commands/motion_choice.hpp"
 #include "samara/commands/shared/arguments.hpp"
 #include "samara/commands/shared/print.hpp"
-#include "samara/commands/shared/progress.hpp"
 #include "samara/core/base/error.hpp"
-#include "samara/pictures/comparison_picture.hpp"
 #include "samara/pictures/draw.hpp"
+#include "samara/pictures/motion_pictures.hpp"
 
 namespace samara {
 namespace {

@@ -13,13 +13,10 @@
 #include "samara/commands/motion_choice.hpp"
 #include "samara/commands/shared/arguments.hpp"
 #include "samara/commands/shared/print.hpp"
-#include "samara/commands/shared/progress.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/export/chan_file.hpp"
 #include "samara/export/csv_file.hpp"
-#include "samara/export/fast_turn.hpp"
 #include "samara/export/gltf_file.hpp"
-#include "samara/export/loop.hpp"
 #include "samara/export/page_file.hpp"
 #include "samara/export/usd_file.hpp"
 #include "samara/motion/motion_file.hpp"
@@ -104,13 +101,14 @@ nlohmann::json write(const ExportOptions& options, const std::string& format, co
 
 /// Says where frames are too far apart for what turns between them.
 void note_fast_turns(const Motion& motion, int run) {
-    const FastTurn fastest = fastest_turn(motion, run);
-    if (!(fastest.turns > 0.5)) return;
+    const FastRotation fastest = fastest_rotation(motion, run);
+    if (!(fastest.revolutions > 0.5)) return;
     print_note(
-        "samara export: note: '{}' turns by up to {:.2g} turns from frame to frame; above half a turn "
+        "samara export: note: '{}' rotates by up to {:.2g} revolutions from frame to frame; above half a "
+        "revolution "
         "programs "
         "that interpolate show another turn: give --frame-rate {:.0f} or more\n",
-        fastest.body, fastest.turns, std::ceil(4.0 * fastest.turns * motion.frame_rate));
+        fastest.body, fastest.revolutions, std::ceil(4.0 * fastest.revolutions * motion.frame_rate));
 }
 
 nlohmann::json export_motion(ExportOptions options) {

@@ -8,18 +8,17 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "samara/analysis/advice/unit_warnings.hpp"
+#include "samara/analysis/advice/input_warnings.hpp"
 #include "samara/commands/commands.hpp"
+#include "samara/commands/motion_choice.hpp"
 #include "samara/commands/shared/arguments.hpp"
 #include "samara/commands/shared/body_notes.hpp"
 #include "samara/commands/shared/load_body.hpp"
 #include "samara/commands/shared/print.hpp"
-#include "samara/commands/shared/progress.hpp"
-#include "samara/commands/vector_words.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/base/labelled.hpp"
 #include "samara/core/body/body_file.hpp"
-#include "samara/formats/vector_json.hpp"
+#include "samara/formats/json_text.hpp"
 #include "samara/kirchhoff/kirchhoff_solver.hpp"
 #include "samara/kirchhoff/surface_flow.hpp"
 

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include "samara/core/base/linear_algebra.hpp"
 #include "samara/motion/motion.hpp"
 
 namespace samara {
@@ -15,5 +17,8 @@ void require_run(const std::string& input, const Motion& motion, int run);
 
 /// Throws Error where the body in the file `input` has no such copy.
 void require_copy(const std::string& input, const BodyMotion& body, int copy);
+
+/// The vector that an option's words "x,y,z" give; nothing where they are no three finite numbers.
+std::optional<Vector3d> vector_of_words(const std::string& words);
 
 }  // namespace samara

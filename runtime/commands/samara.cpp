@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 #include "samara/commands/commands.hpp"
-#include "samara/commands/shared/guarded_program.hpp"
+#include "samara/commands/shared/arguments.hpp"
 #include "samara/commands/shared/print.hpp"
 #include "samara/commands/shared/subprocess.hpp"
 #include "samara/core/base/error.hpp"

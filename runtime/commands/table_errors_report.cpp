@@ -7,8 +7,8 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "samara/formats/left_out_cases.hpp"
-#include "samara/reports/words.hpp"
+#include "samara/analysis/verdicts/case_records.hpp"
+#include "samara/reports/report_blocks.hpp"
 
 namespace samara {
 namespace {

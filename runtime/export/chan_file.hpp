@@ -14,10 +14,10 @@ namespace samara {
 ///   frame tx ty tz rx ry rz
 ///
 /// Frame: time times frame rate, whole (frame 0 at 0 s). Position (m) of the shape file's origin and angles
-/// (degrees), with y up, as Nuke and Houdini have it: shape and world alike are turned as in .glb, (x, y, z)
+/// (degrees), with y up, as Nuke and Houdini have it: shape and world alike are rotated as in .glb, (x, y, z)
 /// -> (x, z, -y), so that a body in the shape file's own attitude has the angles 0 0 0. Rotation order ZXY,
-/// Nuke's default: first about z, then x, then y, R = Ry Rx Rz. Angles are continuous: of the two triples
-/// that give the same turn, and the whole turns, those nearest to the line before; ry goes on where rx is a
+/// Nuke's default: first about z, then x, then y, R = Ry Rx Rz. Angles are continuous: of the triples that
+/// give one rotation, whole revolutions included, that nearest to the line before; ry goes on where rx is a
 /// right angle (the shape's y axis is vertical) to 1e-9. Numbers are the shortest text that reads back as the
 /// same double.
 ///

@@ -159,7 +159,7 @@ tinygltf::Material matte_material(const char* name, double grey) {
     return material;
 }
 
-/// A mesh of as many parts as the look has materials in use; adds these to the model.
+/// Returns a mesh of as many parts as the display mesh has materials in use; adds these to the model.
 int add_display(Builder& builder, const std::string& name, const DisplayMesh& display) {
     tinygltf::Mesh mesh;
     mesh.name = printable(name);
@@ -185,7 +185,7 @@ int add_display(Builder& builder, const std::string& name, const DisplayMesh& di
         builder.model().materials.push_back(matte_material(printable(material.name).c_str(), 1.0));
         tinygltf::Material& added = builder.model().materials.back();
         added.pbrMetallicRoughness.baseColorFactor.assign(material.color.begin(), material.color.end());
-        added.doubleSided = true;  // a look may be a sheet
+        added.doubleSided = true;  // a display mesh may be a sheet
         if (material.image >= 0) {
             added.pbrMetallicRoughness.baseColorTexture.index =
                 textures[static_cast<std::size_t>(material.image)];

@@ -1,3 +1,22 @@
+#ifdef SAMARA_PAGE_FILE
+// The page is some 700 kB: the assembler copies the file, where a compiler would parse every byte.
+asm(".pushsection .rodata\n"
+    ".balign 16\n"
+    ".hidden samara_page_begin\n"
+    ".global samara_page_begin\n"
+    "samara_page_begin:\n"
+    ".incbin \"" SAMARA_PAGE_FILE
+    "\"\n"
+    ".hidden samara_page_end\n"
+    ".global samara_page_end\n"
+    "samara_page_end:\n"
+    ".byte 0\n"
+    ".popsection\n");
+extern "C" {
+extern const char samara_page_begin[];
+extern const char samara_page_end[];
+}
+#endif
 #include "samara/export/page_file.hpp"
 
 #include <algorithm>
@@ -13,12 +32,20 @@
 #include "samara/core/base/error.hpp"
 #include "samara/core/files/replace_file.hpp"
 #include "samara/export/float_range.hpp"
-#include "samara/export/page_bytes.hpp"
 #include "samara/export/shaded_mesh.hpp"
 #include "samara/motion/inclination.hpp"
 
 namespace samara {
 namespace {
+
+/// The player's page with the mark <!--MOTION--> in it; empty where it was not built in.
+std::string_view page_bytes() {
+#ifdef SAMARA_PAGE_FILE
+    return {samara_page_begin, static_cast<std::string_view::size_type>(samara_page_end - samara_page_begin)};
+#else
+    return {};
+#endif
+}
 
 constexpr std::string_view mark = "<!--MOTION-->";
 constexpr std::size_t floats_of_pose = 10;  // as runtime/page/motion.js reads them
@@ -36,7 +63,7 @@ void append(std::vector<float>& floats, const auto& values) {
     for (const double value : values) floats.push_back(static_cast<float>(value));
 }
 
-/// From the centre of mass to the body's farthest point (m).
+/// Returns the distance (m) from the centre of mass to the body's farthest point.
 double radius_of(const BodyMotion& body) {
     double radius = 0.0;
     for (const Vector3d& vertex : body.surface.vertices) {

@@ -12,7 +12,7 @@ struct Corner {
     int place;
 };
 
-/// For each vertex the corners of triangles that meet there.
+/// Returns for each vertex the corners of triangles that share it.
 std::vector<std::vector<Corner>> corners_by_vertex(const Surface& surface) {
     std::vector<std::vector<Corner>> corners(surface.vertices.size());
     for (std::size_t t = 0; t < surface.triangle_count(); ++t) {

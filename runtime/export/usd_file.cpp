@@ -14,7 +14,6 @@
 #include "samara/core/surface/display_image.hpp"
 #include "samara/export/float_range.hpp"
 #include "samara/export/key_reduction.hpp"
-#include "samara/export/prim_names.hpp"
 #include "samara/export/shape_pose.hpp"
 #include "samara/export/usd_mesh.hpp"
 
@@ -31,10 +30,10 @@ std::vector<double> time_codes(const Motion& motion) {
     return codes;
 }
 
-/// Of each body the files of its look's images, from the stage's folder.
+/// Returns the files of the images of each body's display mesh, relative to the stage's folder.
 using ImageFiles = std::vector<std::vector<std::string>>;
 
-/// Writes the images of all looks into the folder STAGE.images beside the stage.
+/// Writes the images of all display meshes into the folder STAGE.images beside the stage.
 ImageFiles write_images(const std::filesystem::path& stage, const Motion& motion) {
     std::string folder = stage.stem().string() + ".images";
     for (char& letter : folder) {
@@ -49,7 +48,7 @@ ImageFiles write_images(const std::filesystem::path& stage, const Motion& motion
         for (const DisplayImage& image : body.display->images) {
             const std::string name = names(image.name) + "." + image_type(image.bytes);
             const std::filesystem::path file = stage.parent_path() / folder / name;
-            std::error_code error;  // which the write will meet
+            std::error_code error;  // the write reports it
             std::filesystem::create_directories(file.parent_path(), error);
             replace_file_with(file, image.bytes);
             files.back().push_back(fmt::format("./{}/{}", folder, name));

@@ -22,8 +22,7 @@ inline constexpr int most_usd_transforms = 100;
 /// A body of more than most_usd_transforms copies is a PointInstancer with all frames. Its orientations are
 /// there twice: as `orientationsf` (quatf), which OpenUSD prefers from 24.03 on, and as `orientations`
 /// (quath, to 5e-4), which every version reads. Positions are floats, as the schema asks.
-///
-/// Images of looks are files in the folder STAGE.images beside it, which its materials name.
+/// Images of display meshes are files in the folder STAGE.images beside it, which its materials name.
 ///
 /// Normals are smooth over curved parts and sharp at creases (shaded_mesh.hpp). Numbers are the shortest text
 /// that reads back as the same float or double. Equal motions give equal bytes. Throws Error where the file

@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "samara/export/prim_names.hpp"
 #include "samara/export/shaded_mesh.hpp"
 
 namespace samara {
@@ -27,7 +26,7 @@ std::string usd_list(const std::vector<std::string>& items, const std::string& i
     return text + "]";
 }
 
-/// For each position the index of the first that is the same.
+/// Returns for each position the index of the first equal one.
 std::vector<std::size_t> welded(const std::vector<Vector3d>& positions, std::vector<std::string>& points) {
     std::map<std::array<double, 3>, std::size_t> known;
     std::vector<std::size_t> indices;

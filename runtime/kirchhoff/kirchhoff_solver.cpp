@@ -165,7 +165,8 @@ class Solver {
         return rung;
     }
 
-    /// From coarse surfaces to finer ones, until the estimate is within the tolerance or no finer one helps.
+    /// Solves on coarse surfaces and then finer ones, until the estimate is within the tolerance or no finer
+    /// one helps.
     KirchhoffTensor climb(KirchhoffMethod method) {
         std::vector<Solved> solved;
         double begin = 0.0;

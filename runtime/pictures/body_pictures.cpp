@@ -12,7 +12,7 @@
 #include "samara/analysis/verdicts/case_records.hpp"
 #include "samara/core/base/angles.hpp"
 #include "samara/core/base/error.hpp"
-#include "samara/formats/vector_json.hpp"
+#include "samara/formats/json_text.hpp"
 #include "samara/pictures/body_arcs.hpp"
 
 namespace samara {

@@ -16,7 +16,6 @@
 #include "samara/core/surface/surface_patches.hpp"
 #include "samara/formats/display_mesh_file.hpp"
 #include "samara/formats/toml_table.hpp"
-#include "samara/scene/choice.hpp"
 #include "samara/scene/obstacle_table.hpp"
 #include "samara/scene/ready_bodies.hpp"
 #include "samara/scene/wind_table.hpp"
@@ -108,7 +107,7 @@ MassSpecification read_mass(TomlTable& table) {
     return mass;
 }
 
-/// What the equations hold, beside turbulence and coefficients.
+/// Reads the terms of the equations, apart from turbulence and coefficients.
 void read_models(TomlTable& table, SceneBody& body) {
     body.loads = choice<Loads>(table, "loads",
                                {{"none", Loads::none},
@@ -243,7 +242,7 @@ std::filesystem::path shape_file(const TomlTable& table, const std::string& shap
     return file;
 }
 
-/// What exports show of a body; null where the scene says nothing.
+/// Reads the display mesh of a body; null where the scene names none.
 std::shared_ptr<const DisplayMesh> read_display(TomlTable& table, const std::filesystem::path& folder,
                                                 double shape_scale) {
     const auto name = table.text("look");
@@ -304,8 +303,8 @@ void read_step(TomlTable& table, Scene& scene) {
     } else if (*table.text("step") != "auto") {
         throw table.error("step", "must be a number of seconds, or \"auto\"");
     }
-    const auto tolerance =
-        table.number("step_tolerance", {1e-6, 0.1, "must lie between 1e-6 and 0.1: a share of the way"});
+    const auto tolerance = table.number(
+        "step_tolerance", {1e-6, 0.1, "must lie between 1e-6 and 0.1: a share of the distance covered"});
     if (tolerance && !scene.step_auto) {
         throw table.error("step_tolerance", "is for step = \"auto\"; remove it, or set step so");
     }

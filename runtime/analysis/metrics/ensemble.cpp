@@ -10,7 +10,7 @@ namespace samara {
 namespace {
 
 constexpr std::size_t most_spots = 256;
-constexpr double least_spread = 1e-6;  // over the way: less is rounding
+constexpr double least_spread = 1e-6;  // relative to the displacement: less is rounding
 
 Vector3d horizontal(const Vector3d& vector, const Vector3d& down) {
     return vector - vector.dot(down) * down;

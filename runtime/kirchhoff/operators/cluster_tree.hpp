@@ -20,19 +20,19 @@ struct Cluster {
     [[nodiscard]] bool is_leaf() const { return left == 0; }
 };
 
-/// A surface halved again and again across its longest side.
+/// A surface's triangles in clusters, each halved across the longest side of its box.
 struct ClusterTree {
     std::vector<Cluster> clusters;   ///< the whole first, parents before children
     std::vector<std::size_t> order;  ///< the triangles' indices, near ones next to each other
 };
 
-/// Halves until a cluster has no more than `leaf_size` triangles.
+/// Halves a surface until each leaf has no more than `leaf_size` triangles.
 ClusterTree cluster_tree(const std::vector<FlatTriangle>& triangles, std::size_t leaf_size);
 
-/// The distance between two clusters' boxes; 0 where they meet.
+/// Returns the distance between two clusters' boxes; 0 where they touch.
 double box_distance(const Cluster& a, const Cluster& b);
 
-/// The length of a box's diagonal.
+/// Returns the length of the diagonal of a cluster's box.
 double box_diameter(const Cluster& cluster);
 
 }  // namespace samara

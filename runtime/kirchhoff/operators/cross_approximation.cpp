@@ -141,7 +141,7 @@ std::optional<LowRank> cross_approximation(const SingleLayerEntries& entries, In
         used_rows[static_cast<std::size_t>(pivot_row)] = true;
         Vector row = residual.row(cross, pivot_row);
         const Eigen::Index pivot_column = largest_unused(row, used_columns);
-        if (row[pivot_column] == 0.0) break;  // the row is met exactly
+        if (row[pivot_column] == 0.0) break;  // the approximation equals the row
         used_columns[static_cast<std::size_t>(pivot_column)] = true;
         const Vector column = residual.column(cross, pivot_column);
         row /= row[pivot_column];

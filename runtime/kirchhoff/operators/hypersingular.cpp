@@ -4,15 +4,40 @@
 
 #include "samara/core/base/error.hpp"
 #include "samara/kirchhoff/operators/compressed_matrix.hpp"
-#include "samara/kirchhoff/operators/hypersingular_operator.hpp"
 #include "samara/kirchhoff/operators/rotation_loads.hpp"
 #include "samara/kirchhoff/operators/single_layer_matrix.hpp"
 #include "samara/kirchhoff/panels/linear_elements.hpp"
 #include "samara/kirchhoff/solvers/conjugate_gradients.hpp"
-#include "samara/kirchhoff/solvers/schwarz_preconditioner.hpp"
 
 namespace samara {
 namespace {
+
+Eigen::Index at(std::size_t index) {
+    return static_cast<Eigen::Index>(index);
+}
+
+/// W p = sum over triangles of curl v_i . V curl p for six columns, V compressed.
+SixColumns hypersingular_times(const LinearElements& elements, const CompressedMatrix& single_layer,
+                               const SixColumns& columns, int threads) {
+    CurlColumns curls(at(elements.triangle_count()), 18);
+    for (std::size_t t = 0; t < elements.triangle_count(); ++t) {
+        Eigen::Matrix<double, 3, 6> sum = Eigen::Matrix<double, 3, 6>::Zero();
+        for (std::size_t k = 0; k < 3; ++k) {
+            sum += elements.curl(t, k) * columns.row(at(elements.node(t, k)));
+        }
+        for (Eigen::Index c = 0; c < 18; ++c) curls(at(t), c) = static_cast<float>(sum(c / 6, c % 6));
+    }
+    const CurlColumns products = single_layer.times(curls, threads);
+    SixColumns result = SixColumns::Zero(at(elements.node_count()), 6);
+    for (std::size_t t = 0; t < elements.triangle_count(); ++t) {
+        Eigen::Matrix<double, 3, 6> product;
+        for (Eigen::Index c = 0; c < 18; ++c) product(c / 6, c % 6) = static_cast<double>(products(at(t), c));
+        for (std::size_t k = 0; k < 3; ++k) {
+            result.row(at(elements.node(t, k))) += elements.curl(t, k).transpose() * product;
+        }
+    }
+    return result;
+}
 
 constexpr std::size_t leaf_size = 64;         // triangles
 constexpr std::size_t schwarz_cluster = 512;  // triangles
@@ -20,10 +45,6 @@ constexpr const char* unsolvable =
     "the boundary elements' equations have no solution: the surface crosses itself or is not closed; mesh "
     "the "
     "shape again with 'samara mesh'";
-
-Eigen::Index at(std::size_t index) {
-    return static_cast<Eigen::Index>(index);
-}
 
 /// The normals, a row each triangle.
 Eigen::Matrix<double, Eigen::Dynamic, 3> normals_of(const LinearElements& elements) {

@@ -6,12 +6,12 @@
 
 namespace samara {
 
-/// How solve_hypersingular solves for its unknowns.
+/// Options of solve_hypersingular().
 struct HypersingularOptions {
-    /// Up to as many nodes the matrix is factorised; above, V is compressed and the solver iterates.
+    /// The most nodes for which the matrix is factorised; above, V is compressed and the solver iterates.
     std::size_t most_dense_nodes = 1000;
     double compression = 1e-5;  ///< error of a compressed block, relative to its norm
-    double tolerance = 1e-6;    ///< of the iteration: the energy that is left, relative to the tensor's entry
+    double tolerance = 1e-6;    ///< energy that the iteration may leave, relative to the tensor's entry
 };
 
 /// The Kirchhoff tensor by linear Galerkin elements for the hypersingular equation W phi = -(1/2 + D') g on
@@ -27,9 +27,10 @@ struct HypersingularOptions {
 BoundaryElementResult solve_hypersingular(const Surface& surface, const BoundaryElementOptions& options,
                                           const HypersingularOptions& how = {});
 
-/// The potential of the fluid's velocity, grad phi, at each vertex of the surface, a row each, for the six
-/// unit motions of the body, order omega then v: the same elements, whose matrix is factorised whatever the
-/// count of nodes. Of each component of the surface up to a constant. Units and errors as above.
+/// Returns the potential of the fluid's velocity, grad phi, at each vertex of the surface, one row each, for
+/// the six unit motions of the body, order omega then v, by the elements of solve_hypersingular(), whose
+/// matrix is factorised whatever the number of nodes. The potential is known up to a constant on each
+/// component of the surface. `surface` and errors: as for solve_hypersingular().
 SixColumns unit_potentials(const Surface& surface, int threads);
 
 }  // namespace samara

@@ -17,7 +17,7 @@ Eigen::Index at(std::size_t index) {
     return static_cast<Eigen::Index>(index);
 }
 
-/// What all triangles exert on one: row k of `loads` belongs to its corner k.
+/// Loads of all triangles on one: row k of `loads` belongs to its corner k.
 struct RowLoads {
     Matrix3d loads = Matrix3d::Zero();  // sum of g times the solid angle of v_k, without 1 / (4 pi)
     Eigen::Matrix<double, 3, 6> energies = Eigen::Matrix<double, 3, 6>::Zero();

@@ -34,7 +34,7 @@ RowMatrix dense_single_layer(const SingleLayerEntries& entries, int threads,
     const std::size_t count = entries.size();
     RowMatrix matrix(at(count), at(count));
     const std::size_t pieces = (count + rows_a_piece - 1) / rows_a_piece;
-    // Rows from the top and from the bottom in turn: pieces of about equal work.
+    // Rows from the top and from the bottom alternately: pieces of about equal work.
     parallel_for(
         pieces, 1, threads,
         [&](std::size_t begin, std::size_t) {

@@ -18,7 +18,7 @@ std::size_t at(std::int32_t index) {
     return static_cast<std::size_t>(index);
 }
 
-/// The bits of the three coordinates in turn, ten each (G. M. Morton's order).
+/// Interleaves the bits of the three coordinates, ten each (G. M. Morton's order).
 std::uint32_t morton_code(const Vector3d& share_of_box) {
     std::uint32_t code = 0;
     for (std::uint32_t bit = 10; bit-- > 0;) {
@@ -105,7 +105,7 @@ double solid_angle(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
 }
 
 /// The solid angle between `inward` and the directions in which the panel leaves its node a: the sector
-/// between two tangents at a corner, and two such sectors, by way of the opposite corner, at the middle of an
+/// between two tangents at a corner, and two such sectors, split at the opposite corner, at the middle of an
 /// edge.
 double sector_angle(const CurvedPanel& panel, std::size_t a, const Vector3d& inward) {
     const Eigen::Matrix<double, 3, 2> tangents =

@@ -19,11 +19,11 @@ struct FlatTriangle {
     double radius;  ///< the distance from the centroid to the farthest corner
 };
 
-/// The flat triangle with these corners. A triangle without an area gets a normal that is not finite.
+/// Returns the flat triangle with these corners. A triangle without an area gets a normal that is not finite.
 FlatTriangle flat_triangle(const Vector3d& a, const Vector3d& b, const Vector3d& c);
 
-/// The triangles of a surface of order 1. Throws Error at a triangle without an area or a vertex that is not
-/// finite.
+/// Returns the triangles of a surface of order 1. Throws Error at a triangle without an area or a vertex that
+/// is not finite.
 std::vector<FlatTriangle> flat_triangles(const Surface& surface);
 
 }  // namespace samara

@@ -143,14 +143,14 @@ void contour_potential_lanes(const FlatTriangle& triangle, const Vector3d& direc
                 return acute_angle(hn::Mul(hn::Mul(s, across), hn::Sub(r, h)),
                                    hn::MulAdd(across_squared, r, hn::Mul(h, hn::Mul(s, s))));
             };
-            const Lanes turned =
+            const Lanes rotated =
                 hn::Sub(inner_angle(to, seen.distances[f]), inner_angle(from, seen.distances[e]));
             const Lanes off = hn::MulAdd(h, h, across_squared);
             const Lanes distances =
                 hn::MulAdd(to, seen.distances[f],
                            hn::NegMulAdd(from, seen.distances[e], hn::Mul(off, seen.logarithms[e])));
             const Lanes ends = hn::MulSub(to, corner_logarithms[f], hn::Mul(from, corner_logarithms[e]));
-            const Lanes rest = hn::MulAdd(h, seen.logarithms[e], hn::MulAdd(across, turned, ends));
+            const Lanes rest = hn::MulAdd(h, seen.logarithms[e], hn::MulAdd(across, rotated, ends));
             const Lanes whole = hn::NegMulAdd(h, rest, hn::Mul(hn::Set(tag, 0.5), distances));
             sum = hn::MulAdd(hn::Set(tag, direction.dot(triangle.outward[e])), whole, sum);
         }

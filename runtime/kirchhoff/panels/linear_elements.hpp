@@ -20,7 +20,7 @@ struct LinearElements {
     std::vector<FlatTriangle> triangles;               ///< in the order of `tree`
     std::vector<std::array<std::int32_t, 3>> corners;  ///< rows of `nodes`
     ClusterTree tree;                                  ///< its order leads back to the surface's triangles
-    std::vector<std::int32_t> component;               ///< of each node: triangles connected by nodes
+    std::vector<std::int32_t> component;  ///< of each node: index of its set of connected triangles
     std::int32_t component_count = 0;
 
     [[nodiscard]] std::size_t node_count() const { return nodes.size(); }

@@ -139,7 +139,8 @@ double homogeneous(const FlatTriangle& first, const FlatTriangle& second, const 
     return (edges_in_potential(first, second, origin) + edges_in_potential(second, first, origin)) / 3.0;
 }
 
-/// Both triangles in parallel planes `height` apart; `second` may be slightly tilted, which is left out.
+/// Integrates over two triangles in parallel planes `height` apart; `second` may be slightly tilted, which is
+/// left out.
 double parallel(const FlatTriangle& first, const FlatTriangle& second, double height) {
     // Points of the first triangle at the height over the second one's plane, whose own tilt does not count.
     const double side = second.normal.dot(first.centroid - second.centroid) < 0.0 ? -1.0 : 1.0;
@@ -181,7 +182,7 @@ double largest_offset(const FlatTriangle& first, const FlatTriangle& second) {
 }  // namespace
 
 double pair_potential(const FlatTriangle& first, const FlatTriangle& second) {
-    // From a corner that is common to both, the edges that meet there are at no distance and drop out.
+    // From a corner that is common to both, the edges at that corner are at no distance and drop out.
     if (const Vector3d* corner = shared_corner(first, second)) return homogeneous(first, second, *corner);
     const double radius = std::max(first.radius, second.radius);
     const Vector3d middle = 0.5 * (first.centroid + second.centroid);

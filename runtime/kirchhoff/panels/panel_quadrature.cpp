@@ -94,7 +94,7 @@ bool is_flat(const CurvedPanel& panel, const Corners& corners) {
     });
 }
 
-/// From sums with 1, p, q, p^2, pq, q^2 to sums with the node functions.
+/// Converts sums with 1, p, q, p^2, pq, q^2 to sums with the node functions.
 PanelIntegrals integrals_of(const PolynomialSums& sums) {
     std::array<double, 9> total{};
     for (std::size_t k = 0; k < 9; ++k) {

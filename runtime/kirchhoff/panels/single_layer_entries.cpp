@@ -102,7 +102,7 @@ namespace {
 
 HWY_EXPORT(fill_far_lanes);
 
-// From how many sums of both radii the centroids' distance suffices for the rules of 3, 6 and 12 points.
+// Least distances of the centroids, in sums of both radii, that suffice for the rules of 3, 6 and 12 points.
 constexpr std::array<double, 3> rule_distances = {9.0, 2.4, 1.2};
 // The 16-point rule serves where the other triangle's edges are this many radii away.
 constexpr double outer_rule_distance = 3.0;

@@ -29,7 +29,8 @@ class SingleLayerEntries {
         std::array<std::vector<double>, 3> coordinates;
     };
 
-    /// What fill_row reads, coordinate by coordinate for vector registers; padded beyond the last triangle.
+    /// The triangles as fill_row() reads them, coordinate by coordinate for vector registers; padded beyond
+    /// the last triangle.
     struct Arrays {
         std::size_t stride = 0;
         std::array<std::vector<double>, 3> centroid;

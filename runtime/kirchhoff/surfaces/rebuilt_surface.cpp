@@ -214,8 +214,8 @@ class CreaseCurves {
         const std::int32_t next = ends[0] == from ? ends[1] : ends[0];
         const Vector3d before = place(here) - place(from);
         const Vector3d after = place(next) - place(here);
-        const double turn = std::atan2(before.cross(after).norm(), before.dot(after));
-        return turn > sharp_angle ? -1 : next;
+        const double angle = std::atan2(before.cross(after).norm(), before.dot(after));
+        return angle > sharp_angle ? -1 : next;
     }
 
     const Surface& surface_;

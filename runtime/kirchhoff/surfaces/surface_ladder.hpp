@@ -2,11 +2,12 @@
 
 #include <map>
 
-#include "samara/kirchhoff/surfaces/refined_surface.hpp"
+#include "samara/kirchhoff/surfaces/refinement.hpp"
 
 namespace samara {
 
 /// One body's surfaces of order 2 from coarse to fine.
+///
 /// Rung 0 is the given surface; each below has about half of the triangles of the next, some of its corners
 /// and the curvature that its own order tells: the given one for order 2, and for order 1 what rebuilding
 /// makes of their own corners alone, so that rungs differ by what rebuilding gets wrong too. Those above cut
@@ -21,7 +22,7 @@ class SurfaceLadder {
     /// Whether the curvature is rebuilt from flat triangles.
     [[nodiscard]] bool is_rebuilt() const { return is_rebuilt_; }
 
-    /// Made when it is first asked for. Valid as long as the ladder.
+    /// Returns a rung, which is made when it is first asked for. Valid as long as the ladder.
     const CreasedSurface& rung(int index);
 
     /// The lowest rung that can be asked for: the last with enough triangles to tell anything.

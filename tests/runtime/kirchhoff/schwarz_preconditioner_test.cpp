@@ -1,4 +1,3 @@
-#include "samara/kirchhoff/solvers/schwarz_preconditioner.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>

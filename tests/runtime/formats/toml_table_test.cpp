@@ -1,4 +1,4 @@
-#include "samara/formats/toml_keys.hpp"
+#include "samara/formats/toml_table.hpp"
 
 #include <string>
 #include <vector>
@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include "samara/core/base/error.hpp"
-#include "samara/formats/toml_table.hpp"
 
 namespace samara {
 namespace {

@@ -1,4 +1,4 @@
-#include "samara/analysis/metrics/regime_counts.hpp"
+#include "samara/analysis/metrics/metric_catalogue.hpp"
 
 #include <algorithm>
 #include <cmath>
