@@ -25,7 +25,7 @@ namespace samara {
 namespace {
 
 constexpr const char* footer =
-    R"(A scene flies one with shape = "samara:NAME"; its tables hold around the Reynolds
+    R"(A scene uses one with shape = "samara:NAME"; its tables hold around the Reynolds
 numbers listed, in any fluid. Force: the tables' standard error over the force, root
 mean square over all directions.
 

@@ -23,7 +23,7 @@
 namespace samara {
 namespace {
 
-/// What the cases of a table have in common.
+/// Summary of the provenance of a table's cases.
 struct ProvenanceSummary {
     std::size_t cases = 0;
     /// Each key of the cases, with its one value, its range, or how many values it takes.
@@ -128,7 +128,7 @@ void print_kirchhoff(const KirchhoffTensor& kirchhoff) {
     print_row("method", "{}, {} triangles", kirchhoff.method, kirchhoff.triangles);
 }
 
-constexpr int print_subdivisions = 8;  // of directions to look for the largest in
+constexpr int print_subdivisions = 8;  // of the grid of directions on which the largest value is sought
 
 /// The largest force and moment of a steady translation by pressure (rho U^2 A / 2, and times L).
 PressureLoads largest_of(const SurfaceLoads& loads) {

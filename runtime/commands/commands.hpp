@@ -2,12 +2,12 @@
 
 namespace samara {
 
-// Each is one command of the program samara: argv[0] is the command's name. Returns the exit status.
+// Each function is one command of the program samara: argv[0] is the command's name. Returns the exit status.
 
 /// samara kirchhoff: the added mass of a body or shape.
 int kirchhoff_command(int argc, const char* const* argv);
 
-/// samara mass: what a body weighs where a scene does not say.
+/// samara mass: the mass of a body where a scene gives none.
 int mass_command(int argc, const char* const* argv);
 
 /// samara simulate: a scene's motion.
@@ -25,10 +25,10 @@ int export_command(int argc, const char* const* argv);
 /// samara plot: a picture of a motion.
 int plot_command(int argc, const char* const* argv);
 
-/// samara compare: a motion held against a reference.
+/// samara compare: a motion compared with a reference.
 int compare_command(int argc, const char* const* argv);
 
-/// samara info: what a file holds.
+/// samara info: the content of a file.
 int info_command(int argc, const char* const* argv);
 
 /// samara report: a bake judged, as a page; without its cases, which samara-report reads.

@@ -7,7 +7,7 @@
 
 #include "samara/analysis/comparison/comparison_report.hpp"
 #include "samara/commands/commands.hpp"
-#include "samara/commands/motion_choice.hpp"
+#include "samara/commands/option_values.hpp"
 #include "samara/commands/shared/arguments.hpp"
 #include "samara/commands/shared/print.hpp"
 #include "samara/core/base/error.hpp"

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "samara/commands/commands.hpp"
-#include "samara/commands/motion_choice.hpp"
+#include "samara/commands/option_values.hpp"
 #include "samara/commands/shared/arguments.hpp"
 #include "samara/commands/shared/print.hpp"
 #include "samara/core/base/error.hpp"
@@ -99,15 +99,15 @@ nlohmann::json write(const ExportOptions& options, const std::string& format, co
     return {{"meshes", motion.bodies.size()}, {"nodes", copies_in(motion)}, {"keys", keys}, {"run", run}};
 }
 
-/// Says where frames are too far apart for what turns between them.
-void note_fast_turns(const Motion& motion, int run) {
+/// Notes where a body rotates too far between frames for programs that interpolate.
+void note_fast_rotation(const Motion& motion, int run) {
     const FastRotation fastest = fastest_rotation(motion, run);
     if (!(fastest.revolutions > 0.5)) return;
     print_note(
         "samara export: note: '{}' rotates by up to {:.2g} revolutions from frame to frame; above half a "
         "revolution "
         "programs "
-        "that interpolate show another turn: give --frame-rate {:.0f} or more\n",
+        "that interpolate show another rotation: give --frame-rate {:.0f} or more\n",
         fastest.body, fastest.revolutions, std::ceil(4.0 * fastest.revolutions * motion.frame_rate));
 }
 
@@ -130,7 +130,7 @@ nlohmann::json export_motion(ExportOptions options) {
         motion = looped(motion, options.run.value_or(0), *options.loop);
         options.run.reset();
     }
-    if (format != ".csv") note_fast_turns(motion, options.run.value_or(0));
+    if (format != ".csv") note_fast_rotation(motion, options.run.value_or(0));
     nlohmann::json result = {{"output", options.output},
                              {"format", format.substr(1)},
                              {"frames", motion.frames()},

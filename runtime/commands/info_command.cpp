@@ -10,7 +10,7 @@
 #include "samara/analysis/metrics/description.hpp"
 #include "samara/commands/body_report.hpp"
 #include "samara/commands/commands.hpp"
-#include "samara/commands/motion_choice.hpp"
+#include "samara/commands/option_values.hpp"
 #include "samara/commands/shared/arguments.hpp"
 #include "samara/commands/shared/print.hpp"
 #include "samara/core/base/error.hpp"
@@ -37,8 +37,8 @@ void print_vector(const char* name, const Vector3d& value, const Vector3d& error
                  value.z(), error.x(), error.y(), error.z());
 }
 
-/// The tables' entry with its standard errors for a body that moves along the unit direction (shape axes) at
-/// the Reynolds number, on standard output.
+/// Prints the tables' entry with its standard errors, on standard output, for a body that moves along the
+/// unit direction (shape axes) at the Reynolds number.
 void print_lookup(const LoadTables& tables, const Vector3d& direction, double reynolds_number) {
     const LoadEntry entry = look_up(tables, direction, reynolds_number);
     const LoadEntryError error = look_up_error(tables, direction, reynolds_number);
@@ -56,8 +56,8 @@ void print_lookup(const LoadTables& tables, const Vector3d& direction, double re
                  tables.reference_length);
 }
 
-/// The same as JSON: drag_coefficient, force, moment, turbulent_kinetic_energy, dissipation_rate, each with
-/// its _error; on A = pi L^2/4 and L.
+/// Returns the tables' entry in a direction as JSON: drag_coefficient, force, moment,
+/// turbulent_kinetic_energy, dissipation_rate, each with its _error; on A = pi L^2/4 and L.
 nlohmann::json lookup_as_json(const LoadTables& tables, const Vector3d& direction, double reynolds_number) {
     const LoadEntry entry = look_up(tables, direction, reynolds_number);
     const LoadEntryError error = look_up_error(tables, direction, reynolds_number);
@@ -134,7 +134,7 @@ Vector3d parse_direction(const std::string& text) {
         fmt::format("--direction: '{}' is no direction; give x,y,z in shape axes, such as 0,0,-1", text));
 }
 
-/// What the tables of a body say in one direction.
+/// Prints and returns the entry of a body's tables in one direction.
 nlohmann::json report_lookup(const std::string& path, const std::string& words, double reynolds_number,
                              bool json) {
     const Vector3d direction = parse_direction(words);
@@ -154,8 +154,9 @@ int info_command(int argc, const char* const* argv) {
     Arguments arguments("samara info",
                         "What a body, motion or wind file holds, its units and its provenance.");
     arguments.positional("FILE", file, "body file (.body.h5), motion file or wind file (.h5)");
-    arguments.option("--direction", direction,
-                     "x,y,z: instead, what a body's tables say where it moves that way (shape axes)");
+    arguments.option(
+        "--direction", direction,
+        "x,y,z: instead, the entry of a body's tables where it moves in this direction (shape axes)");
     arguments.option("--reynolds-number", reynolds_number, "U L/nu, with --direction; the tables' last", 1e-9,
                      1e12);
     arguments.footer(

@@ -10,7 +10,7 @@
 
 #include "samara/analysis/advice/input_warnings.hpp"
 #include "samara/commands/commands.hpp"
-#include "samara/commands/motion_choice.hpp"
+#include "samara/commands/option_values.hpp"
 #include "samara/commands/shared/arguments.hpp"
 #include "samara/commands/shared/body_notes.hpp"
 #include "samara/commands/shared/load_body.hpp"
@@ -25,7 +25,7 @@
 namespace samara {
 namespace {
 
-// What samara mesh takes by itself, and how this grows where a tolerance needs more.
+// The number of triangles of samara mesh by default, and its growth where a tolerance needs more.
 constexpr int first_triangles = 1280;
 constexpr int finer = 4;
 constexpr int most_triangles = 20480;

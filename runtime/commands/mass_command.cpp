@@ -8,7 +8,7 @@
 
 #include "samara/commands/body_report.hpp"
 #include "samara/commands/commands.hpp"
-#include "samara/commands/motion_choice.hpp"
+#include "samara/commands/option_values.hpp"
 #include "samara/commands/shared/arguments.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/body/body_file.hpp"

@@ -18,8 +18,8 @@ py::handle exception(py::module_& module, const char* name, const py::tuple& bas
     return made;
 }
 
-void set_error(const py::handle& kind, const Error& caught) {
-    PyErr_SetString(kind.ptr(), caught.what());
+void set_error(const py::handle& type, const Error& caught) {
+    PyErr_SetString(type.ptr(), caught.what());
 }
 
 void bind_errors(py::module_& module) {

@@ -25,7 +25,7 @@ RaisedInputError no_toml(const std::string& place, const py::handle& value) {
                     py::str(py::type::of(value).attr("__name__")).cast<std::string>()));
 }
 
-/// What `place` is called from, whatever a scene that nests without end adds to it.
+/// Throws RaisedInputError where a scene nests deeper than any does, as one that contains itself.
 void require_levels(const std::string& place, int level) {
     if (level <= most_levels) return;
     throw RaisedInputError(

@@ -52,7 +52,7 @@ std::string one_line(std::string text) {
     return text;
 }
 
-/// What is wrong, for people.
+/// Returns an exception's message as one line with a remedy where it is known.
 std::string error_of(const std::exception& error) {
     if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) {
         return "out of memory; use fewer triangles, bodies, frames or runs";
@@ -66,7 +66,8 @@ std::string error_of(const std::exception& error) {
     return one_line(error.what());
 }
 
-/// Where standard output cannot be written, standard error says so.
+/// Prints an error as JSON on standard output; silent where that cannot be written, since standard error has
+/// it too.
 void print_as_json(const std::string& error) noexcept {
     try {
         print_json({{"error", error}});
@@ -82,15 +83,17 @@ struct Arguments::Parser {
     CLI::App app;
     std::string program;
     bool json = false;
-    std::map<std::string, std::vector<std::string>> choices;  ///< by the option's name with its dashes
-    std::vector<const std::string*> outputs;                  ///< files to write; empty where none is given
+    std::map<std::string, std::vector<std::string>>
+        choices;  ///< by the option's name with its dashes  ///< words of each option, by its name with its
+                  ///< dashes
+    std::vector<const std::string*> outputs;  ///< files to write; empty where none is given
 };
 
 namespace {
 
 constexpr std::string_view json_option = "--json";
 
-/// For shells: a line for each option, of its names and, after a tab, the words that it takes.
+/// Prints for shells a line for each option: its names and, after a tab, the words that it takes.
 void list_options(const CLI::App& app, const std::map<std::string, std::vector<std::string>>& choices) {
     for (const CLI::Option* option : app.get_options()) {
         std::vector<std::string> names;
@@ -111,7 +114,8 @@ std::vector<std::string> options_of(const CLI::App& app) {
     return names;
 }
 
-/// What is wrong with the words: first an option that there is none of, for which what it was to be may lack.
+/// Returns what is wrong with the words: first an unknown option, since the option that was meant may then be
+/// missing.
 std::string error_in_words(const CLI::App& app, const CLI::ParseError& error) {
     const std::string see_help = fmt::format("; see '{} --help'", app.get_name());
     const std::vector<std::string> unknown = app.remaining();

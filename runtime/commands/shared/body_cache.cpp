@@ -68,7 +68,7 @@ std::optional<Body> read_entry(const std::filesystem::path& entry) {
     }
 }
 
-/// What makes the meshes: programs of different builds differ in size or time.
+/// Identifies the installed samara-mesh: programs of different builds differ in size or time.
 std::string mesher() {
     struct stat status = {};
     const auto program = find_program("samara-mesh");
@@ -77,8 +77,8 @@ std::string mesher() {
 }
 
 /// Whether a script of gmsh may depend on more than itself: other files, the environment, the time, random
-/// numbers, or words that it puts together. A name that merely looks like it costs time alone.
-bool looks_elsewhere(std::string_view script) {
+/// numbers, or words that it puts together. A false alarm costs time alone.
+bool may_depend_on_more(std::string_view script) {
     constexpr std::array<std::string_view, 17> words = {
         "Include", "Merge", "File",     "Exists",   "Get",    "Rand",  "Cpu",  "Memory", "Today",
         "Onelab",  "Dir",   "Relocate", "Absolute", "Plugin", "GMSH_", "MPI_", "Str"};
@@ -145,7 +145,7 @@ std::optional<std::string> body_key(const std::filesystem::path& file) {
     std::string format = file.extension().string();
     std::transform(format.begin(), format.end(), format.begin(),
                    [](char c) { return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c); });
-    if (format == ".geo" && looks_elsewhere(bytes)) return std::nullopt;
+    if (format == ".geo" && may_depend_on_more(bytes)) return std::nullopt;
     return fmt::format("{}\n{}\n{}\n{}", file.filename().string(), content_hash(bytes), version, mesher());
 }
 

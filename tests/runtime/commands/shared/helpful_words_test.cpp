@@ -94,7 +94,7 @@ TEST_F(HelpfulWords, OfOneKindComeOnceInOneLine) {
     ASSERT_EQ(done.status, 0);
     EXPECT_EQ(
         done.error,
-        "samara simulate: note: 'a', 'b' and 2 more (figures of 'c'): the added mass may be wrong by 50 % "
+        "samara simulate: note: 'a', 'b' and 2 more (values of 'c'): the added mass may be wrong by 50 % "
         "(error estimate): the body is thin or its mesh coarse\n");
 }
 

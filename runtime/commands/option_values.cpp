@@ -1,4 +1,4 @@
-#include "samara/commands/motion_choice.hpp"
+#include "samara/commands/option_values.hpp"
 
 #include <fmt/format.h>
 
