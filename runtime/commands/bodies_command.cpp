@@ -41,7 +41,7 @@ With NAME that body alone; with -o also output.
 Examples: samara bodies
           samara bodies leaf -o leaf.body.h5)";
 
-/// The shape file's name at the begin of a body's source.
+/// Returns the shape file's name at the begin of a body's source.
 std::string shape_of(const Body& body) {
     return body.source.substr(0, body.source.find(' '));
 }

@@ -130,7 +130,7 @@ void print_kirchhoff(const KirchhoffTensor& kirchhoff) {
 
 constexpr int print_subdivisions = 8;  // of the grid of directions on which the largest value is sought
 
-/// The largest force and moment of a steady translation by pressure (rho U^2 A / 2, and times L).
+/// Returns the largest force and moment of a steady translation by pressure (rho U^2 A / 2, and times L).
 PressureLoads largest_of(const SurfaceLoads& loads) {
     PressureLoads largest;
     for (const PressureLoads& load : pressure_loads(loads, print_subdivisions)) {

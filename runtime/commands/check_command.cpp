@@ -18,7 +18,7 @@
 namespace samara {
 namespace {
 
-/// A shape is meshed, by samara-mesh, which reads it in a process of its own.
+/// Checks a file. A shape is checked by meshing: samara-mesh reads it in a process of its own.
 CheckedFile check(const std::string& file) {
     if (is_hdf5(file)) return check_file(file);
     (void)load_body(file, 1.0);

@@ -58,7 +58,7 @@ std::string names_in(const Motion& motion) {
     return names;
 }
 
-/// The name of the body that both files hold, or nothing where each holds one body.
+/// Returns the name of the body that both files hold, or nothing where each holds one body.
 std::string common_body(const Request& request, const Motion& motion, const Motion& reference) {
     if (!request.body.empty() || (motion.bodies.size() == 1 && reference.bodies.size() == 1)) {
         return request.body;

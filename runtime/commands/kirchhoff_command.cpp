@@ -74,8 +74,8 @@ bool within_tolerance(const Body& body, const Request& request) {
     return request.tolerance == 0.0 || body.kirchhoff->error_estimate <= request.tolerance;
 }
 
-/// The body of the file with its tensor. Where the tolerance asks for more triangles than a shape was meshed
-/// with, and none were asked for, it is meshed again.
+/// Returns the body of the file with its tensor. Where the tolerance asks for more triangles than a shape was
+/// meshed with, and none were asked for, it is meshed again.
 Body solved_body(const Request& request) {
     const auto solved = [&](int triangles) {
         Body body = load_body(request.file, 1.0, triangles);

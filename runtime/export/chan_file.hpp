@@ -20,7 +20,6 @@ namespace samara {
 /// give one rotation, whole revolutions included, that nearest to the line before; ry goes on where rx is a
 /// right angle (the shape's y axis is vertical) to 1e-9. Numbers are the shortest text that reads back as the
 /// same double.
-///
 /// A motion of one copy of one body is written to `file` itself; else each to its own file beside it,
 /// STEM_NAME.chan with copy_name(), slashes as underscores. Returns the files; `progress` counts them. Throws
 /// Error where one cannot be written, or where the frames are not at whole multiples of the frame's duration.

@@ -22,12 +22,12 @@
 namespace samara {
 namespace {
 
-/// A vector of the world (z up) in glTF's axes (y up).
+/// Returns a vector of the world (z up) in glTF's axes (y up).
 Vector3d y_up(const Vector3d& vector) {
     return {vector.x(), vector.z(), -vector.y()};
 }
 
-/// The components of a rotation between z-up axes, for glTF's axes and order (x, y, z, w).
+/// Returns the components of a rotation between z-up axes, for glTF's axes and order (x, y, z, w).
 Eigen::Vector4d y_up(const Quaterniond& rotation) {
     Eigen::Vector4d components;
     components << y_up(Vector3d(rotation.vec())), rotation.w();
@@ -75,7 +75,7 @@ class Builder {
         return add(accessor, triangles.data(), triangles.size() * sizeof triangles[0]);
     }
 
-    /// A texture of an image file; returns its number.
+    /// Adds a texture of an image file; returns its number.
     int add_texture(const DisplayImage& image) {
         begin_view(0);
         bytes().insert(bytes().end(), image.bytes.begin(), image.bytes.end());
@@ -242,7 +242,7 @@ void add_channel(tinygltf::Animation& animation, int node, const char* path, int
     animation.channels.push_back(channel);
 }
 
-/// The motion's times as glTF stores them.
+/// Returns the motion's times as glTF stores them.
 std::vector<float> checked_times(const Motion& motion, const std::filesystem::path& file) {
     std::vector<float> times;
     append(times, motion.times);
@@ -270,7 +270,7 @@ class Keys {
           key_times_(times.begin(), times.end()),
           animation_(animation) {}
 
-    /// The keys of a node with these poses, within the tolerance; returns how many there are.
+    /// Adds the keys of a node with these poses, within the tolerance; returns their number.
     std::size_t add(int node, const std::vector<ShapePose>& poses, const KeyTolerance& tolerance) {
         std::vector<Vector3d> positions;
         std::vector<Vector3d> position_keys;
@@ -298,7 +298,7 @@ class Keys {
     }
 
   private:
-    /// The accessor of the kept keys' times; all channels that keep every key share one.
+    /// Returns the accessor of the kept keys' times; all channels that keep every key share one.
     int times_of(const std::vector<std::size_t>& kept) {
         const bool all = kept.size() == times_.size();
         if (all && all_times_ >= 0) return all_times_;

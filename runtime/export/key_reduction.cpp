@@ -8,7 +8,8 @@
 namespace samara {
 namespace {
 
-/// The kept ones of `count` keys, by the error(begin, end, key) of the interpolation between two of them.
+/// Returns the kept ones of `count` keys, by the error(begin, end, key) of the interpolation between two of
+/// them.
 template <typename ErrorAt>
 std::vector<std::size_t> kept_of(std::size_t count, double tolerance, const ErrorAt& error) {
     std::vector<std::size_t> kept;

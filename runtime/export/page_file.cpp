@@ -38,7 +38,7 @@ extern const char samara_page_end[];
 namespace samara {
 namespace {
 
-/// The player's page with the mark <!--MOTION--> in it; empty where it was not built in.
+/// Returns the player's page with the mark <!--MOTION--> in it; empty where it was not built in.
 std::string_view page_bytes() {
 #ifdef SAMARA_PAGE_FILE
     return {samara_page_begin, static_cast<std::string_view::size_type>(samara_page_end - samara_page_begin)};

@@ -24,7 +24,7 @@ std::vector<std::vector<Corner>> corners_by_vertex(const Surface& surface) {
     return corners;
 }
 
-/// The angle (rad) of a triangle at one of its corners.
+/// Returns the angle (rad) of a triangle at one of its corners.
 double corner_angle(const Surface& surface, const Corner& corner) {
     const auto vertex = [&](int place) -> const Vector3d& {
         const auto& triangle = surface.corners[corner.triangle];

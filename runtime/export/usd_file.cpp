@@ -213,7 +213,7 @@ class Stage {
             shape_of(body, 16));
     }
 
-    /// The farthest that a point of any copy is from the shape's origin (m).
+    /// Returns the farthest that a point of any copy is from the shape's origin (m).
     [[nodiscard]] double reach_of(const BodyMotion& body) const {
         double reach = 0.0;
         const auto& shown = body.display != nullptr ? body.display->positions : body.surface.vertices;

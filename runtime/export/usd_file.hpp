@@ -18,7 +18,6 @@ inline constexpr int most_usd_transforms = 100;
 /// signs continuous), one a line; the copies after the first are instances of the first one's shape. Frames
 /// that the samples around them give within `tolerance` (m; 0: none; not given: the default of
 /// key_tolerance()) have no sample of their own: USD interpolates linearly, and orientations along the arc.
-///
 /// A body of more than most_usd_transforms copies is a PointInstancer with all frames. Its orientations are
 /// there twice: as `orientationsf` (quatf), which OpenUSD prefers from 24.03 on, and as `orientations`
 /// (quath, to 5e-4), which every version reads. Positions are floats, as the schema asks.

@@ -53,7 +53,7 @@ std::map<std::int32_t, std::vector<std::size_t>> faces_by_slot(const DisplayMesh
     return faces;
 }
 
-/// A preview surface; where there is an image, its texture and what reads the UVs.
+/// Returns a preview surface; where there is an image, its texture and what reads the UVs.
 std::string usd_material(const std::string& name, const DisplayMaterial& material,
                          const std::vector<std::string>& image_files, const std::string& outer) {
     const std::string inner = outer + "    ";

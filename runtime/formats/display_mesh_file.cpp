@@ -70,11 +70,11 @@ tinygltf::FsCallbacks files_beneath(std::filesystem::path& folder) {
     return callbacks;
 }
 
-/// The corners, three for each triangle, of a strip, or of a fan about the first one.
+/// Returns the corners, three for each triangle, of a strip, or of a fan about the first one.
 std::vector<std::uint32_t> separate_triangles(const std::vector<std::uint32_t>& row, bool fan) {
     std::vector<std::uint32_t> corners;
     for (std::size_t i = 0; i + 2 < row.size(); ++i) {
-        const std::size_t odd = i % 2;  // each second one of a strip runs the other way
+        const std::size_t odd = i % 2;  // each second one of a strip runs in the opposite sense
         if (fan) {
             corners.insert(corners.end(), {row[i + 1], row[i + 2], row[0]});
         } else {

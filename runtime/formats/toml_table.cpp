@@ -16,8 +16,8 @@ namespace {
 
 constexpr int most_parts = 8;
 
-/// The place behind the string that begins at `begin` with one of the quotes ' and ", or with three; behind
-/// the line's end where it is not closed, which the parser rejects.
+/// Returns the place behind the string that begins at `begin` with one of the quotes ' and ", or with three;
+/// behind the line's end where it is not closed, which the parser rejects.
 std::size_t end_of_string(std::string_view text, std::size_t begin) {
     const char quote = text[begin];
     const std::string three(3, quote);

@@ -73,8 +73,8 @@ struct Solved {
     double unresolved = 0.0;
 };
 
-/// The relative error that triangles too long to resolve the flow may hide from all coarser surfaces, which
-/// keep them: that of a potential taken for linear along them.
+/// Returns the relative error that triangles too long to resolve the flow may hide from all coarser surfaces,
+/// which keep them: that of a potential taken for linear along them.
 double unresolved_by_long_triangles(const Surface& surface) {
     constexpr double long_edge = 0.3;  // over L; those of 100 equal triangles
     constexpr double share = 0.4;      // a disc whose caps are fans about their centres is off by this
@@ -117,7 +117,7 @@ class Solver {
         return curved && curved->error_estimate <= flat.error_estimate ? *curved : flat;
     }
 
-    /// A second method starts from no progress again, which nobody wants to see.
+    /// Progress must not start again from zero with a second method.
     void tell(double share) {
         if (!options_.progress || share < told_) return;
         told_ = share;
@@ -137,7 +137,7 @@ class Solver {
         return options_.tolerance > 0.0 ? climb(method) : solve_own(method);
     }
 
-    /// The surface's own triangles or their refinement, and the coarser surfaces to compare with.
+    /// Solves on the surface's own triangles or their refinement, and on coarser surfaces to compare with.
     KirchhoffTensor solve_own(KirchhoffMethod method) {
         const int rung = method == KirchhoffMethod::hypersingular ? rung_to_refine_to() : 0;
         const int first = rung > 0 ? 0 : -1;
@@ -152,8 +152,8 @@ class Solver {
         return judged(method, solved);
     }
 
-    /// How often a surface with creases is refined: a polyhedron as far as is quick, a curved one as far as
-    /// its own curvature is worth it.
+    /// Returns how often a surface with creases is refined: a polyhedron as far as is quick, a curved one as
+    /// far as its own curvature is worth it.
     [[nodiscard]] int rung_to_refine_to() const {
         const Surface& own = ladder_.base().surface;
         const int most = has_straight_edges(own) ? most_rungs : ladder_.is_rebuilt() ? 1 : 2;
@@ -178,14 +178,14 @@ class Solver {
             if (!next) continue;
             solved.push_back(std::move(*next));
             KirchhoffTensor found = judged(method, solved);
-            // What the given curvature may be wrong by, no refinement mends.
+            // Refinement does not reduce the error of the given curvature.
             const bool is_hopeless = rung > 0 && curvature_error(solved) > options_.tolerance;
             if (found.error_estimate <= options_.tolerance || is_last || is_hopeless) return found;
         }
     }
 
-    /// Whether finer triangles than the rung's are of no use: they know no more of a smooth body's curvature
-    /// than the given ones.
+    /// Returns whether finer triangles than the rung's are of no use: they know no more of a smooth body's
+    /// curvature than the given ones.
     bool is_finest(KirchhoffMethod method, int rung) {
         if (method == KirchhoffMethod::curved_collocation) return rung >= 0;
         return rung >= 0 && 4 * ladder_.rung(rung).surface.triangle_count() > most_flat_triangles;
@@ -232,7 +232,7 @@ class Solver {
         return solved;
     }
 
-    /// The tensor of the last surface, the finest, and its error by those before.
+    /// Returns the tensor of the last surface, the finest, and its error by those before.
     [[nodiscard]] KirchhoffTensor judged(KirchhoffMethod method, const std::vector<Solved>& solved) const {
         const Solved& fine = solved.back();
         const bool is_curved = method == KirchhoffMethod::curved_collocation;
@@ -284,7 +284,7 @@ class Solver {
         return relative_tensor_error(one, better, scale_, zero_block);
     }
 
-    /// What is left of the error on the fine surface: the difference carried on to triangles of no size.
+    /// Returns the remaining error on the fine surface: the difference extrapolated to triangles of no size.
     [[nodiscard]] double carried_on(const Solved& fine, const Solved& coarse, double order) const {
         const double ratio =
             std::sqrt(static_cast<double>(fine.triangles) / static_cast<double>(coarse.triangles));
@@ -310,8 +310,8 @@ class Solver {
         return {tensor, std::max(error, curvature_error(solved))};
     }
 
-    /// The difference that the curvature makes to the given corners, as a share that the rebuilt or given one
-    /// is sure to be better than.
+    /// Returns the difference that the curvature makes to the given corners, as a share that the rebuilt or
+    /// given one is sure to be better than.
     [[nodiscard]] double curvature_error(const std::vector<Solved>& solved) const {
         if (has_straight_edges(ladder_.base().surface)) return 0.0;
         const auto first =

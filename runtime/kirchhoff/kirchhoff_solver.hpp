@@ -22,9 +22,9 @@ struct KirchhoffOptions {
     std::function<void(double)> progress = {};            ///< called with the share of the work done, 0 to 1
 };
 
-/// The Kirchhoff tensor (added mass) of a closed, outward surface in unbounded ideal fluid at rest: 6x6,
-/// order (omega, v), about moments.centroid, in shape axes, for a fluid of 1 kg/m^3 (Lamb, Hydrodynamics,
-/// 6th ed., art. 121-124). The surface may have several closed parts, which move together.
+/// Returns the Kirchhoff tensor (added mass) of a closed, outward surface in unbounded ideal fluid at rest:
+/// 6x6, order (omega, v), about moments.centroid, in shape axes, for a fluid of 1 kg/m^3 (Lamb,
+/// Hydrodynamics, 6th ed., art. 121-124). The surface may have several closed parts, which move together.
 ///
 /// A smooth surface is solved on curved triangles: its own where it is of order 2, else those that its flat
 /// ones stand for (rebuilt_surface). Surfaces with creases, and those much thinner than their triangles, are
@@ -44,8 +44,8 @@ struct KirchhoffOptions {
 KirchhoffTensor kirchhoff_tensor(const Surface& surface, const VolumeMoments& moments,
                                  const KirchhoffOptions& options = {});
 
-/// The Kirchhoff tensor of the body's surface. Its error_estimate has the error of that surface against the
-/// shape in it, where the body knows it (tensor_error_of).
+/// Returns the Kirchhoff tensor of the body's surface. Its error_estimate has the error of that surface
+/// against the shape in it, where the body knows it (tensor_error_of).
 KirchhoffTensor kirchhoff_tensor(const Body& body, const KirchhoffOptions& options = {});
 
 }  // namespace samara

@@ -24,8 +24,9 @@ struct SurfaceSpread {
 /// Returns the centroid and covariance of a surface's area.
 SurfaceSpread surface_spread(const Surface& surface);
 
-/// Whether the surface's body has a shortest axis: false for a sphere or a cube, whose surface spreads alike
-/// in all directions, to 1 % of its extent. Then the inclination is that of an axis chosen by chance.
+/// Returns whether the surface's body has a shortest axis: false for a sphere or a cube, whose surface
+/// spreads alike in all directions, to 1 % of its extent. Then the inclination is that of an axis chosen by
+/// chance.
 bool has_shortest_axis(const Surface& surface);
 
 /// Returns the value below which `percent` (0 to 100) of the values lie, linear between the order statistics;
@@ -41,7 +42,6 @@ double required_prominence(const std::vector<double>& inclinations);
 
 /// Returns the times (s, ascending) of the minima of the inclination: one for each swing through the flat
 /// attitude.
-///
 /// A minimum counts where the inclination falls by `prominence` (rad) to it and rises by as much after it,
 /// within the series: ripples of noise and the series' ends do not count. It is placed between the frames at
 /// the vertex of the parabola through cos^2 of the inclination at the lowest frame and its two neighbours:

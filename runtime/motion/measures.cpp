@@ -22,7 +22,7 @@ constexpr double spun_up_share = 0.8;
 // Ends whose distances from the centre of mass differ by less than this, over the body's spread, are alike.
 constexpr double alike_ends = 0.05;
 
-/// The mean over time of a function of the frames [begin, end), by the trapezoidal rule.
+/// Returns the mean over time of a function of the frames [begin, end), by the trapezoidal rule.
 template <typename Function>
 auto time_mean(const Motion& motion, int begin, int end, const Function& function) {
     using Value = decltype(function(begin));
@@ -131,7 +131,7 @@ Track track_in(const Motion& motion, const BodyMotion& body, int run, int copy, 
             static_cast<int>(last - times.begin())};
 }
 
-/// The mean over time of a function of the frame, by the trapezoidal rule.
+/// Returns the mean over time of a function of the frame, by the trapezoidal rule.
 template <typename Function>
 double time_mean(const Track& track, const Function& function) {
     if (track.end - track.begin < 2) return function(track.begin);

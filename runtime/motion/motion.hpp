@@ -28,7 +28,7 @@ struct MetricUncertainty {
 
 /// One body of the scene with all its copies, runs and frames.
 struct BodyMotion {
-    std::string name;  ///< in the scene  ///< unique in the scene
+    std::string name;  ///< unique in the scene
     Vector3d center_of_mass =
         Vector3d::Zero();  ///< m, shape axes: subtract R times this to place the shape's origin
     Vector3d shortest_axis =

@@ -37,7 +37,7 @@ FramePlace place_of(const std::vector<double>& times, double time) {
     return place;
 }
 
-/// The frames of a period; throws Error where it has none.
+/// Returns the frames of a period; throws Error where it has none.
 int frames_of(const Motion& motion, double period) {
     const double frames = period * motion.frame_rate;
     const double whole = std::round(frames);

@@ -23,7 +23,8 @@ double largest_drag(const LoadTables& tables, double reynolds_number) {
     return largest;
 }
 
-/// Whether the values of two arcs, each at its own angle, are alike all around; lifts and moments by size.
+/// Returns whether the values of two arcs, each at its own angle, are alike all around; lifts and moments by
+/// size.
 template <typename OtherAngle>
 bool alike(const LoadTables& tables, const BodyArc& one, const BodyArc& other, double reynolds_number,
            double tolerance, const OtherAngle& other_angle) {
@@ -36,7 +37,7 @@ bool alike(const LoadTables& tables, const BodyArc& one, const BodyArc& other, d
     return true;
 }
 
-/// The principal axes; those of the symmetry where moments that are all alike say nothing of them.
+/// Returns the principal axes; those of the symmetry where moments that are all alike say nothing of them.
 Matrix3d axes_of_arcs(const Body& body) {
     constexpr double alike_share = 1e-3;
     const Vector3d moments = eigenvalues_of(body.moments.second_moments);

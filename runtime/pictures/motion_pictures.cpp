@@ -93,7 +93,7 @@ struct Place {
     double value;       ///< s: time of landing; without a landing m: the distance descended
 };
 
-/// The landings; where there is none, the places at the last frame.
+/// Returns the landings; where there is none, the places at the last frame.
 std::vector<Place> places_of(const Motion& motion, const BodyMotion& body, bool& landed) {
     std::vector<Place> landings;
     std::vector<Place> last;

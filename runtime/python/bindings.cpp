@@ -17,7 +17,7 @@ constexpr auto between_calls = std::chrono::milliseconds(100);
 std::atomic<bool> exiting = false;
 std::atomic<int> at_work = 0;
 
-/// The offset of a member in a pose, in bytes, and its number of numbers.
+/// Returns the offset of a member in a pose, in bytes, and its number of numbers.
 std::pair<std::size_t, py::ssize_t> place_of(PoseMember member) {
     switch (member) {
         case PoseMember::position:

@@ -59,7 +59,7 @@ double real_number(const py::handle& value, const std::string& place) {
     throw RaisedInputError(fmt::format("{} is beyond the range of numbers", place));
 }
 
-/// Whether it is a number of numpy's or an array: numpy.bool_, numpy.float32(1), numpy.zeros(3).
+/// Returns whether it is a number of numpy's or an array: numpy.bool_, numpy.float32(1), numpy.zeros(3).
 bool is_numpys(const py::handle& value) {
     return py::hasattr(value, "dtype") && py::hasattr(value, "tolist");
 }

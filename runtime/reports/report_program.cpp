@@ -42,8 +42,8 @@ std::string size_of(const Body& body) {
     return fmt::format("{:.4g} x {:.4g} x {:.4g} mm along the principal axes", size.x(), size.y(), size.z());
 }
 
-/// The speed of a Reynolds number in a fluid, and the density with which the body falls broadside at it, by
-/// the tables.
+/// Returns the speed of a Reynolds number in a fluid, and the density with which the body falls broadside at
+/// it, by the tables.
 std::string density_in(const Body& body, const char* name, double reynolds_number) {
     const Fluid fluid = *fluid_preset(name);
     const LoadTables& tables = *body.tables;
@@ -215,8 +215,8 @@ ReportPart part_of_provenance(const std::filesystem::path& path, const Body& bod
                      {"meshes made", joined(remedies)}})}};
 }
 
-/// The parts of a report that a body file gives: the body, its polars, map, convergence and errors by source,
-/// the dynamic coefficients, the cases and where the file comes from. The body must have tables.
+/// Returns the parts of a report that a body file gives: the body, its polars, map, convergence and errors by
+/// source, the dynamic coefficients, the cases and where the file comes from. The body must have tables.
 std::vector<ReportPart> body_parts(const std::filesystem::path& file, const Body& body) {
     std::vector<nlohmann::json> convergence = error_blocks(*body.tables);
     convergence.insert(

@@ -22,8 +22,8 @@ struct CasesReport {
 using CasesReader = std::function<CasesReport(const std::filesystem::path& folder, const Body& body,
                                               const std::function<void(double share)>& progress)>;
 
-/// The command samara report: argv[0] is its name. `read_cases` comes from the baking tools; without it the
-/// report is of the body file alone, and says so where there are cases. Returns the exit status.
+/// Runs the command samara report: argv[0] is its name. `read_cases` comes from the baking tools; without it
+/// the report is of the body file alone, and says so where there are cases. Returns the exit status.
 int run_report(int argc, const char* const* argv, const CasesReader& read_cases);
 
 }  // namespace samara

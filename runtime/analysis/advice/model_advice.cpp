@@ -195,7 +195,7 @@ class Advisor {
     }
 
     void time_step(ModelEffect& one) const {
-        if (!one.is_finite) return;
+        if (!one.flies) return;
         try {
             one.nanoseconds_per_step =
                 nanoseconds_per_step(scene_with(one.models), index_, loaded_, options_.sampling);

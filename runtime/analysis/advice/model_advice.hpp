@@ -15,9 +15,8 @@ namespace samara {
 
 /// Options of advise_models().
 struct AdviceOptions {
-    double tolerance =
-        0.05;  ///< of the descent speed; the others' in proportion (EffectScale)  ///< relative, of the
-               ///< descent speed; the other metrics' follow in proportion (EffectScale)
+    double tolerance = 0.05;  ///< relative, of the
+                              ///< descent speed; the other metrics' follow in proportion (EffectScale)
     int most_falls = 256;     ///< most falls with one set of models, where fewer leave a verdict uncertain
     bool auto_alone = false;  ///< whether only the bodies with models = "auto" are judged
     FallSampling sampling;

@@ -30,7 +30,7 @@ struct FallsEffect {
     double regime_share = 0.0;  ///< share, among the other's falls, of the fullest model's commonest regime
     bool regimes_agree = true;  ///< whether the commonest regimes are one, or differ by chance
     std::size_t falls = 0;      ///< pairs that it rests on
-    EffectVerdict verdict = EffectVerdict::within;  ///< the worst of all that is judged  ///< the worst
+    EffectVerdict verdict = EffectVerdict::within;  ///< the worst
                                                     ///< verdict of metrics and regime
 };
 

@@ -76,9 +76,9 @@ class JudgedBody {
         std::vector<std::vector<Pose>> middle;  // half a step before, for each step that is judged
     };
     struct StepErrors {
-        double motion;  ///< of place and tip, over the way  ///< error of centre of mass and tip, relative to
-                        ///< the distance covered
-        double rotation;  ///< of the rms angular speed  ///< error of the rms angular speed, relative
+        double motion;    ///< error of centre of mass and tip, relative to
+                          ///< the distance covered
+        double rotation;  ///< error of the rms angular speed, relative
     };
 
     static double step_of(int halvings) { return longest_step / std::exp2(halvings); }

@@ -15,8 +15,8 @@ struct BodyStep {
     double rotation =
         0.0;  ///< s: the longest step for its rotation, where noise causes it; infinite without any
     double turbulence = 0.0;  ///< s: the longest step for its turbulence; infinite without any
-    double error = 0.0;  ///< of the motion at the scene's step, over the way  ///< error of the motion at the
-                         ///< scene's step, relative to the distance covered
+    double error = 0.0;       ///< error of the motion at the
+                              ///< scene's step, relative to the distance covered
 };
 
 /// The longest step that a scene allows.

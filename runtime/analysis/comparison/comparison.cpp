@@ -152,7 +152,7 @@ TimeWindow window_of(const FallChoice& motion, const FallLengths& motion_lengths
                     reference_lengths.shortest));
 }
 
-/// The measures of the first fall of a choice.
+/// Returns the measures of the first fall of a choice.
 Measures first_measures(const FallChoice& choice, const TimeWindow& window) {
     FallChoice first = choice;
     first.run = choice.run.value_or(0);
@@ -174,7 +174,8 @@ double segment_of(const FallChoice& motion, const FallChoice& reference, const T
     return length;
 }
 
-/// The error of an estimate in a comparison: that of a single fall is at least what several falls scatter by.
+/// Returns the error of an estimate in a comparison; for a single fall it is at least the scatter of the
+/// others.
 std::optional<double> error_beside(const Estimate& one, const Estimate& other) {
     if (one.deviation || !other.deviation) return one.error;
     return std::max(one.error.value_or(0.0), *other.deviation);

@@ -30,12 +30,11 @@ struct ComparisonSettings {
 
 /// Whether a difference is within its tolerance.
 struct Verdict {
-    double limit = 0.0;  ///< largest difference allowed, in the metric's unit
-    bool agrees =
-        false;  ///< what lies beyond the reference's own uncertainty is within the limit  ///< whether the
-                ///< difference beyond the reference's own uncertainty is within the limit
+    double limit = 0.0;   ///< largest difference allowed, in the metric's unit
+    bool agrees = false;  ///< whether the
+                          ///< difference beyond the reference's own uncertainty is within the limit
     bool certain =
-        false;  ///< and would be, or not be, whatever the reference's true figure is within its  ///< whether
+        false;  ///< whether
                 ///< the verdict holds for every true value of the reference within its uncertainty, by two
                 ///< standard errors of the difference uncertainty, by two standard errors of the difference
 };
@@ -85,9 +84,9 @@ struct Comparison {
     bool regimes_agree = false;
     bool regime_is_uncertain =
         false;  ///< whether the reference's regime depends on its mesh or closure: then it is not judged
-    bool agrees = false;   ///< all verdicts and, where the inclination is judged, the regimes  ///< whether
+    bool agrees = false;   ///< whether
                            ///< all verdicts agree and, where the inclination is judged, the regimes
-    bool certain = false;  ///< whether that would hold without the verdicts that are not certain  ///<
+    bool certain = false;  ///<
                            ///< whether `agrees` would be the same without the verdicts that are not certain
     std::vector<std::string> notes;  ///< limits of the comparison's validity, a sentence each
 };

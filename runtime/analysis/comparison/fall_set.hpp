@@ -15,7 +15,7 @@ namespace samara {
 
 /// A choice of falls of a motion file: those of one body, in one run or in all, of one copy or of all.
 struct FallChoice {
-    std::string name;  ///< of the file, for messages  ///< name of the file, for messages
+    std::string name;  ///< name of the file, for messages
     const MotionReader* file = nullptr;
     std::size_t body = 0;
     std::optional<int> run;

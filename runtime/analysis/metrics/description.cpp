@@ -36,7 +36,7 @@ std::string counted(int count, const char* noun) {
     return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
-/// A line for each cause: "  uncertain by its mesh: descent_speed 3.1 %, frequency 4 %".
+/// Returns a line for each cause: "  uncertain by its mesh: descent_speed 3.1 %, frequency 4 %".
 std::string uncertainty_text(const BodyMotion& body) {
     std::string text;
     const std::string* cause = nullptr;

@@ -16,7 +16,7 @@ Vector3d horizontal(const Vector3d& vector, const Vector3d& down) {
     return vector - vector.dot(down) * down;
 }
 
-/// The slope of the line of least squares through points.
+/// Returns the slope of the line of least squares through points.
 double slope(const std::vector<double>& x, const std::vector<double>& y) {
     const auto count = static_cast<double>(x.size());
     double mean_x = 0.0;

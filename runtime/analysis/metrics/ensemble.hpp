@@ -11,19 +11,18 @@ namespace samara {
 
 /// Statistics of the places where copies first touched the ground.
 struct Landing {
-    int count = 0;    ///< of copies and runs that landed  ///< number of copies and runs that landed
-    int at_rest = 0;  ///< number of copies and runs at rest at the last frame
+    int count = 0;                     ///< number of copies and runs that landed
+    int at_rest = 0;                   ///< number of copies and runs at rest at the last frame
     Vector3d mean = Vector3d::Zero();  ///< m, world: mean place of the centre of mass when it landed
     double spread = 0.0;               ///< m: rms horizontal distance from `mean`
 };
 
 /// Statistics of all copies and runs of a body, each in its own default window.
 struct BodyMeasures {
-    int samples = 0;                            ///< copies x runs
-    Vector3d mean_velocity = Vector3d::Zero();  ///< m/s, mean over copies and runs
-    PerMetric<std::optional<Estimate>>
-        metrics;  ///< those of Measures, over those falls that have them  ///< means of the metrics of
-                  ///< Measures over the falls that have them
+    int samples = 0;                             ///< copies x runs
+    Vector3d mean_velocity = Vector3d::Zero();   ///< m/s, mean over copies and runs
+    PerMetric<std::optional<Estimate>> metrics;  ///< means of the metrics of
+                                                 ///< Measures over the falls that have them
     RegimeCounts regimes;
     double path_spread = 0.0;  ///< m: rms horizontal distance from the mean path, starts laid on one another,
                                ///< at the end of the shortest fall; 0 for a single one

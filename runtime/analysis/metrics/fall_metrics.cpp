@@ -95,7 +95,7 @@ class Jackknife {
         const std::function<double(const Sums&)>& metric) const {
         return error([&](std::size_t begin, std::size_t end) { return metric(sums_without(begin, end)); });
     }
-    /// The frames of the pieces [begin, end).
+    /// Returns the frames of the pieces [begin, end).
     [[nodiscard]] Piece frames(std::size_t begin, std::size_t end) const {
         return {pieces_.pieces[begin].begin, pieces_.pieces[end - 1].end};
     }
@@ -143,7 +143,7 @@ class Jackknife {
     std::size_t stride_ = 1;
 };
 
-/// The frames of the window, [begin, end).
+/// Returns the frames of the window, [begin, end).
 Piece window_frames(const FallSeries& record) {
     const double slack = 1e-9 * std::max(1.0, record.duration());
     const auto begin =

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t steady_pieces = 8;
 
-/// The first frame at or after a time.
+/// Returns the first frame at or after a time.
 std::size_t frame_at(const FallSeries& record, double time) {
     const double slack = 1e-9 * std::max(1.0, record.duration());
     const auto place = std::lower_bound(record.times.begin(), record.times.end(), time - slack);

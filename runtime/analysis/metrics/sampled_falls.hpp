@@ -16,7 +16,7 @@ namespace samara {
 /// The flow relative to a body at one frame, at which its tables are looked up.
 struct FlowVisit {
     Vector3d direction;      ///< unit vector, body axes: the centroid's velocity relative to flow and wind
-    double reynolds_number;  ///< of that velocity  ///< Reynolds number of the relative velocity
+    double reynolds_number;  ///< Reynolds number of the relative velocity
     double pressure;         ///< rho |v|^2 / 2 (Pa)
 };
 
@@ -43,7 +43,7 @@ struct SampledFall {
 struct FlowOnPath {
     double reynolds_number = 0.0;
     double turbulent_kinetic_energy = 0.0;  ///< m^2/s^2, by the body's tables; 0 without
-    double dissipation_rate = 0.0;  ///< m^2/s^3, likewise  ///< m^2/s^3, by the body's tables; 0 without
+    double dissipation_rate = 0.0;          ///< m^2/s^3, by the body's tables; 0 without
 };
 
 /// Falls of one body of a scene.

@@ -23,7 +23,7 @@ std::optional<double> number_of(const Json& object, const char* key) {
     return found->get<double>();
 }
 
-/// The object under the key, an empty one where there is none.
+/// Returns the object under the key, an empty one where there is none.
 Json object_of(const Json& object, const char* key) {
     const auto found = object.find(key);
     return found != object.end() && found->is_object() ? *found : Json::object();

@@ -43,7 +43,7 @@ double main_reynolds_number(const LoadTables& tables, const std::vector<CaseReco
 
 /// A case that was planned but could not be solved: its direction is filled from the others.
 struct LeftOutCase {
-    std::string name;    ///< of the case's folder  ///< name of the case's folder
+    std::string name;    ///< name of the case's folder
     std::string reason;  ///< one line
 };
 

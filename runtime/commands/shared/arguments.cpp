@@ -83,10 +83,9 @@ struct Arguments::Parser {
     CLI::App app;
     std::string program;
     bool json = false;
-    std::map<std::string, std::vector<std::string>>
-        choices;  ///< by the option's name with its dashes  ///< words of each option, by its name with its
-                  ///< dashes
-    std::vector<const std::string*> outputs;  ///< files to write; empty where none is given
+    std::map<std::string, std::vector<std::string>> choices;  ///< words of each option, by its name with its
+                                                              ///< dashes
+    std::vector<const std::string*> outputs;                  ///< files to write; empty where none is given
 };
 
 namespace {
@@ -141,7 +140,7 @@ const CLI::Validator plain_number(
     },
     "");
 
-/// Whether the words ask for JSON, whatever else is wrong with them.
+/// Returns whether the words ask for JSON, whatever else is wrong with them.
 bool asks_for_json(int argc, const char* const* argv) {
     return std::any_of(argv, argv + argc, [](const char* word) { return word == json_option; });
 }

@@ -50,9 +50,9 @@ class Arguments {
                 const std::string& help);
     /// A text under the options in --help: examples, the meaning of the output.
     void footer(const std::string& text);
-    /// Whether the user gave the option.
+    /// Returns whether the user gave the option.
     [[nodiscard]] bool given(const std::string& name) const;
-    /// Whether --json was given: then the command prints nothing else on standard output.
+    /// Returns whether --json was given: then the command prints nothing else on standard output.
     [[nodiscard]] bool json() const;
 
   private:

@@ -38,7 +38,7 @@ std::filesystem::path chosen_folder() {
     return home.is_absolute() ? home / ".cache" / "samara" : std::filesystem::path();
 }
 
-/// Whether the path is, of this user, of that type and closed to the others.
+/// Returns whether the path is, of this user, of that type and closed to the others.
 bool is_own(const std::filesystem::path& path, mode_t type, mode_t closed) {
     struct stat status = {};
     return ::lstat(path.c_str(), &status) == 0 && (status.st_mode & S_IFMT) == type &&
@@ -76,8 +76,8 @@ std::string mesher() {
     return fmt::format("{} {}.{}", status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec);
 }
 
-/// Whether a script of gmsh may depend on more than itself: other files, the environment, the time, random
-/// numbers, or words that it puts together. A false alarm costs time alone.
+/// Returns whether a script of gmsh may depend on more than itself: other files, the environment, the time,
+/// random numbers, or words that it puts together. A false alarm costs time alone.
 bool may_depend_on_more(std::string_view script) {
     constexpr std::array<std::string_view, 17> words = {
         "Include", "Merge", "File",     "Exists",   "Get",    "Rand",  "Cpu",  "Memory", "Today",

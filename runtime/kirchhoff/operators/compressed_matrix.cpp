@@ -198,7 +198,7 @@ std::size_t work_of(const Block& block) {
     return block.left.size() + block.right.size();
 }
 
-/// The blocks in parts of about equal work.
+/// Returns the blocks in parts of about equal work.
 std::vector<std::vector<std::size_t>> grouped(const std::vector<Block>& blocks) {
     std::size_t all = 0;
     for (const Block& block : blocks) all += work_of(block);

@@ -23,7 +23,7 @@ class CompressedMatrix {
     CompressedMatrix(const SingleLayerEntries& entries, const ClusterTree& tree, double tolerance,
                      int threads, const std::function<void(double)>& progress = {});
 
-    /// The matrix times 18 columns.
+    /// Returns the matrix times 18 columns.
     [[nodiscard]] CurlColumns times(const CurlColumns& columns, int threads) const;
 
     /// Bytes that the blocks take.

@@ -33,7 +33,7 @@ struct Cross {
     }
 };
 
-/// The entry of largest modulus that is not used yet; -1: none is left.
+/// Returns the entry of largest modulus that is not used yet; -1: none is left.
 Eigen::Index largest_unused(const Vector& values, const std::vector<bool>& used) {
     Eigen::Index best = -1;
     for (Eigen::Index i = 0; i < values.size(); ++i) {
@@ -96,8 +96,8 @@ class Residual {
         return values - cross.left.leftCols(cross.rank) * cross.right.row(j).head(cross.rank).transpose();
     }
 
-    /// A row where more is left than `allowed` (the whole block's norm); -1: none is found. Looks at some
-    /// rows and columns across the block: the pivots alone stop too soon where many rows are alike.
+    /// Returns a row where more is left than `allowed` (the whole block's norm); -1: none is found. Looks at
+    /// some rows and columns across the block: the pivots alone stop too soon where many rows are alike.
     [[nodiscard]] Eigen::Index bad_row(const Cross& cross, const std::vector<bool>& used_rows,
                                        double allowed) const {
         const auto row_count = static_cast<Eigen::Index>(rows_.size());

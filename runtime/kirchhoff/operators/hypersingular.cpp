@@ -46,7 +46,7 @@ constexpr const char* unsolvable =
     "the "
     "shape again with 'samara mesh'";
 
-/// The normals, a row each triangle.
+/// Returns the normals, a row each triangle.
 Eigen::Matrix<double, Eigen::Dynamic, 3> normals_of(const LinearElements& elements) {
     Eigen::Matrix<double, Eigen::Dynamic, 3> normals(at(elements.triangle_count()), 3);
     for (std::size_t t = 0; t < elements.triangle_count(); ++t) {
@@ -103,8 +103,8 @@ std::function<void(double)> part_of(const std::function<void(double)>& progress,
     return [=](double share) { progress(begin + share * (end - begin)); };
 }
 
-/// The columns of the right-hand sides; (1/2 + D') n_k = n_k - W x_k exactly, because x_k is linear on each
-/// triangle.
+/// Returns the columns of the right-hand sides; (1/2 + D') n_k = n_k - W x_k exactly, because x_k is linear
+/// on each triangle.
 SixColumns all_loads(const LinearElements& elements, const RotationLoads& rotations,
                      const Eigen::Matrix<double, Eigen::Dynamic, 3>& coordinate_loads) {
     SixColumns loads(at(elements.node_count()), 6);

@@ -70,7 +70,7 @@ HWY_INLINE void add_sources(const RotationSources& sources, std::size_t there, c
     }
 }
 
-/// The solid angles of the sources from `there` on, of those marked.
+/// Returns the solid angles of the sources from `there` on, of those marked.
 template <class Mask>
 HWY_INLINE Lanes solid_angles(const RotationSources& sources, std::size_t there, const TargetPoint& eye,
                               Mask marked) {
@@ -105,8 +105,8 @@ HWY_INLINE void add_group(const RotationSources& sources, std::size_t group,
     }
 }
 
-/// The fields of a group of triangles very far off, in single precision: its rounding is far below the error
-/// of one point a triangle.
+/// Adds the fields of a group of triangles very far off, in single precision: its rounding is far below the
+/// error of one point a triangle.
 HWY_INLINE void add_distant(const DistantSources& sources, std::size_t begin, std::size_t end,
                             const TargetPoint& target, FieldAtPoint& field, double& angle) {
     const hn::ScalableTag<float> tag;

@@ -62,13 +62,13 @@ struct DistantFields {
     std::vector<std::size_t> near;      ///< triangles too near for point sources
 };
 
-/// The normal velocities x cross n of the unit rotations, as sources.
+/// Returns the normal velocities x cross n of the unit rotations, as sources.
 RotationSourceSets rotation_sources(const LinearElements& elements);
 
-/// The fields of all triangles at the points of one of them.
+/// Returns the fields of all triangles at the points of one of them.
 DistantFields distant_fields(const RotationSourceSets& sources, const FlatTriangle& triangle);
 
-/// A point of a rule on a triangle.
+/// Returns a point of a rule on a triangle.
 Vector3d place_on(const FlatTriangle& triangle, const RulePoint& point);
 
 }  // namespace samara

@@ -41,7 +41,7 @@ void add_field(const FieldAtPoint& field, const FlatTriangle& triangle, const Ru
     row.energies += area * potential * motions.transpose();
 }
 
-/// The solid angles of some triangles from the middle of one.
+/// Returns the solid angles of some triangles from the middle of one.
 double exact_solid_angles(const std::vector<FlatTriangle>& triangles, const std::vector<std::size_t>& seen,
                           std::size_t own) {
     const Vector3d& eye = triangles[own].centroid;

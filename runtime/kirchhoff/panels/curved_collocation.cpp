@@ -30,7 +30,7 @@ struct CurvedEquations {
     LargeArray<float> rows;       ///< A without its diagonal, group after group
     Eigen::VectorXd diagonal;     ///< diagonal of A
     SixColumns right_hand_sides;  ///< -S (x cross n) for omega, -x for v
-    double closure_error = 0.0;   ///< as in BoundaryElementResult
+    double closure_error = 0.0;   ///< BoundaryElementResult::closure_error
 
     /// Returns A times six columns.
     [[nodiscard]] SixColumns multiply(const SixColumns& columns, int threads) const;
@@ -294,7 +294,7 @@ SixColumns normal_moments(const CurvedPanels& panels, int threads) {
     return moments;
 }
 
-/// The mean thickness, twice the volume over the surface, in mean sizes of the panels; at most 1.
+/// Returns the mean thickness, twice the volume over the surface, in mean sizes of the panels; at most 1.
 double thickness_in_panels(const CurvedPanels& panels, const SixColumns& moments) {
     double volume = 0.0;
     for (std::size_t i = 0; i < panels.nodes.size(); ++i) {
@@ -307,8 +307,8 @@ double thickness_in_panels(const CurvedPanels& panels, const SixColumns& moments
     return std::clamp(2.0 * volume / (area * size), 1e-6, 1.0);
 }
 
-/// The accuracy of the integrals that keeps their part of the tensor's error below a tenth of the elements'
-/// own, as measured on ellipsoids. Across a thin body the two sides cancel, and more is needed.
+/// Returns the accuracy of the integrals that keeps their part of the tensor's error below a tenth of the
+/// elements' own, as measured on ellipsoids. Across a thin body the two sides cancel, and more is needed.
 double quadrature_tolerance(const CurvedPanels& panels, double thickness) {
     const double smooth = std::clamp(10.0 / static_cast<double>(panels.panels.size()), 1e-4, 0.03);
     return std::max(1e-8, smooth * thickness * thickness);
@@ -334,7 +334,7 @@ BlockSolution solve(const CurvedPanels& panels, const CurvedEquations& equations
     };
     BlockSolution solution = solve_block(times_matrix, equations.right_hand_sides,
                                          {solver_tolerance(panels), most_iterations, precondition});
-    // What is not closed need not have a solution; its closure error says so.
+    // The equations of an open surface need not have a solution; its closure error says so.
     if (!solution.converged && equations.closure_error < open_surface) {
         throw Error(
             fmt::format("the equations of {} curved triangles did not converge in {} steps; mesh the "

@@ -99,14 +99,14 @@ void mark_bent(CurvedPanel& panel) {
     }
 }
 
-/// The solid angle of three unit vectors (van Oosterom and Strackee 1983), signed by their sense.
+/// Returns the solid angle of three unit vectors (van Oosterom and Strackee 1983), signed by their sense.
 double solid_angle(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
     return 2.0 * std::atan2(a.dot(b.cross(c)), 1.0 + a.dot(b) + b.dot(c) + c.dot(a));
 }
 
-/// The solid angle between `inward` and the directions in which the panel leaves its node a: the sector
-/// between two tangents at a corner, and two such sectors, split at the opposite corner, at the middle of an
-/// edge.
+/// Returns the solid angle between `inward` and the directions in which the panel leaves its node a: the
+/// sector between two tangents at a corner, and two such sectors, split at the opposite corner, at the middle
+/// of an edge.
 double sector_angle(const CurvedPanel& panel, std::size_t a, const Vector3d& inward) {
     const Eigen::Matrix<double, 3, 2> tangents =
         panel.tangents(node_coordinates[a][0], node_coordinates[a][1]);

@@ -19,10 +19,10 @@ struct CurvedPanel {
     bool bent = false;    ///< whether its area normal changes by more than 1.5 times its least length
 
     [[nodiscard]] Vector3d place(double p, double q) const;
-    /// The cross product of the two tangents: along the outward normal, as long as the panel's area is to
-    /// that of the unit triangle.
+    /// Returns the cross product of the two tangents: along the outward normal, as long as the panel's area
+    /// is to that of the unit triangle.
     [[nodiscard]] Vector3d area_normal(double p, double q) const;
-    /// The tangents d/dp and d/dq, one a column.
+    /// Returns the tangents d/dp and d/dq, one a column.
     [[nodiscard]] Eigen::Matrix<double, 3, 2> tangents(double p, double q) const;
 };
 

@@ -45,7 +45,7 @@ HWY_INLINE Points load(const PointBatch& points, std::size_t i) {
     return {hn::Load(tag, &points.x[i]), hn::Load(tag, &points.y[i]), hn::Load(tag, &points.z[i])};
 }
 
-/// The angle of the point (x, y), y >= 0; 0 where y is 0.
+/// Returns the angle of the point (x, y), y >= 0; 0 where y is 0.
 HWY_INLINE Lanes angle(Lanes y, Lanes x) {
     const Tag tag;
     const auto flat = hn::Le(y, hn::Set(tag, tiny));
@@ -113,7 +113,7 @@ void uniform_potential_lanes(const FlatTriangle& triangle, const PointBatch& poi
     }
 }
 
-/// The angle whose tangent is y/x, x >= 0, up to a right one; 0 where y is 0.
+/// Returns the angle whose tangent is y/x, x >= 0, up to a right one; 0 where y is 0.
 HWY_INLINE Lanes acute_angle(Lanes y, Lanes x) {
     const Tag tag;
     return hn::Atan(tag, hn::Div(y, hn::Max(x, hn::Set(tag, tiny))));

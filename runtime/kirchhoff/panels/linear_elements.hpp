@@ -36,8 +36,8 @@ struct LinearElements {
     }
 };
 
-/// The elements of a welded surface of order 1, its triangles sorted into clusters of up to `leaf_size`.
-/// Vertices that no triangle uses are left out. Throws Error at a triangle without an area.
+/// Returns the elements of a welded surface of order 1, its triangles sorted into clusters of up to
+/// `leaf_size`. Vertices that no triangle uses are left out. Throws Error at a triangle without an area.
 LinearElements linear_elements(const Surface& surface, std::size_t leaf_size);
 
 /// Takes the mean (weighted with the nodes' shares of the area) out of each component's columns: the

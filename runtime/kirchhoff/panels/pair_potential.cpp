@@ -36,8 +36,8 @@ struct Edge {
     double length;
 };
 
-/// The singularities of a triangle's potential along an edge: its corners and, where the edge passes them
-/// within their length, its own edges.
+/// Returns the singularities of a triangle's potential along an edge: its corners and, where the edge passes
+/// them within their length, its own edges.
 Singularities singularities(const Edge& edge, const FlatTriangle& other) {
     Singularities found;
     for (const Vector3d& corner : other.corners) {
@@ -109,7 +109,7 @@ double gauss_sum(const ValueBatch& batch) {
     return sum;
 }
 
-/// The integral along the edge of the triangle's potential.
+/// Returns the integral along the edge of the triangle's potential.
 double potential_along(const Edge& edge, const FlatTriangle& triangle) {
     double sum = 0.0;
     PointBatch points;
@@ -161,7 +161,7 @@ double parallel(const FlatTriangle& first, const FlatTriangle& second, double he
     return sum;
 }
 
-/// A corner that both triangles have; none: null.
+/// Returns a corner that both triangles have; none: null.
 const Vector3d* shared_corner(const FlatTriangle& first, const FlatTriangle& second) {
     for (const Vector3d& a : first.corners) {
         for (const Vector3d& b : second.corners) {

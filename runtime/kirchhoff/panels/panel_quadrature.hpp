@@ -27,13 +27,13 @@ class PanelQuadrature {
 
     /// Returns the radius that ratios are relative to: the panel's, or more where it is bent.
     [[nodiscard]] static double effective_radius(const CurvedPanel& panel);
-    /// The least distance of a node, in effective radii of the panel, for which far_sources() are enough.
+    /// Returns the least distance of a node, in effective radii of the panel, for which far_sources() are
+    /// enough.
     [[nodiscard]] double far_ratio() const { return far_ratio_; }
     [[nodiscard]] const SourcePoints<float>& far_sources() const { return far_; }
 
-    /// The least squared ratio of distance to effective radius for which near_sources() are enough; nearer
-    /// panels
-    /// must be cut in pieces.
+    /// Returns the least squared ratio of distance to effective radius for which near_sources() are enough;
+    /// nearer panels must be cut in pieces.
     [[nodiscard]] double least_squared_ratio() const { return whole_.back().squared_ratio; }
     /// Returns the fewest points in double precision that are enough at this squared ratio.
     [[nodiscard]] const SourcePoints<double>& near_sources(double squared_ratio) const;

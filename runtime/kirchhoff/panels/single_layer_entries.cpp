@@ -137,7 +137,7 @@ double squared_distance_to_edges(const Vector3d& point, const FlatTriangle& tria
                      squared_distance_to_edge(point, triangle, 2)});
 }
 
-/// The double integral of 1/r by a rule on `outer` and the exact potential of `inner`.
+/// Returns the double integral of 1/r by a rule on `outer` and the exact potential of `inner`.
 double by_outer_rule(const FlatTriangle& outer, const FlatTriangle& inner) {
     const std::vector<RulePoint>& rule = symmetric_rule(8);
     double sum = 0.0;

@@ -24,7 +24,7 @@ Vector6d ratios(const Vector6d& a, const Vector6d& b) {
     return (b.array() != 0.0).select(a.cwiseQuotient(b), Vector6d::Zero());
 }
 
-/// The energy that may be left in each column.
+/// Returns the energy that may be left in each column.
 Vector6d allowed(const Vector6d& energies, double tolerance) {
     Vector6d result;
     for (const Eigen::Index block : {0, 3}) {
@@ -126,7 +126,7 @@ Eigen::MatrixXd local_hypersingular(const LinearElements& elements, const Single
     return matrix;
 }
 
-/// The largest clusters of the tree of no more than `size` triangles.
+/// Returns the largest clusters of the tree of no more than `size` triangles.
 std::vector<Cluster> clusters_up_to(const ClusterTree& tree, std::size_t size) {
     std::vector<Cluster> result;
     std::vector<std::size_t> open = {0};

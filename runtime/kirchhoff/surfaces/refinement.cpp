@@ -158,7 +158,7 @@ class Coarsening {
         return any;
     }
 
-    /// The surface that is left; `given_index` becomes the index of each vertex in the given surface.
+    /// Returns the surface that is left; `given_index` becomes the index of each vertex in the given surface.
     [[nodiscard]] Surface result(std::vector<std::size_t>& given_index) const {
         Surface surface;
         given_index.clear();
@@ -180,7 +180,7 @@ class Coarsening {
   private:
     static std::size_t index(std::int32_t value) { return static_cast<std::size_t>(value); }
 
-    /// Whether a vertex has so many triangles, as the middle of a fan has, that trying it takes long.
+    /// Returns whether a vertex has so many triangles, as the middle of a fan has, that trying it takes long.
     [[nodiscard]] bool is_hub(std::size_t v) const { return around_[v].size() > 32; }
 
     [[nodiscard]] std::set<std::int32_t> neighbours(std::size_t v) const {
@@ -208,7 +208,7 @@ class Coarsening {
         return 4.0 * std::sqrt(3.0) * area_of(triangle).norm() / squares;
     }
 
-    /// The neighbour that leaves the best triangles when v is drawn into it, or -1.
+    /// Returns the neighbour that leaves the best triangles when v is drawn into it, or -1.
     [[nodiscard]] std::int32_t best_neighbour(std::size_t v) const {
         if (is_hub(v)) return -1;
         double worst_before = 1.0;
@@ -229,8 +229,8 @@ class Coarsening {
         return choice;
     }
 
-    /// The worst quality of the triangles after v is drawn into the target, less the height that is lost; -1
-    /// where the surface would fold, pinch or lose a crease.
+    /// Returns the worst quality of the triangles after v is drawn into the target, less the height that is
+    /// lost; -1 where the surface would fold, pinch or lose a crease.
     [[nodiscard]] double quality_after(std::size_t v, std::int32_t target,
                                        const std::set<std::int32_t>& ring) const {
         const std::set<std::int32_t> target_ring = neighbours(index(target));

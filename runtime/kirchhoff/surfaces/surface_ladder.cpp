@@ -24,8 +24,8 @@ class SurfaceProjection {
     /// `surface`: of order 2, and outlives this.
     explicit SurfaceProjection(const Surface& surface);
 
-    /// A point of the curved triangles near `point`, where their normals point along `direction`; `point`
-    /// itself where none do.
+    /// Returns a point of the curved triangles near `point`, where their normals point along `direction`;
+    /// `point` itself where none do.
     [[nodiscard]] Vector3d near_point(const Vector3d& point, const Vector3d& direction) const;
 
   private:
@@ -37,7 +37,7 @@ class SurfaceProjection {
     std::vector<std::vector<std::size_t>> around_;
 };
 
-/// The sum of the area vectors of the flat triangles around each vertex.
+/// Returns the sum of the area vectors of the flat triangles around each vertex.
 std::vector<Vector3d> vertex_normals(const Surface& surface) {
     std::vector<Vector3d> normals(surface.vertices.size(), Vector3d::Zero());
     for (std::size_t t = 0; t < surface.triangle_count(); ++t) {

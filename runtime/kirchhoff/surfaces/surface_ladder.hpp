@@ -19,13 +19,13 @@ class SurfaceLadder {
 
     [[nodiscard]] const CreasedSurface& base() const { return rungs_.at(0); }
 
-    /// Whether the curvature is rebuilt from flat triangles.
+    /// Returns whether the curvature is rebuilt from flat triangles.
     [[nodiscard]] bool is_rebuilt() const { return is_rebuilt_; }
 
     /// Returns a rung, which is made when it is first asked for. Valid as long as the ladder.
     const CreasedSurface& rung(int index);
 
-    /// The lowest rung that can be asked for: the last with enough triangles to tell anything.
+    /// Returns the lowest rung that can be asked for: the last with enough triangles to tell anything.
     [[nodiscard]] int lowest() const;
 
   private:

@@ -11,8 +11,8 @@ namespace {
 constexpr std::size_t most_samples = 200;
 constexpr double share_of_area = 0.2;
 
-/// The distance from the origin along the unit vector to the triangle; infinity where it is missed. Moeller
-/// and Trumbore, J. Graphics Tools 2(1), 1997.
+/// Returns the distance from the origin along the unit vector to the triangle; infinity where it is missed.
+/// Moeller and Trumbore, J. Graphics Tools 2(1), 1997.
 double distance_along(const Vector3d& direction, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
     constexpr double missed = std::numeric_limits<double>::infinity();
     const Vector3d one = b - a;
