@@ -11,7 +11,6 @@
 
 #include "samara/commands/commands.hpp"
 #include "samara/commands/shared/arguments.hpp"
-#include "samara/commands/shared/motion_output.hpp"
 #include "samara/commands/shared/print.hpp"
 #include "samara/commands/shared/scene_bodies.hpp"
 #include "samara/core/base/error.hpp"

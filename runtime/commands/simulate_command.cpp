@@ -17,7 +17,6 @@
 #include "samara/commands/commands.hpp"
 #include "samara/commands/shared/arguments.hpp"
 #include "samara/commands/shared/body_notes.hpp"
-#include "samara/commands/shared/motion_output.hpp"
 #include "samara/commands/shared/print.hpp"
 #include "samara/commands/shared/scene_bodies.hpp"
 #include "samara/commands/table_errors_report.hpp"

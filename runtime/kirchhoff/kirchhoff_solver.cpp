@@ -18,7 +18,6 @@
 #include "samara/kirchhoff/panels/curved_collocation.hpp"
 #include "samara/kirchhoff/solvers/tensor_error.hpp"
 #include "samara/kirchhoff/surfaces/surface_ladder.hpp"
-#include "samara/kirchhoff/surfaces/thickness.hpp"
 
 namespace samara {
 namespace {

@@ -10,8 +10,7 @@
 #include "samara/core/body/surface_file.hpp"
 #include "samara/core/files/hdf5_reader.hpp"
 #include "samara/core/files/row_major.hpp"
-#include "samara/motion/motion_groups.hpp"
-#include "samara/motion/motion_rules.hpp"
+#include "samara/motion/motion_layout.hpp"
 #include "samara/motion/motion_writer.hpp"
 
 namespace samara {

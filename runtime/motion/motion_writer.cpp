@@ -8,8 +8,7 @@
 #include "samara/core/base/version.hpp"
 #include "samara/core/body/surface_file.hpp"
 #include "samara/core/files/row_major.hpp"
-#include "samara/motion/motion_groups.hpp"
-#include "samara/motion/motion_rules.hpp"
+#include "samara/motion/motion_layout.hpp"
 
 namespace samara {
 namespace {

@@ -107,7 +107,7 @@ MassSpecification read_mass(TomlTable& table) {
     return mass;
 }
 
-/// Reads the terms of the equations, apart from turbulence and coefficients.
+/// What the equations hold, beside turbulence and coefficients.
 void read_models(TomlTable& table, SceneBody& body) {
     body.loads = choice<Loads>(table, "loads",
                                {{"none", Loads::none},
@@ -242,7 +242,7 @@ std::filesystem::path shape_file(const TomlTable& table, const std::string& shap
     return file;
 }
 
-/// Reads the display mesh of a body; null where the scene names none.
+/// What exports show of a body; null where the scene says nothing.
 std::shared_ptr<const DisplayMesh> read_display(TomlTable& table, const std::filesystem::path& folder,
                                                 double shape_scale) {
     const auto name = table.text("look");
@@ -303,8 +303,8 @@ void read_step(TomlTable& table, Scene& scene) {
     } else if (*table.text("step") != "auto") {
         throw table.error("step", "must be a number of seconds, or \"auto\"");
     }
-    const auto tolerance = table.number(
-        "step_tolerance", {1e-6, 0.1, "must lie between 1e-6 and 0.1: a share of the distance covered"});
+    const auto tolerance =
+        table.number("step_tolerance", {1e-6, 0.1, "must lie between 1e-6 and 0.1: a share of the way"});
     if (tolerance && !scene.step_auto) {
         throw table.error("step_tolerance", "is for step = \"auto\"; remove it, or set step so");
     }

@@ -84,7 +84,7 @@ std::string cell(const MetricEffect& metric) {
 std::string row(const std::string& name, const ModelEffect& one) {
     std::string text = fmt::format("  {:<37}", name);
     if (!one.flies) return text + "leaves the range of numbers\n";
-    if (one.effect.falls == 0) return text + "not flown\n";
+    if (one.effect.falls == 0) return text + "not simulated\n";
     for (const Metric metric : advised_metrics)
         text += fmt::format("{:<17}", cell(one.effect.metrics[metric]));
     text += fmt::format("{:<13}",

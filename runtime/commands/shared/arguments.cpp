@@ -1,6 +1,7 @@
 #include "samara/commands/shared/arguments.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <csignal>
 #include <cstdio>
@@ -20,8 +21,10 @@
 #include <unistd.h>
 
 #include "samara/commands/shared/print.hpp"
+#include "samara/core/base/error.hpp"
 #include "samara/core/base/nearest_word.hpp"
 #include "samara/core/base/version.hpp"
+#include "samara/core/body/body_file.hpp"
 #include "samara/core/files/replace_file.hpp"
 #include "samara/motion/file_check.hpp"
 
@@ -76,6 +79,19 @@ void print_as_json(const std::string& error) noexcept {
         return;
     }
 }
+
+struct MadeFromMotion {
+    std::string_view ending;
+    std::string_view command;
+};
+
+constexpr std::array<MadeFromMotion, 7> others = {{{".glb", "export"},
+                                                   {".usda", "export"},
+                                                   {".chan", "export"},
+                                                   {".html", "export"},
+                                                   {".csv", "export"},
+                                                   {".png", "plot"},
+                                                   {".svg", "plot"}}};
 
 }  // namespace
 
@@ -287,6 +303,21 @@ int run_guarded(const std::string& program, const std::function<void()>& work, b
         print_note("{}: {}\n", program, text);
         return 1;
     }
+}
+
+void require_motion_file_name(const std::string& output) {
+    const std::filesystem::path file = output;
+    const std::string ending = file.extension().string();
+    for (const MadeFromMotion& other : others) {
+        if (ending != other.ending) continue;
+        const std::string motion = std::filesystem::path(file).replace_extension(".h5").string();
+        throw Error(fmt::format("{}: the output is a motion file; write {}, then 'samara {} {} -o {}'",
+                                output, motion, other.command, motion, output));
+    }
+    if (is_body_file_name(file)) {
+        throw Error(fmt::format("{}: is the name of a body file; name the motion file NAME.h5", output));
+    }
+    if (ending != ".h5") throw Error(fmt::format("{}: the name of a motion file ends in .h5", output));
 }
 
 }  // namespace samara

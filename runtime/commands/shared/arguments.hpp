@@ -80,4 +80,8 @@ int run_program(int argc, const char* const* argv, Arguments& arguments,
 /// as {"error": "what is wrong"}, without the program's name.
 int run_guarded(const std::string& program, const std::function<void()>& work, bool as_json = false);
 
+/// Throws Error unless the name is one that a motion file may have, NAME.h5: for a name in another program's
+/// format it says which command makes such a file from a motion file.
+void require_motion_file_name(const std::string& output);
+
 }  // namespace samara

@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "samara/kirchhoff/operators/cluster_tree.hpp"
+#include "samara/kirchhoff/panels/flat_triangle.hpp"
 #include "samara/kirchhoff/panels/single_layer_entries.hpp"
 
 namespace samara {

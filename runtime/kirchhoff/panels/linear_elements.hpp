@@ -6,7 +6,6 @@
 
 #include <Eigen/Core>
 
-#include "samara/kirchhoff/operators/cluster_tree.hpp"
 #include "samara/kirchhoff/panels/flat_triangle.hpp"
 
 namespace samara {

@@ -3,7 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
-#include "samara/kirchhoff/operators/single_layer_matrix.hpp"
+#include "samara/kirchhoff/operators/hypersingular.hpp"
 #include "samara/kirchhoff/solvers/conjugate_gradients.hpp"
 #include "support/test_shapes.hpp"
 
