@@ -17,7 +17,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-/// What is beyond single precision is refused by every format of floats, and leaves no file.
+/// What is beyond single precision is rejected by every format of floats, and leaves no file.
 void expect_rejection(const Motion& motion, const std::string& what) {
     const test::TemporaryFolder folder;
     const auto expected = AllOf(HasSubstr("out."), HasSubstr(what));

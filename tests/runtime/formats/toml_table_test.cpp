@@ -14,7 +14,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// What parse_toml says of a text: "accepted", or its refusal.
+/// What parse_toml says of a text: "accepted", or its rejection.
 std::string verdict(const std::string& text) {
     try {
         (void)parse_toml(text, "scene.toml");

@@ -105,8 +105,8 @@ TEST(StepAdvice, LetsTurbulenceMakeTheDiffusionTooLargeByTheToleranceAtMost) {
     EXPECT_EQ(advice.limit, "the turbulence of 'body'");
 }
 
-/// The ready-baked cube swings by its noise, hardly damped: to a step of 40 ms, by which its way is right, it
-/// would lose its swing twice as fast.
+/// The ready-baked cube swings by its noise, hardly damped: to a step of 40 ms, by which its path is right,
+/// it would lose its swing twice as fast.
 TEST(StepAdvice, SeesWhatNoiseTurns) {
     Scene scene;
     scene.duration = 6.0;

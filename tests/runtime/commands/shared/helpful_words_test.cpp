@@ -1,4 +1,4 @@
-// What `samara` says of slips: misspelt words, names of other formats, figures that many bodies share.
+// Messages of `samara` about mistakes: misspelt words, names of other formats, notes that many bodies share.
 
 #include <string>
 #include <vector>

@@ -1,7 +1,8 @@
+#include "samara/scene/table_errors_on_path.hpp"
+
 #include <gtest/gtest.h>
 
 #include "samara/scene/scene_simulation.hpp"
-#include "samara/scene/table_errors_on_path.hpp"
 #include "support/known_bodies.hpp"
 
 namespace samara {
@@ -38,11 +39,11 @@ Pose moving(const Vector3d& velocity) {
 
 TEST(TableErrorsOnPath, AreThoseOfTheTableOverItsValues) {
     const ImmersedBody body = immersed(turbulent_scene_body());
-    const TableErrorsOnPath met = table_errors_on_path(body, moving(Vector3d(0.1, 0.0, 0.0)));
-    EXPECT_EQ(met.forces, 1U);
-    EXPECT_NEAR(met.force, 0.2, 1e-12);
-    EXPECT_EQ(met.turbulent_kinetic_energies, 1U);
-    EXPECT_NEAR(met.turbulent_kinetic_energy, 0.5, 1e-12);
+    const TableErrorsOnPath errors = table_errors_on_path(body, moving(Vector3d(0.1, 0.0, 0.0)));
+    EXPECT_EQ(errors.forces, 1U);
+    EXPECT_NEAR(errors.force, 0.2, 1e-12);
+    EXPECT_EQ(errors.turbulent_kinetic_energies, 1U);
+    EXPECT_NEAR(errors.turbulent_kinetic_energy, 0.5, 1e-12);
 }
 
 TEST(TableErrorsOnPath, AreLookedUpInBodyAxes) {
@@ -61,10 +62,10 @@ TEST(TableErrorsOnPath, AreNoneAtRestNorWithoutTables) {
     EXPECT_EQ(table_errors_on_path(immersed(turbulent_scene_body()), moving(Vector3d::Zero())).forces, 0U);
     SceneBody without = turbulent_scene_body();
     without.loads = Loads::none;
-    const TableErrorsOnPath met = table_errors_on_path(immersed(without), moving(Vector3d::UnitX()));
-    EXPECT_EQ(met.forces, 0U);
-    EXPECT_EQ(met.mean_force(), 0.0);
-    EXPECT_EQ(met.turbulent_kinetic_energies, 1U);
+    const TableErrorsOnPath errors = table_errors_on_path(immersed(without), moving(Vector3d::UnitX()));
+    EXPECT_EQ(errors.forces, 0U);
+    EXPECT_EQ(errors.mean_force(), 0.0);
+    EXPECT_EQ(errors.turbulent_kinetic_energies, 1U);
     EXPECT_EQ(table_errors_on_path(test::ideal_ellipsoid(), moving(Vector3d::UnitX())).forces, 0U);
 }
 
