@@ -114,7 +114,8 @@ std::vector<TableRange> ranges_of(const LoadTables& tables) {
     };
 }
 
-/// Nodes of the octahedral map that are different directions: an octahedron cut into n has 4 n^2 + 2.
+/// Returns the number of different directions of an octahedral map's nodes: an octahedron cut into n has 4
+/// n^2 + 2.
 int direction_count(const LoadTables& tables) {
     return 4 * tables.subdivisions * tables.subdivisions + 2;
 }

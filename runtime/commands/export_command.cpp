@@ -144,7 +144,7 @@ nlohmann::json export_motion(ExportOptions options) {
     return result;
 }
 
-/// "OUT: 3 nodes, 200 keys, 240 frames, 12345 bytes".
+/// Prints "OUT: 3 nodes, 200 keys, 240 frames, 12345 bytes".
 void print_summary(const nlohmann::json& result) {
     std::string counts;
     constexpr std::array<std::array<const char*, 2>, 6> words = {{{"rows", "row"},

@@ -45,7 +45,8 @@ class Builder {
 
     tinygltf::Model& model() { return model_; }
 
-    /// A view of the buffer that the accessors added next share; `target` as in glTF, 0 for animations.
+    /// Begins a view of the buffer that the accessors added next share; `target` as in glTF, 0 for
+    /// animations.
     void begin_view(int target) {
         tinygltf::BufferView view;
         view.buffer = 0;
@@ -54,7 +55,7 @@ class Builder {
         model_.bufferViews.push_back(view);
     }
 
-    /// Values of `components` floats each, with their bounds; returns the accessor's index.
+    /// Adds values of `components` floats each, with their bounds; returns the accessor's index.
     int add_floats(const std::vector<float>& values, std::size_t components, int type) {
         tinygltf::Accessor accessor = next_accessor(values.size() / components, type);
         accessor.componentType = TINYGLTF_COMPONENT_TYPE_FLOAT;
@@ -126,7 +127,7 @@ std::vector<float> y_up_floats(const std::vector<Vector3d>& vectors) {
     return values;
 }
 
-/// `material`: its number.
+/// Adds a mesh; returns its number. `material`: the number of its material.
 int add_mesh(Builder& builder, const std::string& name, const Surface& surface, int material,
              const std::filesystem::path& file) {
     const ShadedMesh shaded = shaded_mesh(surface);

@@ -51,7 +51,7 @@ constexpr std::string_view mark = "<!--MOTION-->";
 constexpr std::size_t floats_of_pose = 10;  // as runtime/page/motion.js reads them
 constexpr double most_bytes = 384e6;
 
-/// An array for motion.js to find by its name.
+/// Writes an array, which motion.js finds by its name.
 template <typename Number>
 void write_array(std::ostream& stream, const std::string& name, const std::vector<Number>& numbers) {
     stream << "<script type=\"text/plain\" id=\"motion-" << name << "\">"
@@ -88,7 +88,7 @@ std::vector<float> poses_of(const Motion& motion, const BodyMotion& body, int ru
     return floats;
 }
 
-/// The arrays NAME-points, NAME-normals and NAME-triangles, about `origin` (m, shape axes).
+/// Writes the arrays NAME-points, NAME-normals and NAME-triangles, about `origin` (m, shape axes).
 void write_mesh(std::ostream& stream, const std::string& name, const Surface& surface,
                 const Vector3d& origin) {
     const ShadedMesh mesh = shaded_mesh(surface);
@@ -104,7 +104,7 @@ void write_mesh(std::ostream& stream, const std::string& name, const Surface& su
     write_array(stream, name + "-triangles", triangles);
 }
 
-/// Position and quaternion (x, y, z, w) of an obstacle at each frame; of one that stands still once.
+/// Returns position and quaternion (x, y, z, w) of an obstacle at each frame; for one at rest once.
 std::vector<float> places_of(const Motion& motion, const Obstacle& obstacle) {
     std::vector<float> floats;
     for (const double time : motion.times) {
@@ -116,7 +116,8 @@ std::vector<float> places_of(const Motion& motion, const Obstacle& obstacle) {
     return floats;
 }
 
-/// JSON in ASCII and without "<": nothing in it ends or opens an element of the page.
+/// Returns the page's description of the motion, JSON in ASCII and without "<": nothing in it ends or opens
+/// an element of the page.
 std::string header_of(const Motion& motion, int run, const std::string& title, const std::string& detail) {
     nlohmann::json header = {{"title", title}, {"detail", detail}, {"frame_rate", motion.frame_rate}};
     header["ground"] = motion.ground ? nlohmann::json(*motion.ground) : nlohmann::json(nullptr);

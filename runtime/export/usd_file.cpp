@@ -20,7 +20,7 @@
 namespace samara {
 namespace {
 
-/// Times in frames, whole where they are so but for rounding.
+/// Returns the times in frames, rounded where they are whole but for rounding.
 std::vector<double> time_codes(const Motion& motion) {
     std::vector<double> codes;
     for (const double time : motion.times) {
@@ -159,7 +159,7 @@ class Stage {
                            static_cast<float>(q.y()), static_cast<float>(q.z()));
     }
 
-    /// To more digits than a half has: the reader rounds.
+    /// Returns a quaternion of halves as text, with more digits than a half has: the reader rounds.
     static std::string quath(const Quaterniond& q) {
         return fmt::format("({:.5g}, {:.5g}, {:.5g}, {:.5g})", q.w(), q.x(), q.y(), q.z());
     }
@@ -223,7 +223,7 @@ class Stage {
         return largest * reach;
     }
 
-    /// An array at every frame, its values by value_at(item, frame).
+    /// Writes an array at every frame, its values by value_at(item, frame).
     template <typename ValueAt>
     void write_array(const char* declaration, std::size_t items, const ValueAt& value_at) {
         print("        {}.timeSamples = {{\n", declaration);

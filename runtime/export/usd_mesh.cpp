@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t items_in_line = 8;
 
-/// [a, b, c] over several lines.
+/// Returns a list [a, b, c] over several lines.
 std::string usd_list(const std::vector<std::string>& items, const std::string& indent) {
     std::string text = "[";
     for (std::size_t i = 0; i < items.size(); ++i) {
@@ -46,7 +46,7 @@ std::string list_of(const Values& values, const std::string& indent, const InWor
     return usd_list(items, indent);
 }
 
-/// Faces by material, for all that are in use: its number and theirs.
+/// Returns the indices of the faces of each material in use, by its number.
 std::map<std::int32_t, std::vector<std::size_t>> faces_by_slot(const DisplayMesh& display) {
     std::map<std::int32_t, std::vector<std::size_t>> faces;
     for (std::size_t i = 0; i < display.slots.size(); ++i) faces[display.slots[i]].push_back(i);

@@ -40,7 +40,8 @@ bool keep_image(tinygltf::Image* image, int /*index*/, std::string* /*error*/, s
     return true;
 }
 
-/// Files beneath the folder alone, also behind links, and none where it is empty.
+/// Returns file callbacks that read files beneath the folder alone, also behind links, and none where it is
+/// empty.
 tinygltf::FsCallbacks files_beneath(std::filesystem::path& folder) {
     tinygltf::FsCallbacks callbacks{};
     callbacks.user_data = &folder;
@@ -150,7 +151,8 @@ class GlbReader {
         throw Error(fmt::format("{}: {}", label_, what));
     }
 
-    /// The JSON is all of a .gltf; in a .glb it stands behind 20 bytes that end in its length and its type.
+    /// Throws Error where the JSON nests too deep for its parser. The JSON is all of a .gltf; in a .glb it
+    /// stands behind 20 bytes that end in its length and its type.
     void require_shallow(std::string_view bytes, bool is_text) const {
         constexpr std::size_t header = 20;
         std::uint32_t length = 0;

@@ -41,7 +41,7 @@ inline constexpr NumberRange non_negative_number = {
 /// the table does not have it.
 class TomlTable {
   public:
-    /// `where`: the table's name for messages, as in "[fluid]".
+    /// Wraps a table of `file`. `where`: the table's name for messages, as in "[fluid]".
     TomlTable(const toml::table& table, std::string file, std::string where);
 
     /// Reads a number within `range`.

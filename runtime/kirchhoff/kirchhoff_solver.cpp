@@ -116,14 +116,14 @@ class Solver {
         return curved && curved->error_estimate <= flat.error_estimate ? *curved : flat;
     }
 
-    /// Progress must not start again from zero with a second method.
+    /// Tells the share done. Progress must not start again from zero with a second method.
     void tell(double share) {
         if (!options_.progress || share < told_) return;
         told_ = share;
         options_.progress(share);
     }
 
-    /// Nothing where curved triangles cannot follow so coarse a surface without folding.
+    /// Solves on curved triangles; nothing where these cannot follow so coarse a surface without folding.
     std::optional<KirchhoffTensor> try_curved() {
         try {
             return run_with(KirchhoffMethod::curved_collocation);
@@ -195,7 +195,7 @@ class Solver {
         double end;
     };
 
-    /// Nothing where the rung's surface is too coarse to be solved and is not `required`.
+    /// Solves on a rung; nothing where its surface is too coarse to be solved and is not `required`.
     std::optional<Solved> try_solve(KirchhoffMethod method, int rung, const Shares& shares, bool required) {
         try {
             return solve(method, rung, shares);
@@ -254,8 +254,9 @@ class Solver {
         return result;
     }
 
-    /// No motion has negative kinetic energy: where extrapolation and quadrature say so of one that moves no
-    /// fluid, as a disc's about its axis, it is nothing. `share`: of the largest, by how much they may.
+    /// Returns the tensor with its negative eigenvalues removed. No motion has negative kinetic energy: where
+    /// extrapolation and quadrature say so of one that moves no fluid, as a disc's about its axis, it is
+    /// nothing. `share`: of the largest, by how much they may.
     [[nodiscard]] Matrix6d with_positive_energy(const Matrix6d& tensor, double share) const {
         Vector6d lengths;
         lengths << Vector3d::Constant(length_), Vector3d::Ones();
@@ -291,9 +292,10 @@ class Solver {
         return difference(coarse.tensor, fine.tensor) / (std::pow(ratio, order) - 1.0);
     }
 
-    /// Richardson's extrapolation with the second order that grading gives. What remains is less than the
-    /// correction where the order is right, and where three surfaces are nested, about what the correction
-    /// changed by. All have the curvature of the given surface, whose error goes with that of flat triangles.
+    /// Applies Richardson's extrapolation with the second order that grading gives. What remains is less than
+    /// the correction where the order is right, and where three surfaces are nested, about what the
+    /// correction changed by. All have the curvature of the given surface, whose error goes with that of flat
+    /// triangles.
     [[nodiscard]] Judgement extrapolated(const std::vector<Solved>& solved) const {
         const auto best = [](const Solved& fine, const Solved& coarse) -> Matrix6d {
             return fine.tensor + (fine.tensor - coarse.tensor) / 3.0;

@@ -32,8 +32,8 @@ json of_one_copy(const char* picture, const Motion& motion, const BodyMotion& bo
             {"measures", as_json(measure(motion, body, run, copy))}};
 }
 
-/// With the frames of the fall and a little before and after it: a body may wait long, and lie long on the
-/// ground.
+/// Returns the data of a strip, with the frames of the fall and a little before and after it: a body may wait
+/// long, and lie long on the ground.
 json strip(const Motion& motion, const BodyMotion& body, int run, int copy) {
     json picture = of_one_copy("strip", motion, body, run, copy);
     const TimeWindow fall = fall_of(motion, body, run, copy);

@@ -57,8 +57,8 @@ auto on_input(const Work& work, const std::filesystem::path& file = {}) {
     }
 }
 
-/// A class of the module. An object that Python made by __new__ alone, without __init__, holds nothing: asked
-/// for anything it throws TypeError.
+/// Makes a class of the module. An object that Python made by __new__ alone, without __init__, holds nothing:
+/// asked for anything it throws TypeError.
 template <typename Type, typename... Options>
 py::class_<Type, Options...> class_of(py::module_& module, const char* name, const char* purpose) {
     py::class_<Type, Options...> made(module, name, purpose);
@@ -154,7 +154,8 @@ std::recursive_mutex& hdf5_mutex();
 /// work at its next call of tell() and is what the caller sees.
 class LongWork {
   public:
-    /// `progress`: None, or what is called with (done, total), ten times a second at most.
+    /// Prepares the work. `progress`: None, or a function that is called with (done, total), ten times a
+    /// second at most.
     explicit LongWork(py::object progress) : progress_(std::move(progress)) {}
 
     /// Is called by the work now and then; returns false where the work must end.
@@ -194,13 +195,13 @@ class LongWork {
     Clock::time_point last_ = Clock::now();
 };
 
-/// Scenes: samara.Scene.
+/// Binds scenes: samara.Scene.
 void bind_scene(py::module_& module);
-/// Motions: samara.Motion, BodyMotion, simulate, read_motion, compare.
+/// Binds motions: samara.Motion, BodyMotion, simulate, read_motion, compare.
 void bind_motion(py::module_& module);
-/// Simulations that advance step by step: samara.Simulation.
+/// Binds simulations that advance step by step: samara.Simulation.
 void bind_simulation(py::module_& module);
-/// Body files: samara.Body.
+/// Binds body files: samara.Body.
 void bind_body(py::module_& module);
 
 }  // namespace samara::python

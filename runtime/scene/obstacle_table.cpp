@@ -72,7 +72,7 @@ void require_steady(const TomlTable& table, const Obstacle& obstacle) {
     }
 }
 
-/// Shape, scale, place and keys.
+/// Reads shape, scale, position and keys of a solid.
 void read_solid(TomlTable& table, const std::filesystem::path& folder, Obstacle& obstacle) {
     const auto shape = table.text("shape");
     if (!shape) throw table.error("shape", "is missing; give a mesh, .stl, .obj or .glb");

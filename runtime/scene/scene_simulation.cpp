@@ -22,7 +22,7 @@ namespace {
 /// Bodies of a group that are enough to know the mean errors of its tables along all paths.
 constexpr std::size_t judged_copies = 1000;
 
-/// Frame times from 0 to the duration.
+/// Returns the times of the frames (s), from 0 to the duration.
 std::vector<double> frame_times(const Scene& scene) {
     const auto last = static_cast<int>(std::floor(scene.duration * scene.frame_rate * (1.0 + 1e-12)));
     std::vector<double> times(static_cast<std::size_t>(last) + 1);

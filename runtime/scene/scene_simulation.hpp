@@ -44,8 +44,9 @@ class SceneSimulation {
     /// every step; returns false to end the simulation at this frame, or with the one before.
     using Progress = std::function<bool(double done, double total)>;
 
-    /// `loaded[i]` is the body of scene.bodies[i]. `threads`: 0 for all cores; the poses are the same for any
-    /// number. Throws Error where a body lacks what the scene asks of it or starts below the ground.
+    /// Prepares a simulation. `loaded[i]` is the body of scene.bodies[i]. `threads`: 0 for all cores; the
+    /// poses are the same for any number. Throws Error where a body lacks what the scene asks of it or starts
+    /// below the ground.
     SceneSimulation(const Scene& scene, const std::vector<LoadedBody>& loaded, int runs, int threads = 0);
 
     /// Returns the motion without its poses.

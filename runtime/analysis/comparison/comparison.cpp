@@ -164,7 +164,8 @@ Measures first_measures(const FallChoice& choice, const TimeWindow& window) {
     return measures;
 }
 
-/// Long enough to tell frequencies apart, short enough to have many in a long window; the same for both.
+/// Returns the length (s) of the spectra's segments, the same for both: long enough to resolve frequencies,
+/// short enough to have many in a long window.
 double segment_of(const FallChoice& motion, const FallChoice& reference, const TimeWindow& window) {
     const double length = window.end - window.begin;
     for (const FallChoice* choice : {&reference, &motion}) {
@@ -187,7 +188,7 @@ MetricComparison compare_turn(const std::optional<TurningPoint>& motion,
                           reference ? std::optional((*reference).*metric) : std::nullopt);
 }
 
-/// Quarters of the depth (m) that all falls reach; none where one does not sink.
+/// Returns quarters of the depth (m) that all falls reach; none where one does not sink.
 std::vector<double> levels_of(const FallLengths& motion, const FallLengths& reference) {
     const double depth = (1.0 - rounding) * std::min(motion.shallowest, reference.shallowest);
     if (!(depth > 0.0)) return {};

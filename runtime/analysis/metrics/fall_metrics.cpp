@@ -214,7 +214,7 @@ std::optional<Estimate> spectral_frequency_of(const FallSeries& record, double s
                     {}};
 }
 
-/// m, rms over the window.
+/// Returns the rms horizontal distance (m) from the release over the window.
 double path_spread(const FallSeries& record) {
     const Piece window = window_frames(record);
     double sum = 0.0;

@@ -18,7 +18,7 @@ std::size_t frame_at(const FallSeries& record, double time) {
     return std::min(static_cast<std::size_t>(place - record.times.begin()), record.times.size() - 1);
 }
 
-/// Stretches between the frames, each of which ends where the next begins.
+/// Returns the stretches between successive frames of a list.
 std::vector<Piece> between(const std::vector<std::size_t>& cuts) {
     std::vector<Piece> pieces;
     for (std::size_t i = 1; i < cuts.size(); ++i) {

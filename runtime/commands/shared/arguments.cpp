@@ -40,7 +40,8 @@ void open_closed_streams() {
     }
 }
 
-/// A handler rather than SIG_IGN, since programs that are started would inherit that.
+/// Makes a signal an error of the call that causes it. By a handler rather than SIG_IGN, since programs that
+/// are started would inherit that.
 void make_errors_of(int signal) {
     struct sigaction action = {};
     if (::sigaction(signal, nullptr, &action) != 0 || action.sa_handler != SIG_DFL) return;

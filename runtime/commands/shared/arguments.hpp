@@ -20,22 +20,24 @@ class Arguments {
     Arguments(const Arguments&) = delete;
     Arguments& operator=(const Arguments&) = delete;
 
-    /// A required word, by its place.
+    /// Adds a required word, by its place.
     void positional(const std::string& name, std::string& value, const std::string& help);
-    /// A word by its place that may be left out: then the value stays as it is.
+    /// Adds a word by its place that may be left out: then the value stays as it is.
     void optional_positional(const std::string& name, std::string& value, const std::string& help);
-    /// One word or more, by their place.
+    /// Adds one word or more, by their place.
     void positionals(const std::string& name, std::vector<std::string>& values, const std::string& help);
-    /// A flag without a value, such as "--keep".
+    /// Adds a flag without a value, such as "--keep".
     void flag(const std::string& name, bool& value, const std::string& help);
-    /// An option with a value, such as "-o,--output"; the default shown in the help is the value it has now.
-    /// Numbers that do not parse, and values outside [lowest, highest], are rejected with the option's name.
+    /// Adds an option with a value, such as "-o,--output"; the default shown in the help is the value it has
+    /// now. Numbers that do not parse, and values outside [lowest, highest], are rejected with the option's
+    /// name.
     void option(const std::string& name, std::string& value, const std::string& help);
-    /// An option with a text that must be given.
+    /// Adds an option with a text that must be given.
     void required_option(const std::string& name, std::string& value, const std::string& help);
-    /// An option that names a file to write: run_program rejects one that cannot be written before the work.
+    /// Adds an option that names a file to write: run_program rejects one that cannot be written before the
+    /// work.
     void output_option(const std::string& name, std::string& value, const std::string& help);
-    /// An output_option() that must be given.
+    /// Adds an output_option() that must be given.
     void required_output_option(const std::string& name, std::string& value, const std::string& help);
     void option(const std::string& name, double& value, const std::string& help, double lowest,
                 double highest);
@@ -45,10 +47,10 @@ class Arguments {
     void option(const std::string& name, std::optional<double>& value, const std::string& help, double lowest,
                 double highest);
     void option(const std::string& name, std::uint64_t& value, const std::string& help);
-    /// An option whose value is one of the given words.
+    /// Adds an option whose value is one of the given words.
     void choice(const std::string& name, std::string& value, const std::vector<std::string>& words,
                 const std::string& help);
-    /// A text under the options in --help: examples, the meaning of the output.
+    /// Sets the text under the options in --help: examples, the meaning of the output.
     void footer(const std::string& text);
     /// Returns whether the user gave the option.
     [[nodiscard]] bool given(const std::string& name) const;

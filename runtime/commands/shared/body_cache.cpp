@@ -27,7 +27,7 @@ std::string environment(const char* variable) {
     return value == nullptr ? "" : value;
 }
 
-/// Empty: none.
+/// Returns the folder that the environment names; empty where there is none.
 std::filesystem::path chosen_folder() {
     const std::string chosen = environment("SAMARA_CACHE");
     if (chosen == "off") return {};
@@ -53,7 +53,7 @@ bool is_ready(const std::filesystem::path& folder) {
     return is_own(folder, S_IFDIR, S_IRWXG | S_IRWXO) && ::access(folder.c_str(), W_OK | X_OK) == 0;
 }
 
-/// Nothing where it is not there or does not hold what it should.
+/// Reads a kept body; nothing where there is none or it is damaged.
 std::optional<Body> read_entry(const std::filesystem::path& entry) {
     if (!is_own(entry, S_IFREG, S_IWGRP | S_IWOTH)) return std::nullopt;
     try {

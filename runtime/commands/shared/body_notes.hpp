@@ -10,7 +10,7 @@ namespace samara {
 /// Notes about the bodies of a scene, on standard error: those of one type appear once, in one line.
 class BodyNotes {
   public:
-    /// `program`: the name before each line, as "samara simulate".
+    /// Collects notes of `program`, the name before each line, as "samara simulate".
     explicit BodyNotes(std::string program);
 
     /// Adds a body's note, unless its text is empty. Of the notes of one type, that with the highest severity

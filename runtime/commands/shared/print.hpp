@@ -46,7 +46,7 @@ void print_note(fmt::format_string<Values...> format, Values&&... values) {
 /// takes less than a second.
 class Progress {
   public:
-    /// `what`: the work, as in "baking"; `unit`: what is counted, as in "cases".
+    /// Starts the clock. `what`: the work, as in "baking"; `unit`: what is counted, as in "cases".
     Progress(const std::string& what, std::string unit);
     /// Clears a terminal's line.
     ~Progress();

@@ -43,7 +43,8 @@ Eigen::Index largest_unused(const Vector& values, const std::vector<bool>& used)
     return best;
 }
 
-/// QR of both factors and the singular values of the small product in between.
+/// Cuts a product to the rank that the tolerance takes, by QR of both factors and the singular values of the
+/// small product in between.
 LowRank cut(const Cross& cross, double tolerance) {
     const Eigen::Index rank = cross.rank;
     const Eigen::HouseholderQR<Matrix> left(cross.left.leftCols(rank));
@@ -88,7 +89,7 @@ class Residual {
         return values - cross.right.leftCols(cross.rank) * cross.left.row(i).head(cross.rank).transpose();
     }
 
-    /// V is symmetric: a column is a row.
+    /// Returns a column of the remainder. V is symmetric: a column is a row.
     [[nodiscard]] Vector column(const Cross& cross, Eigen::Index j) const {
         Vector values(static_cast<Eigen::Index>(rows_.size()));
         entries_.fill_row(columns_.begin + static_cast<std::size_t>(j), rows_.begin, rows_.end,

@@ -34,7 +34,7 @@ std::vector<std::vector<Corner>> corners_of_nodes(const LinearElements& elements
     return result;
 }
 
-/// W p = sum over triangles of curl v_i . V curl p for six columns, V compressed.
+/// Returns W p = sum over triangles of curl v_i . V curl p for six columns, V compressed.
 SixColumns hypersingular_times(const LinearElements& elements, const CompressedMatrix& single_layer,
                                const SixColumns& columns, int threads) {
     CurlColumns curls(at(elements.triangle_count()), 18);
@@ -73,7 +73,7 @@ Eigen::Matrix<double, Eigen::Dynamic, 3> normals_of(const LinearElements& elemen
     return normals;
 }
 
-/// <n_k, v_i>, a row each node.
+/// Returns <n_k, v_i>, a row each node.
 Eigen::Matrix<double, Eigen::Dynamic, 3> normal_loads(const LinearElements& elements) {
     Eigen::Matrix<double, Eigen::Dynamic, 3> loads =
         Eigen::Matrix<double, Eigen::Dynamic, 3>::Zero(at(elements.node_count()), 3);
@@ -94,7 +94,7 @@ Eigen::Matrix<double, Eigen::Dynamic, 3> coordinates_of(const LinearElements& el
     return coordinates;
 }
 
-/// <g_a, S g_b> from the rotations' loads and from V for the translations.
+/// Returns <g_a, S g_b> from the rotations' loads and from V for the translations.
 Matrix6d single_layer_energies(const RotationLoads& rotations, const Matrix3d& translations) {
     Matrix6d energies;
     energies.topRows<3>() = rotations.energies;
@@ -158,7 +158,7 @@ DenseEquations dense_equations(const LinearElements& elements, const BoundaryEle
     return equations;
 }
 
-/// W^-1 of the right-hand sides; the equations' matrix is used up.
+/// Returns W^-1 of the right-hand sides; the equations' matrix is overwritten.
 SixColumns solved(DenseEquations& equations) {
     const Eigen::LLT<Eigen::Ref<RowMatrix>> factors(equations.hypersingular);
     if (factors.info() != Eigen::Success) throw Error(unsolvable);
@@ -176,7 +176,7 @@ BoundaryElementResult solve_dense(const LinearElements& elements, const Boundary
     return result;
 }
 
-/// <n_k, S n_l> by the compressed matrix.
+/// Returns <n_k, S n_l> by the compressed matrix.
 Matrix3d translation_energies(const LinearElements& elements, const CompressedMatrix& single_layer,
                               int threads) {
     const auto normals = normals_of(elements);

@@ -27,8 +27,8 @@ struct HypersingularOptions {
     double tolerance = 1e-6;    ///< energy that the iteration may leave, relative to the tensor's entry
 };
 
-/// The Kirchhoff tensor by linear Galerkin elements for the hypersingular equation W phi = -(1/2 + D') g on
-/// flat triangles (docs/theory-kirchhoff), in the form
+/// Computes the Kirchhoff tensor by linear Galerkin elements for the hypersingular equation W phi = -(1/2 +
+/// D') g on flat triangles (docs/theory-kirchhoff), in the form
 ///   K_ab = <g_a, S g_b> + b_a^T W^-1 b_b,    b_a[i] = <(1/2 + D') g_a, v_i>,
 /// a sum of two positive semidefinite forms however thin the body is. It converges from below where the
 /// surface is kept and the triangles shrink.

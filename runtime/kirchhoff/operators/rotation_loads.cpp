@@ -101,7 +101,7 @@ RowLoads row_loads(const LinearElements& elements, const RotationSourceSets& sou
     return row;
 }
 
-/// <g_a, v_k> on one triangle, a row each corner: g is linear too.
+/// Returns <g_a, v_k> on one triangle, a row each corner: g is linear too.
 Matrix3d own_loads(const FlatTriangle& triangle) {
     Matrix3d at_corners;
     for (std::size_t k = 0; k < 3; ++k) {

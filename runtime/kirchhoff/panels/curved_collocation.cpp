@@ -144,7 +144,8 @@ class GroupAssembly {
         rows_[static_cast<std::size_t>(column) * group_size + i] += static_cast<float>(value);
     }
 
-    /// (1/2 - D) 1 = 1 holds on every closed surface: it sets the diagonal, whatever the angle at the node.
+    /// Sets the diagonal so that (1/2 - D) 1 = 1, which holds on every closed surface, whatever the angle at
+    /// the node.
     void close_rows() {
         const std::array<double, group_size> sums = row_sums(rows_, equations_.count);
         for (std::size_t i = 0; i < last_ - first_; ++i) {
@@ -268,7 +269,7 @@ constexpr int iterations_without_inverse = 8;
 constexpr std::size_t panels_a_piece = 64;
 constexpr double open_surface = 0.02;  // closure error
 
-/// -integral of f_a N for the node function of every node, N = (x cross n, n).
+/// Returns -integral of f_a N for the node function of every node, N = (x cross n, n).
 SixColumns normal_moments(const CurvedPanels& panels, int threads) {
     const TriangleRule rule = triangle_rule(6);  // of the polynomials' own degree
     std::vector<Matrix6d> parts(panels.panels.size());
@@ -321,8 +322,9 @@ double solver_tolerance(const CurvedPanels& panels) {
     return std::clamp(1.0 / (count * count), 1e-9, 1e-5);
 }
 
-/// Without a preconditioner where that converges soon, as it does on all but thin bodies. The thinner the
-/// body, the more entries count: what is left out of the inverse must be small against its least modes.
+/// Solves the equations, without a preconditioner where that converges soon, as it does on all but thin
+/// bodies. The thinner the body, the more entries count: what is left out of the inverse must be small
+/// against its least modes.
 BlockSolution solve(const CurvedPanels& panels, const CurvedEquations& equations, double thickness,
                     int threads) {
     const auto times_matrix = [&](const SixColumns& columns) { return equations.multiply(columns, threads); };

@@ -30,7 +30,7 @@ std::uint32_t morton_code(const Vector3d& share_of_box) {
     return code;
 }
 
-/// New numbers of the vertices along the curve; -1 for those without a triangle.
+/// Returns new numbers of the vertices along the curve; -1 for those without a triangle.
 std::vector<std::int32_t> renumbered(const Surface& surface, std::vector<Vector3d>& nodes) {
     std::vector<char> used(surface.vertices.size(), 0);
     Eigen::AlignedBox3d box;
@@ -70,8 +70,8 @@ CurvedPanel make_panel(const std::array<std::int32_t, 6>& numbers, const std::ve
     return panel;
 }
 
-/// The area normal must not vanish: else two nodes are at one place, or an edge node far from its edge's
-/// middle.
+/// Throws Error where the area normal vanishes: then two nodes are at one place, or an edge node far from its
+/// edge's middle.
 void require_regular(const CurvedPanel& panel, std::size_t triangle) {
     const double least_area = 1e-12 * panel.radius * panel.radius;
     for (const auto& [p, q] : node_coordinates) {

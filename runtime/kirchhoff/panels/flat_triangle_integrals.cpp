@@ -119,8 +119,8 @@ HWY_INLINE Lanes acute_angle(Lanes y, Lanes x) {
     return hn::Atan(tag, hn::Div(y, hn::Max(x, hn::Set(tag, tiny))));
 }
 
-/// The sum over the triangle's edges of direction . outward times the integral of r - h log(r + h), for
-/// points at the height h above its plane; terms that cancel around the triangle are left out.
+/// Computes the sum over the triangle's edges of direction . outward times the integral of r - h log(r + h),
+/// for points at the height h above its plane; terms that cancel around the triangle are left out.
 void contour_potential_lanes(const FlatTriangle& triangle, const Vector3d& direction, double height,
                              const PointBatch& points, ValueBatch& result) {
     const Tag tag;

@@ -27,7 +27,8 @@ struct LinearElements {
     [[nodiscard]] std::size_t node(std::size_t triangle, std::size_t corner) const {
         return static_cast<std::size_t>(corners[triangle][corner]);
     }
-    /// n x grad of the function that is 1 at the corner and 0 at the others: constant on the triangle.
+    /// Returns n x grad of the function that is 1 at the corner and 0 at the others: constant on the
+    /// triangle.
     [[nodiscard]] Vector3d curl(std::size_t triangle, std::size_t corner) const {
         const FlatTriangle& flat = triangles[triangle];
         const std::size_t opposite = (corner + 1) % 3;

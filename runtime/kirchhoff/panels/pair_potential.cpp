@@ -124,7 +124,7 @@ Edge edge_of(const FlatTriangle& triangle, std::size_t e) {
     return {triangle.corners[e], triangle.tangents[e], triangle.lengths[e]};
 }
 
-/// Half of the homogeneous formula: the edges of `first` in the potential of `second`.
+/// Returns half of the homogeneous formula: the edges of `first` in the potential of `second`.
 double edges_in_potential(const FlatTriangle& first, const FlatTriangle& second, const Vector3d& origin) {
     double sum = 0.0;
     for (std::size_t e = 0; e < 3; ++e) {

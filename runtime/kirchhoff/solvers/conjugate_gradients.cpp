@@ -19,7 +19,7 @@ Vector6d products(const SixColumns& a, const SixColumns& b) {
     return a.cwiseProduct(b).colwise().sum().transpose();
 }
 
-/// a / b; 0 where b is 0, which is so for columns of zeros alone.
+/// Returns a / b; 0 where b is 0, which is so for columns of zeros alone.
 Vector6d ratios(const Vector6d& a, const Vector6d& b) {
     return (b.array() != 0.0).select(a.cwiseQuotient(b), Vector6d::Zero());
 }
@@ -75,7 +75,7 @@ std::vector<std::size_t> triangles_at(const NodeTriangles& triangles, const std:
     return result;
 }
 
-/// V of some triangles, in ascending order.
+/// Returns V of some triangles, in ascending order.
 Eigen::MatrixXd local_single_layer(const SingleLayerEntries& entries,
                                    const std::vector<std::size_t>& triangles) {
     Eigen::MatrixXd matrix(at(triangles.size()), at(triangles.size()));

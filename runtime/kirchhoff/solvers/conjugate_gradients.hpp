@@ -33,14 +33,15 @@ std::optional<SolutionEnergies> conjugate_gradients(
 /// hardly resists.
 class SchwarzPreconditioner {
   public:
-    /// Clusters of up to `cluster_size` triangles. The result does not depend on `threads` (0: all cores).
+    /// Factorises the matrix on clusters of up to `cluster_size` triangles. The result does not depend on
+    /// `threads` (0: all cores).
     SchwarzPreconditioner(const LinearElements& elements, const SingleLayerEntries& entries,
                           std::size_t cluster_size, int threads);
 
     /// Returns the sum of the clusters' solutions for the residuals.
     [[nodiscard]] SixColumns apply(const SixColumns& residuals, int threads) const;
 
-    /// Bytes that the inverses take.
+    /// Returns the bytes that the inverses take.
     [[nodiscard]] std::size_t memory() const;
 
   private:

@@ -21,7 +21,7 @@ namespace {
 /// The points of a curved surface that are near given ones.
 class SurfaceProjection {
   public:
-    /// `surface`: of order 2, and outlives this.
+    /// Prepares a surface of order 2, which must outlive this.
     explicit SurfaceProjection(const Surface& surface);
 
     /// Returns a point of the curved triangles near `point`, where their normals point along `direction`;
@@ -87,8 +87,8 @@ Vector3d SurfaceProjection::near_point(const Vector3d& point, const Vector3d& di
     return best;
 }
 
-/// The point of the curved triangle over the point of the flat one that is nearest; outside it, as far as its
-/// edge, since a neighbour has the nearer point.
+/// Returns the point of the curved triangle over the point of the flat one that is nearest; outside it, as
+/// far as its edge, since a neighbour has the nearer point.
 Vector3d SurfaceProjection::on_triangle(std::size_t triangle, const Vector3d& point) const {
     const auto& [a, b, c] = surface_.corners[triangle];
     const Vector3d& origin = surface_.vertices[as_index(a)];

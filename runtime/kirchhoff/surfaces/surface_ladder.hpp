@@ -15,7 +15,7 @@ namespace samara {
 /// each triangle in four on the same curved surface.
 class SurfaceLadder {
   public:
-    /// A surface of order 1 is rebuilt first. It must be closed, with its vertices merged.
+    /// Makes rung 0 of a closed surface with merged vertices; one of order 1 is rebuilt.
     explicit SurfaceLadder(const Surface& surface, int threads = 0);
 
     [[nodiscard]] const CreasedSurface& base() const { return rungs_.at(0); }
