@@ -254,9 +254,9 @@ class Solver {
         return result;
     }
 
-    /// Returns the tensor with its negative eigenvalues removed. No motion has negative kinetic energy: where
-    /// extrapolation and quadrature say so of one that moves no fluid, as a disc's about its axis, it is
-    /// nothing. `share`: of the largest, by how much they may.
+    /// Returns the nearest semidefinite tensor. No motion has negative kinetic energy: extrapolation and
+    /// quadrature may give one to a motion that moves no fluid, as a disc's about its axis. The tensor is
+    /// returned as it is where an energy is below -`share` times the largest.
     [[nodiscard]] Matrix6d with_positive_energy(const Matrix6d& tensor, double share) const {
         Vector6d lengths;
         lengths << Vector3d::Constant(length_), Vector3d::Ones();
