@@ -13,7 +13,6 @@
 #include "samara/core/base/error.hpp"
 #include "samara/core/body/body_file.hpp"
 #include "samara/formats/json_text.hpp"
-#include "samara/formats/left_out_cases.hpp"
 
 namespace samara {
 namespace {

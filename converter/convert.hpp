@@ -7,8 +7,8 @@
 
 #include "converter/cases/case_reduction.hpp"
 #include "converter/falls/fall_identification.hpp"
+#include "samara/analysis/verdicts/case_records.hpp"
 #include "samara/core/body/body.hpp"
-#include "samara/formats/left_out_cases.hpp"
 
 namespace samara {
 

@@ -17,11 +17,10 @@
 #include "converter/falls/identification_report.hpp"
 #include "samara/commands/shared/arguments.hpp"
 #include "samara/commands/shared/print.hpp"
-#include "samara/commands/shared/progress.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/body/body_file.hpp"
 #include "samara/core/files/replace_file.hpp"
-#include "samara/formats/vector_json.hpp"
+#include "samara/formats/json_text.hpp"
 
 namespace samara {
 namespace {

@@ -14,7 +14,6 @@
 #include "converter/falls/motion_parameters.hpp"
 #include "samara/commands/shared/arguments.hpp"
 #include "samara/commands/shared/print.hpp"
-#include "samara/commands/shared/progress.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/body/body_file.hpp"
 

@@ -11,7 +11,7 @@
 #include "samara/commands/shared/print.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/body/body_file.hpp"
-#include "samara/formats/vector_json.hpp"
+#include "samara/formats/json_text.hpp"
 
 namespace samara {
 namespace {

@@ -12,7 +12,6 @@
 #include "converter/wind/vdb_wind.hpp"
 #include "samara/commands/shared/arguments.hpp"
 #include "samara/commands/shared/print.hpp"
-#include "samara/commands/shared/progress.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/wind/wind_file.hpp"
 

@@ -13,7 +13,6 @@
 #include "foam-cases/farm/cluster_jobs.hpp"
 #include "samara/analysis/metrics/description.hpp"
 #include "samara/commands/shared/arguments.hpp"
-#include "samara/commands/shared/motion_output.hpp"
 #include "samara/commands/shared/print.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/files/replace_file.hpp"

@@ -9,11 +9,10 @@
 
 #include "meshes/make_body.hpp"
 #include "meshes/symmetry/symmetry.hpp"
-#include "samara/analysis/advice/unit_warnings.hpp"
+#include "samara/analysis/advice/input_warnings.hpp"
 #include "samara/commands/shared/arguments.hpp"
 #include "samara/commands/shared/body_notes.hpp"
 #include "samara/commands/shared/print.hpp"
-#include "samara/commands/shared/progress.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/body/body_file.hpp"
 

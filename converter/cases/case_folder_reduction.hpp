@@ -8,8 +8,8 @@
 
 #include "converter/cases/case_plan.hpp"
 #include "converter/cases/case_reduction.hpp"
+#include "samara/analysis/verdicts/case_records.hpp"
 #include "samara/core/body/body.hpp"
-#include "samara/formats/left_out_cases.hpp"
 
 namespace samara {
 

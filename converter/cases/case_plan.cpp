@@ -15,7 +15,6 @@
 #include "samara/core/body/body_file.hpp"
 #include "samara/core/files/content_hash.hpp"
 #include "samara/formats/json_text.hpp"
-#include "samara/formats/vector_json.hpp"
 
 namespace samara {
 namespace {

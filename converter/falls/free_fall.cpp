@@ -6,7 +6,6 @@
 #include "samara/core/base/error.hpp"
 #include "samara/core/files/content_hash.hpp"
 #include "samara/formats/json_text.hpp"
-#include "samara/formats/vector_json.hpp"
 
 namespace samara {
 namespace {

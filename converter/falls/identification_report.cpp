@@ -5,7 +5,7 @@
 
 #include "samara/analysis/metrics/description.hpp"
 #include "samara/core/base/angles.hpp"
-#include "samara/formats/vector_json.hpp"
+#include "samara/formats/json_text.hpp"
 
 namespace samara {
 namespace {

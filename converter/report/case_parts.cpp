@@ -23,8 +23,8 @@
 #include "samara/core/files/temporary_folder.hpp"
 #include "samara/formats/json_text.hpp"
 #include "samara/motion/motion_file.hpp"
-#include "samara/pictures/comparison_picture.hpp"
-#include "samara/reports/words.hpp"
+#include "samara/pictures/motion_pictures.hpp"
+#include "samara/reports/report_blocks.hpp"
 
 namespace samara {
 namespace {

@@ -20,7 +20,6 @@
 #include "foam-cases/farm/guarded_process.hpp"
 #include "foam-cases/scene/scene_plan_report.hpp"
 #include "samara/commands/shared/print.hpp"
-#include "samara/commands/shared/progress.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/body/body_file.hpp"
 #include "samara/core/files/replace_file.hpp"

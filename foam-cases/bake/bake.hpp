@@ -11,7 +11,7 @@
 #include "foam-cases/farm/case_farm.hpp"
 #include "foam-cases/farm/cpu_account.hpp"
 #include "foam-cases/scene/scene_plan.hpp"
-#include "samara/formats/left_out_cases.hpp"
+#include "samara/analysis/verdicts/case_records.hpp"
 #include "samara/scene/scene.hpp"
 
 namespace samara {

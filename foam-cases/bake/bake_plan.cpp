@@ -14,7 +14,7 @@
 #include "foam-cases/falls/fall_plan.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/surface/octahedral_map.hpp"
-#include "samara/formats/vector_json.hpp"
+#include "samara/formats/json_text.hpp"
 #include "samara/scene/terminal_speed.hpp"
 
 namespace samara {

@@ -12,11 +12,10 @@
 #include "foam-cases/farm/case_record.hpp"
 #include "foam-cases/farm/disk_need.hpp"
 #include "foam-cases/scene/scene_plan_report.hpp"
-#include "samara/analysis/advice/unit_warnings.hpp"
+#include "samara/analysis/advice/input_warnings.hpp"
 #include "samara/commands/shared/print.hpp"
 #include "samara/core/body/body_file.hpp"
 #include "samara/formats/json_text.hpp"
-#include "samara/formats/vector_json.hpp"
 
 namespace samara {
 namespace {

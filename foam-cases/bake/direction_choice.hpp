@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "samara/analysis/metrics/flow_visits.hpp"
+#include "samara/analysis/metrics/sampled_falls.hpp"
 #include "samara/core/body/body.hpp"
 #include "samara/core/body/planned_region.hpp"
 

@@ -22,7 +22,6 @@
 #include "samara/core/simulation/world_pose.hpp"
 #include "samara/formats/json_text.hpp"
 #include "samara/motion/motion_file.hpp"
-#include "samara/scene/scene_settings.hpp"
 #include "samara/scene/scene_simulation.hpp"
 
 namespace samara {

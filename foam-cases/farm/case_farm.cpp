@@ -19,7 +19,7 @@
 #include "foam-cases/farm/cluster_jobs.hpp"
 #include "foam-cases/farm/disk_need.hpp"
 #include "foam-cases/farm/guarded_process.hpp"
-#include "samara/commands/shared/progress.hpp"
+#include "samara/commands/shared/print.hpp"
 #include "samara/commands/shared/subprocess.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/files/content_hash.hpp"

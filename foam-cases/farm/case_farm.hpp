@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "foam-cases/bake/bake_plan.hpp"
-#include "samara/formats/left_out_cases.hpp"
+#include "samara/analysis/verdicts/case_records.hpp"
 
 namespace samara {
 

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "converter/tables/direction_sampling.hpp"
-#include "samara/formats/vector_json.hpp"
+#include "samara/formats/json_text.hpp"
 
 namespace samara {
 namespace {

@@ -24,7 +24,6 @@
 #include "samara/core/surface/obj_file.hpp"
 #include "samara/core/surface/stl_file.hpp"
 #include "samara/formats/display_mesh_file.hpp"
-#include "samara/formats/glb_file.hpp"
 
 namespace samara {
 namespace {

@@ -18,14 +18,14 @@
 #include "samara/core/files/content_hash.hpp"
 #include "samara/core/files/hdf5_reader.hpp"
 #include "samara/core/files/replace_file.hpp"
-#include "samara/formats/vector_json.hpp"
+#include "samara/formats/json_text.hpp"
 #include "samara/scene/ready_bodies.hpp"
 
 namespace samara {
 namespace {
 
 constexpr const char* footer =
-    R"(A scene flies one with shape = "samara:NAME"; its tables hold around the Reynolds
+    R"(A scene uses one with shape = "samara:NAME"; its tables hold around the Reynolds
 numbers listed, in any fluid. Force: the tables' standard error over the force, root
 mean square over all directions.
 
@@ -41,7 +41,7 @@ With NAME that body alone; with -o also output.
 Examples: samara bodies
           samara bodies leaf -o leaf.body.h5)";
 
-/// The shape file's name at the begin of a body's source.
+/// Returns the shape file's name at the begin of a body's source.
 std::string shape_of(const Body& body) {
     return body.source.substr(0, body.source.find(' '));
 }

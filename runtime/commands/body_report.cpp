@@ -2,24 +2,63 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
+#include <set>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "samara/analysis/advice/density_warning.hpp"
-#include "samara/commands/provenance_summary.hpp"
+#include "samara/analysis/advice/input_warnings.hpp"
+#include "samara/analysis/verdicts/case_records.hpp"
 #include "samara/commands/shared/print.hpp"
 #include "samara/commands/table_errors_report.hpp"
 #include "samara/core/base/symmetric_matrix.hpp"
 #include "samara/core/body/principal_extents.hpp"
 #include "samara/formats/json_text.hpp"
-#include "samara/formats/left_out_cases.hpp"
-#include "samara/formats/vector_json.hpp"
 
 namespace samara {
 namespace {
+
+/// Summary of the provenance of a table's cases.
+struct ProvenanceSummary {
+    std::size_t cases = 0;
+    /// Each key of the cases, with its one value, its range, or how many values it takes.
+    std::vector<std::pair<std::string, std::string>> keys;
+};
+
+using Values = std::vector<nlohmann::json>;
+
+std::string values_in_words(const nlohmann::json& value) {
+    return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+std::string values_in_words(const Values& values) {
+    const std::set<nlohmann::json> distinct(values.begin(), values.end());
+    if (distinct.size() == 1) return values_in_words(values.front());
+    const bool numbers = std::all_of(values.begin(), values.end(),
+                                     [](const nlohmann::json& value) { return value.is_number(); });
+    if (!numbers) return fmt::format("{} different", distinct.size());
+    return fmt::format("{:.6g} to {:.6g}", distinct.begin()->get<double>(), distinct.rbegin()->get<double>());
+}
+
+/// Summarises a JSON array with one object a case. A text that is no such array gives no cases.
+ProvenanceSummary summarise_provenance(std::string_view json) {
+    const nlohmann::json cases = parse_json_or_discard(json);
+    ProvenanceSummary summary;
+    if (!cases.is_array()) return summary;
+    std::map<std::string, Values> values;
+    for (const nlohmann::json& one : cases) {
+        if (!one.is_object()) return {};
+        for (const auto& [key, value] : one.items()) values[key].push_back(value);
+    }
+    summary.cases = cases.size();
+    for (const auto& [key, list] : values) summary.keys.emplace_back(key, values_in_words(list));
+    return summary;
+}
 
 template <typename... Values>
 void print_row(const char* name, fmt::format_string<Values...> format, Values&&... values) {
@@ -75,7 +114,8 @@ std::vector<TableRange> ranges_of(const LoadTables& tables) {
     };
 }
 
-/// Nodes of the octahedral map that are different directions: an octahedron cut into n has 4 n^2 + 2.
+/// Returns the number of different directions of an octahedral map's nodes: an octahedron cut into n has 4
+/// n^2 + 2.
 int direction_count(const LoadTables& tables) {
     return 4 * tables.subdivisions * tables.subdivisions + 2;
 }
@@ -89,9 +129,9 @@ void print_kirchhoff(const KirchhoffTensor& kirchhoff) {
     print_row("method", "{}, {} triangles", kirchhoff.method, kirchhoff.triangles);
 }
 
-constexpr int print_subdivisions = 8;  // of directions to look for the largest in
+constexpr int print_subdivisions = 8;  // of the grid of directions on which the largest value is sought
 
-/// The largest force and moment of a steady translation by pressure (rho U^2 A / 2, and times L).
+/// Returns the largest force and moment of a steady translation by pressure (rho U^2 A / 2, and times L).
 PressureLoads largest_of(const SurfaceLoads& loads) {
     PressureLoads largest;
     for (const PressureLoads& load : pressure_loads(loads, print_subdivisions)) {

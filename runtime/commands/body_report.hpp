@@ -6,13 +6,14 @@
 
 namespace samara {
 
-/// What a body weighs where nobody says otherwise, for people, on standard output. It has a mass.
+/// Prints the mass of a body's file, which scenes use by default, on standard output. The body must have a
+/// mass.
 void print_mass(const Body& body);
 
-/// What a body holds, for people, on standard output.
+/// Prints a description of a body on standard output.
 void print_body(const Body& body);
 
-/// The same as JSON: SI units, relative errors as fractions.
+/// Returns a description of a body as JSON: SI units, relative errors as fractions.
 nlohmann::json body_as_json(const Body& body);
 
 }  // namespace samara

@@ -18,7 +18,7 @@
 namespace samara {
 namespace {
 
-/// A shape is meshed, by samara-mesh, which reads it in a process of its own.
+/// Checks a file. A shape is checked by meshing: samara-mesh reads it in a process of its own.
 CheckedFile check(const std::string& file) {
     if (is_hdf5(file)) return check_file(file);
     (void)load_body(file, 1.0);
@@ -46,7 +46,7 @@ int check_command(int argc, const char* const* argv) {
         "--add-digest", seal,
         "write a digest of the content behind it, where a body, motion or wind file is sound and has none");
     arguments.footer(
-        "Exit status 0: the file is sound. 1: it is refused, or its reader crashed, took too long or too "
+        "Exit status 0: the file is sound. 1: it is rejected, or its reader crashed, took too long or too "
         "much\n"
         "memory. JSON: kind (body, motion, wind or surface), digest (whether the file carries one, which is "
         "right).");

@@ -2,39 +2,39 @@
 
 namespace samara {
 
-// Each is one command of the program samara: argv[0] is the command's name. Returns the exit status.
+// Each function is one command of the program samara: argv[0] is the command's name. Returns the exit status.
 
-/// samara kirchhoff: the added mass of a body or shape.
+/// Runs samara kirchhoff: the added mass of a body or shape.
 int kirchhoff_command(int argc, const char* const* argv);
 
-/// samara mass: what a body weighs where a scene does not say.
+/// Runs samara mass: the mass of a body where a scene gives none.
 int mass_command(int argc, const char* const* argv);
 
-/// samara simulate: a scene's motion.
+/// Runs samara simulate: a scene's motion.
 int simulate_command(int argc, const char* const* argv);
 
-/// samara search: the seeds with which a body comes to a target.
+/// Runs samara search: the seeds with which a body reaches a target.
 int search_command(int argc, const char* const* argv);
 
-/// samara bodies: the ready-baked bodies.
+/// Runs samara bodies: the ready-baked bodies.
 int bodies_command(int argc, const char* const* argv);
 
-/// samara export: a motion for other tools.
+/// Runs samara export: a motion for other tools.
 int export_command(int argc, const char* const* argv);
 
-/// samara plot: a picture of a motion.
+/// Runs samara plot: a picture of a motion.
 int plot_command(int argc, const char* const* argv);
 
-/// samara compare: a motion held against a reference.
+/// Runs samara compare: a motion compared with a reference.
 int compare_command(int argc, const char* const* argv);
 
-/// samara info: what a file holds.
+/// Runs samara info: the content of a file.
 int info_command(int argc, const char* const* argv);
 
-/// samara report: a bake judged, as a page; without its cases, which samara-report reads.
+/// Runs samara report: the verdict on a bake, as a page; without its cases, which samara-report reads.
 int report_command(int argc, const char* const* argv);
 
-/// samara check: whether a file from elsewhere is sound.
+/// Runs samara check: whether a file from elsewhere is sound.
 int check_command(int argc, const char* const* argv);
 
 }  // namespace samara

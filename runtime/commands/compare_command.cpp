@@ -7,13 +7,12 @@
 
 #include "samara/analysis/comparison/comparison_report.hpp"
 #include "samara/commands/commands.hpp"
-#include "samara/commands/motion_choice.hpp"
+#include "samara/commands/option_values.hpp"
 #include "samara/commands/shared/arguments.hpp"
 #include "samara/commands/shared/print.hpp"
-#include "samara/commands/shared/progress.hpp"
 #include "samara/core/base/error.hpp"
-#include "samara/pictures/comparison_picture.hpp"
 #include "samara/pictures/draw.hpp"
+#include "samara/pictures/motion_pictures.hpp"
 
 namespace samara {
 namespace {
@@ -59,7 +58,7 @@ std::string names_in(const Motion& motion) {
     return names;
 }
 
-/// The name of the body that both files hold, or nothing where each holds one body.
+/// Returns the name of the body that both files hold, or nothing where each holds one body.
 std::string common_body(const Request& request, const Motion& motion, const Motion& reference) {
     if (!request.body.empty() || (motion.bodies.size() == 1 && reference.bodies.size() == 1)) {
         return request.body;

@@ -10,16 +10,13 @@
 #include <nlohmann/json.hpp>
 
 #include "samara/commands/commands.hpp"
-#include "samara/commands/motion_choice.hpp"
+#include "samara/commands/option_values.hpp"
 #include "samara/commands/shared/arguments.hpp"
 #include "samara/commands/shared/print.hpp"
-#include "samara/commands/shared/progress.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/export/chan_file.hpp"
 #include "samara/export/csv_file.hpp"
-#include "samara/export/fast_turn.hpp"
 #include "samara/export/gltf_file.hpp"
-#include "samara/export/loop.hpp"
 #include "samara/export/page_file.hpp"
 #include "samara/export/usd_file.hpp"
 #include "samara/motion/motion_file.hpp"
@@ -102,15 +99,16 @@ nlohmann::json write(const ExportOptions& options, const std::string& format, co
     return {{"meshes", motion.bodies.size()}, {"nodes", copies_in(motion)}, {"keys", keys}, {"run", run}};
 }
 
-/// Says where frames are too far apart for what turns between them.
-void note_fast_turns(const Motion& motion, int run) {
-    const FastTurn fastest = fastest_turn(motion, run);
-    if (!(fastest.turns > 0.5)) return;
+/// Notes where a body rotates too far between frames for programs that interpolate.
+void note_fast_rotation(const Motion& motion, int run) {
+    const FastRotation fastest = fastest_rotation(motion, run);
+    if (!(fastest.revolutions > 0.5)) return;
     print_note(
-        "samara export: note: '{}' turns by up to {:.2g} turns from frame to frame; above half a turn "
+        "samara export: note: '{}' rotates by up to {:.2g} revolutions from frame to frame; above half a "
+        "revolution "
         "programs "
-        "that interpolate show another turn: give --frame-rate {:.0f} or more\n",
-        fastest.body, fastest.turns, std::ceil(4.0 * fastest.turns * motion.frame_rate));
+        "that interpolate show another rotation: give --frame-rate {:.0f} or more\n",
+        fastest.body, fastest.revolutions, std::ceil(4.0 * fastest.revolutions * motion.frame_rate));
 }
 
 nlohmann::json export_motion(ExportOptions options) {
@@ -132,7 +130,7 @@ nlohmann::json export_motion(ExportOptions options) {
         motion = looped(motion, options.run.value_or(0), *options.loop);
         options.run.reset();
     }
-    if (format != ".csv") note_fast_turns(motion, options.run.value_or(0));
+    if (format != ".csv") note_fast_rotation(motion, options.run.value_or(0));
     nlohmann::json result = {{"output", options.output},
                              {"format", format.substr(1)},
                              {"frames", motion.frames()},
@@ -146,7 +144,7 @@ nlohmann::json export_motion(ExportOptions options) {
     return result;
 }
 
-/// "OUT: 3 nodes, 200 keys, 240 frames, 12345 bytes".
+/// Prints "OUT: 3 nodes, 200 keys, 240 frames, 12345 bytes".
 void print_summary(const nlohmann::json& result) {
     std::string counts;
     constexpr std::array<std::array<const char*, 2>, 6> words = {{{"rows", "row"},

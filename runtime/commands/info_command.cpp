@@ -1,29 +1,80 @@
 // samara info: what a file holds, its units and its provenance.
-
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "samara/analysis/metrics/description.hpp"
 #include "samara/commands/body_report.hpp"
 #include "samara/commands/commands.hpp"
+#include "samara/commands/option_values.hpp"
 #include "samara/commands/shared/arguments.hpp"
 #include "samara/commands/shared/print.hpp"
-#include "samara/commands/shared/progress.hpp"
-#include "samara/commands/table_lookup_report.hpp"
-#include "samara/commands/vector_words.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/body/body_file.hpp"
+#include "samara/core/body/load_tables.hpp"
 #include "samara/core/files/hdf5_reader.hpp"
 #include "samara/core/wind/wind_file.hpp"
-#include "samara/formats/vector_json.hpp"
+#include "samara/formats/json_text.hpp"
 #include "samara/motion/motion_file.hpp"
 
 namespace samara {
 namespace {
+
+double drag(const LoadEntry& entry, const Vector3d& direction) {
+    return -entry.force.dot(direction);
+}
+
+double drag_error(const LoadEntryError& error, const Vector3d& direction) {
+    return error.force.cwiseProduct(direction).norm();
+}
+
+void print_vector(const char* name, const Vector3d& value, const Vector3d& error) {
+    print_result("  {:<18}({:.4f}, {:.4f}, {:.4f}) +- ({:.4f}, {:.4f}, {:.4f})\n", name, value.x(), value.y(),
+                 value.z(), error.x(), error.y(), error.z());
+}
+
+/// Prints the tables' entry with its standard errors, on standard output, for a body that moves along the
+/// unit direction (shape axes) at the Reynolds number.
+void print_lookup(const LoadTables& tables, const Vector3d& direction, double reynolds_number) {
+    const LoadEntry entry = look_up(tables, direction, reynolds_number);
+    const LoadEntryError error = look_up_error(tables, direction, reynolds_number);
+    print_result("moving along ({:.4f}, {:.4f}, {:.4f}) in shape axes at Reynolds number {:.6g}\n",
+                 direction.x(), direction.y(), direction.z(), reynolds_number);
+    print_result("  {:<18}{:.4f} +- {:.4f}\n", "drag coefficient", drag(entry, direction),
+                 drag_error(error, direction));
+    print_vector("force", entry.force, error.force);
+    print_vector("moment", entry.moment, error.moment);
+    print_result("  {:<18}{:.5f} +- {:.5f}\n", "k/U^2", entry.turbulent_kinetic_energy,
+                 error.turbulent_kinetic_energy);
+    print_result("  {:<18}{:.5f} +- {:.5f}\n", "epsilon L/U^3", entry.dissipation_rate,
+                 error.dissipation_rate);
+    print_result("coefficients on A = pi L^2/4 and L = {:.6g} m, with standard errors\n",
+                 tables.reference_length);
+}
+
+/// Returns the tables' entry in a direction as JSON: drag_coefficient, force, moment,
+/// turbulent_kinetic_energy, dissipation_rate, each with its _error; on A = pi L^2/4 and L.
+nlohmann::json lookup_as_json(const LoadTables& tables, const Vector3d& direction, double reynolds_number) {
+    const LoadEntry entry = look_up(tables, direction, reynolds_number);
+    const LoadEntryError error = look_up_error(tables, direction, reynolds_number);
+    return {{"direction", as_json(direction)},
+            {"reynolds_number", reynolds_number},
+            {"reference_length", tables.reference_length},
+            {"drag_coefficient", drag(entry, direction)},
+            {"drag_coefficient_error", drag_error(error, direction)},
+            {"force", as_json(entry.force)},
+            {"force_error", as_json(error.force)},
+            {"moment", as_json(entry.moment)},
+            {"moment_error", as_json(error.moment)},
+            {"turbulent_kinetic_energy", entry.turbulent_kinetic_energy},
+            {"turbulent_kinetic_energy_error", error.turbulent_kinetic_energy},
+            {"dissipation_rate", entry.dissipation_rate},
+            {"dissipation_rate_error", error.dissipation_rate}};
+}
 
 nlohmann::json report_body(const std::string& path, bool json) {
     const Body body = read_body_file(path);
@@ -83,7 +134,7 @@ Vector3d parse_direction(const std::string& text) {
         fmt::format("--direction: '{}' is no direction; give x,y,z in shape axes, such as 0,0,-1", text));
 }
 
-/// What the tables of a body say in one direction.
+/// Prints and returns the entry of a body's tables in one direction.
 nlohmann::json report_lookup(const std::string& path, const std::string& words, double reynolds_number,
                              bool json) {
     const Vector3d direction = parse_direction(words);
@@ -103,8 +154,9 @@ int info_command(int argc, const char* const* argv) {
     Arguments arguments("samara info",
                         "What a body, motion or wind file holds, its units and its provenance.");
     arguments.positional("FILE", file, "body file (.body.h5), motion file or wind file (.h5)");
-    arguments.option("--direction", direction,
-                     "x,y,z: instead, what a body's tables say where it moves that way (shape axes)");
+    arguments.option(
+        "--direction", direction,
+        "x,y,z: instead, the entry of a body's tables where it moves in this direction (shape axes)");
     arguments.option("--reynolds-number", reynolds_number, "U L/nu, with --direction; the tables' last", 1e-9,
                      1e12);
     arguments.footer(

@@ -8,25 +8,24 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "samara/analysis/advice/unit_warnings.hpp"
+#include "samara/analysis/advice/input_warnings.hpp"
 #include "samara/commands/commands.hpp"
+#include "samara/commands/option_values.hpp"
 #include "samara/commands/shared/arguments.hpp"
 #include "samara/commands/shared/body_notes.hpp"
 #include "samara/commands/shared/load_body.hpp"
 #include "samara/commands/shared/print.hpp"
-#include "samara/commands/shared/progress.hpp"
-#include "samara/commands/vector_words.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/base/labelled.hpp"
 #include "samara/core/body/body_file.hpp"
-#include "samara/formats/vector_json.hpp"
+#include "samara/formats/json_text.hpp"
 #include "samara/kirchhoff/kirchhoff_solver.hpp"
 #include "samara/kirchhoff/surface_flow.hpp"
 
 namespace samara {
 namespace {
 
-// What samara mesh takes by itself, and how this grows where a tolerance needs more.
+// The number of triangles of samara mesh by default, and its growth where a tolerance needs more.
 constexpr int first_triangles = 1280;
 constexpr int finer = 4;
 constexpr int most_triangles = 20480;
@@ -75,8 +74,8 @@ bool within_tolerance(const Body& body, const Request& request) {
     return request.tolerance == 0.0 || body.kirchhoff->error_estimate <= request.tolerance;
 }
 
-/// The body of the file with its tensor. Where the tolerance asks for more triangles than a shape was meshed
-/// with, and none were asked for, it is meshed again.
+/// Returns the body of the file with its tensor. Where the tolerance asks for more triangles than a shape was
+/// meshed with, and none were asked for, it is meshed again.
 Body solved_body(const Request& request) {
     const auto solved = [&](int triangles) {
         Body body = load_body(request.file, 1.0, triangles);

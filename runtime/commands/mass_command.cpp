@@ -8,8 +8,8 @@
 
 #include "samara/commands/body_report.hpp"
 #include "samara/commands/commands.hpp"
+#include "samara/commands/option_values.hpp"
 #include "samara/commands/shared/arguments.hpp"
-#include "samara/commands/vector_words.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/body/body_file.hpp"
 #include "samara/core/body/mass_check.hpp"

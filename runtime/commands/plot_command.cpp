@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "samara/commands/commands.hpp"
-#include "samara/commands/motion_choice.hpp"
+#include "samara/commands/option_values.hpp"
 #include "samara/commands/shared/arguments.hpp"
 #include "samara/commands/shared/print.hpp"
 #include "samara/core/base/error.hpp"
@@ -23,7 +23,7 @@ constexpr const char* footer =
 from the side (y, z), to scale and coloured by time; of a long fall the last stretch.
 Beside them descent speed, inclination (angle between the shortest principal axis and
 gravity) and angular velocity; shaded: the last two thirds of the fall, over which the
-title's figures are measured.
+title's metrics are measured.
 phase: how far the shortest axis leans from the vertical, seen in the plane in which it
 swings most and negative to one side, against its rate, coloured by time; both over time.
 landing: where all copies and runs come down, from above, with the mean and the circle
@@ -42,7 +42,7 @@ Examples: samara plot motion.h5 -o motion.png
 struct PlotOptions {
     std::string input;
     std::string output;
-    std::string kind = "strip";  // of a body file: polars, where no kind is given
+    std::string kind = "strip";  // by default; polars for a body file
     std::string body;
     int run = 0;
     int copy = 0;
@@ -52,8 +52,8 @@ bool is_body_kind(const std::string& kind) {
     return kind == "polars" || kind == "sphere" || kind == "convergence";
 }
 
-/// What is told of a picture beside its kind: of what it was given, and what it shows.
-nlohmann::json told_of(const nlohmann::json& picture) {
+/// Returns the members of a picture's data that the result of the command reports.
+nlohmann::json reported_of(const nlohmann::json& picture) {
     nlohmann::json result;
     for (const char* key : {"run",
                             "copy",
@@ -98,7 +98,7 @@ nlohmann::json picture_of(const PlotOptions& options, bool of_body) {
     return motion_picture(options.kind, motion, body, options.run, options.copy);
 }
 
-/// The kind of picture is of the kind of file; without --kind the file's first.
+/// Draws a picture that suits the type of the file; without --kind its first.
 nlohmann::json plot(PlotOptions options, const Arguments& arguments) {
     require_picture_format(options.output);
     const bool of_body = Hdf5Reader(options.input).has("/surface");
@@ -116,7 +116,7 @@ nlohmann::json plot(PlotOptions options, const Arguments& arguments) {
         }
     }
     const nlohmann::json picture = picture_of(options, of_body);
-    nlohmann::json result = told_of(picture);
+    nlohmann::json result = reported_of(picture);
     result.update(draw_picture(options.output, picture));
     result["output"] = options.output;
     result["kind"] = options.kind;

@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 #include "samara/commands/commands.hpp"
-#include "samara/commands/shared/guarded_program.hpp"
+#include "samara/commands/shared/arguments.hpp"
 #include "samara/commands/shared/print.hpp"
 #include "samara/commands/shared/subprocess.hpp"
 #include "samara/core/base/error.hpp"
@@ -54,7 +54,7 @@ bool is_installed(const Command& command) {
     return command.run != nullptr || samara::find_program(fmt::format("samara-{}", command.name)).has_value();
 }
 
-/// Of the commands that samara has itself, the baking tools have one that does more.
+/// Returns whether the baking tools hold a version of the command that does more.
 bool has_fuller_program(const Command& command) {
     return command.name == "report" && samara::find_program("samara-report").has_value();
 }
@@ -69,7 +69,7 @@ void print_help() {
     }
 }
 
-/// For a shell's completion.
+/// Prints the names of the commands for a shell's completion.
 void list_commands() {
     for (const Command& command : commands) {
         if (is_installed(command)) samara::print_result("{}\n", command.name);

@@ -12,10 +12,8 @@
 
 #include "samara/commands/commands.hpp"
 #include "samara/commands/shared/arguments.hpp"
-#include "samara/commands/shared/motion_output.hpp"
 #include "samara/commands/shared/prepared_scene.hpp"
 #include "samara/commands/shared/print.hpp"
-#include "samara/commands/shared/progress.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/motion/motion_writer.hpp"
 #include "samara/scene/scene_file.hpp"

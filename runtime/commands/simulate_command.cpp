@@ -12,21 +12,18 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "samara/analysis/advice/density_warning.hpp"
-#include "samara/analysis/advice/unit_warnings.hpp"
+#include "samara/analysis/advice/input_warnings.hpp"
 #include "samara/analysis/metrics/description.hpp"
 #include "samara/commands/commands.hpp"
 #include "samara/commands/shared/arguments.hpp"
 #include "samara/commands/shared/body_notes.hpp"
-#include "samara/commands/shared/motion_output.hpp"
 #include "samara/commands/shared/prepared_scene.hpp"
 #include "samara/commands/shared/print.hpp"
-#include "samara/commands/shared/progress.hpp"
 #include "samara/commands/table_errors_report.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/body/body_file.hpp"
 #include "samara/core/kernel/body_state.hpp"
-#include "samara/formats/vector_json.hpp"
+#include "samara/formats/json_text.hpp"
 #include "samara/motion/motion_file.hpp"
 #include "samara/motion/motion_writer.hpp"
 #include "samara/scene/run_needs.hpp"

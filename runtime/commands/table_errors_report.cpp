@@ -7,14 +7,14 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "samara/formats/left_out_cases.hpp"
-#include "samara/reports/words.hpp"
+#include "samara/analysis/verdicts/case_records.hpp"
+#include "samara/reports/report_blocks.hpp"
 
 namespace samara {
 namespace {
 
-constexpr double doubtful = 0.3;
-constexpr double worth_a_note = 0.1;  // of the flight, outside of what a bake was planned for
+constexpr double noted_error = 0.3;
+constexpr double worth_a_note = 0.1;  // share of the poses outside of the bake's plan
 
 bool used_tables(const std::optional<LoadTables>& tables, const TableErrorsOnPath& errors) {
     return tables && errors.forces + errors.turbulent_kinetic_energies > 0;
@@ -67,13 +67,13 @@ nlohmann::json table_errors_as_json(const std::optional<LoadTables>& tables,
 void note_table_errors(BodyNotes& notes, const std::string& body, const TableErrorsOnPath& errors) {
     std::vector<std::string> quantities;
     double worst = 0.0;
-    const auto look_at = [&](const char* quantity, double error) {
-        if (error <= doubtful) return;
+    const auto note_quantity = [&](const char* quantity, double error) {
+        if (error <= noted_error) return;
         quantities.push_back(fmt::format("{:.0f} % of {}", 100.0 * error, quantity));
         worst = std::max(worst, error);
     };
-    look_at("the force", errors.mean_force());
-    look_at("k", errors.mean_turbulent_kinetic_energy());
+    note_quantity("the force", errors.mean_force());
+    note_quantity("k", errors.mean_turbulent_kinetic_energy());
     if (!quantities.empty()) {
         notes.add("tables", body, worst,
                   fmt::format("the tables are uncertain by {} along the flight (standard error); bake with a "

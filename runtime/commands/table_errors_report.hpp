@@ -11,19 +11,20 @@
 
 namespace samara {
 
-/// "tail, symmetry, interpolation": the sources that the tables' standard errors hold; "tail and symmetry"
-/// for tables from before sources were written.
+/// Returns the sources that the tables' standard errors hold, "tail, symmetry, interpolation"; "tail,
+/// symmetry" for tables from before sources were written.
 std::string error_sources_in_words(const LoadTables& tables);
 
-/// Lines of at most 100 characters about the tables' errors as a flight met them, each with its line feed;
-/// empty where the flight used no tables.
+/// Returns lines of at most 100 characters about the tables' errors along a body's path, each with its line
+/// feed; empty where the body used no tables.
 std::string table_errors_as_text(const std::optional<LoadTables>& tables, const TableErrorsOnPath& errors);
 
-/// The same as JSON: `force` and `turbulent_kinetic_energy` (means over the flight, relative; null where the
-/// flight did not use them), `sources`, `left_out`; null where the flight used no tables.
+/// Returns the tables' errors along a body's path as JSON: `force` and `turbulent_kinetic_energy` (means over
+/// the poses, relative; null where the body did not use them), `sources`, `left_out`; null where the body
+/// used no tables.
 nlohmann::json table_errors_as_json(const std::optional<LoadTables>& tables, const TableErrorsOnPath& errors);
 
-/// Notes each mean error above 30 %, and a flight that left what its bake was planned for.
+/// Notes each mean error above 30 %, and a body that moved in directions that its bake was not planned for.
 void note_table_errors(BodyNotes& notes, const std::string& body, const TableErrorsOnPath& errors);
 
 }  // namespace samara

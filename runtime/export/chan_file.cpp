@@ -16,22 +16,22 @@
 namespace samara {
 namespace {
 
-/// The angle that differs from `angle` by whole turns and is nearest to `before` (rad).
+/// Returns the angle that differs from `angle` by whole revolutions and is nearest to `before` (rad).
 double nearest_turn(double angle, double before) {
     constexpr double whole = 2.0 * std::numbers::pi;
     return angle + whole * std::round((before - angle) / whole);
 }
 
-/// The rotation about z by angles.z(), then about x by angles.x(), is what is left of `rotation` once the
-/// last turn, about y by `ry`, is taken off: exact to rounding even where rx is near a right angle and ry is
-/// not told by the rotation alone.
+/// Returns the angles of which the rotation about z by angles.z(), then about x by angles.x(), is left of
+/// `rotation` once the last rotation, about y by `ry`, is taken off: exact to rounding even where rx is near
+/// a right angle and ry is not told by the rotation alone.
 Vector3d angles_with(const Matrix3d& rotation, double ry, const Vector3d& before) {
     const Matrix3d rest = Eigen::AngleAxisd(-ry, Vector3d::UnitY()).toRotationMatrix() * rotation;  // Rx Rz
     return {nearest_turn(std::atan2(-rest(1, 2), rest(2, 2)), before.x()), ry,
             nearest_turn(std::atan2(-rest(0, 1), rest(0, 0)), before.z())};
 }
 
-/// The angles (rad) of Ry Rx Rz = rotation that are nearest to those before.
+/// Returns the angles (rad) of Ry Rx Rz = rotation that are nearest to those before.
 Vector3d continued_angles(const Matrix3d& rotation, const Vector3d& before) {
     const double sine = rotation(0, 2);  // sin ry cos rx
     const double cosine = rotation(2, 2);

@@ -14,13 +14,12 @@ namespace samara {
 ///   frame tx ty tz rx ry rz
 ///
 /// Frame: time times frame rate, whole (frame 0 at 0 s). Position (m) of the shape file's origin and angles
-/// (degrees), with y up, as Nuke and Houdini have it: shape and world alike are turned as in .glb, (x, y, z)
+/// (degrees), with y up, as Nuke and Houdini have it: shape and world alike are rotated as in .glb, (x, y, z)
 /// -> (x, z, -y), so that a body in the shape file's own attitude has the angles 0 0 0. Rotation order ZXY,
-/// Nuke's default: first about z, then x, then y, R = Ry Rx Rz. Angles are continuous: of the two triples
-/// that give the same turn, and the whole turns, those nearest to the line before; ry goes on where rx is a
+/// Nuke's default: first about z, then x, then y, R = Ry Rx Rz. Angles are continuous: of the triples that
+/// give one rotation, whole revolutions included, that nearest to the line before; ry goes on where rx is a
 /// right angle (the shape's y axis is vertical) to 1e-9. Numbers are the shortest text that reads back as the
 /// same double.
-///
 /// A motion of one copy of one body is written to `file` itself; else each to its own file beside it,
 /// STEM_NAME.chan with copy_name(), slashes as underscores. Returns the files; `progress` counts them. Throws
 /// Error where one cannot be written, or where the frames are not at whole multiples of the frame's duration.

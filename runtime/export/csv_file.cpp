@@ -17,7 +17,7 @@ constexpr const char* column_names =
     "orientation_z,velocity_x,velocity_y,velocity_z,angular_velocity_x,angular_velocity_y,"
     "angular_velocity_z\n";
 
-/// A field of RFC 4180: in quotes where it holds a comma or a quote. An apostrophe before it tells
+/// Returns a field of RFC 4180: in quotes where it holds a comma or a quote. An apostrophe before it tells
 /// spreadsheets that a text that begins like a formula is none.
 std::string csv_field(const std::string& name) {
     std::string text = printable(name);

@@ -34,8 +34,8 @@ void require_body(const std::filesystem::path& file, const Motion& motion, const
             "vertices");
     if (body.display != nullptr) {
         require(size * reach_of(body.display->positions) <= farthest, file, body.name,
-                "vertices of the look");
-        require(reach_of(body.display->normals) <= farthest, file, body.name, "normals of the look");
+                "vertices of the display mesh");
+        require(reach_of(body.display->normals) <= farthest, file, body.name, "normals of the display mesh");
         for (const Eigen::Vector2d& place : body.display->texture) {
             require(place.cwiseAbs().maxCoeff() <= farthest, file, body.name, "texture coordinates");
         }

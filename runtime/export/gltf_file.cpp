@@ -22,12 +22,12 @@
 namespace samara {
 namespace {
 
-/// A vector of the world (z up) in glTF's axes (y up).
+/// Returns a vector of the world (z up) in glTF's axes (y up).
 Vector3d y_up(const Vector3d& vector) {
     return {vector.x(), vector.z(), -vector.y()};
 }
 
-/// The components of a rotation between z-up axes, for glTF's axes and order (x, y, z, w).
+/// Returns the components of a rotation between z-up axes, for glTF's axes and order (x, y, z, w).
 Eigen::Vector4d y_up(const Quaterniond& rotation) {
     Eigen::Vector4d components;
     components << y_up(Vector3d(rotation.vec())), rotation.w();
@@ -45,7 +45,8 @@ class Builder {
 
     tinygltf::Model& model() { return model_; }
 
-    /// A view of the buffer that the accessors added next share; `target` as in glTF, 0 for animations.
+    /// Begins a view of the buffer that the accessors added next share; `target` as in glTF, 0 for
+    /// animations.
     void begin_view(int target) {
         tinygltf::BufferView view;
         view.buffer = 0;
@@ -54,7 +55,7 @@ class Builder {
         model_.bufferViews.push_back(view);
     }
 
-    /// Values of `components` floats each, with their bounds; returns the accessor's index.
+    /// Adds values of `components` floats each, with their bounds; returns the accessor's index.
     int add_floats(const std::vector<float>& values, std::size_t components, int type) {
         tinygltf::Accessor accessor = next_accessor(values.size() / components, type);
         accessor.componentType = TINYGLTF_COMPONENT_TYPE_FLOAT;
@@ -75,7 +76,7 @@ class Builder {
         return add(accessor, triangles.data(), triangles.size() * sizeof triangles[0]);
     }
 
-    /// A texture of an image file; returns its number.
+    /// Adds a texture of an image file; returns its number.
     int add_texture(const DisplayImage& image) {
         begin_view(0);
         bytes().insert(bytes().end(), image.bytes.begin(), image.bytes.end());
@@ -126,7 +127,7 @@ std::vector<float> y_up_floats(const std::vector<Vector3d>& vectors) {
     return values;
 }
 
-/// `material`: its number.
+/// Adds a mesh; returns its number. `material`: the number of its material.
 int add_mesh(Builder& builder, const std::string& name, const Surface& surface, int material,
              const std::filesystem::path& file) {
     const ShadedMesh shaded = shaded_mesh(surface);
@@ -159,7 +160,7 @@ tinygltf::Material matte_material(const char* name, double grey) {
     return material;
 }
 
-/// A mesh of as many parts as the look has materials in use; adds these to the model.
+/// Returns a mesh of as many parts as the display mesh has materials in use; adds these to the model.
 int add_display(Builder& builder, const std::string& name, const DisplayMesh& display) {
     tinygltf::Mesh mesh;
     mesh.name = printable(name);
@@ -185,7 +186,7 @@ int add_display(Builder& builder, const std::string& name, const DisplayMesh& di
         builder.model().materials.push_back(matte_material(printable(material.name).c_str(), 1.0));
         tinygltf::Material& added = builder.model().materials.back();
         added.pbrMetallicRoughness.baseColorFactor.assign(material.color.begin(), material.color.end());
-        added.doubleSided = true;  // a look may be a sheet
+        added.doubleSided = true;  // a display mesh may be a sheet
         if (material.image >= 0) {
             added.pbrMetallicRoughness.baseColorTexture.index =
                 textures[static_cast<std::size_t>(material.image)];
@@ -242,7 +243,7 @@ void add_channel(tinygltf::Animation& animation, int node, const char* path, int
     animation.channels.push_back(channel);
 }
 
-/// The motion's times as glTF stores them.
+/// Returns the motion's times as glTF stores them.
 std::vector<float> checked_times(const Motion& motion, const std::filesystem::path& file) {
     std::vector<float> times;
     append(times, motion.times);
@@ -270,7 +271,7 @@ class Keys {
           key_times_(times.begin(), times.end()),
           animation_(animation) {}
 
-    /// The keys of a node with these poses, within the tolerance; returns how many there are.
+    /// Adds the keys of a node with these poses, within the tolerance; returns their number.
     std::size_t add(int node, const std::vector<ShapePose>& poses, const KeyTolerance& tolerance) {
         std::vector<Vector3d> positions;
         std::vector<Vector3d> position_keys;
@@ -298,7 +299,7 @@ class Keys {
     }
 
   private:
-    /// The accessor of the kept keys' times; all channels that keep every key share one.
+    /// Returns the accessor of the kept keys' times; all channels that keep every key share one.
     int times_of(const std::vector<std::size_t>& kept) {
         const bool all = kept.size() == times_.size();
         if (all && all_times_ >= 0) return all_times_;

@@ -19,9 +19,10 @@ namespace samara {
 /// Each obstacle is a mesh and a node of its name, with a material that is seen from both sides; one that
 /// moves has keys of its own.
 ///
-/// Nodes move the shape file's origin. glTF has y up: shapes and keys alike are turned by -90 degrees about
-/// x, (x, y, z) -> (x, z, -y), with no parent node in between; importers that turn y up into z up, as Blender
-/// does, thus arrive at the shape's own coordinates and at the motion's own positions and quaternions.
+/// Nodes move the shape file's origin. glTF has y up: shapes and keys alike are rotated by -90 degrees about
+/// x, (x, y, z) -> (x, z, -y), with no parent node in between; importers that convert y up into z up, as
+/// Blender does, thus arrive at the shape's own coordinates and at the motion's own positions and
+/// quaternions.
 ///
 /// Equal motions give equal bytes. Times must not be negative, as glTF asks, and must differ as floats; Error
 /// else, and where the file cannot be written. `run` must be in the motion. Returns the number of keys.

@@ -8,7 +8,8 @@
 namespace samara {
 namespace {
 
-/// The kept ones of `count` keys, by the error(begin, end, key) of the interpolation between two of them.
+/// Returns the kept ones of `count` keys, by the error(begin, end, key) of the interpolation between two of
+/// them.
 template <typename ErrorAt>
 std::vector<std::size_t> kept_of(std::size_t count, double tolerance, const ErrorAt& error) {
     std::vector<std::size_t> kept;
@@ -40,7 +41,7 @@ std::vector<std::size_t> kept_of(std::size_t count, double tolerance, const Erro
     return kept;
 }
 
-/// How far (0 to 1) a frame is on the way from one key to another.
+/// Returns the fraction (0 to 1) of the time between two keys at which a frame lies.
 template <typename Value>
 double fraction_of(const KeyedFrames<Value>& frames, std::size_t begin, std::size_t end, std::size_t frame) {
     const double start = frames.key_times[begin];
@@ -60,7 +61,7 @@ KeyTolerance key_tolerance(const BodyMotion& body, const std::optional<double>& 
     KeyTolerance tolerance;
     tolerance.position = position.value_or(farthest_from(body.center_of_mass) / 500.0);
     const double reach = farthest_from(Vector3d::Zero());
-    // A turn by an angle moves a point at this reach by twice the reach times the sine of half of it.
+    // A rotation by an angle moves a point at this reach by twice the reach times the sine of half of it.
     tolerance.angle = 2.0 * std::asin(std::min(1.0, 0.5 * tolerance.position / reach));
     return tolerance;
 }

@@ -1,3 +1,22 @@
+#ifdef SAMARA_PAGE_FILE
+// The page is some 700 kB: the assembler copies the file, where a compiler would parse every byte.
+asm(".pushsection .rodata\n"
+    ".balign 16\n"
+    ".hidden samara_page_begin\n"
+    ".global samara_page_begin\n"
+    "samara_page_begin:\n"
+    ".incbin \"" SAMARA_PAGE_FILE
+    "\"\n"
+    ".hidden samara_page_end\n"
+    ".global samara_page_end\n"
+    "samara_page_end:\n"
+    ".byte 0\n"
+    ".popsection\n");
+extern "C" {
+extern const char samara_page_begin[];
+extern const char samara_page_end[];
+}
+#endif
 #include "samara/export/page_file.hpp"
 
 #include <algorithm>
@@ -13,18 +32,26 @@
 #include "samara/core/base/error.hpp"
 #include "samara/core/files/replace_file.hpp"
 #include "samara/export/float_range.hpp"
-#include "samara/export/page_bytes.hpp"
 #include "samara/export/shaded_mesh.hpp"
 #include "samara/motion/inclination.hpp"
 
 namespace samara {
 namespace {
 
+/// Returns the player's page with the mark <!--MOTION--> in it; empty where it was not built in.
+std::string_view page_bytes() {
+#ifdef SAMARA_PAGE_FILE
+    return {samara_page_begin, static_cast<std::string_view::size_type>(samara_page_end - samara_page_begin)};
+#else
+    return {};
+#endif
+}
+
 constexpr std::string_view mark = "<!--MOTION-->";
 constexpr std::size_t floats_of_pose = 10;  // as runtime/page/motion.js reads them
 constexpr double most_bytes = 384e6;
 
-/// An array for motion.js to find by its name.
+/// Writes an array, which motion.js finds by its name.
 template <typename Number>
 void write_array(std::ostream& stream, const std::string& name, const std::vector<Number>& numbers) {
     stream << "<script type=\"text/plain\" id=\"motion-" << name << "\">"
@@ -36,7 +63,7 @@ void append(std::vector<float>& floats, const auto& values) {
     for (const double value : values) floats.push_back(static_cast<float>(value));
 }
 
-/// From the centre of mass to the body's farthest point (m).
+/// Returns the distance (m) from the centre of mass to the body's farthest point.
 double radius_of(const BodyMotion& body) {
     double radius = 0.0;
     for (const Vector3d& vertex : body.surface.vertices) {
@@ -61,7 +88,7 @@ std::vector<float> poses_of(const Motion& motion, const BodyMotion& body, int ru
     return floats;
 }
 
-/// The arrays NAME-points, NAME-normals and NAME-triangles, about `origin` (m, shape axes).
+/// Writes the arrays NAME-points, NAME-normals and NAME-triangles, about `origin` (m, shape axes).
 void write_mesh(std::ostream& stream, const std::string& name, const Surface& surface,
                 const Vector3d& origin) {
     const ShadedMesh mesh = shaded_mesh(surface);
@@ -77,7 +104,7 @@ void write_mesh(std::ostream& stream, const std::string& name, const Surface& su
     write_array(stream, name + "-triangles", triangles);
 }
 
-/// Position and quaternion (x, y, z, w) of an obstacle at each frame; of one that stands still once.
+/// Returns position and quaternion (x, y, z, w) of an obstacle at each frame; for one at rest once.
 std::vector<float> places_of(const Motion& motion, const Obstacle& obstacle) {
     std::vector<float> floats;
     for (const double time : motion.times) {
@@ -89,7 +116,8 @@ std::vector<float> places_of(const Motion& motion, const Obstacle& obstacle) {
     return floats;
 }
 
-/// JSON in ASCII and without "<": nothing in it ends or opens an element of the page.
+/// Returns the page's description of the motion, JSON in ASCII and without "<": nothing in it ends or opens
+/// an element of the page.
 std::string header_of(const Motion& motion, int run, const std::string& title, const std::string& detail) {
     nlohmann::json header = {{"title", title}, {"detail", detail}, {"frame_rate", motion.frame_rate}};
     header["ground"] = motion.ground ? nlohmann::json(*motion.ground) : nlohmann::json(nullptr);

@@ -7,7 +7,7 @@
 
 namespace samara {
 
-/// Whether this library was built with the page (SAMARA_PAGE) that write_page needs.
+/// Returns whether this library was built with the page (SAMARA_PAGE) that write_page needs.
 bool has_page();
 
 /// Writes one run of a motion as a page (.html) that plays it in a browser without a network: the bodies with

@@ -12,7 +12,7 @@ struct Corner {
     int place;
 };
 
-/// For each vertex the corners of triangles that meet there.
+/// Returns for each vertex the corners of triangles that share it.
 std::vector<std::vector<Corner>> corners_by_vertex(const Surface& surface) {
     std::vector<std::vector<Corner>> corners(surface.vertices.size());
     for (std::size_t t = 0; t < surface.triangle_count(); ++t) {
@@ -24,7 +24,7 @@ std::vector<std::vector<Corner>> corners_by_vertex(const Surface& surface) {
     return corners;
 }
 
-/// The angle (rad) of a triangle at one of its corners.
+/// Returns the angle (rad) of a triangle at one of its corners.
 double corner_angle(const Surface& surface, const Corner& corner) {
     const auto vertex = [&](int place) -> const Vector3d& {
         const auto& triangle = surface.corners[corner.triangle];

@@ -15,10 +15,10 @@ struct ShadedMesh {
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from outside
 };
 
-/// The surface with normals that are smooth over its curved parts and sharp at its creases: a corner's normal
-/// is the mean, weighted by the corner's angle, of those triangles about its vertex whose faces are within
-/// `sharp_angle` (rad) of its own. Order 2 is flattened first; triangles without area are left out. The
-/// result is the same for the same surface.
+/// Returns the surface with normals that are smooth over its curved parts and sharp at its creases: a
+/// corner's normal is the mean, weighted by the corner's angle, of those triangles about its vertex whose
+/// faces are within `sharp_angle` (rad) of its own. Order 2 is flattened first; triangles without area are
+/// left out. The result is the same for the same surface.
 ShadedMesh shaded_mesh(const Surface& surface, double sharp_angle = 0.9);
 
 }  // namespace samara

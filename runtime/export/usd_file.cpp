@@ -14,14 +14,13 @@
 #include "samara/core/surface/display_image.hpp"
 #include "samara/export/float_range.hpp"
 #include "samara/export/key_reduction.hpp"
-#include "samara/export/prim_names.hpp"
 #include "samara/export/shape_pose.hpp"
 #include "samara/export/usd_mesh.hpp"
 
 namespace samara {
 namespace {
 
-/// Times in frames, whole where they are so but for rounding.
+/// Returns the times in frames, rounded where they are whole but for rounding.
 std::vector<double> time_codes(const Motion& motion) {
     std::vector<double> codes;
     for (const double time : motion.times) {
@@ -31,10 +30,10 @@ std::vector<double> time_codes(const Motion& motion) {
     return codes;
 }
 
-/// Of each body the files of its look's images, from the stage's folder.
+/// Returns the files of the images of each body's display mesh, relative to the stage's folder.
 using ImageFiles = std::vector<std::vector<std::string>>;
 
-/// Writes the images of all looks into the folder STAGE.images beside the stage.
+/// Writes the images of all display meshes into the folder STAGE.images beside the stage.
 ImageFiles write_images(const std::filesystem::path& stage, const Motion& motion) {
     std::string folder = stage.stem().string() + ".images";
     for (char& letter : folder) {
@@ -49,7 +48,7 @@ ImageFiles write_images(const std::filesystem::path& stage, const Motion& motion
         for (const DisplayImage& image : body.display->images) {
             const std::string name = names(image.name) + "." + image_type(image.bytes);
             const std::filesystem::path file = stage.parent_path() / folder / name;
-            std::error_code error;  // which the write will meet
+            std::error_code error;  // the write reports it
             std::filesystem::create_directories(file.parent_path(), error);
             replace_file_with(file, image.bytes);
             files.back().push_back(fmt::format("./{}/{}", folder, name));
@@ -160,7 +159,7 @@ class Stage {
                            static_cast<float>(q.y()), static_cast<float>(q.z()));
     }
 
-    /// To more digits than a half has: the reader rounds.
+    /// Returns a quaternion of halves as text, with more digits than a half has: the reader rounds.
     static std::string quath(const Quaterniond& q) {
         return fmt::format("({:.5g}, {:.5g}, {:.5g}, {:.5g})", q.w(), q.x(), q.y(), q.z());
     }
@@ -214,7 +213,7 @@ class Stage {
             shape_of(body, 16));
     }
 
-    /// The farthest that a point of any copy is from the shape's origin (m).
+    /// Returns the farthest that a point of any copy is from the shape's origin (m).
     [[nodiscard]] double reach_of(const BodyMotion& body) const {
         double reach = 0.0;
         const auto& shown = body.display != nullptr ? body.display->positions : body.surface.vertices;
@@ -224,7 +223,7 @@ class Stage {
         return largest * reach;
     }
 
-    /// An array at every frame, its values by value_at(item, frame).
+    /// Writes an array at every frame, its values by value_at(item, frame).
     template <typename ValueAt>
     void write_array(const char* declaration, std::size_t items, const ValueAt& value_at) {
         print("        {}.timeSamples = {{\n", declaration);

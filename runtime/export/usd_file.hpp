@@ -18,12 +18,10 @@ inline constexpr int most_usd_transforms = 100;
 /// signs continuous), one a line; the copies after the first are instances of the first one's shape. Frames
 /// that the samples around them give within `tolerance` (m; 0: none; not given: the default of
 /// key_tolerance()) have no sample of their own: USD interpolates linearly, and orientations along the arc.
-///
 /// A body of more than most_usd_transforms copies is a PointInstancer with all frames. Its orientations are
 /// there twice: as `orientationsf` (quatf), which OpenUSD prefers from 24.03 on, and as `orientations`
 /// (quath, to 5e-4), which every version reads. Positions are floats, as the schema asks.
-///
-/// Images of looks are files in the folder STAGE.images beside it, which its materials name.
+/// Images of display meshes are files in the folder STAGE.images beside it, which its materials name.
 ///
 /// Normals are smooth over curved parts and sharp at creases (shaded_mesh.hpp). Numbers are the shortest text
 /// that reads back as the same float or double. Equal motions give equal bytes. Throws Error where the file

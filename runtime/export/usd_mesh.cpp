@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "samara/export/prim_names.hpp"
 #include "samara/export/shaded_mesh.hpp"
 
 namespace samara {
@@ -15,7 +14,7 @@ namespace {
 
 constexpr std::size_t items_in_line = 8;
 
-/// [a, b, c] over several lines.
+/// Returns a list [a, b, c] over several lines.
 std::string usd_list(const std::vector<std::string>& items, const std::string& indent) {
     std::string text = "[";
     for (std::size_t i = 0; i < items.size(); ++i) {
@@ -27,7 +26,7 @@ std::string usd_list(const std::vector<std::string>& items, const std::string& i
     return text + "]";
 }
 
-/// For each position the index of the first that is the same.
+/// Returns for each position the index of the first equal one.
 std::vector<std::size_t> welded(const std::vector<Vector3d>& positions, std::vector<std::string>& points) {
     std::map<std::array<double, 3>, std::size_t> known;
     std::vector<std::size_t> indices;
@@ -47,14 +46,14 @@ std::string list_of(const Values& values, const std::string& indent, const InWor
     return usd_list(items, indent);
 }
 
-/// Faces by material, for all that are in use: its number and theirs.
+/// Returns the indices of the faces of each material in use, by its number.
 std::map<std::int32_t, std::vector<std::size_t>> faces_by_slot(const DisplayMesh& display) {
     std::map<std::int32_t, std::vector<std::size_t>> faces;
     for (std::size_t i = 0; i < display.slots.size(); ++i) faces[display.slots[i]].push_back(i);
     return faces;
 }
 
-/// A preview surface; where there is an image, its texture and what reads the UVs.
+/// Returns a preview surface; where there is an image, its texture and what reads the UVs.
 std::string usd_material(const std::string& name, const DisplayMaterial& material,
                          const std::vector<std::string>& image_files, const std::string& outer) {
     const std::string inner = outer + "    ";

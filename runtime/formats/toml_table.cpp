@@ -1,14 +1,72 @@
 #include "samara/formats/toml_table.hpp"
 
+#include <algorithm>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "samara/core/base/error.hpp"
 #include "samara/core/base/nearest_word.hpp"
-#include "samara/formats/toml_keys.hpp"
 
 namespace samara {
+namespace {
+
+constexpr int most_parts = 8;
+
+/// Returns the place behind the string that begins at `begin` with one of the quotes ' and ", or with three;
+/// behind the line's end where it is not closed, which the parser rejects.
+std::size_t end_of_string(std::string_view text, std::size_t begin) {
+    const char quote = text[begin];
+    const std::string three(3, quote);
+    const bool long_one = text.substr(begin, 3) == three;
+    std::size_t at = begin + (long_one ? 3 : 1);
+    while (at < text.size()) {
+        if (text[at] == '\\' && quote == '"') {
+            at += 2;
+        } else if (long_one && text.substr(at, 3) == three) {
+            at += 3;
+            for (int i = 0; i < 2 && at < text.size() && text[at] == quote; ++i)
+                ++at;  // they end the content
+            return at;
+        } else if (!long_one && (text[at] == quote || text[at] == '\n')) {
+            return at + 1;
+        } else {
+            ++at;
+        }
+    }
+    return text.size();
+}
+
+/// Throws Error, which names the file and the line, where a key of the TOML text has more parts, joined by
+/// dots, than any of ours: each part is a table within a table, and the parser takes them apart one call
+/// within another, which many thousands of them do not survive. Arrays and tables in braces it counts itself.
+void require_short_keys(std::string_view text, const std::string& file) {
+    int parts = 1;
+    for (std::size_t at = 0; at < text.size();) {
+        const char letter = text[at];
+        if (letter == '"' || letter == '\'') {
+            at = end_of_string(text, at);
+            continue;
+        }
+        if (letter == '#') {
+            at = std::min(text.find('\n', at), text.size());
+            continue;
+        }
+        if (std::string_view("=,[]{}\n").find(letter) != std::string_view::npos) parts = 1;
+        if (letter == '.' && ++parts > most_parts) {
+            const auto line =
+                1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+            throw Error(fmt::format("{}:{}: a key has more than {} parts joined by dots; which one is meant?",
+                                    file, line, most_parts));
+        }
+        ++at;
+    }
+}
+
+}  // namespace
 
 toml::table parse_toml(std::string_view text, const std::string& file) {
     require_short_keys(text, file);
@@ -24,12 +82,12 @@ TomlTable::TomlTable(const toml::table& table, std::string file, std::string whe
 
 Error TomlTable::error(std::string_view key, std::string_view what) const {
     const toml::node* found = table_->get(key);
-    if (found == nullptr) require_no_slip(key);
+    if (found == nullptr) require_no_misspelling(key);
     const auto line = (found != nullptr ? found->source() : table_->source()).begin.line;
     return Error(fmt::format("{}:{}: {} in {} {}", file_, line, key, where_, what));
 }
 
-void TomlTable::require_no_slip(std::string_view key) const {
+void TomlTable::require_no_misspelling(std::string_view key) const {
     const auto bare = key.substr(key.starts_with('[') ? 1 : 0);
     const std::vector<std::string> meant = {std::string(bare.substr(0, bare.find(']')))};
     for (const auto& [written, value] : *table_) {

@@ -18,7 +18,6 @@
 #include "samara/kirchhoff/panels/curved_collocation.hpp"
 #include "samara/kirchhoff/solvers/tensor_error.hpp"
 #include "samara/kirchhoff/surfaces/surface_ladder.hpp"
-#include "samara/kirchhoff/surfaces/thickness.hpp"
 
 namespace samara {
 namespace {
@@ -73,8 +72,8 @@ struct Solved {
     double unresolved = 0.0;
 };
 
-/// The relative error that triangles too long to resolve the flow may hide from all coarser surfaces, which
-/// keep them: that of a potential taken for linear along them.
+/// Returns the relative error that triangles too long to resolve the flow may hide from all coarser surfaces,
+/// which keep them: that of a potential taken for linear along them.
 double unresolved_by_long_triangles(const Surface& surface) {
     constexpr double long_edge = 0.3;  // over L; those of 100 equal triangles
     constexpr double share = 0.4;      // a disc whose caps are fans about their centres is off by this
@@ -117,14 +116,14 @@ class Solver {
         return curved && curved->error_estimate <= flat.error_estimate ? *curved : flat;
     }
 
-    /// A second method starts from no progress again, which nobody wants to see.
+    /// Tells the share done. Progress must not start again from zero with a second method.
     void tell(double share) {
         if (!options_.progress || share < told_) return;
         told_ = share;
         options_.progress(share);
     }
 
-    /// Nothing where curved triangles cannot follow so coarse a surface without folding.
+    /// Solves on curved triangles; nothing where these cannot follow so coarse a surface without folding.
     std::optional<KirchhoffTensor> try_curved() {
         try {
             return run_with(KirchhoffMethod::curved_collocation);
@@ -137,7 +136,7 @@ class Solver {
         return options_.tolerance > 0.0 ? climb(method) : solve_own(method);
     }
 
-    /// The surface's own triangles or their refinement, and the coarser surfaces to compare with.
+    /// Solves on the surface's own triangles or their refinement, and on coarser surfaces to compare with.
     KirchhoffTensor solve_own(KirchhoffMethod method) {
         const int rung = method == KirchhoffMethod::hypersingular ? rung_to_refine_to() : 0;
         const int first = rung > 0 ? 0 : -1;
@@ -152,8 +151,8 @@ class Solver {
         return judged(method, solved);
     }
 
-    /// How often a surface with creases is refined: a polyhedron as far as is quick, a curved one as far as
-    /// its own curvature is worth it.
+    /// Returns how often a surface with creases is refined: a polyhedron as far as is quick, a curved one as
+    /// far as its own curvature is worth it.
     [[nodiscard]] int rung_to_refine_to() const {
         const Surface& own = ladder_.base().surface;
         const int most = has_straight_edges(own) ? most_rungs : ladder_.is_rebuilt() ? 1 : 2;
@@ -165,7 +164,8 @@ class Solver {
         return rung;
     }
 
-    /// From coarse surfaces to finer ones, until the estimate is within the tolerance or no finer one helps.
+    /// Solves on coarse surfaces and then finer ones, until the estimate is within the tolerance or no finer
+    /// one helps.
     KirchhoffTensor climb(KirchhoffMethod method) {
         std::vector<Solved> solved;
         double begin = 0.0;
@@ -177,14 +177,14 @@ class Solver {
             if (!next) continue;
             solved.push_back(std::move(*next));
             KirchhoffTensor found = judged(method, solved);
-            // What the given curvature may be wrong by, no refinement mends.
+            // Refinement does not reduce the error of the given curvature.
             const bool is_hopeless = rung > 0 && curvature_error(solved) > options_.tolerance;
             if (found.error_estimate <= options_.tolerance || is_last || is_hopeless) return found;
         }
     }
 
-    /// Whether finer triangles than the rung's are of no use: they know no more of a smooth body's curvature
-    /// than the given ones.
+    /// Returns whether finer triangles than the rung's are of no use: they know no more of a smooth body's
+    /// curvature than the given ones.
     bool is_finest(KirchhoffMethod method, int rung) {
         if (method == KirchhoffMethod::curved_collocation) return rung >= 0;
         return rung >= 0 && 4 * ladder_.rung(rung).surface.triangle_count() > most_flat_triangles;
@@ -195,7 +195,7 @@ class Solver {
         double end;
     };
 
-    /// Nothing where the rung's surface is too coarse to be solved and is not `required`.
+    /// Solves on a rung; nothing where its surface is too coarse to be solved and is not `required`.
     std::optional<Solved> try_solve(KirchhoffMethod method, int rung, const Shares& shares, bool required) {
         try {
             return solve(method, rung, shares);
@@ -231,7 +231,7 @@ class Solver {
         return solved;
     }
 
-    /// The tensor of the last surface, the finest, and its error by those before.
+    /// Returns the tensor of the last surface, the finest, and its error by those before.
     [[nodiscard]] KirchhoffTensor judged(KirchhoffMethod method, const std::vector<Solved>& solved) const {
         const Solved& fine = solved.back();
         const bool is_curved = method == KirchhoffMethod::curved_collocation;
@@ -254,8 +254,9 @@ class Solver {
         return result;
     }
 
-    /// No motion has negative kinetic energy: where extrapolation and quadrature say so of one that moves no
-    /// fluid, as a disc's about its axis, it is nothing. `share`: of the largest, by how much they may.
+    /// Returns the nearest semidefinite tensor. No motion has negative kinetic energy: extrapolation and
+    /// quadrature may give one to a motion that moves no fluid, as a disc's about its axis. The tensor is
+    /// returned as it is where an energy is below -`share` times the largest.
     [[nodiscard]] Matrix6d with_positive_energy(const Matrix6d& tensor, double share) const {
         Vector6d lengths;
         lengths << Vector3d::Constant(length_), Vector3d::Ones();
@@ -283,7 +284,7 @@ class Solver {
         return relative_tensor_error(one, better, scale_, zero_block);
     }
 
-    /// What is left of the error on the fine surface: the difference carried on to triangles of no size.
+    /// Returns the remaining error on the fine surface: the difference extrapolated to triangles of no size.
     [[nodiscard]] double carried_on(const Solved& fine, const Solved& coarse, double order) const {
         const double ratio =
             std::sqrt(static_cast<double>(fine.triangles) / static_cast<double>(coarse.triangles));
@@ -291,9 +292,10 @@ class Solver {
         return difference(coarse.tensor, fine.tensor) / (std::pow(ratio, order) - 1.0);
     }
 
-    /// Richardson's extrapolation with the second order that grading gives. What remains is less than the
-    /// correction where the order is right, and where three surfaces are nested, about what the correction
-    /// changed by. All have the curvature of the given surface, whose error goes with that of flat triangles.
+    /// Applies Richardson's extrapolation with the second order that grading gives. What remains is less than
+    /// the correction where the order is right, and where three surfaces are nested, about what the
+    /// correction changed by. All have the curvature of the given surface, whose error goes with that of flat
+    /// triangles.
     [[nodiscard]] Judgement extrapolated(const std::vector<Solved>& solved) const {
         const auto best = [](const Solved& fine, const Solved& coarse) -> Matrix6d {
             return fine.tensor + (fine.tensor - coarse.tensor) / 3.0;
@@ -309,8 +311,8 @@ class Solver {
         return {tensor, std::max(error, curvature_error(solved))};
     }
 
-    /// The difference that the curvature makes to the given corners, as a share that the rebuilt or given one
-    /// is sure to be better than.
+    /// Returns the difference that the curvature makes to the given corners, as a share that the rebuilt or
+    /// given one is sure to be better than.
     [[nodiscard]] double curvature_error(const std::vector<Solved>& solved) const {
         if (has_straight_edges(ladder_.base().surface)) return 0.0;
         const auto first =

@@ -15,7 +15,7 @@
 namespace samara {
 namespace {
 
-std::string kind_of(const std::filesystem::path& file) {
+std::string type_of(const std::filesystem::path& file) {
     const Hdf5Reader reader(file);
     if (reader.has("/surface")) return "body";
     if (reader.has("/bodies")) return "motion";
@@ -24,31 +24,31 @@ std::string kind_of(const std::filesystem::path& file) {
                             file.string()));
 }
 
-/// Reads all of the file, or all but a motion's poses. Returns its kind.
+/// Reads all of the file, or all but a motion's poses. Returns its type: "body", "motion" or "wind".
 std::string read_through(const std::filesystem::path& file, bool poses) {
-    const std::string kind = kind_of(file);
-    if (kind == "body") {
+    const std::string type = type_of(file);
+    if (type == "body") {
         (void)read_body_file(file);
-        return kind;
+        return type;
     }
-    if (kind == "wind") {
+    if (type == "wind") {
         (void)read_wind_file(file);
-        return kind;
+        return type;
     }
     const MotionReader motion(file);
     for (std::size_t i = 0; poses && i < motion.motion().bodies.size(); ++i) {
         motion.for_each_block(i, [](const Motion& /*part*/, const PoseBlock& /*block*/) {});
     }
-    return kind;
+    return type;
 }
 
 CheckedFile check(const InputFile& input, bool poses) {
     const std::filesystem::path& file = input.path();
-    const std::string kind = check_confined(input, [&] { return read_through(file, poses); });
-    if (kind != "body" && kind != "motion" && kind != "wind") {
+    const std::string type = check_confined(input, [&] { return read_through(file, poses); });
+    if (type != "body" && type != "motion" && type != "wind") {
         throw Error(fmt::format("{}: its reader was led astray; do not use it", file.string()));
     }
-    return {kind, has_digest(input)};
+    return {type, has_digest(input)};
 }
 
 }  // namespace

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double alike = 0.01;
 
-/// The place of the extremum of the parabola through the points at i - 1, i and i + 1; time i where the three
-/// lie on a line.
+/// Returns the place of the extremum of the parabola through the points at i - 1, i and i + 1; time i where
+/// the three lie on a line.
 double parabola_vertex(const std::vector<double>& times, const std::vector<double>& values, std::size_t i) {
     const double before = times[i] - times[i - 1];
     const double after = times[i + 1] - times[i];

@@ -2,17 +2,89 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "samara/core/base/angles.hpp"
 #include "samara/core/base/error.hpp"
-#include "samara/motion/autorotation.hpp"
+#include "samara/core/base/symmetric_matrix.hpp"
 #include "samara/motion/inclination.hpp"
 
 namespace samara {
 namespace {
+
+constexpr double spinning_share = 0.5;  // of the mean square angular speed
+constexpr double fewest_revolutions = 2.0;
+constexpr double spun_up_share = 0.8;
+// Ends whose distances from the centre of mass differ by less than this, over the body's spread, are alike.
+constexpr double alike_ends = 0.05;
+
+/// Returns the mean over time of a function of the frames [begin, end), by the trapezoidal rule.
+template <typename Function>
+auto time_mean(const Motion& motion, int begin, int end, const Function& function) {
+    using Value = decltype(function(begin));
+    const auto time = [&](int frame) { return motion.times[static_cast<std::size_t>(frame)]; };
+    Value sum = 0.0 * function(begin);
+    for (int frame = begin + 1; frame < end; ++frame) {
+        sum += 0.5 * (time(frame) - time(frame - 1)) * Value(function(frame - 1) + function(frame));
+    }
+    return Value(sum / (time(end - 1) - time(begin)));
+}
+
+/// Returns the direction from the centre of mass to the end of the longest axis that is farther from it: a
+/// unit vector in shape axes; nothing where both ends are about as far.
+std::optional<Vector3d> outward_axis(const BodyMotion& body) {
+    const SurfaceSpread spread = surface_spread(body.surface);
+    const PrincipalValues extents = principal_values(spread.covariance);
+    const Vector3d axis = extents.directions.col(2);
+    const double arm = (spread.centroid - body.center_of_mass).dot(axis);
+    if (std::abs(arm) <= alike_ends * std::sqrt(extents.values[2])) return std::nullopt;
+    return arm > 0.0 ? axis : Vector3d(-axis);
+}
+
+/// Returns the rotation of a body about the vertical over the frames [begin, end) of a motion; nothing where
+/// it does not autorotate or makes less than two revolutions: see measure(). Turnovers are not considered.
+std::optional<Autorotation> autorotation_of(const Motion& motion, const BodyMotion& body, int run, int copy,
+                                            int begin, int end) {
+    if (end - begin < 2) return std::nullopt;
+    const auto pose = [&](int frame) -> const Pose& { return motion.pose(body, run, frame, copy); };
+    const auto time = [&](int frame) { return motion.times[static_cast<std::size_t>(frame)]; };
+    const Vector3d down = down_direction(motion.gravity);
+    const double spin =
+        time_mean(motion, begin, end, [&](int frame) { return pose(frame).angular_velocity.dot(down); });
+    const double square =
+        time_mean(motion, begin, end, [&](int frame) { return pose(frame).angular_velocity.squaredNorm(); });
+    const double revolutions = std::abs(spin) * (time(end - 1) - time(begin)) / (2.0 * std::numbers::pi);
+    if (revolutions < fewest_revolutions || spin * spin <= spinning_share * square) return std::nullopt;
+
+    Autorotation result;
+    result.spin_rate = std::abs(spin);
+    const auto horizontal = [&](int frame) -> Vector3d {
+        const Vector3d& velocity = pose(frame).velocity;
+        return velocity - velocity.dot(down) * down;
+    };
+    const Vector3d drift = time_mean(motion, begin, end, horizontal);
+    result.helix_radius =
+        std::sqrt(time_mean(motion, begin, end,
+                            [&](int frame) { return (horizontal(frame) - drift).squaredNorm(); })) /
+        result.spin_rate;
+    if (const auto outward = outward_axis(body)) {
+        result.coning_angle = time_mean(motion, begin, end, [&](int frame) {
+            return std::asin(std::clamp(-(pose(frame).orientation * *outward).dot(down), -1.0, 1.0));
+        });
+    }
+    const double release = fall_of(motion, body, run, copy).begin;
+    int first = 0;
+    while (time(first) < release) ++first;
+    int spun_up = first;
+    const double sense = spin > 0.0 ? 1.0 : -1.0;
+    while (sense * pose(spun_up).angular_velocity.dot(down) < spun_up_share * result.spin_rate) ++spun_up;
+    result.spin_up_height = (pose(spun_up).position - pose(first).position).dot(down);
+    return result;
+}
 
 constexpr double rest_share = 1e-6;
 constexpr double touching = 1e-3;
@@ -59,7 +131,7 @@ Track track_in(const Motion& motion, const BodyMotion& body, int run, int copy, 
             static_cast<int>(last - times.begin())};
 }
 
-/// The mean over time of a function of the frame, by the trapezoidal rule.
+/// Returns the mean over time of a function of the frame, by the trapezoidal rule.
 template <typename Function>
 double time_mean(const Track& track, const Function& function) {
     if (track.end - track.begin < 2) return function(track.begin);
@@ -76,12 +148,13 @@ struct Turnovers {
     std::vector<double> times;  ///< s, the frame after each
 };
 
-/// Half turns of the shortest axis past the horizontal, with the band of the docstring as hysteresis.
+/// Finds half rotations of the shortest axis past the horizontal, with the band of the docstring as
+/// hysteresis.
 Turnovers find_turnovers(const Track& track) {
     const Vector3d down = down_direction(track.motion.gravity);
     Turnovers found;
     int side = 0;
-    Vector3d turning = Vector3d::Zero();
+    Vector3d rotation = Vector3d::Zero();
     Vector3d last_rotation = Vector3d::Zero();
     for (int frame = track.begin; frame < track.end; ++frame) {
         const Vector3d axis = track.axis(frame);
@@ -90,52 +163,53 @@ Turnovers find_turnovers(const Track& track) {
         const Vector3d transverse = spin - axis * axis.dot(spin);
         const bool clear = std::abs(height) > std::sin(horizontal_band);
         const int new_side = height > 0.0 ? 1 : -1;
-        turning += transverse;
+        rotation += transverse;
         if (!clear) continue;
         if (side != 0 && new_side != side) {
-            if (found.count > 0 && turning.dot(last_rotation) < 0.0) ++found.reversals;
+            if (found.count > 0 && rotation.dot(last_rotation) < 0.0) ++found.reversals;
             ++found.count;
             found.times.push_back(track.time(frame));
-            last_rotation = turning;
+            last_rotation = rotation;
         }
         side = new_side;
-        turning = transverse;
+        rotation = transverse;
     }
     return found;
 }
 
-/// Stretches between two minima in which the axis does not turn over.
+/// Counts the stretches between two minima in which the axis does not turn over.
 int count_plain_swings(const std::vector<double>& minima, const std::vector<double>& turnovers) {
     int plain = 0;
     for (std::size_t i = 1; i < minima.size(); ++i) {
-        const bool turns = std::any_of(turnovers.begin(), turnovers.end(), [&](double time) {
+        const bool turns_over = std::any_of(turnovers.begin(), turnovers.end(), [&](double time) {
             return time > minima[i - 1] && time <= minima[i];
         });
-        if (!turns) ++plain;
+        if (!turns_over) ++plain;
     }
     return plain;
 }
 
 Regime regime_of(const Turnovers& turnovers, int plain_swings, double inclination_range, bool autorotates) {
-    const double turns = turnovers.count;
-    const double all = turns + plain_swings;
-    if (turns > 0 && turns >= (1.0 - exception_share) * all &&
-        turnovers.reversals <= exception_share * turns) {
+    const double turned_over = turnovers.count;
+    const double all = turned_over + plain_swings;
+    if (turned_over > 0 && turned_over >= (1.0 - exception_share) * all &&
+        turnovers.reversals <= exception_share * turned_over) {
         return Regime::tumbling;
     }
     if (autorotates) return Regime::autorotating;
     if (turnovers.count == 0 && inclination_range < steady_range) return Regime::steady;
-    if (turns <= exception_share * all) return Regime::fluttering;
+    if (turned_over <= exception_share * all) return Regime::fluttering;
     return Regime::chaotic;
 }
 
-/// How far (m) a body of `size` over its surface's is above the ground at a pose.
+/// Returns the height (m) above the ground of the lowest point of a body at a pose; `size`: its lengths
+/// relative to its surface's.
 double clearance(const BodyMotion& body, double size, double ground, const Pose& pose) {
     const Vector3d down = pose.orientation.conjugate() * -Vector3d::UnitZ();
     return pose.position.z() - ground - size * reach(body.contact_points, down);
 }
 
-/// The pose after it moved on as it does for so many seconds.
+/// Extrapolates a pose by `duration` (s) at its velocities.
 Pose moved_on(const Pose& pose, double seconds) {
     Pose later = pose;
     later.position += seconds * pose.velocity;
@@ -168,7 +242,7 @@ std::optional<Touch> first_touch(const Motion& motion, const BodyMotion& body, i
         const double interval =
             motion.times[static_cast<std::size_t>(frame) + 1] - motion.times[static_cast<std::size_t>(frame)];
         if (height + interval * pose.velocity.z() > radius) continue;
-        // It fell into the ground and came out of it, so it met it in between.
+        // It fell into the ground and came out of it, so it touched it in between.
         const Pose& next = motion.pose(body, run, frame + 1, copy);
         if (clearance(body, size, ground, moved_on(pose, interval)) <= 0.0 &&
             clearance(body, size, ground, moved_on(next, -interval)) <= 0.0) {

@@ -10,10 +10,8 @@
 #include "samara/core/body/surface_file.hpp"
 #include "samara/core/files/hdf5_reader.hpp"
 #include "samara/core/files/row_major.hpp"
-#include "samara/motion/display_group.hpp"
-#include "samara/motion/motion_rules.hpp"
+#include "samara/motion/motion_layout.hpp"
 #include "samara/motion/motion_writer.hpp"
-#include "samara/motion/obstacle_file.hpp"
 
 namespace samara {
 namespace {

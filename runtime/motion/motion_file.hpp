@@ -17,17 +17,17 @@ class Hdf5Reader;
 void write_motion_file(const std::filesystem::path& file, const Motion& motion);
 
 /// Reads a motion file. Throws Error, naming the file and the place in it, where the file is missing, cut
-/// short, damaged, of another kind or from a newer version, and where its content breaks a rule: there is a
+/// short, damaged, of another type or from a newer version, and where its content breaks a rule: there is a
 /// frame, a body, a run and a copy; times ascend; all values are finite; all arrays agree on runs, frames and
 /// copies; quaternions and axes have unit length to 1e-6; the surfaces hold triangles.
 Motion read_motion_file(const std::filesystem::path& file);
 
-/// Some copies in some runs of a body.
+/// A block of consecutive copies and runs of a body.
 struct PoseBlock {
     int first_run = 0;   ///< counted from 0
-    int runs = 1;        ///< how many
+    int runs = 1;        ///< number of runs
     int first_copy = 0;  ///< counted from 0
-    int copies = 1;      ///< how many
+    int copies = 1;      ///< number of copies
 };
 
 /// Reads a motion file in parts, for files larger than memory. Throws like read_motion_file, each part when
@@ -37,14 +37,14 @@ class MotionReader {
     /// Opens the file; throws Error where it is no sound motion file.
     explicit MotionReader(const std::filesystem::path& file);
     ~MotionReader();
-    /// The other may then only be destroyed or assigned to.
+    /// Moves the open file; the other reader may then only be destroyed or assigned to.
     MotionReader(MotionReader&&) noexcept;
-    /// The other may then only be destroyed or assigned to.
+    /// Moves the open file; the other reader may then only be destroyed or assigned to.
     MotionReader& operator=(MotionReader&&) noexcept;
 
-    /// All but the poses.
+    /// Returns the motion without its poses.
     [[nodiscard]] const Motion& motion() const { return motion_; }
-    /// The poses of a block at all frames, (run, frame, copy) in row-major order.
+    /// Reads the poses of a block at all frames, (run, frame, copy) in row-major order.
     [[nodiscard]] std::vector<Pose> poses(std::size_t body, const PoseBlock& block) const;
     /// Calls `use` for all copies and runs of a body, some 64 MB at a time: with a motion that holds them as
     /// its one body, without the scene's text, and with their place in the whole.
@@ -56,7 +56,7 @@ class MotionReader {
     Motion motion_;
 };
 
-/// Whether the file is an HDF5 file that holds a motion; false also where it cannot be read.
+/// Returns whether the file is an HDF5 file that holds a motion; false also where it cannot be read.
 bool is_motion_file(const std::filesystem::path& file);
 
 }  // namespace samara

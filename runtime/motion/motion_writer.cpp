@@ -8,9 +8,7 @@
 #include "samara/core/base/version.hpp"
 #include "samara/core/body/surface_file.hpp"
 #include "samara/core/files/row_major.hpp"
-#include "samara/motion/display_group.hpp"
-#include "samara/motion/motion_rules.hpp"
-#include "samara/motion/obstacle_file.hpp"
+#include "samara/motion/motion_layout.hpp"
 
 namespace samara {
 namespace {
@@ -56,13 +54,13 @@ std::size_t poses_in_frame(const Motion& motion) {
     return poses * static_cast<std::size_t>(motion.runs);
 }
 
-/// `whole` cut into the fewest pieces of at most `most`, of which all are about as large.
+/// Returns the size of the pieces where `whole` is cut into the fewest about equal pieces of at most `most`.
 std::size_t even_piece(std::size_t whole, std::size_t most) {
     const std::size_t pieces = (whole + most - 1) / most;
     return (whole + pieces - 1) / pieces;
 }
 
-/// As many copies and then runs at the frames of a block as fit.
+/// Returns the shape of a chunk: the frames of a block of as many copies, and then runs, as fit.
 std::vector<hsize_t> chunk_of(const Motion& motion, const BodyMotion& body, hsize_t components) {
     const std::size_t frames = frames_in_block(motion);
     const std::size_t copies =
@@ -107,7 +105,7 @@ std::uintmax_t rounded_up(std::uintmax_t value, std::uintmax_t multiple) {
     return (value + multiple - 1) / multiple * multiple;
 }
 
-/// Somewhat more than the file will take (bytes).
+/// Returns an upper estimate of the file's size (bytes).
 std::uintmax_t expected_size(const Motion& motion) {
     constexpr std::uintmax_t small_parts = 1U << 20U;
     std::uintmax_t bytes = small_parts + 8 * motion.times.size();

@@ -11,12 +11,12 @@ namespace samara {
 /// Writes a motion file block by block, so that memory does not grow with its length.
 class MotionWriter {
   public:
-    /// `motion`: all but the poses, which come later. It must outlive the writer.
+    /// Writes all of `motion` but the poses. It must outlive the writer.
     MotionWriter(Hdf5Writer& file, const Motion& motion);
 
-    /// Poses of body number `body` at the frames from `first_frame` on, (run, frame, copy) in row-major
-    /// order. The fewest operations where the blocks are those of frames_in_block(). Throws Error where a
-    /// pose breaks a rule of read_motion_file.
+    /// Writes poses of body number `body` at the frames from `first_frame` on, (run, frame, copy) in
+    /// row-major order. It takes the fewest operations where the blocks are those of frames_in_block().
+    /// Throws Error where a pose breaks a rule of read_motion_file.
     void write(std::size_t body, std::size_t first_frame, const std::vector<Pose>& poses);
 
     /// Ends the motion after `frames` frames, where it was cut short.
@@ -27,8 +27,8 @@ class MotionWriter {
     const Motion& motion_;
 };
 
-/// How many frames to write at once: so many that a block of all bodies, copies and runs takes some 64 MB,
-/// one at least. It depends on nothing but the motion's sizes, so that equal motions give equal bytes.
+/// Returns how many frames to write at once: so many that a block of all bodies, copies and runs takes some
+/// 64 MB, one at least. It depends on nothing but the motion's sizes, so that equal motions give equal bytes.
 std::size_t frames_in_block(const Motion& motion);
 
 /// Writes a motion file through a temporary file: `fill` writes the poses. The file stands at `path` once

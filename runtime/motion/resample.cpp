@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -11,7 +12,7 @@
 namespace samara {
 namespace {
 
-/// A time between two frames: the earlier one, and the fraction of the way to the next.
+/// A time between two frames: the earlier one, and the fraction of the time to the next.
 struct FramePlace {
     int frame = 0;
     double fraction = 0.0;
@@ -34,6 +35,41 @@ FramePlace place_of(const std::vector<double>& times, double time) {
         place.fraction = 0.0;
     }
     return place;
+}
+
+/// Returns the frames of a period; throws Error where it has none.
+int frames_of(const Motion& motion, double period) {
+    const double frames = period * motion.frame_rate;
+    const double whole = std::round(frames);
+    if (whole < 1.0 || std::abs(frames - whole) > 1e-6 * whole) {
+        throw Error(
+            fmt::format("--loop {:g}: is {:g} frames at {:g} frames per second; give a whole number of "
+                        "them, or another --frame-rate",
+                        period, frames, motion.frame_rate));
+    }
+    if (whole > motion.frames() - 1) {
+        throw Error(fmt::format("--loop {:g}: the motion lasts {:g} s; give less, or simulate longer", period,
+                                motion.times.back() - motion.times.front()));
+    }
+    return static_cast<int>(whole);
+}
+
+BodyMotion looped_body(const Motion& motion, const BodyMotion& body, int run, int frames, int pieces) {
+    BodyMotion result = body;
+    result.copies = body.copies * pieces;
+    result.poses.clear();
+    result.sizes.clear();
+    for (int frame = 0; frame <= frames; ++frame) {
+        for (int piece = 0; piece < pieces; ++piece) {
+            for (int copy = 0; copy < body.copies; ++copy) {
+                result.poses.push_back(motion.pose(body, run, piece * frames + frame, copy));
+            }
+        }
+    }
+    for (int piece = 0; !body.sizes.empty() && piece < pieces; ++piece) {
+        for (int copy = 0; copy < body.copies; ++copy) result.sizes.push_back(body.size(run, copy));
+    }
+    return result;
 }
 
 }  // namespace
@@ -77,6 +113,39 @@ Motion resampled(const Motion& motion, double frame_rate) {
         }
     }
     return result;
+}
+
+Motion looped(const Motion& motion, int run, double period) {
+    const auto moves = std::find_if(motion.obstacles.begin(), motion.obstacles.end(),
+                                    [](const Obstacle& obstacle) { return obstacle.moves(); });
+    if (moves != motion.obstacles.end()) {
+        throw Error(fmt::format("--loop: the obstacle '{}' moves, and need not be at the end where it began",
+                                moves->name));
+    }
+    const int frames = frames_of(motion, period);
+    const int pieces = (motion.frames() - 1) / frames;
+    Motion result = motion;
+    result.runs = 1;
+    result.times.resize(static_cast<std::size_t>(frames) + 1);
+    result.bodies.clear();
+    for (const BodyMotion& body : motion.bodies) {
+        result.bodies.push_back(looped_body(motion, body, run, frames, pieces));
+    }
+    return result;
+}
+
+FastRotation fastest_rotation(const Motion& motion, int run) {
+    FastRotation fastest;
+    for (const BodyMotion& body : motion.bodies) {
+        for (int frame = 0; frame < motion.frames(); ++frame) {
+            for (int copy = 0; copy < body.copies; ++copy) {
+                const double rate = motion.pose(body, run, frame, copy).angular_velocity.norm();
+                const double revolutions = rate / (2.0 * std::numbers::pi * motion.frame_rate);
+                if (revolutions > fastest.revolutions) fastest = {body.name, revolutions};
+            }
+        }
+    }
+    return fastest;
 }
 
 }  // namespace samara

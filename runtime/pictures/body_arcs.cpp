@@ -10,8 +10,8 @@ namespace samara {
 namespace {
 
 constexpr int step = 5;  // degrees between the directions that are compared
-// Of the largest force: closer, it is interpolation that differs, which between the nodes of a usual map
-// takes up to 2.2 % from the force on a sphere and turns 2.6 % of it aside.
+// Share of the largest force. Smaller differences are those of interpolation, which between the nodes of a
+// usual map takes up to 2.2 % from the force on a sphere and deflects 2.6 % of it.
 constexpr double same_share = 0.03;
 constexpr double nearly = 0.6;  // degrees off an arc that still count as on it
 
@@ -23,7 +23,8 @@ double largest_drag(const LoadTables& tables, double reynolds_number) {
     return largest;
 }
 
-/// Whether the values of two arcs, each at its own angle, are alike all around; lifts and moments by size.
+/// Returns whether the values of two arcs, each at its own angle, are alike all around; lifts and moments by
+/// size.
 template <typename OtherAngle>
 bool alike(const LoadTables& tables, const BodyArc& one, const BodyArc& other, double reynolds_number,
            double tolerance, const OtherAngle& other_angle) {
@@ -36,7 +37,7 @@ bool alike(const LoadTables& tables, const BodyArc& one, const BodyArc& other, d
     return true;
 }
 
-/// The principal axes; those of the symmetry where moments that are all alike say nothing of them.
+/// Returns the principal axes; those of the symmetry where moments that are all alike say nothing of them.
 Matrix3d axes_of_arcs(const Body& body) {
     constexpr double alike_share = 1e-3;
     const Vector3d moments = eigenvalues_of(body.moments.second_moments);
@@ -53,8 +54,8 @@ void add_angle(std::vector<double>& angles, double angle, double most) {
     if (std::ranges::none_of(angles, near)) angles.push_back(angle);
 }
 
-/// Directions that turning about an axis makes of one, in the plane of an arc.
-std::vector<Vector3d> turned_into(const BodyArc& arc, const Vector3d& axis, const Vector3d& direction) {
+/// Returns the images of a direction under rotation about an axis that lie in the plane of an arc.
+std::vector<Vector3d> rotated_into(const BodyArc& arc, const Vector3d& axis, const Vector3d& direction) {
     const double along = direction.dot(axis);
     const Vector3d in_plane = axis - axis.dot(arc.normal()) * arc.normal();
     if (in_plane.norm() < 0.99) return {};
@@ -128,8 +129,8 @@ std::vector<double> angles_on(const BodyArc& arc, const Symmetry& symmetry, cons
     for (const Matrix3d& element : symmetry.elements) {
         std::vector<Vector3d> images = {element * direction};
         if (symmetry.type == Symmetry::Type::axial) {
-            const auto turned = turned_into(arc, symmetry.axis, images.front());
-            images.insert(images.end(), turned.begin(), turned.end());
+            const auto rotated = rotated_into(arc, symmetry.axis, images.front());
+            images.insert(images.end(), rotated.begin(), rotated.end());
         }
         for (const Vector3d& image : images) {
             if (std::abs(image.dot(arc.normal())) > std::sin(nearly / degrees)) continue;

@@ -12,7 +12,7 @@
 #include "samara/analysis/verdicts/case_records.hpp"
 #include "samara/core/base/angles.hpp"
 #include "samara/core/base/error.hpp"
-#include "samara/formats/vector_json.hpp"
+#include "samara/formats/json_text.hpp"
 #include "samara/pictures/body_arcs.hpp"
 
 namespace samara {
@@ -24,7 +24,7 @@ constexpr int points_of_curve = 181;
 constexpr int rows = 120;
 constexpr int columns = 240;
 
-/// The cases that went into the table at the Reynolds number.
+/// Returns the cases that went into the table at the Reynolds number.
 std::vector<CaseRecord> table_cases(std::vector<CaseRecord> records, double reynolds_number) {
     std::erase_if(records, [&](const CaseRecord& record) {
         return record.purpose != "table" || record.reynolds_number != reynolds_number;
@@ -134,7 +134,8 @@ json sphere(const Body& body, double reynolds_number, const std::vector<CaseReco
 /// One direction on its meshes, coarsest first.
 using Ladder = std::vector<CaseRecord>;
 
-/// The ladders of the main Reynolds number with the closure of the table's cases that go to the last mesh.
+/// Returns the ladders of the main Reynolds number with the closure of the table's cases that go to the last
+/// mesh.
 std::vector<Ladder> ladders_of(const std::vector<CaseRecord>& records, double reynolds_number) {
     std::vector<Ladder> ladders;
     for (const CaseRecord& record : records) {

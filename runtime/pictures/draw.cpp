@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 constexpr int module_missing = 3;  // exit status of draw.py
 
-/// The interpreters to try: the system's, which has what apt installs, before that of PATH.
+/// Returns the interpreters to try: the system's, which has what apt installs, before that of PATH.
 std::vector<fs::path> interpreters() {
     const char* chosen = std::getenv("SAMARA_PYTHON");
     if (chosen != nullptr && *chosen != '\0') {

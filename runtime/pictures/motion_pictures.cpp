@@ -10,7 +10,7 @@
 #include "samara/core/base/error.hpp"
 #include "samara/core/surface/curved_surface.hpp"
 #include "samara/export/shaded_mesh.hpp"
-#include "samara/formats/vector_json.hpp"
+#include "samara/formats/json_text.hpp"
 #include "samara/motion/inclination.hpp"
 #include "samara/motion/measures.hpp"
 
@@ -32,8 +32,8 @@ json of_one_copy(const char* picture, const Motion& motion, const BodyMotion& bo
             {"measures", as_json(measure(motion, body, run, copy))}};
 }
 
-/// With the frames of the fall and a little before and after it: a body may wait long, and lie long on the
-/// ground.
+/// Returns the data of a strip, with the frames of the fall and a little before and after it: a body may wait
+/// long, and lie long on the ground.
 json strip(const Motion& motion, const BodyMotion& body, int run, int copy) {
     json picture = of_one_copy("strip", motion, body, run, copy);
     const TimeWindow fall = fall_of(motion, body, run, copy);
@@ -44,10 +44,11 @@ json strip(const Motion& motion, const BodyMotion& body, int run, int copy) {
         const double time = motion.times[static_cast<std::size_t>(frame)];
         if (time < fall.begin - 0.1 * length || time > fall.end + 0.25 * length) continue;
         const Pose& pose = motion.pose(body, run, frame, copy);
-        const auto& turn = pose.orientation;
+        const auto& orientation = pose.orientation;
         picture["times"].push_back(time);
         picture["position"].push_back(as_json(pose.position));
-        picture["orientation"].push_back({turn.x(), turn.y(), turn.z(), turn.w()});
+        picture["orientation"].push_back(
+            {orientation.x(), orientation.y(), orientation.z(), orientation.w()});
         picture["descent_speed"].push_back(pose.velocity.dot(down));
         picture["inclination"].push_back(inclination(motion, body, pose));
         picture["angular_velocity"].push_back(as_json(pose.angular_velocity));
@@ -83,7 +84,7 @@ json phase(const Motion& motion, const BodyMotion& body, int run, int copy) {
     return picture;
 }
 
-/// Where one copy comes down in one run.
+/// The place where one copy lands in one run.
 struct Place {
     int run;
     int copy;
@@ -92,7 +93,7 @@ struct Place {
     double value;       ///< s: time of landing; without a landing m: the distance descended
 };
 
-/// The landings; where there is none, the places at the last frame.
+/// Returns the landings; where there is none, the places at the last frame.
 std::vector<Place> places_of(const Motion& motion, const BodyMotion& body, bool& landed) {
     std::vector<Place> landings;
     std::vector<Place> last;
@@ -163,12 +164,91 @@ json landing(const Motion& motion, const BodyMotion& body) {
     return picture;
 }
 
+using nlohmann::json;
+
+constexpr double most_swings = 24.0;
+constexpr std::size_t most_points = 4000;
+
+double drawn_time(const Comparison& all) {
+    const double common = std::min(all.motion_lengths.shortest, all.reference_lengths.shortest);
+    const auto& frequency = all.reference.metrics[Metric::frequency];
+    return frequency ? std::min(common, most_swings * 0.5 / frequency->value) : common;
+}
+
+json fall_as_json(const FallSeries& fall, double end) {
+    json result;
+    const std::size_t stride = 1 + fall.times.size() / most_points;
+    for (std::size_t i = 0; i < fall.times.size() && fall.times[i] <= end; i += stride) {
+        result["times"].push_back(fall.times[i]);
+        result["paths"].push_back(as_json(fall.displacements[i]));
+        result["inclinations"].push_back(fall.inclinations[i]);
+    }
+    return result;
+}
+
+json share_of_time(const FallSet& set) {
+    InclinationHistogram shares{};
+    double all = 0.0;
+    for (const auto& fall : set.histograms) {
+        for (const InclinationHistogram& piece : fall) {
+            for (std::size_t i = 0; i < piece.size(); ++i) {
+                shares[i] += piece[i];
+                all += piece[i];
+            }
+        }
+    }
+    for (double& share : shares) share /= all;
+    return shares;
+}
+
+json side_as_json(const FallSet& set, const std::string& file, double end) {
+    const auto& frequency = set.metrics[Metric::frequency];
+    json result = {{"file", file},
+                   {"regime", name_of(set.regimes.commonest())},
+                   {"distinct", set.distinct},
+                   {"falls", json::array({fall_as_json(set.example, end)})},
+                   {"spectrum", set.spectrum.power},
+                   {"spectrum_step", set.spectrum.step},
+                   {"frequency", frequency ? json(frequency->value) : json()},
+                   {"distribution", share_of_time(set)}};
+    for (const FallSeries& fall : set.more) result["falls"].push_back(fall_as_json(fall, end));
+    return result;
+}
+
 }  // namespace
 
 json motion_picture(const std::string& picture, const Motion& motion, const BodyMotion& body, int run,
                     int copy) {
     if (picture == "landing") return landing(motion, body);
     return picture == "phase" ? phase(motion, body, run, copy) : strip(motion, body, run, copy);
+}
+
+json comparison_picture(const Comparison& all, const std::string& motion, const std::string& reference) {
+    const double end = drawn_time(all);
+    json picture = {{"picture", "comparison"},
+                    {"name", all.motion_body},
+                    {"motion", side_as_json(all.motion, motion, end)},
+                    {"reference", side_as_json(all.reference, reference, end)},
+                    {"end", end},
+                    {"window", {all.window.begin, all.window.end}},
+                    {"judges_inclination", all.judges_inclination},
+                    {"regimes_agree", all.regimes_agree},
+                    {"agrees", all.agrees},
+                    {"certain", all.certain},
+                    {"first_swing_end", or_null(all.first_swing.end)},
+                    {"distance", all.distribution.distance},
+                    {"probability", nullptr}};
+    if (all.distribution.chance) picture["probability"] = all.distribution.chance->probability;
+    for (const Metric metric : compared_metrics) {
+        const MetricComparison& one = all.metrics[metric];
+        json error;
+        if (one.difference_error && one.reference) {
+            error = *one.difference_error / std::abs(one.reference->value);
+        }
+        picture["differences"].push_back(
+            {{"name", catalogued(metric).heading}, {"relative", or_null(one.relative)}, {"error", error}});
+    }
+    return picture;
 }
 
 }  // namespace samara

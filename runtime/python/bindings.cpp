@@ -17,7 +17,7 @@ constexpr auto between_calls = std::chrono::milliseconds(100);
 std::atomic<bool> exiting = false;
 std::atomic<int> at_work = 0;
 
-/// Where a member lies in a pose, in bytes, and how many numbers it has.
+/// Returns the offset of a member in a pose, in bytes, and its number of numbers.
 std::pair<std::size_t, py::ssize_t> place_of(PoseMember member) {
     switch (member) {
         case PoseMember::position:
@@ -112,7 +112,7 @@ bool LongWork::tell(double done, double total) {
     last_ = now;
     const py::gil_scoped_acquire interpreter;
     try {
-        if (exiting) throw Error("the interpreter exits: the flight was ended");
+        if (exiting) throw Error("the interpreter exits: the simulation was ended");
         if (PyErr_CheckSignals() != 0) throw py::error_already_set();
         if (!progress_.is_none()) progress_(done, total);
     } catch (...) {

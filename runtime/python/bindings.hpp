@@ -1,6 +1,6 @@
 #pragma once
 
-// What the parts of the Python module `samara` share: one file a part, each with its bind_ function.
+// Shared by the parts of the Python module `samara`: one file a part, each with its bind_ function.
 
 #include <array>
 #include <chrono>
@@ -30,17 +30,18 @@ namespace samara::python {
 
 namespace py = pybind11;
 
-/// A fault of what a caller gave: samara.InputError, which is a ValueError too.
+/// An error in a caller's arguments: samara.InputError, which is a ValueError too.
 class RaisedInputError : public Error {
     using Error::Error;
 };
 
-/// A fault of a file that cannot be read or written: samara.FileError, which is an OSError too.
+/// An error of a file that cannot be read or written: samara.FileError, which is an OSError too.
 class RaisedFileError : public Error {
     using Error::Error;
 };
 
-/// What `work` returns; its Error as the fault of a file where `file` cannot be read, else of what was given.
+/// Returns what `work` returns. Rethrows its Error as RaisedFileError where `file` cannot be read, else as
+/// RaisedInputError.
 template <typename Work>
 auto on_input(const Work& work, const std::filesystem::path& file = {}) {
     try {
@@ -57,8 +58,8 @@ auto on_input(const Work& work, const std::filesystem::path& file = {}) {
     }
 }
 
-/// A class of the module. An object that Python made by __new__ alone, without __init__, holds nothing: asked
-/// for anything it throws TypeError.
+/// Makes a class of the module. An object that Python made by __new__ alone, without __init__, holds nothing:
+/// asked for anything it throws TypeError.
 template <typename Type, typename... Options>
 py::class_<Type, Options...> class_of(py::module_& module, const char* name, const char* purpose) {
     py::class_<Type, Options...> made(module, name, purpose);
@@ -76,21 +77,22 @@ struct BodyOfMotion {
     [[nodiscard]] const BodyMotion& body() const { return motion->bodies[index]; }
 };
 
-/// A motion, and what was counted on the way where it was flown here.
+/// A motion, and the report of its simulation where it was simulated here.
 struct FlownMotion {
     std::shared_ptr<const Motion> motion;
     std::shared_ptr<const SimulationReport> report;  ///< null where the motion was read
 };
 
-/// What of a pose is an array of its own.
+/// The members of a pose that are arrays of their own.
 enum class PoseMember { position, orientation, velocity, angular_velocity };
 
-/// Poses in row-major order as a numpy array that shows them in place and cannot be written to: shape
+/// Returns one member of poses in row-major order as a read-only numpy array that shares their memory: shape
 /// (leading..., 3), of orientations (leading..., 4) as x, y, z, w. `owner` keeps them alive.
 py::array pose_view(const Pose* poses, std::vector<py::ssize_t> leading, PoseMember member,
                     const py::handle& owner);
 
-/// The same for any numbers, in row-major order.
+/// Returns numbers in row-major order as a read-only numpy array that shares their memory; `owner` keeps them
+/// alive.
 template <typename Number>
 py::array view(const Number* numbers, const std::vector<py::ssize_t>& shape, const py::handle& owner) {
     py::array array(py::dtype::of<Number>(), shape, numbers, owner);
@@ -98,8 +100,8 @@ py::array view(const Number* numbers, const std::vector<py::ssize_t>& shape, con
     return array;
 }
 
-/// So many real numbers out of whatever numpy makes an array of them from, of any memory order. Throws
-/// TypeError, which names them, for another shape and for what are no real numbers.
+/// Returns `count` real numbers from any object of which numpy makes an array, of any memory order. Throws
+/// TypeError, which names them, for another shape and for values that are no real numbers.
 template <std::size_t count>
 std::array<double, count> numbers_of(const py::handle& given, const char* name) {
     const py::array array = py::array::ensure(given);
@@ -117,11 +119,11 @@ std::array<double, count> numbers_of(const py::handle& given, const char* name) 
     return result;
 }
 
-/// A dict as TOML. `place`: what it is called where a value is none of TOML's, or nests without end, which
-/// throws RaisedInputError.
+/// Returns a dict as TOML text. Throws RaisedInputError, which calls it `place`, where a value is none of
+/// TOML's, or nests without end.
 std::string toml_text(const py::dict& values, const std::string& place);
 
-/// Reads such a text by read(); its faults do not name the lines, which nobody wrote.
+/// Reads the text of toml_text() by read(); its errors do not name the lines, which the user did not write.
 template <typename Read>
 auto read_dict(const std::string& place, const Read& read) {
     try {
@@ -135,32 +137,33 @@ auto read_dict(const std::string& place, const Read& read) {
     }
 }
 
-/// Throws RaisedInputError where there are none or too many.
+/// Throws RaisedInputError where there are no runs, or too many runs or threads.
 void require_runs_and_threads(int runs, int threads);
 
-/// The scene made ready by prepare_scene(), whose files are read under hdf5_mutex(). Throws RaisedFileError
-/// where a body's file cannot be read, RaisedInputError for all else.
+/// Returns the scene made ready by prepare_scene(), whose files are read under hdf5_mutex(). Throws
+/// RaisedFileError where a body's file cannot be read, RaisedInputError for all else.
 PreparedScene prepared(Scene scene, Preparation preparation);
 
-/// A JSON value as Python's own: dict, list, float, int, str, bool, None.
+/// Returns a JSON value as Python's own: dict, list, float, int, str, bool, None.
 py::object as_python(const nlohmann::json& value);
 
-/// Holds libhdf5, which is not made for several threads, while a file is read or written without the
-/// interpreter. A progress function that reads a file has it twice.
+/// Returns the mutex of libhdf5, which is not made for several threads: it is held while a file is read or
+/// written without the interpreter's lock. It is recursive for progress functions that read a file.
 std::recursive_mutex& hdf5_mutex();
 
 /// Runs a long piece of work without the interpreter's lock, so that other threads of Python go on, and calls
-/// back for progress and interrupts. An exception that Python raises on the way, Ctrl-C among them, ends the
+/// back for progress and interrupts. An exception that Python raises meanwhile, Ctrl-C among them, ends the
 /// work at its next call of tell() and is what the caller sees.
 class LongWork {
   public:
-    /// `progress`: None, or what is called with (done, total), ten times a second at most.
+    /// Prepares the work. `progress`: None, or a function that is called with (done, total), ten times a
+    /// second at most.
     explicit LongWork(py::object progress) : progress_(std::move(progress)) {}
 
-    /// To be called now and then; false: the work is to end.
+    /// Is called by the work now and then; returns false where the work must end.
     bool tell(double done, double total);
 
-    /// Does the work, whose own exception where it was ended from here is not seen.
+    /// Does the work. Where tell() ended it, the exception of Python is rethrown instead of the work's own.
     template <typename Work>
     auto operator()(const Work& work) {
         const Counted counted;
@@ -194,13 +197,13 @@ class LongWork {
     Clock::time_point last_ = Clock::now();
 };
 
-/// Scenes: samara.Scene.
+/// Binds scenes: samara.Scene.
 void bind_scene(py::module_& module);
-/// Motions: samara.Motion, BodyMotion, simulate, read_motion, compare.
+/// Binds motions: samara.Motion, BodyMotion, simulate, read_motion, compare.
 void bind_motion(py::module_& module);
-/// Live flights: samara.Simulation.
+/// Binds simulations that advance step by step: samara.Simulation.
 void bind_simulation(py::module_& module);
-/// Body files: samara.Body.
+/// Binds body files: samara.Body.
 void bind_body(py::module_& module);
 
 }  // namespace samara::python

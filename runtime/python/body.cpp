@@ -29,7 +29,7 @@ py::ssize_t length(std::size_t size) {
     return static_cast<py::ssize_t>(size);
 }
 
-/// One member of all entries of the tables, shape (Reynolds numbers, rows, columns[, 3]).
+/// Returns one member of all entries of the tables, shape (Reynolds numbers, rows, columns[, 3]).
 template <typename Member>
 py::object entries_view(const py::object& self, Member member,
                         const std::vector<LoadEntry> LoadTables::*entries) {
@@ -54,7 +54,7 @@ py::object entries_view(const py::object& self, Member member,
     return array;
 }
 
-/// The property that shows them.
+/// Returns the property that shows them.
 template <typename Member>
 auto table_of(Member member, const std::vector<LoadEntry> LoadTables::*entries = &LoadTables::entries) {
     return [member, entries](const py::object& self) { return entries_view(self, member, entries); };

@@ -9,7 +9,7 @@ py::handle error;
 py::handle input_error;
 py::handle file_error;
 
-/// An exception class of the module that lasts as long as the interpreter.
+/// Returns an exception class of the module that lasts as long as the interpreter.
 py::handle exception(py::module_& module, const char* name, const py::tuple& bases, const char* purpose) {
     const std::string full = std::string("samara.") + name;
     PyObject* made = PyErr_NewExceptionWithDoc(full.c_str(), purpose, bases.ptr(), nullptr);
@@ -18,8 +18,8 @@ py::handle exception(py::module_& module, const char* name, const py::tuple& bas
     return made;
 }
 
-void set_error(const py::handle& kind, const Error& caught) {
-    PyErr_SetString(kind.ptr(), caught.what());
+void set_error(const py::handle& type, const Error& caught) {
+    PyErr_SetString(type.ptr(), caught.what());
 }
 
 void bind_errors(py::module_& module) {

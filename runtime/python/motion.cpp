@@ -22,7 +22,6 @@
 #include "samara/export/usd_file.hpp"
 #include "samara/motion/measures.hpp"
 #include "samara/motion/motion_file.hpp"
-#include "samara/pictures/comparison_picture.hpp"
 #include "samara/pictures/motion_pictures.hpp"
 
 namespace samara::python {

@@ -25,7 +25,7 @@ RaisedInputError no_toml(const std::string& place, const py::handle& value) {
                     py::str(py::type::of(value).attr("__name__")).cast<std::string>()));
 }
 
-/// What `place` is called from, whatever a scene that nests without end adds to it.
+/// Throws RaisedInputError where a scene nests deeper than any does, as one that contains itself.
 void require_levels(const std::string& place, int level) {
     if (level <= most_levels) return;
     throw RaisedInputError(
@@ -59,7 +59,7 @@ double real_number(const py::handle& value, const std::string& place) {
     throw RaisedInputError(fmt::format("{} is beyond the range of numbers", place));
 }
 
-/// Whether it is a number of numpy's or an array: numpy.bool_, numpy.float32(1), numpy.zeros(3).
+/// Returns whether it is a number of numpy's or an array: numpy.bool_, numpy.float32(1), numpy.zeros(3).
 bool is_numpys(const py::handle& value) {
     return py::hasattr(value, "dtype") && py::hasattr(value, "tolist");
 }

@@ -20,7 +20,7 @@
 #include "samara/core/base/number_limits.hpp"
 #include "samara/core/simulation/body_group.hpp"
 #include "samara/formats/toml_table.hpp"
-#include "samara/scene/scene_settings.hpp"
+#include "samara/scene/scene_simulation.hpp"
 #include "samara/scene/wind_table.hpp"
 
 namespace samara::python {

@@ -12,8 +12,7 @@
 #include "samara/core/body/body_check.hpp"
 #include "samara/core/body/total_error.hpp"
 #include "samara/core/physics/fluid.hpp"
-#include "samara/formats/left_out_cases.hpp"
-#include "samara/reports/words.hpp"
+#include "samara/reports/report_blocks.hpp"
 
 namespace samara {
 namespace {
@@ -33,7 +32,7 @@ const ErrorShare& largest_source(const LoadTables& tables, double ErrorShare::*q
                                      [&](const ErrorShare& share) { return share.*quantity; });
 }
 
-/// What makes a source's error smaller.
+/// Returns how to make a source's error smaller.
 const char* remedy_of(ErrorSource source) {
     switch (source) {
         case ErrorSource::mesh:
@@ -95,7 +94,7 @@ void judge_sources(std::vector<Finding>& findings, const LoadTables& tables) {
 void judge_quality(std::vector<Finding>& findings, const LoadTables& tables) {
     if (tables.quality != "smoke") return;
     findings.push_back(
-        {Grade::bad, "quality", "smoke is for trying the way alone; bake with preview or higher"});
+        {Grade::bad, "quality", "smoke is for trying the programs alone; bake with preview or higher"});
 }
 
 void judge_cases(std::vector<Finding>& findings, const LoadTables& tables,
@@ -123,9 +122,9 @@ void judge_cases(std::vector<Finding>& findings, const LoadTables& tables,
     if (errory > 0) {
         findings.push_back(
             {Grade::limited, "meshes",
-             fmt::format("checkMesh finds faults in those of {} of {} cases", errory, records.size())});
+             fmt::format("checkMesh finds errors in those of {} of {} cases", errory, records.size())});
     } else if (std::ranges::any_of(records, [](const CaseRecord& one) { return one.cells > 0.0; })) {
-        findings.push_back({Grade::good, "meshes", "checkMesh finds no fault"});
+        findings.push_back({Grade::good, "meshes", "checkMesh finds no error"});
     }
 }
 
@@ -160,14 +159,14 @@ void judge_region(std::vector<Finding>& findings, const LoadTables& tables) {
 void judge_motion(std::vector<Finding>& findings, const Body& body) {
     if (!body.dynamic) {
         findings.push_back(
-            {Grade::bad, "turning",
-             "no falls were solved: the coefficients of a turning body are those that bodies have in common; "
+            {Grade::bad, "rotation",
+             "no falls were solved: the dynamic coefficients are those that bodies have in common; "
              "quality standard identifies them"});
         return;
     }
     findings.push_back(
-        {Grade::good, "turning",
-         fmt::format("the coefficients of a turning body are identified: {}", body.dynamic->values.origin)});
+        {Grade::good, "rotation",
+         fmt::format("the dynamic coefficients are identified: {}", body.dynamic->values.origin)});
 }
 
 void judge_kirchhoff(std::vector<Finding>& findings, const Body& body) {
@@ -203,7 +202,7 @@ void judge_reynolds_numbers(std::vector<Finding>& findings, const LoadTables& ta
                                     numbers.front(), numbers.back(), speeds)});
 }
 
-/// Of one kind of figure: whether the tables know it well enough.
+/// Returns whether the tables' error of a quantity is small enough.
 bool is_good(const LoadTables& tables, double ErrorShare::*quantity) {
     return !tables.error_sources.empty() && holds(tables, ErrorSource::mesh) &&
            total_error(tables.error_sources, quantity) <= good_error;
@@ -220,7 +219,7 @@ bool is_bad(const std::vector<Finding>& findings, const std::set<std::string>& n
     });
 }
 
-/// What a bake may be good for.
+/// Uses that a bake may be good for.
 struct Uses {
     bool pictures, speeds, swings;
 };
@@ -230,11 +229,11 @@ void sort_uses(BakeVerdict& verdict, const Body& body, const Uses& uses) {
     const auto put = [&](bool good, const std::string& use) {
         (good ? verdict.good_for : verdict.not_for).push_back(use);
     };
-    put(uses.pictures, "pictures and animations: falls of the right kind");
+    put(uses.pictures, "pictures and animations: falls of the right regime");
     put(uses.speeds, fmt::format("speeds of descent, which the tables leave uncertain {}",
                                  error_in_words(tables, &ErrorShare::force, 0.5)));
     put(uses.swings, "frequencies and amplitudes of swings" +
-                         (!body.dynamic ? ": nothing of this body's turning was solved"
+                         (!body.dynamic ? ": no fall of this body was solved"
                           : is_bad(verdict.findings, {swings_of_falls})
                               ? ": those of the solved falls are missed"
                               : fmt::format("; the moment is uncertain {}",
@@ -290,14 +289,14 @@ BakeVerdict judge_bake(const Body& body, const std::vector<Finding>& further) {
     if (!can_be_used) {
         verdict.grade = Grade::bad;
         verdict.headline = is_bad(findings, {"soundness"}) ? "Not to be used: the file is unsound."
-                           : tables.quality == "smoke"     ? "Good for trying the way alone: not for falls."
-                                                           : "Not to be used as it is.";
+                           : tables.quality == "smoke" ? "Good for trying the programs alone: not for falls."
+                                                       : "Not to be used as it is.";
     } else if (speeds && swings) {
-        verdict.headline = "Good for figures of falls, and for pictures.";
+        verdict.headline = "Good for metrics of falls, and for pictures.";
     } else {
         verdict.grade = Grade::limited;
         verdict.headline = speeds ? "Good for pictures and for speeds of descent, not for how it swings."
-                                  : "Good for pictures, not for figures.";
+                                  : "Good for pictures, not for metrics.";
     }
     return verdict;
 }

@@ -61,7 +61,7 @@ std::vector<ObstacleKey> read_keys(TomlTable& table, const ObstaclePlace& place)
     return keys;
 }
 
-/// Shape, scale, place and keys.
+/// Reads shape, scale, position and keys of a solid.
 void read_solid(TomlTable& table, const std::filesystem::path& folder, Obstacle& obstacle) {
     const auto shape = table.text("shape");
     if (!shape) throw table.error("shape", "is missing; give a mesh, .stl, .obj or .glb");

@@ -9,11 +9,11 @@
 namespace samara {
 
 /// Reads one [[obstacle]] with its mesh; paths are taken from `folder`. Throws Error naming file, line and
-/// remedy: for what read_scene_file refuses, and for a mesh that cannot be had or is no sound surface.
+/// remedy for what read_scene_file() rejects, and for a mesh that cannot be read or is no sound surface.
 Obstacle read_obstacle(TomlTable& table, const std::filesystem::path& folder);
 
-/// Reads the `emitter` of a body, whose mesh has the keys of an obstacle. Throws the same, and where its keys
-/// let it jump.
+/// Reads the `emitter` of a body, whose mesh has the keys of an obstacle. Throws as read_obstacle(), and
+/// where its keys let it jump.
 Emitter read_emitter(TomlTable& table, const std::filesystem::path& folder);
 
 }  // namespace samara

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 using BodiesByName = std::map<std::string, ReadyBody>;
 
-/// What the index says of each body. `./dev bodies` reads the rest.
+/// Reads name, fluid, density and purpose of each body from the index. `./dev bodies` reads the rest.
 BodiesByName read_index(const fs::path& file) {
     const toml::table document = parse_toml(read_bytes(file), file.string());
     BodiesByName bodies;

@@ -15,17 +15,19 @@
 namespace samara {
 namespace {
 
-// Of a copy in a run while it flies (body_flight.hpp), and of its poses in a block while that is written.
+// Bytes of a copy in a run while it is simulated (body_flight.hpp), and of its poses in a block while that is
+// written.
 constexpr double bytes_of_a_flight = static_cast<double>(sizeof(StateBlock)) / StateBlock::size +
                                      2.0 * sizeof(Pose) + sizeof(Quaterniond) + sizeof(TableErrorsOnPath);
 constexpr double bytes_in_file = 13.0 * sizeof(double);
 constexpr double bytes_of_a_written_pose = sizeof(Pose) + 4.0 * sizeof(double);
 constexpr double bytes_in_block = 64U << 20U;
-// Of a frame of the one copy that is measured at a time, and of its time.
+// Bytes of a frame of the one copy that is measured at a time, and of its time.
 constexpr double bytes_of_a_measured_frame = 170.0;
 constexpr double bytes_of_all_else = 60e6;
 
-/// Of what a copy of another size than the shape's touches ground, obstacles and others with.
+/// Returns the bytes of the hull with which a copy of another size than the shape's touches ground, obstacles
+/// and others.
 double bytes_of_a_touching_body(const Scene& scene, const SceneBody& body, const LoadedBody& loaded) {
     const bool touches = scene.ground || !scene.obstacles.empty() || scene.bodies_collide;
     if (!touches || !body.spreads_size()) return 0.0;

@@ -9,18 +9,18 @@
 
 namespace samara {
 
-/// About what it takes to simulate a scene into a motion file and to measure that.
+/// Approximate memory and disk to simulate a scene into a motion file and to measure that.
 struct RunNeeds {
     double memory = 0.0;             ///< bytes, at the highest
     double disk = 0.0;               ///< bytes
     bool memory_for_copies = false;  ///< whether most of the memory is for copies and runs, not for frames
 };
 
-/// The needs of a scene in `runs` runs, by its sizes alone: nothing is made for it. With its bodies, where
-/// they are loaded, also what copies of many sizes touch with.
+/// Estimates the needs of a scene in `runs` runs from its sizes alone. With its bodies, where they are
+/// loaded, the hulls of copies of many sizes count too.
 RunNeeds needs_of(const Scene& scene, int runs, const std::vector<LoadedBody>& loaded = {});
 
-/// "5.2 GB of memory and 5.4 GB of disk".
+/// Returns the needs as text: "5.2 GB of memory and 5.4 GB of disk".
 std::string in_words(const RunNeeds& needs);
 
 /// Throws Error, which says how much and what to lower, where the machine has not the memory, or the folder

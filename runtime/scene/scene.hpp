@@ -17,14 +17,14 @@
 
 namespace samara {
 
-/// One [[body]] of a scene: what it is, and how it starts.
+/// One [[body]] of a scene: its physics, and how it starts.
 struct SceneBody : BodyPhysics, Release {
     std::string name;             ///< unique in the scene
     std::filesystem::path shape;  ///< a shape file or a .body.h5, as found from the scene file's folder
     double scale = 1.0;           ///< metres for one unit of the shape file
     std::shared_ptr<const DisplayMesh>
-        display;               ///< in metres and shape axes: what exports show; null: its surface
-    bool models_auto = false;  ///< what the model advice says is to be flown (docs/plan.md)
+        display;               ///< mesh for exports, in metres and shape axes; null: its surface
+    bool models_auto = false;  ///< whether the model advice chooses the models (docs/plan.md)
     /// Whether the scene leaves the loads, or the turbulence, to what the body's file holds: tables, or else
     /// the loads of its surface, in still fluid.
     bool loads_by_default = false;
@@ -35,16 +35,16 @@ struct SceneBody : BodyPhysics, Release {
 struct Scene {
     double duration = 0.0;   ///< s
     double step = 0.002;     ///< s
-    bool step_auto = false;  ///< whether the step is chosen by what the bodies ask for (docs/theory.md)
-    double step_tolerance = 0.005;                 ///< of the way: by how much it may be off
-    double frame_rate = 60.0;                      ///< frames per second
-    std::uint64_t seed = 1;                        ///< of the noise and the spread of starts
+    bool step_auto = false;  ///< whether the step is chosen by the bodies' time scales (docs/theory.md)
+    double step_tolerance = 0.005;  ///< largest error of the step, relative to the displacement
+    double frame_rate = 60.0;       ///< frames per second
+    std::uint64_t seed = 1;         ///< seed of the noise and the spread of starts
     Vector3d gravity = Vector3d(0.0, 0.0, -9.81);  ///< m/s^2
     std::optional<double> ground;                  ///< m: the height of level ground
     bool bodies_collide = false;                   ///< whether the bodies of a run touch each other
-    Fluid fluid;                                   ///< what the bodies are in
+    Fluid fluid;                                   ///< the fluid around the bodies
     Wind wind;                                     ///< beside current and gust
-    std::vector<Obstacle> obstacles;               ///< in the file's order, with unlike names
+    std::vector<Obstacle> obstacles;               ///< in the file's order, with unique names
     std::vector<SceneBody> bodies;                 ///< in the file's order
     std::string text;                              ///< the file as it was read
     std::filesystem::path file;                    ///< where it was read from

@@ -15,7 +15,6 @@
 #include "samara/core/surface/surface_patches.hpp"
 #include "samara/formats/display_mesh_file.hpp"
 #include "samara/formats/toml_table.hpp"
-#include "samara/scene/choice.hpp"
 #include "samara/scene/obstacle_table.hpp"
 #include "samara/scene/ready_bodies.hpp"
 #include "samara/scene/require_rules.hpp"

@@ -12,8 +12,8 @@ namespace samara {
 /// a missing required key, a shape file that is not there.
 Scene read_scene_file(const std::filesystem::path& file);
 
-/// The same for the text of a scene file. `name`: what messages call it, and the scene's file; `folder`:
-/// where paths in it are taken from.
+/// Reads the text of a scene file; errors as for read_scene_file(). `name`: its name in messages, and the
+/// scene's file; `folder`: the folder that paths in it are relative to.
 Scene read_scene_text(std::string text, const std::string& name, const std::filesystem::path& folder);
 
 }  // namespace samara

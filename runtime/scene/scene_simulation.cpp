@@ -11,17 +11,18 @@
 #include "samara/core/base/error.hpp"
 #include "samara/core/base/parallel_for.hpp"
 #include "samara/core/dynamics/body_size.hpp"
+#include "samara/core/dynamics/surroundings.hpp"
 #include "samara/core/simulation/body_group.hpp"
+#include "samara/core/simulation/simulation_surroundings.hpp"
 #include "samara/motion/motion_writer.hpp"
-#include "samara/scene/scene_settings.hpp"
 
 namespace samara {
 namespace {
 
-/// So many of a kind know what its tables' errors come to along all flights.
+/// Bodies of a group that are enough to know the mean errors of its tables along all paths.
 constexpr std::size_t judged_copies = 1000;
 
-/// Frame times from 0 to the duration.
+/// Returns the times of the frames (s), from 0 to the duration.
 std::vector<double> frame_times(const Scene& scene) {
     const auto last = static_cast<int>(std::floor(scene.duration * scene.frame_rate * (1.0 + 1e-12)));
     std::vector<double> times(static_cast<std::size_t>(last) + 1);
@@ -64,7 +65,7 @@ BodyMotion empty_motion(const SceneBody& scene_body, const ImmersedBody& immerse
     return motion;
 }
 
-/// Steps that the bodies of a kind take until the end.
+/// Returns the steps that the bodies of a group take until the end.
 double steps_of(const Scene& scene, const BodyGroup& group) {
     double seconds = 0.0;
     for (std::size_t i = 0; i < group.size(); ++i) seconds += std::max(0.0, scene.duration - group.start(i));
@@ -73,10 +74,36 @@ double steps_of(const Scene& scene, const BodyGroup& group) {
 
 }  // namespace
 
+SimulationSettings simulation_settings(const Scene& scene, int runs, int threads) {
+    return {.fluid = scene.fluid,
+            .gravity = scene.gravity,
+            .ground = scene.ground,
+            .obstacles = scene.obstacles,
+            .wind = scene.wind,
+            .bodies_collide = scene.bodies_collide,
+            .step = scene.step,
+            .seed = scene.seed,
+            .runs = runs,
+            .threads = threads};
+}
+
+Simulation simulation_of(const Scene& scene, const std::vector<LoadedBody>& loaded, int runs, int threads) {
+    Simulation simulation(simulation_settings(scene, runs, threads));
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        const SceneBody& body = scene.bodies[i];
+        simulation.add(loaded[i], body, body, body.name);
+    }
+    return simulation;
+}
+
+Surroundings surroundings_of(const Scene& scene) {
+    return surroundings_of(simulation_settings(scene, 1, 1));
+}
+
 SceneSimulation::SceneSimulation(const Scene& scene, const std::vector<LoadedBody>& loaded, int runs,
                                  int threads)
     : threads_(threads),
-      // Steps of bodies that meet may be slow, and are taken one by one anyway.
+      // Steps of bodies that touch may be slow, and are taken one by one anyway.
       piece_(scene.bodies_collide ? scene.step : std::numeric_limits<double>::infinity()),
       simulation_(simulation_of(scene, loaded, runs, threads)) {
     motion_.times = frame_times(scene);
@@ -115,8 +142,8 @@ void SceneSimulation::take_frame(std::size_t index, double time, Pose* poses, st
             keep_sign_continuous(pose.orientation, frames.last[i]);
             frames.last[i] = pose.orientation;
             if (i % judged != 0) continue;
-            const Pose met = in_own_units(group.pose_in_wind(i, time), group.size_of(i));
-            frames.table_errors[i].add(table_errors_on_path(group.body(), met));
+            const Pose in_flow = in_own_units(group.pose_in_wind(i, time), group.size_of(i));
+            frames.table_errors[i].add(table_errors_on_path(group.body(), in_flow));
         }
     });
 }
@@ -141,39 +168,39 @@ SimulationReport SceneSimulation::fly(const Sink& sink, const Progress& progress
         for (std::size_t i = 0; i < motion_.bodies.size(); ++i) {
             poses[i].resize(runs * planned * static_cast<std::size_t>(motion_.bodies[i].copies));
         }
-        std::size_t flown = 0;
-        while (flown < planned && !report.interrupted) {
+        std::size_t stored = 0;
+        while (stored < planned && !report.interrupted) {
             const auto start = std::chrono::steady_clock::now();
-            const double time = motion_.times[report.frames + flown];
+            const double time = motion_.times[report.frames + stored];
             if (!advance_to(time, progress)) {
                 report.interrupted = true;
                 break;
             }
             for (std::size_t i = 0; i < motion_.bodies.size(); ++i) {
                 const auto copies = static_cast<std::size_t>(motion_.bodies[i].copies);
-                take_frame(i, time, &poses[i][flown * copies], planned * copies);
+                take_frame(i, time, &poses[i][stored * copies], planned * copies);
             }
             report.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-            ++flown;
+            ++stored;
             report.interrupted = !progress(static_cast<double>(simulation_.steps()), total_steps_) &&
-                                 report.frames + flown < all;
+                                 report.frames + stored < all;
         }
-        for (std::size_t i = 0; i < motion_.bodies.size() && flown > 0; ++i) {
-            if (flown < planned) {  // the runs stand closer together
+        for (std::size_t i = 0; i < motion_.bodies.size() && stored > 0; ++i) {
+            if (stored < planned) {  // the runs stand closer together
                 const auto copies = static_cast<std::size_t>(motion_.bodies[i].copies);
                 for (std::size_t run = 1; run < runs; ++run) {
-                    std::copy_n(&poses[i][run * planned * copies], flown * copies,
-                                &poses[i][run * flown * copies]);
+                    std::copy_n(&poses[i][run * planned * copies], stored * copies,
+                                &poses[i][run * stored * copies]);
                 }
-                poses[i].resize(runs * flown * copies);
+                poses[i].resize(runs * stored * copies);
             }
             sink(i, report.frames, poses[i]);
         }
-        report.frames += flown;
+        report.frames += stored;
     }
     for (std::size_t i = 0; i < motion_.bodies.size(); ++i) {
         BodyReport body{simulation_.groups()[i]->report(), {}};
-        for (const TableErrorsOnPath& met : frames_[i].table_errors) body.table_errors.add(met);
+        for (const TableErrorsOnPath& errors : frames_[i].table_errors) body.table_errors.add(errors);
         report.add(body);
         report.bodies.push_back(body);
     }

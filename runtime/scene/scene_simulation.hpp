@@ -10,45 +10,59 @@
 
 namespace samara {
 
-/// What happened to the copies of a body of a scene in all runs.
+struct Surroundings;
+
+/// Returns the surroundings of the bodies of a scene: fluid, wind, ground and obstacles.
+Surroundings surroundings_of(const Scene& scene);
+
+/// Returns the settings of a simulation of the scene in `runs` runs on `threads` threads (0: all cores).
+SimulationSettings simulation_settings(const Scene& scene, int runs, int threads);
+
+/// Returns a simulation with these settings and all bodies of the scene, in its order: its body group i is
+/// scene.bodies[i], with the body `loaded[i]`. Throws Error where a body lacks what the scene asks of it or
+/// starts below the ground or inside an obstacle.
+Simulation simulation_of(const Scene& scene, const std::vector<LoadedBody>& loaded, int runs, int threads);
+
+/// Summary of the steps of all copies of a body of a scene in all runs.
 struct BodyReport : StepReport {
-    TableErrorsOnPath table_errors;  ///< at the frames; of a crowd a thousand bodies or more stand for all
+    TableErrorsOnPath table_errors;  ///< sums over the frames; in a crowd over a thousand bodies or more
 };
 
-/// What happened on the way, over all bodies, copies and runs.
+/// Summary of a simulation's steps over all bodies, copies and runs.
 struct SimulationReport : StepReport {
-    std::size_t frames = 0;          ///< that were flown
-    bool interrupted = false;        ///< whether `progress` ended the flight before the last frame
+    std::size_t frames = 0;          ///< frames that were simulated
+    bool interrupted = false;        ///< whether `progress` ended the simulation before the last frame
     double seconds = 0.0;            ///< wall time of the stepping
     std::vector<BodyReport> bodies;  ///< one for each body of the scene
 };
 
-/// Every body of a scene with every copy in `runs` runs that differ by their noise alone. Frames lie at whole
-/// multiples of 1/frame_rate and are interpolated from the steps, which they do not change. A body is held in
-/// place until its start.
+/// Simulates every body of a scene with every copy in `runs` runs that differ by their noise alone. Frames
+/// lie at whole multiples of 1/frame_rate and are interpolated from the steps, which they do not change. A
+/// body is held in place until its start.
 class SceneSimulation {
   public:
-    /// Takes the block's poses of body number `body` from frame `first_frame` on: (run, frame, copy) in
+    /// Receives the block's poses of body number `body` from frame `first_frame` on: (run, frame, copy) in
     /// row-major order.
     using Sink =
         std::function<void(std::size_t body, std::size_t first_frame, const std::vector<Pose>& poses)>;
-    /// Told of (done, total) copies x runs x steps at every frame and, where bodies meet, every step; false
-    /// ends the flight at this frame, or with the one before.
+    /// Is called with the copies x runs x steps done and in total at every frame and, where bodies touch,
+    /// every step; returns false to end the simulation at this frame, or with the one before.
     using Progress = std::function<bool(double done, double total)>;
 
-    /// `loaded[i]` is the body of scene.bodies[i]. `threads`: 0 for all cores; the poses are the same for any
-    /// number. Throws Error where a body lacks what the scene asks of it or starts below the ground.
+    /// Prepares a simulation. `loaded[i]` is the body of scene.bodies[i]. `threads`: 0 for all cores; the
+    /// poses are the same for any number. Throws Error where a body lacks what the scene asks of it or starts
+    /// below the ground.
     SceneSimulation(const Scene& scene, const std::vector<LoadedBody>& loaded, int runs, int threads = 0);
 
-    /// The motion without its poses.
+    /// Returns the motion without its poses.
     [[nodiscard]] const Motion& motion() const { return motion_; }
 
-    /// Flies from the first frame to the last, once. Blocks are those of frames_in_block(), so memory does
-    /// not grow with the number of frames.
+    /// Simulates from the first frame to the last, once. Blocks are those of frames_in_block(), so memory
+    /// does not grow with the number of frames.
     SimulationReport fly(const Sink& sink, const Progress& progress);
 
   private:
-    /// What the frames of a body have so far, body by body, so that sums have one order.
+    /// Sums over the frames of a body so far, copy by copy, so that they are added in one order.
     struct Frames {
         std::vector<Quaterniond> last;  ///< orientations at the last frame
         std::vector<TableErrorsOnPath> table_errors;
@@ -64,13 +78,13 @@ class SceneSimulation {
     double total_steps_ = 0.0;
 };
 
-/// What a scene's flight gives.
+/// The result of simulate().
 struct SimulationResult {
-    Motion motion;            ///< of all bodies, runs and frames
-    SimulationReport report;  ///< steps, time, what was met
+    Motion motion;            ///< all bodies, runs and frames
+    SimulationReport report;  ///< steps, time and errors of tables
 };
 
-/// A simulation whose poses are all kept in memory. Throws Error also where `progress` ends it.
+/// Simulates a scene and keeps all poses in memory. Throws Error also where `progress` ends it.
 SimulationResult simulate(const Scene& scene, const std::vector<LoadedBody>& loaded, int runs,
                           const SceneSimulation::Progress& progress, int threads = 0);
 

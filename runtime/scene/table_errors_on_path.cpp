@@ -35,27 +35,27 @@ double TableErrorsOnPath::share_strayed() const {
 }
 
 TableErrorsOnPath table_errors_on_path(const ImmersedBody& body, const Pose& in_flow) noexcept {
-    TableErrorsOnPath met;
-    if (!body.tables || body.tables->errors.size() != body.tables->entries.size()) return met;
+    TableErrorsOnPath errors;
+    if (!body.tables || body.tables->errors.size() != body.tables->entries.size()) return errors;
     const Vector3d velocity = centroid_velocity(in_flow, body);
     const double speed = velocity.norm();
-    if (!(speed > 0.0)) return met;
+    if (!(speed > 0.0)) return errors;
     const Vector3d direction = velocity / speed;
-    met.poses = 1;
-    met.strayed = body.tables->plan.holds(body.tables->axes.transpose() * direction) ? 0 : 1;
+    errors.poses = 1;
+    errors.strayed = body.tables->plan.holds(body.tables->axes.transpose() * direction) ? 0 : 1;
     const double reynolds = reynolds_number(body, speed);
     const LoadEntry entry = look_up(*body.tables, direction, reynolds);
     const LoadEntryError error = look_up_error(*body.tables, direction, reynolds);
     const bool of_tables = body.loads == Loads::table || body.loads == Loads::surface;
     if (of_tables && entry.force.norm() > 0.0) {
-        met.force = error.force.norm() / entry.force.norm();
-        met.forces = 1;
+        errors.force = error.force.norm() / entry.force.norm();
+        errors.forces = 1;
     }
     if (body.turbulence == Turbulence::table && entry.turbulent_kinetic_energy > 0.0) {
-        met.turbulent_kinetic_energy = error.turbulent_kinetic_energy / entry.turbulent_kinetic_energy;
-        met.turbulent_kinetic_energies = 1;
+        errors.turbulent_kinetic_energy = error.turbulent_kinetic_energy / entry.turbulent_kinetic_energy;
+        errors.turbulent_kinetic_energies = 1;
     }
-    return met;
+    return errors;
 }
 
 }  // namespace samara

@@ -10,15 +10,16 @@
 
 namespace samara {
 
-/// Where bodies are to come to.
+/// A ball or a ring that bodies are to reach.
 struct Target {
     Vector3d middle = Vector3d::Zero();  ///< m, world
     double radius = 0.0;                 ///< m
-    /// Of a ring, which is to be passed through from either side; without it bodies are to end in the ball.
+    /// Normal of a ring, which is to be passed through from either side; without it the target is a ball that
+    /// bodies are to enter.
     std::optional<Vector3d> normal = {};
 };
 
-/// How near the copies of a body come to a target with one seed: the nearest of them.
+/// The nearest approach of a body's copies to a target with one seed.
 struct TargetMiss {
     std::uint64_t seed = 0;
     int copy = 0;           ///< counted from 0
@@ -31,10 +32,11 @@ struct TargetMiss {
 class TargetWatch {
   public:
     TargetWatch(const Target& target, int copies);
-    /// The centres of mass (m, world) of all copies at the next frame's time (s).
+    /// Adds the centres of mass (m, world) of all copies at the next frame's time (s).
     void add(double time, const std::vector<Vector3d>& places);
-    /// Of the copy that reached it nearest to its middle or, where none did, came nearest. Of a ring the
-    /// place where a copy crosses its plane counts and, of one that does not, its nearest frame.
+    /// Returns the result of the copy that reached the target nearest to its middle or, where none did, came
+    /// nearest. For a ring the place counts where a copy crosses its plane and, where it does not, its
+    /// nearest frame.
     [[nodiscard]] TargetMiss nearest() const;
 
   private:
@@ -49,13 +51,13 @@ class TargetWatch {
     std::vector<Passage> passages_;
 };
 
-/// Whether another seed may give a body another fall: it is drawn where it starts or leaves an emitter, what
-/// turbulence does to it, gusts without a seed of their own, or any of these of a body that it may meet.
+/// Returns whether another seed may give a body another fall: where its start, its emission, its turbulence
+/// or gusts without a seed of their own are random, or any of these of a body that it may touch.
 bool depends_on_seed(const Scene& scene, std::size_t body);
 
-/// Flies a scene with `tries` seeds, its own and those after it, and returns how near each comes, the nearest
-/// first, of equals the first seed: the same for any number of threads (0: all cores). Throws Error where a
-/// flight does. `progress`: the share done.
+/// Simulates a scene with `tries` seeds, its own and those after it, and returns how near each comes, the
+/// nearest first, of equals the first seed. The result does not depend on `threads` (0: all cores). Throws
+/// Error where a simulation does. `progress` is called with the share done.
 std::vector<TargetMiss> search_target(const Scene& scene, const std::vector<LoadedBody>& loaded,
                                       std::size_t body, const Target& target, int tries, int threads,
                                       const std::function<void(double)>& progress = {});

@@ -2,12 +2,16 @@
 
 #include <limits>
 #include <memory>
+#include <mutex>
 #include <string_view>
 
 #include <fmt/format.h>
 
+#include "samara.h"
+#include "samara/core/c_interface/guard.hpp"
+#include "samara/core/c_interface/objects.hpp"
 #include "samara/core/wind/wind_file.hpp"
-#include "samara/scene/choice.hpp"
+#include "samara/formats/toml_table.hpp"
 
 namespace samara {
 namespace {
@@ -142,3 +146,23 @@ Wind read_wind(TomlTable& table, const std::filesystem::path& folder, double gro
 }
 
 }  // namespace samara
+
+// The one function of the C interface that reads TOML, which the core does without.
+samara_status samara_set_wind(samara_simulation* simulation, const char* wind, char* error,
+                              size_t error_size) {
+    return samara::guarded(error, error_size, [&] {
+        samara::require(simulation, "simulation");
+        samara::require(wind, "wind");
+        samara::Simulation& core = simulation->core;
+        core.require_running();
+        const toml::table document = samara::parse_toml(wind, "wind");
+        samara::TomlTable table(document, "wind", "the wind");
+        const std::lock_guard lock(samara::hdf5_mutex());  // of a wind file
+        // A wind file need not last as long as a simulation, which has no end of its own.
+        constexpr double no_end = -std::numeric_limits<double>::infinity();
+        samara::Wind given = samara::read_wind(table, ".", core.ground().value_or(0.0), no_end);
+        given.function = core.wind().function;
+        given.function_context = core.wind().function_context;
+        core.set_wind(given);
+    });
+}

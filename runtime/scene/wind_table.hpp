@@ -7,9 +7,9 @@
 
 namespace samara {
 
-/// Reads [wind]. `folder`: where paths in it are taken from; `ground` (m): where a profile begins that names
-/// no ground of its own; `end` (s): of the scene, until when a wind file must last. Throws Error naming file,
-/// line and remedy for what read_scene_file refuses.
+/// Reads [wind]. `folder`: the folder that paths in it are relative to; `ground` (m): where a profile begins
+/// that names no ground of its own; `end` (s): of the scene, until when a wind file must last. Throws Error
+/// naming file, line and remedy for what read_scene_file() rejects.
 Wind read_wind(TomlTable& table, const std::filesystem::path& folder, double ground, double end);
 
 }  // namespace samara

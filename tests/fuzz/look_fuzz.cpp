@@ -12,7 +12,7 @@
 #include "harness.hpp"
 #include "samara/core/files/temporary_folder.hpp"
 #include "samara/core/surface/obj_file.hpp"
-#include "samara/formats/glb_file.hpp"
+#include "samara/formats/display_mesh_file.hpp"
 
 namespace samara::fuzz {
 namespace {

@@ -18,7 +18,7 @@
 #include "peers/peer_body.hpp"
 #include "samara/analysis/comparison/comparison.hpp"
 #include "samara/commands/shared/arguments.hpp"
-#include "samara/commands/shared/progress.hpp"
+#include "samara/commands/shared/print.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/motion/inclination.hpp"
 #include "samara/motion/motion_file.hpp"

@@ -16,7 +16,6 @@
 #include "converter/falls/falling_body.hpp"
 #include "samara/commands/shared/arguments.hpp"
 #include "samara/commands/shared/print.hpp"
-#include "samara/commands/shared/progress.hpp"
 #include "samara/core/base/parallel_for.hpp"
 #include "samara/core/body/body_file.hpp"
 #include "samara/core/dynamics/dynamic_coefficients.hpp"

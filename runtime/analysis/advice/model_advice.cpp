@@ -19,9 +19,9 @@ namespace samara {
 namespace {
 
 constexpr int directions_of_mean = 1024;
-constexpr double fewest_steps = 16.0;  // of a flight that is judged
+constexpr double fewest_steps = 16.0;  // least steps of a fall that is judged
 
-/// Points spread evenly over the sphere, by the golden angle.
+/// Returns points spread evenly over the sphere, by the golden angle.
 Vector3d even_direction(int i, int count) {
     const double height = 1.0 - (2.0 * i + 1.0) / count;
     const double angle = 2.0 * std::numbers::pi * i * (std::numbers::phi - 1.0);
@@ -29,8 +29,8 @@ Vector3d even_direction(int i, int count) {
     return {radius * std::cos(angle), radius * std::sin(angle), height};
 }
 
-/// The one drag coefficient that has the tables' mean drag over all directions. Its area is the projected
-/// one, whose mean is A: a quarter of the surface.
+/// Returns the one drag coefficient that has the tables' mean drag over all directions. Its area is the
+/// projected one, whose mean is A: a quarter of the surface.
 double mean_drag_coefficient(const LoadTables& tables, double reynolds_number) {
     double sum = 0.0;
     for (int i = 0; i < directions_of_mean; ++i) {
@@ -55,14 +55,14 @@ struct Reduction {
     ModelSet models;
 };
 
-/// The falls of one set of models, flown batch by batch as they are asked for.
-struct FlownSet {
+/// Falls with one set of models, simulated batch by batch as they are asked for.
+struct SimulatedSet {
     ModelSet models;
     std::vector<SampledFall> falls = {};
-    FlowOnPath flow = {};                  ///< in the first batch
-    double highest_reynolds_number = 0.0;  ///< likewise
+    FlowOnPath flow = {};                  ///< of the first batch
+    double highest_reynolds_number = 0.0;  ///< of the first batch
     std::uint64_t batches = 0;
-    bool flies = true;
+    bool is_finite = true;  ///< false where a fall leaves the range of numbers
 };
 
 /// The advice for one body.
@@ -105,7 +105,7 @@ class Advisor {
     }
 
   private:
-    /// What the scene asks for, less what cannot be flown or is known to be nothing.
+    /// Returns the models that the scene asks for, without those that lack data or have no effect.
     ModelSet fullest() {
         const ModelSet asked = model_set_of(scene_body_);
         const std::optional<LoadTables>& tables = loaded_.body->tables;
@@ -113,12 +113,12 @@ class Advisor {
             judges_all_ = false;
             const ModelSet guessed = model_set_of(guessed_before_bake(scene_, scene_body_, *loaded_.body));
             std::vector<std::string> unknown;
-            if (asked.loads == Loads::table) unknown.emplace_back("table loads, flown by coefficients");
+            if (asked.loads == Loads::table) unknown.emplace_back("table loads, simulated by coefficients");
             if (asked.turbulence == Turbulence::table) {
-                unknown.push_back(
-                    fmt::format("turbulence, flown {}", guessed.turbulence == Turbulence::none
-                                                            ? "without"
-                                                            : "with a tenth of the terminal speed (rms)"));
+                unknown.push_back(fmt::format("turbulence, simulated {}",
+                                              guessed.turbulence == Turbulence::none
+                                                  ? "without"
+                                                  : "with a tenth of the terminal speed (rms)"));
             }
             advice_.notes.push_back(fmt::format("not known before a bake: {}", fmt::join(unknown, "; ")));
             return guessed;
@@ -138,12 +138,12 @@ class Advisor {
     }
 
     void fly_fullest() {
-        const FlownSet& flown = falls_of(full_, first_falls());
-        if (!flown.flies) {
+        const SimulatedSet& simulated = falls_of(full_, first_falls());
+        if (!simulated.is_finite) {
             // Again, for its message.
             (void)sample_falls(scene_with(full_), index_, loaded_, options_.sampling);
         }
-        const double highest = flown.highest_reynolds_number;
+        const double highest = simulated.highest_reynolds_number;
         if (full_.turbulence == Turbulence::table && highest < laminar_reynolds_number) {
             advice_.notes.push_back(fmt::format(
                 "no turbulence: the Reynolds number stays at {:.3g} or below, the flow is laminar", highest));
@@ -161,22 +161,22 @@ class Advisor {
     }
 
     bool is_long_enough() {
-        if (flown_.empty()) return false;
-        const FlownSet& flown = falls_of(full_, first_falls());
-        const auto measured = std::count_if(flown.falls.begin(), flown.falls.end(),
+        if (sets_.empty()) return false;
+        const SimulatedSet& simulated = falls_of(full_, first_falls());
+        const auto measured = std::count_if(simulated.falls.begin(), simulated.falls.end(),
                                             [](const SampledFall& fall) { return fall.measured; });
-        return 2 * static_cast<std::size_t>(measured) > flown.falls.size();
+        return 2 * static_cast<std::size_t>(measured) > simulated.falls.size();
     }
 
     [[nodiscard]] std::size_t first_falls() const {
         return static_cast<std::size_t>(options_.sampling.falls);
     }
 
-    const FlownSet& falls_of(const ModelSet& models, std::size_t count) {
-        auto found = std::find_if(flown_.begin(), flown_.end(),
-                                  [&](const FlownSet& one) { return one.models == models; });
-        if (found == flown_.end()) found = flown_.insert(flown_.end(), FlownSet{.models = models});
-        while (found->flies && found->falls.size() < count) {
+    const SimulatedSet& falls_of(const ModelSet& models, std::size_t count) {
+        auto found = std::find_if(sets_.begin(), sets_.end(),
+                                  [&](const SimulatedSet& one) { return one.models == models; });
+        if (found == sets_.end()) found = sets_.insert(sets_.end(), SimulatedSet{.models = models});
+        while (found->is_finite && found->falls.size() < count) {
             try {
                 const SampledFalls batch =
                     sample_falls(scene_with(models), index_, loaded_, options_.sampling, found->batches);
@@ -186,7 +186,7 @@ class Advisor {
                     found->highest_reynolds_number = batch.highest_reynolds_number;
                 }
             } catch (const Error&) {
-                found->flies = false;
+                found->is_finite = false;
             }
             ++found->batches;
             count_();
@@ -200,11 +200,11 @@ class Advisor {
             one.nanoseconds_per_step =
                 nanoseconds_per_step(scene_with(one.models), index_, loaded_, options_.sampling);
         } catch (const Error&) {
-            one.nanoseconds_per_step = 0.0;  // it flies longer here than in the scene
+            one.nanoseconds_per_step = 0.0;  // the falls are longer here than in the scene
         }
     }
 
-    /// A set without what it changes.
+    /// Returns the description of a set, without its effects.
     [[nodiscard]] ModelEffect unflown(const ModelSet& models, const std::string& left_out) const {
         ModelEffect result;
         result.left_out = left_out;
@@ -214,13 +214,13 @@ class Advisor {
         return result;
     }
 
-    /// What a set changes, with as many falls as it takes to be certain.
+    /// Returns the effects of a set, with as many falls as it takes to be certain.
     ModelEffect effect(const ModelSet& models, const std::string& left_out) {
         ModelEffect result = unflown(models, left_out);
         for (std::size_t falls = first_falls();; falls *= 2) {
-            const FlownSet& other = falls_of(models, falls);
-            result.flies = other.flies;
-            if (!other.flies) {
+            const SimulatedSet& other = falls_of(models, falls);
+            result.flies = other.is_finite;
+            if (!other.is_finite) {
                 result.effect.verdict = EffectVerdict::beyond;
                 return result;
             }
@@ -230,7 +230,8 @@ class Advisor {
         }
     }
 
-    /// What can be left out of a set, one part at a time, dearest first; of a part the most first.
+    /// Returns the sets with one part left out, dearest part first, and of each part the largest omission
+    /// first.
     std::vector<Reduction> reductions(const ModelSet& from) {
         std::vector<Reduction> all;
         const auto add = [&](ModelPart part, const std::string& left_out, const auto& change) {
@@ -278,16 +279,16 @@ class Advisor {
         return all;
     }
 
-    /// Whether leaving this out of the fullest set alone was found to be felt: beside another omission whose
-    /// error cancels its own it may seem not to be.
+    /// Returns whether this omission alone changes the falls of the fullest set: beside another omission
+    /// whose error cancels its own it may seem not to.
     [[nodiscard]] bool matters(const std::string& left_out) const {
         return std::ranges::any_of(advice_.omissions, [&](const ModelEffect& one) {
             return one.left_out == left_out && one.effect.verdict == EffectVerdict::beyond;
         });
     }
 
-    /// Leaves out the dearest part that can go, and again of what is left, until none can. What matters alone
-    /// stays.
+    /// Leaves out the dearest part that can go, and so on with the rest, until none can. A part that matters
+    /// alone stays.
     ModelSet cheapest() {
         ModelSet now = full_;
         for (bool found = true; found;) {
@@ -305,7 +306,7 @@ class Advisor {
 
     BodyAdvice finished() {
         if (!judges_all_) {
-            // Flown otherwise only for want of tables.
+            // It differs from the scene's models only for want of tables.
             ModelSet models = model_set_of(scene_body_);
             models.added_mass = advice_.recommended.models.added_mass;
             advice_.recommended.models = models;
@@ -324,7 +325,7 @@ class Advisor {
     ModelSet full_;
     EffectScale scale_;
     bool judges_all_ = true;
-    std::list<FlownSet> flown_;
+    std::list<SimulatedSet> sets_;
     BodyAdvice advice_;
 };
 
@@ -332,20 +333,20 @@ class Advisor {
 
 ModelAdvice advise_models(const Scene& scene, const std::vector<LoadedBody>& loaded,
                           const AdviceOptions& options, const AdviceProgress& progress) {
-    constexpr double usual_flights = 24.0;  // of a body
+    constexpr double usual_falls = 24.0;  // batches of one body
     ModelAdvice advice;
     advice.tolerance = options.tolerance;
     std::vector<std::size_t> judged;
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         if (!options.auto_alone || scene.bodies[i].models_auto) judged.push_back(i);
     }
-    const double total = usual_flights * static_cast<double>(judged.size());
+    const double total = usual_falls * static_cast<double>(judged.size());
     for (std::size_t i = 0; i < judged.size(); ++i) {
         double done = 0.0;
-        const double before = usual_flights * static_cast<double>(i);
-        const auto count = [&] { progress(before + std::min(++done, usual_flights - 1.0), total); };
+        const double before = usual_falls * static_cast<double>(i);
+        const auto count = [&] { progress(before + std::min(++done, usual_falls - 1.0), total); };
         advice.bodies.push_back(Advisor(scene, judged[i], loaded[judged[i]], options, count).advice());
-        progress(before + usual_flights, total);
+        progress(before + usual_falls, total);
     }
     return advice;
 }

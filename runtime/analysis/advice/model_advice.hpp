@@ -13,63 +13,66 @@
 
 namespace samara {
 
+/// Options of advise_models().
 struct AdviceOptions {
-    double tolerance = 0.05;  ///< of the descent speed; the others' in proportion (EffectScale)
-    int most_falls = 256;     ///< of one set of models, where fewer leave a verdict uncertain
+    double tolerance = 0.05;  ///< relative, of the
+                              ///< descent speed; the other metrics' follow in proportion (EffectScale)
+    int most_falls = 256;     ///< most falls with one set of models, where fewer leave a verdict uncertain
     bool auto_alone = false;  ///< whether only the bodies with models = "auto" are judged
     FallSampling sampling;
 };
 
-/// A set of models beside the fullest.
+/// The effects of a set of models beside the fullest.
 struct ModelEffect {
-    std::string left_out;  ///< in words, such as "added mass"; empty for the recommended set
+    std::string left_out;  ///< text, such as "added mass"; empty for the recommended set
     std::optional<ModelPart> part;
     ModelSet models;
     std::string words;  ///< in_words() of the models
     ModelCost cost;
     FallsEffect effect;
-    bool flies = true;  ///< false where a flight with these models leaves the range of numbers
+    bool flies = true;  ///< false where a simulation with these models leaves the range of numbers
     double nanoseconds_per_step = 0.0;  ///< nanoseconds_per_step(): for information alone
 };
 
-/// What a body of a scene needs.
+/// The models that a body of a scene needs.
 struct BodyAdvice {
     std::string name;
     ModelEffect full;                    ///< the fullest model; its effect is none
-    std::vector<ModelEffect> omissions;  ///< of one part at a time, dearest first
-    ModelEffect recommended;             ///< the cheapest set found, flown and checked as a whole
-    FlowOnPath flow;                     ///< that the fullest model meets
+    std::vector<ModelEffect> omissions;  ///< sets with one part left out, dearest first
+    ModelEffect recommended;             ///< the cheapest set found, simulated and checked as a whole
+    FlowOnPath flow;                     ///< mean flow around the fullest model
     double duration = 0.0;               ///< s, of each fall
-    std::vector<std::string> notes;      ///< what was not judged, or needed no flight, a sentence each
-    bool one_direction = false;          ///< whether tables need one direction: the shape is a sphere's
+    std::vector<std::string> notes;  ///< parts that were not judged or needed no simulation, a sentence each
+    bool one_direction = false;      ///< whether tables need one direction: the shape is a sphere's
 };
 
-/// Which physics a scene needs.
+/// The models that the bodies of a scene need.
 struct ModelAdvice {
     double tolerance = 0.05;
     std::vector<BodyAdvice> bodies;
 };
 
-/// Told of (done, total) flights; the total is an estimate at first.
+/// Is called with the simulations done and in total; the total is an estimate at first.
 using AdviceProgress = std::function<void(double done, double total)>;
 
-/// Flies each body of the scene with the fullest model (that of the scene: its defaults are everything that
-/// the body file has) and with less, and finds the cheapest set whose figures all stay within the tolerance,
-/// by two standard errors: the dearest part (ModelPart, ModelCost) that can be left out goes first, then the
-/// next on what is left, until none can. What is not certain is kept. `loaded[i]` is the body of
-/// scene.bodies[i]. A body whose tables are not there yet is flown as
-/// guessed_before_bake(), and only its added mass is judged. The same for any number of threads, but for the
-/// nanoseconds. Throws Error where a body cannot fly at all.
+/// Simulates each body of the scene with the fullest model (that of the scene: its defaults are everything
+/// that the body file has) and with less, and finds the cheapest set whose metrics all stay within the
+/// tolerance, by two standard errors: the dearest part (ModelPart, ModelCost) that can be left out goes
+/// first, then the next on what is left, until none can. What is not certain is kept. `loaded[i]` is the body
+/// of scene.bodies[i]. A body without tables is simulated as guessed_before_bake(), and only its added mass
+/// is judged. The result does not depend on the number of threads, apart from the nanoseconds. Throws Error
+/// where a body cannot be simulated at all.
 ModelAdvice advise_models(const Scene& scene, const std::vector<LoadedBody>& loaded,
                           const AdviceOptions& options, const AdviceProgress& progress);
 
 /// Gives the bodies of the scene, by their names, the recommended models.
 void apply(const ModelAdvice& advice, Scene& scene);
 
-/// For people: for each body a table of what each part changes, and the recommended set; every line ended.
+/// Returns the advice as text: for each body a table of the effects of each part, and the recommended set;
+/// every line ended.
 std::string as_text(const ModelAdvice& advice);
 
-/// As a JSON object in SI units and radians: docs/plan.md lists its keys.
+/// Returns the advice as a JSON object in SI units and radians: docs/plan.md lists its keys.
 nlohmann::json as_json(const ModelAdvice& advice);
 
 }  // namespace samara

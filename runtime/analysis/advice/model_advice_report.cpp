@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "samara/analysis/advice/model_advice.hpp"
-#include "samara/formats/vector_json.hpp"
+#include "samara/formats/json_text.hpp"
 
 namespace samara {
 namespace {
@@ -68,7 +68,7 @@ json as_json(const ModelEffect& one) {
             {"nanoseconds_per_step", one.nanoseconds_per_step}};
 }
 
-/// The change in percent of its scale with its error; "?" where not certain, "!" where beyond.
+/// Returns the change in percent of its scale with its error; "?" where not certain, "!" where beyond.
 std::string cell(const MetricEffect& metric) {
     const char* mark = metric.verdict == EffectVerdict::within        ? ""
                        : metric.verdict == EffectVerdict::not_certain ? " ?"
@@ -84,7 +84,7 @@ std::string cell(const MetricEffect& metric) {
 std::string row(const std::string& name, const ModelEffect& one) {
     std::string text = fmt::format("  {:<37}", name);
     if (!one.flies) return text + "leaves the range of numbers\n";
-    if (one.effect.falls == 0) return text + "not flown\n";
+    if (one.effect.falls == 0) return text + "not simulated\n";
     for (const Metric metric : advised_metrics)
         text += fmt::format("{:<17}", cell(one.effect.metrics[metric]));
     text += fmt::format("{:<13}",
@@ -102,7 +102,7 @@ std::string heading(double tolerance) {
     return text + fmt::format("{:<13}{:<12}{:>6}{:>10}\n", "regime", "verdict", "falls", "a step");
 }
 
-/// What the fullest model does, in the figures' own units.
+/// Returns the metrics of the fullest model, in their own units.
 std::string fullest_in_words(const ModelEffect& full) {
     std::vector<std::string> words = {name_of(full.effect.regime)};
     for (const Metric which : advised_metrics) {

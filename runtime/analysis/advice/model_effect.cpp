@@ -11,7 +11,7 @@ constexpr std::size_t fewest_pairs = 8;
 
 using Falls = std::vector<const SampledFall*>;
 
-/// The mean of a figure over all falls but one.
+/// Returns the mean of a metric over all falls but one.
 std::optional<Estimate> metric_without(const Falls& falls, Metric metric, std::size_t left_out) {
     std::vector<Estimate> values;
     for (std::size_t i = 0; i < falls.size(); ++i) {
@@ -58,7 +58,7 @@ RegimeCounts regimes_of(const Falls& falls) {
     return regimes;
 }
 
-/// Two samples of the same size against one share.
+/// Returns whether the shares in two samples of one size differ by more than chance.
 bool shares_agree(double a, double b, std::size_t count) {
     const double middle = 0.5 * (a + b);
     const double error = std::sqrt(2.0 * middle * (1.0 - middle) / static_cast<double>(count));
@@ -71,7 +71,7 @@ double mean_over(const Falls& falls, double SampledFall::*member) {
     return sum / static_cast<double>(falls.size());
 }
 
-/// Whether a figure says something of these falls.
+/// Returns whether a metric is defined for these falls.
 bool is_judged(Metric metric, const EffectScale& scale, bool swings) {
     if (metric == Metric::frequency && !swings) return false;
     switch (catalogued(metric).subject) {

@@ -9,7 +9,7 @@
 
 namespace samara {
 
-/// The physics that a body flies with: what of a SceneBody the model advice may change.
+/// The models that a body is simulated with: the part of a SceneBody that the model advice may change.
 struct ModelSet {
     Loads loads = Loads::table;
     double drag_coefficient = 1.0;  ///< where loads are coefficients
@@ -23,42 +23,43 @@ struct ModelSet {
     bool operator==(const ModelSet&) const = default;
 };
 
+/// Returns the models of a scene's body.
 ModelSet model_set_of(const SceneBody& body);
 
 /// Gives the scene's body these models.
 void set_models(const ModelSet& models, SceneBody& body);
 
-/// What a body may fly without, the dearest to make first.
+/// Parts that a set of models may leave out, the dearest to make first.
 enum class ModelPart {
     identified_coefficients,  ///< free falls in full CFD
     table_loads,              ///< OpenFOAM cases in many directions
-    turbulence,               ///< the same cases' k and epsilon
+    turbulence,               ///< k and epsilon of those cases
     reynolds_dependence,      ///< the cases at further Reynolds numbers
     added_mass,               ///< the Kirchhoff tensor: a second of boundary elements
     dynamic_coefficients,     ///< nothing: work in the step alone
 };
 
-/// What must be made before a body can fly with a set, dearest first, and then the work of a step. Sets are
-/// compared in this order, member by member: the figures count what is needed, and are no times.
+/// The cost of a set: the data that must be made before a body can be simulated with it, dearest first, and
+/// then the work of a step. Sets are compared in this order, member by member.
 struct ModelCost {
     bool falls = false;             ///< free falls in full CFD, for identified coefficients
     bool tables = false;            ///< OpenFOAM cases
     bool reynolds_numbers = false;  ///< cases at further Reynolds numbers
     bool kirchhoff = false;         ///< the added mass
-    int step = 0;  ///< of a step: 5 for turbulence from tables and 4 for constant, 2 for table loads, 1 for
-                   ///< coefficients in motion
+    int step = 0;  ///< work of a step: 5 for turbulence from tables and 4 for constant, 2 for table loads, 1
+                   ///< for coefficients in motion
 
     // NOLINTNEXTLINE(modernize-use-nullptr): what the compiler compares the order with
     auto operator<=>(const ModelCost&) const = default;
 };
 
-/// Of a set that flies the body.
+/// Returns the cost of a set that the body can be simulated with.
 ModelCost cost_of(const ModelSet& models, const Body& body);
 
-/// The set in words, such as "table loads, added mass, default dynamic coefficients, no turbulence".
+/// Returns the set as text, such as "table loads, added mass, default dynamic coefficients, no turbulence".
 std::string in_words(const ModelSet& models, const Body& body);
 
-/// "table loads", "added mass", ...
+/// Returns the name of a part: "table loads", "added mass", ...
 const char* name_of(ModelPart part);
 
 }  // namespace samara

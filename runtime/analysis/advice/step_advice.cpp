@@ -16,7 +16,7 @@
 #include "samara/core/kernel/wake_noise.hpp"
 #include "samara/core/simulation/body_group.hpp"
 #include "samara/core/simulation/world_pose.hpp"
-#include "samara/scene/scene_settings.hpp"
+#include "samara/scene/scene_simulation.hpp"
 #include "samara/scene/terminal_speed.hpp"
 
 namespace samara {
@@ -26,14 +26,14 @@ constexpr double longest_step = 0.04;  // s; the others are this over powers of 
 constexpr int most_copies = 4;
 constexpr int most_windows = 48;
 constexpr double lengths_in_window = 4.0;
-constexpr double finest_of_length = 0.01;  // of the way L that a body comes in the finest step
+constexpr double finest_of_length = 0.01;  // distance in lengths L that a body moves in the finest step
 constexpr int fewest_halvings = 4;         // of the longest step, down to the finest
 constexpr int most_halvings = 14;
-constexpr int truth_halvings = 2;  // by which the finest flight is finer than the finest step that is judged
-constexpr double least_rotation = 0.01;  // speed of a tip, over the body's: less is not judged
+constexpr int truth_halvings = 2;        // of the finest step that is judged, to the step of the reference
+constexpr double least_rotation = 0.01;  // speed of a tip, relative to the body's: less is not judged
 constexpr double turbulence_rate = 0.75 * kolmogorov_constant;  // times epsilon/k: docs/theory.md#langevin
 
-/// The flights of one body.
+/// Simulates one body at several steps.
 class JudgedBody {
   public:
     JudgedBody(const Scene& scene, const SceneBody& scene_body, const LoadedBody& loaded)
@@ -45,7 +45,7 @@ class JudgedBody {
         set_scales();
     }
 
-    /// The longest steps that motion and turbulence allow.
+    /// Returns the longest steps that motion and turbulence allow.
     BodyStep judge() {
         fly_finest();
         BodyStep result{.name = name_};
@@ -62,7 +62,7 @@ class JudgedBody {
         return result;
     }
 
-    /// Of the motion, at the longest step over a power of two.
+    /// Returns the relative error of the motion at the longest step over a power of two.
     [[nodiscard]] double error_of(double step) const {
         const auto j = static_cast<std::size_t>(std::max(0L, std::lround(std::log2(longest_step / step))));
         return errors_[std::min(j, errors_.size() - 1)].motion;
@@ -70,19 +70,20 @@ class JudgedBody {
     [[nodiscard]] bool is_within() const { return is_within_; }
 
   private:
-    /// The finest flight through a window: what it begins and ends with, and poses within steps.
+    /// The reference simulation through a window: poses at its begin and end, and within steps.
     struct Window {
         std::vector<Pose> begin, end;
         std::vector<std::vector<Pose>> middle;  // half a step before, for each step that is judged
     };
     struct StepErrors {
-        double motion;    ///< of place and tip, over the way
-        double rotation;  ///< of the rms angular speed
+        double motion;    ///< error of centre of mass and tip, relative to
+                          ///< the distance covered
+        double rotation;  ///< error of the rms angular speed, relative
     };
 
     static double step_of(int halvings) { return longest_step / std::exp2(halvings); }
 
-    /// The longest step from which on all shorter ones are within the tolerance, or the shortest.
+    /// Returns the longest step from which on all shorter ones are within the tolerance, or the shortest.
     double longest_within(double StepErrors::*error) {
         int longest = 0;
         const int shortest = static_cast<int>(errors_.size()) - 1;
@@ -132,13 +133,13 @@ class JudgedBody {
         simulation.add(loaded_, physics, release_, name_);
     }
 
-    /// The end of window number w (s).
+    /// Returns the end of window number w (s).
     [[nodiscard]] double end_of(int w) const {
         return release_.start + static_cast<double>(w * steps_in_window_) * longest_step;
     }
 
-    /// From where the windows begin: with noise from where it brings the bodies, since it may be what turns
-    /// them.
+    /// Returns the poses at which the windows begin. With noise they are those of a simulation with it, since
+    /// it may be the noise that makes the bodies rotate.
     void fly_finest() {
         Simulation simulation(settings_at(step_of(halvings_)));
         add_to(simulation, quiet_);
@@ -174,7 +175,7 @@ class JudgedBody {
         }
     }
 
-    /// Puts those that have started by the time (s) where they are to be.
+    /// Places the copies that have started by the time (s) at their poses.
     static void put(Simulation& simulation, const std::vector<Pose>& poses, double time) {
         for (std::size_t i = 0; i < simulation.size(); ++i) {
             if (time > simulation.groups()[0]->start(i)) simulation.set_pose(i, poses[i]);
@@ -203,7 +204,7 @@ class JudgedBody {
         return make_immersed_body(*loaded_.body, physics_, scene_.fluid, name_);
     }
 
-    /// Infinite where the motion leaves the range of numbers.
+    /// Returns the errors of a step; infinite where the motion leaves the range of numbers.
     StepErrors errors_at(int j) {
         try {
             return errors_of_flight(j);
@@ -249,7 +250,7 @@ class JudgedBody {
         simulation.poses(0, poses.size(), poses.data());
         return poses;
     }
-    /// Of place and tip.
+    /// Returns the squared distance of centre of mass and tip between two poses.
     [[nodiscard]] double distance(const Pose& a, const Pose& b) const {
         return std::hypot((a.position - b.position).norm(),
                           half_length_ * a.orientation.angularDistance(b.orientation));
@@ -301,7 +302,7 @@ StepAdvice advise_step(const Scene& scene, const std::vector<LoadedBody>& loaded
             advice.limit = fmt::format("the {} of '{}'", what, body.name);
         };
         limit_to(body.motion, "motion");
-        limit_to(body.rotation, "turning");
+        limit_to(body.rotation, "rotation");
         limit_to(body.turbulence, "turbulence");
     }
     advice.step = longest_step / std::exp2(std::ceil(std::log2(longest_step / advice.step) - 1e-9));
@@ -318,8 +319,8 @@ std::string as_text(const StepAdvice& advice) {
         advice.is_within ? "" : fmt::format(", not within {:.2g} %", 100.0 * advice.tolerance);
     const std::string limit =
         advice.limit.empty() ? "the longest there is" : fmt::format("{} allows no longer one", advice.limit);
-    return fmt::format("{:.4g} ms, off by {:.2g} % of the way{}; {}", 1e3 * advice.step, 100.0 * advice.error,
-                       missed, limit);
+    return fmt::format("{:.4g} ms, off by {:.2g} % of the distance covered{}; {}", 1e3 * advice.step,
+                       100.0 * advice.error, missed, limit);
 }
 
 }  // namespace samara

@@ -2,16 +2,122 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
-#include "samara/analysis/comparison/comparison_notes.hpp"
 #include "samara/analysis/comparison/reference_uncertainty.hpp"
+#include "samara/core/base/angles.hpp"
 #include "samara/core/base/error.hpp"
+#include "samara/core/surface/surface.hpp"
 #include "samara/motion/inclination.hpp"
 
 namespace samara {
 namespace {
+
+constexpr double same_length = 0.01;
+constexpr double same_area = 0.05;
+constexpr double same_start = 2.0 * degree;
+constexpr double fewest_frames = 6.0;
+constexpr std::size_t few_pieces = 5;
+
+using Notes = std::vector<std::string>;
+
+void note_lengths(Notes& notes, const Comparison& all) {
+    const double a = all.motion_lengths.shortest;
+    const double b = all.reference_lengths.shortest;
+    if (std::abs(a - b) <= same_length * std::max(a, b)) return;
+    notes.push_back(
+        fmt::format("the motion's falls last {:.4g} s or more, the reference's {:.4g} s: only what both "
+                    "cover is compared",
+                    a, b));
+}
+
+/// A note about one side, and its meaning for the comparison.
+struct SideNote {
+    std::string what;
+    std::string meaning;
+};
+
+std::vector<SideNote> notes_of_side(const char* which, const FallChoice& choice, const FallSet& set) {
+    std::vector<SideNote> notes;
+    if (set.distinct < set.falls) {
+        notes.push_back({fmt::format("of the {}'s {} falls {} differ{} from the others", which, set.falls,
+                                     set.distinct, set.distinct == 1 ? "s" : ""),
+                         "; falls that repeat others do not count"});
+    }
+    const auto& frequency = set.metrics[Metric::frequency];
+    if (frequency && frequency->value > 0.0) {
+        const double frames = 0.5 / frequency->value * choice.motion().frame_rate;
+        if (frames < fewest_frames) {
+            notes.push_back({fmt::format("the {} has {:.1f} frames for each swing", which, frames),
+                             ": with fewer than six, turning points and angles are missed"});
+        }
+    }
+    if (set.distinct > 1) return notes;
+    if (set.pieces < 3) {
+        notes.push_back(
+            {fmt::format("the {}'s window shows too few swings to tell an error from them", which),
+             "; give a longer fall or more runs"});
+    } else if (set.pieces < few_pieces) {
+        notes.push_back(
+            {fmt::format("the {}'s errors rest on {} swings", which, set.pieces), ": they are rough"});
+    }
+    return notes;
+}
+
+/// Adds both sides' notes, those of one subject in one sentence.
+void note_sides(Notes& notes, const std::vector<SideNote>& motion, std::vector<SideNote> reference) {
+    for (const SideNote& one : motion) {
+        const auto same = std::ranges::find(reference, one.meaning, &SideNote::meaning);
+        if (same == reference.end()) {
+            notes.push_back(one.what + one.meaning);
+            continue;
+        }
+        notes.push_back(fmt::format("{}, {}{}", one.what, same->what, one.meaning));
+        reference.erase(same);
+    }
+    for (const SideNote& one : reference) notes.push_back(one.what + one.meaning);
+}
+
+void note_starts(Notes& notes, const Comparison& all) {
+    const FallSeries& a = all.motion.example;
+    const FallSeries& b = all.reference.example;
+    const double angle = std::acos(std::clamp(std::abs(a.axes.front().dot(b.axes.front())), 0.0, 1.0));
+    if (angle <= same_start) return;
+    notes.push_back(fmt::format(
+        "the shortest axes are {:.0f} degrees apart at the release: the first swings and paths start "
+        "differently",
+        degrees * angle));
+}
+
+void note_shapes(Notes& notes, const FallChoice& motion, const FallChoice& reference) {
+    const double a = surface_area(motion.of_body().surface);
+    const double b = surface_area(reference.of_body().surface);
+    if (std::abs(a - b) <= same_area * std::max(a, b)) return;
+    notes.push_back(fmt::format(
+        "the bodies are not the same: the motion's has a surface of {:.4g} m^2, the reference's {:.4g} m^2",
+        a, b));
+}
+
+/// Returns limits of a comparison's validity, a sentence each without a full stop: falls of different length,
+/// runs that repeat one another, other starts, other shapes, too few frames or swings.
+std::vector<std::string> comparison_notes(const FallChoice& motion, const FallChoice& reference,
+                                          const Comparison& comparison) {
+    Notes notes;
+    note_shapes(notes, motion, reference);
+    if (!comparison.judges_inclination) {
+        notes.emplace_back(
+            "no axis of the body is shorter than the others: the inclination is that of an axis chosen by "
+            "chance, and only the descent speed is judged");
+    }
+    if (comparison.judges_inclination) note_starts(notes, comparison);
+    note_lengths(notes, comparison);
+    note_sides(notes, notes_of_side("motion", motion, comparison.motion),
+               notes_of_side("reference", reference, comparison.reference));
+    return notes;
+}
 
 constexpr double certain_errors = 2.0;
 constexpr double swings_in_segment = 16.0;
@@ -46,7 +152,7 @@ TimeWindow window_of(const FallChoice& motion, const FallLengths& motion_lengths
                     reference_lengths.shortest));
 }
 
-/// The measures of the first fall of a choice.
+/// Returns the measures of the first fall of a choice.
 Measures first_measures(const FallChoice& choice, const TimeWindow& window) {
     FallChoice first = choice;
     first.run = choice.run.value_or(0);
@@ -58,7 +164,8 @@ Measures first_measures(const FallChoice& choice, const TimeWindow& window) {
     return measures;
 }
 
-/// Long enough to tell frequencies apart, short enough to have many in a long window; the same for both.
+/// Returns the length (s) of the spectra's segments, the same for both: long enough to resolve frequencies,
+/// short enough to have many in a long window.
 double segment_of(const FallChoice& motion, const FallChoice& reference, const TimeWindow& window) {
     const double length = window.end - window.begin;
     for (const FallChoice* choice : {&reference, &motion}) {
@@ -68,7 +175,8 @@ double segment_of(const FallChoice& motion, const FallChoice& reference, const T
     return length;
 }
 
-/// The error of an estimate in a comparison: that of a single fall is at least what several falls scatter by.
+/// Returns the error of an estimate in a comparison; for a single fall it is at least the scatter of the
+/// others.
 std::optional<double> error_beside(const Estimate& one, const Estimate& other) {
     if (one.deviation || !other.deviation) return one.error;
     return std::max(one.error.value_or(0.0), *other.deviation);
@@ -80,7 +188,7 @@ MetricComparison compare_turn(const std::optional<TurningPoint>& motion,
                           reference ? std::optional((*reference).*metric) : std::nullopt);
 }
 
-/// Quarters of the depth (m) that all falls reach; none where one does not sink.
+/// Returns quarters of the depth (m) that all falls reach; none where one does not sink.
 std::vector<double> levels_of(const FallLengths& motion, const FallLengths& reference) {
     const double depth = (1.0 - rounding) * std::min(motion.shallowest, reference.shallowest);
     if (!(depth > 0.0)) return {};

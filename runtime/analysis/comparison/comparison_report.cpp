@@ -8,7 +8,7 @@
 
 #include "samara/analysis/metrics/description.hpp"
 #include "samara/core/base/angles.hpp"
-#include "samara/formats/vector_json.hpp"
+#include "samara/formats/json_text.hpp"
 
 namespace samara {
 namespace {
@@ -66,7 +66,7 @@ std::string estimate_text(const std::optional<Estimate>& estimate, double scale)
     return estimate ? with_error(*estimate, scale) : "-";
 }
 
-/// "-4.1 +- 1.2 %", or in the figure's own unit.
+/// Returns a difference as text: "-4.1 +- 1.2 %", or in the metric's own unit.
 std::string difference_text(const MetricComparison& metric, double scale, bool relative) {
     if (!metric.difference) return "";
     if (!relative || !metric.relative) {
@@ -176,7 +176,7 @@ std::string with_error(const Estimate& estimate, double scale) {
     const double value = scale * estimate.value;
     if (!estimate.error) return fmt::format("{:.4g}", value);
     const double error = scale * *estimate.error;
-    // Below a millionth of the figure an error is rounding.
+    // Below a millionth of the value an error is rounding.
     if (!(error > 1e-6 * std::abs(value))) return fmt::format("{:.4g} +- 0", value);
     const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 9);
     return fmt::format("{:.{}f} +- {:.{}f}", value, decimals, error, decimals);

@@ -8,15 +8,15 @@
 
 namespace samara {
 
-/// A comparison as a JSON object in SI units and radians; docs/output.md lists its keys. What is not known is
-/// null.
+/// Returns a comparison as a JSON object in SI units and radians; docs/output.md lists its keys. Unknown
+/// values are null.
 nlohmann::json as_json(const Comparison& comparison);
 
-/// The same for people: a table and a few lines, each ended; angles in degrees.
+/// Returns a comparison as text: a table and a few lines, each ended; angles in degrees.
 std::string as_text(const Comparison& comparison);
 
-/// A figure with its error as people write it, "0.1832 +- 0.0012": the error to two digits, the figure to the
-/// error's last; without an error, to four digits. `scale`: what both are multiplied by.
+/// Returns an estimate with its error as text, "0.1832 +- 0.0012": the error to two digits, the value to the
+/// error's last; without an error, to four digits. `scale`: factor for both.
 std::string with_error(const Estimate& estimate, double scale = 1.0);
 
 }  // namespace samara

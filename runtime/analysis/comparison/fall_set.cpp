@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t most_more = 19;
 constexpr double same_displacement = 1e-7;
 
-/// What two falls share only if they are the same.
+/// Values that two falls share only if they are the same.
 using Mark = std::array<long long, 4>;
 
 Mark mark_of(const FallSeries& record) {
@@ -28,8 +28,8 @@ Mark mark_of(const FallSeries& record) {
             std::llround(record.inclinations.back() / same_displacement)};
 }
 
-/// The largest rate (rad/s) at which the shortest axis turns in a fall.
-double fastest_turn(const Motion& motion, int run, int copy, const TimeWindow& fall) {
+/// Returns the largest angular speed (rad/s) of the shortest axis in a fall.
+double fastest_axis_rotation(const Motion& motion, int run, int copy, const TimeWindow& fall) {
     const BodyMotion& body = motion.bodies[0];
     double fastest = 0.0;
     for (int frame = 0; frame < motion.frames(); ++frame) {
@@ -42,7 +42,7 @@ double fastest_turn(const Motion& motion, int run, int copy, const TimeWindow& f
     return fastest;
 }
 
-/// How far (m) the centre of mass comes below its release in a fall.
+/// Returns the largest depth (m) of the centre of mass below its release in a fall.
 double deepest(const Motion& motion, int run, int copy, const TimeWindow& fall) {
     const Vector3d down = down_direction(motion.gravity);
     std::optional<double> release;
@@ -61,16 +61,16 @@ void require_frame_rate(const FallChoice& choice, double fastest) {
     const std::vector<double>& times = choice.motion().times;
     double longest = 0.0;
     for (std::size_t i = 1; i < times.size(); ++i) longest = std::max(longest, times[i] - times[i - 1]);
-    const double turn = fastest * longest;
-    if (turn <= 0.5 * std::numbers::pi) return;
+    const double angle = fastest * longest;
+    if (angle <= 0.5 * std::numbers::pi) return;
     throw Error(fmt::format(
-        "{}: '{}' turns by up to {:.0f} degrees from one frame to the next, too far to be "
+        "{}: '{}' rotates by up to {:.0f} degrees from one frame to the next, too far to be "
         "followed; write the "
         "motion with a frame_rate of {:.0f} or more",
-        choice.name, choice.of_body().name, turn * degrees, std::ceil(fastest / (std::numbers::pi / 6.0))));
+        choice.name, choice.of_body().name, angle * degrees, std::ceil(fastest / (std::numbers::pi / 6.0))));
 }
 
-/// Estimates of one figure from one fall after the other.
+/// Estimates of one metric, fall by fall.
 using Estimates = std::vector<Estimate>;
 
 /// Gathers falls; FallSet is what it comes to.
@@ -116,7 +116,7 @@ class Gathering {
     }
 
   private:
-    struct Turns {
+    struct TurningPoints {
         Estimates times;
         Estimates inclinations;
     };
@@ -136,18 +136,18 @@ class Gathering {
 
     void add_first_swing(const FallSeries& record) {
         const FirstSwing swing = first_swing(record);
-        const auto add_turn = [](Turns& turns, const std::optional<TurningPoint>& point) {
+        const auto add_point = [](TurningPoints& points, const std::optional<TurningPoint>& point) {
             if (!point) return;
-            turns.times.push_back(point->time);
-            turns.inclinations.push_back(point->inclination);
+            points.times.push_back(point->time);
+            points.inclinations.push_back(point->inclination);
         };
-        add_turn(minima_, swing.minimum);
-        add_turn(maxima_, swing.maximum);
+        add_point(minima_, swing.minimum);
+        add_point(maxima_, swing.maximum);
     }
 
-    static std::optional<TurningPoint> turning_point(const Turns& turns) {
-        if (turns.times.empty()) return std::nullopt;
-        return TurningPoint{*mean_of(turns.times), *mean_of(turns.inclinations)};
+    static std::optional<TurningPoint> turning_point(const TurningPoints& points) {
+        if (points.times.empty()) return std::nullopt;
+        return TurningPoint{*mean_of(points.times), *mean_of(points.inclinations)};
     }
 
     FallWindow window_;
@@ -157,8 +157,8 @@ class Gathering {
     PerMetric<Estimates> metrics_;
     std::array<Estimates, quantile_percents.size()> quantiles_;
     Estimates distances_;
-    Turns minima_;
-    Turns maxima_;
+    TurningPoints minima_;
+    TurningPoints maxima_;
 };
 
 }  // namespace
@@ -197,7 +197,7 @@ FallLengths fall_lengths(const FallChoice& choice) {
         lengths->shallowest = std::min(lengths->shallowest, depth);
         lengths->shortest = std::min(lengths->shortest, length);
         lengths->longest = std::max(lengths->longest, length);
-        fastest = std::max(fastest, fastest_turn(part, run, copy, fall));
+        fastest = std::max(fastest, fastest_axis_rotation(part, run, copy, fall));
     });
     require_frame_rate(choice, fastest);
     return *lengths;

@@ -7,16 +7,15 @@
 
 #include "samara/analysis/comparison/distribution_distance.hpp"
 #include "samara/analysis/metrics/fall_metrics.hpp"
-#include "samara/analysis/metrics/first_swing.hpp"
-#include "samara/analysis/metrics/passages.hpp"
-#include "samara/analysis/metrics/regime_counts.hpp"
+#include "samara/analysis/metrics/fall_series.hpp"
+#include "samara/analysis/metrics/metric_catalogue.hpp"
 #include "samara/motion/motion_file.hpp"
 
 namespace samara {
 
-/// Which falls of a motion file are taken: those of one body, in one run or in all, of one copy or of all.
+/// A choice of falls of a motion file: those of one body, in one run or in all, of one copy or of all.
 struct FallChoice {
-    std::string name;  ///< of the file, for messages
+    std::string name;  ///< name of the file, for messages
     const MotionReader* file = nullptr;
     std::size_t body = 0;
     std::optional<int> run;
@@ -33,45 +32,47 @@ struct FallChoice {
 void for_each_fall(const FallChoice& choice,
                    const std::function<void(const Motion& part, int run, int copy)>& use);
 
-/// What is known of the falls before a window is chosen.
+/// Durations and depth of the falls, from which a window is chosen.
 struct FallLengths {
     double shortest = 0.0;    ///< s
     double longest = 0.0;     ///< s
-    double shallowest = 0.0;  ///< m: what the least deep of them descends
+    double shallowest = 0.0;  ///< m: least depth that a fall descends
 };
 
-/// Throws Error, naming the file, where a fall's frames are too far apart to see how the shortest axis turns:
-/// a quarter of a turn from one to the next.
+/// Returns the durations and least depth of the falls. Throws Error, naming the file, where the shortest axis
+/// rotates by more than a quarter of a revolution from frame to frame.
 FallLengths fall_lengths(const FallChoice& choice);
 
-/// How falls are measured.
+/// The window over which falls are measured, and its parts.
 struct FallWindow {
     TimeWindow window;           ///< s since the release
     double segment = 0.0;        ///< s, of the spectra: see swing_spectrum()
-    std::vector<double> depths;  ///< m: of the levels whose passages are noted, see passages_of()
+    std::vector<double> depths;  ///< m: levels whose passages are noted, see passages_of()
 };
 
-/// What the chosen falls do together: the means over those that differ from one another. A set of one has the
-/// errors that its swings tell, of several those that their scatter tells.
+/// Statistics of the chosen falls: means over those that differ from one another. The errors of a single fall
+/// come from its swings, those of several from their scatter.
 struct FallSet {
-    int falls = 0;     ///< that were chosen
-    int distinct = 0;  ///< of them, to a ten-millionth of the way: the rest repeat these and do not count
+    int falls = 0;  ///< number of falls that were chosen
+    int distinct =
+        0;  ///< number of different falls, to a ten-millionth of the displacement: repetitions do not count
     PerMetric<std::optional<Estimate>> metrics;
     std::array<Estimate, quantile_percents.size()> inclination_quantiles;
-    PieceHistograms histograms;                ///< of all pieces
+    PieceHistograms histograms;                ///< histograms of all pieces
     Spectrum spectrum;                         ///< mean
-    std::size_t pieces = 0;                    ///< independent ones in all
-    RegimeCounts regimes;                      ///< of the distinct falls
-    FirstSwing first_swing;                    ///< means over the falls that show its turning points
+    std::size_t pieces = 0;                    ///< number of independent pieces of all falls
+    RegimeCounts regimes;                      ///< regimes of the distinct falls
+    FirstSwing first_swing;                    ///< means over the falls that have its turning points
     std::optional<Estimate> path_distance;     ///< m, from the path given, see measure_falls()
     FallSeries example;                        ///< the first fall
     std::vector<FallSeries> more;              ///< some of the others, for pictures
     std::vector<Vector3d> mean_displacements;  ///< m, at the example's times
-    /// By level, of the distinct falls that pass it.
+    /// Passages of the distinct falls, level by level.
     std::vector<std::vector<Passage>> passages;
 };
 
-/// `path`: of another motion, and until when (s since the release) the distance from it is measured.
+/// Measures the chosen falls. `path`: another fall and the time (s since the release) until which the
+/// distance from it is measured. `progress` is called after each fall.
 FallSet measure_falls(const FallChoice& choice, const FallWindow& window,
                       const std::optional<std::pair<const FallSeries*, double>>& path,
                       const std::function<void()>& progress);

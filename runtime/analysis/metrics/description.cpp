@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "samara/core/base/angles.hpp"
-#include "samara/formats/vector_json.hpp"
+#include "samara/formats/json_text.hpp"
 
 namespace samara {
 namespace {
@@ -36,7 +36,7 @@ std::string counted(int count, const char* noun) {
     return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
-/// A line for each cause: "  uncertain by its mesh: descent_speed 3.1 %, frequency 4 %".
+/// Returns a line for each cause: "  uncertain by its mesh: descent_speed 3.1 %, frequency 4 %".
 std::string uncertainty_text(const BodyMotion& body) {
     std::string text;
     const std::string* cause = nullptr;
@@ -64,7 +64,7 @@ std::string ensemble_text(const BodyMeasures& all) {
     const Regime commonest = all.regimes.commonest();
     const auto confidence = all.regimes.confidence();
     std::string text = fmt::format("  of {}: {:.0f} % {} (95 % confidence: {:.0f}-{:.0f} %)",
-                                   counted(all.samples, "flight"), 100.0 * all.regimes.share(commonest),
+                                   counted(all.samples, "fall"), 100.0 * all.regimes.share(commonest),
                                    name_of(commonest), 100.0 * confidence[0], 100.0 * confidence[1]);
     for (std::size_t i = 0; i < all.regimes.counts.size(); ++i) {
         const auto regime = static_cast<Regime>(i);
@@ -76,7 +76,7 @@ std::string ensemble_text(const BodyMeasures& all) {
     return text + "\n";
 }
 
-/// The figures of the flights that autorotate, at the catalogue's names and units.
+/// Returns the metrics of the falls that autorotate, by the catalogue's names and units.
 std::string autorotation_text(const BodyMeasures& all) {
     std::string text;
     for (const CataloguedMetric& entry : metric_catalogue) {

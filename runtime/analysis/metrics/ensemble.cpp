@@ -10,13 +10,13 @@ namespace samara {
 namespace {
 
 constexpr std::size_t most_spots = 256;
-constexpr double least_spread = 1e-6;  // over the way: less is rounding
+constexpr double least_spread = 1e-6;  // relative to the displacement: less is rounding
 
 Vector3d horizontal(const Vector3d& vector, const Vector3d& down) {
     return vector - vector.dot(down) * down;
 }
 
-/// The slope of the line of least squares through points.
+/// Returns the slope of the line of least squares through points.
 double slope(const std::vector<double>& x, const std::vector<double>& y) {
     const auto count = static_cast<double>(x.size());
     double mean_x = 0.0;

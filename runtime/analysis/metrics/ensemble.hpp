@@ -5,24 +5,24 @@
 #include <vector>
 
 #include "samara/analysis/metrics/metric_catalogue.hpp"
-#include "samara/analysis/metrics/regime_counts.hpp"
 #include "samara/motion/motion_file.hpp"
 
 namespace samara {
 
-/// Where the copies that reached the ground first touched it.
+/// Statistics of the places where copies first touched the ground.
 struct Landing {
-    int count = 0;                     ///< of copies and runs that landed
-    int at_rest = 0;                   ///< of copies and runs that lie still at the last frame
+    int count = 0;                     ///< number of copies and runs that landed
+    int at_rest = 0;                   ///< number of copies and runs at rest at the last frame
     Vector3d mean = Vector3d::Zero();  ///< m, world: mean place of the centre of mass when it landed
-    double spread = 0.0;               ///< m: rms horizontal distance from it
+    double spread = 0.0;               ///< m: rms horizontal distance from `mean`
 };
 
-/// What all copies and runs of a body do together, each in its own default window.
+/// Statistics of all copies and runs of a body, each in its own default window.
 struct BodyMeasures {
     int samples = 0;                             ///< copies x runs
     Vector3d mean_velocity = Vector3d::Zero();   ///< m/s, mean over copies and runs
-    PerMetric<std::optional<Estimate>> metrics;  ///< those of Measures, over those falls that have them
+    PerMetric<std::optional<Estimate>> metrics;  ///< means of the metrics of
+                                                 ///< Measures over the falls that have them
     RegimeCounts regimes;
     double path_spread = 0.0;  ///< m: rms horizontal distance from the mean path, starts laid on one another,
                                ///< at the end of the shortest fall; 0 for a single one
@@ -31,7 +31,7 @@ struct BodyMeasures {
                                                ///< a random walk; nothing where nothing spreads
     Landing landing;
 
-    /// The value of a figure that every fall has.
+    /// Returns the mean of a metric that every fall has.
     [[nodiscard]] double value(Metric metric) const { return metrics[metric]->value; }
 };
 
@@ -39,9 +39,10 @@ struct BodyMeasures {
 /// nor with copies and runs.
 class Ensemble {
   public:
-    /// All copies and runs of `body` in `motion`, which may be parts of the whole; in the order of the calls.
-    /// `threads`: 0 for all cores, with the same result for any number.
+    /// Adds all copies and runs of `body` in `motion`, which may be parts of the whole; in the order of the
+    /// calls. `threads`: 0 for all cores, with the same result for any number.
     void add(const Motion& motion, const BodyMotion& body, int threads = 1);
+    /// Returns the statistics of the copies and runs that were added.
     [[nodiscard]] BodyMeasures measures() const;
 
   private:
@@ -51,7 +52,7 @@ class Ensemble {
         Vector3d displacement = Vector3d::Zero();  ///< m, horizontal, since the start
         double square = 0.0;                       ///< m^2
     };
-    /// Of one figure, over those falls that have it.
+    /// Sums of one metric over the falls that have it.
     struct MetricSum {
         double sum = 0.0;
         double squares = 0.0;
@@ -72,11 +73,11 @@ class Ensemble {
     double squared_landings_ = 0.0;
 };
 
-/// The ensemble of all runs and copies of a body.
+/// Measures all runs and copies of a body.
 BodyMeasures measure_all(const Motion& motion, const BodyMotion& body);
 
-/// Those of every body of a file, which is read in parts. `progress` is told of (done, total) poses.
-/// `threads`: 0 for all cores.
+/// Measures every body of a file, which is read in parts. `progress` is called with the poses done and in
+/// total. `threads`: 0 for all cores.
 std::vector<BodyMeasures> measure_file(const MotionReader& file, int threads,
                                        const std::function<void(double done, double total)>& progress);
 

@@ -1,6 +1,10 @@
 #include "samara/analysis/metrics/estimate.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
+
+#include "samara/motion/inclination.hpp"
 
 namespace samara {
 namespace {
@@ -36,6 +40,15 @@ std::optional<Estimate> mean_of(const std::vector<Estimate>& falls, Mean mean) {
     all.deviation = std::sqrt(sum_of_squared_deviations(values) / (count - 1.0));
     all.error = *all.deviation / std::sqrt(count);
     return all;
+}
+
+Chance chance_among(double distance, std::vector<double> by_chance) {
+    std::sort(by_chance.begin(), by_chance.end());
+    const auto count = static_cast<double>(by_chance.size());
+    const auto as_far =
+        by_chance.end() - std::lower_bound(by_chance.begin(), by_chance.end(), distance * (1.0 - 1e-12));
+    return {std::accumulate(by_chance.begin(), by_chance.end(), 0.0) / count,
+            percentile_of_sorted(by_chance, 95.0), (1.0 + static_cast<double>(as_far)) / (1.0 + count)};
 }
 
 }  // namespace samara

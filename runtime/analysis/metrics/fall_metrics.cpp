@@ -14,15 +14,15 @@ constexpr std::size_t fewest_pieces = 3;
 constexpr std::size_t most_left_out = 16;
 constexpr std::size_t most_stretches = 64;
 
-/// What of a piece adds up: integrals over time.
+/// Integrals over the time of a piece, which can be added.
 struct Sums {
     double duration = 0.0;                              // s
     double time = 0.0;                                  // s^2, of the time
     Vector3d displacement = Vector3d::Zero();           // m, of the velocity
-    Vector3d displacement_integral = Vector3d::Zero();  // m s, of the way since the release
+    Vector3d displacement_integral = Vector3d::Zero();  // m s, of the displacement since the release
     double inclination = 0.0;                           // rad s
     double squared_spin = 0.0;                          // rad^2/s
-    double upright_turn = 0.0;                          // rad
+    double upright_angle = 0.0;                         // rad
 };
 
 Sums& operator+=(Sums& sum, const Sums& other) {
@@ -32,11 +32,11 @@ Sums& operator+=(Sums& sum, const Sums& other) {
     sum.displacement_integral += other.displacement_integral;
     sum.inclination += other.inclination;
     sum.squared_spin += other.squared_spin;
-    sum.upright_turn += other.upright_turn;
+    sum.upright_angle += other.upright_angle;
     return sum;
 }
 
-/// By the trapezoidal rule.
+/// Integrates a piece by the trapezoidal rule.
 Sums sums_of(const FallSeries& record, const Piece& piece) {
     Sums sums;
     sums.displacement = record.displacements[piece.end - 1] - record.displacements[piece.begin];
@@ -47,7 +47,7 @@ Sums sums_of(const FallSeries& record, const Piece& piece) {
         sums.displacement_integral += half * (record.displacements[i - 1] + record.displacements[i]);
         sums.inclination += half * (record.inclinations[i - 1] + record.inclinations[i]);
         sums.squared_spin += half * (record.squared_spins[i - 1] + record.squared_spins[i]);
-        sums.upright_turn += half * (record.upright_spins[i - 1] + record.upright_spins[i]);
+        sums.upright_angle += half * (record.upright_spins[i - 1] + record.upright_spins[i]);
     }
     return sums;
 }
@@ -79,8 +79,8 @@ class Jackknife {
         stride_ = std::max<std::size_t>(1, count / most_stretches);
     }
 
-    /// The error of a figure that `without` gives for the pieces [begin, end) left out; nothing where there
-    /// are too few pieces.
+    /// Returns the error of a metric that `without` gives for the pieces [begin, end) left out; nothing where
+    /// there are too few pieces.
     [[nodiscard]] std::optional<double> error(
         const std::function<double(std::size_t begin, std::size_t end)>& without) const {
         if (left_out_ == 0) return std::nullopt;
@@ -90,19 +90,19 @@ class Jackknife {
         }
         return jackknife_error(values, sums_.size(), left_out_);
     }
-    /// That of a figure of the sums.
+    /// Returns the error of a metric of the sums.
     [[nodiscard]] std::optional<double> error_of_sums(
         const std::function<double(const Sums&)>& metric) const {
         return error([&](std::size_t begin, std::size_t end) { return metric(sums_without(begin, end)); });
     }
-    /// The frames of the pieces [begin, end).
+    /// Returns the frames of the pieces [begin, end).
     [[nodiscard]] Piece frames(std::size_t begin, std::size_t end) const {
         return {pieces_.pieces[begin].begin, pieces_.pieces[end - 1].end};
     }
 
-    /// m^2/s: how the variance of the horizontal way in a direction grows with time: by the
-    /// ways from period to period, each taken between the mean places of a period, two pieces, so that the
-    /// swing from side to side does not count.
+    /// Returns the growth (m^2/s) with time of the variance of the horizontal displacement in a direction,
+    /// from the displacements between the mean places of successive periods of two pieces, so that the swing
+    /// from side to side does not count.
     [[nodiscard]] std::optional<double> spreading() const {
         if (sums_.size() < fewest_pieces + 1) return std::nullopt;
         std::vector<Sums> periods;
@@ -143,7 +143,7 @@ class Jackknife {
     std::size_t stride_ = 1;
 };
 
-/// The frames of the window, [begin, end).
+/// Returns the frames of the window, [begin, end).
 Piece window_frames(const FallSeries& record) {
     const double slack = 1e-9 * std::max(1.0, record.duration());
     const auto begin =
@@ -214,7 +214,7 @@ std::optional<Estimate> spectral_frequency_of(const FallSeries& record, double s
                     {}};
 }
 
-/// m, rms over the window.
+/// Returns the rms horizontal distance (m) from the release over the window.
 double path_spread(const FallSeries& record) {
     const Piece window = window_frames(record);
     double sum = 0.0;
@@ -296,7 +296,7 @@ FallMetrics fall_metrics(const FallSeries& record, double segment) {
         jackknife.error_of_sums([](const Sums& s) { return std::sqrt(s.squared_spin / s.duration); });
     if (auto& spin = metrics[Metric::spin_rate]) {
         spin->error =
-            jackknife.error_of_sums([](const Sums& s) { return std::abs(s.upright_turn) / s.duration; });
+            jackknife.error_of_sums([](const Sums& s) { return std::abs(s.upright_angle) / s.duration; });
     }
     metrics[Metric::path_spread]->error = path_spread_error(record, jackknife);
     metrics[Metric::drift_speed]->error = drift_speed_error(record, jackknife);

@@ -12,11 +12,12 @@ namespace samara {
 /// The percentages of the quantiles by which distributions of the inclination are compared.
 inline constexpr std::array<double, 5> quantile_percents = {5.0, 25.0, 50.0, 75.0, 95.0};
 
-/// The share of the time that the inclination spends in each of equal intervals from 0 to pi/2.
+/// Number of equal intervals of the inclination, from 0 to pi/2, in an InclinationHistogram.
 inline constexpr std::size_t inclination_bins = 90;
+/// The time (s), or share of it, that the inclination spends in each of inclination_bins intervals.
 using InclinationHistogram = std::array<double, inclination_bins>;
 
-/// The figures of one fall over its window, with the errors that the fall's own swings tell: by the jackknife
+/// Metrics of one fall over its window, with errors estimated from the fall's own swings: by the jackknife
 /// with a third of the swings left out at a time, 16 at most, since swings that follow one another are alike.
 /// No error where the window shows fewer than three swings.
 ///
@@ -31,19 +32,19 @@ struct FallMetrics {
     std::size_t pieces = 0;                        ///< independent ones, see pieces_of()
 };
 
-/// Whether figures of a subject tell something of a body.
+/// Returns whether metrics of a subject are defined for a body.
 bool tells(MetricSubject subject, const Body& body);
 
-/// A figure of one fall over its window, without its error; nothing where the fall has none, and of those
-/// that are from a spectrum.
+/// Returns a metric of one fall over its window, without its error; nothing where the fall has none, and for
+/// those that come from a spectrum.
 std::optional<double> metric_value(Metric metric, const FallSeries& record);
 
-/// `segment` (s): of the spectrum.
+/// Returns the metrics of a fall over its window. `segment` (s): length of the spectrum's segments.
 FallMetrics fall_metrics(const FallSeries& record, double segment);
 
-/// The spectrum of cos^2 of the inclination, the squared vertical component of the shortest axis, over half
-/// its frequency (Hz): so that a flutter from side to side and a tumbling have their peak at the frequency of
-/// Measures, whichever way the body is turned about the vertical. cos^2 is smooth where the folded
+/// Returns the spectrum of cos^2 of the inclination, the squared vertical component of the shortest axis,
+/// over half its frequency (Hz): so that fluttering and tumbling have their peak at the frequency of
+/// Measures, whatever the body's rotation about the vertical. cos^2 is smooth where the folded
 /// inclination has corners. `segment` (s): see power_spectrum(). Over the window, without the frames left
 /// out.
 Spectrum swing_spectrum(const FallSeries& record, double segment, const LeftOut& left_out = {});

@@ -13,11 +13,33 @@
 
 namespace samara {
 
-/// What falls are described and compared by.
-///
-/// To add a figure: a name here and its entry in metric_catalogue below, in the same order. What Measures
-/// holds is then computed, averaged, described and compared everywhere; any other figure is computed in
-/// fall_metrics.cpp. The lists at the end of this file say which figures are judged by whom.
+/// Returns the interval (from, to) that holds the probability of an outcome seen `count` times in `samples`
+/// with 95 % confidence: Wilson, Probable inference, the law of succession, and statistical inference, JASA
+/// 22, 1927.
+std::array<double, 2> wilson_interval(int count, int samples);
+
+/// Numbers of falls of each regime.
+struct RegimeCounts {
+    std::array<int, static_cast<std::size_t>(Regime::autorotating) + 1> counts =
+        {};  ///< by regime, in the enumeration's order
+
+    void add(Regime regime) { ++counts[static_cast<std::size_t>(regime)]; }
+    [[nodiscard]] int of(Regime regime) const { return counts[static_cast<std::size_t>(regime)]; }
+    [[nodiscard]] int total() const;
+    /// Returns the regime of most falls; the first in the enumeration of equals.
+    [[nodiscard]] Regime commonest() const;
+    /// Returns the share of the falls that are of a regime; 0 without falls.
+    [[nodiscard]] double share(Regime regime) const;
+    /// Returns the 95 % interval of the commonest regime's share: see wilson_interval().
+    [[nodiscard]] std::array<double, 2> confidence() const;
+
+    bool operator==(const RegimeCounts&) const = default;
+};
+
+/// Metrics by which falls are described and compared.
+/// To add a metric: a name here and its entry in metric_catalogue below, in the same order. Members of
+/// Measures are then computed, averaged, described and compared everywhere; any other metric is computed in
+/// fall_metrics.cpp. The lists at the end of this file say which command judges which metrics.
 enum class Metric {
     descent_speed,          ///< m/s
     frequency,              ///< Hz, from the minima of the inclination
@@ -27,48 +49,48 @@ enum class Metric {
     rms_angular_speed,      ///< rad/s
     path_spread,            ///< m, rms horizontal distance from the release over the window
     drift_speed,            ///< m/s, horizontal mean velocity over the window, whatever its direction
-    spin_rate,              ///< rad/s, this and the following of what autorotates alone
+    spin_rate,              ///< rad/s, this and the following of autorotation alone
     coning_angle,           ///< rad
     helix_radius,           ///< m
     spin_up_height,         ///< m
 };
 
-/// What of a motion a figure tells. One of the inclination says nothing of a body without a shortest axis
-/// (has_shortest_axis()), one of the turning nothing of a body that looks the same however it is turned.
+/// The part of a motion that a metric describes. The inclination is undefined for a body without a shortest
+/// axis (has_shortest_axis()), and the rotation for a body whose look does not depend on its orientation.
 enum class MetricSubject { path, inclination, rotation };
 
-/// How far off a figure may be.
+/// The error that is allowed of a metric.
 struct AllowedError {
     double share = 0.0;             ///< relative, in tolerances of the descent speed
-    double always = 0.0;            ///< in the SI unit: what is allowed of small figures too
-    const char* always_words = "";  ///< the same in words; empty for nothing
+    double always = 0.0;            ///< absolute, in the SI unit: allowed of small values too
+    const char* always_words = "";  ///< `always` as text; empty for 0
 };
 
-/// A figure as every command and report has it.
+/// A metric as every command and report shows it.
 struct CataloguedMetric {
     Metric metric;
-    const char* key;           ///< in JSON
-    const char* title;         ///< in text
+    const char* key;           ///< name in JSON
+    const char* title;         ///< name in text
     const char* heading = "";  ///< one word, for columns and options
-    const char* unit;          ///< in which people read it
-    double in_unit = 1.0;      ///< what the SI value is multiplied by to be in that unit
+    const char* unit;          ///< unit in text
+    double in_unit = 1.0;      ///< factor from the SI value to `unit`
     MetricSubject subject = MetricSubject::path;
-    Mean mean = Mean::arithmetic;  ///< of several falls
-    bool refines_last = false;     ///< whether it is the figure before it, seen in another way
+    Mean mean = Mean::arithmetic;  ///< mean over several falls
+    bool refines_last = false;     ///< whether it is another estimate of the metric before it
     bool relative = true;          ///< whether a difference is read in per cent; else in the unit
-    AllowedError allowed = {};     ///< none for figures that nobody judges
-    double fitted_miss = 0.0;      ///< relative: what a well fitted flight is off by (docs/studies/falls)
-    /// Its value; null where Measures does not hold it.
+    AllowedError allowed = {};     ///< none for metrics that no command judges
+    double fitted_miss = 0.0;      ///< relative error of a well fitted fall (docs/studies/falls)
+    /// Returns its value; null where Measures does not hold it.
     std::optional<double> (*measured)(const Measures& measures) = nullptr;
 };
 
-/// What Measures holds as `member`.
+/// Returns a member of Measures.
 template <auto member>
 std::optional<double> held(const Measures& measures) {
     return measures.*member;
 }
 
-/// What it holds as `member` of its autorotation.
+/// Returns a member of the autorotation of Measures; nothing where the body does not autorotate.
 template <auto member>
 std::optional<double> held_of_autorotation(const Measures& measures) {
     if (!measures.autorotation) return std::nullopt;
@@ -76,7 +98,7 @@ std::optional<double> held_of_autorotation(const Measures& measures) {
 }
 
 // clang-format off
-/// All figures, in the order of Figure.
+/// All metrics, in the order of Metric.
 inline constexpr CataloguedMetric metric_catalogue[] = {
     {.metric = Metric::descent_speed, .key = "descent_speed", .title = "descent speed", .heading = "descent",
      .unit = "m/s", .allowed = {1.0}, .fitted_miss = 0.05, .measured = held<&Measures::descent_speed>},
@@ -93,7 +115,7 @@ inline constexpr CataloguedMetric metric_catalogue[] = {
      .unit = "degrees", .in_unit = degrees, .subject = MetricSubject::inclination,
      .relative = false, .measured = held<&Measures::mean_inclination>},
     {.metric = Metric::rms_angular_speed, .key = "rms_angular_speed", .title = "rms angular speed",
-     .heading = "turning", .unit = "rad/s", .subject = MetricSubject::rotation, .mean = Mean::root_mean_square,
+     .heading = "rotation", .unit = "rad/s", .subject = MetricSubject::rotation, .mean = Mean::root_mean_square,
      .allowed = {3.0}, .fitted_miss = 0.25, .measured = held<&Measures::rms_angular_speed>},
     {.metric = Metric::path_spread, .key = "path_spread", .title = "path spread", .heading = "path",
      .unit = "m", .mean = Mean::root_mean_square, .relative = false, .allowed = {3.0}},
@@ -113,7 +135,7 @@ inline constexpr CataloguedMetric metric_catalogue[] = {
 // clang-format on
 inline constexpr std::size_t metric_count = std::size(metric_catalogue);
 
-/// The entry of a figure.
+/// Returns the catalogue's entry of a metric.
 constexpr const CataloguedMetric& catalogued(Metric metric) {
     return metric_catalogue[static_cast<std::size_t>(metric)];
 }
@@ -122,14 +144,14 @@ static_assert(std::ranges::all_of(metric_catalogue,
                                   [](const CataloguedMetric& entry) {
                                       return &entry == &catalogued(entry.metric);
                                   }),
-              "the catalogue has the figures in the order of the enumeration");
+              "the catalogue has the metrics in the order of the enumeration");
 
-/// Whether a figure is one of Autorotation, which other falls do not have.
+/// Returns whether a metric is one of Autorotation, which other falls do not have.
 constexpr bool is_of_autorotation(Metric metric) {
     return metric >= Metric::spin_rate && metric <= Metric::spin_up_height;
 }
 
-/// One value for each figure.
+/// One value for each metric.
 template <typename Value>
 struct PerMetric : std::array<Value, metric_count> {
     using std::array<Value, metric_count>::operator[];
@@ -139,17 +161,17 @@ struct PerMetric : std::array<Value, metric_count> {
     }
 };
 
-/// What `samara compare` gives a verdict on, in the order of its options.
+/// Metrics on which `samara compare` gives a verdict, in the order of its options.
 inline constexpr std::array compared_metrics = {Metric::descent_speed, Metric::frequency,
                                                 Metric::inclination_amplitude};
-/// What sets of models are told apart by, in the order of the columns.
+/// Metrics by which sets of models are compared, in the order of the columns.
 inline constexpr std::array advised_metrics = {Metric::descent_speed, Metric::inclination_amplitude,
                                                Metric::frequency, Metric::rms_angular_speed,
                                                Metric::path_spread};
-/// What the tables of a bake answer for.
+/// Metrics that depend on the tables of a bake.
 inline constexpr std::array baked_metrics = {Metric::descent_speed, Metric::frequency,
                                              Metric::inclination_amplitude, Metric::rms_angular_speed};
-/// What coefficients of motion are fitted to, beside the path. All of Measures.
+/// Metrics to which dynamic coefficients are fitted, beside the path. All are members of Measures.
 inline constexpr std::array fitted_metrics = baked_metrics;
 
 }  // namespace samara

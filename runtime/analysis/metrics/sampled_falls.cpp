@@ -6,8 +6,10 @@
 
 #include "samara/analysis/metrics/fall_metrics.hpp"
 #include "samara/core/base/parallel_for.hpp"
+#include "samara/core/dynamics/body_size.hpp"
 #include "samara/core/dynamics/loads.hpp"
-#include "samara/scene/scene_settings.hpp"
+#include "samara/core/simulation/world_pose.hpp"
+#include "samara/scene/scene_simulation.hpp"
 #include "samara/scene/terminal_speed.hpp"
 
 namespace samara {
@@ -15,14 +17,15 @@ namespace {
 
 constexpr double least_frame_rate = 60.0;
 constexpr double least_frames = 240.0;
-constexpr double frames_per_length_of_way = 20.0;  // enough to see a body turn
-constexpr double fewest_frames = 8.0;              // at the least rate, of a fall that says something
+constexpr double frames_per_length = 20.0;  // enough to resolve a body's rotation
+constexpr double fewest_frames = 8.0;       // at the least rate, of a fall that says something
 // rms fluctuation over the terminal speed, near the upper end of what the tables of the ready bodies have
 // over the speed (0.02 to 0.11 in nine of ten directions): a plan is to see too many directions rather than
 // too few.
 constexpr double guessed_intensity = 0.1;
 
-/// How far the farthest vertex can sink when the body is turned by an angle about the shape's origin (m).
+/// Returns how far (m) the farthest vertex can sink when the body is rotated by an angle about the shape's
+/// origin.
 double sinking(const Body& body, double angle) {
     double farthest = 0.0;
     for (const Vector3d& vertex : body.surface.vertices) farthest = std::max(farthest, vertex.norm());
@@ -38,13 +41,13 @@ double least_frame_rate_of(const Scene& scene, double duration) {
     return std::max({scene.frame_rate, least_frame_rate, least_frames / duration});
 }
 
-/// Frames close enough together to see the body turn, but no closer than its steps need.
+/// Returns a frame rate that resolves the body's rotation, but not more than one frame a step.
 double frame_rate_of(const Scene& scene, double duration, double speed, const Body& body) {
-    const double by_way = frames_per_length_of_way * speed / reference_length(body.moments.surface_area);
-    return std::max(least_frame_rate_of(scene, duration), std::min(by_way, 1.0 / scene.step));
+    const double by_distance = frames_per_length * speed / reference_length(body.moments.surface_area);
+    return std::max(least_frame_rate_of(scene, duration), std::min(by_distance, 1.0 / scene.step));
 }
 
-/// The scene with one body, whose copies are the falls.
+/// Returns the scene with one body, whose copies are the falls.
 Scene sampling_scene(const Scene& scene, std::size_t index, const Body& body, std::uint64_t batch,
                      const FallSampling& sampling) {
     Scene one = scene;
@@ -53,9 +56,9 @@ Scene sampling_scene(const Scene& scene, std::size_t index, const Body& body, st
     only.count = sampling.falls;
     const double more = std::max(0.0, sampling.start_angle - only.spread_angle);
     only.spread_angle += more;
-    one.obstacles.clear();       // what a fall is told by comes before it meets one
+    one.obstacles.clear();       // a fall is measured before it touches one
     one.bodies_collide = false;  // the copies are falls of their own
-    // Nothing may start below the ground that would not without this further turn.
+    // Nothing may start below the ground that would not without this further rotation.
     if (one.ground) only.position.z() += sinking(body, more);
     const double duration = sampled_duration(scene, only, sampling);
     // Nothing but a gust and a wind knows the time.
@@ -70,7 +73,7 @@ Scene sampling_scene(const Scene& scene, std::size_t index, const Body& body, st
     return one;
 }
 
-/// `shortest`: s, of a fall that says something.
+/// Measures a fall. `shortest`: s, least duration of a fall that is measured.
 SampledFall sampled_fall(const Motion& motion, const BodyMotion& body, int copy, const Vector3d& current,
                          double shortest) {
     const TimeWindow fall = fall_of(motion, body, 0, copy);
@@ -91,10 +94,10 @@ SampledFall sampled_fall(const Motion& motion, const BodyMotion& body, int copy,
     return sample;
 }
 
-/// Means over the frames of the windows of all copies.
+/// Returns means over the frames of the windows of all copies.
 FlowOnPath flow_on_path(const Motion& motion, const BodyMotion& body, const Surroundings& surroundings,
                         const ImmersedBody& immersed, const std::optional<LoadTables>& tables) {
-    FlowOnPath met;
+    FlowOnPath flow;
     double frames = 0.0;
     for (int copy = 0; copy < body.copies; ++copy) {
         const TimeWindow window = default_window(motion, body, 0, copy);
@@ -106,22 +109,54 @@ FlowOnPath flow_on_path(const Motion& motion, const BodyMotion& body, const Surr
                 flow_visit(motion.pose(body, 0, frame, copy), time, immersed, surroundings, size);
             frames += 1.0;
             if (!visit) continue;
-            met.reynolds_number += visit->reynolds_number;
+            flow.reynolds_number += visit->reynolds_number;
             if (!tables) continue;
             const LoadEntry entry = look_up(*tables, visit->direction, visit->reynolds_number);
             const double square = 2.0 * visit->pressure / immersed.fluid_density;
-            met.turbulent_kinetic_energy += square * entry.turbulent_kinetic_energy;
-            met.dissipation_rate += std::pow(square, 1.5) / (size * immersed.length) * entry.dissipation_rate;
+            flow.turbulent_kinetic_energy += square * entry.turbulent_kinetic_energy;
+            flow.dissipation_rate +=
+                std::pow(square, 1.5) / (size * immersed.length) * entry.dissipation_rate;
         }
     }
     frames = std::max(frames, 1.0);
-    met.reynolds_number /= frames;
-    met.turbulent_kinetic_energy /= frames;
-    met.dissipation_rate /= frames;
-    return met;
+    flow.reynolds_number /= frames;
+    flow.turbulent_kinetic_energy /= frames;
+    flow.dissipation_rate /= frames;
+    return flow;
 }
 
 }  // namespace
+
+std::optional<FlowVisit> flow_visit(const Pose& pose, double time, const ImmersedBody& immersed,
+                                    const Surroundings& surroundings, double size) {
+    const Pose sampled =
+        in_own_units(in_wind(in_flow(pose, surroundings, time), immersed, surroundings, time), size);
+    const Vector3d velocity = centroid_velocity(sampled, immersed);
+    const double speed = velocity.norm();
+    if (!(speed > 0.0)) return std::nullopt;
+    return FlowVisit{velocity / speed, reynolds_number(immersed, speed),
+                     0.5 * immersed.fluid_density * speed * speed / (size * size)};
+}
+
+std::vector<FlowVisit> flow_visits(const Motion& motion, std::size_t body, const ImmersedBody& immersed,
+                                   const Surroundings& surroundings) {
+    const BodyMotion& of_body = motion.bodies[body];
+    std::vector<FlowVisit> visits;
+    visits.reserve(of_body.poses.size());
+    for (int run = 0; run < motion.runs; ++run) {
+        for (int frame = 0; frame < motion.frames(); ++frame) {
+            for (int copy = 0; copy < of_body.copies; ++copy) {
+                const Pose& pose = motion.pose(of_body, run, frame, copy);
+                if (pose.velocity.isZero(0.0) && pose.angular_velocity.isZero(0.0)) continue;
+                const double time = motion.times[static_cast<std::size_t>(frame)];
+                if (const auto visit =
+                        flow_visit(pose, time, immersed, surroundings, of_body.size(run, copy)))
+                    visits.push_back(*visit);
+            }
+        }
+    }
+    return visits;
+}
 
 double sampled_duration(const Scene& scene, const SceneBody& body, const FallSampling& sampling) {
     return std::clamp(scene.duration - body.start, 0.0, sampling.most_steps * scene.step);
@@ -169,9 +204,9 @@ SampledFalls sample_falls(const Scene& scene, std::size_t body, const LoadedBody
         return none;
     }
     const Scene one = sampling_scene(scene, body, *loaded.body, batch, sampling);
-    const SimulationResult flown = simulate(
+    const SimulationResult result_of_scene = simulate(
         one, {loaded}, 1, [](double, double) { return true; }, sampling.threads);
-    const Motion& motion = flown.motion;
+    const Motion& motion = result_of_scene.motion;
     const BodyMotion& falling = motion.bodies.front();
     const double shortest =
         fewest_frames / least_frame_rate_of(scene, one.duration - one.bodies.front().start);
@@ -188,7 +223,7 @@ SampledFalls sample_falls(const Scene& scene, std::size_t body, const LoadedBody
         make_immersed_body(*loaded.body, one.bodies.front(), one.fluid, falling.name);
     result.flow = flow_on_path(motion, falling, surroundings, immersed, loaded.body->tables);
     result.visits = flow_visits(motion, 0, immersed, surroundings);
-    result.highest_reynolds_number = flown.report.bodies.front().highest_reynolds_number;
+    result.highest_reynolds_number = result_of_scene.report.bodies.front().highest_reynolds_number;
     return result;
 }
 

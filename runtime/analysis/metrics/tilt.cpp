@@ -39,7 +39,7 @@ std::vector<UpperEnd> upper_ends(const Motion& motion, const BodyMotion& body, i
     return ends;
 }
 
-/// The horizontal direction in which the ends swing most.
+/// Returns the horizontal direction in which the ends swing most.
 Vector3d main_side(const std::vector<UpperEnd>& ends) {
     Matrix3d squares = Matrix3d::Zero();
     for (const UpperEnd& end : ends) squares += end.horizontal * end.horizontal.transpose();

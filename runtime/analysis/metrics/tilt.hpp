@@ -6,7 +6,7 @@
 
 namespace samara {
 
-/// How the body leans in the vertical plane in which it swings most, and its rate: the axes of a phase
+/// Angle of the body in the vertical plane in which it swings most, and its rate: the axes of a phase
 /// portrait.
 struct Tilt {
     std::vector<double> times;  ///< s
@@ -18,8 +18,9 @@ struct Tilt {
                                   ///< turns over, so that its other end is the upper one
 };
 
-/// The fall (fall_of()) of one copy in one run. The plane is upright and holds the horizontal direction in
-/// which the shortest axis' upper end swings most over the fall. Without gravity the down direction is -z.
+/// Returns the tilt over the fall (fall_of()) of one copy in one run. The plane is upright and holds the
+/// horizontal direction in which the shortest axis' upper end swings most over the fall. Without gravity the
+/// down direction is -z.
 Tilt tilt_of(const Motion& motion, const BodyMotion& body, int run, int copy);
 
 }  // namespace samara

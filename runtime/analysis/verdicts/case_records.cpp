@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "samara/core/base/error.hpp"
 #include "samara/formats/json_text.hpp"
-#include "samara/formats/vector_json.hpp"
 
 namespace samara {
 namespace {
@@ -23,7 +23,7 @@ std::optional<double> number_of(const Json& object, const char* key) {
     return found->get<double>();
 }
 
-/// The object under the key, an empty one where there is none.
+/// Returns the object under the key, an empty one where there is none.
 Json object_of(const Json& object, const char* key) {
     const auto found = object.find(key);
     return found != object.end() && found->is_object() ? *found : Json::object();
@@ -61,7 +61,7 @@ std::optional<CaseRecord> record_of(const Json& one, const Matrix3d& axes) {
                       .openfoam = text_of(one, "openfoam"),
                       .cpu_seconds = number_of(one, "cpu_seconds").value_or(0.0),
                       .final_residual = number_of(object_of(one, "final_residuals"), "p").value_or(0.0)};
-    // Where loads and turbulence are of different closures, k is another case's.
+    // Where loads and turbulence come from different closures, k belongs to another case.
     if (const Json other = object_of(one, "turbulence"); !other.empty()) {
         record.k = number_of(object_of(other, "shell"), "k");
     }
@@ -98,6 +98,26 @@ double main_reynolds_number(const LoadTables& tables, const std::vector<CaseReco
         }
     }
     return main;
+}
+
+std::string left_out_text(const std::vector<LeftOutCase>& cases) {
+    if (cases.empty()) return {};
+    nlohmann::json list = nlohmann::json::array();
+    for (const LeftOutCase& one : cases) list.push_back({{"name", one.name}, {"reason", one.reason}});
+    return list.dump();
+}
+
+std::vector<LeftOutCase> left_out_cases(const LoadTables& tables) {
+    if (tables.left_out.empty()) return {};
+    std::vector<LeftOutCase> cases;
+    try {
+        for (const nlohmann::json& one : parse_json(tables.left_out)) {
+            cases.push_back({one.at("name").get<std::string>(), one.at("reason").get<std::string>()});
+        }
+    } catch (const nlohmann::json::exception&) {
+        throw Error("/tables/left_out is no JSON list of names and reasons; bake the body again");
+    }
+    return cases;
 }
 
 }  // namespace samara

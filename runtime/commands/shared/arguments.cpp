@@ -1,30 +1,107 @@
 #include "samara/commands/shared/arguments.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cctype>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
 #include <map>
+#include <new>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
 
 #include <CLI/CLI.hpp>
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
-#include "samara/commands/shared/guarded_program.hpp"
 #include "samara/commands/shared/print.hpp"
+#include "samara/core/base/error.hpp"
 #include "samara/core/base/nearest_word.hpp"
 #include "samara/core/base/version.hpp"
+#include "samara/core/body/body_file.hpp"
 #include "samara/core/files/replace_file.hpp"
 #include "samara/motion/file_check.hpp"
 
 namespace samara {
+namespace {
+
+/// Reads of standard input find an end, and writes to standard output fail, as with the closed streams.
+void open_closed_streams() {
+    constexpr int as_closed[] = {O_RDONLY, O_RDONLY, O_WRONLY};
+    for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream) {
+        // The lowest number that is free is given: this one, since those below are open.
+        if (::fcntl(stream, F_GETFD) < 0) (void)::open("/dev/null", as_closed[stream]);
+    }
+}
+
+/// Makes a signal an error of the call that causes it. By a handler rather than SIG_IGN, since programs that
+/// are started would inherit that.
+void make_errors_of(int signal) {
+    struct sigaction action = {};
+    if (::sigaction(signal, nullptr, &action) != 0 || action.sa_handler != SIG_DFL) return;
+    action.sa_handler = [](int) {};
+    action.sa_flags = SA_RESTART;
+    ::sigaction(signal, &action, nullptr);
+}
+
+std::string one_line(std::string text) {
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())) != 0) text.pop_back();
+    return text;
+}
+
+/// Returns an exception's message as one line with a remedy where it is known.
+std::string error_of(const std::exception& error) {
+    if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) {
+        return "out of memory; use fewer triangles, bodies, frames or runs";
+    }
+    if (dynamic_cast<const std::length_error*>(&error) != nullptr) {
+        return "more numbers are asked for than any memory holds; is a count or unit wrong?";
+    }
+    if (const auto* file = dynamic_cast<const std::filesystem::filesystem_error*>(&error)) {
+        return fmt::format("{}: cannot be used: {}", file->path1().string(), file->code().message());
+    }
+    return one_line(error.what());
+}
+
+/// Prints an error as JSON on standard output; silent where that cannot be written, since standard error has
+/// it too.
+void print_as_json(const std::string& error) noexcept {
+    try {
+        print_json({{"error", error}});
+        flush_output();
+    } catch (const std::exception&) {
+        return;
+    }
+}
+
+struct MadeFromMotion {
+    std::string_view ending;
+    std::string_view command;
+};
+
+constexpr std::array<MadeFromMotion, 7> others = {{{".glb", "export"},
+                                                   {".usda", "export"},
+                                                   {".chan", "export"},
+                                                   {".html", "export"},
+                                                   {".csv", "export"},
+                                                   {".png", "plot"},
+                                                   {".svg", "plot"}}};
+
+}  // namespace
 
 struct Arguments::Parser {
     CLI::App app;
     std::string program;
     bool json = false;
-    std::map<std::string, std::vector<std::string>> choices;  ///< by the option's name with its dashes
+    std::map<std::string, std::vector<std::string>> choices;  ///< words of each option, by its name with its
+                                                              ///< dashes
     std::vector<const std::string*> outputs;                  ///< files to write; empty where none is given
 };
 
@@ -32,7 +109,7 @@ namespace {
 
 constexpr std::string_view json_option = "--json";
 
-/// For shells: a line for each option, of its names and, after a tab, the words that it takes.
+/// Prints for shells a line for each option: its names and, after a tab, the words that it takes.
 void list_options(const CLI::App& app, const std::map<std::string, std::vector<std::string>>& choices) {
     for (const CLI::Option* option : app.get_options()) {
         std::vector<std::string> names;
@@ -53,7 +130,8 @@ std::vector<std::string> options_of(const CLI::App& app) {
     return names;
 }
 
-/// What is wrong with the words: first an option that there is none of, for which what it was to be may lack.
+/// Returns what is wrong with the words: first an unknown option, since the option that was meant may then be
+/// missing.
 std::string error_in_words(const CLI::App& app, const CLI::ParseError& error) {
     const std::string see_help = fmt::format("; see '{} --help'", app.get_name());
     const std::vector<std::string> unknown = app.remaining();
@@ -79,7 +157,7 @@ const CLI::Validator plain_number(
     },
     "");
 
-/// Whether the words ask for JSON, whatever else is wrong with them.
+/// Returns whether the words ask for JSON, whatever else is wrong with them.
 bool asks_for_json(int argc, const char* const* argv) {
     return std::any_of(argv, argv + argc, [](const char* word) { return word == json_option; });
 }
@@ -209,6 +287,38 @@ int run_program(int argc, const char* const* argv, Arguments& arguments,
         if (parser.json) print_json(result);
     };
     return run_guarded(parser.program, work, asks_for_json(argc, argv));
+}
+
+int run_guarded(const std::string& program, const std::function<void()>& work, bool as_json) {
+    open_closed_streams();
+    make_errors_of(SIGPIPE);
+    make_errors_of(SIGXFSZ);
+    try {
+        work();
+        flush_output();
+        return 0;
+    } catch (const std::exception& error) {
+        const std::string text = error_of(error);
+        std::fflush(stdout);
+        if (as_json) print_as_json(text);
+        print_note("{}: {}\n", program, text);
+        return 1;
+    }
+}
+
+void require_motion_file_name(const std::string& output) {
+    const std::filesystem::path file = output;
+    const std::string ending = file.extension().string();
+    for (const MadeFromMotion& other : others) {
+        if (ending != other.ending) continue;
+        const std::string motion = std::filesystem::path(file).replace_extension(".h5").string();
+        throw Error(fmt::format("{}: the output is a motion file; write {}, then 'samara {} {} -o {}'",
+                                output, motion, other.command, motion, output));
+    }
+    if (is_body_file_name(file)) {
+        throw Error(fmt::format("{}: is the name of a body file; name the motion file NAME.h5", output));
+    }
+    if (ending != ".h5") throw Error(fmt::format("{}: the name of a motion file ends in .h5", output));
 }
 
 }  // namespace samara

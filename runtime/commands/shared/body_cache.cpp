@@ -27,7 +27,7 @@ std::string environment(const char* variable) {
     return value == nullptr ? "" : value;
 }
 
-/// Empty: none.
+/// Returns the folder that the environment names; empty where there is none.
 std::filesystem::path chosen_folder() {
     const std::string chosen = environment("SAMARA_CACHE");
     if (chosen == "off") return {};
@@ -38,7 +38,7 @@ std::filesystem::path chosen_folder() {
     return home.is_absolute() ? home / ".cache" / "samara" : std::filesystem::path();
 }
 
-/// Whether the path is, of this user, of that type and closed to the others.
+/// Returns whether the path is, of this user, of that type and closed to the others.
 bool is_own(const std::filesystem::path& path, mode_t type, mode_t closed) {
     struct stat status = {};
     return ::lstat(path.c_str(), &status) == 0 && (status.st_mode & S_IFMT) == type &&
@@ -53,7 +53,7 @@ bool is_ready(const std::filesystem::path& folder) {
     return is_own(folder, S_IFDIR, S_IRWXG | S_IRWXO) && ::access(folder.c_str(), W_OK | X_OK) == 0;
 }
 
-/// Nothing where it is not there or does not hold what it should.
+/// Reads a kept body; nothing where there is none or it is damaged.
 std::optional<Body> read_entry(const std::filesystem::path& entry) {
     if (!is_own(entry, S_IFREG, S_IWGRP | S_IWOTH)) return std::nullopt;
     try {
@@ -68,7 +68,7 @@ std::optional<Body> read_entry(const std::filesystem::path& entry) {
     }
 }
 
-/// What makes the meshes: programs of different builds differ in size or time.
+/// Identifies the installed samara-mesh: programs of different builds differ in size or time.
 std::string mesher() {
     struct stat status = {};
     const auto program = find_program("samara-mesh");
@@ -76,9 +76,9 @@ std::string mesher() {
     return fmt::format("{} {}.{}", status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec);
 }
 
-/// Whether a script of gmsh may depend on more than itself: other files, the environment, the time, random
-/// numbers, or words that it puts together. A name that merely looks like it costs time alone.
-bool looks_elsewhere(std::string_view script) {
+/// Returns whether a script of gmsh may depend on more than itself: other files, the environment, the time,
+/// random numbers, or words that it puts together. A false alarm costs time alone.
+bool may_depend_on_more(std::string_view script) {
     constexpr std::array<std::string_view, 17> words = {
         "Include", "Merge", "File",     "Exists",   "Get",    "Rand",  "Cpu",  "Memory", "Today",
         "Onelab",  "Dir",   "Relocate", "Absolute", "Plugin", "GMSH_", "MPI_", "Str"};
@@ -145,7 +145,7 @@ std::optional<std::string> body_key(const std::filesystem::path& file) {
     std::string format = file.extension().string();
     std::transform(format.begin(), format.end(), format.begin(),
                    [](char c) { return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c); });
-    if (format == ".geo" && looks_elsewhere(bytes)) return std::nullopt;
+    if (format == ".geo" && may_depend_on_more(bytes)) return std::nullopt;
     return fmt::format("{}\n{}\n{}\n{}", file.filename().string(), content_hash(bytes), version, mesher());
 }
 

@@ -28,12 +28,12 @@ std::string names_of(const std::vector<std::string>& bodies) {
 
 BodyNotes::BodyNotes(std::string program) : program_(std::move(program)) {}
 
-void BodyNotes::add(const std::string& kind, const std::string& body, double severity,
+void BodyNotes::add(const std::string& type, const std::string& body, double severity,
                     const std::string& text) {
     if (text.empty()) return;
-    const auto known = std::ranges::find(notes_, kind, &Note::kind);
+    const auto known = std::ranges::find(notes_, type, &Note::type);
     if (known == notes_.end()) {
-        notes_.push_back({kind, {body}, body, severity, text});
+        notes_.push_back({type, {body}, body, severity, text});
         return;
     }
     known->bodies.push_back(body);
@@ -47,7 +47,7 @@ void BodyNotes::add(const std::string& kind, const std::string& body, double sev
 void BodyNotes::print() {
     for (const Note& note : notes_) {
         print_note("{}: note: {}{}: {}\n", program_, names_of(note.bodies),
-                   !note.alike ? fmt::format(" (figures of '{}')", note.worst) : "", note.text);
+                   !note.alike ? fmt::format(" (values of '{}')", note.worst) : "", note.text);
     }
     notes_.clear();
 }

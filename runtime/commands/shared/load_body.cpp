@@ -36,7 +36,7 @@ class InterruptsForTheOther {
     struct sigaction old_ = {};
 };
 
-/// The last line that the program wrote, without its name, which may be that of the command.
+/// Returns the last line that the program wrote, without its name, which may be that of the command.
 std::string last_line(const std::filesystem::path& log) {
     std::ifstream stream(log);
     std::string last;

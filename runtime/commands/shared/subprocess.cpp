@@ -15,7 +15,7 @@
 namespace samara {
 namespace {
 
-// What cannot be looked at, as below a folder that may not be read, is no program.
+// A path that cannot be examined, as below a folder that may not be read, is no program.
 bool is_program(const std::filesystem::path& path) {
     std::error_code unknown;
     return std::filesystem::is_regular_file(path, unknown) && ::access(path.c_str(), X_OK) == 0;

@@ -7,7 +7,7 @@
 
 namespace samara {
 
-/// The program `name` beside the running one, or else on PATH; nothing where it is not installed.
+/// Returns the program `name` beside the running one, or else on PATH; nothing where it is not installed.
 std::optional<std::filesystem::path> find_program(const std::string& name);
 
 /// Runs a program to its end with the given words (the first is the program) and returns its exit status; 128

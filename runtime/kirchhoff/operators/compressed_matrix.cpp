@@ -22,8 +22,8 @@ using Lanes = hn::Vec<Tag>;
 
 constexpr std::size_t columns_at_once = 6;
 
-/// result (rows x 18) += matrix (rows x inner, column by column) times factor (inner x 18). The strides are
-/// those of the 18 columns.
+/// Adds to result (rows x 18) the product matrix (rows x inner, column by column) times factor (inner x 18).
+/// The strides are those of the 18 columns.
 void add_product(const float* matrix, std::size_t rows, std::size_t inner, const float* factor,
                  std::size_t factor_stride, float* result, std::size_t result_stride) {
     const Tag tag;
@@ -57,7 +57,8 @@ void add_product(const float* matrix, std::size_t rows, std::size_t inner, const
     }
 }
 
-/// result (inner x 18) += transpose of matrix (rows x inner, column by column) times factor (rows x 18).
+/// Adds to result (inner x 18) the product transpose of matrix (rows x inner, column by column) times factor
+/// (rows x 18).
 void add_transposed_product(const float* matrix, std::size_t rows, std::size_t inner, const float* factor,
                             std::size_t factor_stride, float* result, std::size_t result_stride) {
     const Tag tag;
@@ -198,7 +199,7 @@ std::size_t work_of(const Block& block) {
     return block.left.size() + block.right.size();
 }
 
-/// The blocks in parts of about equal work.
+/// Returns the blocks in parts of about equal work.
 std::vector<std::vector<std::size_t>> grouped(const std::vector<Block>& blocks) {
     std::size_t all = 0;
     for (const Block& block : blocks) all += work_of(block);

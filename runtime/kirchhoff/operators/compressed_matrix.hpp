@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "samara/kirchhoff/operators/cluster_tree.hpp"
+#include "samara/kirchhoff/panels/flat_triangle.hpp"
 #include "samara/kirchhoff/panels/single_layer_entries.hpp"
 
 namespace samara {
@@ -18,15 +18,15 @@ using CurlColumns = Eigen::Matrix<float, Eigen::Dynamic, 18>;
 /// diagonal, in single precision: its rounding, 6e-8, is below what the integrals are good to.
 class CompressedMatrix {
   public:
-    /// `entries` in the order of `tree`. `tolerance`: a block's error relative to its norm. The result does
-    /// not depend on `threads` (0: all cores).
+    /// Compresses `entries`, which are in the order of `tree`. `tolerance`: a block's error relative to its
+    /// norm. The result does not depend on `threads` (0: all cores).
     CompressedMatrix(const SingleLayerEntries& entries, const ClusterTree& tree, double tolerance,
                      int threads, const std::function<void(double)>& progress = {});
 
-    /// The matrix times 18 columns.
+    /// Returns the matrix times 18 columns.
     [[nodiscard]] CurlColumns times(const CurlColumns& columns, int threads) const;
 
-    /// Bytes that the blocks take.
+    /// Returns the bytes that the blocks take.
     [[nodiscard]] std::size_t memory() const;
 
     /// A block of rows and columns. In full: `left` is rows x columns, column by column, and `right` is

@@ -33,7 +33,7 @@ struct Cross {
     }
 };
 
-/// The entry of largest modulus that is not used yet; -1: none is left.
+/// Returns the entry of largest modulus that is not used yet; -1: none is left.
 Eigen::Index largest_unused(const Vector& values, const std::vector<bool>& used) {
     Eigen::Index best = -1;
     for (Eigen::Index i = 0; i < values.size(); ++i) {
@@ -43,7 +43,8 @@ Eigen::Index largest_unused(const Vector& values, const std::vector<bool>& used)
     return best;
 }
 
-/// QR of both factors and the singular values of the small product in between.
+/// Cuts a product to the rank that the tolerance takes, by QR of both factors and the singular values of the
+/// small product in between.
 LowRank cut(const Cross& cross, double tolerance) {
     const Eigen::Index rank = cross.rank;
     const Eigen::HouseholderQR<Matrix> left(cross.left.leftCols(rank));
@@ -88,7 +89,7 @@ class Residual {
         return values - cross.right.leftCols(cross.rank) * cross.left.row(i).head(cross.rank).transpose();
     }
 
-    /// V is symmetric: a column is a row.
+    /// Returns a column of the remainder. V is symmetric: a column is a row.
     [[nodiscard]] Vector column(const Cross& cross, Eigen::Index j) const {
         Vector values(static_cast<Eigen::Index>(rows_.size()));
         entries_.fill_row(columns_.begin + static_cast<std::size_t>(j), rows_.begin, rows_.end,
@@ -96,8 +97,8 @@ class Residual {
         return values - cross.left.leftCols(cross.rank) * cross.right.row(j).head(cross.rank).transpose();
     }
 
-    /// A row where more is left than `allowed` (the whole block's norm); -1: none is found. Looks at some
-    /// rows and columns across the block: the pivots alone stop too soon where many rows are alike.
+    /// Returns a row where more is left than `allowed` (the whole block's norm); -1: none is found. Looks at
+    /// some rows and columns across the block: the pivots alone stop too soon where many rows are alike.
     [[nodiscard]] Eigen::Index bad_row(const Cross& cross, const std::vector<bool>& used_rows,
                                        double allowed) const {
         const auto row_count = static_cast<Eigen::Index>(rows_.size());
@@ -141,7 +142,7 @@ std::optional<LowRank> cross_approximation(const SingleLayerEntries& entries, In
         used_rows[static_cast<std::size_t>(pivot_row)] = true;
         Vector row = residual.row(cross, pivot_row);
         const Eigen::Index pivot_column = largest_unused(row, used_columns);
-        if (row[pivot_column] == 0.0) break;  // the row is met exactly
+        if (row[pivot_column] == 0.0) break;  // the approximation equals the row
         used_columns[static_cast<std::size_t>(pivot_column)] = true;
         const Vector column = residual.column(cross, pivot_column);
         row /= row[pivot_column];

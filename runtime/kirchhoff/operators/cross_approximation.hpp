@@ -23,10 +23,10 @@ struct LowRank {
     std::vector<float> right;
 };
 
-/// A block of the single-layer matrix between distant clusters as a product of low rank, by adaptive cross
-/// approximation with partial pivoting (Bebendorf and Rjasanow, Computing 70, 2003), to about `tolerance`
-/// relative to the block's Frobenius norm, and then cut to the rank that this takes. Nothing where that is
-/// more than `most_rank`.
+/// Returns a block of the single-layer matrix between distant clusters as a product of low rank, by adaptive
+/// cross approximation with partial pivoting (Bebendorf and Rjasanow, Computing 70, 2003), to about
+/// `tolerance` relative to the block's Frobenius norm, and then cut to the rank that this takes. Nothing
+/// where that is more than `most_rank`.
 std::optional<LowRank> cross_approximation(const SingleLayerEntries& entries, IndexRange rows,
                                            IndexRange columns, double tolerance, std::size_t most_rank);
 

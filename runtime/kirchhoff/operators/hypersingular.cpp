@@ -1,18 +1,61 @@
 #include "samara/kirchhoff/operators/hypersingular.hpp"
 
+#include <algorithm>
+
 #include <Eigen/Cholesky>
 
 #include "samara/core/base/error.hpp"
+#include "samara/core/base/parallel_for.hpp"
 #include "samara/kirchhoff/operators/compressed_matrix.hpp"
-#include "samara/kirchhoff/operators/hypersingular_operator.hpp"
 #include "samara/kirchhoff/operators/rotation_loads.hpp"
-#include "samara/kirchhoff/operators/single_layer_matrix.hpp"
 #include "samara/kirchhoff/panels/linear_elements.hpp"
 #include "samara/kirchhoff/solvers/conjugate_gradients.hpp"
-#include "samara/kirchhoff/solvers/schwarz_preconditioner.hpp"
 
 namespace samara {
 namespace {
+
+constexpr std::size_t rows_a_piece = 16;
+
+Eigen::Index at(std::size_t index) {
+    return static_cast<Eigen::Index>(index);
+}
+
+/// A triangle and which of its corners a node is.
+struct Corner {
+    std::size_t triangle;
+    std::size_t corner;
+};
+
+std::vector<std::vector<Corner>> corners_of_nodes(const LinearElements& elements) {
+    std::vector<std::vector<Corner>> result(elements.node_count());
+    for (std::size_t t = 0; t < elements.triangle_count(); ++t) {
+        for (std::size_t k = 0; k < 3; ++k) result[elements.node(t, k)].push_back({t, k});
+    }
+    return result;
+}
+
+/// Returns W p = sum over triangles of curl v_i . V curl p for six columns, V compressed.
+SixColumns hypersingular_times(const LinearElements& elements, const CompressedMatrix& single_layer,
+                               const SixColumns& columns, int threads) {
+    CurlColumns curls(at(elements.triangle_count()), 18);
+    for (std::size_t t = 0; t < elements.triangle_count(); ++t) {
+        Eigen::Matrix<double, 3, 6> sum = Eigen::Matrix<double, 3, 6>::Zero();
+        for (std::size_t k = 0; k < 3; ++k) {
+            sum += elements.curl(t, k) * columns.row(at(elements.node(t, k)));
+        }
+        for (Eigen::Index c = 0; c < 18; ++c) curls(at(t), c) = static_cast<float>(sum(c / 6, c % 6));
+    }
+    const CurlColumns products = single_layer.times(curls, threads);
+    SixColumns result = SixColumns::Zero(at(elements.node_count()), 6);
+    for (std::size_t t = 0; t < elements.triangle_count(); ++t) {
+        Eigen::Matrix<double, 3, 6> product;
+        for (Eigen::Index c = 0; c < 18; ++c) product(c / 6, c % 6) = static_cast<double>(products(at(t), c));
+        for (std::size_t k = 0; k < 3; ++k) {
+            result.row(at(elements.node(t, k))) += elements.curl(t, k).transpose() * product;
+        }
+    }
+    return result;
+}
 
 constexpr std::size_t leaf_size = 64;         // triangles
 constexpr std::size_t schwarz_cluster = 512;  // triangles
@@ -21,11 +64,7 @@ constexpr const char* unsolvable =
     "the "
     "shape again with 'samara mesh'";
 
-Eigen::Index at(std::size_t index) {
-    return static_cast<Eigen::Index>(index);
-}
-
-/// The normals, a row each triangle.
+/// Returns the normals, a row each triangle.
 Eigen::Matrix<double, Eigen::Dynamic, 3> normals_of(const LinearElements& elements) {
     Eigen::Matrix<double, Eigen::Dynamic, 3> normals(at(elements.triangle_count()), 3);
     for (std::size_t t = 0; t < elements.triangle_count(); ++t) {
@@ -34,7 +73,7 @@ Eigen::Matrix<double, Eigen::Dynamic, 3> normals_of(const LinearElements& elemen
     return normals;
 }
 
-/// <n_k, v_i>, a row each node.
+/// Returns <n_k, v_i>, a row each node.
 Eigen::Matrix<double, Eigen::Dynamic, 3> normal_loads(const LinearElements& elements) {
     Eigen::Matrix<double, Eigen::Dynamic, 3> loads =
         Eigen::Matrix<double, Eigen::Dynamic, 3>::Zero(at(elements.node_count()), 3);
@@ -55,7 +94,7 @@ Eigen::Matrix<double, Eigen::Dynamic, 3> coordinates_of(const LinearElements& el
     return coordinates;
 }
 
-/// <g_a, S g_b> from the rotations' loads and from V for the translations.
+/// Returns <g_a, S g_b> from the rotations' loads and from V for the translations.
 Matrix6d single_layer_energies(const RotationLoads& rotations, const Matrix3d& translations) {
     Matrix6d energies;
     energies.topRows<3>() = rotations.energies;
@@ -82,8 +121,8 @@ std::function<void(double)> part_of(const std::function<void(double)>& progress,
     return [=](double share) { progress(begin + share * (end - begin)); };
 }
 
-/// The columns of the right-hand sides; (1/2 + D') n_k = n_k - W x_k exactly, because x_k is linear on each
-/// triangle.
+/// Returns the columns of the right-hand sides; (1/2 + D') n_k = n_k - W x_k exactly, because x_k is linear
+/// on each triangle.
 SixColumns all_loads(const LinearElements& elements, const RotationLoads& rotations,
                      const Eigen::Matrix<double, Eigen::Dynamic, 3>& coordinate_loads) {
     SixColumns loads(at(elements.node_count()), 6);
@@ -119,7 +158,7 @@ DenseEquations dense_equations(const LinearElements& elements, const BoundaryEle
     return equations;
 }
 
-/// W^-1 of the right-hand sides; the equations' matrix is used up.
+/// Returns W^-1 of the right-hand sides; the equations' matrix is overwritten.
 SixColumns solved(DenseEquations& equations) {
     const Eigen::LLT<Eigen::Ref<RowMatrix>> factors(equations.hypersingular);
     if (factors.info() != Eigen::Success) throw Error(unsolvable);
@@ -137,7 +176,7 @@ BoundaryElementResult solve_dense(const LinearElements& elements, const Boundary
     return result;
 }
 
-/// <n_k, S n_l> by the compressed matrix.
+/// Returns <n_k, S n_l> by the compressed matrix.
 Matrix3d translation_energies(const LinearElements& elements, const CompressedMatrix& single_layer,
                               int threads) {
     const auto normals = normals_of(elements);
@@ -183,6 +222,55 @@ BoundaryElementResult solve_compressed(const LinearElements& elements, const Bou
 }
 
 }  // namespace
+
+RowMatrix dense_single_layer(const SingleLayerEntries& entries, int threads,
+                             const std::function<void(double)>& progress) {
+    const std::size_t count = entries.size();
+    RowMatrix matrix(at(count), at(count));
+    const std::size_t pieces = (count + rows_a_piece - 1) / rows_a_piece;
+    // Rows from the top and from the bottom alternately: pieces of about equal work.
+    parallel_for(
+        pieces, 1, threads,
+        [&](std::size_t begin, std::size_t) {
+            const std::size_t piece = begin % 2 == 0 ? begin / 2 : pieces - 1 - begin / 2;
+            const std::size_t end = std::min((piece + 1) * rows_a_piece, count);
+            for (std::size_t i = piece * rows_a_piece; i < end; ++i) {
+                entries.fill_row(i, i, count, &matrix(at(i), at(i)));
+            }
+        },
+        progress);
+    parallel_for(pieces, 1, threads, [&](std::size_t piece, std::size_t) {
+        const Eigen::Index begin = at(piece * rows_a_piece);
+        const Eigen::Index rows = std::min(at(rows_a_piece), at(count) - begin);
+        matrix.block(begin, 0, rows, begin) = matrix.block(0, begin, begin, rows).transpose();
+        for (Eigen::Index i = begin; i < begin + rows; ++i) {
+            for (Eigen::Index j = begin; j < i; ++j) matrix(i, j) = matrix(j, i);
+        }
+    });
+    return matrix;
+}
+
+RowMatrix dense_hypersingular(const LinearElements& elements, const RowMatrix& single_layer, int threads) {
+    const auto corners = corners_of_nodes(elements);
+    std::vector<std::array<Vector3d, 3>> curls(elements.triangle_count());
+    for (std::size_t t = 0; t < curls.size(); ++t) {
+        for (std::size_t k = 0; k < 3; ++k) curls[t][k] = elements.curl(t, k);
+    }
+    RowMatrix matrix = RowMatrix::Zero(at(corners.size()), at(corners.size()));
+    parallel_for(corners.size(), rows_a_piece, threads, [&](std::size_t begin, std::size_t end) {
+        Eigen::Matrix<double, 3, Eigen::Dynamic> row(3, at(curls.size()));
+        for (std::size_t i = begin; i < end; ++i) {
+            row.setZero();
+            for (const auto& [t, k] : corners[i]) row += curls[t][k] * single_layer.row(at(t));
+            for (std::size_t t = 0; t < curls.size(); ++t) {
+                for (std::size_t k = 0; k < 3; ++k) {
+                    matrix(at(i), at(elements.node(t, k))) += row.col(at(t)).dot(curls[t][k]);
+                }
+            }
+        }
+    });
+    return matrix;
+}
 
 BoundaryElementResult solve_hypersingular(const Surface& surface, const BoundaryElementOptions& options,
                                           const HypersingularOptions& how) {

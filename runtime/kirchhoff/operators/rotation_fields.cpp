@@ -70,7 +70,7 @@ HWY_INLINE void add_sources(const RotationSources& sources, std::size_t there, c
     }
 }
 
-/// The solid angles of the sources from `there` on, of those marked.
+/// Returns the solid angles of the sources from `there` on, of those marked.
 template <class Mask>
 HWY_INLINE Lanes solid_angles(const RotationSources& sources, std::size_t there, const TargetPoint& eye,
                               Mask marked) {
@@ -105,8 +105,8 @@ HWY_INLINE void add_group(const RotationSources& sources, std::size_t group,
     }
 }
 
-/// The fields of a group of triangles very far off, in single precision: its rounding is far below the error
-/// of one point a triangle.
+/// Adds the fields of a group of triangles very far off, in single precision: its rounding is far below the
+/// error of one point a triangle.
 HWY_INLINE void add_distant(const DistantSources& sources, std::size_t begin, std::size_t end,
                             const TargetPoint& target, FieldAtPoint& field, double& angle) {
     const hn::ScalableTag<float> tag;
@@ -153,7 +153,7 @@ HWY_INLINE void add_distant(const DistantSources& sources, std::size_t begin, st
     angle += sum(angles);
 }
 
-/// The fields of triangles from `begin` to `end` that are not all very far off.
+/// Adds the fields of triangles from `begin` to `end` that are not all very far off.
 void add_fields(const RotationSourceSets& sources, std::size_t begin, std::size_t end, const Targets& targets,
                 const std::array<double, 3>& distances, DistantFields& fields) {
     const Tag tag;
@@ -205,7 +205,7 @@ void add_fields(const RotationSourceSets& sources, std::size_t begin, std::size_
     for (std::size_t q = 0; q < 6; ++q) add_to(six[q], fields.six[q]);
 }
 
-/// All distant triangles' fields.
+/// Computes all distant triangles' fields.
 void all_fields(const RotationSourceSets& sources, const Targets& targets,
                 const std::array<double, 3>& distances, DistantFields& fields) {
     const Vector3d middle(targets.one.place[0], targets.one.place[1], targets.one.place[2]);

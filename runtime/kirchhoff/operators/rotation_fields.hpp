@@ -12,7 +12,7 @@ namespace samara {
 
 /// Point sources, coordinate by coordinate: the three rotations' strengths and an area vector each.
 struct RotationSources {
-    std::size_t stride = 0;  ///< from one point of a triangle to the next
+    std::size_t stride = 0;  ///< distance in the arrays between two points of a triangle
     std::array<std::vector<double>, 3> place;
     std::array<std::vector<double>, 3> strength;
     std::array<std::vector<double>, 3> area_vector;
@@ -47,28 +47,28 @@ struct RotationSourceSets {
 
 /// Sums over sources at one point.
 struct FieldAtPoint {
-    std::array<double, 3> potential{};  ///< of the strengths: sum of g / r
+    std::array<double, 3> potential{};  ///< sum of strength / r, one for each rotation
     std::array<double, 3> flux{};       ///< sum of g n . (y - x) / r^3, y and n this point's
 };
 
-/// What all distant triangles exert on the points of one.
+/// The fields of all distant triangles at the points of one.
 struct DistantFields {
     /// The sum of the solid angles from the middle, but for those of the triangles in `exact`.
     double solid_angle = 0.0;
     FieldAtPoint one;                   ///< at the middle, of triangles very far off
     std::array<FieldAtPoint, 3> three;  ///< at the points of the rule, of those less far
-    std::array<FieldAtPoint, 6> six;    ///< and of those still nearer
+    std::array<FieldAtPoint, 6> six;    ///< at the points of the rule, of those still nearer
     std::vector<std::size_t> exact;     ///< triangles whose solid angle is left to do
     std::vector<std::size_t> near;      ///< triangles too near for point sources
 };
 
-/// The normal velocities x cross n of the unit rotations, as sources.
+/// Returns the normal velocities x cross n of the unit rotations, as sources.
 RotationSourceSets rotation_sources(const LinearElements& elements);
 
-/// The fields of all triangles at the points of one of them.
+/// Returns the fields of all triangles at the points of one of them.
 DistantFields distant_fields(const RotationSourceSets& sources, const FlatTriangle& triangle);
 
-/// A point of a rule on a triangle.
+/// Returns a point of a rule on a triangle.
 Vector3d place_on(const FlatTriangle& triangle, const RulePoint& point);
 
 }  // namespace samara

@@ -17,7 +17,7 @@ Eigen::Index at(std::size_t index) {
     return static_cast<Eigen::Index>(index);
 }
 
-/// What all triangles exert on one: row k of `loads` belongs to its corner k.
+/// Loads of all triangles on one: row k of `loads` belongs to its corner k.
 struct RowLoads {
     Matrix3d loads = Matrix3d::Zero();  // sum of g times the solid angle of v_k, without 1 / (4 pi)
     Eigen::Matrix<double, 3, 6> energies = Eigen::Matrix<double, 3, 6>::Zero();
@@ -41,7 +41,7 @@ void add_field(const FieldAtPoint& field, const FlatTriangle& triangle, const Ru
     row.energies += area * potential * motions.transpose();
 }
 
-/// The solid angles of some triangles from the middle of one.
+/// Returns the solid angles of some triangles from the middle of one.
 double exact_solid_angles(const std::vector<FlatTriangle>& triangles, const std::vector<std::size_t>& seen,
                           std::size_t own) {
     const Vector3d& eye = triangles[own].centroid;
@@ -101,7 +101,7 @@ RowLoads row_loads(const LinearElements& elements, const RotationSourceSets& sou
     return row;
 }
 
-/// <g_a, v_k> on one triangle, a row each corner: g is linear too.
+/// Returns <g_a, v_k> on one triangle, a row each corner: g is linear too.
 Matrix3d own_loads(const FlatTriangle& triangle) {
     Matrix3d at_corners;
     for (std::size_t k = 0; k < 3; ++k) {

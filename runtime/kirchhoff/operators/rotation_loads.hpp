@@ -6,7 +6,7 @@
 
 namespace samara {
 
-/// What the normal velocities of the three unit rotations, g = x cross n, exert on the surface.
+/// Loads on the surface from the normal velocities of the three unit rotations, g = x cross n.
 struct RotationLoads {
     /// <(1/2 + D') g_a, v_i>, a row each node, a column each rotation; D' is the adjoint double layer.
     Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> loads;
@@ -17,8 +17,8 @@ struct RotationLoads {
     double closure_error;
 };
 
-/// Near pairs of triangles take the inner integral in closed form at 16 outer points; distant ones three
-/// points each, and very distant ones one.
+/// Computes the loads of the unit rotations. Near pairs of triangles take the inner integral in closed form
+/// at 16 outer points; distant ones three points each, and very distant ones one.
 RotationLoads rotation_loads(const LinearElements& elements, int threads,
                              const std::function<void(double)>& progress = {});
 

@@ -5,7 +5,7 @@
 
 namespace samara {
 
-/// The Kirchhoff tensor of a body by direct collocation with a quadratic potential on curved six-node
+/// Returns the Kirchhoff tensor of a body by direct collocation with a quadratic potential on curved six-node
 /// triangles, fourth order in their size on smooth bodies (docs/theory-kirchhoff). One unknown a vertex.
 ///
 /// `surface` is of order 2, closed and outward; coordinates are from the reference point and in units in

@@ -18,7 +18,7 @@ std::size_t at(std::int32_t index) {
     return static_cast<std::size_t>(index);
 }
 
-/// The bits of the three coordinates in turn, ten each (G. M. Morton's order).
+/// Interleaves the bits of the three coordinates, ten each (G. M. Morton's order).
 std::uint32_t morton_code(const Vector3d& share_of_box) {
     std::uint32_t code = 0;
     for (std::uint32_t bit = 10; bit-- > 0;) {
@@ -30,7 +30,7 @@ std::uint32_t morton_code(const Vector3d& share_of_box) {
     return code;
 }
 
-/// New numbers of the vertices along the curve; -1 for those without a triangle.
+/// Returns new numbers of the vertices along the curve; -1 for those without a triangle.
 std::vector<std::int32_t> renumbered(const Surface& surface, std::vector<Vector3d>& nodes) {
     std::vector<char> used(surface.vertices.size(), 0);
     Eigen::AlignedBox3d box;
@@ -70,8 +70,8 @@ CurvedPanel make_panel(const std::array<std::int32_t, 6>& numbers, const std::ve
     return panel;
 }
 
-/// The area normal must not vanish: else two nodes are at one place, or an edge node far from its edge's
-/// middle.
+/// Throws Error where the area normal vanishes: then two nodes are at one place, or an edge node far from its
+/// edge's middle.
 void require_regular(const CurvedPanel& panel, std::size_t triangle) {
     const double least_area = 1e-12 * panel.radius * panel.radius;
     for (const auto& [p, q] : node_coordinates) {
@@ -99,14 +99,14 @@ void mark_bent(CurvedPanel& panel) {
     }
 }
 
-/// The solid angle of three unit vectors (van Oosterom and Strackee 1983), signed by their sense.
+/// Returns the solid angle of three unit vectors (van Oosterom and Strackee 1983), signed by their sense.
 double solid_angle(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
     return 2.0 * std::atan2(a.dot(b.cross(c)), 1.0 + a.dot(b) + b.dot(c) + c.dot(a));
 }
 
-/// The solid angle between `inward` and the directions in which the panel leaves its node a: the sector
-/// between two tangents at a corner, and two such sectors, by way of the opposite corner, at the middle of an
-/// edge.
+/// Returns the solid angle between `inward` and the directions in which the panel leaves its node a: the
+/// sector between two tangents at a corner, and two such sectors, split at the opposite corner, at the middle
+/// of an edge.
 double sector_angle(const CurvedPanel& panel, std::size_t a, const Vector3d& inward) {
     const Eigen::Matrix<double, 3, 2> tangents =
         panel.tangents(node_coordinates[a][0], node_coordinates[a][1]);

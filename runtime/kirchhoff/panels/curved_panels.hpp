@@ -16,13 +16,13 @@ struct CurvedPanel {
     std::array<Vector3d, 6> coefficients;
     Vector3d centre;      ///< the place of p = q = 1/3
     double radius = 0.0;  ///< from the centre to the farthest node
-    bool bent = false;    ///< its area normal changes by more than 1.5 times its least length
+    bool bent = false;    ///< whether its area normal changes by more than 1.5 times its least length
 
     [[nodiscard]] Vector3d place(double p, double q) const;
-    /// The cross product of the two tangents: along the outward normal, as long as the panel's area is to
-    /// that of the unit triangle.
+    /// Returns the cross product of the two tangents: along the outward normal, as long as the panel's area
+    /// is to that of the unit triangle.
     [[nodiscard]] Vector3d area_normal(double p, double q) const;
-    /// The tangents d/dp and d/dq, one a column.
+    /// Returns the tangents d/dp and d/dq, one a column.
     [[nodiscard]] Eigen::Matrix<double, 3, 2> tangents(double p, double q) const;
 };
 
@@ -32,19 +32,20 @@ struct CurvedPanels {
     std::vector<CurvedPanel> panels;
 };
 
-/// The values at (p, q) of the six quadratic functions that are 1 at one node and 0 at the others.
+/// Returns the values at (p, q) of the six quadratic functions that are 1 at one node and 0 at the others.
 std::array<double, 6> node_functions(double p, double q);
 
 /// The coordinates (p, q) of the six nodes.
 inline constexpr std::array<std::array<double, 2>, 6> node_coordinates = {
     {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}, {0.5, 0.0}, {0.5, 0.5}, {0.0, 0.5}}};
 
-/// The panels of an order-2 surface, with its vertices put in the order of a space-filling curve. Vertices
-/// that belong to no triangle are left out. Throws Error at a triangle that is degenerate or not finite.
+/// Returns the panels of an order-2 surface, with its vertices put in the order of a space-filling curve.
+/// Vertices that belong to no triangle are left out. Throws Error at a triangle that is degenerate or not
+/// finite.
 CurvedPanels make_curved_panels(const Surface& surface);
 
-/// The share of the full solid angle about each node that lies inside the body, from the tangents of the
-/// panels that meet there: 1/2 where the surface is smooth.
+/// Returns the share of the full solid angle about each node that lies inside the body, from the tangents of
+/// the panels around it: 1/2 where the surface is smooth.
 std::vector<double> interior_shares(const CurvedPanels& panels, int threads = 0);
 
 }  // namespace samara

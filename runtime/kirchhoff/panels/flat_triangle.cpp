@@ -1,12 +1,30 @@
 #include "samara/kirchhoff/panels/flat_triangle.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <numeric>
 
 #include <fmt/format.h>
 
 #include "samara/core/base/error.hpp"
 
 namespace samara {
+namespace {
+
+Cluster make_cluster(const std::vector<FlatTriangle>& triangles, const std::vector<std::size_t>& order,
+                     std::size_t begin, std::size_t end) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Cluster cluster{begin, end, Vector3d::Constant(infinity), Vector3d::Constant(-infinity)};
+    for (std::size_t i = begin; i < end; ++i) {
+        for (const Vector3d& corner : triangles[order[i]].corners) {
+            cluster.low = cluster.low.cwiseMin(corner);
+            cluster.high = cluster.high.cwiseMax(corner);
+        }
+    }
+    return cluster;
+}
+
+}  // namespace
 
 FlatTriangle flat_triangle(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
     FlatTriangle triangle;
@@ -42,6 +60,40 @@ std::vector<FlatTriangle> flat_triangles(const Surface& surface) {
         }
     }
     return triangles;
+}
+
+ClusterTree cluster_tree(const std::vector<FlatTriangle>& triangles, std::size_t leaf_size) {
+    ClusterTree tree;
+    tree.order.resize(triangles.size());
+    std::iota(tree.order.begin(), tree.order.end(), std::size_t{0});
+    tree.clusters.push_back(make_cluster(triangles, tree.order, 0, triangles.size()));
+    for (std::size_t c = 0; c < tree.clusters.size(); ++c) {
+        const Cluster cluster = tree.clusters[c];
+        if (cluster.size() <= leaf_size) continue;
+        Eigen::Index axis = 0;
+        (cluster.high - cluster.low).maxCoeff(&axis);
+        const auto place = [&](std::size_t i) { return tree.order.begin() + static_cast<std::ptrdiff_t>(i); };
+        const std::size_t middle = cluster.begin + cluster.size() / 2;
+        // Ties are broken by index, so that the order is the same everywhere.
+        std::nth_element(place(cluster.begin), place(middle), place(cluster.end), [&](auto i, auto j) {
+            const double x = triangles[i].centroid[axis];
+            const double y = triangles[j].centroid[axis];
+            return x < y || (x == y && i < j);
+        });
+        tree.clusters[c].left = tree.clusters.size();
+        tree.clusters[c].right = tree.clusters.size() + 1;
+        tree.clusters.push_back(make_cluster(triangles, tree.order, cluster.begin, middle));
+        tree.clusters.push_back(make_cluster(triangles, tree.order, middle, cluster.end));
+    }
+    return tree;
+}
+
+double box_distance(const Cluster& a, const Cluster& b) {
+    return (a.low - b.high).cwiseMax(b.low - a.high).cwiseMax(0.0).norm();
+}
+
+double box_diameter(const Cluster& cluster) {
+    return (cluster.high - cluster.low).norm();
 }
 
 }  // namespace samara

@@ -45,7 +45,7 @@ HWY_INLINE Points load(const PointBatch& points, std::size_t i) {
     return {hn::Load(tag, &points.x[i]), hn::Load(tag, &points.y[i]), hn::Load(tag, &points.z[i])};
 }
 
-/// The angle of the point (x, y), y >= 0; 0 where y is 0.
+/// Returns the angle of the point (x, y), y >= 0; 0 where y is 0.
 HWY_INLINE Lanes angle(Lanes y, Lanes x) {
     const Tag tag;
     const auto flat = hn::Le(y, hn::Set(tag, tiny));
@@ -113,14 +113,14 @@ void uniform_potential_lanes(const FlatTriangle& triangle, const PointBatch& poi
     }
 }
 
-/// The angle whose tangent is y/x, x >= 0, up to a right one; 0 where y is 0.
+/// Returns the angle whose tangent is y/x, x >= 0, up to a right one; 0 where y is 0.
 HWY_INLINE Lanes acute_angle(Lanes y, Lanes x) {
     const Tag tag;
     return hn::Atan(tag, hn::Div(y, hn::Max(x, hn::Set(tag, tiny))));
 }
 
-/// The sum over the triangle's edges of direction . outward times the integral of r - h log(r + h), for
-/// points at the height h above its plane; terms that cancel around the triangle are left out.
+/// Computes the sum over the triangle's edges of direction . outward times the integral of r - h log(r + h),
+/// for points at the height h above its plane; terms that cancel around the triangle are left out.
 void contour_potential_lanes(const FlatTriangle& triangle, const Vector3d& direction, double height,
                              const PointBatch& points, ValueBatch& result) {
     const Tag tag;
@@ -143,14 +143,14 @@ void contour_potential_lanes(const FlatTriangle& triangle, const Vector3d& direc
                 return acute_angle(hn::Mul(hn::Mul(s, across), hn::Sub(r, h)),
                                    hn::MulAdd(across_squared, r, hn::Mul(h, hn::Mul(s, s))));
             };
-            const Lanes turned =
+            const Lanes rotated =
                 hn::Sub(inner_angle(to, seen.distances[f]), inner_angle(from, seen.distances[e]));
             const Lanes off = hn::MulAdd(h, h, across_squared);
             const Lanes distances =
                 hn::MulAdd(to, seen.distances[f],
                            hn::NegMulAdd(from, seen.distances[e], hn::Mul(off, seen.logarithms[e])));
             const Lanes ends = hn::MulSub(to, corner_logarithms[f], hn::Mul(from, corner_logarithms[e]));
-            const Lanes rest = hn::MulAdd(h, seen.logarithms[e], hn::MulAdd(across, turned, ends));
+            const Lanes rest = hn::MulAdd(h, seen.logarithms[e], hn::MulAdd(across, rotated, ends));
             const Lanes whole = hn::NegMulAdd(h, rest, hn::Mul(hn::Set(tag, 0.5), distances));
             sum = hn::MulAdd(hn::Set(tag, direction.dot(triangle.outward[e])), whole, sum);
         }

@@ -11,8 +11,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace samara::HWY_NAMESPACE {
 
-/// 1 / sqrt(x) for x from about 1e-30 to 1e30, to about 1e-13: the single-precision estimate (at least 11
-/// bits) and two Newton steps, several times as fast as a division and a root. With one step to 3e-7.
+/// Returns 1 / sqrt(x) for x from about 1e-30 to 1e30, to about 1e-13: the single-precision estimate (at
+/// least 11 bits) and two Newton steps, several times as fast as a division and a root. With one step to
+/// 3e-7.
 template <int newton_steps = 2, class Tag>
 HWY_INLINE hwy::HWY_NAMESPACE::Vec<Tag> inverse_root(Tag tag, hwy::HWY_NAMESPACE::Vec<Tag> x) {
     namespace hn = hwy::HWY_NAMESPACE;

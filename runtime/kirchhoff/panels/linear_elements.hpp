@@ -6,7 +6,6 @@
 
 #include <Eigen/Core>
 
-#include "samara/kirchhoff/operators/cluster_tree.hpp"
 #include "samara/kirchhoff/panels/flat_triangle.hpp"
 
 namespace samara {
@@ -20,7 +19,7 @@ struct LinearElements {
     std::vector<FlatTriangle> triangles;               ///< in the order of `tree`
     std::vector<std::array<std::int32_t, 3>> corners;  ///< rows of `nodes`
     ClusterTree tree;                                  ///< its order leads back to the surface's triangles
-    std::vector<std::int32_t> component;               ///< of each node: triangles connected by nodes
+    std::vector<std::int32_t> component;  ///< of each node: index of its set of connected triangles
     std::int32_t component_count = 0;
 
     [[nodiscard]] std::size_t node_count() const { return nodes.size(); }
@@ -28,7 +27,8 @@ struct LinearElements {
     [[nodiscard]] std::size_t node(std::size_t triangle, std::size_t corner) const {
         return static_cast<std::size_t>(corners[triangle][corner]);
     }
-    /// n x grad of the function that is 1 at the corner and 0 at the others: constant on the triangle.
+    /// Returns n x grad of the function that is 1 at the corner and 0 at the others: constant on the
+    /// triangle.
     [[nodiscard]] Vector3d curl(std::size_t triangle, std::size_t corner) const {
         const FlatTriangle& flat = triangles[triangle];
         const std::size_t opposite = (corner + 1) % 3;
@@ -36,8 +36,8 @@ struct LinearElements {
     }
 };
 
-/// The elements of a welded surface of order 1, its triangles sorted into clusters of up to `leaf_size`.
-/// Vertices that no triangle uses are left out. Throws Error at a triangle without an area.
+/// Returns the elements of a welded surface of order 1, its triangles sorted into clusters of up to
+/// `leaf_size`. Vertices that no triangle uses are left out. Throws Error at a triangle without an area.
 LinearElements linear_elements(const Surface& surface, std::size_t leaf_size);
 
 /// Takes the mean (weighted with the nodes' shares of the area) out of each component's columns: the

@@ -36,8 +36,8 @@ struct Edge {
     double length;
 };
 
-/// The singularities of a triangle's potential along an edge: its corners and, where the edge passes them
-/// within their length, its own edges.
+/// Returns the singularities of a triangle's potential along an edge: its corners and, where the edge passes
+/// them within their length, its own edges.
 Singularities singularities(const Edge& edge, const FlatTriangle& other) {
     Singularities found;
     for (const Vector3d& corner : other.corners) {
@@ -109,7 +109,7 @@ double gauss_sum(const ValueBatch& batch) {
     return sum;
 }
 
-/// The integral along the edge of the triangle's potential.
+/// Returns the integral along the edge of the triangle's potential.
 double potential_along(const Edge& edge, const FlatTriangle& triangle) {
     double sum = 0.0;
     PointBatch points;
@@ -124,7 +124,7 @@ Edge edge_of(const FlatTriangle& triangle, std::size_t e) {
     return {triangle.corners[e], triangle.tangents[e], triangle.lengths[e]};
 }
 
-/// Half of the homogeneous formula: the edges of `first` in the potential of `second`.
+/// Returns half of the homogeneous formula: the edges of `first` in the potential of `second`.
 double edges_in_potential(const FlatTriangle& first, const FlatTriangle& second, const Vector3d& origin) {
     double sum = 0.0;
     for (std::size_t e = 0; e < 3; ++e) {
@@ -139,7 +139,8 @@ double homogeneous(const FlatTriangle& first, const FlatTriangle& second, const 
     return (edges_in_potential(first, second, origin) + edges_in_potential(second, first, origin)) / 3.0;
 }
 
-/// Both triangles in parallel planes `height` apart; `second` may be slightly tilted, which is left out.
+/// Integrates over two triangles in parallel planes `height` apart; `second` may be slightly tilted, which is
+/// left out.
 double parallel(const FlatTriangle& first, const FlatTriangle& second, double height) {
     // Points of the first triangle at the height over the second one's plane, whose own tilt does not count.
     const double side = second.normal.dot(first.centroid - second.centroid) < 0.0 ? -1.0 : 1.0;
@@ -160,7 +161,7 @@ double parallel(const FlatTriangle& first, const FlatTriangle& second, double he
     return sum;
 }
 
-/// A corner that both triangles have; none: null.
+/// Returns a corner that both triangles have; none: null.
 const Vector3d* shared_corner(const FlatTriangle& first, const FlatTriangle& second) {
     for (const Vector3d& a : first.corners) {
         for (const Vector3d& b : second.corners) {
@@ -181,7 +182,7 @@ double largest_offset(const FlatTriangle& first, const FlatTriangle& second) {
 }  // namespace
 
 double pair_potential(const FlatTriangle& first, const FlatTriangle& second) {
-    // From a corner that is common to both, the edges that meet there are at no distance and drop out.
+    // From a corner that is common to both, the edges at that corner are at no distance and drop out.
     if (const Vector3d* corner = shared_corner(first, second)) return homogeneous(first, second, *corner);
     const double radius = std::max(first.radius, second.radius);
     const Vector3d middle = 0.5 * (first.centroid + second.centroid);

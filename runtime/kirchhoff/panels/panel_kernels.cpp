@@ -14,7 +14,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Floats = hn::CappedTag<float, group_size>;
 using Doubles = hn::CappedTag<double, 8>;
 
-/// 1 / sqrt(x) to the last bits of single precision: Newton's step doubles the digits of the estimate.
+/// Returns 1 / sqrt(x) to the last bits of single precision: Newton's step doubles the digits of the
+/// estimate.
 template <class V>
 HWY_INLINE V inverse_root(Floats tag, V x) {
 #if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128

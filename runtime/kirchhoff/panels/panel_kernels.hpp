@@ -58,15 +58,15 @@ struct PolynomialSums {
 /// Three components of a potential at the nodes of a group.
 using GroupPotentials = std::array<std::array<double, group_size>, 3>;
 
-/// Adds what six node functions f_a on each of the panels listed do at the group's nodes x: to the group's
-/// rows of the matrix the integrals of (y - x).n f_a / (4 pi r^3), and to the potentials those of y cross n /
-/// (4 pi r). In single precision; sums over many panels are taken in double.
+/// Adds the effects of the six node functions f_a on each of the panels listed at the group's nodes x: to the
+/// group's rows of the matrix the integrals of (y - x).n f_a / (4 pi r^3), and to the potentials those of y
+/// cross n / (4 pi r). In single precision; sums over many panels are taken in double.
 void add_far_panels(const SourcePoints<float>& sources, const std::vector<CurvedPanel>& panels,
                     const std::vector<std::uint32_t>& list, const NodeGroup<float>& group, float* rows,
                     GroupPotentials& potentials);
 
-/// The same for one panel in double precision, at those nodes of the group whose `share` is 1; it is 0 at the
-/// others.
+/// Adds the integrals of add_far_panels() for one panel in double precision, at those nodes of the group
+/// whose `share` is 1; it is 0 at the others.
 void add_near_panel(const SourcePoints<double>& sources, const std::vector<CurvedPanel>& panels,
                     std::size_t panel, const NodeGroup<double>& group,
                     const std::array<double, group_size>& share, float* rows, GroupPotentials& potentials);
@@ -75,11 +75,11 @@ void add_near_panel(const SourcePoints<double>& sources, const std::vector<Curve
 void add_piece(const TriangleRule& rule, const PanelPiece& piece, const CurvedPanel& panel,
                const Vector3d& node, PolynomialSums& sums);
 
-/// The product of a group's rows with six columns: `columns` holds six numbers for each of `count` nodes,
-/// `product` gets six for each node of the group.
+/// Computes the product of a group's rows with six columns: `columns` holds six numbers for each of `count`
+/// nodes, `product` gets six for each node of the group.
 void multiply_group(const float* rows, std::size_t count, const double* columns, double* product);
 
-/// The sums of a group's rows over all columns.
+/// Returns the sums of a group's rows over all columns.
 std::array<double, group_size> row_sums(const float* rows, std::size_t count);
 
 }  // namespace samara

@@ -23,7 +23,7 @@ constexpr double widest_fan = 1.3;
 constexpr double bent_radius = 2.0;
 constexpr std::size_t panels_a_piece = 64;
 
-/// The square of the ratio from which a rule of a degree is enough.
+/// Returns the square of the ratio from which a rule of a degree is enough.
 double squared_ratio_for(int degree, double tolerance) {
     constexpr double measured_factor = 0.3;
     constexpr double least_ratio = 1.3;
@@ -31,7 +31,7 @@ double squared_ratio_for(int degree, double tolerance) {
     return std::max(least_ratio * least_ratio, ratio * ratio);
 }
 
-/// The first of the steps, which has the fewest points, that is enough at a ratio; else the last.
+/// Returns the first of the steps, which has the fewest points, that is enough at a ratio; else the last.
 template <typename Steps>
 const auto& enough_at(const Steps& steps, double squared_ratio) {
     const auto step = std::find_if(steps.begin(), steps.end(),
@@ -85,7 +85,7 @@ Places places_of(const CurvedPanel& panel, const Corners& corners) {
     return places;
 }
 
-/// Whether the area normal changes little from the first corner of a piece to the others.
+/// Returns whether the area normal changes little from the first corner of a piece to the others.
 bool is_flat(const CurvedPanel& panel, const Corners& corners) {
     constexpr double most_normal_change = 0.7;  // of its length
     const Vector3d first = panel.area_normal(corners[0][0], corners[0][1]);
@@ -94,7 +94,7 @@ bool is_flat(const CurvedPanel& panel, const Corners& corners) {
     });
 }
 
-/// From sums with 1, p, q, p^2, pq, q^2 to sums with the node functions.
+/// Converts sums with 1, p, q, p^2, pq, q^2 to sums with the node functions.
 PanelIntegrals integrals_of(const PolynomialSums& sums) {
     std::array<double, 9> total{};
     for (std::size_t k = 0; k < 9; ++k) {

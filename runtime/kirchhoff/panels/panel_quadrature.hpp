@@ -7,14 +7,14 @@
 
 namespace samara {
 
-/// What one panel does at one node: the integrals of (y - x).n f_a / (4 pi r^3) for its six node functions
-/// f_a, and of y cross n / (4 pi r).
+/// The effect of one panel at one node: the integrals of (y - x).n f_a / (4 pi r^3) for its six node
+/// functions f_a, and of y cross n / (4 pi r).
 struct PanelIntegrals {
     std::array<double, 6> double_layer;
     Vector3d potential;
 };
 
-/// How panels are integrated for a wanted relative accuracy: by few points in single precision where they are
+/// Integrates panels to a wanted relative accuracy: by few points in single precision where they are
 /// far from a node, by more in double where they are near, by ever smaller pieces of the panel where they are
 /// very near, and by rays from the node on the panels that it belongs to.
 ///
@@ -22,24 +22,26 @@ struct PanelIntegrals {
 /// of a rule of degree d falls as the power d + 1 of that ratio.
 class PanelQuadrature {
   public:
-    /// For integrals with errors of about `tolerance` of the panel's part.
+    /// Chooses rules for integrals with errors of about `tolerance` of the panel's part.
     PanelQuadrature(const std::vector<CurvedPanel>& panels, double tolerance, int threads);
 
-    /// The radius that the ratios are taken of: that of the panel, or more where it is bent.
+    /// Returns the radius that ratios are relative to: the panel's, or more where it is bent.
     [[nodiscard]] static double effective_radius(const CurvedPanel& panel);
-    /// From this ratio on far_sources() are enough.
+    /// Returns the least distance of a node, in effective radii of the panel, for which far_sources() are
+    /// enough.
     [[nodiscard]] double far_ratio() const { return far_ratio_; }
     [[nodiscard]] const SourcePoints<float>& far_sources() const { return far_; }
 
-    /// From the square of which ratio on near_sources are enough; nearer panels must be cut in pieces.
+    /// Returns the least squared ratio of distance to effective radius for which near_sources() are enough;
+    /// nearer panels must be cut in pieces.
     [[nodiscard]] double least_squared_ratio() const { return whole_.back().squared_ratio; }
-    /// The fewest points in double that are enough at this ratio.
+    /// Returns the fewest points in double precision that are enough at this squared ratio.
     [[nodiscard]] const SourcePoints<double>& near_sources(double squared_ratio) const;
 
-    /// The integrals over a panel that the node does not belong to, however near it is.
+    /// Returns the integrals over a panel that the node does not belong to, however near it is.
     [[nodiscard]] PanelIntegrals near_integrals(const CurvedPanel& panel, const Vector3d& node) const;
 
-    /// The integrals over a panel as seen from its own node `own`, 0 to 5.
+    /// Returns the integrals over a panel as seen from its own node `own`, 0 to 5.
     [[nodiscard]] PanelIntegrals own_integrals(const CurvedPanel& panel, std::size_t own) const;
 
   private:

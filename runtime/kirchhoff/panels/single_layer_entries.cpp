@@ -102,7 +102,7 @@ namespace {
 
 HWY_EXPORT(fill_far_lanes);
 
-// From how many sums of both radii the centroids' distance suffices for the rules of 3, 6 and 12 points.
+// Least distances of the centroids, in sums of both radii, that suffice for the rules of 3, 6 and 12 points.
 constexpr std::array<double, 3> rule_distances = {9.0, 2.4, 1.2};
 // The 16-point rule serves where the other triangle's edges are this many radii away.
 constexpr double outer_rule_distance = 3.0;
@@ -137,7 +137,7 @@ double squared_distance_to_edges(const Vector3d& point, const FlatTriangle& tria
                      squared_distance_to_edge(point, triangle, 2)});
 }
 
-/// The double integral of 1/r by a rule on `outer` and the exact potential of `inner`.
+/// Returns the double integral of 1/r by a rule on `outer` and the exact potential of `inner`.
 double by_outer_rule(const FlatTriangle& outer, const FlatTriangle& inner) {
     const std::vector<RulePoint>& rule = symmetric_rule(8);
     double sum = 0.0;

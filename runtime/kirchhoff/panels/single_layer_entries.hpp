@@ -14,7 +14,8 @@ namespace samara {
 /// with 12, 6 or 3 points a triangle, whose relative error stays below about 1e-6.
 class SingleLayerEntries {
   public:
-    /// Triangles that follow each other should be neighbours in space: rules are chosen for several at once.
+    /// Prepares the rules of the triangles. Triangles that follow each other should be neighbours in space:
+    /// rules are chosen for several at once.
     explicit SingleLayerEntries(std::vector<FlatTriangle> triangles);
 
     [[nodiscard]] const std::vector<FlatTriangle>& triangles() const { return triangles_; }
@@ -29,7 +30,8 @@ class SingleLayerEntries {
         std::array<std::vector<double>, 3> coordinates;
     };
 
-    /// What fill_row reads, coordinate by coordinate for vector registers; padded beyond the last triangle.
+    /// The triangles as fill_row() reads them, coordinate by coordinate for vector registers; padded beyond
+    /// the last triangle.
     struct Arrays {
         std::size_t stride = 0;
         std::array<std::vector<double>, 3> centroid;

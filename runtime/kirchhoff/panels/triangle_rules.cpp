@@ -16,7 +16,7 @@ void add_point(TriangleRule& rule, double p, double q, double share) {
     rule.weight.push_back(0.5 * share);
 }
 
-/// The three points with two equal areal coordinates `a`.
+/// Adds the three points with two equal areal coordinates `a`.
 void add_three(TriangleRule& rule, double a, double share) {
     const double b = 1.0 - 2.0 * a;
     add_point(rule, a, a, share);
@@ -24,7 +24,7 @@ void add_three(TriangleRule& rule, double a, double share) {
     add_point(rule, b, a, share);
 }
 
-/// The six points with the areal coordinates a, b and 1 - a - b.
+/// Adds the six points with the areal coordinates a, b and 1 - a - b.
 void add_six(TriangleRule& rule, double a, double b, double share) {
     const double c = 1.0 - a - b;
     for (const auto& [p, q] : {std::pair{a, b}, {b, a}, {a, c}, {c, a}, {b, c}, {c, b}}) {

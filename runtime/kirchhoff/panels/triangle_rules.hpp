@@ -14,15 +14,15 @@ struct TriangleRule {
     std::vector<double> q;
     std::vector<double> weight;
     std::size_t points = 0;  ///< without those of no weight
-    int degree = 0;          ///< of the polynomials that it integrates exactly
+    int degree = 0;          ///< highest degree of polynomials that it integrates exactly
 };
 
-/// The nodes and weights of Gauss and Legendre on [0, 1], exact up to degree 2 n - 1.
+/// Returns the nodes and weights of Gauss and Legendre on [0, 1], exact up to degree 2 n - 1.
 std::pair<std::vector<double>, std::vector<double>> gauss_legendre(int n);
 
-/// Symmetric rules with 3, 6, 12 and 16 points for the degrees 2, 4, 6 and 8 (D. A. Dunavant, Int. J. Numer.
-/// Methods Eng. 21, 1985); for other degrees a product of Gauss rules that meet in a corner, about
-/// (degree / 2 + 1)^2 points.
+/// Returns a rule that is exact for polynomials of `degree`: symmetric rules with 3, 6, 12 and 16 points for
+/// the degrees 2, 4, 6 and 8 (D. A. Dunavant, Int. J. Numer. Methods Eng. 21, 1985); for other degrees a
+/// product of Gauss rules collapsed into a corner, about (degree / 2 + 1)^2 points.
 TriangleRule triangle_rule(int degree);
 
 /// A point of a rule by its barycentric coordinates, and its share of the triangle's area.
@@ -31,11 +31,11 @@ struct RulePoint {
     double weight;
 };
 
-/// The symmetric rule for the degree 2, 4, 6 or 8, in this form: 3, 6, 12 or 16 points.
+/// Returns the symmetric rule for the degree 2, 4, 6 or 8 by barycentric coordinates: 3, 6, 12 or 16 points.
 const std::vector<RulePoint>& symmetric_rule(int degree);
 
-/// For integrands that are singular as 1/r in the corner p = q = 0: a Gauss rule along the rays from that
-/// corner and one across them (M. G. Duffy, SIAM J. Numer. Anal. 19(6), 1982).
+/// Returns a rule for integrands that are singular as 1/r in the corner p = q = 0: a Gauss rule along the
+/// rays from that corner and one across them (M. G. Duffy, SIAM J. Numer. Anal. 19(6), 1982).
 TriangleRule corner_rule(int radial_points, int angular_points);
 
 }  // namespace samara

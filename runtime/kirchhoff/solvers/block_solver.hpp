@@ -9,16 +9,16 @@ namespace samara {
 /// Six columns, the six numbers of a row side by side.
 using SixColumns = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
 
-/// What solve_block found.
+/// The result of solve_block().
 struct BlockSolution {
     SixColumns columns;
     int iterations = 0;  ///< products with the matrix
     bool converged = false;
 };
 
-/// How solve_block is run.
+/// Options of solve_block().
 struct BlockSolverOptions {
-    double tolerance = 1e-10;  ///< of each residual, relative to its right-hand side
+    double tolerance = 1e-10;  ///< norm of each residual, relative to its right-hand side
     int most_iterations = 100;
     /// An approximate inverse of the matrix times six residuals; it may change with the number of products
     /// done so far. Where it is empty, none is used.

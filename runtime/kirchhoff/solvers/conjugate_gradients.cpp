@@ -2,6 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
+#include <utility>
+
+#include <Eigen/Cholesky>
+
+#include "samara/core/base/parallel_for.hpp"
 
 namespace samara {
 namespace {
@@ -13,17 +19,126 @@ Vector6d products(const SixColumns& a, const SixColumns& b) {
     return a.cwiseProduct(b).colwise().sum().transpose();
 }
 
-/// a / b; 0 where b is 0, which is so for columns of zeros alone.
+/// Returns a / b; 0 where b is 0, which is so for columns of zeros alone.
 Vector6d ratios(const Vector6d& a, const Vector6d& b) {
     return (b.array() != 0.0).select(a.cwiseQuotient(b), Vector6d::Zero());
 }
 
-/// The energy that may be left in each column.
+/// Returns the energy that may be left in each column.
 Vector6d allowed(const Vector6d& energies, double tolerance) {
     Vector6d result;
     for (const Eigen::Index block : {0, 3}) {
         const double floor = least_scale * energies.segment<3>(block).maxCoeff();
         result.segment<3>(block) = tolerance * energies.segment<3>(block).cwiseMax(floor);
+    }
+    return result;
+}
+
+// Added to the diagonal, relative to its mean: where a cluster is a whole component, its constants have no
+// resistance at all.
+constexpr double shift = 1e-9;
+
+Eigen::Index at(std::size_t index) {
+    return static_cast<Eigen::Index>(index);
+}
+
+using NodeTriangles = std::vector<std::vector<std::size_t>>;
+
+NodeTriangles triangles_of_nodes(const LinearElements& elements) {
+    NodeTriangles result(elements.node_count());
+    for (std::size_t t = 0; t < elements.triangle_count(); ++t) {
+        for (std::size_t k = 0; k < 3; ++k) result[elements.node(t, k)].push_back(t);
+    }
+    return result;
+}
+
+void sort_and_weed(std::vector<std::size_t>& values) {
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+std::vector<std::size_t> nodes_of(const LinearElements& elements, const std::vector<std::size_t>& triangles) {
+    std::vector<std::size_t> nodes;
+    for (const std::size_t t : triangles) {
+        for (std::size_t k = 0; k < 3; ++k) nodes.push_back(elements.node(t, k));
+    }
+    sort_and_weed(nodes);
+    return nodes;
+}
+
+std::vector<std::size_t> triangles_at(const NodeTriangles& triangles, const std::vector<std::size_t>& nodes) {
+    std::vector<std::size_t> result;
+    for (const std::size_t node : nodes) {
+        result.insert(result.end(), triangles[node].begin(), triangles[node].end());
+    }
+    sort_and_weed(result);
+    return result;
+}
+
+/// Returns V of some triangles, in ascending order.
+Eigen::MatrixXd local_single_layer(const SingleLayerEntries& entries,
+                                   const std::vector<std::size_t>& triangles) {
+    Eigen::MatrixXd matrix(at(triangles.size()), at(triangles.size()));
+    std::vector<double> row(triangles.size());
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        for (std::size_t j = i; j < triangles.size();) {
+            std::size_t end = j + 1;  // of the triangles that follow each other
+            while (end < triangles.size() && triangles[end] == triangles[end - 1] + 1) ++end;
+            entries.fill_row(triangles[i], triangles[j], triangles[end - 1] + 1, row.data());
+            for (std::size_t k = j; k < end; ++k) {
+                matrix(at(i), at(k)) = matrix(at(k), at(i)) = row[k - j];
+            }
+            j = end;
+        }
+    }
+    return matrix;
+}
+
+Eigen::MatrixXd local_hypersingular(const LinearElements& elements, const SingleLayerEntries& entries,
+                                    const std::vector<std::size_t>& nodes,
+                                    const std::vector<std::size_t>& triangles) {
+    const Eigen::MatrixXd single_layer = local_single_layer(entries, triangles);
+    std::unordered_map<std::size_t, Eigen::Index> place;
+    for (std::size_t i = 0; i < nodes.size(); ++i) place[nodes[i]] = at(i);
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(at(nodes.size()), at(nodes.size()));
+    std::vector<std::array<Eigen::Index, 3>> places(triangles.size());  // -1: a node of other clusters alone
+    std::vector<std::array<Vector3d, 3>> curls(triangles.size());
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto found = place.find(elements.node(triangles[t], k));
+            places[t][k] = found == place.end() ? -1 : found->second;
+            curls[t][k] = elements.curl(triangles[t], k);
+        }
+    }
+    Eigen::Matrix<double, 3, Eigen::Dynamic> row(3, at(nodes.size()));
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+        row.setZero();
+        for (std::size_t s = 0; s < triangles.size(); ++s) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                if (places[s][k] >= 0) row.col(places[s][k]) += single_layer(at(s), at(t)) * curls[s][k];
+            }
+        }
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (places[t][k] >= 0) matrix.col(places[t][k]) += row.transpose() * curls[t][k];
+        }
+    }
+    matrix.diagonal().array() += shift * matrix.diagonal().mean();
+    return matrix;
+}
+
+/// Returns the largest clusters of the tree of no more than `size` triangles.
+std::vector<Cluster> clusters_up_to(const ClusterTree& tree, std::size_t size) {
+    std::vector<Cluster> result;
+    std::vector<std::size_t> open = {0};
+    while (!open.empty()) {
+        const Cluster& cluster = tree.clusters[open.back()];
+        open.pop_back();
+        if (cluster.size() <= size || cluster.is_leaf()) {
+            result.push_back(cluster);
+        } else {
+            open.push_back(cluster.right);
+            open.push_back(cluster.left);
+        }
     }
     return result;
 }
@@ -68,6 +183,50 @@ std::optional<SolutionEnergies> conjugate_gradients(
     const Matrix6d linear = solution.transpose() * right_hand_sides;
     result.energies = linear + linear.transpose() - solution.transpose() * image;
     return result;
+}
+
+SchwarzPreconditioner::SchwarzPreconditioner(const LinearElements& elements,
+                                             const SingleLayerEntries& entries, std::size_t cluster_size,
+                                             int threads) {
+    const NodeTriangles triangles = triangles_of_nodes(elements);
+    const std::vector<Cluster> clusters = clusters_up_to(elements.tree, cluster_size);
+    parts_.resize(clusters.size());
+    parallel_for(clusters.size(), 1, threads, [&](std::size_t c, std::size_t) {
+        std::vector<std::size_t> own(clusters[c].size());
+        for (std::size_t i = 0; i < own.size(); ++i) own[i] = clusters[c].begin + i;
+        Part& part = parts_[c];
+        part.nodes = nodes_of(elements, own);
+        const Eigen::MatrixXd matrix =
+            local_hypersingular(elements, entries, part.nodes, triangles_at(triangles, part.nodes));
+        part.factor = matrix.llt().matrixL();
+    });
+}
+
+SixColumns SchwarzPreconditioner::apply(const SixColumns& residuals, int threads) const {
+    std::vector<Eigen::MatrixXd> solutions(parts_.size());
+    parallel_for(parts_.size(), 1, threads, [&](std::size_t p, std::size_t) {
+        const Part& part = parts_[p];
+        Eigen::MatrixXd local(at(part.nodes.size()), 6);
+        for (std::size_t i = 0; i < part.nodes.size(); ++i)
+            local.row(at(i)) = residuals.row(at(part.nodes[i]));
+        const auto lower = part.factor.triangularView<Eigen::Lower>();
+        lower.solveInPlace(local);
+        lower.transpose().solveInPlace(local);
+        solutions[p] = std::move(local);
+    });
+    SixColumns result = SixColumns::Zero(residuals.rows(), 6);
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+        for (std::size_t i = 0; i < parts_[p].nodes.size(); ++i) {
+            result.row(at(parts_[p].nodes[i])) += solutions[p].row(at(i));
+        }
+    }
+    return result;
+}
+
+std::size_t SchwarzPreconditioner::memory() const {
+    std::size_t doubles = 0;
+    for (const Part& part : parts_) doubles += static_cast<std::size_t>(part.factor.size());
+    return doubles * sizeof(double);
 }
 
 }  // namespace samara

@@ -37,7 +37,7 @@ Eigen::Matrix<double, 1, 9> monomials(double x, double y) {
     return row;
 }
 
-/// The point of the jet's surface above or below `point`.
+/// Returns the point of the jet's surface above or below `point`.
 Vector3d on_jet(const Jet& jet, const Vector3d& point) {
     Vector3d local = jet.axes * (point - jet.origin) / jet.size;
     local.z() = monomials(local.x(), local.y()) * jet.coefficients;
@@ -91,7 +91,7 @@ class Sectors {
     }
     [[nodiscard]] std::int32_t vertex(std::size_t sector) const { return vertices_[sector]; }
 
-    /// The jet of one sector, from the vertices that can be reached without crossing a crease.
+    /// Returns the jet of one sector, from the vertices that can be reached without crossing a crease.
     [[nodiscard]] Jet jet(std::size_t sector) const {
         std::vector<std::int32_t> triangles = triangles_[sector];
         std::vector<std::int32_t> vertices = {vertices_[sector]};
@@ -175,8 +175,8 @@ class CreaseCurves {
         }
     }
 
-    /// The point halfway along the curve between two neighbours on it: by the cubic through them and the
-    /// next one on each side, or by the parabola where the curve ends on one side.
+    /// Returns the point halfway along the curve between two neighbours on it: by the cubic through them and
+    /// the next one on each side, or by the parabola where the curve ends on one side.
     [[nodiscard]] Vector3d middle(std::int32_t a, std::int32_t b) const {
         const Vector3d& start = place(a);
         const Vector3d& end = place(b);
@@ -207,22 +207,23 @@ class CreaseCurves {
         return surface_.vertices[as_index(vertex)];
     }
 
-    /// The vertex after `here` for one who comes from `from`; -1 where the curve has a corner or branches.
+    /// Returns the vertex after `here` for one who comes from `from`; -1 where the curve has a corner or
+    /// branches.
     [[nodiscard]] std::int32_t beyond(std::int32_t here, std::int32_t from) const {
         const std::vector<std::int32_t>& ends = ends_.at(here);
         if (ends.size() != 2) return -1;
         const std::int32_t next = ends[0] == from ? ends[1] : ends[0];
         const Vector3d before = place(here) - place(from);
         const Vector3d after = place(next) - place(here);
-        const double turn = std::atan2(before.cross(after).norm(), before.dot(after));
-        return turn > sharp_angle ? -1 : next;
+        const double angle = std::atan2(before.cross(after).norm(), before.dot(after));
+        return angle > sharp_angle ? -1 : next;
     }
 
     const Surface& surface_;
     std::map<std::int32_t, std::vector<std::int32_t>> ends_;
 };
 
-/// The node itself, or the straight edge's middle where it is not believable.
+/// Returns the node itself, or the straight edge's middle where it is not believable.
 Vector3d believed(const Vector3d& node, const Vector3d& start, const Vector3d& end) {
     const Vector3d straight = 0.5 * (start + end);
     return (node - straight).norm() <= most_bulge * (end - start).norm() ? node : straight;

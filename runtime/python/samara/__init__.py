@@ -8,7 +8,7 @@
     motion["leaf"].ensemble()        # descent speed, frequency, regimes, landing, ... with their errors
     samara.plot.motion(motion)       # a matplotlib figure
 
-Lengths are in metres, times in seconds, angles in radians, all else in SI units; world axes have z up. Faults are samara.Error,
+Lengths are in metres, times in seconds, angles in radians, all else in SI units; world axes have z up. Errors are samara.Error,
 whose text is one line that names the place and the remedy; of what was given InputError, a ValueError too; of files that cannot be
 read or written FileError, an OSError too.
 """
@@ -26,9 +26,9 @@ __all__ = ["Body", "BodyMotion", "Error", "FileError", "Simulation", "InputError
 def simulate(scene: Union[Scene, dict[str, Any], str, "_os.PathLike[str]"], *, runs: int = 1, seed: Optional[int] = None,
              step: Optional[float] = None, threads: int = 0, bodies: Union[str, "_os.PathLike[str]"] = "",
              progress: Optional[Callable[[float, float], object]] = None) -> Motion:
-    """Flies a scene (a Scene, a dict, or the name of a scene file) into a Motion.
+    """Simulates a scene (a Scene, a dict, or the name of a scene file) and returns its Motion.
 
-    runs: that differ by their noise alone. seed, step: instead of the scene's. threads: 0 for all cores; the motion is the same
+    runs: repetitions that differ by their noise alone. seed, step: instead of the scene's. threads: 0 for all cores; the motion is the same
     for any number. bodies: a folder of baked bodies, NAME.body.h5 for each body of the scene. progress: called with (done, total)
     ten times a second at most; what it raises ends the simulation. Other threads of Python go on meanwhile.
     """

@@ -113,9 +113,9 @@ TEST(KirchhoffCommand, ToleranceIsMetOrSaidToBeOutOfReach) {
     const std::string file = (folder / "egg.body.h5").string();
     write_body_file(file, body);
 
-    const test::ProgramRun met = samara(folder, {"kirchhoff", file, "--json", "--tolerance", "1e-3"});
-    ASSERT_EQ(met.status, 0) << met.error;
-    EXPECT_LE(met.json()["error_estimate"].get<double>(), 1e-3);
+    const test::ProgramRun found = samara(folder, {"kirchhoff", file, "--json", "--tolerance", "1e-3"});
+    ASSERT_EQ(found.status, 0) << found.error;
+    EXPECT_LE(found.json()["error_estimate"].get<double>(), 1e-3);
 
     const test::ProgramRun missed = samara(folder, {"kirchhoff", file, "-o", file, "--tolerance", "1e-9"});
     EXPECT_EQ(missed.status, 1);

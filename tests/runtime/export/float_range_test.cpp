@@ -17,7 +17,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-/// What is beyond single precision is refused by every format of floats, and leaves no file.
+/// What is beyond single precision is rejected by every format of floats, and leaves no file.
 void expect_rejection(const Motion& motion, const std::string& what) {
     const test::TemporaryFolder folder;
     const auto expected = AllOf(HasSubstr("out."), HasSubstr(what));
@@ -58,7 +58,7 @@ TEST_F(FloatRange, EndsForDisplayMeshes) {
     display.slots = {0};
     display.materials.resize(1);
     body().display = std::make_shared<const DisplayMesh>(display);
-    expect_rejection(motion_, "vertices of the look of 'ellipsoid' lie beyond");
+    expect_rejection(motion_, "vertices of the display mesh of 'ellipsoid' lie beyond");
     display.positions[2].y() = 1.0;
     display.texture.assign(3, Eigen::Vector2d(1e300, 0.0));
     body().display = std::make_shared<const DisplayMesh>(display);

@@ -187,7 +187,7 @@ Track track_of(const tinygltf::Model& model, const std::string& path) {
     return {};
 }
 
-/// The key before a time, and the fraction of the way to the next.
+/// The key before a time, and the fraction of the time to the next.
 std::pair<std::size_t, double> place_of(const Track& track, double time) {
     std::size_t key = 0;
     while (key + 2 < track.times.size() && track.times[key + 1] < time) ++key;

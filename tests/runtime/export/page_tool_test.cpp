@@ -198,7 +198,7 @@ TEST(Page, RefusesWhatBrowsersCannotRead) {
     ASSERT_TRUE(has_page()) << "configure with -DSAMARA_PAGE=ON";
     const TemporaryFolder folder;
     Motion motion = test::motion_of(test::wander, 1.0);
-    motion.bodies[0].copies = 200'000;  // refused before the poses are looked at
+    motion.bodies[0].copies = 200'000;  // rejected before the poses are read
     EXPECT_THROW(write_page(folder / "motion.html", motion, 0, "crowd", ""), Error);
     EXPECT_EQ(folder.file_count(), 0);
 }

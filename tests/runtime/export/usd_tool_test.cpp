@@ -191,9 +191,9 @@ TEST(UsdExport, ACrowdHasTheVelocitiesOfItsPlacesAndTurnsInDegreesASecond) {
     const auto text = found["tinyusdz"]["text"].get<std::string>();
     const Samples positions = samples_in(text, "die__red", "positions");
     const Samples velocities = samples_in(text, "die__red", "velocities");
-    const Samples turning = samples_in(text, "die__red", "angularVelocities");
+    const Samples rates = samples_in(text, "die__red", "angularVelocities");
     ASSERT_EQ(velocities.size(), motion.times.size());
-    ASSERT_EQ(turning.size(), motion.times.size());
+    ASSERT_EQ(rates.size(), motion.times.size());
     for (std::size_t frame = 1; frame + 1 < motion.times.size(); ++frame) {
         const auto at = [&](const Samples& samples, double code, std::size_t place) {
             return Vector3d(&samples.at(code)[3 * place]);
@@ -205,7 +205,7 @@ TEST(UsdExport, ACrowdHasTheVelocitiesOfItsPlacesAndTurnsInDegreesASecond) {
             EXPECT_LT((at(velocities, code, copy) - by_places).norm(), 0.01 * by_places.norm() + 0.01);
             const Pose& pose =
                 motion.pose(motion.bodies[1], 0, static_cast<int>(frame), static_cast<int>(copy));
-            EXPECT_LT((at(turning, code, copy) * (std::numbers::pi / 180.0) - pose.angular_velocity).norm(),
+            EXPECT_LT((at(rates, code, copy) * (std::numbers::pi / 180.0) - pose.angular_velocity).norm(),
                       1e-5 * (1.0 + pose.angular_velocity.norm()));
         }
     }

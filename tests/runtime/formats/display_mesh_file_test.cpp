@@ -113,16 +113,18 @@ TEST(DisplayMeshFile, TakesNothingThroughALinkOutOfTheFolderOrFromAPipe) {
     const TemporaryFolder elsewhere;
     const TemporaryFolder folder;
     (void)painted(folder);
-    const auto refusal = [&] { return error_of([&] { (void)read_display_mesh_file(folder / "leaf.obj"); }); };
+    const auto rejection = [&] {
+        return error_of([&] { (void)read_display_mesh_file(folder / "leaf.obj"); });
+    };
     for (const char* name : {"leaf.png", "leaf.mtl"}) {
         const std::string inside = read_bytes(folder / name);
         std::filesystem::remove(folder / name);
         std::filesystem::create_symlink(elsewhere.file(name, inside), folder / name);
-        EXPECT_THAT(refusal(), AllOf(HasSubstr("leaf.obj: "), HasSubstr(name),
-                                     HasSubstr("is a link that leads out of the folder")));
+        EXPECT_THAT(rejection(), AllOf(HasSubstr("leaf.obj: "), HasSubstr(name),
+                                       HasSubstr("is a link that leads out of the folder")));
         std::filesystem::remove(folder / name);
         ASSERT_EQ(::mkfifo((folder / name).c_str(), 0600), 0);
-        EXPECT_THAT(refusal(), AllOf(HasSubstr(name), HasSubstr("is a pipe, socket or device")));
+        EXPECT_THAT(rejection(), AllOf(HasSubstr(name), HasSubstr("is a pipe, socket or device")));
         std::filesystem::remove(folder / name);
         std::filesystem::create_symlink(std::filesystem::path("below") / name, folder / name);
         (void)folder.file(std::filesystem::path("below") / name, inside);
@@ -154,18 +156,18 @@ std::string glb_of(std::string json) {
 
 TEST(DisplayMeshFile, ThatNestsOrRepeatsWithoutMeasureIsRefused) {
     const TemporaryFolder folder;
-    const auto refusal = [&](const std::string& json) {
+    const auto rejection = [&](const std::string& json) {
         return error_of([&] { (void)read_display_mesh_file(folder.file("a.glb", glb_of(json))); });
     };
     const std::string deep = std::string(100'000, '[') + std::string(100'000, ']');
-    EXPECT_THAT(refusal(R"({"asset": {"version": "2.0"}, "extras": )" + deep + "}"),
+    EXPECT_THAT(rejection(R"({"asset": {"version": "2.0"}, "extras": )" + deep + "}"),
                 HasSubstr("a.glb: its JSON nests more than 100 lists and objects"));
     // Each node holds the next one twice.
     std::string nodes = R"({"name": "last"})";
     for (int i = 60; i > 0; --i) nodes = fmt::format(R"({{"children": [{0}, {0}]}}, {1})", i, nodes);
     EXPECT_THAT(
-        refusal(R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [)" +
-                nodes + "]}"),
+        rejection(R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [)" +
+                  nodes + "]}"),
         HasSubstr("a.glb: places its nodes more than a million times"));
 }
 

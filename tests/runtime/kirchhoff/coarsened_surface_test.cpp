@@ -1,10 +1,9 @@
-#include "samara/kirchhoff/surfaces/coarsened_surface.hpp"
-
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
 #include "samara/core/surface/surface_check.hpp"
+#include "samara/kirchhoff/surfaces/refinement.hpp"
 #include "support/test_shapes.hpp"
 
 namespace samara {

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "samara/kirchhoff/operators/cross_approximation.hpp"
-#include "samara/kirchhoff/operators/single_layer_matrix.hpp"
+#include "samara/kirchhoff/operators/hypersingular.hpp"
 #include "samara/kirchhoff/panels/flat_triangle_integrals.hpp"
 #include "samara/kirchhoff/panels/linear_elements.hpp"
 #include "support/test_shapes.hpp"

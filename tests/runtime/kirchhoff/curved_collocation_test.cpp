@@ -197,7 +197,7 @@ TEST(CurvedCollocation, MirrorsWithTheBody) {
     const Surface surface = lopsided_surface(2);
     const Matrix3d mirror = Vector3d(1, 1, -1).asDiagonal();
     Matrix6d both = Matrix6d::Zero();
-    both.topLeftCorner<3, 3>() = -mirror;  // turning is an axial vector
+    both.topLeftCorner<3, 3>() = -mirror;  // angular velocity is an axial vector
     both.bottomRightCorner<3, 3>() = mirror;
     const Matrix6d mirrored = both * tensor_of(surface) * both.transpose();
     EXPECT_LT(difference(tensor_of(test::mapped(surface, mirror)), mirrored), 1e-5);

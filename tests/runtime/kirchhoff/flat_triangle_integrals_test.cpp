@@ -210,7 +210,7 @@ TEST(PairPotential, OfSliversOnARimIsGoodToAMillionth) {
 }
 
 TEST(PairPotential, DoesNotJumpWhereTheFormulaChanges) {
-    // From planes that meet far away to planes that count as parallel.
+    // From planes that intersect far away to planes that count as parallel.
     const FlatTriangle first = common_triangle();
     const auto facing = [&](double tilt) {
         return pair_potential(first,

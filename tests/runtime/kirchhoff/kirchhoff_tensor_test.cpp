@@ -296,7 +296,7 @@ TEST(KirchhoffTensor, NamesTheErrorOfABadSurface) {
     not_finite.vertices[3].x() = std::nan("");
     EXPECT_THAT(error_of(not_finite), HasSubstr("which is not finite"));
 
-    // A sphere within the sphere, whichever way it is turned: every edge is sound, and still it is no body.
+    // A sphere within the sphere, whatever its orientation: every edge is sound, and still it is no body.
     Surface nested = sound;
     const Surface inner = test::mapped(sound, 0.5 * Matrix3d::Identity());
     const auto offset = static_cast<std::int32_t>(sound.vertices.size());

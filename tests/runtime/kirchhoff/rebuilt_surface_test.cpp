@@ -8,7 +8,7 @@
 
 #include "samara/core/surface/curved_surface.hpp"
 #include "samara/core/surface/surface_check.hpp"
-#include "samara/kirchhoff/surfaces/refined_surface.hpp"
+#include "samara/kirchhoff/surfaces/refinement.hpp"
 #include "support/test_shapes.hpp"
 
 namespace samara {

@@ -1,10 +1,9 @@
-#include "samara/kirchhoff/solvers/schwarz_preconditioner.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
-#include "samara/kirchhoff/operators/single_layer_matrix.hpp"
+#include "samara/kirchhoff/operators/hypersingular.hpp"
 #include "samara/kirchhoff/solvers/conjugate_gradients.hpp"
 #include "support/test_shapes.hpp"
 

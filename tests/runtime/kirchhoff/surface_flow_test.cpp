@@ -43,7 +43,7 @@ TEST(UnitPotentials, OfASphereAreThoseOfADipole) {
     const SixColumns potentials = unit_potentials(sphere, 1);
     for (std::size_t i = 0; i < sphere.vertices.size(); ++i) {
         const auto row = potentials.row(static_cast<Eigen::Index>(i));
-        // Lamb, Hydrodynamics, art. 92: phi = -a cos(theta) / 2 on the surface; turning moves no fluid.
+        // Lamb, Hydrodynamics, art. 92: phi = -a cos(theta) / 2 on the surface; rotation moves no fluid.
         EXPECT_LT((row.tail<3>().transpose() + 0.5 * sphere.vertices[i]).norm(), 0.01);
         EXPECT_LT(row.head<3>().norm(), 0.01);
     }
@@ -88,7 +88,7 @@ TEST(SurfaceLoads, OfAPlateBroadsideAreThoseOfABluntBody) {
 
 TEST(SurfaceLoads, OfATiltedPlateLiftAndTurnItsLeadingEdgeUp) {
     const SurfaceLoads loads = loads_of(test::box({1.0, 1.0, 0.05}, 10));
-    // It moves along x and sinks: the flow meets its lower face.
+    // It moves along x and sinks: the flow comes from its lower side.
     const PressureLoads found = in_direction(loads, {1.0, 0.0, -0.5});
     EXPECT_GT(found.force.z(), 0.0);
     EXPECT_LT(found.force.x(), 0.0);

@@ -1,9 +1,8 @@
-#include "samara/motion/autorotation.hpp"
-
 #include <gtest/gtest.h>
 
 #include "samara/analysis/metrics/ensemble.hpp"
 #include "samara/analysis/metrics/fall_metrics.hpp"
+#include "samara/motion/measures.hpp"
 #include "synthetic_motion.hpp"
 
 namespace samara {

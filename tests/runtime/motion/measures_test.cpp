@@ -107,10 +107,10 @@ TEST(Measures, TurnsInChangingSensesAreChaotic) {
     // Flutters and at times turns over.
     const auto mixed = [](double t) {
         Pose pose = flutter(t, 1.0, 40.0 * degree, 0.2);
-        const double turning = t - 3.0 * std::floor(t / 3.0) - 2.0;
-        if (turning > 0.0) {
+        const double turned = t - 3.0 * std::floor(t / 3.0) - 2.0;
+        if (turned > 0.0) {
             pose.orientation =
-                pose.orientation * Eigen::AngleAxisd(turning * std::numbers::pi, Vector3d::UnitY());
+                pose.orientation * Eigen::AngleAxisd(turned * std::numbers::pi, Vector3d::UnitY());
             pose.angular_velocity.y() += std::numbers::pi;
         }
         return pose;

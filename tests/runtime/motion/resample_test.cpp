@@ -1,13 +1,16 @@
 #include "samara/motion/resample.hpp"
 
 #include <filesystem>
+#include <numbers>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "paths.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/export/key_reduction.hpp"
 #include "samara/motion/motion_file.hpp"
+#include "support/expect_error.hpp"
 #include "synthetic_motion.hpp"
 
 namespace samara {
@@ -63,7 +66,7 @@ Errors errors_of_fall(const Motion& fall, double frame_rate) {
     return errors;
 }
 
-// The figures of docs/output.md.
+// The numbers of docs/output.md.
 TEST(Resample, FollowsTheReferenceFallsByFullCfd) {
     int falls = 0;
     for (const auto& entry :
@@ -144,5 +147,83 @@ TEST(Resample, RefusesRatesThatGiveNoFrames) {
     EXPECT_THROW(resampled(motion, 1e12), Error);
 }
 
+using testing::HasSubstr;
+
+/// Two copies, one of them 0.3 s behind, of another size; two runs.
+Motion crowd() {
+    Motion motion = test::motion_of([](double) { return Pose{}; }, 2.5, 24.0);
+    BodyMotion& body = motion.bodies[0];
+    body.copies = 2;
+    body.sizes = {1.0, 1.5, 0.7, 0.8};
+    body.poses.clear();
+    motion.runs = 2;
+    for (int run = 0; run < 2; ++run) {
+        for (const double time : motion.times) {
+            for (int copy = 0; copy < 2; ++copy) body.poses.push_back(test::wander(time - 0.3 * copy + run));
+        }
+    }
+    return motion;
+}
+
+TEST(Loop, BeginsEachPieceWithWhatTheOneBeforeEndedWith) {
+    const Motion motion = crowd();
+    const Motion loop = looped(motion, 1, 1.0);
+    EXPECT_EQ(loop.frames(), 25);
+    EXPECT_EQ(loop.runs, 1);
+    const BodyMotion& body = loop.bodies[0];
+    ASSERT_EQ(body.copies, 4) << "two pieces of a second in 2.5 s";
+    for (int copy = 0; copy < 2; ++copy) {
+        const Pose& end = loop.pose(body, 0, 24, copy);
+        const Pose& begin = loop.pose(body, 0, 0, copy + 2);
+        EXPECT_EQ(end.position, begin.position);
+        EXPECT_EQ(end.orientation.coeffs(), begin.orientation.coeffs());
+        EXPECT_EQ(end.angular_velocity, begin.angular_velocity);
+        EXPECT_EQ(body.size(0, copy), motion.bodies[0].size(1, copy));
+        EXPECT_EQ(body.size(0, copy + 2), motion.bodies[0].size(1, copy));
+        for (int frame = 0; frame <= 24; ++frame) {
+            EXPECT_EQ(loop.pose(body, 0, frame, copy).position,
+                      motion.pose(motion.bodies[0], 1, frame, copy).position);
+            EXPECT_EQ(loop.pose(body, 0, frame, copy + 2).position,
+                      motion.pose(motion.bodies[0], 1, 24 + frame, copy).position);
+        }
+    }
+}
+
+TEST(Loop, OfTheWholeMotionIsTheMotion) {
+    const Motion motion = crowd();
+    const Motion loop = looped(motion, 0, 2.5);
+    EXPECT_EQ(loop.frames(), motion.frames());
+    EXPECT_EQ(loop.bodies[0].copies, 2);
+}
+
+TEST(Loop, NeedsWholeFramesWithinTheMotionAndObstaclesAtRest) {
+    Motion motion = crowd();
+    EXPECT_THAT(test::error_of([&] { return looped(motion, 0, 0.51); }),
+                HasSubstr("is 12.24 frames at 24 frames per second"));
+    EXPECT_THAT(test::error_of([&] { return looped(motion, 0, 3.0); }), HasSubstr("the motion lasts 2.5 s"));
+    motion.obstacles = {{.name = "hand", .surface = {}, .keys = {{{}, 0.0}, {{Vector3d(0, 0, 1)}, 1.0}}}};
+    EXPECT_THAT(test::error_of([&] { return looped(motion, 0, 1.0); }),
+                HasSubstr("the obstacle 'hand' moves"));
+}
+
+TEST(FastRotation, IsTheAngularVelocityOverTheFrameRateOfTheFastestBody) {
+    const auto spinning = [](double turns_a_second) {
+        return [turns_a_second](double time) {
+            Pose pose;
+            pose.angular_velocity = Vector3d(0.0, 0.0, 2.0 * std::numbers::pi * turns_a_second);
+            pose.orientation = Eigen::AngleAxisd(pose.angular_velocity.z() * time, Vector3d::UnitZ());
+            return pose;
+        };
+    };
+    Motion motion = test::motion_of(spinning(18.0), 1.0, 24.0);
+    motion.bodies.push_back(test::motion_of(spinning(3.0), 1.0, 24.0).bodies[0]);
+    motion.bodies[0].name = "seed";
+    motion.bodies[1].name = "leaf";
+    const FastRotation fastest = fastest_rotation(motion, 0);
+    EXPECT_EQ(fastest.body, "seed");
+    EXPECT_NEAR(fastest.revolutions, 0.75, 1e-12);
+}
+
 }  // namespace
+
 }  // namespace samara

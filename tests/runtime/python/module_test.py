@@ -231,14 +231,14 @@ class Motions(unittest.TestCase):
             with self.assertRaisesRegex(samara.Error, "motion.h5"):
                 samara.Motion.read(file)
 
-    def test_figures_are_those_of_the_program(self):
+    def test_metrics_are_those_of_the_program(self):
         with tempfile.TemporaryDirectory() as folder:
             file = os.path.join(folder, "motion.h5")
             self.motion.write(file)
             told = json.loads(subprocess.run(["samara", "info", file, "--json"], check=True, capture_output=True).stdout)
         ensemble = self.leaf.ensemble()
-        for figure in ("descent_speed", "descent_speed_error", "rms_angular_speed", "regime", "samples"):
-            self.assertEqual(ensemble[figure], told["bodies"][0][figure])
+        for metric in ("descent_speed", "descent_speed_error", "rms_angular_speed", "regime", "samples"):
+            self.assertEqual(ensemble[metric], told["bodies"][0][metric])
         measures = self.leaf.measure(run=1, copy=2, window=(0.1, 0.5))
         self.assertEqual(measures["window"], [0.1, 0.5])
         fallen = self.leaf.position[1, 5, 2, 2] - self.leaf.position[1, 25, 2, 2]

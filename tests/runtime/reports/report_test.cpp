@@ -10,8 +10,8 @@
 #include "samara/core/body/body_file.hpp"
 #include "samara/core/files/content_hash.hpp"
 #include "samara/reports/bake_verdict.hpp"
+#include "samara/reports/report_blocks.hpp"
 #include "samara/reports/report_program.hpp"
-#include "samara/reports/words.hpp"
 #include "support/known_bodies.hpp"
 #include "support/program_run.hpp"
 
@@ -53,7 +53,7 @@ std::vector<std::string> of_grade(const BakeVerdict& verdict, Grade grade) {
 TEST(BakeVerdict, IsGoodForMetricsWhereErrorsAreSmallAndFallsWereSolved) {
     const BakeVerdict verdict = judge_bake(well_baked(0.08));
     EXPECT_EQ(verdict.grade, Grade::good) << as_json(verdict).dump(1);
-    EXPECT_EQ(verdict.headline, "Good for figures of falls, and for pictures.");
+    EXPECT_EQ(verdict.headline, "Good for metrics of falls, and for pictures.");
     EXPECT_EQ(verdict.good_for.size(), 4U);
     EXPECT_THAT(verdict.not_for, IsEmpty());
     EXPECT_THAT(verdict.good_for,
@@ -63,7 +63,7 @@ TEST(BakeVerdict, IsGoodForMetricsWhereErrorsAreSmallAndFallsWereSolved) {
 TEST(BakeVerdict, IsForPicturesAloneWhereTheForceIsUncertain) {
     const BakeVerdict verdict = judge_bake(well_baked(0.5));
     EXPECT_EQ(verdict.grade, Grade::limited);
-    EXPECT_EQ(verdict.headline, "Good for pictures, not for figures.");
+    EXPECT_EQ(verdict.headline, "Good for pictures, not for metrics.");
     EXPECT_THAT(verdict.not_for, Contains(HasSubstr("uncertain by 25 %")));
     EXPECT_THAT(of_grade(verdict, Grade::bad), AllOf(Contains("force"), Contains("moment"), Contains("k")));
 }
@@ -73,7 +73,7 @@ TEST(BakeVerdict, IsForSpeedsButNotForSwingsWithoutFalls) {
     body.dynamic.reset();
     const BakeVerdict verdict = judge_bake(body);
     EXPECT_EQ(verdict.headline, "Good for pictures and for speeds of descent, not for how it swings.");
-    EXPECT_THAT(of_grade(verdict, Grade::bad), ElementsAre("turning"));
+    EXPECT_THAT(of_grade(verdict, Grade::bad), ElementsAre("rotation"));
     EXPECT_THAT(verdict.not_for, ElementsAre(HasSubstr("frequencies and amplitudes of swings")));
 }
 
@@ -126,7 +126,7 @@ TEST(BakeVerdict, IsNotForSwingsThatSolvedFallsDoNotHave) {
 
 TEST(BakeVerdict, IsNotForSpeedsThatSolvedFallsDoNotHave) {
     const BakeVerdict verdict = judge_bake(well_baked(0.08), {{Grade::bad, "falls", "differ by half"}});
-    EXPECT_EQ(verdict.headline, "Good for pictures, not for figures.");
+    EXPECT_EQ(verdict.headline, "Good for pictures, not for metrics.");
     EXPECT_THAT(verdict.not_for, ElementsAre(HasSubstr("speeds of descent")));
 }
 
@@ -190,13 +190,14 @@ TEST_F(ReportCommand, WritesOnePageThatNeedsNothingElse) {
     const std::regex picture("<img src=\"data:image/svg\\+xml;base64,");
     EXPECT_EQ(std::distance(std::sregex_iterator(page.begin(), page.end(), picture), std::sregex_iterator()),
               3);
-    EXPECT_LT(page.find("Good for pictures, not for figures."), page.find("<main>"));
+    EXPECT_LT(page.find("Good for pictures, not for metrics."), page.find("<main>"));
     const nlohmann::json json = nlohmann::json::parse(output_);
     EXPECT_EQ(json["verdict"]["grade"], "limited");
     EXPECT_EQ(json["cases"], nullptr);
-    EXPECT_THAT(json["parts"].get<std::vector<std::string>>(),
-                ElementsAre("The body", "Polars", "All directions", "Convergence and errors",
-                            "The turning body", "The cases", "Where it comes from", "What is missing here"));
+    EXPECT_THAT(
+        json["parts"].get<std::vector<std::string>>(),
+        ElementsAre("The body", "Polars", "All directions", "Convergence and errors", "Dynamic coefficients",
+                    "The cases", "Where it comes from", "What is missing here"));
 }
 
 TEST_F(ReportCommand, SaysWhatItCouldNotReadAndWhy) {
@@ -242,7 +243,7 @@ TEST_F(ReportCommand, StillTellsTheVerdictWhereThePageCannotBeMade) {
     const int status = report({in("leaf.body.h5").c_str(), "-o", in("leaf.html").c_str()});
     ::unsetenv("SAMARA_PYTHON");
     EXPECT_EQ(status, 1);
-    EXPECT_THAT(output_, HasSubstr("Good for pictures, not for figures."));
+    EXPECT_THAT(output_, HasSubstr("Good for pictures, not for metrics."));
     EXPECT_THAT(error_, HasSubstr("/bin/false could not make the page"));
     EXPECT_FALSE(std::filesystem::exists(folder_ / "leaf.html"));
 }

@@ -1,4 +1,4 @@
-// [[obstacle]] in a scene file, and what is refused.
+// [[obstacle]] in a scene file, and what is rejected.
 
 #include <tuple>
 #include <utility>

@@ -60,13 +60,13 @@ TEST(RunNeeds, CountWhatCopiesOfManySizesTouchWith) {
 }
 
 TEST(RunNeeds, OfNumbersBeyondAnyMachineAreRefusedWithTheNumberToLower) {
-    const auto refusal = [](double frames, int copies, int runs) {
+    const auto rejection = [](double frames, int copies, int runs) {
         return test::error_of(
             [&] { require_room(needs_of(scene_of(frames, copies), runs), "s.toml", "m.h5"); });
     };
-    EXPECT_THAT(refusal(61.0, 10'000'000, 1'000'000),
+    EXPECT_THAT(rejection(61.0, 10'000'000, 1'000'000),
                 AllOf(HasSubstr("s.toml: its flight takes"), HasSubstr("lower the count or --runs")));
-    EXPECT_THAT(refusal(1e14, 1, 1), HasSubstr("lower the duration or frame_rate"));
+    EXPECT_THAT(rejection(1e14, 1, 1), HasSubstr("lower the duration or frame_rate"));
     EXPECT_NO_THROW(require_room(needs_of(scene_of(61.0, 10), 1), "s.toml", "m.h5"));
 }
 
@@ -75,8 +75,8 @@ class RunsOfSamara : public ::testing::Test {
     RunsOfSamara() { write_body_file(folder_ / "rubber.body.h5", test::rubber_ellipsoid()); }
 
     /// Of `samara simulate` in the folder after a shell's command; what it says on standard error.
-    [[nodiscard]] std::string refusal(const std::string& before, const std::string& scene_keys,
-                                      const std::string& body_keys) const {
+    [[nodiscard]] std::string rejection(const std::string& before, const std::string& scene_keys,
+                                        const std::string& body_keys) const {
         (void)folder_.file("scene.toml",
                            "[scene]\n" + scene_keys +
                                "\n[[body]]\nname = \"rubber\"\nshape = \"rubber.body.h5\"\ndensity = "
@@ -85,25 +85,25 @@ class RunsOfSamara : public ::testing::Test {
         const int status = run_subprocess(
             {"/bin/sh", "-c",
              "cd '" + folder_.path().string() + "' && " + before +
-                 " '" SAMARA_PROGRAMS "/samara' simulate scene.toml -o motion.h5 > output 2> fault"});
+                 " '" SAMARA_PROGRAMS "/samara' simulate scene.toml -o motion.h5 > output 2> errors"});
         EXPECT_EQ(status, 1);
         EXPECT_FALSE(std::filesystem::exists(folder_ / "motion.h5"));
-        return read_bytes(folder_ / "fault");
+        return read_bytes(folder_ / "errors");
     }
 
     const test::TemporaryFolder folder_;
 };
 
 TEST_F(RunsOfSamara, ThatTakeMoreMemoryThanTheShellAllowsAreRefusedBeforeTheyFly) {
-    EXPECT_THAT(refusal("ulimit -v 2000000 &&", "duration = 0.01", "count = 10000000"),
+    EXPECT_THAT(rejection("ulimit -v 2000000 &&", "duration = 0.01", "count = 10000000"),
                 AllOf(HasSubstr("note: takes about"), HasSubstr("scene.toml: its flight takes"),
                       HasSubstr("lower the count or --runs")));
-    EXPECT_THAT(refusal("ulimit -v 2000000 &&", "duration = 5e5\nframe_rate = 100", ""),
+    EXPECT_THAT(rejection("ulimit -v 2000000 &&", "duration = 5e5\nframe_rate = 100", ""),
                 HasSubstr("lower the duration or frame_rate"));
 }
 
 TEST_F(RunsOfSamara, ThatTakeMoreDiskThanThereIsAreRefusedBeforeTheyFly) {
-    EXPECT_THAT(refusal("", "duration = 1e6\nframe_rate = 60\nstep = 1e-3", "count = 100000"),
+    EXPECT_THAT(rejection("", "duration = 1e6\nframe_rate = 60\nstep = 1e-3", "count = 100000"),
                 testing::AnyOf(HasSubstr("there is no room"), HasSubstr("of memory, and")));
 }
 

@@ -30,7 +30,7 @@ class SceneFile : public testing::Test {
     }
 
     /// The message of the Error that reading this text throws.
-    std::string refusal(const std::string& text) {
+    std::string rejection(const std::string& text) {
         try {
             read(text);
         } catch (const Error& error) {
@@ -98,7 +98,7 @@ TEST_F(SceneFile, EveryKeyIsRead) {
 TEST_F(SceneFile, ASpreadOfSizesIsTwoNumbersInOrder) {
     for (const char* sizes : {"[2, 1]", "[0, 1]", "[1, 5000]", "[-1, 1]"}) {
         EXPECT_THAT(
-            refusal(with_body(std::string("density = 1\ncount = 2\nspread = { size = ") + sizes + " }\n")),
+            rejection(with_body(std::string("density = 1\ncount = 2\nspread = { size = ") + sizes + " }\n")),
             AllOf(HasSubstr("size"), HasSubstr("the smallest and the largest")));
     }
 }
@@ -106,7 +106,7 @@ TEST_F(SceneFile, ASpreadOfSizesIsTwoNumbersInOrder) {
 TEST_F(SceneFile, ASpreadOfOneCopyIsRefused) {
     for (const char* spread : {"position = [0, 0, 0.1]", "angle = 0.5", "start = 1", "size = [0.5, 2]"}) {
         const std::string keys = std::string("spread = { ") + spread + " }\n";
-        EXPECT_THAT(refusal(with_body("density = 1\n" + keys)),
+        EXPECT_THAT(rejection(with_body("density = 1\n" + keys)),
                     AllOf(HasSubstr("count in [[body]] is 1, but"), HasSubstr("they are of several")));
         EXPECT_NO_THROW(read(with_body("density = 1\ncount = 2\n" + keys)));
     }
@@ -125,12 +125,12 @@ TEST_F(SceneFile, AnEmitterHasTheKeysOfAnObstacleAndTakesThePlaceOfAPosition) {
     EXPECT_EQ(body.emitter->mesh.keys.size(), 2U);
     EXPECT_EQ(body.emitter->offset, 0.1);
     EXPECT_EQ(body.emitter->speed, 0.5);
-    EXPECT_THAT(refusal(with_body("density = 1\nposition = [0, 0, 1]\n" + emitter)),
+    EXPECT_THAT(rejection(with_body("density = 1\nposition = [0, 0, 1]\n" + emitter)),
                 AllOf(HasSubstr("position"), HasSubstr("stands beside emitter")));
-    EXPECT_THAT(refusal(with_body("density = 1\nemitter = { shape = \"tree.obj\", keys = [{ time = 0 }, "
-                                  "{ time = 0.001, position = [9, 0, 0] }] }\n")),
+    EXPECT_THAT(rejection(with_body("density = 1\nemitter = { shape = \"tree.obj\", keys = [{ time = 0 }, "
+                                    "{ time = 0.001, position = [9, 0, 0] }] }\n")),
                 AllOf(HasSubstr("keys"), HasSubstr("jump: from 0 s to 0.001 s")));
-    EXPECT_THAT(refusal(with_body("density = 1\nemitter = { shape = \"none.obj\" }\n")),
+    EXPECT_THAT(rejection(with_body("density = 1\nemitter = { shape = \"none.obj\" }\n")),
                 HasSubstr("cannot be had"));
 }
 
@@ -160,7 +160,7 @@ TEST_F(SceneFile, LoadsOfTheSurfaceAreAskedForOrLeftToWhatTheBodyHolds) {
     EXPECT_TRUE(body("").loads_by_default);
     EXPECT_TRUE(body("").turbulence_by_default);
     EXPECT_FALSE(body("turbulence = \"none\"").turbulence_by_default);
-    EXPECT_THAT(refusal(with_body("density = 1\nloads = \"surface\"\nturbulence = \"table\"")),
+    EXPECT_THAT(rejection(with_body("density = 1\nloads = \"surface\"\nturbulence = \"table\"")),
                 AllOf(HasSubstr("scene.toml:8: turbulence"), HasSubstr("loads = \"table\"")));
 }
 
@@ -168,38 +168,39 @@ TEST_F(SceneFile, ModelsThatAreChosenAreNotGivenToo) {
     for (const std::string key : {"loads = \"table\"", "added_mass = true", "dynamic_coefficients = \"body\"",
                                   "table_reynolds_number = 1e4", "turbulence = \"none\""}) {
         const std::string name = key.substr(0, key.find(' '));
-        EXPECT_THAT(refusal(with_body("density = 1\nmodels = \"auto\"\n" + key)),
+        EXPECT_THAT(rejection(with_body("density = 1\nmodels = \"auto\"\n" + key)),
                     AllOf(HasSubstr("scene.toml:8: " + name), HasSubstr("models = \"auto\"")));
     }
     for (const char* count : {"0", "33", "2.5"}) {
-        EXPECT_THAT(refusal(with_body(std::string("density = 1\npatches = ") + count)),
+        EXPECT_THAT(rejection(with_body(std::string("density = 1\npatches = ") + count)),
                     HasSubstr("scene.toml:7: patches"));
     }
-    EXPECT_THAT(refusal(with_body("density = 1\nloads = \"none\"\npatches = 8")),
+    EXPECT_THAT(rejection(with_body("density = 1\nloads = \"none\"\npatches = 8")),
                 HasSubstr("scene.toml:8: patches"));
-    EXPECT_THAT(refusal(with_body("density = 1\nmodels = \"best\"")), HasSubstr("scene.toml:7: models"));
-    EXPECT_THAT(refusal(with_body("density = 1\nadded_mass = 1")), HasSubstr("must be true or false"));
-    EXPECT_THAT(refusal(with_body("density = 1\ndynamic_coefficients = \"all\"")), HasSubstr("\"default\""));
-    EXPECT_THAT(refusal(with_body("density = 1\nloads = \"none\"\ntable_reynolds_number = 1e4")),
+    EXPECT_THAT(rejection(with_body("density = 1\nmodels = \"best\"")), HasSubstr("scene.toml:7: models"));
+    EXPECT_THAT(rejection(with_body("density = 1\nadded_mass = 1")), HasSubstr("must be true or false"));
+    EXPECT_THAT(rejection(with_body("density = 1\ndynamic_coefficients = \"all\"")),
+                HasSubstr("\"default\""));
+    EXPECT_THAT(rejection(with_body("density = 1\nloads = \"none\"\ntable_reynolds_number = 1e4")),
                 HasSubstr("scene.toml:8: table_reynolds_number"));
-    EXPECT_THAT(refusal(with_body("density = 1\ntable_reynolds_number = 0")),
+    EXPECT_THAT(rejection(with_body("density = 1\ntable_reynolds_number = 0")),
                 HasSubstr("scene.toml:7: table_reynolds_number"));
 }
 
 TEST_F(SceneFile, AnUnknownKeyIsNamedWithItsLine) {
-    EXPECT_THAT(refusal(with_body("density = 1\ncolour = 3\n")),
+    EXPECT_THAT(rejection(with_body("density = 1\ncolour = 3\n")),
                 HasSubstr("scene.toml:7: unknown key 'colour'"));
-    EXPECT_THAT(refusal("[scene]\nduration = 1\ngravty = 3\n"),
+    EXPECT_THAT(rejection("[scene]\nduration = 1\ngravty = 3\n"),
                 HasSubstr("scene.toml:3: unknown key 'gravty' in [scene]; did you mean 'gravity'?"));
-    EXPECT_THAT(refusal(with_body("density = 1\n[extra]\n")), HasSubstr("unknown key 'extra'"));
+    EXPECT_THAT(rejection(with_body("density = 1\n[extra]\n")), HasSubstr("unknown key 'extra'"));
 }
 
 TEST_F(SceneFile, AMisspeltKeyIsNamedBeforeTheKeyThatItLeavesMissing) {
-    EXPECT_THAT(refusal(with_body("densty = 1\n")),
+    EXPECT_THAT(rejection(with_body("densty = 1\n")),
                 HasSubstr("scene.toml:6: unknown key 'densty' in [[body]]; did you mean 'density'?"));
-    EXPECT_THAT(refusal("[scene]\nDuration = 1\n"), HasSubstr("scene.toml:2: unknown key 'Duration'"));
-    EXPECT_THAT(refusal("[scnee]\nduration = 1\n"), HasSubstr("did you mean 'scene'?"));
-    EXPECT_THAT(refusal("[scene]\nduration = 1\n[[body]]\nname = \"a\"\nscale = 2\n"),
+    EXPECT_THAT(rejection("[scene]\nDuration = 1\n"), HasSubstr("scene.toml:2: unknown key 'Duration'"));
+    EXPECT_THAT(rejection("[scnee]\nduration = 1\n"), HasSubstr("did you mean 'scene'?"));
+    EXPECT_THAT(rejection("[scene]\nduration = 1\n[[body]]\nname = \"a\"\nscale = 2\n"),
                 HasSubstr("shape in [[body]] is missing"));
 }
 
@@ -213,63 +214,65 @@ TEST_F(SceneFile, TheStepIsANumberOrLeftToTheAdviceWithATolerance) {
     EXPECT_TRUE(scene.step_auto);
     EXPECT_EQ(scene.step_tolerance, 0.005);
     EXPECT_EQ(read(with_step("step = \"auto\"\nstep_tolerance = 1e-3")).step_tolerance, 1e-3);
-    EXPECT_THAT(refusal(with_step("step = \"fast\"")),
+    EXPECT_THAT(rejection(with_step("step = \"fast\"")),
                 HasSubstr("scene.toml:3: step in [scene] must be a number of seconds, or \"auto\""));
-    EXPECT_THAT(refusal(with_step("step_tolerance = 1e-3")),
+    EXPECT_THAT(rejection(with_step("step_tolerance = 1e-3")),
                 HasSubstr("scene.toml:3: step_tolerance in [scene] is for step = \"auto\""));
-    EXPECT_THAT(refusal(with_step("step = \"auto\"\nstep_tolerance = 1")),
+    EXPECT_THAT(rejection(with_step("step = \"auto\"\nstep_tolerance = 1")),
                 HasSubstr("scene.toml:4: step_tolerance in [scene] must lie between"));
 }
 
 TEST_F(SceneFile, AValueOutOfRangeIsRefusedWithItsLine) {
-    EXPECT_THAT(refusal(with_body("density = -1")), HasSubstr("scene.toml:6: density"));
-    EXPECT_THAT(refusal(with_body("density = nan")), HasSubstr("scene.toml:6: density"));
-    EXPECT_THAT(refusal(with_body("density = 1\nposition = [0, inf, 0]")),
+    EXPECT_THAT(rejection(with_body("density = -1")), HasSubstr("scene.toml:6: density"));
+    EXPECT_THAT(rejection(with_body("density = nan")), HasSubstr("scene.toml:6: density"));
+    EXPECT_THAT(rejection(with_body("density = 1\nposition = [0, inf, 0]")),
                 HasSubstr("scene.toml:7: position"));
-    EXPECT_THAT(refusal(with_body("density = 1\norientation = [0, 0, 0, 0]")), HasSubstr("not zero"));
-    EXPECT_THAT(refusal("[scene]\nduration = 0\n"), HasSubstr("scene.toml:2: duration"));
-    EXPECT_THAT(refusal(with_body("density = 1\ncount = 0")), HasSubstr("count"));
-    EXPECT_THAT(refusal(with_body("density = 1\nloads = \"magic\"")), HasSubstr("\"table\""));
+    EXPECT_THAT(rejection(with_body("density = 1\norientation = [0, 0, 0, 0]")), HasSubstr("not zero"));
+    EXPECT_THAT(rejection("[scene]\nduration = 0\n"), HasSubstr("scene.toml:2: duration"));
+    EXPECT_THAT(rejection(with_body("density = 1\ncount = 0")), HasSubstr("count"));
+    EXPECT_THAT(rejection(with_body("density = 1\nloads = \"magic\"")), HasSubstr("\"table\""));
 }
 
 TEST_F(SceneFile, AGustNeedsAFiniteAmplitudeAndAPeriodAboveZero) {
     const auto with_gust = [&](const std::string& gust) {
-        return refusal("[scene]\nduration = 1\n[fluid]\ngust = { " + gust + " }\n");
+        return rejection("[scene]\nduration = 1\n[fluid]\ngust = { " + gust + " }\n");
     };
     EXPECT_THAT(with_gust("amplitude = [0, 0, 1]"), HasSubstr("scene.toml:4: period in [gust] is missing"));
     EXPECT_THAT(with_gust("period = 1"), HasSubstr("amplitude in [gust] is missing"));
     EXPECT_THAT(with_gust("amplitude = [0, 0, 1], period = 0"), HasSubstr("period in [gust] must be"));
     EXPECT_THAT(with_gust("amplitude = [0, nan, 1], period = 1"), HasSubstr("amplitude in [gust] must"));
     EXPECT_THAT(with_gust("amplitude = [0, 0, 1], period = 1, phase = 1"), HasSubstr("unknown key 'phase'"));
-    EXPECT_THAT(refusal("[scene]\nduration = 1\nground = inf\n"), HasSubstr("scene.toml:3: ground"));
+    EXPECT_THAT(rejection("[scene]\nduration = 1\nground = inf\n"), HasSubstr("scene.toml:3: ground"));
 }
 
 TEST_F(SceneFile, AMissingFileOrKeyIsNamed) {
-    EXPECT_THAT(refusal("[scene]\nduration = 1\n[[body]]\nname = \"a\"\nshape = \"gone.stl\"\ndensity = 1\n"),
-                HasSubstr("gone.stl"));
-    EXPECT_THAT(refusal("[scene]\nduration = 1\n"), HasSubstr("no [[body]]"));
-    EXPECT_THAT(refusal(with_body("")), HasSubstr("density"));
+    EXPECT_THAT(
+        rejection("[scene]\nduration = 1\n[[body]]\nname = \"a\"\nshape = \"gone.stl\"\ndensity = 1\n"),
+        HasSubstr("gone.stl"));
+    EXPECT_THAT(rejection("[scene]\nduration = 1\n"), HasSubstr("no [[body]]"));
+    EXPECT_THAT(rejection(with_body("")), HasSubstr("density"));
     EXPECT_THROW(read_scene_file(folder_ / "absent.toml"), Error);
 }
 
 TEST_F(SceneFile, ContradictionsAreRefused) {
-    EXPECT_THAT(refusal(with_body("density = 1\nmass = 1")), HasSubstr("one of the two"));
-    EXPECT_THAT(refusal(with_body("density = 1\ninertia = [1, 1, 1]")), HasSubstr("mass instead of density"));
-    EXPECT_THAT(refusal(with_body("center_of_mass = [0, 0, 0]")), HasSubstr("give mass with it"));
-    EXPECT_THAT(refusal(with_body("density = 1\ndrag_coefficient = 1")),
+    EXPECT_THAT(rejection(with_body("density = 1\nmass = 1")), HasSubstr("one of the two"));
+    EXPECT_THAT(rejection(with_body("density = 1\ninertia = [1, 1, 1]")),
+                HasSubstr("mass instead of density"));
+    EXPECT_THAT(rejection(with_body("center_of_mass = [0, 0, 0]")), HasSubstr("give mass with it"));
+    EXPECT_THAT(rejection(with_body("density = 1\ndrag_coefficient = 1")),
                 HasSubstr("loads = \"coefficients\""));
-    EXPECT_THAT(refusal(with_body("density = 1\nturbulence = \"constant\"")),
+    EXPECT_THAT(rejection(with_body("density = 1\nturbulence = \"constant\"")),
                 HasSubstr("turbulent_kinetic_energy"));
     EXPECT_THAT(
-        refusal(with_body("density = 1\n[[body]]\nname = \"ball\"\nshape = \"ball.stl\"\ndensity = 1\n")),
+        rejection(with_body("density = 1\n[[body]]\nname = \"ball\"\nshape = \"ball.stl\"\ndensity = 1\n")),
         HasSubstr("taken by another body"));
-    EXPECT_THAT(refusal("[scene]\nduration = 1\n[fluid]\npreset = \"air\"\ndensity = 1\n"),
+    EXPECT_THAT(rejection("[scene]\nduration = 1\n[fluid]\npreset = \"air\"\ndensity = 1\n"),
                 HasSubstr("preset"));
 }
 
 TEST_F(SceneFile, BrokenTomlIsNamedWithItsLine) {
-    EXPECT_THAT(refusal("[scene]\nduration = \n"), HasSubstr("scene.toml:2"));
-    EXPECT_THAT(refusal("[scene]\nduration = \n"), testing::Not(HasSubstr("is this a scene")));
+    EXPECT_THAT(rejection("[scene]\nduration = \n"), HasSubstr("scene.toml:2"));
+    EXPECT_THAT(rejection("[scene]\nduration = \n"), testing::Not(HasSubstr("is this a scene")));
     EXPECT_THAT(test::error_of([&] { (void)read_scene_file(folder_ / "ball.stl"); }),
                 HasSubstr("is this a scene file (.toml)?"));
 }

@@ -148,9 +148,9 @@ TEST(Simulation, ANeutralSphereMovesWithAGust) {
         const Pose& pose = motion.pose(motion.bodies[0], 0, frame, 0);
         const double phase = 2.0 * std::numbers::pi * motion.times[static_cast<std::size_t>(frame)] / 0.7;
         EXPECT_LT((pose.velocity - std::sin(phase) * scene.fluid.gust.amplitude).norm(), 1e-12);
-        const Vector3d way =
+        const Vector3d displacement =
             0.7 / (2.0 * std::numbers::pi) * (1.0 - std::cos(phase)) * scene.fluid.gust.amplitude;
-        EXPECT_LT((pose.position - way).norm(), 1e-12);
+        EXPECT_LT((pose.position - displacement).norm(), 1e-12);
     }
 }
 

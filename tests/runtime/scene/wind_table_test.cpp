@@ -1,4 +1,4 @@
-// [wind] in a scene file, and what is refused.
+// [wind] in a scene file, and what is rejected.
 
 #include <string>
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr EffectScale scale = {.tolerance = 0.05, .half_length = 0.04};
 
-/// Fluttering falls whose figures scatter by a part of themselves.
+/// Fluttering falls whose metrics scatter by a part of themselves.
 std::vector<SampledFall> falls(std::size_t count, double scatter, unsigned seed = 1) {
     std::mt19937 generator(seed);
     std::normal_distribution<double> normal;
@@ -79,7 +79,7 @@ TEST(ModelEffect, IsJudgedInTheProportionsOfTheMetrics) {
         EXPECT_EQ(effect_of(before, with(before, metric, 1.0 + 0.99 * allowed[i]), scale).verdict,
                   EffectVerdict::within)
             << catalogued(metric).key;
-        // The path may also change by 5 % of the way's 1 m: a sixth of its spread.
+        // The path may also change by 5 % of the path's 1 m: a sixth of its spread.
         const double beyond = metric == Metric::path_spread ? 0.17 : 1.01 * allowed[i];
         EXPECT_EQ(effect_of(before, with(before, metric, 1.0 + beyond), scale).verdict, EffectVerdict::beyond)
             << catalogued(metric).key;

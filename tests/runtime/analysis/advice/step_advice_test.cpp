@@ -89,7 +89,7 @@ TEST(StepAdvice, IsTheLongestWhereNothingMoves) {
     EXPECT_EQ(advice.step, 0.04);
     EXPECT_EQ(advice.error, 0.0);
     EXPECT_EQ(advice.limit, "");
-    EXPECT_EQ(as_text(advice), "40 ms, off by 0 % of the way; the longest there is");
+    EXPECT_EQ(as_text(advice), "40 ms, off by 0 % of the distance covered; the longest there is");
 }
 
 TEST(StepAdvice, LetsTurbulenceMakeTheDiffusionTooLargeByTheToleranceAtMost) {
@@ -105,8 +105,8 @@ TEST(StepAdvice, LetsTurbulenceMakeTheDiffusionTooLargeByTheToleranceAtMost) {
     EXPECT_EQ(advice.limit, "the turbulence of 'body'");
 }
 
-/// The ready-baked cube swings by its noise, hardly damped: to a step of 40 ms, by which its way is right, it
-/// would lose its swing twice as fast.
+/// The ready-baked cube swings by its noise, hardly damped: to a step of 40 ms, by which its path is right,
+/// it would lose its swing twice as fast.
 TEST(StepAdvice, SeesWhatNoiseTurns) {
     Scene scene;
     scene.duration = 6.0;
@@ -119,7 +119,7 @@ TEST(StepAdvice, SeesWhatNoiseTurns) {
     const LoadedBody loaded{read_body_file(ready_body_file("cube")), "hash"};
     const StepAdvice advice = advise_step(scene, {loaded}, 1);
     EXPECT_EQ(advice.step, 0.01);
-    EXPECT_EQ(advice.limit, "the turning of 'cube'");
+    EXPECT_EQ(advice.limit, "the rotation of 'cube'");
     EXPECT_EQ(advice.bodies[0].motion, 0.04);
     EXPECT_EQ(advice.bodies[0].rotation, 0.01);
     scene.bodies[0].turbulence = Turbulence::none;

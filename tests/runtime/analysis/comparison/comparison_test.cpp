@@ -203,7 +203,7 @@ TEST(Comparison, RefusesOtherGravityAndFramesTooFarApartAndSingleFrames) {
                 HasSubstr("reference.h5 has [0, 0, -1.62]: the two cannot be compared"));
     const Motion fast = test::motion_of([](double t) { return test::tumble(t, 40.0, 0.2); }, 4.0, 24.0);
     EXPECT_THAT(error_of([&] { compare_motions(fast, motion); }),
-                HasSubstr("motion.h5: 'ellipsoid' turns by up to 95 degrees from one frame to the next"));
+                HasSubstr("motion.h5: 'ellipsoid' rotates by up to 95 degrees from one frame to the next"));
     const Motion single = test::motion_of([](double) { return Pose{}; }, 0.0);
     EXPECT_THAT(error_of([&] { compare_motions(motion, single); }), HasSubstr("is a single frame"));
 }

@@ -56,7 +56,7 @@ TEST(LandingComparison, KnowsTheErrorOfTheScatter) {
 }
 
 TEST(LandingComparison, HasTheEnergyDistanceBetweenThePlaces) {
-    // Each side in one place: twice the way between them.
+    // Each side in one place: twice the distance between them.
     const Passages here = at({{0, 0, 0}, {0, 0, 0}, {0, 0, 0}});
     const Passages there = at({{3, 4, 0}, {3, 4, 0}, {3, 4, 0}, {3, 4, 0}});
     EXPECT_DOUBLE_EQ(compare_landings(1.0, here, there).distance, 10.0);

@@ -1,9 +1,8 @@
-#include "samara/analysis/metrics/flow_visits.hpp"
-
 #include <numbers>
 
 #include <gtest/gtest.h>
 
+#include "samara/analysis/metrics/sampled_falls.hpp"
 #include "samara/core/dynamics/loads.hpp"
 #include "support/known_bodies.hpp"
 

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include "samara/analysis/comparison/comparison.hpp"
-#include "samara/analysis/metrics/regime_counts.hpp"
 
 namespace samara {
 namespace {

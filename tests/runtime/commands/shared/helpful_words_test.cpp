@@ -1,4 +1,4 @@
-// What `samara` says of slips: misspelt words, names of other formats, figures that many bodies share.
+// Messages of `samara` about mistakes: misspelt words, names of other formats, notes that many bodies share.
 
 #include <string>
 #include <vector>
@@ -94,7 +94,7 @@ TEST_F(HelpfulWords, OfOneKindComeOnceInOneLine) {
     ASSERT_EQ(done.status, 0);
     EXPECT_EQ(
         done.error,
-        "samara simulate: note: 'a', 'b' and 2 more (figures of 'c'): the added mass may be wrong by 50 % "
+        "samara simulate: note: 'a', 'b' and 2 more (values of 'c'): the added mass may be wrong by 50 % "
         "(error estimate): the body is thin or its mesh coarse\n");
 }
 

@@ -22,7 +22,7 @@ using testing::HasSubstr;
 using testing::Not;
 using Words = std::vector<std::string>;
 
-/// A refusal in the project's own words.
+/// A rejection in the project's own words.
 void expect_rejection(const test::TemporaryFolder& folder, const Words& words, const std::string& reason,
                       const std::string& environment = "") {
     const test::ProgramRun run = test::run_program_in(folder, words, environment);

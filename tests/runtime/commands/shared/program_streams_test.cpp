@@ -36,7 +36,7 @@ class ProgramStreams : public ::testing::Test {
             {"/bin/sh", "-c",
              "SAMARA='" SAMARA_PROGRAMS "/samara'; cd '" + folder_.path().string() + "' && " + command});
     }
-    [[nodiscard]] std::string error() const { return read_bytes(folder_ / "fault"); }
+    [[nodiscard]] std::string error() const { return read_bytes(folder_ / "errors"); }
 
     const test::TemporaryFolder folder_;
 };
@@ -45,7 +45,7 @@ TEST_F(ProgramStreams, AFullStandardOutputIsAnErrorForEveryKindOfOutput) {
     for (const char* words : {"--help", "--version", "--list-commands", "simulate --help",
                               "simulate --version", "simulate --list-options", "info rubber.body.h5",
                               "info rubber.body.h5 --json", "simulate scene.toml -o motion.h5"}) {
-        EXPECT_EQ(shell(std::string("\"$SAMARA\" ") + words + " > /dev/full 2> fault"), 1) << words;
+        EXPECT_EQ(shell(std::string("\"$SAMARA\" ") + words + " > /dev/full 2> errors"), 1) << words;
         EXPECT_TRUE(test::is_one_line(error().substr(error().find("standard output")))) << error();
         EXPECT_THAT(error(), HasSubstr("standard output cannot be written: No space left on device"))
             << words;
@@ -64,8 +64,8 @@ TEST_F(ProgramStreams, AStandardErrorThatIsClosedOrFullLosesItsNotesAlone) {
 }
 
 TEST_F(ProgramStreams, WhatIsPrintedNeverEndsUpInAFileThatIsWritten) {
-    ASSERT_EQ(shell("\"$SAMARA\" simulate scene.toml -o whole.h5 > output 2> fault"), 0) << error();
-    EXPECT_EQ(shell("\"$SAMARA\" simulate scene.toml -o motion.h5 <&- >&- 2> fault"), 1);
+    ASSERT_EQ(shell("\"$SAMARA\" simulate scene.toml -o whole.h5 > output 2> errors"), 0) << error();
+    EXPECT_EQ(shell("\"$SAMARA\" simulate scene.toml -o motion.h5 <&- >&- 2> errors"), 1);
     EXPECT_THAT(error(), HasSubstr("standard output cannot be written: Bad file descriptor"));
     EXPECT_EQ(shell("\"$SAMARA\" simulate scene.toml -o other.h5 <&- >&- 2>&-"), 1);
     EXPECT_EQ(read_bytes(folder_ / "motion.h5"), read_bytes(folder_ / "whole.h5"));
@@ -73,18 +73,18 @@ TEST_F(ProgramStreams, WhatIsPrintedNeverEndsUpInAFileThatIsWritten) {
 }
 
 TEST_F(ProgramStreams, AReaderThatLeavesIsAnErrorNotADeath) {
-    ASSERT_EQ(shell("{ sleep 0.2; \"$SAMARA\" --help 2> fault; echo $? > status; } | true"), 0);
+    ASSERT_EQ(shell("{ sleep 0.2; \"$SAMARA\" --help 2> errors; echo $? > status; } | true"), 0);
     EXPECT_EQ(read_bytes(folder_ / "status"), "1\n");
     EXPECT_THAT(error(), HasSubstr("standard output cannot be written: Broken pipe"));
 }
 
 TEST_F(ProgramStreams, AFileBeyondTheShellsLimitIsAnErrorAndLeavesNothing) {
-    ASSERT_EQ(shell("\"$SAMARA\" simulate scene.toml -o motion.h5 > output 2> fault"), 0) << error();
+    ASSERT_EQ(shell("\"$SAMARA\" simulate scene.toml -o motion.h5 > output 2> errors"), 0) << error();
     for (const char* words :
          {"simulate scene.toml -o out.h5", "export motion.h5 -o out.csv", "export motion.h5 -o out.usda",
           "export motion.h5 -o out.glb", "plot motion.h5 -o out.png"}) {
         const std::ptrdiff_t before = folder_.file_count();
-        EXPECT_EQ(shell(std::string("ulimit -f 1 && \"$SAMARA\" ") + words + " > output 2> fault"), 1)
+        EXPECT_EQ(shell(std::string("ulimit -f 1 && \"$SAMARA\" ") + words + " > output 2> errors"), 1)
             << words;
         EXPECT_THAT(error(), testing::EndsWith("\n")) << words;
         EXPECT_EQ(folder_.file_count(), before) << words;
@@ -96,8 +96,8 @@ TEST_F(ProgramStreams, ProgramsThatAreStartedGetTheSignalsAsTheyWere) {
     (void)folder_.file("bin/python", "#!/bin/sh\ngrep SigIgn /proc/self/status > " +
                                          (folder_ / "ignored").string() + "\nexit 1\n");
     std::filesystem::permissions(folder_ / "bin/python", std::filesystem::perms::owner_all);
-    ASSERT_EQ(shell("\"$SAMARA\" simulate scene.toml -o motion.h5 > output 2> fault"), 0) << error();
-    EXPECT_EQ(shell("SAMARA_PYTHON=\"$PWD/bin/python\" \"$SAMARA\" plot motion.h5 -o out.png 2> fault"), 1);
+    ASSERT_EQ(shell("\"$SAMARA\" simulate scene.toml -o motion.h5 > output 2> errors"), 0) << error();
+    EXPECT_EQ(shell("SAMARA_PYTHON=\"$PWD/bin/python\" \"$SAMARA\" plot motion.h5 -o out.png 2> errors"), 1);
     const std::string of_python = read_bytes(folder_ / "ignored");
     ASSERT_EQ(shell("grep SigIgn /proc/self/status > ignored"), 0);
     EXPECT_EQ(of_python, read_bytes(folder_ / "ignored"));

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "samara/motion/motion_file.hpp"
-#include "samara/scene/scene_settings.hpp"
 #include "samara/scene/scene_simulation.hpp"
 #include "samara/scene/terminal_speed.hpp"
 #include "support/expect_error.hpp"
