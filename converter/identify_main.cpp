@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include "converter/falls/fall_identification.hpp"
-#include "converter/falls/identification_report.hpp"
 #include "converter/falls/motion_parameters.hpp"
 #include "samara/commands/shared/arguments.hpp"
 #include "samara/commands/shared/print.hpp"

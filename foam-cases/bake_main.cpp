@@ -11,8 +11,7 @@
 
 #include "foam-cases/bake/bake.hpp"
 #include "foam-cases/bake/bake_report.hpp"
-#include "foam-cases/farm/cluster_jobs.hpp"
-#include "foam-cases/scene/scene_requests.hpp"
+#include "foam-cases/farm/case_farm.hpp"
 #include "samara/commands/shared/arguments.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/body/body_file.hpp"

@@ -7,9 +7,9 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "foam-cases/bake/bake.hpp"
 #include "foam-cases/bake/bake_report.hpp"
 #include "foam-cases/scene/scene_plan_report.hpp"
-#include "foam-cases/scene/scene_requests.hpp"
 #include "samara/analysis/advice/density_warning.hpp"
 #include "samara/analysis/advice/model_advice.hpp"
 #include "samara/commands/shared/arguments.hpp"

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "foam-cases/falls/validate.hpp"
-#include "foam-cases/farm/cluster_jobs.hpp"
+#include "foam-cases/farm/case_farm.hpp"
 #include "samara/analysis/metrics/description.hpp"
 #include "samara/commands/shared/arguments.hpp"
 #include "samara/commands/shared/motion_output.hpp"

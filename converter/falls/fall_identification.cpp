@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "converter/falls/falling_body.hpp"
+#include "converter/falls/fall_record.hpp"
 #include "converter/falls/motion_parameters.hpp"
 #include "converter/tables/least_squares.hpp"
 #include "samara/analysis/metrics/metric_catalogue.hpp"

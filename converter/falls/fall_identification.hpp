@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "converter/falls/fall_record.hpp"
 #include "samara/core/body/body.hpp"
 #include "samara/motion/measures.hpp"
@@ -66,5 +68,14 @@ FlownFall fly_fall(const Body& body, const FallRecord& record);
 /// The motions that fly_fall() has its figures from, with the body's surface, turned so that gravity points
 /// along -z. Throws Error as it does.
 FallMotions fall_motions(const Body& body, const FallRecord& record);
+
+/// The identification in SI units: prediction_error, segments, coefficients and falls, each fall with its
+/// figures by full CFD (solved) and by the runtime (flown).
+nlohmann::json identification_as_json(const Identification& identification);
+nlohmann::json flown_fall_as_json(const FlownFall& fall);
+
+/// The same for people: lines, each ended.
+std::string identification_as_text(const Identification& identification);
+std::string flown_fall_as_text(const FlownFall& fall);
 
 }  // namespace samara

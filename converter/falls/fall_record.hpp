@@ -4,6 +4,10 @@
 #include <vector>
 
 #include "converter/falls/free_fall.hpp"
+#include "samara/core/body/body.hpp"
+#include "samara/core/dynamics/immersed_body.hpp"
+#include "samara/core/integrator/step.hpp"
+#include "samara/motion/motion.hpp"
 
 namespace samara {
 
@@ -48,5 +52,20 @@ inline constexpr FallBalance doubtful_balance = {0.05, 0.15};
 
 /// Whether either is above that.
 bool is_doubtful(const FallBalance& balance);
+
+/// The body of a solved fall as the runtime flies it: loads by its tables and the dynamic coefficients it
+/// has, or the default ones. Throws Error where the fall is of a body of another size.
+ImmersedBody falling_body(const Body& body, const FreeFall& fall);
+
+/// The fall's states, the first at its start with the velocities of fall.json, in SI units; the world's axes
+/// are the body's (shape) axes at the start, and its origin the centre of mass there.
+std::vector<BodyState> states_of(const FallRecord& record);
+
+/// The fall's gravity (m/s^2) in the same axes.
+Vector3d gravity_of(const FreeFall& fall);
+
+/// States at even times as a motion of the body, for measures.
+Motion motion_of(const Body& body, const Vector3d& gravity, double interval,
+                 const std::vector<BodyState>& states);
 
 }  // namespace samara

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "converter/cases/closure.hpp"
+#include "converter/cases/case_plan.hpp"
 #include "samara/core/base/linear_algebra.hpp"
 
 namespace samara {

@@ -1,8 +1,7 @@
-#include "converter/falls/identification_report.hpp"
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "converter/falls/fall_identification.hpp"
 #include "samara/analysis/metrics/description.hpp"
 #include "samara/core/base/angles.hpp"
 #include "samara/formats/vector_json.hpp"

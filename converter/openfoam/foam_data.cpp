@@ -1,5 +1,3 @@
-#include "converter/openfoam/foam_data.hpp"
-
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -10,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "converter/openfoam/foam_file.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/files/content_hash.hpp"
 

@@ -5,10 +5,22 @@
 #include <string>
 #include <string_view>
 
-#include "converter/openfoam/foam_bytes.hpp"
 #include "samara/core/base/error.hpp"
 
 namespace samara {
+
+/// What a file of an OpenFOAM case holds, uncompressed.
+struct FoamBytes {
+    std::filesystem::path path;  ///< the file that was read: the one asked for, or that with ".gz"
+    std::string text;
+};
+
+/// Whether the file or its compressed copy FILE.gz exists.
+bool foam_file_exists(const std::filesystem::path& file);
+
+/// Reads the file whole, or, where only FILE.gz exists (OpenFOAM's writeCompression), unpacks that. Throws
+/// Error where there is neither, and where the compressed file is cut short, damaged or of another kind.
+FoamBytes read_foam_bytes(const std::filesystem::path& file);
 
 /// Reads the words, numbers and brackets of an OpenFOAM file one after another; blanks and comments between
 /// them are passed over. Every fault is an Error that names the file and the line.

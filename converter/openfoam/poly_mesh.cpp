@@ -183,4 +183,32 @@ std::vector<double> cell_volumes(const std::filesystem::path& poly_mesh,
     return volumes;
 }
 
+namespace {
+
+bool is_word(const std::string& name) {
+    return name.find_first_of("*+?[]{}|^$\\\\()") == std::string::npos;
+}
+
+}  // namespace
+
+std::optional<double> area_of_patches(const fs::path& poly_mesh, const std::vector<std::string>& patches) {
+    for (const char* name : {"points", "faces", "owner", "neighbour", "boundary"}) {
+        if (!foam_file_exists(poly_mesh / name)) return std::nullopt;
+    }
+    const PolyMesh mesh = read_poly_mesh(poly_mesh);
+    double area = 0.0;
+    for (const std::string& pattern : patches) {
+        const bool is_start = pattern.ends_with(".*");
+        const std::string start = is_start ? pattern.substr(0, pattern.size() - 2) : pattern;
+        if (!is_word(start)) return std::nullopt;
+        for (const FoamPatch& patch : mesh.patches) {
+            if (is_start ? !patch.name.starts_with(start) : patch.name != start) continue;
+            for (std::size_t i = 0; i < patch.size; ++i) {
+                area += face_geometry(mesh.corners(patch.start + i)).area.norm();
+            }
+        }
+    }
+    return area > 0.0 ? std::optional(area) : std::nullopt;
+}
+
 }  // namespace samara

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,5 +51,10 @@ PolyMesh read_poly_mesh(const std::filesystem::path& poly_mesh);
 /// the field V. Throws Error where a file is damaged or a cell is not in the mesh.
 std::vector<double> cell_volumes(const std::filesystem::path& poly_mesh,
                                  const std::vector<std::int64_t>& cells);
+
+/// The area of the patches of FOLDER/constant/polyMesh that the names or patterns ("body.*") take in; nothing
+/// where there is no whole mesh, no such patch, or a pattern of another kind.
+std::optional<double> area_of_patches(const std::filesystem::path& poly_mesh,
+                                      const std::vector<std::string>& patches);
 
 }  // namespace samara

@@ -1,11 +1,10 @@
-#include "converter/report/case_history.hpp"
-
 #include <cstdlib>
 #include <fstream>
 #include <numbers>
 #include <string>
 
 #include "converter/cases/load_fluctuations.hpp"
+#include "converter/report/case_parts.hpp"
 
 namespace samara {
 namespace {

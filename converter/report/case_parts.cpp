@@ -9,12 +9,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "converter/cases/case_folder_reduction.hpp"
+#include "converter/cases/case_mesh.hpp"
 #include "converter/cases/case_reduction.hpp"
-#include "converter/cases/mesh_section.hpp"
-#include "converter/cases/wall_spacing.hpp"
 #include "converter/falls/fall_identification.hpp"
-#include "converter/report/case_history.hpp"
 #include "samara/analysis/comparison/comparison.hpp"
 #include "samara/core/base/angles.hpp"
 #include "samara/core/base/error.hpp"

@@ -1,5 +1,10 @@
 #pragma once
 
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "converter/cases/case_plan.hpp"
 #include "samara/reports/report_program.hpp"
 
 namespace samara {
@@ -11,5 +16,22 @@ namespace samara {
 /// body.
 CasesReport read_cases_for_report(const std::filesystem::path& folder, const Body& body,
                                   const std::function<void(double share)>& progress);
+
+/// What a case did while it was solved, at its iterations; a value that is not finite is left out.
+struct CaseHistory {
+    std::string name;
+    std::vector<double> iterations;
+    std::vector<double> drag;  ///< coefficients on A = pi L^2/4
+    std::vector<double> moment;
+    std::vector<double> k;  ///< k/U^2 of the shell; empty where the flow is laminar
+    std::vector<double> residual_iterations;
+    std::vector<double> residuals;  ///< initial, of the pressure, in the last round
+};
+
+/// How a case of a plan came to what the tables hold: force, moment and k at its iterations, in the tables'
+/// units, and the residuals of its last round, of the solver's log. Of k and the residuals, what is not there
+/// stays empty. Throws Error where the forces are missing or damaged.
+CaseHistory read_case_history(const std::filesystem::path& folder, const CasePlan& plan,
+                              const PlannedCase& planned);
 
 }  // namespace samara

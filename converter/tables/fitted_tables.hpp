@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "converter/cases/case_reduction.hpp"
-#include "converter/falls/model_errors.hpp"
+#include "converter/tables/model_errors.hpp"
 #include "converter/tables/reynolds_fit.hpp"
 
 namespace samara {

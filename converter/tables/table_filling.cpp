@@ -6,8 +6,8 @@
 #include <optional>
 #include <utility>
 
-#include "converter/falls/model_errors.hpp"
 #include "converter/tables/fitted_tables.hpp"
+#include "converter/tables/model_errors.hpp"
 #include "converter/tables/reynolds_fit.hpp"
 #include "converter/tables/symmetric_loads.hpp"
 #include "samara/core/surface/octahedral_map.hpp"

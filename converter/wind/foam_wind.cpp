@@ -1,5 +1,3 @@
-#include "converter/wind/foam_wind.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,9 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "converter/openfoam/foam_history.hpp"
 #include "converter/openfoam/poly_mesh.hpp"
-#include "converter/openfoam/time_folders.hpp"
-#include "converter/wind/node_layout.hpp"
+#include "converter/wind/wind_readers.hpp"
 #include "samara/core/base/error.hpp"
 
 namespace samara {
@@ -223,6 +221,24 @@ WindGrid read_foam_wind(const std::filesystem::path& case_folder, const FoamWind
     grid.source = fmt::format("the OpenFOAM case {}",
                               std::filesystem::absolute(case_folder).lexically_normal().filename().string());
     return grid;
+}
+
+void lay_nodes(WindGrid& grid, const Eigen::AlignedBox3d& box) {
+    constexpr double most_nodes = 4e8;  // 4.8 GB
+    grid.origin = box.min();
+    auto nodes = static_cast<double>(grid.frames);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto i = static_cast<Eigen::Index>(axis);
+        const double intervals = std::ceil(box.sizes()[i] / grid.spacing[i] - 1e-6);
+        nodes *= intervals + 1.0;
+        if (nodes > most_nodes) {
+            throw Error(fmt::format(
+                "the wind would take more than {:g} nodes over all times; give a larger --spacing "
+                "than {:g} m",
+                most_nodes, grid.spacing.minCoeff()));
+        }
+        grid.nodes[axis] = static_cast<std::size_t>(intervals) + 1;
+    }
 }
 
 }  // namespace samara

@@ -1,11 +1,9 @@
-#include "converter/wind/vdb_wind.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Interpolation.h>
 
-#include "converter/wind/node_layout.hpp"
+#include "converter/wind/wind_readers.hpp"
 #include "samara/core/base/error.hpp"
 
 namespace samara {

@@ -9,8 +9,9 @@
 #include "converter/convert.hpp"
 #include "foam-cases/bake/bake_plan.hpp"
 #include "foam-cases/farm/case_farm.hpp"
-#include "foam-cases/farm/cpu_account.hpp"
+#include "foam-cases/farm/case_records.hpp"
 #include "foam-cases/scene/scene_plan.hpp"
+#include "samara/core/body/body.hpp"
 #include "samara/formats/left_out_cases.hpp"
 #include "samara/scene/scene.hpp"
 
@@ -72,5 +73,31 @@ BakePreparation prepare_bake(const BakeRequest& request);
 /// `planned` is told of the plan before anything long begins. Throws Error.
 BakeResult bake_body(const BakeRequest& request, const FarmOptions& farm,
                      const std::function<void(const BakePreparation&)>& planned);
+
+/// The body of a shape file, meshed by the program samara-mesh with its defaults, or of a body file, read as
+/// it is. `scale`: metres for one unit of the shape file; a body file takes none but 1. `folder` receives
+/// what is made on the way (shape.body.h5, log.mesh). Throws Error.
+Body prepare_body(const std::filesystem::path& shape, double scale, const std::filesystem::path& folder);
+
+/// Gives the body its Kirchhoff tensor where it has none: the one of the body file `earlier` where there is
+/// such a file of the same surface, else by the command `samara kirchhoff`, for which `folder` receives what
+/// is made on the way. Throws Error, which names `shape`, the file that the body was made of.
+void add_kirchhoff_tensor(Body& body, const std::filesystem::path& shape,
+                          const std::filesystem::path& earlier, const std::filesystem::path& folder);
+
+/// What a bake of a scene is asked for.
+struct SceneBakeOptions {
+    BakeQuality quality;
+    Inflow inflow;
+    bool whole_grid = false;  ///< all directions, not those that the scene visits
+    double tolerance = 0.1;
+    std::optional<double> budget;
+    int most_rounds = 8;
+};
+
+/// One request for each body of a scene, NAME.body.h5 in the folder. A body that asks for neither table loads
+/// nor turbulence from tables gets a mesh and a Kirchhoff tensor alone.
+std::vector<BakeRequest> requests_for_scene(const Scene& scene, const std::filesystem::path& folder,
+                                            const SceneBakeOptions& options);
 
 }  // namespace samara

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "converter/cases/closure.hpp"
+#include "converter/cases/case_plan.hpp"
 
 namespace samara {
 

@@ -8,9 +8,8 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "converter/falls/identification_report.hpp"
-#include "foam-cases/farm/case_record.hpp"
-#include "foam-cases/farm/disk_need.hpp"
+#include "converter/falls/fall_identification.hpp"
+#include "foam-cases/farm/case_records.hpp"
 #include "foam-cases/scene/scene_plan_report.hpp"
 #include "samara/analysis/advice/unit_warnings.hpp"
 #include "samara/commands/shared/print.hpp"

@@ -10,10 +10,9 @@
 #include <nlohmann/json.hpp>
 
 #include "foam-cases/bake/bake.hpp"
-#include "foam-cases/bake/body_preparation.hpp"
+#include "foam-cases/farm/case_farm.hpp"
 #include "foam-cases/farm/case_folder.hpp"
-#include "foam-cases/farm/cluster_jobs.hpp"
-#include "foam-cases/farm/cpu_account.hpp"
+#include "foam-cases/farm/case_records.hpp"
 #include "foam-cases/farm/guarded_process.hpp"
 #include "samara/analysis/comparison/reference_uncertainty.hpp"
 #include "samara/core/base/error.hpp"

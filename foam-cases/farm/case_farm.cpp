@@ -15,9 +15,7 @@
 
 #include "converter/cases/case_reduction.hpp"
 #include "foam-cases/falls/fall_plan.hpp"
-#include "foam-cases/farm/case_record.hpp"
-#include "foam-cases/farm/cluster_jobs.hpp"
-#include "foam-cases/farm/disk_need.hpp"
+#include "foam-cases/farm/case_records.hpp"
 #include "foam-cases/farm/guarded_process.hpp"
 #include "samara/commands/shared/progress.hpp"
 #include "samara/commands/shared/subprocess.hpp"

@@ -7,9 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "foam-cases/farm/case_inspection.hpp"
-#include "foam-cases/farm/case_parameters.hpp"
-#include "foam-cases/farm/case_record.hpp"
+#include "foam-cases/farm/case_records.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/body/body_file.hpp"
 #include "samara/core/files/content_hash.hpp"

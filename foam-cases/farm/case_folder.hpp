@@ -1,8 +1,10 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 
+#include "converter/falls/free_fall.hpp"
 #include "foam-cases/bake/bake_plan.hpp"
 
 namespace samara {
@@ -34,5 +36,41 @@ void write_case_folder(const std::filesystem::path& folder, const Body& body, co
 /// The body's surface in case axes as an ASCII STL file of one solid, "body". Triangles of order 2 become
 /// four flat ones, so that the mesh sees the curved surface's edge nodes.
 std::string case_surface_stl(const Body& body, const BakePlan& plan);
+
+/// Contents by the path inside a case.
+using CaseFiles = std::map<std::filesystem::path, std::string>;
+
+/// What stands in a folder of its own beside the others.
+enum class FolderType { mesh, flow, fall };
+
+/// The folder of a mesh, a case or a fall, as it is to be.
+struct InputFolder {
+    FolderType type;
+    CaseFiles files;   ///< its inputs
+    std::string mesh;  ///< whose folder it is linked to; of a mesh itself none
+    std::string hash;  ///< of all that its solution depends on
+};
+
+/// The folders of a plan, by their names.
+using InputFolders = std::map<std::string, InputFolder>;
+
+/// Holds a folder of cases, which may be of other hands, against what is planned in it: OpenFOAM and Python
+/// read more than what they are given. Besides the inputs, which are written anew, only what solving leaves
+/// behind may stand there: known names; no link but those to a mesh; no pipe and no device; in fields, meshes
+/// and states nothing but data (require_foam_data). Throws Error naming the first file that is anything else,
+/// and how to go on without it. Reads only, and follows no link. A folder that does not exist is as it should
+/// be.
+void require_known_files(const std::filesystem::path& cases, const InputFolders& planned);
+
+/// The file `parameters` of one case: the template's text with the case's values in place of the template's;
+/// comments and further entries stay. Throws Error where the template lacks an entry.
+std::string case_parameters(const std::string& template_text, const BakePlan& plan, const BakeCase& entry);
+
+/// The same of a fall's case.
+std::string fall_parameters(const std::string& template_text, const BakePlan& plan, const FreeFall& fall);
+
+/// The file `parameters` of a case that only makes a mesh, and its entries that the mesh depends on.
+std::string mesh_case_parameters(const std::string& template_text, const FlowMesh& mesh);
+std::string mesh_parameters_of(const std::string& parameters);
 
 }  // namespace samara

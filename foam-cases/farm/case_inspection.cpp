@@ -1,13 +1,12 @@
-#include "foam-cases/farm/case_inspection.hpp"
-
 #include <algorithm>
 #include <cctype>
 #include <string_view>
 
 #include <fmt/format.h>
 
-#include "converter/openfoam/foam_data.hpp"
-#include "converter/openfoam/time_folders.hpp"
+#include "converter/openfoam/foam_file.hpp"
+#include "converter/openfoam/foam_history.hpp"
+#include "foam-cases/farm/case_folder.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/files/content_hash.hpp"
 

@@ -1,5 +1,3 @@
-#include "foam-cases/farm/case_parameters.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "foam-cases/farm/case_folder.hpp"
 #include "samara/core/base/error.hpp"
 
 namespace samara {

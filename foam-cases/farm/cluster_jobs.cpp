@@ -1,5 +1,3 @@
-#include "foam-cases/farm/cluster_jobs.hpp"
-
 #include <chrono>
 #include <fstream>
 #include <sstream>

@@ -185,7 +185,7 @@ TEST_F(Convert, RefusesAFallWithTheNameOfACase) {
     plan_falls(folder_, {{{"name", "case_00"}, {"mesh", "mesh"}}});
     EXPECT_THAT(error(), HasSubstr("plan.json: two cases or falls are named case_00;"));
     plan_falls(folder_, {{{"mesh", "mesh"}}});
-    EXPECT_THAT(error(), HasSubstr("plan.json: an entry is missing or of the wrong kind"));
+    EXPECT_THAT(error(), HasSubstr("plan.json: an entry is missing or of the wrong type"));
 }
 
 std::string state_history(const FallRecord& record) {
@@ -353,9 +353,9 @@ TEST_F(Convert, RefusesDamagedPlansInOneLine) {
         return content.dump();
     };
     EXPECT_THAT(error_of(plan.substr(0, 100)), HasSubstr("plan.json: is no JSON ("));
-    EXPECT_THAT(error_of("{}"), HasSubstr("an entry is missing or of the wrong kind"));
-    EXPECT_THAT(error_of(changed("/quality", 3)), HasSubstr("an entry is missing or of the wrong kind"));
-    EXPECT_THAT(error_of(changed("/subdivisions", 0)), HasSubstr("'subdivisions' is not sane"));
+    EXPECT_THAT(error_of("{}"), HasSubstr("an entry is missing or of the wrong type"));
+    EXPECT_THAT(error_of(changed("/quality", 3)), HasSubstr("an entry is missing or of the wrong type"));
+    EXPECT_THAT(error_of(changed("/subdivisions", 0)), HasSubstr("'subdivisions' is not from 1 to 1024"));
     EXPECT_THAT(error_of(changed("/reference_length", -1)), HasSubstr("'reference_length' is not positive"));
     EXPECT_THAT(error_of(changed("/axes/0/0", 2)), HasSubstr("'axes' is no rotation"));
     EXPECT_THAT(error_of(changed("/cases", nlohmann::json::array())), HasSubstr("'cases' is empty"));
@@ -488,7 +488,7 @@ TEST_F(ConvertOfAUsersCases, SaysWhichWayTheirFlowGoes) {
     set_up("uniform (3 0 0)", "nu 6e-3", "rhoInf 5");
     EXPECT_THAT(
         error(),
-        HasSubstr("case_00: the flow goes the other way: along [1, 0, 0], and so the body along [-1, 0, 0], "
+        HasSubstr("case_00: the flow has the opposite direction: along [1, 0, 0], and so the body along [-1, 0, 0], "
                   "but plan.json has the 'direction' [1, 0, 0], which is that of the body's velocity"));
     set_up("uniform (0 -3 0)", "nu 6e-3", "rhoInf 5");
     EXPECT_THAT(error(), HasSubstr("the flow goes along [0, -1, 0], and so the body along [0, 1, 0], but"));

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "converter/falls/falling_body.hpp"
+#include "converter/falls/fall_record.hpp"
 #include "support/known_bodies.hpp"
 
 namespace samara::test {

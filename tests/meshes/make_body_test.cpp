@@ -395,7 +395,7 @@ TEST(MakeBody, NamesWhatIsWrongWithAFile) {
     EXPECT_THAT(test::error_of([] { make_body("nowhere/missing.stl"); }),
                 HasSubstr("missing.stl: does not exist"));
     EXPECT_THAT(test::error_of([] { make_body(std::filesystem::temp_directory_path() / "x.blend"); }),
-                HasSubstr("is of no known kind; give a .geo"));
+                HasSubstr("is of no known format; give a .geo"));
     EXPECT_THAT(error_of_text("empty.stl", ""), HasSubstr("is empty"));
     EXPECT_THAT(error_of_text("words.stl", "these are no triangles"), HasSubstr("is no STL file"));
     EXPECT_THAT(

@@ -1,3 +1,5 @@
+#include "converter/cases/case_reduction.hpp"
+
 #include <algorithm>
 #include <numbers>
 #include <regex>
@@ -8,7 +10,6 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "converter/cases/case_folder_reduction.hpp"
 #include "converter/cases/samples_csv.hpp"
 #include "converter/openfoam/foam_file.hpp"
 #include "converter/openfoam/foam_history.hpp"

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "converter/cases/case_folder_reduction.hpp"
+#include "converter/cases/case_reduction.hpp"
 #include "load_laws.hpp"
 #include "samara/core/files/content_hash.hpp"
 #include "solved_folder.hpp"
@@ -167,7 +167,7 @@ TEST_F(DamagedHistory, AnyChangeSinceTheCaseWasSolvedIsFoundByTheMeansThatWereNo
         folder_.write(name, whole);
     }
     folder_.write("case_01/provenance.json", R"({"averaging_start": 10, "force": [1, "x", 2]})");
-    EXPECT_THAT(error(), HasSubstr("case_01: in provenance.json an entry is missing or of the wrong kind"));
+    EXPECT_THAT(error(), HasSubstr("case_01: in provenance.json an entry is missing or of the wrong type"));
 }
 
 }  // namespace

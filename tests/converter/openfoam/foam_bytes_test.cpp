@@ -1,8 +1,7 @@
-#include "converter/openfoam/foam_bytes.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "converter/openfoam/foam_scanner.hpp"
 #include "gzip.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"

@@ -1,11 +1,10 @@
-#include "converter/openfoam/foam_data.hpp"
-
 #include <cstdint>
 #include <cstring>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "converter/openfoam/foam_file.hpp"
 #include "paths.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"

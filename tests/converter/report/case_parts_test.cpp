@@ -5,7 +5,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "converter/report/case_history.hpp"
 #include "solved_folder.hpp"
 #include "support/expect_error.hpp"
 

@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "converter/falls/model_errors.hpp"
 #include "converter/tables/direction_sampling.hpp"
+#include "converter/tables/model_errors.hpp"
 #include "load_laws.hpp"
 #include "symmetry_groups.hpp"
 #include "table_cases.hpp"

@@ -1,6 +1,4 @@
 // Files as OpenVDB itself writes them.
-#include "converter/wind/vdb_wind.hpp"
-
 #include <fstream>
 #include <limits>
 
@@ -10,6 +8,7 @@
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Dense.h>
 
+#include "converter/wind/wind_readers.hpp"
 #include "samara/core/wind/grid_wind.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"

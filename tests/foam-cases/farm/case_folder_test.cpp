@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
-#include "foam-cases/farm/case_parameters.hpp"
 #include "paths.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/files/content_hash.hpp"

@@ -10,7 +10,7 @@
 #include <sys/wait.h>
 
 #include "bake_folder.hpp"
-#include "foam-cases/farm/cluster_jobs.hpp"
+#include "foam-cases/farm/case_farm.hpp"
 #include "paths.hpp"
 #include "samara/commands/shared/subprocess.hpp"
 #include "test_bodies.hpp"

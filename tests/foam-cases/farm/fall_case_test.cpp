@@ -10,7 +10,6 @@
 
 #include "foam-cases/falls/fall_plan.hpp"
 #include "foam-cases/farm/case_folder.hpp"
-#include "foam-cases/farm/case_parameters.hpp"
 #include "paths.hpp"
 #include "samara/core/files/content_hash.hpp"
 #include "support/expect_error.hpp"

@@ -1,5 +1,3 @@
-#include "meshes/checks/joined_parts.hpp"
-
 #include <string>
 #include <vector>
 

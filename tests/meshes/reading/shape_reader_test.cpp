@@ -272,7 +272,7 @@ TEST(ShapeReader, SaysWhatIsWrongInOneLine) {
     EXPECT_THAT(error_of("a.off", ""), HasSubstr("is no sound OFF file"));
     EXPECT_THAT(error_of("a.3mf", "PK"), HasSubstr("is no sound 3MF file"));
     EXPECT_THAT(error_of("a.gltf", "{}"), HasSubstr(".gltf file"));
-    EXPECT_THAT(error_of("a.fbx", "x"), AllOf(HasSubstr("is of no known kind"), HasSubstr("Blender")));
+    EXPECT_THAT(error_of("a.fbx", "x"), AllOf(HasSubstr("is of no known format"), HasSubstr("Blender")));
 }
 
 }  // namespace

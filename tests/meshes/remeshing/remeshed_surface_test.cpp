@@ -1,5 +1,3 @@
-#include "meshes/remeshing/remeshed_surface.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "meshes/checks/sound_surface.hpp"
+#include "meshes/remeshing/remesh.hpp"
 #include "samara/core/surface/creases.hpp"
 #include "samara/core/surface/surface_edges.hpp"
 #include "support/test_shapes.hpp"

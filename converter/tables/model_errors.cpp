@@ -1,4 +1,4 @@
-#include "converter/falls/model_errors.hpp"
+#include "converter/tables/model_errors.hpp"
 
 #include <algorithm>
 #include <cmath>

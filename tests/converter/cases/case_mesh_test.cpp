@@ -1,11 +1,10 @@
-#include "converter/cases/wall_spacing.hpp"
+#include "converter/cases/case_mesh.hpp"
 
 #include <cmath>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "converter/cases/mesh_section.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 
