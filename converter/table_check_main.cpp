@@ -1,4 +1,4 @@
-// The program samara-check-tables: a body's tables against solved cases that they were not made from.
+// The program samara-check-tables: compares a body's tables with solved cases that they were not made from.
 
 #include <string>
 
@@ -65,7 +65,7 @@ int run(int argc, const char* const* argv) {
     std::string body_file;
     std::string cases;
     Arguments arguments("samara check-tables",
-                        "Holds a body's tables against solved cases that they were not made from");
+                        "Compares a body's tables with solved cases that they were not made from");
     arguments.positional("BODY", body_file, "NAME.body.h5 with tables");
     arguments.positional(
         "CASES", cases, "a table of cases (.csv), of 'samara bake --probes' or 'samara convert -o NAME.csv'");

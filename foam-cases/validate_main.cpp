@@ -72,13 +72,13 @@ std::vector<std::filesystem::path> motions_of(const char* option, const std::str
 void print_warnings(const ValidationResult& result) {
     const auto note = [](const std::string& text) { print_note("samara validate: note: {}\n", text); };
     const FallBalance balance = result.worst_balance();
-    if (is_doubtful(balance)) {
+    if (is_unbalanced(balance)) {
         note(fmt::format(
             "the momenta do not balance the loads (force {:.0f} %, moment {:.0f} %): the fall is doubtful; "
             "halve its step with --step",
             100.0 * balance.force, 100.0 * balance.moment));
     }
-    if (result.largest_courant_number() > doubtful_courant_number) {
+    if (result.largest_courant_number() > largest_good_courant_number) {
         note(fmt::format(
             "the fluid passes up to {:.1f} cells in a step: the fall may be smeared; halve its step with "
             "--step",

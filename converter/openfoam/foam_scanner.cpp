@@ -26,7 +26,7 @@ Error damage(const std::filesystem::path& file, const char* what) {
         fmt::format("{}: {}; copy the file again, or let OpenFOAM write it again", file.string(), what));
 }
 
-/// Inflates gzip data of one member or several.
+/// Decompresses gzip data of one member or several.
 class Inflation {
   public:
     explicit Inflation(const std::filesystem::path& file) : file_(file) {
@@ -44,14 +44,15 @@ class Inflation {
         int status = Z_OK;
         do {
             feed(waiting);
-            if (status == Z_STREAM_END) inflateReset(&stream_);  // files may be joined
+            if (status == Z_STREAM_END) inflateReset(&stream_);  // the next member, as of concatenated files
             status = inflate_block(text);
         } while (status != Z_STREAM_END || waiting > 0 || stream_.avail_in > 0);
         return text;
     }
 
   private:
-    /// Shows zlib, which counts in 32 bits, more of the `waiting` bytes once it has taken all that it saw.
+    /// Passes more of the `waiting` bytes to zlib, which counts in 32 bits, once it has consumed the previous
+    /// ones.
     void feed(std::size_t& waiting) {
         if (stream_.avail_in > 0) return;
         const std::size_t next = std::min<std::size_t>(waiting, std::numeric_limits<uInt>::max());
@@ -63,7 +64,7 @@ class Inflation {
         stream_.next_out = reinterpret_cast<Bytef*>(block_.data());
         stream_.avail_out = static_cast<uInt>(block_.size());
         const int status = inflate(&stream_, Z_NO_FLUSH);
-        // Without progress there is neither input nor output left.
+        // zlib could make no progress: the input has ended.
         if (status == Z_BUF_ERROR) throw damage(file_, "the compressed file is cut short");
         if (status != Z_OK && status != Z_STREAM_END) throw damage(file_, "the compressed file is damaged");
         text.append(block_, 0, block_.size() - stream_.avail_out);
@@ -230,7 +231,7 @@ Error FoamScanner::error(std::string_view what) const {
 
 const char* read_foam_number(const char* first, const char* last, double& value) {
     const auto [end, status] = std::from_chars(first, last, value);
-    // std::from_chars leaves the value as it was there.
+    // std::from_chars leaves the value unchanged then.
     if (status == std::errc::result_out_of_range)
         value = std::strtod(std::string(first, end).c_str(), nullptr);
     return status == std::errc::invalid_argument ? first : end;

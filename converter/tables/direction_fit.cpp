@@ -11,10 +11,10 @@
 namespace samara {
 namespace {
 
-/// Angles (rad) closer than this are the same.
+/// Angles (rad) that differ by less are equal.
 constexpr double same_angle = 1e-6;
 
-/// A right-handed frame whose first axis is `first` and whose third is perpendicular to `second`.
+/// Returns a right-handed frame whose first axis is `first` and whose third is perpendicular to `second`.
 Matrix3d frame(const Vector3d& first, const Vector3d& second) {
     Matrix3d axes;
     axes.col(0) = first;
@@ -28,7 +28,7 @@ struct Point {
     double value;
 };
 
-/// Steffen's slope at the middle of three points.
+/// Returns Steffen's slope at the middle of three points.
 double monotone_slope(const Point& before, const Point& here, const Point& after) {
     const double left = here.angle - before.angle;
     const double right = after.angle - here.angle;
@@ -40,7 +40,7 @@ double monotone_slope(const Point& before, const Point& here, const Point& after
                          to_here);
 }
 
-/// The cubic between points 1 and 2 of four, a fraction of the way.
+/// Returns the cubic between points 1 and 2 of four at the fraction t of the interval.
 double interpolated(const Point (&points)[4], double t) {
     const double length = points[2].angle - points[1].angle;
     const double s = 1.0 - t;
@@ -60,7 +60,7 @@ ArcFit::ArcFit(const Symmetry& symmetry, const std::vector<Vector3d>& directions
 }
 
 ArcFit::Place ArcFit::place_of(const Vector3d& direction) const {
-    // Beyond the mirror the loads are those of its near side, seen along the axis turned round.
+    // Beyond the mirror the loads are those of its near side, relative to the reversed axis.
     const double along = arc_.axis.dot(direction);
     const Vector3d axis = arc_.mirrored && along < 0.0 ? Vector3d(-arc_.axis) : arc_.axis;
     const Vector3d normal = axis.cross(direction);
@@ -71,13 +71,13 @@ ArcFit::Place ArcFit::place_of(const Vector3d& direction) const {
 void ArcFit::set_knots() {
     const double end = arc_.step_angle() * arc_.steps;
     knots_.clear();
-    // So many images leave two knots beyond any angle of the arc, however few samples there are.
+    // With these images there are two knots beyond any angle of the arc, however few the samples.
     for (const std::size_t sample : included_) {
         const double angle = places_[sample].angle;
-        for (const int turn : {0, -1, 1, -2, 2}) {
-            const bool odd = turn % 2 != 0;
-            knots_.push_back({2.0 * turn * end + angle, sample, odd, odd});
-            knots_.push_back({2.0 * turn * end - angle, sample, !odd, odd});
+        for (const int period : {0, -1, 1, -2, 2}) {
+            const bool odd = period % 2 != 0;
+            knots_.push_back({2.0 * period * end + angle, sample, odd, odd});
+            knots_.push_back({2.0 * period * end - angle, sample, !odd, odd});
         }
     }
     std::stable_sort(knots_.begin(), knots_.end(),
@@ -103,14 +103,14 @@ double ArcFit::number_at(const std::vector<LoadEntry>& in_frames, const Interval
     Point points[4];
     for (std::size_t i = 0; i < 4; ++i) {
         const Knot& knot = knots_[interval.before + i - 1];
-        const bool turned = (odd_at_pole && knot.over_pole) != (odd_at_end && knot.over_end);
+        const bool reversed = (odd_at_pole && knot.over_pole) != (odd_at_end && knot.over_end);
         const double value = number(in_frames[knot.sample]);
-        points[i] = {knot.angle, turned ? -value : value};
+        points[i] = {knot.angle, reversed ? -value : value};
     }
     return interpolated(points, interval.fraction);
 }
 
-/// The entry in the frame of the place at this angle.
+/// Returns the entry in the frame of the place at this angle.
 LoadEntry ArcFit::entry_at(const std::vector<LoadEntry>& samples, double angle) const {
     std::vector<LoadEntry> in_frames;
     for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -159,8 +159,8 @@ LoadEntryError ArcFit::error_at(const std::vector<LoadEntryError>& errors, const
     return transformed_error(rooted(sum), place.frame);
 }
 
-/// As the error of a cubic where the loads have a kink: with the distance between the knots, none at the
-/// knots.
+/// Varies like the error of a cubic where the loads have a kink: with the distance between the knots, zero at
+/// the knots.
 double ArcFit::spread_at(double angle) const {
     const Interval interval = interval_of(angle);
     return std::sqrt(interval.fraction * (1.0 - interval.fraction)) * interval.length;
@@ -176,11 +176,11 @@ double ArcFit::spread_without(std::size_t sample) const {
 
 namespace {
 
-std::variant<TurnedSample, ArcFit, ScatteredFit> fit_of(const Symmetry& symmetry,
+std::variant<RotatedSample, ArcFit, ScatteredFit> fit_of(const Symmetry& symmetry,
                                                         const std::vector<Vector3d>& directions) {
     switch (symmetry.type) {
         case Symmetry::Type::spherical:
-            return TurnedSample{directions.front()};
+            return RotatedSample{directions.front()};
         case Symmetry::Type::axial:
             return ArcFit(symmetry, directions);
         case Symmetry::Type::finite:
@@ -189,13 +189,13 @@ std::variant<TurnedSample, ArcFit, ScatteredFit> fit_of(const Symmetry& symmetry
     return ScatteredFit(symmetry, directions);
 }
 
-Matrix3d turn_from(const TurnedSample& sample, const Vector3d& direction) {
+Matrix3d rotation_from(const RotatedSample& sample, const Vector3d& direction) {
     return turn_between(sample.direction, direction).toRotationMatrix();
 }
 
-LoadEntry turned(const TurnedSample& sample, const LoadEntry& entry, const Vector3d& direction) {
-    LoadEntry result = transformed(entry, turn_from(sample, direction));
-    // Exactly along the direction, whatever the turn's rounding.
+LoadEntry rotated(const RotatedSample& sample, const LoadEntry& entry, const Vector3d& direction) {
+    LoadEntry result = transformed(entry, rotation_from(sample, direction));
+    // Exactly along the direction, without the rotation's rounding.
     result.force = entry.force.dot(sample.direction) * direction;
     return result;
 }
@@ -206,12 +206,12 @@ DirectionFit::DirectionFit(const Symmetry& symmetry, const std::vector<Vector3d>
     : fit_(fit_of(symmetry, directions)) {}
 
 bool DirectionFit::is_spherical() const {
-    return std::holds_alternative<TurnedSample>(fit_);
+    return std::holds_alternative<RotatedSample>(fit_);
 }
 
 LoadEntry DirectionFit::at(const std::vector<LoadEntry>& samples, const Vector3d& direction) const {
-    if (const auto* sample = std::get_if<TurnedSample>(&fit_)) {
-        return turned(*sample, samples.front(), direction);
+    if (const auto* sample = std::get_if<RotatedSample>(&fit_)) {
+        return rotated(*sample, samples.front(), direction);
     }
     if (const auto* arc = std::get_if<ArcFit>(&fit_)) return arc->at(samples, direction);
     return std::get<ScatteredFit>(fit_).at(samples, direction);
@@ -225,8 +225,8 @@ LoadEntry DirectionFit::without(const std::vector<LoadEntry>& samples, std::size
 
 LoadEntryError DirectionFit::error_at(const std::vector<LoadEntryError>& errors,
                                       const Vector3d& direction) const {
-    if (const auto* sample = std::get_if<TurnedSample>(&fit_)) {
-        return transformed_error(errors.front(), turn_from(*sample, direction));
+    if (const auto* sample = std::get_if<RotatedSample>(&fit_)) {
+        return transformed_error(errors.front(), rotation_from(*sample, direction));
     }
     if (const auto* arc = std::get_if<ArcFit>(&fit_)) return arc->error_at(errors, direction);
     return std::get<ScatteredFit>(fit_).error_at(errors, direction);
@@ -246,7 +246,7 @@ double DirectionFit::spread_without(std::size_t sample) const {
 
 namespace {
 
-/// The point nearest to a direction, where it is the same direction.
+/// Returns the point nearest to a direction, within the tolerance.
 std::optional<std::size_t> point_at(const std::vector<Vector3d>& points, const Vector3d& direction,
                                     double tolerance) {
     std::optional<std::size_t> nearest;

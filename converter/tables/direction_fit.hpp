@@ -10,7 +10,7 @@
 
 namespace samara {
 
-/// DirectionFit of a body of revolution: interpolation over the polar angle from the body's axis.
+/// DirectionFit of a body of revolution: interpolates over the polar angle from the body's axis.
 class ArcFit {
   public:
     ArcFit(const Symmetry& symmetry, const std::vector<Vector3d>& directions);
@@ -24,23 +24,22 @@ class ArcFit {
 
   private:
     /// A direction by its polar angle (rad), from 0 to the arc's end, and a right-handed frame: the axis
-    /// (turned round beyond a mirror), the direction across it, and the normal of both.
+    /// (reversed beyond a mirror), the perpendicular direction, and the normal of both.
     struct Place {
         double angle;
         Matrix3d frame;
     };
 
-    /// Where a sample counts on the line of polar angles, which goes on beyond both ends of the arc as the
-    /// symmetry says.
+    /// The place of a sample or its image on the line of polar angles, which the symmetry continues beyond
+    /// both ends of the arc.
     struct Knot {
         double angle;
         std::size_t sample;
         bool over_pole;  ///< reflected at the pole an odd number of times
-        bool over_end;   ///< at the arc's other end
+        bool over_end;   ///< reflected at the arc's other end an odd number of times
     };
 
-    /// The knots that an angle lies between, `before` and the next, and its place from one (0) to the other
-    /// (1).
+    /// The interval of an angle: between the knot `before` and the next, at `fraction` from 0 to 1.
     struct Interval {
         std::size_t before;
         double fraction;
@@ -59,7 +58,7 @@ class ArcFit {
 
     AxialArc arc_;
     std::vector<Place> places_;          ///< of the samples
-    std::vector<std::size_t> included_;  ///< the samples that count
+    std::vector<std::size_t> included_;  ///< indices of the samples in use
     std::vector<Knot> knots_;            ///< ascending
 };
 
@@ -76,7 +75,7 @@ class ScatteredFit {
     [[nodiscard]] double spread_without(std::size_t sample) const;
 
   private:
-    /// A point of the interpolation: the direction of `sample` turned or mirrored by `element`.
+    /// A point of the interpolation: the image of the direction of `sample` under `element`.
     struct Image {
         std::size_t sample;
         Matrix3d element;
@@ -84,7 +83,7 @@ class ScatteredFit {
 
     [[nodiscard]] Eigen::VectorXd weights(const Vector3d& direction) const;
     [[nodiscard]] LoadEntry sum(const std::vector<LoadEntry>& samples, const Eigen::VectorXd& weights) const;
-    /// The points that are images of a sample, its own direction first.
+    /// Returns the points that are images of a sample, its own direction first.
     [[nodiscard]] std::vector<std::size_t> points_of(std::size_t sample) const;
 
     std::vector<Image> images_;
@@ -92,8 +91,8 @@ class ScatteredFit {
     SphereInterpolation interpolation_;
 };
 
-/// DirectionFit of a sphere: its one sample, turned into any direction; of the force the drag alone.
-struct TurnedSample {
+/// DirectionFit of a sphere: its one sample, rotated into any direction; only the drag of the force is kept.
+struct RotatedSample {
     Vector3d direction;
 };
 
@@ -101,40 +100,41 @@ struct TurnedSample {
 /// are entries in map axes whose k and epsilon may be any two scalars (table_filling.hpp takes their
 /// logarithms). Between the samples and their images under the symmetry:
 ///  - finite: SphereInterpolation;
-///  - axial: force along the axis and across it, moment and scalars over the polar angle, by monotone cubics
-///    that keep their parity at the axis and at the mirror (M. Steffen, A simple method for monotonic
+///  - axial: force along and perpendicular to the axis, moment and scalars over the polar angle, by monotone
+///  cubics that keep their parity at the axis and at the mirror (M. Steffen, A simple method for monotonic
 ///    interpolation in one dimension, Astronomy and Astrophysics 239, 1990);
-///  - spherical: the first sample, turned.
+///  - spherical: the first sample, rotated.
 /// `samples` are in the order of the directions, already passed through keep_symmetric_part.
 class DirectionFit {
   public:
-    /// The samples' directions: unit vectors, one at least, no two images of each other.
+    /// Fits the directions of the samples: unit vectors, at least one, no two images of each other.
     DirectionFit(const Symmetry& symmetry, const std::vector<Vector3d>& directions);
 
-    /// The value in a direction; in that of a sample's image exactly that image.
+    /// Returns the value in a direction; in that of a sample's image exactly that image.
     [[nodiscard]] LoadEntry at(const std::vector<LoadEntry>& samples, const Vector3d& direction) const;
 
-    /// The value in the direction of a sample by the other samples; all zero where there is no other.
+    /// Returns the value in the direction of a sample by the other samples; zero where there is no other.
     [[nodiscard]] LoadEntry without(const std::vector<LoadEntry>& samples, std::size_t sample) const;
 
-    /// The samples' standard errors as they stand in a direction: the root of their mean squares over the
-    /// samples that make the value there, by the size of their weights.
+    /// Returns the samples' standard errors in a direction: the root mean square over the samples, weighted
+    /// by the magnitude of their weights in the value there.
     [[nodiscard]] LoadEntryError error_at(const std::vector<LoadEntryError>& errors,
                                           const Vector3d& direction) const;
 
-    /// How far a direction is from the samples, 0 at their images: what the value's error there is taken to
-    /// be proportional to. Between scattered samples SphereInterpolation::spread, which falls with the square
-    /// root of the samples' distance; on an arc the distance itself, as the error at a kink does.
+    /// Returns a measure of the distance of a direction from the samples, 0 at their images, to which the
+    /// error of the value is taken to be proportional. Between scattered samples it is
+    /// SphereInterpolation::spread, which varies with the square root of the samples' distance; on an arc it
+    /// varies with the distance itself, as the error at a kink does.
     [[nodiscard]] double spread(const Vector3d& direction) const;
 
-    /// The same for a sample's direction and the other samples; 1 where there is no other.
+    /// Returns spread() of a sample's direction from the other samples; 1 where there is no other.
     [[nodiscard]] double spread_without(std::size_t sample) const;
 
-    /// Whether any direction is an image of any other: then nothing is interpolated.
+    /// Whether all directions are images of each other, so that nothing is interpolated.
     [[nodiscard]] bool is_spherical() const;
 
   private:
-    std::variant<TurnedSample, ArcFit, ScatteredFit> fit_;
+    std::variant<RotatedSample, ArcFit, ScatteredFit> fit_;
 };
 
 }  // namespace samara

@@ -16,18 +16,18 @@ namespace {
 
 constexpr std::size_t nowhere = std::numeric_limits<std::size_t>::max();
 
-/// z up from y up: (x, y, z) -> (x, -z, y).
+/// Converts y up to z up: (x, y, z) -> (x, -z, y).
 Vector3d z_up(const Vector3d& v, bool y_up) {
     return y_up ? Vector3d(v.x(), -v.z(), v.y()) : v;
 }
 
-/// A face as a cell sees it.
+/// A face of a cell.
 struct CellFace {
-    FaceGeometry geometry;  ///< its area out of the cell
+    FaceGeometry geometry;  ///< area vector out of the cell
     std::size_t neighbour;  ///< the cell behind it, or nowhere
 };
 
-/// The mesh cell by cell.
+/// The mesh as a list of cells with their faces.
 class Cells {
   public:
     explicit Cells(const PolyMesh& mesh) : faces_(mesh.cell_count()), boxes_(mesh.cell_count()) {
@@ -50,7 +50,7 @@ class Cells {
     [[nodiscard]] const std::vector<CellFace>& faces(std::size_t cell) const { return faces_[cell]; }
     [[nodiscard]] const Vector3d& center(std::size_t cell) const { return centers_[cell]; }
     [[nodiscard]] const Eigen::AlignedBox3d& box(std::size_t cell) const { return boxes_[cell]; }
-    /// How far (m) a place is beyond the cell's farthest face; negative within.
+    /// Returns the distance (m) of a place beyond the cell's farthest face; negative inside.
     [[nodiscard]] double beyond(std::size_t cell, const Vector3d& place) const {
         double farthest = -std::numeric_limits<double>::infinity();
         for (const CellFace& face : faces_[cell]) {
@@ -65,7 +65,7 @@ class Cells {
         faces_[cell].push_back(face);
         for (const Vector3d& corner : corners) boxes_[cell].extend(corner);
     }
-    /// Of its volume, in pyramids about the mean of its faces.
+    /// Returns the centroid of a cell, by pyramids about the mean of its faces.
     static Vector3d center_of(const std::vector<CellFace>& faces) {
         Vector3d middle = Vector3d::Zero();
         for (const CellFace& face : faces) middle += face.geometry.center / static_cast<double>(faces.size());
@@ -89,7 +89,7 @@ Vector3d place_of(const WindGrid& grid, std::size_t x, std::size_t y, std::size_
     return grid.origin + steps.cwiseProduct(grid.spacing);
 }
 
-/// The cell that each node lies in, or nowhere: of several, that in which it lies deepest.
+/// Returns the cell that contains each node, or nowhere; of several, the one in which it lies deepest.
 std::vector<std::size_t> cells_of_nodes(const Cells& cells, const WindGrid& grid) {
     const std::size_t nodes = grid.nodes[0] * grid.nodes[1] * grid.nodes[2];
     std::vector<std::size_t> found(nodes, nowhere);
@@ -122,7 +122,7 @@ std::vector<std::size_t> cells_of_nodes(const Cells& cells, const WindGrid& grid
     return found;
 }
 
-/// The velocity at a place of a cell.
+/// Returns the velocity at a place in a cell.
 Vector3d velocity_at(const Cells& cells, const FoamField<Vector3d>& field, std::size_t cell,
                      const Vector3d& place) {
     const Vector3d own = field[cell];
@@ -140,7 +140,7 @@ Vector3d velocity_at(const Cells& cells, const FoamField<Vector3d>& field, std::
         least = least.cwiseMin(field[face.neighbour]);
         most = most.cwiseMax(field[face.neighbour]);
     }
-    // Where the neighbours lie in a plane or a line, the gradient out of it is zero.
+    // Where the neighbours lie in a plane or on a line, the gradient perpendicular to it is zero.
     const Matrix3d gradient =
         squares.completeOrthogonalDecomposition().solve(products.transpose()).transpose();
     const Vector3d there = own + gradient * (place - cells.center(cell));

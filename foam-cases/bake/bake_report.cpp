@@ -228,8 +228,8 @@ void warn_of_left_out_cases(const BakeRequest& request, const BakeResult& result
 
 void warn_of_unbalanced_falls(const BakeRequest& request, const BakeResult& result) {
     if (!result.conversion || !result.conversion->identification) return;
-    for (const FlownFall& fall : result.conversion->identification->falls) {
-        if (!is_doubtful(fall.balance)) continue;
+    for (const SimulatedFall& fall : result.conversion->identification->falls) {
+        if (!is_unbalanced(fall.balance)) continue;
         print_note(
             "samara bake: note: {}: the momenta of {} do not balance the loads (force {:.0f} %, "
             "moment {:.0f} %), and the coefficients are from it; halve its step with --fall-step {:.3g}\n",

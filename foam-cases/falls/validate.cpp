@@ -225,7 +225,7 @@ std::vector<TimedPose> flow_poses(const FallRecord& record, const BodyState& sta
     for (const FallSample& sample : record.samples) {
         Pose pose;
         pose.position = start.position + to_flow * (sample.position - fall.center_of_mass) * fall.length;
-        pose.orientation = Quaterniond(to_flow * sample.turn * fall.axes.transpose());
+        pose.orientation = Quaterniond(to_flow * sample.rotation * fall.axes.transpose());
         keep_sign_continuous(pose.orientation, poses.back().pose.orientation);
         pose.velocity = to_flow * sample.velocity * fall.speed;
         pose.angular_velocity = to_flow * sample.angular_velocity / fall.time_unit();

@@ -35,7 +35,7 @@ struct ValidationRequest {
 };
 
 /// Above this a step moves the fluid past several cells at once, and the solution is smeared.
-inline constexpr double doubtful_courant_number = 5.0;
+inline constexpr double largest_good_courant_number = 5.0;
 
 /// How the fall was solved in the end.
 struct FallSolution {

@@ -192,7 +192,7 @@ std::string state_history(const FallRecord& record) {
     std::string text = "# Motion State\n# Time\tcentreOfRotation\tcentreOfMass\trotation\tvelocity\tomega\n";
     for (const FallSample& sample : record.samples) {
         // The angles about x, y and z in turn of the principal axes.
-        const Matrix3d axes = sample.turn * record.fall.principal_axes;
+        const Matrix3d axes = sample.rotation * record.fall.principal_axes;
         const Vector3d angles(std::atan2(-axes(1, 2), axes(2, 2)),
                               std::asin(std::clamp(axes(0, 2), -1.0, 1.0)),
                               std::atan2(-axes(0, 1), axes(0, 0)));
@@ -491,7 +491,7 @@ TEST_F(ConvertOfAUsersCases, SaysWhichWayTheirFlowGoes) {
         HasSubstr("case_00: the flow has the opposite direction: along [1, 0, 0], and so the body along [-1, 0, 0], "
                   "but plan.json has the 'direction' [1, 0, 0], which is that of the body's velocity"));
     set_up("uniform (0 -3 0)", "nu 6e-3", "rhoInf 5");
-    EXPECT_THAT(error(), HasSubstr("the flow goes along [0, -1, 0], and so the body along [0, 1, 0], but"));
+    EXPECT_THAT(error(), HasSubstr("the flow has the direction [0, -1, 0], and so the body along [0, 1, 0], but"));
 }
 
 TEST_F(ConvertOfAUsersCases, HoldsNothingAgainstWhatTheyDoNotSayPlainly) {

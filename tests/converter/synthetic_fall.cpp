@@ -45,9 +45,9 @@ FallSample sample_of(const FreeFall& fall, double time, const BodyState& state) 
     FallSample sample;
     sample.time = time;
     sample.position = fall.center_of_mass + to_case * state.position / fall.length;
-    sample.turn = to_case * state.orientation.toRotationMatrix() * fall.axes;
-    sample.angular_velocity = sample.turn * to_case * state.velocity.head<3>() * fall.time_unit();
-    sample.velocity = sample.turn * to_case * state.velocity.tail<3>() / fall.speed;
+    sample.rotation = to_case * state.orientation.toRotationMatrix() * fall.axes;
+    sample.angular_velocity = sample.rotation * to_case * state.velocity.head<3>() * fall.time_unit();
+    sample.velocity = sample.rotation * to_case * state.velocity.tail<3>() / fall.speed;
     return sample;
 }
 

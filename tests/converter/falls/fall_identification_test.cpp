@@ -209,7 +209,7 @@ TEST_F(FallIdentification, FliesAFallFromTheSpeedItHasAfterTheFirstInstant) {
     fall.angular_velocity = {0.5, 4.0, -2.0};
     Body body = body_;
     body.dynamic = {.values = true_, .standard_errors = {}, .densities = {}};
-    const auto& [name, solved, flown, balance] = fly_fall(body, test::flown_record(body, fall, true_));
+    const auto& [name, solved, flown, balance] = simulate_fall(body, test::flown_record(body, fall, true_));
     EXPECT_LT((flown.mean_velocity - solved.mean_velocity).norm(), 0.01 * solved.mean_velocity.norm());
     EXPECT_NEAR(flown.rms_angular_speed, solved.rms_angular_speed, 0.01 * solved.rms_angular_speed);
 }
@@ -218,7 +218,7 @@ TEST_F(FallIdentification, ShowsAFallAndItsFlightWithGravityDownwards) {
     Body body = body_;
     body.dynamic = {.values = true_, .standard_errors = {}, .densities = {}};
     const FallMotions motions = fall_motions(body, record_);
-    const FlownFall metrics = fly_fall(body, record_);
+    const SimulatedFall metrics = simulate_fall(body, record_);
     EXPECT_EQ(motions.solved.times, motions.flown.times);
     for (const Motion* motion : {&motions.solved, &motions.flown}) {
         EXPECT_LT((motion->gravity.normalized() + Vector3d::UnitZ()).norm(), 1e-12);

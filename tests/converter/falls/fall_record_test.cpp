@@ -82,7 +82,7 @@ TEST_F(FallRecordFiles, GivePlaceVelocityAndLoadsAboutTheCentreOfMass) {
     EXPECT_EQ(first.moment, Vector3d(1, 7, 5));
     // (1, 2, 4) x (1, 0, 0) = (0, 4, -2)
     EXPECT_EQ(read.samples[1].moment, Vector3d(5, 1, 7));
-    EXPECT_NEAR(read.samples[1].turn(1, 0), std::sin(0.1), 1e-15);
+    EXPECT_NEAR(read.samples[1].rotation(1, 0), std::sin(0.1), 1e-15);
 }
 
 TEST_F(FallRecordFiles, TakeTheSolversAnglesForTurnsOfThePrincipalAxes) {
@@ -95,7 +95,7 @@ TEST_F(FallRecordFiles, TakeTheSolversAnglesForTurnsOfThePrincipalAxes) {
     for (const char* file : {"force.dat", "moment.dat"}) {
         write("forces", file, force_heading + std::string("1\t(0 0 0)\t(0 0 0)\t(0 0 0)\n"));
     }
-    EXPECT_LT((record().samples[0].turn - Matrix3d::Identity()).norm(), 1e-10);
+    EXPECT_LT((record().samples[0].rotation - Matrix3d::Identity()).norm(), 1e-10);
 }
 
 TEST_F(FallRecordFiles, AreRefusedWhereOneIsMissingOrOfOtherTimes) {
@@ -177,17 +177,17 @@ FallRecord solved(const Motion& motion, const Vector3d& angular_velocity) {
             const double middle = now.time + 0.5 * h;
             now.velocity += h / motion.fall.mass * (weight + motion.force(middle));
             const Vector3d guess =
-                now.angular_velocity + 0.5 * h * motion.angular_acceleration(now.turn, now.angular_velocity);
+                now.angular_velocity + 0.5 * h * motion.angular_acceleration(now.rotation, now.angular_velocity);
             const auto turned = [&](double duration) -> Matrix3d {
                 return Eigen::AngleAxisd(guess.norm() * duration, guess.normalized()).toRotationMatrix() *
-                       now.turn;
+                       now.rotation;
             };
             now.angular_velocity += h * motion.angular_acceleration(turned(0.5 * h), guess);
-            now.turn = turned(h);
+            now.rotation = turned(h);
             now.time += h;
         }
         now.force = motion.force(now.time);
-        now.moment = motion.moment(now.turn);
+        now.moment = motion.moment(now.rotation);
         record.samples.push_back(now);
     }
     return record;

@@ -19,7 +19,7 @@ std::string said_of(const std::vector<FallBalance>& balances) {
     result.conversion.emplace();
     auto& falls = result.conversion->identification.emplace().falls;
     for (const FallBalance& balance : balances) {
-        FlownFall& fall = falls.emplace_back();
+        SimulatedFall& fall = falls.emplace_back();
         fall.name = "fall_0" + std::to_string(falls.size() - 1);
         fall.balance = balance;
     }

@@ -30,7 +30,7 @@ class TakeFalls : public testing::Test {
         FallSample sample;
         sample.time = time;
         sample.position = record_.fall.center_of_mass + velocity_ * time;
-        sample.turn = Eigen::AngleAxisd(angular_velocity_.norm() * time, angular_velocity_.normalized())
+        sample.rotation = Eigen::AngleAxisd(angular_velocity_.norm() * time, angular_velocity_.normalized())
                           .toRotationMatrix();
         sample.velocity = velocity_;
         sample.angular_velocity = angular_velocity_;
