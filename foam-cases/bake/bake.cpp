@@ -36,7 +36,7 @@ namespace {
 namespace fs = std::filesystem;
 using Planned = std::function<void(const BakePreparation&)>;
 
-// Seconds since the last call: of the clock on the wall, and of CPUs.
+// Measures seconds since the last call, by wall clock and of CPU time.
 class Stopwatch {
   public:
     double lap() {
@@ -56,7 +56,7 @@ class Stopwatch {
     double last_cpu_ = cpu_seconds_so_far();
 };
 
-/// Writes the output; the body weighs from now on what it was baked for.
+/// Writes the output; the body gets the mass for which it was baked.
 void write_result(const BakeRequest& request, Body& body) {
     body.mass = mass_asked_or_own(request.mass, body);
     write_body_file(request.output, body);
@@ -66,7 +66,7 @@ bool plans_falls(const BakeRequest& request) {
     return request.tables && request.probes == 0 && request.quality.falls > 0;
 }
 
-/// That of the tables and falls, and that which every other fall has besides.
+/// Returns the mass for the tables and falls, and where given the second one for every other fall.
 std::vector<MassSpecification> masses_of(const BakeRequest& request) {
     std::vector<MassSpecification> masses = {request.mass};
     if (request.other_density > 0.0) masses.emplace_back().density = request.other_density;
@@ -88,7 +88,7 @@ BakePreparation plan_of(const BakeRequest& request, const Body& body) {
                                 request.fluid.kinematic_viscosity());
     if (request.goal) {
         preparation.simulation =
-            fly_for_bake(request.goal->scene, request.goal->body, body, request.goal->falls);
+            simulate_for_bake(request.goal->scene, request.goal->body, body, request.goal->falls);
         preparation.scene_plan =
             first_plan(*request.goal, body, request.quality, request.inflow, preparation.simulation);
         preparation.plan = preparation.scene_plan->cases;
@@ -113,7 +113,7 @@ Body named_body(const BakeRequest& request, const fs::path& folder) {
     return body;
 }
 
-/// A folder of cases that one bake solves, perhaps in rounds.
+/// Solves the folder of cases of one bake, perhaps in rounds.
 class CaseSolving {
   public:
     CaseSolving(const BakeRequest& request, const Body& body, FarmOptions farm, BakeResult& result)
@@ -127,7 +127,7 @@ class CaseSolving {
         end_earlier_jobs(folder_);
     }
 
-    /// Solves what is not solved yet of a plan.
+    /// Solves the cases of a plan that are not solved yet.
     void solve(const BakePlan& plan, Unplanned unplanned) {
         write_case_folder(folder_, body_, plan, foam_cases_, unplanned);
         const std::size_t solved_before = count_solved(folder_, plan);
@@ -139,7 +139,7 @@ class CaseSolving {
         result_.left_out = left_out;
         records_ = cpu_account(folder_, plan);
         result_.cpu_seconds = cpu_seconds_of(records_);
-        // A cluster's cases are no processes of this one.
+        // Cases on a cluster do not run as child processes.
         const double of_cases = farm_.cluster.empty() ? result_.cpu_seconds - spent_before : 0.0;
         farming_.seconds += std::max(0.0, watch_.cpu_lap() - of_cases);
         result_.case_seconds += watch_.lap();
@@ -178,7 +178,7 @@ class CaseSolving {
 
     void name_work(std::string work) { farm_.work = std::move(work); }
 
-    /// Puts what was done here into the result's account.
+    /// Adds the work that was done here to the result's account.
     void close_account() const {
         result_.account.insert(result_.account.end(), records_.begin(), records_.end());
         result_.account.insert(result_.account.end(), {farming_, reduction_});
@@ -285,7 +285,7 @@ fs::path require_program(const std::string& name) {
         "the program {} is not installed beside this one nor on PATH; install samara again", name));
 }
 
-// The last line that a program of samara printed is what went wrong; its own name before it is dropped.
+// Returns the error that a program of samara printed in its last line, without the program's name.
 std::string error_in(const fs::path& log, const std::string& program) {
     std::istringstream lines(read_bytes(log));
     std::string last;
@@ -293,7 +293,7 @@ std::string error_in(const fs::path& log, const std::string& program) {
         if (!line.empty()) last = line;
     }
     const std::string prefix = program + ": ";
-    if (last.empty()) return fmt::format("{} failed without a word", program);
+    if (last.empty()) return fmt::format("{} failed without a message", program);
     return last.starts_with(prefix) ? last.substr(prefix.size()) : last;
 }
 

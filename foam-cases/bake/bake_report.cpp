@@ -60,7 +60,7 @@ nlohmann::json mesh_json(const SolvedCase& solved) {
     return provenance.contains("mesh") ? provenance["mesh"] : nlohmann::json();
 }
 
-// The records of the meshes that the cases were solved on, coarsest first.
+// Returns the records of the meshes on which the cases were solved, coarsest first.
 std::vector<nlohmann::json> meshes_of(const std::vector<SolvedCase>& cases) {
     std::vector<nlohmann::json> meshes;
     for (const SolvedCase& solved : cases) {
@@ -134,7 +134,7 @@ nlohmann::json bake_as_json(const BakeRequest& request, const BakeResult& result
 
 void print_preparation(const BakeRequest& request, const BakePreparation& preparation, int jobs) {
     if (!preparation.plan) {
-        print_result("{}: mesh and Kirchhoff tensor alone; the scene asks for no tables\n",
+        print_result("{}: mesh and Kirchhoff tensor only; the scene asks for no tables\n",
                      request.output.string());
         return;
     }

@@ -38,7 +38,7 @@ struct Falling {
     std::vector<double> start_times;  // s
 };
 
-// One for all copies, so that their cases differ in the start alone.
+// The unit of velocity, one for all copies, so that their cases differ only in the start.
 double speed_unit(const Falling& falling) {
     double speed = 0.0;
     for (const BodyState& start : falling.starts) {
@@ -103,7 +103,7 @@ FallSolution read_solution(const fs::path& fall_folder) {
         if (json.at("mesh").is_object()) solution.cells = json.at("mesh").at("cells");
         return solution;
     } catch (const nlohmann::json::exception& reason) {
-        throw Error(fmt::format("{}: an entry is missing or of the wrong kind ({}); remove it and run again",
+        throw Error(fmt::format("{}: an entry is missing or of the wrong type ({}); remove it and run again",
                                 file.string(), reason.what()));
     }
 }
@@ -234,7 +234,7 @@ std::vector<TimedPose> flow_poses(const FallRecord& record, const BodyState& sta
     return poses;
 }
 
-// At the motion's times, until the fall's last step or half a step after it.
+// Returns the poses at the motion's times, until half a step after the fall's last step.
 std::vector<Pose> poses_at(const std::vector<double>& times, const SolvedFall& fall,
                            const Surroundings& surroundings) {
     const std::vector<TimedPose> steps = flow_poses(fall.record, fall.start);

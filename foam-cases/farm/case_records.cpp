@@ -31,7 +31,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Counts a record, where it is there.
+// Adds a record, where it exists.
 void add_record(CpuPart& part, const fs::path& file) {
     const nlohmann::json record = read_record(file);
     if (record.empty()) return;
@@ -39,7 +39,7 @@ void add_record(CpuPart& part, const fs::path& file) {
     part.seconds += number_in(record, "cpu_seconds");
 }
 
-// The cases or falls on a mesh that are solved.
+// Returns the solved cases or falls on a mesh.
 template <class Entry>
 CpuPart solved_on(const std::string& mesh, const std::string& what, const fs::path& folder,
                   const std::vector<Entry>& entries) {

@@ -44,7 +44,7 @@ SceneGoal goal_of(double tolerance) {
 }
 
 SampledFalls flown(const SceneGoal& goal) {
-    return fly_for_bake(goal.scene, 0, rubber(), goal.falls);
+    return simulate_for_bake(goal.scene, 0, rubber(), goal.falls);
 }
 
 TEST(ScenePlan, OfASceneInWhichTheBodyDoesNotMoveIsRefused) {
@@ -96,7 +96,7 @@ Conversion solved(const Body& body, const ScenePlan& plan) {
 }
 
 ScenePlan planned(const SceneGoal& goal, const Body& body) {
-    return first_plan(goal, body, bake_quality("smoke"), {}, fly_for_bake(goal.scene, 0, body, goal.falls));
+    return first_plan(goal, body, bake_quality("smoke"), {}, simulate_for_bake(goal.scene, 0, body, goal.falls));
 }
 
 ScenePlan baked(const SceneGoal& goal, const Body& body) {
@@ -177,7 +177,7 @@ TEST(ScenePlan, OfABallIsOneDirection) {
 TEST(ScenePlan, HoldsTheDirectionsThatItsFlightsVisited) {
     const SceneGoal goal = goal_of(0.1);
     const Body body = rubber();
-    const SampledFalls simulation = fly_for_bake(goal.scene, 0, body, goal.falls);
+    const SampledFalls simulation = simulate_for_bake(goal.scene, 0, body, goal.falls);
     const ScenePlan plan = first_plan(goal, body, bake_quality("smoke"), {}, simulation);
     for (const FlowVisit& visit : simulation.visits) EXPECT_TRUE(plan.region.holds(visit.direction));
     EXPECT_FALSE(std::ranges::all_of(plan.region.planned, [](std::uint8_t one) { return one == 1; }));
