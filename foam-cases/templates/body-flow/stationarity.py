@@ -1,8 +1,9 @@
 """Tests whether a case is statistically stationary, by the quantities of the tables.
 
-These are force, moment, and k and epsilon over the shell. Residuals are not used: that of the pressure settles long before k,
-and never where the wake oscillates. Means are taken over the last half of the iterations. A quantity is stationary when half the difference between the means of the window's two halves (a drift) and
-the standard error from six batches (an oscillation) are both within the tolerance.
+These are force, moment, and k and epsilon over the shell. Residuals are not used: that of the pressure settles long
+before k, and never where the wake oscillates. Means are taken over the last half of the iterations. A quantity is
+stationary when half the difference between the means of the window's two halves (a drift) and the standard error from
+six batches (an oscillation) are both within the tolerance.
 """
 
 import math
