@@ -257,7 +257,7 @@ int run(int argc, const char* const* argv) {
     bool fluctuations = false;
     std::optional<double> begin;
     Arguments arguments("samara convert",
-                        "Turns solved OpenFOAM cases into the load and turbulence tables of a body file");
+                        "Converts solved OpenFOAM cases to the load and turbulence tables of a body file");
     arguments.positional("CASES", cases, "the folder NAME.cases that 'samara bake' made, or one of your own");
     arguments.required_output_option(
         "-o,--output", output, "the body file to write, NAME.body.h5; or NAME.csv for the cases one by one");

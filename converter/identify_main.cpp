@@ -90,7 +90,7 @@ int run(int argc, const char* const* argv) {
         0, identification_stretches - 1);
     arguments.option("--hold", options.hold, "folders of other falls to compare the result with, by commas");
     arguments.footer(
-        "samara bake does this at the qualities standard and high; this program does it anew, from other "
+        "samara bake does this at the qualities standard and high; this program repeats it, from other "
         "falls, or\n"
         "without some of the terms (docs/studies/falls).\n");
     return run_program(argc, argv, arguments, [&] {

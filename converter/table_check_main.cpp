@@ -45,7 +45,7 @@ void print_row(const char* name, const QuantityCheck& check) {
 }
 
 void print_check(const TableCheck& check) {
-    print_result("{:<14} {:>26} {:>8} {:>9} {:>9} {:>9}\n", "case", "moving along", "Reynolds", "|F|",
+    print_result("{:<14} {:>26} {:>8} {:>9} {:>9} {:>9}\n", "case", "direction of motion", "Reynolds", "|F|",
                  "off by", "stated");
     for (const CheckedCase& one : check.cases) {
         print_result("{:<14} ({:7.4f} {:7.4f} {:7.4f}) {:8.0f} {:9.4f} {:9.4f} {:9.4f}\n", one.name,

@@ -46,7 +46,7 @@ nlohmann::json visits_as_json(const std::vector<VisitedDirection>& places) {
 }
 
 void print_places(const std::vector<VisitedDirection>& places) {
-    print_result("{:>26} {:>6} {:>6} {:>20} {:>7}\n", "moving along (map axes)", "time", "load",
+    print_result("{:>26} {:>6} {:>6} {:>20} {:>7}\n", "direction (map axes)", "time", "load",
                  "Reynolds numbers", "images");
     constexpr std::size_t most_rows = 20;
     for (std::size_t i = 0; i < std::min(places.size(), most_rows); ++i) {

@@ -88,7 +88,7 @@ void print_warnings(const ValidationResult& result) {
     for (std::size_t copy = 0; copy < result.solutions.size(); ++copy) {
         const std::vector<std::string>& attempts = result.solutions[copy].attempts;
         if (attempts.size() < 2) continue;
-        note(fmt::format("the fall{} blew up as planned and was solved with {}",
+        note(fmt::format("the fall{} diverged as planned and was solved with {}",
                          result.solutions.size() == 1 ? "" : fmt::format(" of copy {}", copy),
                          attempts.back()));
     }

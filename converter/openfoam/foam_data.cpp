@@ -94,7 +94,7 @@ class DataScan {
         return text_.substr(start, place_ - start);
     }
 
-    /// A text in quotes is a value; as a name it is a pattern that may stand for any other.
+    /// Skips a text in quotes, which is a value; as a name it would be a pattern that matches others.
     void pass_quoted() {
         for (++place_; place_ < text_.size() && here() != '"'; ++place_) {
             if (here() == '\\') ++place_;

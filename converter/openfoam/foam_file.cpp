@@ -185,13 +185,13 @@ template <typename Value>
 FoamField<Value> read_field(const std::filesystem::path& file, const std::string& class_name) {
     FoamScanner scanner(file);
     const FoamHeader header = read_header(scanner);
-    // A field over the cells alone has the class of the field with "::Internal" after it.
+    // A field on cells only has the class of the field with "::Internal" after it.
     if (header.class_name != class_name && !header.class_name.starts_with(class_name + "::")) {
         throw wrong_class(scanner, header, "a " + class_name);
     }
     while (!scanner.at_end()) {
         const std::string_view key = scanner.word();
-        // A field over the cells alone (::Internal) names its values "value".
+        // A field on cells only (::Internal) names its values "value".
         if (key == "internalField" || key == "value") return read_internal_field<Value>(scanner, header);
         if (key.starts_with('#')) {
             scanner.word();  // the file that a directive names

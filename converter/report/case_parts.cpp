@@ -317,13 +317,13 @@ Json fall_picture(const Body& body, const FallRecord& record) {
     const MotionReader solved(folder / "solved");
     const std::string& name = record.fall.name;
     FallChoice one;
-    one.name = name + ", flown";
+    one.name = name + ", simulated";
     one.file = &flown;
     FallChoice other;
     other.name = name + ", solved";
     other.file = &solved;
     const Comparison comparison = compare(one, other, {}, [](double, double) {});
-    return picture_block(name + ": its path, inclination and swings, solved and flown",
+    return picture_block(name + ": its path, inclination and oscillations, solved and simulated",
                          comparison_picture(comparison, one.name, "solved by full CFD"));
 }
 
@@ -358,12 +358,11 @@ void Folder::add_falls(const ProgressCall& progress) {
     progress(1.0);
     if (rows.empty()) return;
     ReportPart part{
-        "The falls, solved and flown",
-        {text_block(
-             "Descent speed, frequency, inclination that 95 % are below, rms angular speed and regime: of "
-             "the "
-             "free falls in full CFD, and of the runtime's flights from the same starts with this file."),
-         table_block({"fall", "solved", "flown", "descent speeds differ by",
+        "The falls, solved and simulated",
+        {text_block("Descent speed, frequency, inclination that 95 % are below, rms angular speed and "
+                    "regime: of the free falls "
+                    "in full CFD, and of the runtime's simulations from the same starts with this file."),
+         table_block({"fall", "solved", "simulated", "descent speeds differ by",
                       "momenta balance to (force, moment)", "density kg/m³"},
                      rows)}};
     part.blocks.insert(part.blocks.end(), pictures.begin(), pictures.end());
@@ -374,7 +373,7 @@ void Folder::add_falls(const ProgressCall& progress) {
              : farthest <= poor_fall ? Grade::limited
                                      : Grade::bad,
              "falls",
-             fmt::format("flown from the starts of the solved falls, descent speeds differ by up to {}",
+             fmt::format("simulated from the starts of the solved falls, descent speeds differ by up to {}",
                          per_cent(farthest))});
         report_.findings.push_back(oscillations.finding());
         report_.findings.push_back(

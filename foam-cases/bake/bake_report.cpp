@@ -143,7 +143,7 @@ void print_preparation(const BakeRequest& request, const BakePreparation& prepar
                  request.output.string(), plan.cases.size(), plan.main_reynolds_number,
                  preparation.terminal_speed, plan.reference_length);
     for (const BakeCase& entry : plan.cases) {
-        print_result("  {}  moving along ({:7.4f} {:7.4f} {:7.4f})\n", entry.name, entry.direction.x(),
+        print_result("  {}  direction of motion ({:7.4f} {:7.4f} {:7.4f})\n", entry.name, entry.direction.x(),
                      entry.direction.y(), entry.direction.z());
     }
     for (const FreeFall& fall : plan.falls) {
@@ -174,8 +174,8 @@ void print_result(const BakeRequest& request, const BakeResult& result) {
     print_result("{}: quality {}, {} cases at Reynolds numbers {:.6g}", request.output.string(),
                  plan.quality.name, plan.cases.size(), fmt::join(plan.reynolds_numbers(), ", "));
     if (result.reused > 0) print_result(", {} of them solved before", result.reused);
-    print_result("\n{:<28} {:>26} {:>8} {:>10} {:>13} {:>7}\n", "case", "moving along", "drag", "k/U^2",
-                 "epsilon L/U^3", "CPU s");
+    print_result("\n{:<28} {:>26} {:>8} {:>10} {:>13} {:>7}\n", "case", "direction of motion", "drag",
+                 "k/U^2", "epsilon L/U^3", "CPU s");
     for (const SolvedCase& solved : cases) {
         const Vector3d& direction = solved.sample.direction;
         print_result("{:<28} ({:7.4f} {:7.4f} {:7.4f}) {:8.3f} {:10.5f} {:13.5f} {:7.1f}\n", solved.name,

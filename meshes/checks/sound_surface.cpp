@@ -134,7 +134,7 @@ constexpr double most_distance =
     1e-4;  // relative to the width of the patch: the sides of a sharp wedge do not touch
 
 // Returns twice the signed area of the triangle in the xy-plane, positive for counterclockwise corners.
-double turn(const Vector3d& from, const Vector3d& to, const Vector3d& p) {
+double twice_signed_area(const Vector3d& from, const Vector3d& to, const Vector3d& p) {
     return (to.x() - from.x()) * (p.y() - from.y()) - (to.y() - from.y()) * (p.x() - from.x());
 }
 
@@ -142,13 +142,13 @@ double turn(const Vector3d& from, const Vector3d& to, const Vector3d& p) {
 bool lies_beside(const std::array<Vector3d, 3>& triangle, const Vector3d& from, const Vector3d& to) {
     constexpr double rounding = 1e-12;
     return std::all_of(triangle.begin(), triangle.end(), [&](const Vector3d& p) {
-        return turn(from, to, p) <= rounding * (to - from).norm() * (p - from).norm();
+        return twice_signed_area(from, to, p) <= rounding * (to - from).norm() * (p - from).norm();
     });
 }
 
 // Clips a convex polygon to the left of the line from `from` to `to` in the xy-plane; z is interpolated.
 void keep_left(std::vector<Vector3d>& polygon, const Vector3d& from, const Vector3d& to) {
-    const auto side = [&](const Vector3d& p) { return turn(from, to, p); };
+    const auto side = [&](const Vector3d& p) { return twice_signed_area(from, to, p); };
     std::vector<Vector3d> kept;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
         const Vector3d& p = polygon[i];
@@ -165,7 +165,8 @@ void keep_left(std::vector<Vector3d>& polygon, const Vector3d& from, const Vecto
 
 double twice_the_area(const std::vector<Vector3d>& polygon) {
     double sum = 0.0;
-    for (std::size_t i = 2; i < polygon.size(); ++i) sum += turn(polygon[0], polygon[i - 1], polygon[i]);
+    for (std::size_t i = 2; i < polygon.size(); ++i)
+        sum += twice_signed_area(polygon[0], polygon[i - 1], polygon[i]);
     return std::abs(sum);
 }
 

@@ -33,7 +33,8 @@ class GmshSession {
     /// as open does.
     static double import_shapes(const std::string& label, const std::string& format);
 
-    /// Has gmsh mesh the surfaces of the model anew. It may leave the mesh open where it fails: check it.
+    /// Has gmsh mesh the surfaces of the model again. Where it fails, the mesh may be open and must be
+    /// checked.
     static void generate_surface_mesh();
 
   private:

@@ -55,7 +55,7 @@ constexpr int most_steps = 20;
 constexpr double good_step =
     1e-5;  // relative to the edge's length: an error of the node counts to second order
 constexpr double most_astray = 0.5;  // distance from the middle, relative to the edge's length
-constexpr double least_turn = 1e-6;  // between the normals at the ends
+constexpr double least_sine = 1e-6;  // between the normals at the ends
 
 using Places = std::unordered_map<std::size_t, Eigen::Vector2d>;
 
@@ -103,15 +103,15 @@ class NodesOnSurface {
         const Vector3d middle = 0.5 * (a + b);
         const auto one = places_.find(tag_a);
         const auto two = places_.find(tag_b);
-        Vector3d turn = Vector3d::Zero();
+        Vector3d axis = Vector3d::Zero();
         if (one != places_.end() && two != places_.end()) {
             for (const Eigen::Vector2d& end : {two->second, over_seam(one->second, two->second)}) {
-                turn = turn_between(one->second, end);
-                if (const auto found = from(0.5 * (one->second + end), b - a, middle, turn)) return *found;
+                axis = axis_between(one->second, end);
+                if (const auto found = from(0.5 * (one->second + end), b - a, middle, axis)) return *found;
             }
         }
         const auto [place, nearest] = nearest_on(2, tag_, middle);
-        return from(place, b - a, middle, turn).value_or(nearest);
+        return from(place, b - a, middle, axis).value_or(nearest);
     }
 
   private:
@@ -127,19 +127,19 @@ class NodesOnSurface {
 
     // Returns the unit vector perpendicular to the normals at two places; zero where they are parallel. The
     // places are moved slightly inwards, since at the poles of a sphere there is no normal.
-    [[nodiscard]] Vector3d turn_between(const Eigen::Vector2d& one, const Eigen::Vector2d& two) const {
+    [[nodiscard]] Vector3d axis_between(const Eigen::Vector2d& one, const Eigen::Vector2d& two) const {
         constexpr double within = 1e-3;
         const Eigen::Vector2d near_one = one + within * (two - one);
         const Eigen::Vector2d near_two = two + within * (one - two);
         std::vector<double> normals;
         gmsh::model::getNormal(tag_, {near_one.x(), near_one.y(), near_two.x(), near_two.y()}, normals);
-        const Vector3d turn = Vector3d(normals.data()).cross(Vector3d(normals.data() + 3));
-        return turn.norm() > least_turn ? turn.normalized() : Vector3d::Zero();
+        const Vector3d axis = Vector3d(normals.data()).cross(Vector3d(normals.data() + 3));
+        return axis.norm() > least_sine ? axis.normalized() : Vector3d::Zero();
     }
 
     // Gauss-Newton iteration from the place.
     [[nodiscard]] std::optional<Vector3d> from(Eigen::Vector2d place, const Vector3d& along,
-                                               const Vector3d& middle, const Vector3d& turn) const {
+                                               const Vector3d& middle, const Vector3d& axis) const {
         const double length = along.norm();
         const Vector3d chord = along / length;
         for (int step = 0; step < most_steps; ++step) {
@@ -163,9 +163,9 @@ class NodesOnSurface {
             const double pull = weight_of_middle / length;
             const Matrix3d across = pull * (Matrix3d::Identity() - normal * normal.transpose());
             Eigen::Matrix<double, 5, 2> jacobian;
-            jacobian << chord.transpose() * change, turn.transpose() * change, across * slope;
+            jacobian << chord.transpose() * change, axis.transpose() * change, across * slope;
             Eigen::Matrix<double, 5, 1> residual;
-            residual << chord.dot(normal), turn.dot(normal), across * (point - middle);
+            residual << chord.dot(normal), axis.dot(normal), across * (point - middle);
             const Eigen::Matrix2d normal_matrix = jacobian.transpose() * jacobian;
             const Eigen::Vector2d shift = -normal_matrix.ldlt().solve(jacobian.transpose() * residual);
             if (!shift.allFinite()) break;
@@ -213,7 +213,7 @@ class NodesOnCurve {
             gmsh::model::getSecondDerivative(1, tag_, {place}, numbers);
             const Vector3d bend(numbers.data());
             const Vector3d off = arm - arm.dot(chord) * chord;
-            const Vector3d out = off.norm() > least_turn * length ? off.normalized() : Vector3d::Zero();
+            const Vector3d out = off.norm() > least_sine * length ? off.normalized() : Vector3d::Zero();
             const double speed = slope.norm();
             const Eigen::Vector2d residual(out.dot(slope) / speed,
                                            weight_of_middle / length * arm.dot(slope) / speed);

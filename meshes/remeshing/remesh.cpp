@@ -121,7 +121,7 @@ Surface with_nodes_on(const SmoothShape& shape, const Surface& surface, int orde
 }
 
 // Returns the largest angle (radians) between the normals of two flat triangles at an edge.
-double sharpest_turn(const Surface& surface) {
+double sharpest_angle(const Surface& surface) {
     double sharpest = 0.0;
     const std::vector<EdgeUse> uses = edge_uses(surface);
     for (const auto& edge : edges_of(uses)) {
@@ -136,7 +136,7 @@ double sharpest_turn(const Surface& surface) {
 class Attempts {
   public:
     Attempts(const Surface& flat, const Smoothing& smoothing, const std::string& label)
-        : flat_(flat), smoothing_(smoothing), label_(label), sharpest_turn_(1.01 * sharpest_turn(flat)) {}
+        : flat_(flat), smoothing_(smoothing), label_(label), sharpest_angle_(1.01 * sharpest_angle(flat)) {}
 
     // Whether the surface is sound and keeps the shape; the surface that misses it least is stored.
     bool holds(Surface result) {
@@ -146,7 +146,7 @@ class Attempts {
             if (error_.empty()) error_ = reason.what();
             return false;
         }
-        if (sharpest_turn(result) > std::max(fold, sharpest_turn_)) {
+        if (sharpest_angle(result) > std::max(fold, sharpest_angle_)) {
             if (error_.empty()) error_ = "the surface folds onto itself; ";
             return false;
         }
@@ -176,7 +176,7 @@ class Attempts {
     const Surface& flat_;
     Smoothing smoothing_;
     const std::string& label_;
-    double sharpest_turn_;
+    double sharpest_angle_;
     std::optional<MeshedShape> best_;
     std::string error_;
     double smallest_miss_ = std::numeric_limits<double>::infinity();
@@ -188,10 +188,10 @@ MeshedShape remesh(const Surface& surface, const MeshOptions& options, const std
                    const std::function<void(double)>& progress) {
     constexpr double share_of_reduction = 0.7;
     // Repeated attempts do not lower the progress.
-    double told = 0.0;
+    double reported = 0.0;
     const auto tell = [&](double share) {
-        told = std::max(told, share);
-        if (progress) progress(told);
+        reported = std::max(reported, share);
+        if (progress) progress(reported);
     };
     const Surface flat =
         surface.order() == 1 ? surface : labelled(label, [&] { return welded(flattened(surface, 2)); });

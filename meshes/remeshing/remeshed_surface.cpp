@@ -195,7 +195,7 @@ class Remeshing {
 
     // Returns the middle of the edge, moved onto the shape.
     [[nodiscard]] Vector3d middle_of(const Edge& edge) const {
-        constexpr double most_bent = 0.3;  // over the edge's length
+        constexpr double most_bent = 0.3;  // relative to the edge's length
         const Vector3d along = fans_.vertex(edge.b) - fans_.vertex(edge.a);
         const Vector3d middle = fans_.vertex(edge.a) + 0.5 * along;
         std::optional<Vector3d> place;

@@ -247,8 +247,8 @@ constexpr double weight_of_ends = 10.0;    // the heights of the ends are exact
 constexpr double weight_of_middle = 0.01;  // where the surface is flat, the normals do not determine the node
 constexpr int most_steps = 5;
 constexpr int steps_to_place = 2;
-constexpr double most_astray = 0.25;  // distance from the chord's middle, relative to its length
-constexpr double least_turn = 1e-6;   // between the normals at the ends
+constexpr double most_astray = 0.25;   // distance from the chord's middle, relative to its length
+constexpr double least_change = 1e-6;  // between the normals at the ends
 
 /// The surface as a cubic height function over the edge, which lies from (-1/2, 0) to (1/2, 0). The y^3 term
 /// is left out, since it would rotate all normals alike.
@@ -279,9 +279,9 @@ struct Height {
 /// line through theirs.
 std::optional<Eigen::Vector2d> place_of_middle(const Height& height) {
     const Eigen::Vector2d first = height.slope(-0.5, 0.0);
-    const Eigen::Vector2d turn = height.slope(0.5, 0.0) - first;
-    Eigen::Vector2d across(-turn.y(), turn.x());
-    across = turn.norm() > least_turn ? Eigen::Vector2d(across / turn.norm()) : Eigen::Vector2d::Zero();
+    const Eigen::Vector2d change = height.slope(0.5, 0.0) - first;
+    Eigen::Vector2d across(-change.y(), change.x());
+    across = change.norm() > least_change ? Eigen::Vector2d(across / change.norm()) : Eigen::Vector2d::Zero();
     Eigen::Vector2d place = Eigen::Vector2d::Zero();
     for (int step = 0; step < most_steps; ++step) {
         const Eigen::Vector2d slope = height.slope(place.x(), place.y());

@@ -20,7 +20,7 @@ inline constexpr double default_symmetry_tolerance = 0.01;
 /// groups of the tetrahedron, the cube and the icosahedron. Each is verified on the surface. Elements that
 /// permute the shape's axes are exactly signed permutations; in `axes` the others are as far as that frame
 /// allows. For the type axial, `elements` holds the identity, the mirror through the axis and, where the body
-/// has it, the mirror across the axis and the half turn that both make; for the type spherical the identity
+/// has it, the mirror perpendicular to the axis and the product of both; for the type spherical the identity
 /// and the inversion.
 Symmetry find_symmetry(const Surface& surface, const VolumeMoments& moments,
                        double tolerance = default_symmetry_tolerance);

@@ -76,7 +76,7 @@ def last_state():
     return None
 
 
-def blow_up(state, start_speed):
+def divergence_of(state, start_speed):
     """Returns the sign of divergence in a state; None where there is none."""
     velocity, angular_velocity = state[-6:-3], state[-3:]
     speed = math.hypot(*velocity)
@@ -147,7 +147,7 @@ class Fall:
     def take_up(self):
         """Continues an interrupted attempt, or begins the next one."""
         if "end" in self.attempt:
-            self.after_blow_up()
+            self.after_divergence()
         elif not self.attempt["started"]:
             self.make_start()
         else:
@@ -181,9 +181,9 @@ class Fall:
             except subprocess.TimeoutExpired:
                 pass
             reached = last_state()
-            error = reached and blow_up(reached[1], start_speed)
+            error = reached and divergence_of(reached[1], start_speed)
             if error:
-                raise Failure(f"the fall blew up at time {reached[0]:g}: {error}; see {os.path.abspath(LOG)}")
+                raise Failure(f"the fall diverged at time {reached[0]:g}: {error}; see {os.path.abspath(LOG)}")
 
     def run_solver(self):
         """Runs the solver to the end of the fall; its log is appended to that of an earlier run."""
@@ -206,7 +206,7 @@ class Fall:
         self.attempt["cpu_seconds"] = round(sum(map(cpu_seconds, runs)), 2)
         self.state["cpu_seconds"] = round(sum(one["cpu_seconds"] for one in self.state["attempts"]), 2)
 
-    def after_blow_up(self):
+    def after_divergence(self):
         names = list(ATTEMPTS)
         following = names[names.index(self.attempt["what"]) + 1:]
         if following:
@@ -225,7 +225,7 @@ class Fall:
             shutil.copyfile(LOG, kept)
             self.attempt["end"] = str(cause).replace(LOG, kept)
             write_json("attempts.json", self.state)
-            self.after_blow_up()
+            self.after_divergence()
         except CaseError:
             if not states() or not could_not_read_state(LOG):
                 raise
