@@ -52,20 +52,20 @@ FallSample sample_of(const FreeFall& fall, double time, const BodyState& state) 
 }
 
 FallRecord flown_record(const Body& body, const FreeFall& fall, const DynamicCoefficients& coefficients) {
-    ImmersedBody flying = falling_body(body, fall);
-    flying.dynamic = coefficients;
-    prepare(flying);
+    ImmersedBody immersed = falling_body(body, fall);
+    immersed.dynamic = coefficients;
+    prepare(immersed);
     FallRecord record;
     record.fall = fall;
     BodyState state = states_of(record).front();
     Vector6d momenta;
-    momenta << flying.own_inertia * state.velocity.head<3>(), flying.mass * state.velocity.tail<3>();
-    state.velocity = flying.inverse_inertia * momenta;
+    momenta << immersed.own_inertia * state.velocity.head<3>(), immersed.mass * state.velocity.tail<3>();
+    state.velocity = immersed.inverse_inertia * momenta;
     const Vector3d gravity = fall.axes * fall.gravity * fall.speed / fall.time_unit();
     const double step = fall.time_step * fall.time_unit() / substeps;
     const auto samples = static_cast<int>(std::lround(fall.duration / fall.time_step));
     for (int i = 1; i <= samples; ++i) {
-        for (int j = 0; j < substeps; ++j) state = implicit_step(flying, gravity, step, state);
+        for (int j = 0; j < substeps; ++j) state = implicit_step(immersed, gravity, step, state);
         record.samples.push_back(sample_of(fall, i * fall.time_step, state));
     }
     return record;

@@ -68,7 +68,7 @@ TEST_F(TwoBlocks, WhereTheLayerIsResolvedItIsByTheVelocityAlongTheWall) {
     EXPECT_NEAR(found.above_1, 1.0, 1e-12);
 }
 
-TEST_F(TwoBlocks, FieldsOfAnotherMeshAreRefused) {
+TEST_F(TwoBlocks, FieldsOfAnotherMeshAreRejected) {
     write("100/k", "volScalarField", "internalField nonuniform List<scalar> 1(0.04);");
     EXPECT_THAT(test::error_of([&] { static_cast<void>(spacing()); }),
                 HasSubstr("fields and mesh do not belong together"));

@@ -18,7 +18,7 @@ namespace {
 
 using testing::HasSubstr;
 
-// What OpenFOAM v1912 writes before the numbers.
+// The headings by OpenFOAM v1912.
 constexpr const char* state_heading =
     "# Motion State      \n# Angle Units       : radians\n"
     "# Time              \tcentreOfRotation\tcentreOfMass\trotation\tvelocity\tomega\n";
@@ -85,11 +85,11 @@ TEST_F(FallRecordFiles, GivePlaceVelocityAndLoadsAboutTheCentreOfMass) {
     EXPECT_NEAR(read.samples[1].rotation(1, 0), std::sin(0.1), 1e-15);
 }
 
-TEST_F(FallRecordFiles, TakeTheSolversAnglesForTurnsOfThePrincipalAxes) {
-    FreeFall turned = fall();
-    turned.principal_axes = axes_given_to_openfoam();
-    turned.time_step = 1.0;
-    write_fall(turned);
+TEST_F(FallRecordFiles, TakeTheSolversAnglesForRotationsOfThePrincipalAxes) {
+    FreeFall rotated = fall();
+    rotated.principal_axes = axes_given_to_openfoam();
+    rotated.time_step = 1.0;
+    write_fall(rotated);
     write("state", "sixDoFRigidBodyState.dat",
           fmt::format("{}1\t(0 0 0)\t(0 0 0)\t{}\t(0 0 0)\t(0 0 0)\n", state_heading, angles_openfoam_wrote));
     for (const char* file : {"force.dat", "moment.dat"}) {
@@ -98,7 +98,7 @@ TEST_F(FallRecordFiles, TakeTheSolversAnglesForTurnsOfThePrincipalAxes) {
     EXPECT_LT((record().samples[0].rotation - Matrix3d::Identity()).norm(), 1e-10);
 }
 
-TEST_F(FallRecordFiles, AreRefusedWhereOneIsMissingOrOfOtherTimes) {
+TEST_F(FallRecordFiles, AreRejectedWhereOneIsMissingOrOfOtherTimes) {
     const auto error = [&] { return test::error_of([&] { static_cast<void>(record()); }); };
     EXPECT_THAT(error(), HasSubstr("fall.json: is not there"));
     write_fall(fall());
@@ -112,7 +112,7 @@ TEST_F(FallRecordFiles, AreRefusedWhereOneIsMissingOrOfOtherTimes) {
     EXPECT_THAT(error(), HasSubstr("are not of the same times"));
 }
 
-TEST_F(FallRecordFiles, AreRefusedWhereAnyIsCutShortEmptiedOrBeyondReason) {
+TEST_F(FallRecordFiles, AreRejectedWhereAnyIsCutShortEmptiedOrBeyondReason) {
     write_fall(fall());
     const std::string state =
         "0.5 (0 0 0) (0 0 0) (0 0 0) (0 0 0) (0 0 0)\n1 (0 0 0) (0 0 0) (0 0 0) (0 0 0) (0 0 0)\n";
@@ -157,12 +157,12 @@ TEST_F(FallRecordFiles, AreRefusedWhereAnyIsCutShortEmptiedOrBeyondReason) {
 struct Motion {
     FreeFall fall;
     std::function<Vector3d(double)> force = [](double) { return Vector3d::Zero().eval(); };
-    /// Of (turn, angular velocity): the angular acceleration.
+    /// The angular acceleration by rotation and angular velocity.
     std::function<Vector3d(const Matrix3d&, const Vector3d&)> angular_acceleration;
     std::function<Vector3d(const Matrix3d&)> moment = [](const Matrix3d&) { return Vector3d::Zero().eval(); };
 };
 
-// By steps a hundred times as short.
+// Integrates with steps a hundred times as short.
 FallRecord solved(const Motion& motion, const Vector3d& angular_velocity) {
     constexpr int substeps = 100;
     constexpr double step = 0.005;
@@ -176,14 +176,14 @@ FallRecord solved(const Motion& motion, const Vector3d& angular_velocity) {
             const double h = step / substeps;
             const double middle = now.time + 0.5 * h;
             now.velocity += h / motion.fall.mass * (weight + motion.force(middle));
-            const Vector3d guess =
-                now.angular_velocity + 0.5 * h * motion.angular_acceleration(now.rotation, now.angular_velocity);
-            const auto turned = [&](double duration) -> Matrix3d {
+            const Vector3d guess = now.angular_velocity +
+                                   0.5 * h * motion.angular_acceleration(now.rotation, now.angular_velocity);
+            const auto rotated = [&](double duration) -> Matrix3d {
                 return Eigen::AngleAxisd(guess.norm() * duration, guess.normalized()).toRotationMatrix() *
                        now.rotation;
             };
-            now.angular_velocity += h * motion.angular_acceleration(turned(0.5 * h), guess);
-            now.rotation = turned(h);
+            now.angular_velocity += h * motion.angular_acceleration(rotated(0.5 * h), guess);
+            now.rotation = rotated(h);
             now.time += h;
         }
         now.force = motion.force(now.time);
@@ -207,9 +207,9 @@ FreeFall uneven_body() {
 // Euler's equations with the gyroscopic term times `share`, under the moment.
 auto eulers_equations(const FreeFall& fall, double share,
                       const std::function<Vector3d(const Matrix3d&)>& moment) {
-    return [=](const Matrix3d& turn, const Vector3d& angular_velocity) -> Vector3d {
-        const Matrix3d inertia = turn * fall.inertia() * turn.transpose();
-        return inertia.ldlt().solve(moment(turn) -
+    return [=](const Matrix3d& rotation, const Vector3d& angular_velocity) -> Vector3d {
+        const Matrix3d inertia = rotation * fall.inertia() * rotation.transpose();
+        return inertia.ldlt().solve(moment(rotation) -
                                     share * angular_velocity.cross(inertia * angular_velocity));
     };
 }
@@ -231,8 +231,8 @@ TEST(FallBalance, HoldsTheMomentOfBuoyancyOnABodyHungOffItsCentroid) {
     motion.fall = uneven_body();
     motion.fall.center_of_mass = {0.02, 0.05, -0.1};
     // Buoyancy at the centroid: (-R c) x (-V g).
-    const auto of_buoyancy = [fall = motion.fall](const Matrix3d& turn) -> Vector3d {
-        return (turn * -fall.center_of_mass).cross(-fall.volume * fall.gravity);
+    const auto of_buoyancy = [fall = motion.fall](const Matrix3d& rotation) -> Vector3d {
+        return (rotation * -fall.center_of_mass).cross(-fall.volume * fall.gravity);
     };
     motion.angular_acceleration = eulers_equations(motion.fall, 1.0, of_buoyancy);
     EXPECT_LT(balance_of(solved(motion, tumble)).moment, 1e-3);
@@ -257,7 +257,7 @@ TEST(FallBalance, ShowsAForceThatIsOffByAsMuch) {
     EXPECT_NEAR(balance_of(record).force, 0.05 / 1.05, 2e-3);
 }
 
-TEST(FallBalance, DoesNotTakeNoiseOnABodyThatDoesNotTurnForAnError) {
+TEST(FallBalance, DoesNotTakeNoiseOnABodyThatDoesNotRotateForAnError) {
     Motion motion;
     motion.fall = uneven_body();
     motion.fall.principal_moments.setConstant(0.05);
@@ -282,21 +282,21 @@ TEST(FallBalance, IsZeroWithoutSamples) {
 TEST(FallingBody, HasTheMassTheInertiaAndTheFluidOfTheFall) {
     const Body body = test::ellipsoid_with_tables();
     const FreeFall fall = test::oblique_fall(test::ellipsoid_with_tables(), 1.0);
-    const ImmersedBody flying = falling_body(body, fall);
-    EXPECT_NEAR(flying.mass, 1200.0 * body.moments.volume, 1e-12);
-    EXPECT_LT((flying.own_inertia - uniform_inertia(body.moments, 1200.0)).norm(),
-              1e-9 * flying.own_inertia.norm());
-    EXPECT_EQ(flying.fluid_density, 1000.0);
-    EXPECT_NEAR(flying.viscosity, 1e-3, 1e-15);
+    const ImmersedBody immersed = falling_body(body, fall);
+    EXPECT_NEAR(immersed.mass, 1200.0 * body.moments.volume, 1e-12);
+    EXPECT_LT((immersed.own_inertia - uniform_inertia(body.moments, 1200.0)).norm(),
+              1e-9 * immersed.own_inertia.norm());
+    EXPECT_EQ(immersed.fluid_density, 1000.0);
+    EXPECT_NEAR(immersed.viscosity, 1e-3, 1e-15);
     // The centre of mass is at (0.01, -0.005, 0.008) L from the centroid in case axes, which are the body's
     // y, z, x.
     const Vector3d offset = fall.length * Vector3d(0.008, 0.01, -0.005);
-    EXPECT_LT((flying.center_of_buoyancy + offset).norm(), 1e-12);
-    EXPECT_EQ(flying.loads, Loads::table);
-    EXPECT_EQ(flying.turbulence, Turbulence::none);
+    EXPECT_LT((immersed.center_of_buoyancy + offset).norm(), 1e-12);
+    EXPECT_EQ(immersed.loads, Loads::table);
+    EXPECT_EQ(immersed.turbulence, Turbulence::none);
 }
 
-TEST(FallingBody, RefusesAFallOfABodyOfAnotherSize) {
+TEST(FallingBody, RejectsAFallOfABodyOfAnotherSize) {
     FreeFall fall = test::oblique_fall(test::ellipsoid_with_tables(), 1.0);
     fall.length *= 1.0 + 1e-5;
     EXPECT_THAT(test::error_of([&] { static_cast<void>(falling_body(test::ellipsoid_with_tables(), fall)); }),

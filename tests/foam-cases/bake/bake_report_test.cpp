@@ -11,7 +11,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-/// What a bake says of falls with these balances, fall_00 and on.
+/// Returns the notes of a bake about falls with these balances, fall_00 and so on.
 std::string said_of(const std::vector<FallBalance>& balances) {
     BakeRequest request;
     request.output = "rubber.body.h5";

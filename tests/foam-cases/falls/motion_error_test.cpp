@@ -95,7 +95,7 @@ TEST(MotionError, OfABallsSpeedIsHalfThatOfItsDrag) {
     constexpr int draws = 40;
     const MotionError error =
         motion_error(scene, 0, ball, uncertain, simulate_for_bake(scene, 0, ball, 1), 1, draws);
-    // Neither its inclination nor its turning says anything.
+    // Neither its inclination nor its rotation is relevant.
     EXPECT_FALSE(error.metrics[Metric::inclination_amplitude]);
     EXPECT_FALSE(error.metrics[Metric::rms_angular_speed]);
     // 1 %, as far as that many draws can tell.

@@ -22,7 +22,7 @@ TEST(CaseRecord, OfAMissingOrDamagedFileIsEmpty) {
     }
 }
 
-TEST(CaseRecord, EntriesOfAnotherKindAreNone) {
+TEST(CaseRecord, EntriesOfAnotherTypeAreIgnored) {
     const test::TemporaryFolder folder;
     const nlohmann::json record = read_record(
         folder.file("failed.json", R"({"reason": "diverged", "cpu_seconds": 2.5, "cells": "many"})"));
@@ -58,7 +58,7 @@ void write_record(const test::TemporaryFolder& folder, const std::string& name, 
     std::ignore = folder.file(name + "/" + file, nlohmann::json({{"cpu_seconds", seconds}}).dump());
 }
 
-TEST(CpuAccount, SumsTheRecordsByMeshAndKind) {
+TEST(CpuAccount, SumsTheRecordsByMeshAndPart) {
     const test::TemporaryFolder folder;
     write_record(folder, "mesh_coarse", "mesh.json", 1.0);
     write_record(folder, "mesh_medium", "mesh.json", 2.0);
@@ -113,7 +113,7 @@ TEST(DiskNeed, IsOfWhatIsNotSolvedYet) {
     EXPECT_LT(bytes_to_solve(folder.path(), plan), without_mesh);
 }
 
-TEST(DiskNeed, BeyondTheDiskIsRefusedInOneLine) {
+TEST(DiskNeed, BeyondTheDiskIsRejectedInOneLine) {
     const test::TemporaryFolder folder;
     require_room(folder.path(), 1e6);
     const std::string error = test::error_of([&] { require_room(folder.path(), 1e18); });

@@ -43,18 +43,19 @@ SceneGoal goal_of(double tolerance) {
     return goal;
 }
 
-SampledFalls flown(const SceneGoal& goal) {
+SampledFalls simulated(const SceneGoal& goal) {
     return simulate_for_bake(goal.scene, 0, rubber(), goal.falls);
 }
 
-TEST(ScenePlan, OfASceneInWhichTheBodyDoesNotMoveIsRefused) {
+TEST(ScenePlan, OfASceneInWhichTheBodyDoesNotMoveIsRejected) {
     const auto error_of = [](double duration, double start, double step) {
         SceneGoal goal = goal_of(0.1);
         goal.scene.file = "odd.toml";
         goal.scene.duration = duration;
         goal.scene.step = step;
         goal.scene.bodies[0].start = start;
-        return test::error_of([&] { first_plan(goal, rubber(), bake_quality("smoke"), {}, flown(goal)); });
+        return test::error_of(
+            [&] { first_plan(goal, rubber(), bake_quality("smoke"), {}, simulated(goal)); });
     };
     for (const auto& [duration, start, step] :
          {std::array{1e-4, 0.0, 1.0}, {1.0, 2.0, 2e-3}, {1.0, 1.0, 2e-3}}) {
@@ -72,7 +73,7 @@ LoadEntry law(const Vector3d& d) {
     return entry;
 }
 
-/// What solving the plan's cases would give if the flow obeyed the law.
+/// Returns the result of solving the plan's cases if the flow obeyed the law.
 Conversion solved(const Body& body, const ScenePlan& plan) {
     Conversion conversion;
     conversion.body = body;
@@ -96,7 +97,8 @@ Conversion solved(const Body& body, const ScenePlan& plan) {
 }
 
 ScenePlan planned(const SceneGoal& goal, const Body& body) {
-    return first_plan(goal, body, bake_quality("smoke"), {}, simulate_for_bake(goal.scene, 0, body, goal.falls));
+    return first_plan(goal, body, bake_quality("smoke"), {},
+                      simulate_for_bake(goal.scene, 0, body, goal.falls));
 }
 
 ScenePlan baked(const SceneGoal& goal, const Body& body) {
@@ -174,7 +176,7 @@ TEST(ScenePlan, OfABallIsOneDirection) {
     EXPECT_EQ(plan.candidates.directions.size(), 1u);
 }
 
-TEST(ScenePlan, HoldsTheDirectionsThatItsFlightsVisited) {
+TEST(ScenePlan, HoldsTheDirectionsThatItsSimulationsVisited) {
     const SceneGoal goal = goal_of(0.1);
     const Body body = rubber();
     const SampledFalls simulation = simulate_for_bake(goal.scene, 0, body, goal.falls);

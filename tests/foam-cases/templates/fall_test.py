@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What free-fall/fall.py does with a fall that blows up, is stopped or is spoiled, with a solver made here that is done
+"""Tests free-fall/fall.py with falls that diverge, are stopped or are damaged, with a solver made here that is done
 at once. Run by ctest."""
 
 import json
